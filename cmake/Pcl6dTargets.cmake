@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# pcl6d_add_module, pcl6d_add_app, pcl6d_add_test, pcl6d_add_benchmark and the package.
+include(CMakePackageConfigHelpers)
+
+# Stops when a helper was called with an argument that it does not know.
+macro(_pcl6d_check_arguments helper)
+  if(ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "${helper}: unknown arguments: ${ARG_UNPARSED_ARGUMENTS}")
+  endif()
+  if(ARG_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "${helper}: no value for: ${ARG_KEYWORDS_MISSING_VALUES}")
+  endif()
+endmacro()
+
+# Warnings and floating-point rules of every target; none of it reaches a user's code.
+function(_pcl6d_compile_rules target)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+    -ffp-contract=off # the same bits on every x86-64 CPU
+    $<$<BOOL:${PCL6D_WERROR}>:-Werror>)
+endfunction()
+
+# pcl6d_add_module(NAME FLOOR n SOURCES ... [DEPENDS module ...] [PCL_COMPONENTS ...]
+#                  [LINK public targets ...] [LINK_PRIVATE targets ...])
+# makes the shared library pcl6d::NAME. A module may depend only on lower floors.
+function(pcl6d_add_module name)
+  cmake_parse_arguments(ARG "" "FLOOR"
+    "SOURCES;DEPENDS;PCL_COMPONENTS;LINK;LINK_PRIVATE" ${ARGN})
+  _pcl6d_check_arguments("pcl6d_add_module(${name})")
+  set(target pcl6d_${name})
+  add_library(${target} SHARED ${ARG_SOURCES})
+  add_library(pcl6d::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    PCL6D_FLOOR ${ARG_FLOOR})
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  _pcl6d_compile_rules(${target})
+
+  foreach(module IN LISTS ARG_DEPENDS)
+    if(NOT TARGET pcl6d_${module})
+      message(FATAL_ERROR "Module ${name}: no module ${module} below it")
+    endif()
+    get_target_property(floor pcl6d_${module} PCL6D_FLOOR)
+    if(NOT floor LESS ARG_FLOOR)
+      message(FATAL_ERROR
+        "Module ${name} (floor ${ARG_FLOOR}) must not depend on ${module} (floor ${floor})")
+    endif()
+    target_link_libraries(${target} PUBLIC pcl6d_${module})
+  endforeach()
+  list(TRANSFORM ARG_PCL_COMPONENTS PREPEND pcl_ OUTPUT_VARIABLE pcl_targets)
+  target_link_libraries(${target}
+    PUBLIC ${pcl_targets} ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
+
+  set_property(GLOBAL APPEND PROPERTY PCL6D_MODULES ${name})
+  set_property(GLOBAL PROPERTY PCL6D_${name}_DEPENDS ${ARG_DEPENDS})
+  set_property(GLOBAL PROPERTY PCL6D_${name}_PCL_COMPONENTS ${ARG_PCL_COMPONENTS})
+  install(TARGETS ${target} EXPORT pcl6d_${name}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
+  install(EXPORT pcl6d_${name} NAMESPACE pcl6d:: FILE module_${name}.cmake
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl6d COMPONENT ${name})
+endfunction()
+
+# pcl6d_add_app(NAME SOURCES ... [DEPENDS module ...] [LINK_PRIVATE targets ...])
+# makes the program NAME in bin/, with the plumbing of apps/common.
+function(pcl6d_add_app name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK_PRIVATE" ${ARGN})
+  _pcl6d_check_arguments("pcl6d_add_app(${name})")
+  add_executable(${name} ${ARG_SOURCES})
+  _pcl6d_compile_rules(${name})
+  list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
+  target_link_libraries(${name} PRIVATE pcl6d_apps_common ${modules} ${ARG_LINK_PRIVATE})
+  install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT apps)
+endfunction()
+
+# pcl6d_add_test(NAME SOURCES ... [DEPENDS module ...] [LINK_PRIVATE targets ...]
+#                [PROGRAMS app ...] [LABELS data|slow ...])
+# makes a GoogleTest program, each of whose tests is one test of ctest. The compile
+# definition PCL6D_BIN_DIR names the folder of the PROGRAMS, which are built before it.
+function(pcl6d_add_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK_PRIVATE;PROGRAMS;LABELS" ${ARGN})
+  _pcl6d_check_arguments("pcl6d_add_test(${name})")
+  add_executable(${name} ${ARG_SOURCES})
+  _pcl6d_compile_rules(${name})
+  set_target_properties(${name} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test/bin)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  target_compile_definitions(${name} PRIVATE
+    PCL6D_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}"
+    PCL6D_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    PCL6D_BUILD_DIR="${CMAKE_BINARY_DIR}")
+  list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
+  target_link_libraries(${name} PRIVATE ${modules} ${ARG_LINK_PRIVATE} GTest::gtest_main)
+  if(ARG_PROGRAMS)
+    add_dependencies(${name} ${ARG_PROGRAMS})
+  endif()
+  set(labels "")
+  if(ARG_LABELS)
+    set(labels LABELS "${ARG_LABELS}")
+  endif()
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120
+    PROPERTIES TIMEOUT 900 ${labels})
+endfunction()
+
+# pcl6d_add_benchmark(NAME SOURCES ... [DEPENDS module ...] [LINK_PRIVATE targets ...])
+function(pcl6d_add_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK_PRIVATE" ${ARGN})
+  _pcl6d_check_arguments("pcl6d_add_benchmark(${name})")
+  add_executable(${name} ${ARG_SOURCES})
+  _pcl6d_compile_rules(${name})
+  set_target_properties(${name} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test/bin)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
+  target_link_libraries(${name} PRIVATE
+    ${modules} ${ARG_LINK_PRIVATE} benchmark::benchmark)
+endfunction()
+
+# Installs pcl6dConfig.cmake, which knows every module and what it needs.
+function(pcl6d_install_package)
+  get_property(PCL6D_MODULES GLOBAL PROPERTY PCL6D_MODULES)
+  set(PCL6D_MODULE_TABLE "")
+  foreach(module IN LISTS PCL6D_MODULES)
+    get_property(depends GLOBAL PROPERTY PCL6D_${module}_DEPENDS)
+    get_property(components GLOBAL PROPERTY PCL6D_${module}_PCL_COMPONENTS)
+    string(APPEND PCL6D_MODULE_TABLE
+      "set(_pcl6d_${module}_depends ${depends})\n"
+      "set(_pcl6d_${module}_pcl ${components})\n")
+  endforeach()
+  set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/pcl6d)
+  configure_package_config_file(
+    ${PROJECT_SOURCE_DIR}/cmake/pcl6dConfig.cmake.in
+    ${PROJECT_BINARY_DIR}/pcl6dConfig.cmake INSTALL_DESTINATION ${destination})
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/pcl6dConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES
+    ${PROJECT_BINARY_DIR}/pcl6dConfig.cmake
+    ${PROJECT_BINARY_DIR}/pcl6dConfigVersion.cmake
+    DESTINATION ${destination} COMPONENT common)
+endfunction()

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/exceptions.h>
+
+#include <string>
+
+namespace pcl6d {
+
+/** \brief The caller's mistake: an option, a size, a null cloud. Thrown before any
+ * work.
+ *
+ * The message names what was found and the rule: `max_iterations = -1, but must be >
+ * 0`. Derives from PCL's exception, so existing handlers work; what() is the message
+ * alone, without PCL's prefix. \ingroup common */
+class BadArgument : public pcl::BadArgumentException {
+public:
+  explicit BadArgument(const std::string& message);
+  const char* what() const noexcept override;
+
+private:
+  std::string message_;
+};
+
+/** \brief The data do not allow an answer. The message says what was found and what was
+ * needed. \ingroup common */
+class ComputeFailed : public pcl::ComputeFailedException {
+public:
+  explicit ComputeFailed(const std::string& message);
+  const char* what() const noexcept override;
+
+private:
+  std::string message_;
+};
+
+/** \brief A file or device said no. The message names file, place, value and rule:
+ * `scan003.pcd: line 12: expected 3 numbers, got 2`. \ingroup common */
+class IoFailed : public pcl::IOException {
+public:
+  explicit IoFailed(const std::string& message);
+  const char* what() const noexcept override;
+
+private:
+  std::string message_;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/point_cloud.h>
+#include <pcl/types.h>
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief The compiled core's view of a cloud: contiguous float x, y, z [m], in the
+ * frame of the scan that they belong to. \ingroup common */
+using Points = std::vector<Eigen::Vector3f>;
+
+/** \brief Copies the coordinates of a PCL cloud, NaN points included. */
+template <typename PointT>
+Points
+toPoints(const pcl::PointCloud<PointT>& cloud)
+{
+  Points points;
+  points.reserve(cloud.size());
+  for (const auto& p : cloud)
+    points.emplace_back(p.x, p.y, p.z);
+  return points;
+}
+
+/** \brief Copies the coordinates of the chosen points of a PCL cloud, in that order. */
+template <typename PointT>
+Points
+toPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
+{
+  Points points;
+  points.reserve(indices.size());
+  for (const auto index : indices)
+    points.emplace_back(cloud[index].x, cloud[index].y, cloud[index].z);
+  return points;
+}
+
+/** \brief Moves points by a rigid motion; computed in double, rounded once. */
+inline Points
+transformed(const Points& points, const Eigen::Isometry3d& motion)
+{
+  Points moved;
+  moved.reserve(points.size());
+  for (const auto& p : points)
+    moved.push_back((motion * p.cast<double>()).cast<float>());
+  return moved;
+}
+
+} // namespace pcl6d

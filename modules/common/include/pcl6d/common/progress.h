@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace pcl6d {
+
+/** \brief How far a stage has come. Libraries report it and never print. \ingroup
+ * common */
+struct Progress {
+  std::string stage;     ///< what is being done: "reading", "matching"
+  std::size_t done = 0;  ///< finished steps
+  std::size_t total = 0; ///< all steps; 0 if not known
+};
+
+/** \brief Called from the thread that runs the stage. May be empty. */
+using ProgressCallback = std::function<void(const Progress&)>;
+
+} // namespace pcl6d

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief The poses of a run in order, with time stamps if the source had them.
+ * \ingroup common */
+struct Trajectory {
+  std::vector<Eigen::Isometry3d> poses; ///< T_world_scan [m]
+  std::vector<double> stamps;           ///< [s], one per pose, or empty
+};
+
+} // namespace pcl6d

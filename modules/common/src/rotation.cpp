@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/rotation.h>
+
+#include <Eigen/SVD>
+
+#include <cmath>
+
+namespace pcl6d {
+
+Eigen::Matrix3d
+rotationFromEuler(const EulerAngles& angles)
+{
+  const double cr = std::cos(angles.roll), sr = std::sin(angles.roll);
+  const double cp = std::cos(angles.pitch), sp = std::sin(angles.pitch);
+  const double cy = std::cos(angles.yaw), sy = std::sin(angles.yaw);
+  Eigen::Matrix3d R;
+  R << cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, //
+      sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr,  //
+      -sp, cp * sr, cp * cr;
+  return R;
+}
+
+EulerAngles
+eulerFromRotation(const Eigen::Matrix3d& R)
+{
+  const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
+  EulerAngles angles;
+  angles.pitch = std::atan2(-R(2, 0), cos_pitch);
+  if (cos_pitch < 1e-6) { // gimbal lock: only roll -+ yaw is fixed, so yaw stays 0
+    const double sign = R(2, 0) < 0 ? 1.0 : -1.0;
+    angles.roll = std::atan2(sign * R(0, 1), R(1, 1));
+    return angles;
+  }
+  angles.roll = std::atan2(R(2, 1), R(2, 2));
+  angles.yaw = std::atan2(R(1, 0), R(0, 0));
+  return angles;
+}
+
+Eigen::Matrix3d
+skew(const Eigen::Vector3d& v)
+{
+  Eigen::Matrix3d S;
+  S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return S;
+}
+
+Eigen::Matrix3d
+rotationFromVector(const Eigen::Vector3d& w)
+{
+  const double angle = w.norm();
+  const Eigen::Matrix3d W = skew(w);
+  if (angle < 1e-8)
+    return Eigen::Matrix3d::Identity() + W + 0.5 * W * W;
+  const Eigen::Matrix3d K = W / angle;
+  // 1 - cos as 2 sin^2 of the half angle, which does not cancel for small angles.
+  const double half_sine = std::sin(0.5 * angle);
+  return Eigen::Matrix3d::Identity() + std::sin(angle) * K +
+         2 * half_sine * half_sine * K * K;
+}
+
+Eigen::Vector3d
+rotationVector(const Eigen::Matrix3d& R)
+{
+  const Eigen::Quaterniond q = canonical(Eigen::Quaterniond(R));
+  const double half_sine = q.vec().norm();
+  if (half_sine < 1e-12)
+    return 2 * q.vec();
+  return q.vec() * (2 * std::atan2(half_sine, q.w()) / half_sine);
+}
+
+double
+rotationAngle(const Eigen::Matrix3d& R)
+{
+  return rotationVector(R).norm();
+}
+
+Eigen::Matrix3d
+slerp(const Eigen::Matrix3d& R0, const Eigen::Matrix3d& R1, double s)
+{
+  return rotationFromVector(s * rotationVector(R1 * R0.transpose())) * R0;
+}
+
+Eigen::Matrix3d
+nearestRotation(const Eigen::Matrix3d& A)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+      A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
+  sign(2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+}
+
+Eigen::Quaterniond
+canonical(const Eigen::Quaterniond& q)
+{
+  return q.w() < 0 ? Eigen::Quaterniond(-q.coeffs()) : q;
+}
+
+double
+wrapAngle(double angle)
+{
+  const double wrapped = std::remainder(angle, 2 * M_PI); // in [-pi, pi]
+  return wrapped <= -M_PI ? M_PI : wrapped;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/status.h>
+
+const char*
+pcl6d::toString(Status status)
+{
+  switch (status) {
+  case Status::kOk:
+    return "ok";
+  case Status::kRankDeficient:
+    return "rank-deficient";
+  case Status::kTooFewPairs:
+    return "too-few-pairs";
+  case Status::kMaxIterations:
+    return "max-iterations";
+  case Status::kDiverged:
+    return "diverged";
+  }
+  return "unknown";
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/PCLPointCloud2.h>
+
+#include <Eigen/Geometry>
+
+#include <filesystem>
+
+namespace pcl6d {
+
+enum class PcdEncoding { kAscii, kBinary, kBinaryCompressed };
+
+/** \brief Writes a PCD file whose VIEWPOINT has 17 digits (PCL's writer keeps 6, which
+ * moves a scan in national coordinates by up to a metre). Written atomically.
+ * \param[in] cloud points in the scan's own frame [m]
+ * \param[in] T_world_scan pose of the scan, written as VIEWPOINT tx ty tz qw qx qy qz
+ * \throws IoFailed the file cannot be written \ingroup io */
+void
+writePcd(const std::filesystem::path& path,
+         const pcl::PCLPointCloud2& cloud,
+         const Eigen::Isometry3d& T_world_scan = Eigen::Isometry3d::Identity(),
+         PcdEncoding encoding = PcdEncoding::kBinaryCompressed);
+
+/** \brief Reads the VIEWPOINT line of a PCD header in double precision.
+ * \return T_world_scan; identity if the header has no VIEWPOINT
+ * \throws IoFailed the file cannot be read, its header is broken, or the quaternion is
+ * zero or not finite */
+Eigen::Isometry3d
+readPcdViewpoint(const std::filesystem::path& path);
+
+/** \brief Reads all fields of a PCD file of any encoding. Header and size of the body
+ * are checked first, text bodies line by line, so that an error names its place.
+ * \throws IoFailed naming file, place, value and rule */
+pcl::PCLPointCloud2
+readPcd(const std::filesystem::path& path);
+
+} // namespace pcl6d

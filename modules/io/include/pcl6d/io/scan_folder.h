@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/trajectory.h>
+#include <pcl6d/io/scan_reader.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief Which scans of a folder to take, and where their initial poses come from. */
+struct ScanFolderOptions {
+  ScanFormat format = ScanFormat::kAuto; ///< auto: the one format found in the folder
+  std::filesystem::path poses_file;      ///< KITTI or TUM; empty: search the folder
+  int first = 0;                         ///< index of the first scan, >= 0
+  std::optional<int> last; ///< index of the last scan, >= first; none: the end
+  int every = 1;           ///< take each n-th scan, >= 1
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void validate() const;
+};
+
+/** \brief Scans of a folder in natural order (scan2 before scan10), opened lazily: only
+ * headers and poses are read on construction.
+ *
+ * The initial poses come from the first of: the given file; one `scanNNN.pose` per scan
+ * (3DTK); `odometry.txt`; `poses.txt` (KITTI rows T_world_scan, one per scan of the
+ * folder); PCD VIEWPOINT if at least one differs from identity; identity. Files named
+ * `groundtruth*` are never read. All scans of the folder count for the number of rows,
+ * also those that first, last and every leave out. \ingroup io */
+class ScanFolder {
+public:
+  /** \throws IoFailed the folder is missing or unreadable, holds no scan, holds scans
+   * of several formats (with kAuto), or its poses are incomplete or broken \throws
+   * BadArgument an option breaks its rule, or selects no scan */
+  explicit ScanFolder(const std::filesystem::path& folder,
+                      const ScanFolderOptions& options = {});
+
+  /** \return the number of selected scans, >= 1 */
+  std::size_t size() const;
+
+  /** \return the file of the i-th selected scan */
+  const std::filesystem::path& file(std::size_t i) const;
+
+  /** \return the place of the i-th selected scan among all scans of the folder */
+  int index(std::size_t i) const;
+
+  /** \return the initial pose of the i-th selected scan, exactly rigid */
+  const Eigen::Isometry3d& initialPose(std::size_t i) const;
+
+  /** \return time stamps [s] of the selected scans, or empty if the poses have none */
+  const std::vector<double>& stamps() const;
+
+  /** \return where the poses come from, for people: "odometry.txt", "PCD VIEWPOINT",
+   * "scan poses (*.pose)", "identity", or the name of the given file */
+  const std::string& poseSource() const;
+
+  /** \brief Reads the i-th selected scan. \throws IoFailed as readScan() */
+  Scan read(std::size_t i) const;
+
+private:
+  struct Entry {
+    std::filesystem::path file;
+    int index = 0;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  };
+  std::vector<Entry> entries_;
+  std::vector<double> stamps_;
+  std::string pose_source_;
+  ScanFormat format_ = ScanFormat::kAuto;
+};
+
+} // namespace pcl6d

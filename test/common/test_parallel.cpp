@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/random.h>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace {
+std::vector<double>
+randomNumbers(std::size_t count)
+{
+  pcl6d::Random random(7);
+  std::vector<double> numbers(count);
+  for (auto& x : numbers)
+    x = random.uniform(-1e6, 1e6);
+  return numbers;
+}
+
+double
+blockedSum(const std::vector<double>& numbers, unsigned int threads)
+{
+  constexpr std::size_t kBlock = 1024;
+  std::vector<double> partials((numbers.size() + kBlock - 1) / kBlock);
+  pcl6d::parallelBlocks(numbers.size(), kBlock, threads, [&](const pcl6d::Block& b) {
+    for (std::size_t i = b.begin; i < b.end; ++i)
+      partials[b.index] += numbers[i];
+  });
+  return pcl6d::mergeTree(partials, std::plus<double>());
+}
+} // namespace
+
+TEST(ParallelFor, CallsEachIndexOnce)
+{
+  for (const unsigned int threads : {0u, 1u, 2u, 8u}) {
+    std::vector<int> calls(1000);
+    pcl6d::parallelFor(calls.size(), threads, [&](std::size_t i) { ++calls[i]; });
+    EXPECT_EQ(calls, std::vector<int>(1000, 1)) << threads << " threads";
+  }
+}
+
+TEST(ParallelFor, DoesNothingForZeroItems)
+{
+  pcl6d::parallelFor(0, 2, [](std::size_t) { FAIL(); });
+}
+
+TEST(ParallelFor, ThrowsTheErrorOfTheLowestIndex)
+{
+  for (const unsigned int threads : {1u, 4u})
+    try {
+      pcl6d::parallelFor(100, threads, [](std::size_t i) {
+        if (i % 10 == 7)
+          throw std::runtime_error(std::to_string(i));
+      });
+      FAIL() << "nothing thrown";
+    } catch (const std::runtime_error& e) {
+      EXPECT_STREQ(e.what(), "7");
+    }
+}
+
+TEST(BlockedSum, HasTheSameBitsForEveryThreadCount)
+{
+  const auto numbers = randomNumbers(100003);
+  const double expected = blockedSum(numbers, 1);
+  for (const unsigned int threads : {2u, 3u, 8u})
+    EXPECT_EQ(blockedSum(numbers, threads), expected) << threads << " threads";
+  const double plain = std::accumulate(numbers.begin(), numbers.end(), 0.0);
+  EXPECT_NEAR(
+      expected, plain, 1e-6); // 1e5 terms of 1e6, double: 1e5 * 1e6 * 1e-16 * 0.1
+}
+
+TEST(MergeTree, KeepsTheOrderOfItsInput)
+{
+  for (const std::size_t count : {1u, 2u, 3u, 7u, 8u}) {
+    std::vector<std::string> letters;
+    std::string expected;
+    for (std::size_t i = 0; i < count; ++i)
+      expected += letters.emplace_back(1, static_cast<char>('a' + i));
+    EXPECT_EQ(pcl6d::mergeTree(letters, std::plus<std::string>()), expected);
+  }
+  EXPECT_EQ(pcl6d::mergeTree(std::vector<int>(), std::plus<int>()), 0);
+}

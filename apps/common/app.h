@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief Exit codes of every program. */
+enum ExitCode {
+  kDone = 0,
+  kFailed = 1,   ///< bad data, or a file said no
+  kUsage = 2,    ///< command line or config wrong
+  kDoubtful = 3, ///< finished, but part of the result is not to be trusted
+  kInterrupted = 130
+};
+
+/** \brief The command line or the config file is wrong. */
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief Runs a program: silences PCL's chatter, calls body with the arguments after
+ * the program's name, and turns exceptions into `name: error: ...` and an exit code.
+ * Errors of the command line (UsageError, boost's, BadArgument) give kUsage, all others
+ * kFailed. */
+int
+runMain(const std::string& name,
+        int argc,
+        char** argv,
+        const std::function<int(const std::vector<std::string>&)>& body);
+
+} // namespace pcl6d::app

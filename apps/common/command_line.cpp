@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/command_line.h"
+
+#include <pcl6d/common/version.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+namespace po = boost::program_options;
+
+namespace pcl6d::app {
+
+CommandLine::CommandLine(const std::string& usage) : usage_(usage)
+{
+  groups_.reserve(16); // group() hands out references
+}
+
+po::options_description&
+CommandLine::group(const std::string& caption)
+{
+  constexpr unsigned kColumns = 100;
+  return groups_.emplace_back(caption, kColumns, kColumns / 2);
+}
+
+void
+CommandLine::positional(const std::string& name, std::string* value)
+{
+  hidden_.add_options()(name.c_str(), po::value(value));
+  positions_.add(name.c_str(), 1);
+  positional_names_.push_back(name);
+}
+
+void
+CommandLine::printHelp() const
+{
+  std::cout << usage_;
+  for (const auto& group : groups_)
+    std::cout << '\n' << group;
+}
+
+void
+CommandLine::readConfig(const std::string& file)
+{
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file))
+    throw UsageError(file + ": cannot read config file");
+  po::options_description all;
+  for (const auto& group : groups_)
+    all.add(group);
+  try {
+    po::store(po::parse_config_file(stream, all), values_);
+  } catch (const po::error& e) {
+    throw UsageError(file + ": " + e.what());
+  }
+}
+
+bool
+CommandLine::parse(const std::vector<std::string>& arguments)
+{
+  std::string config;
+  group("General options")
+      .add_options() //
+      ("config",
+       po::value(&config)->value_name("FILE"),
+       "read options from FILE, lines `name = value`; the command line wins") //
+      ("help,h", "print this text and exit")                                  //
+      ("version", "print the version and exit");
+  po::options_description all;
+  for (const auto& group : groups_)
+    all.add(group);
+  all.add(hidden_);
+  using Style = po::command_line_style::style_t;
+  const int style = po::command_line_style::unix_style ^ Style::allow_guessing;
+  po::store(po::command_line_parser(arguments)
+                .options(all)
+                .positional(positions_)
+                .style(style)
+                .run(),
+            values_);
+  if (values_.count("help")) {
+    printHelp();
+    return false;
+  }
+  if (values_.count("version")) {
+    std::cout << "pcl6d " << PCL6D_VERSION << '\n';
+    return false;
+  }
+  if (values_.count("config"))
+    readConfig(values_["config"].as<std::string>());
+  for (const auto& name : positional_names_)
+    if (!values_.count(name))
+      throw UsageError(name + " is missing");
+  po::notify(values_);
+  return true;
+}
+
+bool
+CommandLine::given(const std::string& option) const
+{
+  return values_.count(option) && !values_[option].defaulted();
+}
+
+std::istream&
+operator>>(std::istream& stream, AutoDouble& value)
+{
+  std::string word;
+  stream >> word;
+  value = AutoDouble();
+  if (word == "auto")
+    return stream;
+  std::size_t used = 0;
+  try {
+    value.value = std::stod(word, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  value.is_auto = false;
+  if (used == 0 || used != word.size())
+    stream.setstate(std::ios::failbit);
+  return stream;
+}
+
+std::ostream&
+operator<<(std::ostream& stream, const AutoDouble& value)
+{
+  return value.is_auto ? stream << "auto" : stream << value.value;
+}
+
+} // namespace pcl6d::app

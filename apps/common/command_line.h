@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <boost/program_options.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief A program's options in groups, read from the command line and, with
+ * `--config FILE`, from a file of `name = value` lines; the command line wins. */
+class CommandLine {
+public:
+  /** \param[in] usage the lines above the options in --help */
+  explicit CommandLine(const std::string& usage);
+
+  /** \brief Adds a group of options, shown under its caption. */
+  boost::program_options::options_description& group(const std::string& caption);
+
+  /** \brief Declares the next positional argument; it is required.
+   * \param[in] name as shown in errors, e.g. SCAN_DIR */
+  void positional(const std::string& name, std::string* value);
+
+  /** \brief Parses; on --help or --version prints it to stdout.
+   * \return false when the program has nothing more to do
+   * \throws UsageError, boost::program_options::error the arguments break a rule */
+  bool parse(const std::vector<std::string>& arguments);
+
+  /** \return whether the user gave the option (so it is no default) */
+  bool given(const std::string& option) const;
+
+private:
+  void readConfig(const std::string& file);
+  void printHelp() const;
+
+  std::string usage_;
+  std::vector<boost::program_options::options_description> groups_;
+  boost::program_options::options_description hidden_;
+  boost::program_options::positional_options_description positions_;
+  std::vector<std::string> positional_names_;
+  boost::program_options::variables_map values_;
+};
+
+/** \brief A value that may be a number or the word "auto" (none). */
+struct AutoDouble {
+  bool is_auto = true;
+  double value = 0;
+};
+
+std::istream&
+operator>>(std::istream& stream, AutoDouble& value);
+std::ostream&
+operator<<(std::ostream& stream, const AutoDouble& value);
+
+} // namespace pcl6d::app

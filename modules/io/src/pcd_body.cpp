@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcd_body.h"
+#include "point_field.h"
+#include "text.h"
+
+#include <pcl/io/lzf.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace pcl6d {
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using pcl::PCLPointField;
+
+constexpr std::size_t kSizes = 2 * sizeof(std::uint32_t); // ahead of compressed data
+constexpr std::size_t kMaxExpansion = 100; // LZF: 264 bytes from 3, so at most 88
+
+std::size_t
+sizeOf(const PCLPointField& field)
+{
+  return field.count * sizeOfType(field.datatype);
+}
+
+/** Puts the values of a field from the tokens of a line to their place in a point. */
+void
+parseField(const std::filesystem::path& path,
+           std::size_t line,
+           const PCLPointField& field,
+           text::Tokens& tokens,
+           std::uint8_t* point)
+{
+  withTypeOf(field.datatype, [&](auto value) {
+    for (std::size_t i = 0; i < field.count; ++i) {
+      const auto token = tokens.next();
+      if (!text::parseNumber(token, value))
+        text::failAt(path,
+                     line,
+                     text::quoted(token) + " is not a number" +
+                         (std::is_integral_v<decltype(value)>
+                              ? " that field '" + field.name + "' can hold"
+                              : ""));
+      std::memcpy(point + field.offset + i * sizeof value, &value, sizeof value);
+    }
+  });
+}
+
+std::size_t
+countTokens(text::Tokens tokens)
+{
+  std::size_t count = 0;
+  while (!tokens.next().empty())
+    ++count;
+  return count;
+}
+
+Bytes
+decodeAscii(const std::filesystem::path& path,
+            const PcdHeader& header,
+            std::string_view body)
+{
+  std::size_t columns = 0;
+  for (const auto& field : header.fields)
+    columns += field.count;
+  const std::string expected = "expected " + text::counted(header.numPoints(), "point");
+  Bytes data;
+  std::size_t points = 0;
+  for (text::Lines lines(body, header.num_lines + 1); lines.next();) {
+    const std::size_t count = countTokens(text::Tokens(lines.line()));
+    if (count == 0)
+      continue;
+    if (points == header.numPoints())
+      text::failAt(path, lines.number(), expected + ", got more");
+    if (count != columns)
+      text::failAt(path,
+                   lines.number(),
+                   "expected " + text::counted(columns, "number") + ", got " +
+                       std::to_string(count));
+    data.resize(data.size() + header.point_size);
+    text::Tokens tokens(lines.line());
+    for (const auto& field : header.fields)
+      parseField(
+          path, lines.number(), field, tokens, &data[points * header.point_size]);
+    ++points;
+  }
+  if (points != header.numPoints())
+    text::fail(path, expected + ", got " + std::to_string(points));
+  return data;
+}
+
+Bytes
+decodeBinary(const std::filesystem::path& path,
+             const PcdHeader& header,
+             std::string_view body)
+{
+  if (body.size() / header.point_size < header.numPoints())
+    text::fail(path,
+               "expected " + text::counted(header.numPoints(), "point") + " of " +
+                   text::counted(header.point_size, "byte") + ", got " +
+                   text::counted(body.size(), "byte"));
+  return {body.begin(), body.begin() + header.numPoints() * header.point_size};
+}
+
+/** \return the values of a compressed body, field by field \param[in] size [byte] */
+Bytes
+decompress(const std::filesystem::path& path, std::string_view body, std::size_t size)
+{
+  std::uint32_t sizes[2] = {}; // compressed, uncompressed
+  if (body.size() < kSizes)
+    text::fail(path, "the sizes ahead of the compressed points are missing");
+  std::memcpy(sizes, body.data(), kSizes);
+  body.remove_prefix(kSizes);
+  if (sizes[1] != size)
+    text::fail(path,
+               "expected " + text::counted(size, "byte") +
+                   " of points before compression, got " + std::to_string(sizes[1]));
+  if (body.size() < sizes[0])
+    text::fail(path,
+               "expected " + text::counted(sizes[0], "byte") +
+                   " of compressed points, got " + std::to_string(body.size()));
+  Bytes values;
+  if (size / kMaxExpansion <= sizes[0]) // else do not even ask for the memory
+    values.resize(size);
+  if (values.size() != size ||
+      pcl::lzfDecompress(body.data(), sizes[0], values.data(), sizes[1]) != size)
+    text::fail(path, "the compressed points are corrupt");
+  return values;
+}
+
+Bytes
+decodeCompressed(const std::filesystem::path& path,
+                 const PcdHeader& header,
+                 std::string_view body)
+{
+  std::size_t packed_size = 0; // padding is not stored
+  for (const auto& field : header.fields)
+    packed_size += isPadding(field) ? 0 : sizeOf(field);
+  const std::size_t points = header.numPoints();
+  const Bytes values = decompress(path, body, points * packed_size);
+  Bytes data(points * header.point_size);
+  const std::uint8_t* value = values.data();
+  for (const auto& field : header.fields) {
+    const std::size_t size = isPadding(field) ? 0 : sizeOf(field);
+    for (std::size_t i = 0; i < points; ++i, value += size)
+      std::copy_n(value, size, &data[i * header.point_size + field.offset]);
+  }
+  return data;
+}
+
+/** \return whether all floating-point values are finite: PCL's meaning of dense */
+bool
+isDense(const pcl::PCLPointCloud2& cloud)
+{
+  for (std::size_t start = 0; start < cloud.data.size(); start += cloud.point_step)
+    for (const auto& field : cloud.fields) {
+      const bool finite = withTypeOf(field.datatype, [&](auto value) {
+        for (std::size_t i = 0; i < field.count; ++i) {
+          std::memcpy(&value,
+                      &cloud.data[start + field.offset + i * sizeof value],
+                      sizeof value);
+          if (value - value != 0) // nan or infinite
+            return false;
+        }
+        return true;
+      });
+      if (!finite)
+        return false;
+    }
+  return true;
+}
+
+std::string
+encodeAscii(const PcdHeader& header, const Bytes& points)
+{
+  std::string body;
+  for (std::size_t start = 0; start < points.size(); start += header.point_size) {
+    for (const auto& field : header.fields)
+      withTypeOf(field.datatype, [&](auto value) {
+        for (std::size_t i = 0; i < field.count; ++i) {
+          std::memcpy(
+              &value, &points[start + field.offset + i * sizeof value], sizeof value);
+          text::appendNumber(body, value);
+          body += ' ';
+        }
+      });
+    body.back() = '\n';
+  }
+  return body;
+}
+
+std::string
+encodeCompressed(const std::filesystem::path& path,
+                 const PcdHeader& header,
+                 const Bytes& points)
+{
+  // LZF makes incompressible data longer, by one byte in 32.
+  const std::size_t room = points.size() + points.size() / 16 + 64;
+  if (room > std::numeric_limits<std::uint32_t>::max())
+    text::fail(path, "too many points for a compressed file; write it as binary");
+  Bytes values;
+  values.reserve(points.size());
+  for (const auto& field : header.fields)
+    for (std::size_t start = 0; start < points.size(); start += header.point_size) {
+      const auto first = points.begin() + (start + field.offset);
+      values.insert(values.end(), first, first + sizeOf(field));
+    }
+  std::string body(kSizes + room, '\0');
+  std::uint32_t sizes[2] = {0, static_cast<std::uint32_t>(values.size())};
+  if (!values.empty())
+    sizes[0] = pcl::lzfCompress(
+        values.data(), sizes[1], &body[kSizes], static_cast<std::uint32_t>(room));
+  std::memcpy(body.data(), sizes, kSizes);
+  body.resize(kSizes + sizes[0]);
+  return body;
+}
+
+} // namespace
+
+pcl::PCLPointCloud2
+decodePcdBody(const std::filesystem::path& path,
+              const PcdHeader& header,
+              std::string_view body)
+{
+  pcl::PCLPointCloud2 cloud;
+  if (header.encoding == PcdEncoding::kAscii)
+    cloud.data = decodeAscii(path, header, body);
+  else if (header.numPoints() > 0)
+    cloud.data = header.encoding == PcdEncoding::kBinary
+                     ? decodeBinary(path, header, body)
+                     : decodeCompressed(path, header, body);
+  cloud.width = static_cast<pcl::uindex_t>(header.width);
+  cloud.height = static_cast<pcl::uindex_t>(header.height);
+  cloud.point_step = static_cast<pcl::uindex_t>(header.point_size);
+  cloud.row_step = cloud.width * cloud.point_step;
+  std::copy_if(header.fields.begin(),
+               header.fields.end(),
+               std::back_inserter(cloud.fields),
+               [](const auto& field) { return !isPadding(field); });
+  cloud.is_dense = isDense(cloud);
+  return cloud;
+}
+
+std::string
+encodePcdBody(const std::filesystem::path& path,
+              const PcdHeader& header,
+              const std::vector<std::uint8_t>& points)
+{
+  if (header.encoding == PcdEncoding::kAscii)
+    return encodeAscii(header, points);
+  if (header.encoding == PcdEncoding::kBinary)
+    return {points.begin(), points.end()};
+  return encodeCompressed(path, header, points);
+}
+
+} // namespace pcl6d

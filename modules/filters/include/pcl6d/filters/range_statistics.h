@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+
+#include <optional>
+
+namespace pcl6d {
+
+/** \throws BadArgument unless 0 <= min_range <= max_range */
+void
+validateRangeLimits(double min_range, double max_range);
+
+/** \return whether p is finite and its distance from the origin [m] lies within limits
+ */
+bool
+isWithinRange(const Eigen::Vector3f& p, double min_range, double max_range);
+
+/** \return the points within [min_range, max_range] of the origin, in their order */
+Points
+gateByRange(const Points& points, double min_range, double max_range);
+
+/** \brief The range [m] that a scanner writes when no echo came back: the largest range
+ * of a scan if more than 0.5 % of its points share it to within 1 mm per 10 m. Such
+ * points are no surfaces. \return nothing if the largest range is a measured one */
+std::optional<double>
+noReturnRange(const Points& points);
+
+/** \return the median distance from the origin [m]; 0 without finite points */
+double
+medianRange(const Points& points);
+
+/** \return the median distance from a point to its nearest neighbour [m], over at most
+ * 1000 evenly chosen points; 0 with fewer than 2 points */
+double
+medianSpacing(const Points& points);
+
+} // namespace pcl6d

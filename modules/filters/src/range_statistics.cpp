@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
+#include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/search/point_tree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace pcl6d {
+
+namespace {
+/** \return the median (the upper one of two), or 0 without values */
+double
+median(std::vector<double> values)
+{
+  if (values.empty())
+    return 0;
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<double>
+rangesOf(const Points& points)
+{
+  std::vector<double> ranges;
+  ranges.reserve(points.size());
+  for (const auto& p : points)
+    if (p.allFinite())
+      ranges.push_back(p.cast<double>().norm());
+  return ranges;
+}
+} // namespace
+
+void
+validateRangeLimits(double min_range, double max_range)
+{
+  if (!(min_range >= 0))
+    throw BadArgument("min_range = " + std::to_string(min_range) +
+                      ", but must be >= 0");
+  if (!(max_range >= min_range))
+    throw BadArgument("max_range = " + std::to_string(max_range) +
+                      ", but must be >= min_range = " + std::to_string(min_range));
+}
+
+bool
+isWithinRange(const Eigen::Vector3f& p, double min_range, double max_range)
+{
+  const double range_sq = p.cast<double>().squaredNorm();
+  return p.allFinite() && range_sq >= min_range * min_range &&
+         range_sq <= max_range * max_range;
+}
+
+Points
+gateByRange(const Points& points, double min_range, double max_range)
+{
+  Points kept;
+  kept.reserve(points.size());
+  for (const auto& p : points)
+    if (isWithinRange(p, min_range, max_range))
+      kept.push_back(p);
+  return kept;
+}
+
+std::optional<double>
+noReturnRange(const Points& points)
+{
+  const std::vector<double> ranges = rangesOf(points);
+  if (ranges.empty())
+    return std::nullopt;
+  const double largest = *std::max_element(ranges.begin(), ranges.end());
+  const double tolerance = 1e-4 * largest;
+  const auto sharing = std::count_if(
+      ranges.begin(), ranges.end(), [&](double r) { return r >= largest - tolerance; });
+  // A few points are no evidence: any small cloud has a farthest point.
+  const double needed = std::max(10.0, 0.005 * static_cast<double>(ranges.size()));
+  if (static_cast<double>(sharing) > needed)
+    return largest;
+  return std::nullopt;
+}
+
+double
+medianRange(const Points& points)
+{
+  return median(rangesOf(points));
+}
+
+double
+medianSpacing(const Points& points)
+{
+  constexpr std::size_t kSamples = 1000;
+  const PointTree tree(points);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kSamples);
+  std::vector<double> spacings;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const auto found = tree.nearestK(points[i], 2);
+    if (found.size() == 2)
+      spacings.push_back(std::sqrt(static_cast<double>(found[1].distance_sq)));
+  }
+  return median(std::move(spacings));
+}
+
+} // namespace pcl6d

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief One kind of error over all compared poses, in the unit of its values.
+ * \ingroup benchmarking */
+struct ErrorStatistics {
+  std::size_t count = 0;
+  double rms = 0; ///< root mean square about zero; the book's sigma (6.4.2)
+  double mean = 0;
+  double median = 0; ///< mean of the middle two for an even count
+  double max = 0;
+  std::size_t index_of_max = 0; ///< into the values; the first of equals
+};
+
+/** \param[in] errors finite numbers >= 0 \return all zero for no values
+ * \throws BadArgument a value is negative or not finite */
+ErrorStatistics
+errorStatistics(const std::vector<double>& errors);
+
+} // namespace pcl6d

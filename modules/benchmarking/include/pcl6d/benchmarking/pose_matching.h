@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/trajectory.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief How poses of two trajectories belong together. \ingroup benchmarking */
+struct PoseMatchingOptions {
+  double max_time_difference = 0.02; ///< [s] between the stamps of a pair; >= 0
+
+  /** \throws BadArgument naming the field that breaks its rule, with its value */
+  void validate() const;
+};
+
+/** \brief Two poses that are compared, by their index. */
+struct PosePair {
+  std::size_t estimate = 0;
+  std::size_t reference = 0;
+};
+
+/** \brief The pairs of poses, in the order of the estimate. */
+struct PoseMatching {
+  bool by_time = false; ///< else by index
+  std::vector<PosePair> pairs;
+  std::size_t unmatched_estimate = 0;  ///< poses of the estimate without partner
+  std::size_t unmatched_reference = 0; ///< poses of the reference without partner
+};
+
+/** \brief Finds which poses to compare.
+ *
+ * If both trajectories have stamps: by time, each pose at most once, closest stamps
+ * first, none farther apart than the option says. Else by index.
+ * \throws BadArgument a trajectory is empty, holds a pose that is not rigid, or stamps
+ * that do not increase or are not as many as its poses; by index: the counts differ
+ * \throws ComputeFailed by time: no two stamps are close enough
+ * \ingroup benchmarking */
+PoseMatching
+matchPoses(const Trajectory& estimate,
+           const Trajectory& reference,
+           const PoseMatchingOptions& options = PoseMatchingOptions());
+
+} // namespace pcl6d

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/benchmarking/trajectory_error.h>
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/rotation.h>
+
+#include <Eigen/SVD>
+
+#include <cmath>
+#include <string>
+
+namespace pcl6d {
+
+namespace {
+void
+checkPairs(const Trajectory& estimate,
+           const Trajectory& reference,
+           const std::vector<PosePair>& pairs)
+{
+  for (const auto& pair : pairs)
+    if (pair.estimate >= estimate.poses.size() ||
+        pair.reference >= reference.poses.size())
+      throw BadArgument("pair (" + std::to_string(pair.estimate) + ", " +
+                        std::to_string(pair.reference) +
+                        ") points outside the trajectories of " +
+                        std::to_string(estimate.poses.size()) + " and " +
+                        std::to_string(reference.poses.size()) + " poses");
+}
+
+ErrorStatistics
+statisticsOf(const std::vector<PoseError>& errors, double PoseError::*kind)
+{
+  std::vector<double> values;
+  values.reserve(errors.size());
+  for (const auto& error : errors)
+    values.push_back(error.*kind);
+  return errorStatistics(values);
+}
+
+using Columns = Eigen::Matrix3Xd;
+
+/** Turns the centred positions d onto m by the SVD of S = sum d m^T, if they determine
+ * a rotation. \return whether they do */
+bool
+rotationBetween(const Columns& d, const Columns& m, Eigen::Matrix3d& R)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+      d * m.transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d& s = svd.singularValues();
+  // Below this spread a set is a point within rounding; s is the product of two
+  // spreads.
+  constexpr double kPoint = 1e-18; // [m^2], per pair
+  const bool mirrored = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0;
+  const auto count = static_cast<double>(d.cols());
+  if (d.squaredNorm() <= kPoint * count || m.squaredNorm() <= kPoint * count ||
+      s(1) <= 1e-9 * s(0) || (mirrored && s(1) - s(2) <= 1e-9 * s(0)))
+    return false;
+  const Eigen::Vector3d signs(1, 1, mirrored ? -1 : 1);
+  R = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
+  return true;
+}
+} // namespace
+
+PoseError
+poseError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& reference)
+{
+  const Eigen::Vector3d difference = estimate.translation() - reference.translation();
+  const Eigen::Quaterniond q(
+      Eigen::Matrix3d(reference.linear().transpose() * estimate.linear()));
+  PoseError error;
+  error.position = difference.norm();
+  error.orientation = 2 * std::atan2(q.vec().norm(), std::abs(q.w()));
+  error.position_2d = difference.head<2>().norm();
+  error.yaw = std::abs(wrapAngle(eulerFromRotation(estimate.linear()).yaw -
+                                 eulerFromRotation(reference.linear()).yaw));
+  return error;
+}
+
+TrajectoryErrors
+trajectoryErrors(const Trajectory& estimate,
+                 const Trajectory& reference,
+                 const std::vector<PosePair>& pairs,
+                 const Eigen::Isometry3d& T_reference_estimate)
+{
+  checkPairs(estimate, reference, pairs);
+  TrajectoryErrors errors;
+  errors.poses.reserve(pairs.size());
+  for (const auto& pair : pairs)
+    errors.poses.push_back(
+        poseError(T_reference_estimate * estimate.poses[pair.estimate],
+                  reference.poses[pair.reference]));
+  errors.position = statisticsOf(errors.poses, &PoseError::position);
+  errors.orientation = statisticsOf(errors.poses, &PoseError::orientation);
+  errors.position_2d = statisticsOf(errors.poses, &PoseError::position_2d);
+  errors.yaw = statisticsOf(errors.poses, &PoseError::yaw);
+  return errors;
+}
+
+RigidEstimate
+alignPositions(const Trajectory& estimate,
+               const Trajectory& reference,
+               const std::vector<PosePair>& pairs)
+{
+  checkPairs(estimate, reference, pairs);
+  RigidEstimate alignment;
+  if (pairs.empty())
+    return alignment;
+  Columns d(3, pairs.size()), m(3, pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    d.col(column) = estimate.poses[pairs[i].estimate].translation();
+    m.col(column) = reference.poses[pairs[i].reference].translation();
+  }
+  const Eigen::Vector3d c_d = d.rowwise().mean(), c_m = m.rowwise().mean();
+  d.colwise() -= c_d;
+  m.colwise() -= c_m;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  if (pairs.size() >= 3)
+    alignment.status = rotationBetween(d, m, R) ? Status::kOk : Status::kRankDeficient;
+  alignment.transform.linear() = R;
+  alignment.transform.translation() = c_m - R * c_d;
+  return alignment;
+}
+
+double
+pathLength(const Trajectory& trajectory)
+{
+  double length = 0;
+  for (std::size_t i = 1; i < trajectory.poses.size(); ++i)
+    length +=
+        (trajectory.poses[i].translation() - trajectory.poses[i - 1].translation())
+            .norm();
+  return length;
+}
+
+TrajectoryEvaluation
+evaluateTrajectory(const Trajectory& estimate,
+                   const Trajectory& reference,
+                   const PoseMatchingOptions& options)
+{
+  TrajectoryEvaluation evaluation;
+  evaluation.matching = matchPoses(estimate, reference, options);
+  const auto& pairs = evaluation.matching.pairs;
+  evaluation.without_alignment = trajectoryErrors(estimate, reference, pairs);
+  evaluation.alignment = alignPositions(estimate, reference, pairs);
+  evaluation.with_alignment =
+      trajectoryErrors(estimate, reference, pairs, evaluation.alignment.transform);
+  evaluation.path_length = pathLength(reference);
+  return evaluation;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/error.h>
+
+#include <sstream>
+
+namespace pcl6d {
+
+/** \throws BadArgument "name = value, but must be rule" unless the rule is kept */
+template <typename Value>
+void
+require(bool kept, const char* name, const Value& value, const char* rule)
+{
+  if (kept)
+    return;
+  std::ostringstream message;
+  message << name << " = " << value << ", but must be " << rule;
+  throw BadArgument(message.str());
+}
+
+} // namespace pcl6d

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace pcl6d {
+
+/** \brief This process's own X server without a screen, on which all pictures are
+ * drawn.
+ *
+ * Debian's VTK draws only into X, and a server has no X: so Xvfb is started at first
+ * use, on a free display number (any number of processes at once), in a session of its
+ * own, reachable only from this machine. The one connection that this class holds open
+ * keeps it alive: when the process ends in whatever way, SIGKILL included, the
+ * connection is gone and the server ends by itself. The user's DISPLAY is neither read
+ * nor set. \ingroup visualization */
+class PrivateDisplay {
+public:
+  /** \brief The one display of this process; started by the first call, which takes
+   * about 0.2 s. \throws IoFailed Xvfb is not installed, does not start within 20 s, or
+   * has ended since */
+  static PrivateDisplay& instance();
+
+  /** \brief Closes the connection and waits until the server has ended. */
+  ~PrivateDisplay();
+  PrivateDisplay(const PrivateDisplay&) = delete;
+  PrivateDisplay& operator=(const PrivateDisplay&) = delete;
+
+  /** \return the connection, an X11 `Display*` */
+  void* connection() const;
+
+  /** \return the name of the display, ":99" */
+  const std::string& name() const;
+
+  /** \return the process id of the server */
+  int serverPid() const;
+
+private:
+  PrivateDisplay();
+
+  struct Server;
+  std::unique_ptr<Server> server_;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colours.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+using Table = std::array<Colour, 9>; // evenly spaced; linear in between
+
+// Without the darkest eighth, which is not seen on a dark background.
+constexpr Table kViridis{{{77, 52, 132},
+                          {67, 76, 142},
+                          {56, 100, 146},
+                          {44, 125, 145},
+                          {34, 150, 140},
+                          {48, 176, 125},
+                          {104, 203, 94},
+                          {176, 221, 52},
+                          {253, 231, 37}}};
+constexpr Table kTurbo{{{70, 70, 180},
+                        {70, 119, 239},
+                        {40, 187, 236},
+                        {49, 242, 153},
+                        {162, 252, 60},
+                        {237, 208, 58},
+                        {251, 128, 34},
+                        {210, 49, 5},
+                        {150, 20, 10}}};
+
+Colour
+interpolate(const Table& table, double share)
+{
+  constexpr double kSteps = std::tuple_size_v<Table> - 1;
+  const double place = kSteps * (share > 0 ? std::min(share, 1.0) : 0.0); // NaN: 0
+  const auto lower = std::min(static_cast<std::size_t>(place), table.size() - 2);
+  const double rest = place - static_cast<double>(lower);
+  Colour colour{};
+  for (std::size_t i = 0; i < colour.size(); ++i)
+    colour[i] = static_cast<std::uint8_t>(
+        std::lround((1 - rest) * table[lower][i] + rest * table[lower + 1][i]));
+  return colour;
+}
+} // namespace
+
+Colour
+heightColour(double share)
+{
+  return interpolate(kViridis, share);
+}
+
+Colour
+orderColour(double share)
+{
+  return interpolate(kTurbo, share);
+}
+
+} // namespace pcl6d

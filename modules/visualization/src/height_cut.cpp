@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "height_cut.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl6d {
+
+namespace {
+/** Where the nearest pose is, for each cell of a grid over the map. */
+class PathGrid {
+public:
+  PathGrid(const Points& points,
+           const std::vector<std::size_t>& indices,
+           const Trajectory& trajectory);
+
+  std::size_t cellOf(const Eigen::Vector3f& p) const
+  {
+    const Eigen::Array2f place = (p.head<2>() - corner_).array() / cell_;
+    return static_cast<std::size_t>(place.y()) * columns_ +
+           static_cast<std::size_t>(place.x());
+  }
+  /** \return how much higher the point lies than the nearest pose [m] */
+  float heightOverPath(const Eigen::Vector3f& p) const
+  {
+    return p.z() - path_height_[cellOf(p)];
+  }
+  /** \return the share of the cells along the path that hold points higher than cut
+   * above it [m] */
+  double coveredShare(const Points& points,
+                      const std::vector<std::size_t>& indices,
+                      float cut) const;
+
+private:
+  Eigen::Vector2f corner_;
+  float cell_ = 0.5F; // [m]
+  std::size_t columns_ = 1;
+  std::vector<float> path_height_;      // of the nearest pose, per cell
+  std::vector<float> path_distance_sq_; // to the nearest pose, per cell
+};
+
+/** At most 500 positions, evenly chosen. */
+std::vector<Eigen::Vector3f>
+somePositions(const Trajectory& trajectory)
+{
+  const std::size_t step = trajectory.poses.size() / 500 + 1;
+  std::vector<Eigen::Vector3f> positions;
+  for (std::size_t i = 0; i < trajectory.poses.size(); i += step)
+    if (trajectory.poses[i].translation().allFinite())
+      positions.emplace_back(trajectory.poses[i].translation().cast<float>());
+  return positions;
+}
+
+PathGrid::PathGrid(const Points& points,
+                   const std::vector<std::size_t>& indices,
+                   const Trajectory& trajectory)
+{
+  Eigen::AlignedBox2f box;
+  for (const auto i : indices)
+    box.extend(points[i].head<2>());
+  constexpr float kCellsPerSide = 300; // bounds the cost for large maps
+  corner_ = box.min();
+  cell_ = std::max(cell_, box.sizes().maxCoeff() / kCellsPerSide);
+  columns_ = static_cast<std::size_t>(box.sizes().x() / cell_) + 2;
+  const auto rows = static_cast<std::size_t>(box.sizes().y() / cell_) + 2;
+  const auto positions = somePositions(trajectory);
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  path_distance_sq_.assign(columns_ * rows, kFar);
+  path_height_.assign(columns_ * rows, kFar);
+  for (std::size_t i = 0; i < path_height_.size(); ++i) {
+    const Eigen::Vector2f middle(static_cast<float>(i % columns_) + 0.5F,
+                                 static_cast<float>(i / columns_) + 0.5F);
+    const Eigen::Vector2f place = corner_ + cell_ * middle;
+    for (const auto& position : positions) {
+      const float distance_sq = (position.head<2>() - place).squaredNorm();
+      if (distance_sq >= path_distance_sq_[i])
+        continue;
+      path_distance_sq_[i] = distance_sq;
+      path_height_[i] = position.z();
+    }
+  }
+}
+
+double
+PathGrid::coveredShare(const Points& points,
+                       const std::vector<std::size_t>& indices,
+                       float cut) const
+{
+  const float reach = std::max(1.5F, 2 * cell_); // [m] to both sides of the path
+  enum : std::uint8_t { kOccupied = 1, kCovered = 2 };
+  std::vector<std::uint8_t> cells(path_height_.size(), 0);
+  for (const auto i : indices)
+    cells[cellOf(points[i])] |=
+        kOccupied | (heightOverPath(points[i]) > cut ? kCovered : 0);
+  double along = 0, covered = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i] == 0 || path_distance_sq_[i] > reach * reach)
+      continue;
+    ++along;
+    covered += (cells[i] & kCovered) != 0;
+  }
+  return along > 0 ? covered / along : 0;
+}
+} // namespace
+
+ShownPoints
+shownPoints(const TopViewScene& scene, const TopViewOptions& options)
+{
+  const float highest = static_cast<float>(
+      options.max_height.value_or(std::numeric_limits<double>::infinity()));
+  ShownPoints shown;
+  constexpr float kFarthest = 1e7F; // [m] no map is larger; finite in all sums
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    const Eigen::Vector3f& p = scene.points[i];
+    if (p.z() <= highest && p.cwiseAbs().maxCoeff() <= kFarthest && p.allFinite())
+      shown.indices.push_back(i);
+  }
+  if (options.max_height || shown.indices.empty() || scene.trajectory.poses.empty())
+    return shown;
+
+  const PathGrid grid(scene.points, shown.indices, scene.trajectory);
+  const auto cut = static_cast<float>(options.cut_above_trajectory);
+  constexpr double kIndoors = 0.5; // recorded: corridor 0.9, campus 0.05
+  if (grid.coveredShare(scene.points, shown.indices, cut) < kIndoors)
+    return shown;
+  const auto hidden = [&](std::size_t i) {
+    return grid.heightOverPath(scene.points[i]) > cut;
+  };
+  const auto end = std::remove_if(shown.indices.begin(), shown.indices.end(), hidden);
+  if (end == shown.indices.begin()) // nothing would be left
+    return shown;
+  shown.indices.erase(end, shown.indices.end());
+  shown.ceiling_hidden = true;
+  return shown;
+}
+
+} // namespace pcl6d

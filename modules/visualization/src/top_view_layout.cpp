@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "top_view_layout.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+/** Evenly spaced members, enough for a quantile. */
+std::vector<float>
+sampleOf(const Points& points, int axis)
+{
+  constexpr std::size_t kEnough = 500000;
+  const std::size_t step = points.size() / kEnough + 1;
+  std::vector<float> values;
+  values.reserve(points.size() / step + 1);
+  for (std::size_t i = 0; i < points.size(); i += step)
+    values.push_back(points[i][axis]);
+  return values;
+}
+
+/** The extent of the points, but not of single ones that lie far outside. */
+Eigen::AlignedBox2d
+mapExtent(const Points& points)
+{
+  Eigen::AlignedBox2d all, core;
+  for (const auto& p : points)
+    all.extend(p.head<2>().cast<double>());
+  Eigen::Vector2d low, high;
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto values = sampleOf(points, axis);
+    low[axis] = quantile(values, 0.002);
+    high[axis] = quantile(values, 0.998);
+  }
+  constexpr double kReach = 0.15; // of the core's size
+  const Eigen::Vector2d reach = kReach * (high - low);
+  return all.intersection(Eigen::AlignedBox2d(low - reach, high + reach));
+}
+
+Eigen::AlignedBox2d
+sceneExtent(const Points& points, const TopViewScene& scene)
+{
+  Eigen::AlignedBox2d box = mapExtent(points);
+  for (const auto* trajectory : {&scene.trajectory, &scene.initial})
+    for (const auto& pose : trajectory->poses)
+      if (pose.translation().allFinite())
+        box.extend(Eigen::Vector2d(pose.translation().head<2>()));
+  constexpr double kSmallest = 1.0; // [m] so that equal points are drawn, too
+  const Eigen::Vector2d lacking =
+      0.5 * (Eigen::Vector2d::Constant(kSmallest) - box.sizes()).cwiseMax(0.0);
+  const Eigen::Vector2d rim = 0.003 * box.sizes(); // room for points at the edge
+  box.min() -= lacking + rim;
+  box.max() += lacking + rim;
+  return box;
+}
+
+double
+roundDown(double metres)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(metres)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= metres)
+      return digit * power;
+  return power;
+}
+
+void
+placeScaleBar(TopViewLayout& layout, double margin)
+{
+  const double longest = 0.2 * (layout.map.right - layout.map.left);
+  layout.scale_bar_metres = roundDown(longest * layout.metres_per_pixel);
+  const double row = layout.height - margin - 0.6 * layout.text_size;
+  layout.scale_bar_begin = {margin + 0.5 * layout.text_size, row};
+  layout.scale_bar_end = layout.scale_bar_begin;
+  layout.scale_bar_end.x() += layout.scale_bar_metres / layout.metres_per_pixel;
+}
+} // namespace
+
+float
+quantile(std::vector<float> values, double share)
+{
+  const auto rank = static_cast<std::ptrdiff_t>(
+      std::lround(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+TopViewLayout
+layOut(const Points& points, const TopViewScene& scene, const TopViewOptions& options)
+{
+  const Eigen::AlignedBox2d box = sceneExtent(points, scene);
+  const double margin = options.margin;
+  TopViewLayout layout;
+  layout.width = options.width;
+  layout.text_size = std::clamp(options.width / 85.0, 10.0, 48.0);
+  const bool has_top_line = !options.title.empty() || !scene.trajectory.poses.empty() ||
+                            !scene.initial.poses.empty();
+  layout.map.left = margin;
+  layout.map.right = options.width - margin;
+  layout.map.top = margin + (has_top_line ? 2.2 * layout.text_size : 0);
+  const double below = margin + 3.2 * layout.text_size; // scale bar, colour bar
+  const double map_width = layout.map.right - layout.map.left;
+  const double shape =
+      std::clamp(box.sizes().y() / box.sizes().x(), 0.3, 1.25); // no towers, no stripes
+  layout.height = options.height.value_or(
+      static_cast<int>(std::lround(layout.map.top + shape * map_width + below)));
+  layout.map.bottom = layout.height - below;
+  layout.centre = box.center();
+  layout.metres_per_pixel =
+      std::max(box.sizes().x() / map_width,
+               box.sizes().y() / (layout.map.bottom - layout.map.top));
+  placeScaleBar(layout, margin);
+  return layout;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/visualization/top_view.h>
+
+namespace pcl6d {
+
+/** \brief Chooses map area, scale and scale bar. \param[in] points finite, at least one
+ */
+TopViewLayout
+layOut(const Points& points, const TopViewScene& scene, const TopViewOptions& options);
+
+/** \return the value below which the given share of the values lies (nearest rank, from
+ * an even sample of them); \param[in] values not empty */
+float
+quantile(std::vector<float> values, double share);
+
+} // namespace pcl6d

@@ -126,6 +126,18 @@ TEST(PointTree, FindsNothingWhereThereIsNothing)
   EXPECT_EQ(tree.nearest({0, 0, 0}, 1.0001f).index, 0);
 }
 
+TEST(PointTree, FindsTheSameFromAnyCandidate)
+{
+  Random random(5);
+  const Points points = gridWithDuplicates(random, 500);
+  const PointTree tree(points);
+  for (const auto& q : gridWithDuplicates(random, 50))
+    for (const float limit_sq : {0.5f, 1.0f, kInfinity})
+      for (int candidate = 0; candidate < 500; candidate += 7)
+        EXPECT_EQ(tree.nearest(q, limit_sq, candidate, points[candidate]).index,
+                  tree.nearest(q, limit_sq).index);
+}
+
 TEST(PointTree, IsTheSameForEveryThreadCount)
 {
   Random random(4);

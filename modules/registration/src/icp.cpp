@@ -28,7 +28,8 @@ public:
              const Points& source,
              unsigned int num_threads)
   : target_(target), target_points_(target_points), source_(source),
-    num_threads_(num_threads), partials_((source.size() + kBlockSize - 1) / kBlockSize)
+    num_threads_(num_threads), neighbours_(source.size(), -1),
+    partials_((source.size() + kBlockSize - 1) / kBlockSize)
   {
   }
 
@@ -39,9 +40,16 @@ public:
       PairAccumulator pairs;
       for (std::size_t i = block.begin; i < block.end; ++i) {
         const Eigen::Vector3d p = T_target_source * source_[i].cast<double>();
-        const Neighbour found = target_.nearest(p.cast<float>(), max_sq);
-        if (found.index >= 0)
-          pairs.add(p, target_points_[found.index].cast<double>());
+        const int last = neighbours_[i];
+        const Neighbour found =
+            target_.nearest(p.cast<float>(),
+                            max_sq,
+                            last,
+                            last < 0 ? source_[i] : target_points_[last]);
+        if (found.index < 0)
+          continue;
+        neighbours_[i] = found.index;
+        pairs.add(p, target_points_[found.index].cast<double>());
       }
       partials_[block.index] = pairs.sums();
     });
@@ -53,6 +61,7 @@ private:
   const Points& target_points_;
   const Points& source_;
   unsigned int num_threads_;
+  std::vector<int> neighbours_; ///< of the last search: where the next one starts
   std::vector<PairSums> partials_;
 };
 
@@ -171,6 +180,7 @@ icp(const PointTree& target,
       source.begin(), source.end(), [](const auto& p) { return p.allFinite(); });
   result.pairs = final_pairs.count;
   result.rms = rmsOf(final_pairs, Eigen::Isometry3d::Identity());
+  result.covariance = poseCovariance(final_pairs, result.T_target_source);
   result.overlap = finite > 0 ? static_cast<double>(result.pairs) / finite : 0;
   return result;
 }

@@ -20,7 +20,7 @@ PairSums::merge(const PairSums& a, const PairSums& b)
   sum.mean_source = a.mean_source + share * dd;
   sum.mean_target = a.mean_target + share * dm;
   sum.cross = a.cross + b.cross + spread * dd * dm.transpose();
-  sum.source_sq = a.source_sq + b.source_sq + spread * dd.squaredNorm();
+  sum.scatter = a.scatter + b.scatter + spread * dd * dd.transpose();
   sum.target_sq = a.target_sq + b.target_sq + spread * dm.squaredNorm();
   return sum;
 }
@@ -28,7 +28,7 @@ PairSums::merge(const PairSums& a, const PairSums& b)
 double
 PairSums::errorSq(const Eigen::Isometry3d& T) const
 {
-  const double about_means = target_sq + source_sq - 2 * (T.linear() * cross).trace();
+  const double about_means = target_sq + sourceSq() - 2 * (T.linear() * cross).trace();
   const double of_means = weight * (mean_target - T * mean_source).squaredNorm();
   return std::max(0.0, about_means) + of_means;
 }
@@ -51,7 +51,7 @@ PairAccumulator::add(const Eigen::Vector3d& source,
   sum_source_ += weight * d;
   sum_target_ += weight * m;
   sum_cross_ += weight * d * m.transpose();
-  sum_source_sq_ += weight * d.squaredNorm();
+  sum_scatter_ += weight * d * d.transpose();
   sum_target_sq_ += weight * m.squaredNorm();
 }
 
@@ -68,7 +68,7 @@ PairAccumulator::sums() const
   sums.mean_source = origin_source_ + d;
   sums.mean_target = origin_target_ + m;
   sums.cross = sum_cross_ - weight_ * d * m.transpose();
-  sums.source_sq = sum_source_sq_ - weight_ * d.squaredNorm();
+  sums.scatter = sum_scatter_ - weight_ * d * d.transpose();
   sums.target_sq = sum_target_sq_ - weight_ * m.squaredNorm();
   return sums;
 }

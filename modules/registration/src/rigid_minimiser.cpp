@@ -62,7 +62,7 @@ minimiseRigid(const PairSums& sums, Eigen::Matrix3d (*rotation)(const Eigen::Mat
       !sums.mean_target.allFinite())
     return {Status::kDiverged, Eigen::Isometry3d::Identity()};
   const double nothing = 1e-18 * sums.weight; // (1 nm)^2 per pair
-  if (sums.count == 1 || sums.source_sq <= nothing || sums.target_sq <= nothing)
+  if (sums.count == 1 || sums.sourceSq() <= nothing || sums.target_sq <= nothing)
     return rankDeficient(sums, identity);
 
   // S = U diag(s) V^T; source directions are the columns of U, target directions of V.

@@ -117,9 +117,21 @@ PointTree::visit(const Eigen::Vector3f& query, Visitor& visitor) const
 Neighbour
 PointTree::nearest(const Eigen::Vector3f& query, float max_distance_sq) const
 {
+  return nearest(query, max_distance_sq, -1, query);
+}
+
+Neighbour
+PointTree::nearest(const Eigen::Vector3f& query,
+                   float max_distance_sq,
+                   int candidate,
+                   const Eigen::Vector3f& candidate_point) const
+{
   NearestVisitor visitor{{-1, max_distance_sq}};
-  if (size() > 0 && query.allFinite())
+  if (size() > 0 && query.allFinite()) {
+    if (candidate >= 0)
+      visitor.add(candidate, distanceSq(query, candidate_point));
     visit(query, visitor);
+  }
   return visitor.best.index < 0 ? Neighbour() : visitor.best;
 }
 

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/status.h>
+#include <pcl6d/registration/pose_covariance.h>
 #include <pcl6d/registration/rigid_minimiser.h>
 #include <pcl6d/search/point_tree.h>
 
@@ -46,6 +47,7 @@ struct IcpResult {
   std::size_t pairs = 0; ///< pairs at the final pose within max_distance
   double rms = 0;        ///< [m] of these pairs
   double overlap = 0;    ///< pairs / finite source points, in [0, 1]
+  std::optional<PoseCovariance> covariance; ///< of T_target_source, if the pairs fix it
 };
 
 /** \brief Point-to-point ICP (book 4.1): closest pairs within a limit, closed-form

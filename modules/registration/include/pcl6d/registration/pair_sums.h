@@ -19,8 +19,11 @@ struct PairSums {
   Eigen::Vector3d mean_source = Eigen::Vector3d::Zero(); ///< c_d [m]
   Eigen::Vector3d mean_target = Eigen::Vector3d::Zero(); ///< c_m [m]
   Eigen::Matrix3d cross = Eigen::Matrix3d::Zero(); ///< S = sum w d' m'^T, centred [m^2]
-  double source_sq = 0;                            ///< s_d = sum w |d'|^2 [m^2]
-  double target_sq = 0;                            ///< s_m = sum w |m'|^2 [m^2]
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero(); ///< sum w d' d'^T [m^2]
+  double target_sq = 0;                              ///< s_m = sum w |m'|^2 [m^2]
+
+  /** \return s_d = sum w |d'|^2 [m^2] */
+  double sourceSq() const { return scatter.trace(); }
 
   /** \return the sums of two disjoint sets of pairs */
   static PairSums merge(const PairSums& a, const PairSums& b);
@@ -47,7 +50,7 @@ private:
   Eigen::Vector3d sum_source_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d sum_target_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d sum_cross_ = Eigen::Matrix3d::Zero();
-  double sum_source_sq_ = 0;
+  Eigen::Matrix3d sum_scatter_ = Eigen::Matrix3d::Zero();
   double sum_target_sq_ = 0;
 };
 

@@ -46,6 +46,16 @@ public:
    * \return index -1 if there is none, or the query is not finite */
   Neighbour nearest(const Eigen::Vector3f& query, float max_distance_sq) const;
 
+  /** \brief The same with a first candidate, which often is the neighbour of the last ICP
+   * iteration. It makes the search faster and never changes its result.
+   * \param[in] candidate a place in the input points, or -1
+   * \param[in] candidate_point the coordinates of that point */
+  Neighbour
+  nearest(const Eigen::Vector3f& query,
+          float max_distance_sq,
+          int candidate,
+          const Eigen::Vector3f& candidate_point) const;
+
   /** \brief The k nearest points, nearest first, ties by index. */
   std::vector<Neighbour> nearestK(const Eigen::Vector3f& query, std::size_t k) const;
 

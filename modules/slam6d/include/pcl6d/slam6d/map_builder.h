@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+#include <pcl6d/common/voxel_key.h>
+
+#include <pcl/PCLPointCloud2.h>
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <unordered_set>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief Joins registered scans into one reduced map: the first point in each voxel of
+ * the world stays. Scans can be added one at a time, so that they need not be in memory
+ * together. \ingroup slam6d */
+class MapBuilder {
+public:
+  /** \param[in] voxel [m] > 0
+   * \param[in] world_offset [m] subtracted from world coordinates, so that float keeps
+   * their digits
+   * \throws BadArgument voxel breaks its rule */
+  explicit MapBuilder(double voxel,
+                      const Eigen::Vector3d& world_offset = Eigen::Vector3d::Zero());
+
+  /** \brief Adds the points of a scan.
+   * \param[in] points in the scan's frame [m]; those that are not finite are left out
+   * \param[in] intensities one per point, or empty
+   * \param[in] scan the scan's number, kept with each point
+   * \throws BadArgument sizes differ, or a point lies outside the grid (voxelKey()) */
+  void addScan(const Points& points,
+               const std::vector<float>& intensities,
+               const Eigen::Isometry3d& T_world_scan,
+               std::uint32_t scan);
+
+  /** \return the map's points [m], relative to the world offset */
+  const Points& points() const { return points_; }
+
+  /** \return per point the number of the scan that it came from */
+  const std::vector<std::uint32_t>& scans() const { return scans_; }
+
+  /** \return the map as a cloud with fields x y z, scan (uint32), and intensity if
+   * every scan had it */
+  pcl::PCLPointCloud2 cloud() const;
+
+private:
+  double voxel_;
+  Eigen::Vector3d world_offset_;
+  bool has_intensity_ = true;
+  Points points_;
+  std::vector<float> intensities_;
+  std::vector<std::uint32_t> scans_;
+  std::unordered_set<VoxelKey> occupied_;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+#include <pcl6d/common/progress.h>
+#include <pcl6d/slam6d/slam6d_options.h>
+#include <pcl6d/slam6d/slam6d_result.h>
+
+#include <functional>
+#include <memory>
+
+namespace pcl6d {
+
+/** \brief 6D SLAM as a class (book, chapter 6.1): scans and rough poses in, a
+ * consistent trajectory out.
+ *
+ * Scans are gated by range and reduced as they are added. optimize() registers them one
+ * after the other: the odometry's motion is carried over to the corrected pose (5.1.1),
+ * then ICP (4.1) matches the scan against the union of earlier scans (metascan). A scan
+ * that cannot be matched keeps its predicted pose, says so in its state, and is left
+ * out of the metascan. The first scan keeps its pose. The same bits for any number of
+ * threads. \code pcl6d::Slam6D slam; for (...) slam.addScan(cloud, rough_pose);
+ * slam.optimize();
+ * for (const auto& scan : slam.result().scans)
+ *   use(scan.T_world_scan);
+ * \endcode \ingroup slam6d */
+class Slam6D {
+public:
+  /** \brief Called after each scan with its place and its result. */
+  using Observer = std::function<void(std::size_t, const ScanResult&)>;
+
+  /** \throws BadArgument an option breaks its rule */
+  explicit Slam6D(const Slam6DOptions& options = {});
+  ~Slam6D();
+  Slam6D(Slam6D&&) noexcept;
+  Slam6D& operator=(Slam6D&&) noexcept;
+
+  /** \brief Adds a scan. Only its reduced points are kept.
+   * \param[in] points in the scan's own frame, right-handed [m]; NaN points are dropped
+   * \param[in] initial_pose rough T_world_scan, e.g. odometry
+   * \throws BadArgument fewer than 3 finite points, or the pose is not rigid */
+  void addScan(const Points& points, const Eigen::Isometry3d& initial_pose);
+
+  template <typename PointT>
+  void addScan(const pcl::PointCloud<PointT>& cloud,
+               const Eigen::Isometry3d& initial_pose)
+  {
+    addScan(toPoints(cloud), initial_pose);
+  }
+
+  /** \brief Registers all scans that were added and not yet registered.
+   * \return false if cancel() stopped it; calling it again goes on
+   * \throws BadArgument no scan was added, or the range gate leaves a scan with fewer
+   * than 3 points */
+  bool optimize();
+
+  /** \brief Asks a running optimize() to stop after the current scan. May be called
+   * from another thread or a callback. */
+  void cancel();
+
+  /** \brief Results so far. Scans not yet registered are kPending, at predicted poses.
+   */
+  const Slam6DResult& result() const;
+
+  void setProgressCallback(ProgressCallback callback);
+  void setObserver(Observer observer);
+
+private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+namespace pcl6d {
+
+/** \brief Knobs of Slam6D. What is left empty is derived from the scans. */
+struct Slam6DOptions {
+  std::optional<double> min_range;    ///< [m] nearer points are dropped; >= 0
+  std::optional<double> max_range;    ///< [m] farther points are dropped; >= min_range
+  std::optional<double> voxel;        ///< [m] edge length of the reduction; > 0
+  std::optional<double> max_distance; ///< [m] largest pair distance; > 0
+  std::optional<double> max_distance_start; ///< [m] largest pair distance of the first
+                                            ///< iteration, which then shrinks; >= 0
+  int metascan =
+      0; ///< match against the union of the last N scans; 1 is pairwise, 0: all
+  int max_iterations = 200;          ///< of one ICP; > 0
+  double translation_epsilon = 2e-4; ///< [m] ICP stops at a smaller step ...
+  double rotation_epsilon = 2e-5;    ///< [rad] ... that also turns less; >= 0
+  double min_overlap = 0.1;     ///< share of points with a partner below which a match
+                                ///< is not believed; in [0, 1]
+  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void validate() const;
+};
+
+} // namespace pcl6d

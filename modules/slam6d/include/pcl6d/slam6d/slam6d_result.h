@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/status.h>
+#include <pcl6d/registration/pose_covariance.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A value that was given, or derived from the scans, and why. */
+struct Parameter {
+  double value = 0;
+  bool given = false; ///< by the user, not derived
+  std::string why;    ///< of a derived value: the numbers that it follows from
+};
+
+/** \brief The values that a run works with. */
+struct Slam6DParameters {
+  Parameter min_range;          ///< [m]
+  Parameter max_range;          ///< [m] may be infinite
+  Parameter voxel;              ///< [m]
+  Parameter max_distance;       ///< [m]
+  Parameter max_distance_start; ///< [m]
+};
+
+/** \brief What became of a scan. */
+enum class ScanState {
+  kPending,     ///< not yet registered; the pose is predicted from the odometry
+  kFixed,       ///< the first scan, which keeps its pose
+  kMatched,     ///< registered, and ICP converged
+  kUnconverged, ///< registered, but ICP stopped at its iteration limit
+  kPredicted    ///< could not be matched; the pose is predicted from the odometry
+};
+
+/** \return "pending", "fixed", "matched", "unconverged" or "predicted" */
+const char*
+toString(ScanState state);
+
+/** \brief One scan of the result. */
+struct ScanResult {
+  Eigen::Isometry3d initial_pose = Eigen::Isometry3d::Identity(); ///< as given
+  Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
+  ScanState state = ScanState::kPending;
+  Status status = Status::kTooFewPairs; ///< of ICP
+  std::size_t points = 0;               ///< finite points of the scan
+  std::size_t reduced = 0;              ///< points left for matching
+  std::size_t pairs = 0;                ///< pairs within max_distance at the end
+  double rms = 0;                       ///< [m] of these pairs
+  double overlap = 0;                   ///< pairs / reduced points
+  int iterations = 0;
+  std::optional<PoseCovariance> covariance; ///< x y z roll pitch yaw [m, rad]; zero for
+                                            ///< the fixed scan, none if not known
+};
+
+/** \brief The result of Slam6D. */
+struct Slam6DResult {
+  std::vector<ScanResult> scans; ///< in the order in which they were added
+  Slam6DParameters parameters;
+  double matching_seconds = 0;
+
+  /** \return the number of scans in a state */
+  std::size_t count(ScanState state) const;
+
+  /** \return whether every scan is fixed or matched */
+  bool trusted() const;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "auto_parameters.h"
+
+#include <pcl6d/filters/range_statistics.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace pcl6d {
+
+namespace {
+/** \return the middle of some values (the upper one of two); 0 without values */
+double
+middle(std::vector<double> values)
+{
+  if (values.empty())
+    return 0;
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double
+roundToTwoDigits(double value)
+{
+  if (!(value > 0) || !std::isfinite(value))
+    return value;
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  std::ostringstream text; // through text, so that 0.17 is the 0.17 that a user types
+  text << std::setprecision(2) << std::round(value / unit) * unit;
+  return std::stod(text.str());
+}
+
+std::string
+metres(double value)
+{
+  std::ostringstream text;
+  text << std::setprecision(3) << value << " m";
+  return text.str();
+}
+
+Parameter
+derived(double value, const std::string& why)
+{
+  return {roundToTwoDigits(value), false, why};
+}
+
+Parameter
+orDerived(const std::optional<double>& option, const Parameter& otherwise)
+{
+  return option ? Parameter{*option, true, ""} : otherwise;
+}
+
+/** A no-return code is no surface: the gate ends just below it. */
+Parameter
+deriveMaxRange(const std::vector<Points>& scans)
+{
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& scan : scans)
+    if (const auto code = noReturnRange(scan))
+      smallest = std::min(smallest, *code);
+  if (std::isinf(smallest))
+    return {smallest, false, "no range is shared by many points"};
+  return {0.999 * smallest, false, "no-return code at " + metres(smallest)};
+}
+} // namespace
+
+Slam6DParameters
+deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans)
+{
+  Slam6DParameters p;
+  p.max_range = orDerived(options.max_range, deriveMaxRange(scans));
+  std::vector<double> ranges, spacings;
+  for (const auto& scan : scans) {
+    const Points seen = gateByRange(scan, 0, p.max_range.value);
+    ranges.push_back(medianRange(seen));
+    spacings.push_back(medianSpacing(seen));
+  }
+  const double range = middle(ranges), spacing = middle(spacings);
+
+  // The scanner's own housing and the robot are nearer than any room; 0.2 m holds for
+  // scanners of rooms, the tenth of the range for small objects.
+  p.min_range =
+      orDerived(options.min_range,
+                derived(std::min(0.2, 0.1 * range),
+                        "0.2 m, at most a tenth of the median range " + metres(range)));
+  // Fine enough to keep a surface's shape at the typical range, coarse enough that most
+  // voxels average several points.
+  const double voxel = std::max(2.5 * spacing, range / 60);
+  p.voxel = orDerived(options.voxel,
+                      derived(std::max(voxel, 1e-6),
+                              "larger of 2.5 x median spacing " + metres(spacing) +
+                                  " and median range " + metres(range) + " / 60"));
+  p.max_distance =
+      orDerived(options.max_distance, derived(2 * p.voxel.value, "2 x voxel"));
+  p.max_distance_start = orDerived(
+      options.max_distance_start,
+      derived(std::max(12 * p.voxel.value, p.max_distance.value), "12 x voxel"));
+  return p;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "auto_parameters.h"
+#include "metascan.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/pose.h>
+#include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/filters/voxel_reduction.h>
+#include <pcl6d/registration/icp.h>
+#include <pcl6d/slam6d/slam6d.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace pcl6d {
+
+namespace {
+/** So many scans are held back in full, until the parameters are derived from them. */
+constexpr std::size_t kScansForParameters = 16;
+
+std::size_t
+countFinite(const Points& points)
+{
+  return std::count_if(
+      points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
+}
+
+void
+requireThreePoints(std::size_t scan, std::size_t count, const std::string& where)
+{
+  if (count < 3)
+    throw BadArgument("scan " + std::to_string(scan) + ": " + std::to_string(count) +
+                      " points " + where + ", but at least 3 are needed");
+}
+} // namespace
+
+class Slam6D::Implementation {
+public:
+  explicit Implementation(const Slam6DOptions& options) : options_(options)
+  {
+    options_.validate();
+  }
+
+  void addScan(const Points& points, const Eigen::Isometry3d& initial_pose)
+  {
+    const std::size_t place = result_.scans.size();
+    const std::size_t finite = countFinite(points);
+    requireThreePoints(place, finite, "with finite coordinates");
+    if (!isRigid(initial_pose))
+      throw BadArgument("scan " + std::to_string(place) +
+                        ": the initial pose is not a rigid motion");
+    ScanResult scan;
+    scan.initial_pose = initial_pose;
+    scan.points = finite;
+    result_.scans.push_back(scan);
+    predict(place);
+    unreduced_.push_back(points);
+    if (metascan_ || unreduced_.size() >= kScansForParameters)
+      reducePending();
+  }
+
+  bool optimize()
+  {
+    if (result_.scans.empty())
+      throw BadArgument("no scan was added");
+    reducePending();
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t total = result_.scans.size();
+    while (next_ < total && !cancelled_.exchange(false)) {
+      registerScan(next_++);
+      if (observer)
+        observer(next_ - 1, result_.scans[next_ - 1]);
+      if (progress)
+        progress({"matching", next_, total});
+    }
+    const std::chrono::duration<double> spent =
+        std::chrono::steady_clock::now() - start;
+    result_.matching_seconds += spent.count();
+    for (std::size_t i = next_; i < total; ++i)
+      predict(i);
+    return next_ == total;
+  }
+
+  ProgressCallback progress;
+  Observer observer;
+  std::atomic<bool> cancelled_{false};
+  Slam6DResult result_;
+
+private:
+  /** Carries the odometry's motion over from the scan before. */
+  void predict(std::size_t i)
+  {
+    ScanResult& scan = result_.scans[i];
+    scan.T_world_scan = scan.initial_pose;
+    if (i == 0)
+      return;
+    const ScanResult& before = result_.scans[i - 1];
+    scan.T_world_scan = extrapolateOdometry(
+        before.T_world_scan, before.initial_pose, scan.initial_pose);
+  }
+
+  void reducePending()
+  {
+    if (!metascan_) {
+      result_.parameters =
+          deriveParameters(options_, {unreduced_.begin(), unreduced_.end()});
+      metascan_.emplace(0.5 * result_.parameters.voxel.value, options_.metascan);
+    }
+    const Slam6DParameters& p = result_.parameters;
+    ReductionOptions reduction;
+    reduction.voxel = p.voxel.value;
+    for (; !unreduced_.empty(); unreduced_.pop_front()) {
+      const std::size_t place = reduced_.size();
+      const Points kept =
+          gateByRange(unreduced_.front(), p.min_range.value, p.max_range.value);
+      requireThreePoints(place, kept.size(), "within the range gate");
+      reduced_.push_back(reducePoints(kept, reduction));
+      result_.scans[place].reduced = reduced_.back().size();
+    }
+  }
+
+  void registerScan(std::size_t i)
+  {
+    ScanResult& scan = result_.scans[i];
+    predict(i);
+    if (i == 0) {
+      scan.state = ScanState::kFixed;
+      scan.status = Status::kOk;
+      scan.covariance = PoseCovariance(PoseCovariance::Zero());
+    }
+    else {
+      match(reduced_[i], scan);
+    }
+    if (scan.state != ScanState::kPredicted)
+      metascan_->add(reduced_[i], scan.T_world_scan);
+  }
+
+  /** Matches a scan against the metascan, from its predicted pose. */
+  void match(const Points& points, ScanResult& scan) const
+  {
+    const Slam6DParameters& p = result_.parameters;
+    const Eigen::Vector3d origin = scan.T_world_scan.translation().array().round();
+    // A scan may move by more than the first limit on its way; twice leaves room.
+    const double reach = radiusOf(points) + 2 * p.max_distance_start.value + 1;
+    const Points model = metascan_->around(origin, reach);
+    Eigen::Isometry3d guess = scan.T_world_scan;
+    guess.translation() -= origin;
+    const PointTree tree(model, options_.num_threads);
+    const IcpResult found = icp(tree, model, points, guess, icpOptions());
+
+    scan.status = found.status;
+    scan.pairs = found.pairs;
+    scan.rms = found.rms;
+    scan.overlap = found.overlap;
+    scan.iterations = found.iterations;
+    const bool arrived =
+        found.status == Status::kOk || found.status == Status::kMaxIterations;
+    if (!arrived || found.overlap < options_.min_overlap) {
+      scan.state = ScanState::kPredicted;
+      return;
+    }
+    scan.state =
+        found.status == Status::kOk ? ScanState::kMatched : ScanState::kUnconverged;
+    scan.covariance = found.covariance;
+    scan.T_world_scan = found.T_target_source;
+    scan.T_world_scan.translation() += origin;
+  }
+
+  IcpOptions icpOptions() const
+  {
+    IcpOptions icp;
+    icp.max_iterations = options_.max_iterations;
+    icp.max_distance = result_.parameters.max_distance.value;
+    icp.max_distance_start = result_.parameters.max_distance_start.value;
+    icp.translation_epsilon = options_.translation_epsilon;
+    icp.rotation_epsilon = options_.rotation_epsilon;
+    icp.num_threads = options_.num_threads;
+    return icp;
+  }
+
+  Slam6DOptions options_;
+  std::deque<Points> unreduced_; ///< scans that wait for the parameters
+  std::deque<Points> reduced_;   ///< a deque: the metascan refers to its elements
+  std::optional<Metascan> metascan_;
+  std::size_t next_ = 0; ///< first scan that is not registered
+};
+
+Slam6D::Slam6D(const Slam6DOptions& options)
+: implementation_(std::make_unique<Implementation>(options))
+{
+}
+
+Slam6D::~Slam6D() = default;
+Slam6D::Slam6D(Slam6D&&) noexcept = default;
+Slam6D&
+Slam6D::operator=(Slam6D&&) noexcept = default;
+
+void
+Slam6D::addScan(const Points& points, const Eigen::Isometry3d& initial_pose)
+{
+  implementation_->addScan(points, initial_pose);
+}
+
+bool
+Slam6D::optimize()
+{
+  return implementation_->optimize();
+}
+
+void
+Slam6D::cancel()
+{
+  implementation_->cancelled_ = true;
+}
+
+const Slam6DResult&
+Slam6D::result() const
+{
+  return implementation_->result_;
+}
+
+void
+Slam6D::setProgressCallback(ProgressCallback callback)
+{
+  implementation_->progress = std::move(callback);
+}
+
+void
+Slam6D::setObserver(Observer observer)
+{
+  implementation_->observer = std::move(observer);
+}
+
+const char*
+toString(ScanState state)
+{
+  switch (state) {
+  case ScanState::kPending:
+    return "pending";
+  case ScanState::kFixed:
+    return "fixed";
+  case ScanState::kMatched:
+    return "matched";
+  case ScanState::kUnconverged:
+    return "unconverged";
+  case ScanState::kPredicted:
+    return "predicted";
+  }
+  return "unknown";
+}
+
+std::size_t
+Slam6DResult::count(ScanState state) const
+{
+  return std::count_if(scans.begin(), scans.end(), [&](const ScanResult& scan) {
+    return scan.state == state;
+  });
+}
+
+bool
+Slam6DResult::trusted() const
+{
+  return count(ScanState::kFixed) + count(ScanState::kMatched) == scans.size();
+}
+
+} // namespace pcl6d

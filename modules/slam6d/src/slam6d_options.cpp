@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
+#include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/slam6d/slam6d_options.h>
+
+#include <limits>
+#include <string>
+
+namespace pcl6d {
+
+namespace {
+void
+require(bool rule, const std::string& name, double value, const std::string& text)
+{
+  if (!rule)
+    throw BadArgument(name + " = " + std::to_string(value) + ", but must be " + text);
+}
+} // namespace
+
+void
+Slam6DOptions::validate() const
+{
+  validateRangeLimits(min_range.value_or(0),
+                      max_range.value_or(std::numeric_limits<double>::infinity()));
+  require(!voxel || *voxel > 0, "voxel", voxel.value_or(0), "> 0");
+  require(!max_distance || *max_distance > 0,
+          "max_distance",
+          max_distance.value_or(0),
+          "> 0");
+  require(!max_distance_start || *max_distance_start >= 0,
+          "max_distance_start",
+          max_distance_start.value_or(0),
+          ">= 0");
+  require(metascan >= 0, "metascan", metascan, ">= 0");
+  require(max_iterations > 0, "max_iterations", max_iterations, "> 0");
+  require(translation_epsilon >= 0, "translation_epsilon", translation_epsilon, ">= 0");
+  require(rotation_epsilon >= 0, "rotation_epsilon", rotation_epsilon, ">= 0");
+  require(
+      min_overlap >= 0 && min_overlap <= 1, "min_overlap", min_overlap, "in [0, 1]");
+}
+
+} // namespace pcl6d

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "pcd_entries.h"
 #include "pcd_header.h"
 #include "rigid_row.h"
 
@@ -6,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <istream>
 #include <limits>
 #include <map>
 
@@ -16,7 +16,6 @@ namespace {
 
 using pcl::PCLPointField;
 
-constexpr std::size_t kLongestLine = 1 << 16; // [byte] longer: not a header
 constexpr std::size_t kMaxPoints = std::numeric_limits<pcl::uindex_t>::max();
 
 /** How a PCD file spells a datatype. */
@@ -36,124 +35,12 @@ constexpr std::array<TypeName, 10> kTypes = {{{PCLPointField::INT8, 'I', 1},
                                               {PCLPointField::FLOAT32, 'F', 4},
                                               {PCLPointField::FLOAT64, 'F', 8}}};
 
+using Entries = PcdEntries;
+
 const std::map<std::string, PcdEncoding, std::less<>> kEncodings = {
     {"ascii", PcdEncoding::kAscii},
     {"binary", PcdEncoding::kBinary},
     {"binary_compressed", PcdEncoding::kBinaryCompressed}};
-
-/** \brief The entries of a header by their first word, before they are understood. */
-class Entries {
-public:
-  explicit Entries(const std::filesystem::path& path) : path_(path) {}
-
-  /** Reads up to and including the line DATA. */
-  void read(std::istream& stream)
-  {
-    std::string line;
-    while (!has("DATA")) {
-      if (!readLine(stream, line))
-        text::fail(path_, "the header ends without a DATA line");
-      ++num_lines_;
-      add(line);
-    }
-  }
-
-  bool has(std::string_view word) const { return entries_.count(word) > 0; }
-  std::size_t numLines() const { return num_lines_; }
-
-  /** \return the words after the first one */
-  const std::vector<std::string>& values(std::string_view word) const
-  {
-    const auto entry = entries_.find(word);
-    if (entry == entries_.end())
-      text::fail(path_, "the header has no " + std::string(word));
-    return entry->second.values;
-  }
-
-  /** \return the values of an entry that must have so many of them */
-  const std::vector<std::string>& values(std::string_view word, std::size_t count) const
-  {
-    const auto& all = values(word);
-    if (all.size() != count)
-      fail(word,
-           "expected " + text::counted(count, "value") + " after " + std::string(word) +
-               ", got " + std::to_string(all.size()));
-    return all;
-  }
-
-  template <typename T>
-  T number(std::string_view word, const std::string& token) const
-  {
-    T value{};
-    if (!text::parseNumber(token, value))
-      fail(word,
-           std::string(word) + " " + text::quoted(token) + " is not " +
-               (std::is_integral_v<T> ? "a whole number >= 0" : "a number"));
-    return value;
-  }
-
-  [[noreturn]] void fail(std::string_view word, const std::string& message) const
-  {
-    text::failAt(path_, lineOf(word), message);
-  }
-
-  std::size_t lineOf(std::string_view word) const
-  {
-    return entries_.find(word)->second.line;
-  }
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  struct Entry {
-    std::size_t line = 0;
-    std::vector<std::string> values;
-  };
-
-  bool readLine(std::istream& stream, std::string& line) const
-  {
-    line.clear();
-    char c = 0;
-    while (stream.get(c) && c != '\n') {
-      line += c;
-      if (line.size() > kLongestLine)
-        text::failAt(path_, num_lines_ + 1, "not a line of a PCD header");
-    }
-    return stream.good() || !line.empty(); // the last line may lack its end
-  }
-
-  void add(const std::string& line)
-  {
-    text::Tokens tokens(line, "\r");
-    std::string word(tokens.next());
-    if (word.empty() || word.front() == '#')
-      return;
-    if (word == "COLUMNS") // the oldest files
-      word = "FIELDS";
-    static const char* const kWords[] = {"VERSION",
-                                         "FIELDS",
-                                         "SIZE",
-                                         "TYPE",
-                                         "COUNT",
-                                         "WIDTH",
-                                         "HEIGHT",
-                                         "VIEWPOINT",
-                                         "POINTS",
-                                         "DATA"};
-    if (std::find(std::begin(kWords), std::end(kWords), word) == std::end(kWords))
-      text::failAt(
-          path_, num_lines_, text::quoted(word) + " is not an entry of a PCD header");
-    if (has(word))
-      text::failAt(path_, num_lines_, "a second " + word);
-    Entry& entry = entries_[word];
-    entry.line = num_lines_;
-    for (auto token = tokens.next(); !token.empty(); token = tokens.next())
-      entry.values.emplace_back(token);
-  }
-
-  const std::filesystem::path& path_;
-  std::map<std::string, Entry, std::less<>> entries_;
-  std::size_t num_lines_ = 0;
-};
 
 std::uint8_t
 datatypeOf(const Entries& entries, const std::string& type, const std::string& size)
@@ -166,6 +53,20 @@ datatypeOf(const Entries& entries, const std::string& type, const std::string& s
                    text::quoted(size) + " (known: I and U of 1, 2, 4, 8; F of 4, 8)");
 }
 
+/** \return how many values a field has; below zero only for a gap, see readFields() */
+std::int64_t
+countOf(const Entries& entries, const std::string& name, const std::string& token)
+{
+  if (name == "_" && token.front() == '-')
+    return entries.number<std::int32_t>("COUNT", token);
+  const auto count = entries.number<std::uint32_t>("COUNT", token);
+  if (count == 0)
+    entries.fail("COUNT", "COUNT of field " + text::quoted(name) + " is 0");
+  return count;
+}
+
+/** Fields that do not stand in the order of their offsets PCL's writer joins by gaps of
+ * negative length; they lead back and are no fields here. */
 void
 readFields(const Entries& entries, PcdHeader& header)
 {
@@ -177,20 +78,27 @@ readFields(const Entries& entries, PcdHeader& header)
   const std::vector<std::string> counts =
       entries.has("COUNT") ? entries.values("COUNT", names.size())
                            : std::vector<std::string>(names.size(), "1");
+  std::int64_t offset = 0;
+  std::int64_t end = 0; // of the last field
   for (std::size_t i = 0; i < names.size(); ++i) {
     PCLPointField field;
     field.name = names[i];
     field.datatype = datatypeOf(entries, types[i], sizes[i]);
-    field.count = entries.number<std::uint32_t>("COUNT", counts[i]);
-    field.offset = static_cast<pcl::uindex_t>(header.point_size);
-    if (field.count == 0)
-      entries.fail("COUNT", "COUNT of field " + text::quoted(names[i]) + " is 0");
-    header.point_size += field.count * sizeOfType(field.datatype);
-    if (header.point_size > kMaxPointSize)
+    field.offset = static_cast<pcl::uindex_t>(offset);
+    const std::int64_t count = countOf(entries, names[i], counts[i]);
+    offset += count * static_cast<std::int64_t>(sizeOfType(field.datatype));
+    end = std::max(end, offset);
+    if (offset < 0 || end > kMaxPointSize)
       entries.fail("FIELDS",
-                   "a point has more than " + std::to_string(kMaxPointSize) + " bytes");
-    header.fields.push_back(field);
+                   "a point has more than " + std::to_string(kMaxPointSize) +
+                       " bytes, or a gap leads ahead of its start");
+    field.count = static_cast<pcl::uindex_t>(count);
+    if (count > 0)
+      header.fields.push_back(field);
   }
+  if (offset < end)
+    entries.fail("COUNT", "a field ends behind the point");
+  header.point_size = static_cast<std::size_t>(offset);
 }
 
 std::size_t
@@ -245,8 +153,7 @@ sizeOfType(std::uint8_t datatype)
 PcdHeader
 readPcdHeader(std::istream& stream, const std::filesystem::path& path)
 {
-  Entries entries(path);
-  entries.read(stream);
+  const Entries entries(stream, path);
   PcdHeader header;
   if (entries.has("VERSION")) {
     const auto& version = entries.values("VERSION", 1).front();

@@ -4,6 +4,7 @@
 #include <pcl6d/io/pcd_io.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ struct PcdHeader {
   std::size_t numPoints() const { return width * height; }
 };
 
-constexpr std::size_t kMaxPointSize = 1 << 20; // [byte]
+constexpr std::int64_t kMaxPointSize = 1 << 20; // [byte]
 
 /** \return whether the field only fills a gap */
 inline bool

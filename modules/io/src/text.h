@@ -69,6 +69,9 @@ public:
   std::string_view line() const { return line_; }
   std::size_t number() const { return number_; }
 
+  /** \return what follows the line */
+  std::string_view rest() const { return rest_; }
+
 private:
   std::string_view rest_;
   std::string_view line_;

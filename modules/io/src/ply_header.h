@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "text.h"
+
+#include <cstdint>
+
+/** \file The text at the start of a PLY file. Internal to the module io. */
+namespace pcl6d {
+
+enum class PlyEncoding { kAscii, kLittleEndian, kBigEndian };
+
+/** \brief One value, or a list of values with its length ahead. */
+struct PlyProperty {
+  std::string name;
+  std::uint8_t datatype = 0; ///< of PCLPointField
+  bool is_list = false;
+  std::uint8_t length_datatype = 0; ///< of a list, an integer type
+};
+
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::kAscii;
+  std::vector<PlyElement> elements;
+  std::size_t num_lines = 0; ///< lines of the header
+  std::size_t size = 0;      ///< [byte] the body follows
+};
+
+/** \return the checked header at the start of a file's content
+ * \throws IoFailed naming line, value and rule */
+PlyHeader
+readPlyHeader(const std::filesystem::path& path, std::string_view content);
+
+} // namespace pcl6d

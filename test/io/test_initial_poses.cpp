@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pcd_samples.h"
+
+#include <pcl6d/common/pose.h>
+#include <pcl6d/io/scan_folder.h>
+
+namespace fs = std::filesystem;
+using pcl6d::ScanFolder;
+using pcl6d::ScanFolderOptions;
+using pcl6d::test::expectIoFailed;
+using pcl6d::test::TempFolder;
+using pcl6d::test::writeText;
+
+namespace {
+
+constexpr int kScans = 3;
+
+std::string
+scanName(int i)
+{
+  return "scan00" + std::to_string(i);
+}
+
+/** \return a KITTI row at position x [m] */
+std::string
+kittiRow(double x)
+{
+  return "1 0 0 " + std::to_string(x) + " 0 1 0 0 0 0 1 0\n";
+}
+
+/** \brief A folder of three scans. Each source of poses says another x position, so
+ * that one sees which was taken: scan i stands at x = source + i. */
+class InitialPoses : public testing::Test {
+protected:
+  void SetUp() override { addScans(0); }
+
+  /** Writes the scans with this VIEWPOINT. */
+  void addScans(double x) const
+  {
+    for (int i = 0; i < kScans; ++i)
+      pcl6d::writePcd(folder_ / (scanName(i) + ".pcd"),
+                      pcl6d::test::makeRichCloud(3),
+                      pcl6d::planarPose(x == 0 ? 0 : x + i, 0, 0));
+  }
+  void addRows(const std::string& name, double x, int count = kScans) const
+  {
+    std::string rows;
+    for (int i = 0; i < count; ++i)
+      rows += kittiRow(x + i);
+    writeText(folder_ / name, rows);
+  }
+  void addScanPoses(double x) const
+  {
+    for (int i = 0; i < kScans; ++i) // forward is the third number, in cm
+      writeText(folder_ / (scanName(i) + ".pose"),
+                "0 0 " + std::to_string(100 * (x + i)) + "\n0 0 0\n");
+  }
+  ScanFolder open(const fs::path& poses_file = {}) const
+  {
+    ScanFolderOptions options;
+    options.poses_file = poses_file;
+    return ScanFolder(folder_.path(), options);
+  }
+  void expectSource(const std::string& source,
+                    double x,
+                    const fs::path& poses_file = {}) const
+  {
+    const ScanFolder scans = open(poses_file);
+    EXPECT_EQ(scans.poseSource(), source);
+    for (std::size_t i = 0; i < scans.size(); ++i)
+      EXPECT_NEAR(scans.initialPose(i).translation().x(),
+                  source == "identity" ? 0 : x + static_cast<double>(i),
+                  1e-12);
+  }
+
+  const TempFolder folder_;
+};
+
+} // namespace
+
+TEST_F(InitialPoses, EachSourceComesBeforeTheNext)
+{
+  expectSource("identity", 0);
+  addScans(10);
+  expectSource("PCD VIEWPOINT", 10);
+  addRows("poses.txt", 20);
+  expectSource("poses.txt", 20);
+  addRows("odometry.txt", 30);
+  expectSource("odometry.txt", 30);
+  addScanPoses(40);
+  expectSource("scan poses (*.pose)", 40);
+  addRows("given.txt", 50);
+  expectSource("scan poses (*.pose)", 40); // not unless it is given
+  const fs::path given = folder_ / "given.txt";
+  expectSource(given.string(), 50, given);
+}
+
+TEST_F(InitialPoses, TheGroundTruthIsNeverRead)
+{
+  addRows("odometry.txt", 30);
+  writeText(folder_ / "groundtruth.txt", "wrong\n");
+  writeText(folder_ / "groundtruth.pcd", "wrong\n");
+  writeText(folder_ / "groundtruth.ply", "wrong\n");
+  expectSource("odometry.txt", 30);
+  fs::remove(folder_ / "odometry.txt");
+  expectSource("identity", 0);
+  addRows("groundtruth.txt", 60);
+  const fs::path truth = folder_ / "groundtruth.txt";
+  EXPECT_EQ(pcl6d::test::messageOf<pcl6d::BadArgument>([&] { open(truth); }),
+            "poses_file = " + truth.string() +
+                ", but files named groundtruth* are never read");
+}
+
+TEST_F(InitialPoses, OneViewpointThatDiffersFromIdentityMakesAllCount)
+{
+  pcl6d::writePcd(folder_ / "scan001.pcd",
+                  pcl6d::test::makeRichCloud(3),
+                  pcl6d::planarPose(0, 1e-9, 0));
+  const ScanFolder scans = open();
+  EXPECT_EQ(scans.poseSource(), "PCD VIEWPOINT");
+  EXPECT_EQ(scans.initialPose(0).translation().y(), 0);
+  EXPECT_EQ(scans.initialPose(1).translation().y(), 1e-9);
+}
+
+TEST_F(InitialPoses, EveryScanOfTheFolderNeedsAPoseAndEveryPoseAScan)
+{
+  addRows("odometry.txt", 30, kScans - 1);
+  const auto path = folder_ / "odometry.txt";
+  expectIoFailed(path,
+                 "2 poses, but the folder holds 3 scans: no pose for scan002.pcd",
+                 [&] { open(); });
+  addRows("odometry.txt", 30, kScans + 1);
+  expectIoFailed(path, "4 poses, but the folder holds 3 scans", [&] { open(); });
+  ScanFolderOptions options;
+  options.last = 0; // scans that are left out count all the same
+  expectIoFailed(path, "4 poses, but the folder holds 3 scans", [&] {
+    ScanFolder(folder_.path(), options);
+  });
+}
+
+TEST_F(InitialPoses, AMissingPoseFileOfAScanIsNamed)
+{
+  addScanPoses(40);
+  const auto path = folder_ / "scan001.pose";
+  fs::remove(path);
+  expectIoFailed(path,
+                 "missing, but other scans have a .pose file: no pose for scan001.pcd",
+                 [&] { open(); });
+}
+
+TEST_F(InitialPoses, BrokenSourcesAreNamedAndNotSkipped)
+{
+  addRows("poses.txt", 20);
+  writeText(folder_ / "odometry.txt",
+            kittiRow(1) + kittiRow(2) + "2 0 0 0 0 1 0 0 0 0 1 0\n");
+  expectIoFailed(folder_ / "odometry.txt",
+                 "line 3: not a rigid motion (largest entry of |R^T R - I| is 3)",
+                 [&] { open(); });
+  expectIoFailed(folder_ / "missing.txt", "No such file or directory", [&] {
+    open(folder_ / "missing.txt");
+  });
+  fs::remove(folder_ / "odometry.txt");
+  fs::create_directory(folder_ / "odometry.txt");
+  expectIoFailed(folder_ / "odometry.txt", "Is a directory", [&] { open(); });
+}
+
+TEST_F(InitialPoses, ABrokenViewpointIsAnError)
+{
+  const auto path = folder_ / "scan001.pcd";
+  std::string content = pcl6d::test::readText(path);
+  content.replace(content.find("VIEWPOINT 0 0 0 1"), 17, "VIEWPOINT 0 0 0 0");
+  writeText(path, content);
+  expectIoFailed(
+      path,
+      "line 9: not a rigid motion (the quaternion has norm 0, but must have 1)",
+      [&] { open(); });
+  addRows("odometry.txt", 30); // then nobody looks at it
+  expectSource("odometry.txt", 30);
+}
+
+TEST_F(InitialPoses, StampsAreThoseOfTheSelectedScans)
+{
+  EXPECT_TRUE(open().stamps().empty());
+  writeText(folder_ / "given.tum",
+            "100.5 30 0 0 0 0 0 1\n101.5 31 0 0 0 0 0 1\n102.5 32 0 0 0 0 0 1\n");
+  ScanFolderOptions options;
+  options.poses_file = folder_ / "given.tum";
+  options.every = 2;
+  const ScanFolder scans(folder_.path(), options);
+  EXPECT_EQ(scans.stamps(), (std::vector<double>{100.5, 102.5}));
+  EXPECT_EQ(scans.initialPose(1).translation().x(), 32);
+}

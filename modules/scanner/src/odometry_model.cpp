@@ -6,13 +6,14 @@
 
 namespace pcl6d {
 namespace {
-// Rz of the yaw of R; without sine or arc tangent.
+// Rz of the yaw of R; without sine or arc tangent, and without -0, which would show in
+// the written file.
 Eigen::Matrix3d
 yawOnly(const Eigen::Matrix3d& R)
 {
   const Eigen::Vector2d heading = R.block<2, 1>(0, 0).normalized();
   Eigen::Matrix3d yaw;
-  yaw << heading.x(), -heading.y(), 0, heading.y(), heading.x(), 0, 0, 0, 1;
+  yaw << heading.x(), 0 - heading.y(), 0, heading.y(), heading.x(), 0, 0, 0, 1;
   return yaw;
 }
 

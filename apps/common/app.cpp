@@ -33,12 +33,18 @@ try {
   return report(name, e.what(), kUsage);
 } catch (const boost::program_options::error& e) {
   return report(name, e.what(), kUsage);
-} catch (const BadArgument& e) {
-  return report(name, e.what(), kUsage);
 } catch (const std::bad_alloc&) {
   return report(name, "not enough memory", kFailed);
 } catch (const std::exception& e) {
   return report(name, e.what(), kFailed);
+}
+
+void
+checkOptions(const std::function<void()>& check)
+try {
+  check();
+} catch (const BadArgument& e) {
+  throw UsageError(e.what());
 }
 
 } // namespace pcl6d::app

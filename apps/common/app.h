@@ -25,12 +25,17 @@ public:
 
 /** \brief Runs a program: silences PCL's chatter, calls body with the arguments after
  * the program's name, and turns exceptions into `name: error: ...` and an exit code.
- * Errors of the command line (UsageError, boost's, BadArgument) give kUsage, all others
+ * Errors of the command line (UsageError, boost's) give kUsage, all others
  * kFailed. */
 int
 runMain(const std::string& name,
         int argc,
         char** argv,
         const std::function<int(const std::vector<std::string>&)>& body);
+
+/** \brief Calls check and turns its BadArgument into a UsageError: for options that the
+ * library validates. */
+void
+checkOptions(const std::function<void()>& check);
 
 } // namespace pcl6d::app

@@ -17,23 +17,29 @@ public:
   explicit CommandLine(const std::string& usage);
 
   /** \brief Adds a group of options, shown under its caption. */
-  boost::program_options::options_description& group(const std::string& caption);
+  boost::program_options::options_description&
+  group(const std::string& caption);
 
   /** \brief Declares the next positional argument; it is required.
    * \param[in] name as shown in errors, e.g. SCAN_DIR */
-  void positional(const std::string& name, std::string* value);
+  void
+  positional(const std::string& name, std::string* value);
 
   /** \brief Parses; on --help or --version prints it to stdout.
    * \return false when the program has nothing more to do
    * \throws UsageError, boost::program_options::error the arguments break a rule */
-  bool parse(const std::vector<std::string>& arguments);
+  bool
+  parse(const std::vector<std::string>& arguments);
 
   /** \return whether the user gave the option (so it is no default) */
-  bool given(const std::string& option) const;
+  bool
+  given(const std::string& option) const;
 
 private:
-  void readConfig(const std::string& file);
-  void printHelp() const;
+  void
+  readConfig(const std::string& file);
+  void
+  printHelp() const;
 
   std::string usage_;
   std::vector<boost::program_options::options_description> groups_;

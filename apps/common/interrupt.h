@@ -10,10 +10,12 @@ public:
   Interrupt();
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
-  Interrupt& operator=(const Interrupt&) = delete;
+  Interrupt&
+  operator=(const Interrupt&) = delete;
 
   /** \return whether a signal came in */
-  bool requested() const;
+  bool
+  requested() const;
 };
 
 } // namespace pcl6d::app

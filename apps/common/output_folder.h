@@ -23,15 +23,19 @@ public:
                bool force);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
+  OutputFolder&
+  operator=(const OutputFolder&) = delete;
 
   /** \brief Removes what an earlier run left under these names (files or folders). */
-  void removeOld(const std::vector<std::string>& names) const;
+  void
+  removeOld(const std::vector<std::string>& names) const;
 
   /** \brief Everything is written: keep the folder. */
-  void commit();
+  void
+  commit();
 
-  std::filesystem::path operator/(const std::string& name) const;
+  std::filesystem::path
+  operator/(const std::string& name) const;
 
 private:
   std::filesystem::path folder_;

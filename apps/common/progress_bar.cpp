@@ -8,8 +8,7 @@ namespace pcl6d::app {
 
 ProgressBar::ProgressBar(bool quiet)
 : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1)
-{
-}
+{}
 
 ProgressBar::~ProgressBar()
 {

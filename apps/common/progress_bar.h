@@ -15,15 +15,19 @@ public:
   /** \brief Ends an unfinished line, so that what follows starts on its own. */
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
+  ProgressBar&
+  operator=(const ProgressBar&) = delete;
 
-  void show(const Progress& progress);
+  void
+  show(const Progress& progress);
 
   /** \brief Prints a line of its own between two states of the bar; not when quiet. */
-  void say(const std::string& line);
+  void
+  say(const std::string& line);
 
 private:
-  void endLine();
+  void
+  endLine();
 
   bool quiet_;
   bool terminal_;

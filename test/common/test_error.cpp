@@ -8,8 +8,7 @@
 #include <string>
 
 template <typename Error>
-class Errors : public testing::Test {
-};
+class Errors : public testing::Test {};
 using ErrorTypes =
     testing::Types<pcl6d::BadArgument, pcl6d::ComputeFailed, pcl6d::IoFailed>;
 TYPED_TEST_SUITE(Errors, ErrorTypes);

@@ -5,8 +5,7 @@ namespace pcl6d {
 
 BadArgument::BadArgument(const std::string& message)
 : pcl::BadArgumentException(message), message_(message)
-{
-}
+{}
 
 const char*
 BadArgument::what() const noexcept
@@ -16,8 +15,7 @@ BadArgument::what() const noexcept
 
 ComputeFailed::ComputeFailed(const std::string& message)
 : pcl::ComputeFailedException(message), message_(message)
-{
-}
+{}
 
 const char*
 ComputeFailed::what() const noexcept
@@ -27,8 +25,7 @@ ComputeFailed::what() const noexcept
 
 IoFailed::IoFailed(const std::string& message)
 : pcl::IOException(message), message_(message)
-{
-}
+{}
 
 const char*
 IoFailed::what() const noexcept

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 namespace pcl6d {
@@ -87,9 +88,13 @@ medianRange(const Points& points)
 }
 
 double
-medianSpacing(const Points& points)
+medianSpacing(const Points& all)
 {
   constexpr std::size_t kSamples = 1000;
+  Points points; // the finite ones, so that samples are chosen from these
+  std::copy_if(all.begin(), all.end(), std::back_inserter(points), [](const auto& p) {
+    return p.allFinite();
+  });
   const PointTree tree(points);
   const std::size_t step = std::max<std::size_t>(1, points.size() / kSamples);
   std::vector<double> spacings;

@@ -72,7 +72,6 @@ VoxelGroups::chooseRandom(std::size_t group, int count, std::uint64_t seed) cons
   return indices;
 }
 
-namespace {
 Eigen::Vector3f
 meanOf(const Points& points, const pcl::Indices& indices)
 {
@@ -81,7 +80,6 @@ meanOf(const Points& points, const pcl::Indices& indices)
     sum += points[index].cast<double>();
   return (sum / static_cast<double>(indices.size())).cast<float>();
 }
-} // namespace
 
 Points
 reducePoints(const Points& points, const ReductionOptions& options)

@@ -27,13 +27,16 @@ public:
              const Points& target_points,
              const Points& source,
              unsigned int num_threads)
-  : target_(target), target_points_(target_points), source_(source),
-    num_threads_(num_threads), neighbours_(source.size(), -1),
-    partials_((source.size() + kBlockSize - 1) / kBlockSize)
-  {
-  }
+  : target_(target)
+  , target_points_(target_points)
+  , source_(source)
+  , num_threads_(num_threads)
+  , neighbours_(source.size(), -1)
+  , partials_((source.size() + kBlockSize - 1) / kBlockSize)
+  {}
 
-  PairSums sumsAt(const Eigen::Isometry3d& T_target_source, double max_distance)
+  PairSums
+  sumsAt(const Eigen::Isometry3d& T_target_source, double max_distance)
   {
     const auto max_sq = static_cast<float>(max_distance * max_distance);
     parallelBlocks(source_.size(), kBlockSize, num_threads_, [&](const Block& block) {
@@ -83,12 +86,12 @@ rmsOf(const PairSums& sums, const Eigen::Isometry3d& T)
 class IcpRun {
 public:
   IcpRun(PairFinder& finder, const IcpOptions& options) : finder_(finder), o_(options)
-  {
-  }
+  {}
 
-  IcpResult run(const Eigen::Isometry3d& guess,
-                const RigidMinimiser& minimiser,
-                const IcpObserver& observer)
+  IcpResult
+  run(const Eigen::Isometry3d& guess,
+      const RigidMinimiser& minimiser,
+      const IcpObserver& observer)
   {
     result_.T_target_source = guess;
     double limit = std::max(o_.max_distance, o_.max_distance_start);
@@ -107,10 +110,11 @@ public:
 
 private:
   /** One step. \return kMaxIterations to go on, else the reason to stop */
-  Status iterate(int number,
-                 double limit,
-                 const RigidMinimiser& minimiser,
-                 const IcpObserver& observer)
+  Status
+  iterate(int number,
+          double limit,
+          const RigidMinimiser& minimiser,
+          const IcpObserver& observer)
   {
     const PairSums sums = finder_.sumsAt(result_.T_target_source, limit);
     result_.iterations = number;

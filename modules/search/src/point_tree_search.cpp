@@ -44,8 +44,13 @@ closer(const Neighbour& a, const Neighbour& b)
 struct NearestVisitor {
   Neighbour best;
 
-  float bound() const { return best.distance_sq; }
-  void add(int index, float distance_sq)
+  float
+  bound() const
+  {
+    return best.distance_sq;
+  }
+  void
+  add(int index, float distance_sq)
   {
     if (distance_sq < best.distance_sq ||
         (distance_sq == best.distance_sq && best.index >= 0 && index < best.index))
@@ -59,11 +64,13 @@ struct CollectVisitor {
   std::size_t max_count;
   std::vector<Neighbour> found{};
 
-  float bound() const
+  float
+  bound() const
   {
     return found.size() < max_count ? radius_sq : found.front().distance_sq;
   }
-  void add(int index, float distance_sq)
+  void
+  add(int index, float distance_sq)
   {
     const Neighbour candidate{index, distance_sq};
     if (!(distance_sq < radius_sq))

@@ -9,8 +9,7 @@
 namespace pcl6d {
 
 Metascan::Metascan(double voxel, int max_scans) : voxel_(voxel), max_scans_(max_scans)
-{
-}
+{}
 
 void
 Metascan::add(const Points& points, const Eigen::Isometry3d& T_world_scan)

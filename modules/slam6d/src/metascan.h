@@ -20,10 +20,12 @@ public:
   Metascan(double voxel, int max_scans);
 
   /** \param[in] points kept by reference: must outlive the metascan */
-  void add(const Points& points, const Eigen::Isometry3d& T_world_scan);
+  void
+  add(const Points& points, const Eigen::Isometry3d& T_world_scan);
 
   /** \return the points [m] relative to an origin, that lie within reach of it */
-  Points around(const Eigen::Vector3d& origin, double reach) const;
+  Points
+  around(const Eigen::Vector3d& origin, double reach) const;
 
 private:
   struct Member {

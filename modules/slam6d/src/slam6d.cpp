@@ -14,6 +14,7 @@
 #include <chrono>
 #include <deque>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -30,12 +31,31 @@ countFinite(const Points& points)
       points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
 }
 
-void
-requireThreePoints(std::size_t scan, std::size_t count, const std::string& where)
+std::string
+tooFew(const std::string& scan, std::size_t count, const std::string& where)
 {
-  if (count < 3)
-    throw BadArgument("scan " + std::to_string(scan) + ": " + std::to_string(count) +
-                      " points " + where + ", but at least 3 are needed");
+  return scan + ": " + std::to_string(count) + " points " + where +
+         ", but at least 3 are needed";
+}
+
+/** Gate and reduction of one scan. */
+Points
+prepare(const Points& points, const std::string& name, const Slam6DParameters& p)
+{
+  const Points kept = gateByRange(points, p.min_range.value, p.max_range.value);
+  if (kept.size() < 3) {
+    std::ostringstream gate;
+    gate << "within the range gate of " << p.min_range.value << " to "
+         << p.max_range.value << " m";
+    throw ComputeFailed(tooFew(name, kept.size(), gate.str()));
+  }
+  ReductionOptions reduction;
+  reduction.voxel = p.voxel.value;
+  try {
+    return reducePoints(kept, reduction);
+  } catch (const BadArgument& e) {
+    throw ComputeFailed(name + ": " + e.what());
+  }
 }
 } // namespace
 
@@ -46,25 +66,32 @@ public:
     options_.validate();
   }
 
-  void addScan(const Points& points, const Eigen::Isometry3d& initial_pose)
+  void
+  addScan(const Points& points,
+          const Eigen::Isometry3d& initial_pose,
+          const std::string& given_name)
   {
     const std::size_t place = result_.scans.size();
+    const std::string name =
+        given_name.empty() ? "scan " + std::to_string(place) : given_name;
     const std::size_t finite = countFinite(points);
-    requireThreePoints(place, finite, "with finite coordinates");
+    if (finite < 3)
+      throw BadArgument(tooFew(name, finite, "with finite coordinates"));
     if (!isRigid(initial_pose))
-      throw BadArgument("scan " + std::to_string(place) +
-                        ": the initial pose is not a rigid motion");
+      throw BadArgument(name + ": the initial pose is not a rigid motion");
     ScanResult scan;
     scan.initial_pose = initial_pose;
     scan.points = finite;
     result_.scans.push_back(scan);
     predict(place);
     unreduced_.push_back(points);
+    names_.push_back(name);
     if (metascan_ || unreduced_.size() >= kScansForParameters)
       reducePending();
   }
 
-  bool optimize()
+  bool
+  optimize()
   {
     if (result_.scans.empty())
       throw BadArgument("no scan was added");
@@ -93,7 +120,8 @@ public:
 
 private:
   /** Carries the odometry's motion over from the scan before. */
-  void predict(std::size_t i)
+  void
+  predict(std::size_t i)
   {
     ScanResult& scan = result_.scans[i];
     scan.T_world_scan = scan.initial_pose;
@@ -104,27 +132,23 @@ private:
         before.T_world_scan, before.initial_pose, scan.initial_pose);
   }
 
-  void reducePending()
+  void
+  reducePending()
   {
     if (!metascan_) {
       result_.parameters =
           deriveParameters(options_, {unreduced_.begin(), unreduced_.end()});
       metascan_.emplace(0.5 * result_.parameters.voxel.value, options_.metascan);
     }
-    const Slam6DParameters& p = result_.parameters;
-    ReductionOptions reduction;
-    reduction.voxel = p.voxel.value;
     for (; !unreduced_.empty(); unreduced_.pop_front()) {
       const std::size_t place = reduced_.size();
-      const Points kept =
-          gateByRange(unreduced_.front(), p.min_range.value, p.max_range.value);
-      requireThreePoints(place, kept.size(), "within the range gate");
-      reduced_.push_back(reducePoints(kept, reduction));
+      reduced_.push_back(prepare(unreduced_.front(), names_[place], result_.parameters));
       result_.scans[place].reduced = reduced_.back().size();
     }
   }
 
-  void registerScan(std::size_t i)
+  void
+  registerScan(std::size_t i)
   {
     ScanResult& scan = result_.scans[i];
     predict(i);
@@ -141,7 +165,8 @@ private:
   }
 
   /** Matches a scan against the metascan, from its predicted pose. */
-  void match(const Points& points, ScanResult& scan) const
+  void
+  match(const Points& points, ScanResult& scan) const
   {
     const Slam6DParameters& p = result_.parameters;
     const Eigen::Vector3d origin = scan.T_world_scan.translation().array().round();
@@ -171,7 +196,8 @@ private:
     scan.T_world_scan.translation() += origin;
   }
 
-  IcpOptions icpOptions() const
+  IcpOptions
+  icpOptions() const
   {
     IcpOptions icp;
     icp.max_iterations = options_.max_iterations;
@@ -184,6 +210,7 @@ private:
   }
 
   Slam6DOptions options_;
+  std::vector<std::string> names_;
   std::deque<Points> unreduced_; ///< scans that wait for the parameters
   std::deque<Points> reduced_;   ///< a deque: the metascan refers to its elements
   std::optional<Metascan> metascan_;
@@ -192,8 +219,7 @@ private:
 
 Slam6D::Slam6D(const Slam6DOptions& options)
 : implementation_(std::make_unique<Implementation>(options))
-{
-}
+{}
 
 Slam6D::~Slam6D() = default;
 Slam6D::Slam6D(Slam6D&&) noexcept = default;
@@ -201,9 +227,11 @@ Slam6D&
 Slam6D::operator=(Slam6D&&) noexcept = default;
 
 void
-Slam6D::addScan(const Points& points, const Eigen::Isometry3d& initial_pose)
+Slam6D::addScan(const Points& points,
+                const Eigen::Isometry3d& initial_pose,
+                const std::string& name)
 {
-  implementation_->addScan(points, initial_pose);
+  implementation_->addScan(points, initial_pose, name);
 }
 
 bool

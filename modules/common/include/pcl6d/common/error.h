@@ -16,7 +16,8 @@ namespace pcl6d {
 class BadArgument : public pcl::BadArgumentException {
 public:
   explicit BadArgument(const std::string& message);
-  const char* what() const noexcept override;
+  const char*
+  what() const noexcept override;
 
 private:
   std::string message_;
@@ -27,7 +28,8 @@ private:
 class ComputeFailed : public pcl::ComputeFailedException {
 public:
   explicit ComputeFailed(const std::string& message);
-  const char* what() const noexcept override;
+  const char*
+  what() const noexcept override;
 
 private:
   std::string message_;
@@ -38,7 +40,8 @@ private:
 class IoFailed : public pcl::IOException {
 public:
   explicit IoFailed(const std::string& message);
-  const char* what() const noexcept override;
+  const char*
+  what() const noexcept override;
 
 private:
   std::string message_;

@@ -15,13 +15,22 @@ public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
   /** \return a number in [0, 1) with 53 random bits */
-  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
+  double
+  uniform()
+  {
+    return static_cast<double>(engine_() >> 11) * 0x1.0p-53;
+  }
 
   /** \return a number in [low, high) */
-  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  double
+  uniform(double low, double high)
+  {
+    return low + (high - low) * uniform();
+  }
 
   /** \return a standard normal number (Box and Muller 1958) */
-  double normal()
+  double
+  normal()
   {
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
     return radius * std::cos(2 * M_PI * uniform());

@@ -26,11 +26,16 @@ public:
 
   OctreeReduction();
 
-  ReductionOptions& options() { return options_; }
+  ReductionOptions&
+  options()
+  {
+    return options_;
+  }
 
 protected:
   /** \throws BadArgument an option breaks its rule, or a point lies outside the grid */
-  void applyFilter(PointCloud& output) override;
+  void
+  applyFilter(PointCloud& output) override;
 
 private:
   ReductionOptions options_;

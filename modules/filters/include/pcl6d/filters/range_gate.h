@@ -17,14 +17,17 @@ class RangeGate : public pcl::FilterIndices<PointT> {
 public:
   using Ptr = pcl::shared_ptr<RangeGate<PointT>>;
 
-  RangeGate();
+  /** \param[in] extract_removed_indices fill getRemovedIndices() */
+  explicit RangeGate(bool extract_removed_indices = false);
 
   /** \param[in] min_range, max_range [m], 0 <= min_range <= max_range
    * \throws BadArgument naming the value that breaks the rule */
-  void setLimits(double min_range, double max_range);
+  void
+  setLimits(double min_range, double max_range);
 
 protected:
-  void applyFilter(pcl::Indices& indices) override;
+  void
+  applyFilter(pcl::Indices& indices) override;
 
 private:
   double min_range_ = 0;

@@ -24,7 +24,8 @@ struct ReductionOptions {
   int points_per_voxel = 1; ///< kept by kRandom; >= 1
   std::uint64_t seed = 0;   ///< of kRandom
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \brief The points of a cloud sorted into the occupied voxels of a regular grid,
@@ -37,16 +38,20 @@ public:
   VoxelGroups(const Points& points, double voxel);
 
   /** \return the number of occupied voxels */
-  std::size_t size() const;
+  std::size_t
+  size() const;
 
-  VoxelKey key(std::size_t group) const;
+  VoxelKey
+  key(std::size_t group) const;
 
   /** \return the places of the group's points in the input, ascending */
-  pcl::Indices indices(std::size_t group) const;
+  pcl::Indices
+  indices(std::size_t group) const;
 
   /** \brief Chooses at most count points of a group. The choice depends only on the
    * seed, the voxel and its points. \return ascending places in the input */
-  pcl::Indices chooseRandom(std::size_t group, int count, std::uint64_t seed) const;
+  pcl::Indices
+  chooseRandom(std::size_t group, int count, std::uint64_t seed) const;
 
 private:
   struct Member {
@@ -56,6 +61,11 @@ private:
   std::vector<Member> members_;
   std::vector<std::size_t> begin_; ///< first member of each group, and the end
 };
+
+/** \return the mean [m] of the chosen points, which must be one at least; summed in double
+ */
+Eigen::Vector3f
+meanOf(const Points& points, const pcl::Indices& indices);
 
 /** \brief Reduces points to one (kRandom: a few) per occupied voxel.
  * \throws BadArgument an option breaks its rule, or a point lies outside the grid

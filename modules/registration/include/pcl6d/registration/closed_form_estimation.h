@@ -25,35 +25,41 @@ public:
   using TargetCloud = pcl::PointCloud<PointTarget>;
 
   /** \brief The minimiser itself. \return status and motion from source to target */
-  virtual RigidEstimate minimise(const PairSums& sums) const = 0;
+  virtual RigidEstimate
+  minimise(const PairSums& sums) const = 0;
 
   /** \throws BadArgument the two sides differ in size
    * \throws ComputeFailed the pairs do not fix a motion; the matrix stays as it was */
-  void estimateRigidTransformation(const SourceCloud& source,
-                                   const TargetCloud& target,
-                                   Matrix4& transformation) const override;
-  void estimateRigidTransformation(const SourceCloud& source,
-                                   const pcl::Indices& source_indices,
-                                   const TargetCloud& target,
-                                   Matrix4& transformation) const override;
-  void estimateRigidTransformation(const SourceCloud& source,
-                                   const pcl::Indices& source_indices,
-                                   const TargetCloud& target,
-                                   const pcl::Indices& target_indices,
-                                   Matrix4& transformation) const override;
-  void estimateRigidTransformation(const SourceCloud& source,
-                                   const TargetCloud& target,
-                                   const pcl::Correspondences& correspondences,
-                                   Matrix4& transformation) const override;
+  void
+  estimateRigidTransformation(const SourceCloud& source,
+                              const TargetCloud& target,
+                              Matrix4& transformation) const override;
+  void
+  estimateRigidTransformation(const SourceCloud& source,
+                              const pcl::Indices& source_indices,
+                              const TargetCloud& target,
+                              Matrix4& transformation) const override;
+  void
+  estimateRigidTransformation(const SourceCloud& source,
+                              const pcl::Indices& source_indices,
+                              const TargetCloud& target,
+                              const pcl::Indices& target_indices,
+                              Matrix4& transformation) const override;
+  void
+  estimateRigidTransformation(const SourceCloud& source,
+                              const TargetCloud& target,
+                              const pcl::Correspondences& correspondences,
+                              Matrix4& transformation) const override;
 
 private:
   /** \param[in] pair maps i to the indices of the i-th pair in source and target */
   template <typename PairIndices>
-  void estimate(const SourceCloud& source,
-                const TargetCloud& target,
-                std::size_t count,
-                PairIndices pair,
-                Matrix4& transformation) const;
+  void
+  estimate(const SourceCloud& source,
+           const TargetCloud& target,
+           std::size_t count,
+           PairIndices pair,
+           Matrix4& transformation) const;
 };
 
 /** \throws ComputeFailed the estimate is anything but kOk */

@@ -22,7 +22,8 @@ struct IcpOptions {
   double rotation_epsilon = 1e-5;    ///< [rad] ... that also turns less; >= 0
   unsigned int num_threads = 0;      ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \brief One iteration, as an observer sees it. */

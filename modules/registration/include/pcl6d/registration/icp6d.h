@@ -20,7 +20,9 @@ namespace pcl6d {
  * setMaxCorrespondenceDistance (no limit unless set), setTransformationEpsilon (squared
  * [m^2], as in PCL), setTransformationRotationEpsilon (cosine, as in PCL), setIndices.
  * align() never throws on data; not converged, getFinalTransformation() is the last
- * good estimate or the guess. \code pcl6d::ICP6D<pcl::PointXYZ, pcl::PointXYZ> icp;
+ * good estimate or the guess.
+ * \code
+ * pcl6d::ICP6D<pcl::PointXYZ, pcl::PointXYZ> icp;
  * icp.setInputSource(data);
  * icp.setInputTarget(model);
  * icp.setMaxCorrespondenceDistance(0.5);
@@ -44,26 +46,37 @@ public:
 
   /** \brief Limit of the pair distance at the start [m], which shrinks by a tenth per
    * iteration to setMaxCorrespondenceDistance() (annealing, book 4.1.5). 0: off. */
-  void setMaxCorrespondenceDistanceStart(double distance);
+  void
+  setMaxCorrespondenceDistanceStart(double distance);
 
   /** \brief Stop when a step is shorter [m] and turns less [rad]. */
-  void setMotionEpsilon(double translation, double rotation);
+  void
+  setMotionEpsilon(double translation, double rotation);
 
   /** \param[in] num_threads 0: one per core; never changes the result */
-  void setNumberOfThreads(unsigned int num_threads);
+  void
+  setNumberOfThreads(unsigned int num_threads);
 
   /** \brief Called after every iteration; return false to stop. */
-  void setObserver(IcpObserver observer);
+  void
+  setObserver(IcpObserver observer);
 
   /** \return what the last align() came to */
-  const IcpResult& result() const { return result_; }
+  const IcpResult&
+  result() const
+  {
+    return result_;
+  }
 
 protected:
-  void computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
+  void
+  computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
 
 private:
-  IcpOptions effectiveOptions() const;
-  RigidMinimiser minimiser() const;
+  IcpOptions
+  effectiveOptions() const;
+  RigidMinimiser
+  minimiser() const;
 
   IcpOptions options_;
   IcpObserver observer_;

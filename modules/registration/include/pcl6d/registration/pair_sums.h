@@ -23,13 +23,19 @@ struct PairSums {
   double target_sq = 0;                              ///< s_m = sum w |m'|^2 [m^2]
 
   /** \return s_d = sum w |d'|^2 [m^2] */
-  double sourceSq() const { return scatter.trace(); }
+  double
+  sourceSq() const
+  {
+    return scatter.trace();
+  }
 
   /** \return the sums of two disjoint sets of pairs */
-  static PairSums merge(const PairSums& a, const PairSums& b);
+  static PairSums
+  merge(const PairSums& a, const PairSums& b);
 
   /** \return sum w |m - T d|^2 [m^2] for a rigid motion T */
-  double errorSq(const Eigen::Isometry3d& T) const;
+  double
+  errorSq(const Eigen::Isometry3d& T) const;
 };
 
 /** \brief Adds up pairs one by one. Sums are taken about the first pair, so that points
@@ -40,7 +46,8 @@ public:
   void
   add(const Eigen::Vector3d& source, const Eigen::Vector3d& target, double weight = 1);
 
-  PairSums sums() const;
+  PairSums
+  sums() const;
 
 private:
   std::size_t count_ = 0;

@@ -25,7 +25,8 @@ public:
   using ConstPtr = pcl::shared_ptr<
       const TransformationEstimationQuaternion<PointSource, PointTarget, Scalar>>;
 
-  RigidEstimate minimise(const PairSums& sums) const override
+  RigidEstimate
+  minimise(const PairSums& sums) const override
   {
     return minimiseByQuaternion(sums);
   }

@@ -16,7 +16,9 @@ namespace pcl6d {
  * FLANN part stays empty. Distances of the coordinates x, y, z [m]; point
  * representations and epsilon of the base class are not used: the search is exact.
  * Results are always sorted, ties by index. Indices refer to the input cloud, also when
- * only some of its points are searched. \code pcl6d::KdTree<pcl::PointXYZ> tree;
+ * only some of its points are searched.
+ * \code
+ * pcl6d::KdTree<pcl::PointXYZ> tree;
  * tree.setInputCloud(cloud);
  * tree.nearestKSearch(query, 5, indices, squared_distances);
  * \endcode \ingroup search */
@@ -34,31 +36,39 @@ public:
 
   /** \brief Builds the tree. \param[in] indices the points to search; null: all
    * \throws BadArgument the cloud is null */
-  void setInputCloud(const PointCloudConstPtr& cloud,
-                     const pcl::IndicesConstPtr& indices = nullptr) override;
+  void
+  setInputCloud(const PointCloudConstPtr& cloud,
+                const pcl::IndicesConstPtr& indices = nullptr) override;
 
   /** \return the number of neighbours found: k, or all points if there are fewer */
-  int nearestKSearch(const PointT& point,
-                     int k,
-                     pcl::Indices& k_indices,
-                     std::vector<float>& k_sqr_distances) const override;
+  int
+  nearestKSearch(const PointT& point,
+                 int k,
+                 pcl::Indices& k_indices,
+                 std::vector<float>& k_sqr_distances) const override;
 
   /** \return the number of points nearer than radius [m]
    * \param[in] max_nn keep only so many of the nearest; 0: all */
-  int radiusSearch(const PointT& point,
-                   double radius,
-                   pcl::Indices& k_indices,
-                   std::vector<float>& k_sqr_distances,
-                   unsigned int max_nn = 0) const override;
+  int
+  radiusSearch(const PointT& point,
+               double radius,
+               pcl::Indices& k_indices,
+               std::vector<float>& k_sqr_distances,
+               unsigned int max_nn = 0) const override;
 
   /** \return the tree of the core; null before setInputCloud(). Its indices are those
    * of the searched points, in their order */
-  std::shared_ptr<const PointTree> tree() const { return point_tree_; }
+  std::shared_ptr<const PointTree>
+  tree() const
+  {
+    return point_tree_;
+  }
 
 private:
-  int toPcl(const std::vector<Neighbour>& found,
-            pcl::Indices& indices,
-            std::vector<float>& sqr_distances) const;
+  int
+  toPcl(const std::vector<Neighbour>& found,
+        pcl::Indices& indices,
+        std::vector<float>& sqr_distances) const;
 
   unsigned int num_threads_;
   std::shared_ptr<const PointTree> point_tree_;

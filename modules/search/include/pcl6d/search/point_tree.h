@@ -39,17 +39,19 @@ public:
   explicit PointTree(const Points& points = {}, unsigned int num_threads = 0);
 
   /** \return the number of finite points */
-  std::size_t size() const;
+  std::size_t
+  size() const;
 
   /** \brief The nearest point within a distance.
    * \param[in] max_distance_sq [m^2]; a point at exactly this distance is not accepted
    * \return index -1 if there is none, or the query is not finite */
-  Neighbour nearest(const Eigen::Vector3f& query, float max_distance_sq) const;
+  Neighbour
+  nearest(const Eigen::Vector3f& query, float max_distance_sq) const;
 
-  /** \brief The same with a first candidate, which often is the neighbour of the last ICP
-   * iteration. It makes the search faster and never changes its result.
-   * \param[in] candidate a place in the input points, or -1
-   * \param[in] candidate_point the coordinates of that point */
+  /** \brief The same with a first candidate, which often is the neighbour of the last
+   * ICP iteration. It makes the search faster and never changes its result. \param[in]
+   * candidate a place in the input points, or -1 \param[in] candidate_point the
+   * coordinates of that point */
   Neighbour
   nearest(const Eigen::Vector3f& query,
           float max_distance_sq,
@@ -57,13 +59,15 @@ public:
           const Eigen::Vector3f& candidate_point) const;
 
   /** \brief The k nearest points, nearest first, ties by index. */
-  std::vector<Neighbour> nearestK(const Eigen::Vector3f& query, std::size_t k) const;
+  std::vector<Neighbour>
+  nearestK(const Eigen::Vector3f& query, std::size_t k) const;
 
   /** \brief All points nearer than a distance, nearest first, ties by index.
    * \param[in] max_count keep only so many of the nearest; 0: all */
-  std::vector<Neighbour> withinRadius(const Eigen::Vector3f& query,
-                                      float radius_sq,
-                                      std::size_t max_count = 0) const;
+  std::vector<Neighbour>
+  withinRadius(const Eigen::Vector3f& query,
+               float radius_sq,
+               std::size_t max_count = 0) const;
 
 private:
   using Box = Eigen::AlignedBox3f;
@@ -72,13 +76,16 @@ private:
     std::size_t end;
   };
 
-  Range pointsOf(std::size_t node, int level) const;
-  void buildNode(std::size_t node,
-                 int level,
-                 const Points& points,
-                 unsigned int num_threads);
+  Range
+  pointsOf(std::size_t node, int level) const;
+  void
+  buildNode(std::size_t node,
+            int level,
+            const Points& points,
+            unsigned int num_threads);
   template <typename Visitor>
-  void visit(const Eigen::Vector3f& query, Visitor& visitor) const;
+  void
+  visit(const Eigen::Vector3f& query, Visitor& visitor) const;
 
   int depth_ = 0;          ///< level of the leaves; the root is level 0
   std::vector<Box> boxes_; ///< tight boxes of the nodes

@@ -31,20 +31,30 @@ public:
    * \param[in] intensities one per point, or empty
    * \param[in] scan the scan's number, kept with each point
    * \throws BadArgument sizes differ, or a point lies outside the grid (voxelKey()) */
-  void addScan(const Points& points,
-               const std::vector<float>& intensities,
-               const Eigen::Isometry3d& T_world_scan,
-               std::uint32_t scan);
+  void
+  addScan(const Points& points,
+          const std::vector<float>& intensities,
+          const Eigen::Isometry3d& T_world_scan,
+          std::uint32_t scan);
 
   /** \return the map's points [m], relative to the world offset */
-  const Points& points() const { return points_; }
+  const Points&
+  points() const
+  {
+    return points_;
+  }
 
   /** \return per point the number of the scan that it came from */
-  const std::vector<std::uint32_t>& scans() const { return scans_; }
+  const std::vector<std::uint32_t>&
+  scans() const
+  {
+    return scans_;
+  }
 
   /** \return the map as a cloud with fields x y z, scan (uint32), and intensity if
    * every scan had it */
-  pcl::PCLPointCloud2 cloud() const;
+  pcl::PCLPointCloud2
+  cloud() const;
 
 private:
   double voxel_;

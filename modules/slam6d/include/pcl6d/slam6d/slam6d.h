@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace pcl6d {
 
@@ -19,7 +20,11 @@ namespace pcl6d {
  * then ICP (4.1) matches the scan against the union of earlier scans (metascan). A scan
  * that cannot be matched keeps its predicted pose, says so in its state, and is left
  * out of the metascan. The first scan keeps its pose. The same bits for any number of
- * threads. \code pcl6d::Slam6D slam; for (...) slam.addScan(cloud, rough_pose);
+ * threads.
+ * \code
+ * pcl6d::Slam6D slam;
+ * for (...)
+ *   slam.addScan(cloud, rough_pose);
  * slam.optimize();
  * for (const auto& scan : slam.result().scans)
  *   use(scan.T_world_scan);
@@ -33,37 +38,51 @@ public:
   explicit Slam6D(const Slam6DOptions& options = {});
   ~Slam6D();
   Slam6D(Slam6D&&) noexcept;
-  Slam6D& operator=(Slam6D&&) noexcept;
+  Slam6D&
+  operator=(Slam6D&&) noexcept;
 
   /** \brief Adds a scan. Only its reduced points are kept.
    * \param[in] points in the scan's own frame, right-handed [m]; NaN points are dropped
    * \param[in] initial_pose rough T_world_scan, e.g. odometry
-   * \throws BadArgument fewer than 3 finite points, or the pose is not rigid */
-  void addScan(const Points& points, const Eigen::Isometry3d& initial_pose);
+   * \param[in] name for messages, e.g. its file; empty: "scan 7"
+   * \throws BadArgument fewer than 3 finite points, or the pose is not rigid
+   * \throws ComputeFailed as optimize() */
+  void
+  addScan(const Points& points,
+          const Eigen::Isometry3d& initial_pose,
+          const std::string& name = "");
 
   template <typename PointT>
-  void addScan(const pcl::PointCloud<PointT>& cloud,
-               const Eigen::Isometry3d& initial_pose)
+  void
+  addScan(const pcl::PointCloud<PointT>& cloud,
+          const Eigen::Isometry3d& initial_pose,
+          const std::string& name = "")
   {
-    addScan(toPoints(cloud), initial_pose);
+    addScan(toPoints(cloud), initial_pose, name);
   }
 
   /** \brief Registers all scans that were added and not yet registered.
    * \return false if cancel() stopped it; calling it again goes on
-   * \throws BadArgument no scan was added, or the range gate leaves a scan with fewer
-   * than 3 points */
-  bool optimize();
+   * \throws BadArgument no scan was added
+   * \throws ComputeFailed the range gate leaves a scan with fewer than 3 points, or its
+   * extent has more voxels than the grid can number */
+  bool
+  optimize();
 
   /** \brief Asks a running optimize() to stop after the current scan. May be called
    * from another thread or a callback. */
-  void cancel();
+  void
+  cancel();
 
   /** \brief Results so far. Scans not yet registered are kPending, at predicted poses.
    */
-  const Slam6DResult& result() const;
+  const Slam6DResult&
+  result() const;
 
-  void setProgressCallback(ProgressCallback callback);
-  void setObserver(Observer observer);
+  void
+  setProgressCallback(ProgressCallback callback);
+  void
+  setObserver(Observer observer);
 
 private:
   class Implementation;

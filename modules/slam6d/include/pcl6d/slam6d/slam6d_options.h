@@ -22,7 +22,8 @@ struct Slam6DOptions {
                                 ///< is not believed; in [0, 1]
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 } // namespace pcl6d

@@ -65,10 +65,12 @@ struct Slam6DResult {
   double matching_seconds = 0;
 
   /** \return the number of scans in a state */
-  std::size_t count(ScanState state) const;
+  std::size_t
+  count(ScanState state) const;
 
   /** \return whether every scan is fixed or matched */
-  bool trusted() const;
+  bool
+  trusted() const;
 };
 
 } // namespace pcl6d

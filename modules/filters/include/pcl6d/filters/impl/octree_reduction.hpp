@@ -20,7 +20,8 @@ OctreeReduction<PointT>::applyFilter(PointCloud& output)
   options_.validate();
   const auto& input = *this->input_;
   const pcl::Indices& chosen = *this->indices_;
-  const VoxelGroups groups(toPoints(input, chosen), options_.voxel);
+  const Points points = toPoints(input, chosen);
+  const VoxelGroups groups(points, options_.voxel);
   output.clear();
   output.header = input.header;
   output.is_dense = true;
@@ -41,6 +42,8 @@ OctreeReduction<PointT>::applyFilter(PointCloud& output)
       for (const auto i : members)
         mean.add(input[chosen[i]]);
       mean.get(point);
+      // PCL sums in float, which drifts out of the voxel far from the origin.
+      point.getVector3fMap() = meanOf(points, members);
     }
     output.push_back(point);
   }

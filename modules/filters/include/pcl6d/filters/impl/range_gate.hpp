@@ -7,7 +7,8 @@
 namespace pcl6d {
 
 template <typename PointT>
-RangeGate<PointT>::RangeGate()
+RangeGate<PointT>::RangeGate(bool extract_removed_indices)
+: pcl::FilterIndices<PointT>(extract_removed_indices)
 {
   this->filter_name_ = "RangeGate";
 }
@@ -29,7 +30,7 @@ RangeGate<PointT>::applyFilter(pcl::Indices& indices)
   this->removed_indices_->clear();
   for (const auto index : *this->indices_) {
     const Eigen::Vector3f p = (*this->input_)[index].getVector3fMap();
-    if (isWithinRange(p, min_range_, max_range_) != this->negative_)
+    if (p.allFinite() && isWithinRange(p, min_range_, max_range_) != this->negative_)
       indices.push_back(index);
     else if (this->extract_removed_indices_)
       this->removed_indices_->push_back(index);

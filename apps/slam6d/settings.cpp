@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/command_line.h"
+#include "slam6d/settings.h"
+
+#include <sstream>
+
+namespace po = boost::program_options;
+
+namespace pcl6d::app {
+
+namespace {
+constexpr const char* kUsageText =
+    "usage: pcl_slam6d SCAN_DIR -o OUT_DIR [options]\n"
+    "Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one "
+    "map\n"
+    "and writes poses, map, picture and summary. Distances are in metres.\n";
+
+/** Values that the command line knows in another form than the library. */
+struct Raw {
+  std::string format = "auto";
+  std::string metascan = "all";
+  AutoDouble min_range, max_range, voxel, max_distance, max_distance_start;
+  int last = -1;
+  int threads = 0;
+};
+
+void
+describeInput(CommandLine& line, Settings& s, Raw& raw)
+{
+  line.group("Input").add_options()(
+      "first",
+      po::value(&s.folder.first)->default_value(s.folder.first),
+      "index of the first scan to take, in the order of the folder")(
+      "last",
+      po::value(&raw.last),
+      "index of the last scan to take (default: the end)")(
+      "every",
+      po::value(&s.folder.every)->default_value(s.folder.every),
+      "take each n-th scan")(
+      "poses",
+      po::value<std::string>()->value_name("FILE")->notifier(
+          [&s](const std::string& file) { s.folder.poses_file = file; }),
+      "initial poses, KITTI or TUM rows, one per scan of the folder (default: *.pose, "
+      "odometry.txt, poses.txt, PCD VIEWPOINT or identity, the first that is there)")(
+      "format",
+      po::value(&raw.format)->default_value(raw.format),
+      "auto|pcd|ply|uos|kitti|xyz");
+}
+
+void
+describeMatching(CommandLine& line, Settings& s, Raw& raw)
+{
+  line.group("Range gate and reduction")
+      .add_options()("min-range",
+                     po::value(&raw.min_range)->default_value(raw.min_range),
+                     "[m] or auto: nearer points are dropped")(
+          "max-range",
+          po::value(&raw.max_range)->default_value(raw.max_range),
+          "[m] or auto: farther points are dropped; auto drops no-return codes")(
+          "voxel",
+          po::value(&raw.voxel)->default_value(raw.voxel),
+          "[m] or auto: edge length of the octree reduction");
+  line.group("Matching")
+      .add_options()("max-distance",
+                     po::value(&raw.max_distance)->default_value(raw.max_distance),
+                     "[m] or auto: largest pair distance")(
+          "max-distance-start",
+          po::value(&raw.max_distance_start)->default_value(raw.max_distance_start),
+          "[m] or auto: largest pair distance of the first iteration, which then "
+          "shrinks to "
+          "--max-distance")(
+          "metascan",
+          po::value(&raw.metascan)->value_name("N|all")->default_value("all"),
+          "match against the union of the last N scans; 1 is pairwise")(
+          "iterations",
+          po::value(&s.slam.max_iterations)->default_value(s.slam.max_iterations),
+          "most iterations of one ICP; a scan that needs more is not converged")(
+          "min-overlap",
+          po::value(&s.slam.min_overlap)->default_value(s.slam.min_overlap),
+          "share of points with a partner below which a match is not believed");
+}
+
+void
+describeRun(CommandLine& line, Settings& s, Raw& raw)
+{
+  line.group("Run").add_options()("output,o",
+                                  po::value(&s.out)->value_name("OUT_DIR"),
+                                  "folder to write; made if missing")(
+      "threads",
+      po::value(&raw.threads)->default_value(0),
+      "0: one per core; never changes the result")(
+      "seed",
+      po::value(&s.seed)->default_value(s.seed),
+      "of random choices (none in the methods so far)")(
+      "force", po::bool_switch(&s.force), "write into a folder that holds other files")(
+      "quiet", po::bool_switch(&s.quiet), "print errors only")(
+      "verbose", po::bool_switch(&s.verbose), "print a line per scan");
+}
+
+std::optional<double>
+toOptional(const AutoDouble& value)
+{
+  return value.is_auto ? std::nullopt : std::optional<double>(value.value);
+}
+
+int
+metascanFromText(const std::string& text)
+{
+  if (text == "all")
+    return 0;
+  std::istringstream stream(text);
+  int count = 0;
+  if (!(stream >> count) || !stream.eof() || count < 1)
+    throw UsageError("--metascan " + text + ": expected a number >= 1 or all");
+  return count;
+}
+
+void
+interpret(const CommandLine& line, const Raw& raw, Settings& s)
+{
+  if (s.out.empty())
+    throw UsageError("-o OUT_DIR is missing");
+  if (raw.threads < 0)
+    throw UsageError("--threads " + std::to_string(raw.threads) + ": must be >= 0");
+  if (line.given("last"))
+    s.folder.last = raw.last;
+  s.slam.num_threads = static_cast<unsigned int>(raw.threads);
+  s.slam.metascan = metascanFromText(raw.metascan);
+  s.slam.min_range = toOptional(raw.min_range);
+  s.slam.max_range = toOptional(raw.max_range);
+  s.slam.voxel = toOptional(raw.voxel);
+  s.slam.max_distance = toOptional(raw.max_distance);
+  s.slam.max_distance_start = toOptional(raw.max_distance_start);
+  checkOptions([&] {
+    s.folder.format = scanFormatFromName(raw.format);
+    s.folder.validate();
+    s.slam.validate();
+  });
+}
+
+template <typename T>
+Settings::Word
+word(const CommandLine& line, const std::string& name, const T& value)
+{
+  std::ostringstream text;
+  text << value;
+  return {name, text.str(), line.given(name)};
+}
+
+/** The words that go into the summary; lengths go there as parameters. */
+std::vector<Settings::Word>
+wordsOf(const CommandLine& line, const Raw& raw, const Settings& s)
+{
+  return {word(line, "first", s.folder.first),
+          word(line, "last", s.folder.last ? std::to_string(*s.folder.last) : "end"),
+          word(line, "every", s.folder.every),
+          word(line, "poses", s.folder.poses_file.string()),
+          word(line, "format", raw.format),
+          word(line, "metascan", raw.metascan),
+          word(line, "iterations", s.slam.max_iterations),
+          word(line, "min-overlap", s.slam.min_overlap),
+          word(line, "threads", raw.threads),
+          word(line, "seed", s.seed)};
+}
+} // namespace
+
+bool
+parseSettings(const std::vector<std::string>& arguments, Settings& settings)
+{
+  CommandLine line(kUsageText);
+  Raw raw;
+  line.positional("SCAN_DIR", &settings.input);
+  describeInput(line, settings, raw);
+  describeMatching(line, settings, raw);
+  describeRun(line, settings, raw);
+  if (!line.parse(arguments))
+    return false;
+  interpret(line, raw, settings);
+  settings.words = wordsOf(line, raw, settings);
+  return true;
+}
+
+std::vector<std::pair<std::string, Parameter>>
+named(const Slam6DParameters& parameters)
+{
+  return {{"min-range", parameters.min_range},
+          {"max-range", parameters.max_range},
+          {"voxel", parameters.voxel},
+          {"max-distance", parameters.max_distance},
+          {"max-distance-start", parameters.max_distance_start}};
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/slam6d/slam6d_options.h>
+#include <pcl6d/slam6d/slam6d_result.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief The command line of pcl_slam6d. */
+struct Settings {
+  std::string input;
+  std::string out;
+  ScanFolderOptions folder;
+  Slam6DOptions slam;
+  std::uint64_t seed = 1;
+  bool force = false;
+  bool quiet = false;
+  bool verbose = false;
+  /** options as given, or as they are by default: name, value, whether given */
+  struct Word {
+    std::string name;
+    std::string value;
+    bool given;
+  };
+  std::vector<Word> words;
+};
+
+/** \brief Fills the settings from the command line and the config file.
+ * \return false when there is nothing more to do (--help)
+ * \throws UsageError, boost::program_options::error an option breaks its rule */
+bool
+parseSettings(const std::vector<std::string>& arguments, Settings& settings);
+
+/** \return the parameters under the names of their options */
+std::vector<std::pair<std::string, Parameter>>
+named(const Slam6DParameters& parameters);
+
+} // namespace pcl6d::app

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief What summary.json tells of a run, in plain data. \ingroup io */
+struct RunSummary {
+  static constexpr int kSchemaVersion = 1;
+
+  /** \brief An option and where its value comes from. */
+  struct Option {
+    std::string name;
+    std::string value;
+    std::string source; ///< "given", "default" or "derived"
+    std::string why;    ///< of a derived value; else empty
+  };
+
+  struct Stage {
+    std::string name;
+    double seconds = 0;
+    double peak_memory_mb = 0; ///< largest resident size of the process so far [MB]
+  };
+
+  struct ScanEntry {
+    std::string file;
+    Eigen::Isometry3d T_world_scan =
+        Eigen::Isometry3d::Identity(); ///< full coordinates
+    /** of x y z roll pitch yaw [m, rad]; none if not known */
+    std::optional<Eigen::Matrix<double, 6, 6>> covariance;
+    std::string state;  ///< "fixed", "matched", ...
+    std::string status; ///< of ICP
+    std::size_t points = 0;
+    std::size_t dropped = 0; ///< points left out because they were not finite
+    std::size_t reduced = 0;
+    std::size_t pairs = 0;
+    double rms = 0; ///< [m]
+    double overlap = 0;
+    int iterations = 0;
+  };
+
+  std::string version;
+  Eigen::Vector3d world_offset = Eigen::Vector3d::Zero(); ///< [m]
+  std::string pose_source;
+  std::vector<Option> options;
+  std::vector<Stage> stages;
+  std::vector<ScanEntry> scans;
+  std::size_t map_points = 0;
+  bool complete = true; ///< false: interrupted, part of the scans is not registered
+  bool trusted = true;  ///< every scan was matched
+  std::string verdict;  ///< the same in words, naming what is not to be trusted
+};
+
+/** \brief Writes summary.json (fields: share/doc/run_folder.md), atomically.
+ * \throws IoFailed the file cannot be written \ingroup io */
+void
+writeRunSummary(const std::filesystem::path& path, const RunSummary& summary);
+
+} // namespace pcl6d

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/run_summary.h>
+
+#include <nlohmann/json.hpp>
+
+#include <ostream>
+
+namespace pcl6d {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+template <typename Matrix>
+Json
+rowByRow(const Matrix& matrix)
+{
+  Json numbers = Json::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+      numbers.push_back(matrix(row, column));
+  return numbers;
+}
+
+/** Six rows of six numbers, or null. */
+Json
+covarianceOf(const RunSummary::ScanEntry& scan)
+{
+  if (!scan.covariance)
+    return nullptr;
+  Json rows = Json::array();
+  for (int row = 0; row < 6; ++row)
+    rows.push_back(rowByRow(scan.covariance->row(row)));
+  return rows;
+}
+
+Json
+toJson(const RunSummary::Option& option)
+{
+  Json json{{"value", option.value}, {"source", option.source}};
+  if (!option.why.empty())
+    json["why"] = option.why;
+  return json;
+}
+
+Json
+toJson(const RunSummary::ScanEntry& scan)
+{
+  return {{"file", scan.file},
+          {"T_world_scan", rowByRow(scan.T_world_scan.matrix())},
+          {"covariance", covarianceOf(scan)},
+          {"state", scan.state},
+          {"status", scan.status},
+          {"points", scan.points},
+          {"dropped", scan.dropped},
+          {"reduced", scan.reduced},
+          {"pairs", scan.pairs},
+          {"rms", scan.rms},
+          {"overlap", scan.overlap},
+          {"iterations", scan.iterations}};
+}
+
+Json
+totalsOf(const RunSummary& summary)
+{
+  double seconds = 0, memory = 0;
+  for (const auto& stage : summary.stages) {
+    seconds += stage.seconds;
+    memory = std::max(memory, stage.peak_memory_mb);
+  }
+  std::size_t points = 0;
+  for (const auto& scan : summary.scans)
+    points += scan.points;
+  return {{"scans", summary.scans.size()},
+          {"points", points},
+          {"map_points", summary.map_points},
+          {"seconds", seconds},
+          {"peak_memory_mb", memory}};
+}
+} // namespace
+
+void
+writeRunSummary(const std::filesystem::path& path, const RunSummary& summary)
+{
+  Json json;
+  json["schema_version"] = RunSummary::kSchemaVersion;
+  json["version"] = summary.version;
+  json["world_offset"] = rowByRow(summary.world_offset.transpose());
+  json["pose_source"] = summary.pose_source;
+  json["verdict"] = {{"trusted", summary.trusted},
+                     {"complete", summary.complete},
+                     {"text", summary.verdict}};
+  json["totals"] = totalsOf(summary);
+  json["options"] = Json::object();
+  for (const auto& option : summary.options)
+    json["options"][option.name] = toJson(option);
+  json["stages"] = Json::array();
+  for (const auto& stage : summary.stages)
+    json["stages"].push_back({{"name", stage.name},
+                              {"seconds", stage.seconds},
+                              {"peak_memory_mb", stage.peak_memory_mb}});
+  json["scans"] = Json::array();
+  for (const auto& scan : summary.scans)
+    json["scans"].push_back(toJson(scan));
+  writeFileAtomically(path,
+                      [&](std::ostream& stream) { stream << json.dump(1) << '\n'; });
+}
+
+} // namespace pcl6d

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/points.h"
+
+#include <pcl6d/filters/range_gate.h>
+#include <pcl6d/filters/range_statistics.h>
+
+using pcl6d::RangeGate;
+using pcl6d::test::badArgumentOf;
+using pcl6d::test::kInfinity;
+using pcl6d::test::kNan;
+using pcl6d::test::toCloud;
+
+namespace {
+using Point = pcl::PointXYZ;
+/** Ranges 1, 5, 5 + 1 ulp, 10, none, none, 0: places 0 to 6. */
+const pcl6d::Points kPoints{{1, 0, 0},
+                            {3, 0, -4},
+                            {0, 5.0000005f, 0},
+                            {0, -6, 8},
+                            {kNan, 0, 0},
+                            {0, 0, kInfinity},
+                            {0, 0, 0}};
+
+pcl::Indices
+kept(RangeGate<Point>& gate)
+{
+  gate.setInputCloud(toCloud<Point>(kPoints));
+  pcl::Indices indices;
+  gate.filter(indices);
+  return indices;
+}
+} // namespace
+
+TEST(RangeGate, KeepsPointsAtBothLimits)
+{
+  RangeGate<Point> gate;
+  gate.setLimits(1, 5);
+  EXPECT_EQ(kept(gate), (pcl::Indices{0, 1}));
+  gate.setLimits(5, 10);
+  EXPECT_EQ(kept(gate), (pcl::Indices{1, 2, 3}));
+  gate.setLimits(5, 5);
+  EXPECT_EQ(kept(gate), (pcl::Indices{1}));
+}
+
+TEST(RangeGate, KeepsAllFinitePointsUnlessToldOtherwise)
+{
+  RangeGate<Point> gate;
+  EXPECT_EQ(kept(gate), (pcl::Indices{0, 1, 2, 3, 6}));
+}
+
+TEST(RangeGate, KeepsTheOthersWhenNegative)
+{
+  RangeGate<Point> gate;
+  gate.setLimits(1, 5);
+  gate.setNegative(true);
+  // Points that are not finite never pass, as in pcl::PassThrough.
+  EXPECT_EQ(kept(gate), (pcl::Indices{2, 3, 6}));
+}
+
+TEST(RangeGate, LooksOnlyAtTheChosenPoints)
+{
+  RangeGate<Point> gate;
+  gate.setLimits(1, 5);
+  gate.setIndices(pcl::make_shared<pcl::Indices>(pcl::Indices{3, 1, 4}));
+  EXPECT_EQ(kept(gate), (pcl::Indices{1}));
+}
+
+TEST(RangeGate, ReportsWhatItRemoved)
+{
+  RangeGate<Point> gate(true);
+  gate.setLimits(1, 5);
+  EXPECT_EQ(kept(gate), (pcl::Indices{0, 1}));
+  EXPECT_EQ(*gate.getRemovedIndices(), (pcl::Indices{2, 3, 4, 5, 6}));
+  EXPECT_EQ(kept(gate), (pcl::Indices{0, 1}));
+  EXPECT_EQ(gate.getRemovedIndices()->size(), 5u) << "and starts anew each time";
+}
+
+TEST(RangeGate, FiltersCloudsAsAPclFilter)
+{
+  RangeGate<Point> gate;
+  gate.setLimits(1, 5);
+  pcl::Filter<Point>& filter = gate;
+  filter.setInputCloud(toCloud<Point>(kPoints));
+  pcl::PointCloud<Point> output;
+  filter.filter(output);
+  EXPECT_EQ(pcl6d::toPoints(output), (pcl6d::Points{kPoints[0], kPoints[1]}));
+}
+
+TEST(RangeGate, KeepsCloudsOrganized)
+{
+  RangeGate<Point> gate(true);
+  gate.setLimits(1, 5);
+  gate.setKeepOrganized(true);
+  gate.setInputCloud(toCloud<Point>(kPoints));
+  pcl::PointCloud<Point> output;
+  gate.filter(output);
+  ASSERT_EQ(output.size(), kPoints.size());
+  EXPECT_EQ(output[1].z, -4);
+  EXPECT_TRUE(std::isnan(output[3].x));
+}
+
+TEST(RangeGate, RefusesLimitsThatBreakTheirRule)
+{
+  RangeGate<Point> gate;
+  gate.setLimits(1, 5);
+  for (const double bad : {-0.1, double{kNan}})
+    EXPECT_NE(badArgumentOf([&] { gate.setLimits(bad, 2); }).find("min_range = "),
+              std::string::npos);
+  for (const double bad : {0.5, double{kNan}, -double{kInfinity}})
+    EXPECT_NE(badArgumentOf([&] { gate.setLimits(1, bad); }).find("max_range = "),
+              std::string::npos);
+  EXPECT_EQ(kept(gate), (pcl::Indices{0, 1})) << "the old limits stay";
+}
+
+TEST(GateByRange, GivesThePointsOfTheGateInTheirOrder)
+{
+  EXPECT_EQ(pcl6d::gateByRange(kPoints, 1, 5), (pcl6d::Points{kPoints[0], kPoints[1]}));
+  EXPECT_EQ(pcl6d::gateByRange(kPoints, 0, kInfinity).size(), 5u);
+  EXPECT_TRUE(pcl6d::gateByRange({}, 0, 1).empty());
+}

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Installs what the suite needs to build, test and run, on Debian and Ubuntu. Does nothing
+# where everything is there. On another system it lists the packages and exits with 1.
+set -euo pipefail
+
+# Per line: the Debian package, then a file or program that it gives. A package is only
+# installed if what it gives is missing, so that a hand-made installation is respected.
+needs=(
+  "g++ g++"
+  "cmake cmake"
+  "ninja-build ninja"
+  "ccache ccache"
+  "xvfb Xvfb"
+  "libboost-all-dev /usr/include/boost/process.hpp"
+  "libeigen3-dev /usr/include/eigen3/Eigen/Core"
+  "libembree-dev /usr/include/embree3/rtcore.h"
+  "libflann-dev /usr/include/flann/flann.hpp"
+  "libgtest-dev /usr/include/gtest/gtest.h"
+  "libbenchmark-dev /usr/include/benchmark/benchmark.h"
+  "libpcl-dev /usr/include/pcl-*/pcl/point_cloud.h"
+  "libvtk9-dev /usr/include/vtk-9*/vtkVersion.h"
+  "libx11-dev /usr/include/X11/Xlib.h"
+  "nlohmann-json3-dev /usr/include/nlohmann/json.hpp"
+)
+
+given() { # what: a program's name, or a file pattern with an absolute path
+  case $1 in
+    /*) compgen -G "$1" >/dev/null ;;
+    *) command -v "$1" >/dev/null ;;
+  esac
+}
+
+missing=()
+for need in "${needs[@]}"; do
+  read -r package what <<<"$need"
+  given "$what" || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "dependencies: all there"
+  exit 0
+fi
+
+if ! command -v apt-get >/dev/null; then
+  echo "error: no apt-get here. Please install, under your system's names: ${missing[*]}" >&2
+  exit 1
+fi
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "error: neither root nor sudo. Please install as root: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "dependencies: installing ${missing[*]}"
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -q --no-install-recommends "${missing[@]}"

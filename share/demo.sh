@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# From nothing to a registered 3D map: installs what is missing, builds the programs that are
+# needed, simulates a robot's drive through a corridor, and registers its scans.
+# usage: share/demo.sh [OUT_DIR]     (default: build/demo)
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+out=${1:-$root/build/demo}
+bin=$root/build/release/bin
+
+step() { printf '\n== %s\n' "$*"; }
+
+step "1/4 dependencies"
+"$root/cmake/install_dependencies.sh"
+
+step "2/4 build (a few minutes the first time)"
+cd "$root"
+cmake --preset release --log-level=WARNING
+cmake --build build/release --target demo
+
+step "3/4 sample data: a robot drives through a corridor, rooms and over a ramp"
+"$bin/pcl_slam6d_simulate" corridor -o "$out/scans" --seed 1 --force
+
+step "4/4 register the scans"
+"$bin/pcl_slam6d" "$out/scans" -o "$out/map" --force
+
+rms() { # position rms [m] without alignment of a trajectory against the truth
+  "$bin/pcl_slam6d_evaluate" trajectory "$1" "$out/scans/groundtruth.txt" --json - |
+    sed -n 's/.*"rms": *\([0-9.e+-]*\).*/\1/p' | head -n 1
+}
+before=$(rms "$out/scans/odometry.txt")
+after=$(rms "$out/map/trajectory.kitti")
+
+step "done"
+cat <<TEXT
+poses:    $out/map/trajectory.kitti
+map:      $out/map/map.pcd   (pcl_viewer $out/map/scans/*.pcd shows the scans in place)
+picture:  $out/map/top_view.png
+summary:  $out/map/summary.json
+position error (rms against the truth): $(printf '%.3f' "$before") m before, $(printf '%.3f' "$after") m after
+TEXT

@@ -13,6 +13,9 @@
 #include <filesystem>
 #include <locale>
 #include <string>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
 #include <vector>
 
 namespace pcl6d::test {
@@ -49,6 +52,17 @@ namesIn(const std::filesystem::path& folder)
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     names.push_back(entry.path().filename().string());
   return names;
+}
+
+/** \return a device on which every write fails for want of space. For root it is one of
+ * its own in the folder: a fault in the code under test must not replace /dev/full,
+ * which nobody but root can. */
+inline std::filesystem::path
+fullDevice(const TempFolder& folder)
+{
+  const std::filesystem::path path = folder / "full";
+  const bool made = ::mknod(path.c_str(), S_IFCHR | 0666, makedev(1, 7)) == 0;
+  return made || ::geteuid() == 0 ? path : "/dev/full";
 }
 
 /** \return the bytes of numbers, to be written as a binary file */
@@ -93,17 +107,29 @@ valueOf(const pcl::PCLPointCloud2& cloud,
 class DecimalComma {
 public:
   DecimalComma() : before_(std::locale::global(std::locale(std::locale(), new Comma)))
-  {
-  }
+  {}
   ~DecimalComma() { std::locale::global(before_); }
   DecimalComma(const DecimalComma&) = delete;
-  DecimalComma& operator=(const DecimalComma&) = delete;
+  DecimalComma&
+  operator=(const DecimalComma&) = delete;
 
 private:
   struct Comma : std::numpunct<char> {
-    char do_decimal_point() const override { return ','; }
-    char do_thousands_sep() const override { return '.'; }
-    std::string do_grouping() const override { return "\3"; }
+    char
+    do_decimal_point() const override
+    {
+      return ',';
+    }
+    char
+    do_thousands_sep() const override
+    {
+      return '.';
+    }
+    std::string
+    do_grouping() const override
+    {
+      return "\3";
+    }
   };
   std::locale before_;
 };

@@ -59,7 +59,7 @@ makeRichCloud(std::size_t count)
     put(0, 0.1f * k);
     put(4, -1e-30f * k);
     put(8, i == 1 ? std::numeric_limits<float>::quiet_NaN() : std::sqrt(k));
-    put(16, std::uint32_t{0xff102030} + static_cast<std::uint32_t>(i)); // nan as float
+    put(16, std::uint32_t{0xff902030} + static_cast<std::uint32_t>(i)); // nan as float
     put(20, 1.0f / (k + 1));
     put(24, std::uint32_t{4000000000} + static_cast<std::uint32_t>(i));
     for (std::size_t m = 0; m < 3; ++m)

@@ -3,6 +3,7 @@
 
 #include <pcl6d/io/atomic_file.h>
 
+#include <fstream>
 #include <ostream>
 #include <stdexcept>
 
@@ -76,16 +77,32 @@ TEST(AtomicFile, NamesTheFileAndTheReasonWhenItCannotBeWritten)
   expectIoFailed(path, "Not a directory", to(path));
   path = folder.path();
   expectIoFailed(path, "cannot be written: it is a folder", to(path));
-  path = "/dev/full";
-  expectIoFailed(path, "No space left on device", to(path));
   EXPECT_EQ(namesIn(folder.path()).size(), 1u);
 }
 
 TEST(AtomicFile, ADeviceIsWrittenAndNotReplaced)
 {
-  writeFileAtomically("/dev/null", [](std::ostream& s) { s << "gone"; });
-  EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+  const pcl6d::test::TempFolder folder;
+  const fs::path full = pcl6d::test::fullDevice(folder);
+  expectIoFailed(full, "No space left on device", [&] {
+    writeFileAtomically(full, [](std::ostream& s) { s << 1; });
+  });
+  EXPECT_TRUE(fs::is_character_file(full));
+  EXPECT_LE(namesIn(folder.path()).size(), 1u);
+}
+
+TEST(AtomicFile, APipeIsWrittenAndNotReplaced)
+{
+  const pcl6d::test::TempFolder folder;
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::fstream keep_open(pipe); // both ends, so that nobody waits for the other
+  writeFileAtomically(pipe, [](std::ostream& s) { s << "content\n"; });
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  std::string line;
+  if (fs::is_fifo(pipe))
+    std::getline(keep_open, line);
+  EXPECT_EQ(line, "content");
 }
 
 TEST(AtomicFile, ALinkStaysALink)

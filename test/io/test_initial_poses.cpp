@@ -32,38 +32,47 @@ kittiRow(double x)
  * that one sees which was taken: scan i stands at x = source + i. */
 class InitialPoses : public testing::Test {
 protected:
-  void SetUp() override { addScans(0); }
+  void
+  SetUp() override
+  {
+    addScans(0);
+  }
 
   /** Writes the scans with this VIEWPOINT. */
-  void addScans(double x) const
+  void
+  addScans(double x) const
   {
     for (int i = 0; i < kScans; ++i)
       pcl6d::writePcd(folder_ / (scanName(i) + ".pcd"),
                       pcl6d::test::makeRichCloud(3),
                       pcl6d::planarPose(x == 0 ? 0 : x + i, 0, 0));
   }
-  void addRows(const std::string& name, double x, int count = kScans) const
+  void
+  addRows(const std::string& name, double x, int count = kScans) const
   {
     std::string rows;
     for (int i = 0; i < count; ++i)
       rows += kittiRow(x + i);
     writeText(folder_ / name, rows);
   }
-  void addScanPoses(double x) const
+  void
+  addScanPoses(double x) const
   {
     for (int i = 0; i < kScans; ++i) // forward is the third number, in cm
       writeText(folder_ / (scanName(i) + ".pose"),
                 "0 0 " + std::to_string(100 * (x + i)) + "\n0 0 0\n");
   }
-  ScanFolder open(const fs::path& poses_file = {}) const
+  ScanFolder
+  open(const fs::path& poses_file = {}) const
   {
     ScanFolderOptions options;
     options.poses_file = poses_file;
     return ScanFolder(folder_.path(), options);
   }
-  void expectSource(const std::string& source,
-                    double x,
-                    const fs::path& poses_file = {}) const
+  void
+  expectSource(const std::string& source,
+               double x,
+               const fs::path& poses_file = {}) const
   {
     const ScanFolder scans = open(poses_file);
     EXPECT_EQ(scans.poseSource(), source);

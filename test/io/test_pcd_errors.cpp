@@ -19,9 +19,10 @@ class BrokenPcd : public testing::Test {
 protected:
   /** Expects that reading fails so, with one entry of the header replaced; an empty
    * value leaves the entry out. */
-  void expectWithEntry(const std::string& word,
-                       const std::string& value,
-                       const std::string& message)
+  void
+  expectWithEntry(const std::string& word,
+                  const std::string& value,
+                  const std::string& message)
   {
     auto header = header_;
     for (auto& entry : header)
@@ -30,19 +31,22 @@ protected:
     expectMessage(textOf(header) + body_, message);
   }
 
-  void expectWithBody(const std::string& body, const std::string& message)
+  void
+  expectWithBody(const std::string& body, const std::string& message)
   {
     expectMessage(textOf(header_) + body, message);
   }
 
-  void expectMessage(const std::string& content, const std::string& message)
+  void
+  expectMessage(const std::string& content, const std::string& message)
   {
     writeText(path_, content);
     expectIoFailed(path_, message, [&] { readPcd(path_); });
   }
 
   using Header = std::vector<std::pair<std::string, std::string>>;
-  static std::string textOf(const Header& header)
+  static std::string
+  textOf(const Header& header)
   {
     std::string text;
     for (const auto& [word, value] : header)

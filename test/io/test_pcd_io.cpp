@@ -221,7 +221,8 @@ TEST(PcdIo, ACloudThatContradictsItselfIsTheCallersMistake)
 
 TEST(PcdIo, AFileThatCannotBeWrittenIsNamed)
 {
-  pcl6d::test::expectIoFailed("/dev/full", "No space left on device", [] {
-    writePcd("/dev/full", makeRichCloud(10000));
-  });
+  const TempFolder folder;
+  const auto full = pcl6d::test::fullDevice(folder);
+  pcl6d::test::expectIoFailed(
+      full, "No space left on device", [&] { writePcd(full, makeRichCloud(10000)); });
 }

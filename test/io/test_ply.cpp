@@ -19,7 +19,8 @@ namespace {
 /** \brief A mesh of two vertices with double coordinates, colours, a normal and a list,
  * ahead of it an element that nobody asked for, behind it two faces. */
 struct Mesh {
-  static std::string header(const std::string& format)
+  static std::string
+  header(const std::string& format)
   {
     return "ply\nformat " + format +
            " 1.0\ncomment made by hand\nobj_info none\n"
@@ -29,14 +30,16 @@ struct Mesh {
            "property float nx\nproperty list uchar int stars\nproperty ushort ring\n"
            "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
   }
-  static std::string ascii()
+  static std::string
+  ascii()
   {
     return header("ascii") + "3.5 2 -7 8\n"
                              "1.5 -2.25 1e3\t10 20 30 0.6 2 77 78 65535\n"
                              "4 5 6 1 2 3 0.8 0 7\n"
                              "3 0 1 1\n0\n";
   }
-  static std::string binary(bool big_endian)
+  static std::string
+  binary(bool big_endian)
   {
     std::string body;
     const auto put = [&](auto value) {
@@ -80,15 +83,17 @@ expectMesh(const pcl6d::Scan& scan)
 
 class BrokenPly : public testing::Test {
 protected:
-  void expectMessage(const std::string& content, const std::string& message)
+  void
+  expectMessage(const std::string& content, const std::string& message)
   {
     writeText(path_, content);
     expectIoFailed(path_, message, [&] { readScan(path_); });
   }
   /** The same with a mesh in which a text was replaced. */
-  void expectWith(const std::string& old_text,
-                  const std::string& new_text,
-                  const std::string& message)
+  void
+  expectWith(const std::string& old_text,
+             const std::string& new_text,
+             const std::string& message)
   {
     std::string content = Mesh::ascii();
     content.replace(content.find(old_text), old_text.size(), new_text);

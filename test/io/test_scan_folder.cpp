@@ -17,14 +17,16 @@ namespace {
 /** \brief A folder with scans of one point each. */
 class ScanFolderTest : public testing::Test {
 protected:
-  void add(const std::vector<std::string>& names)
+  void
+  add(const std::vector<std::string>& names)
   {
     for (const auto& name : names)
       writeText(folder_ / name, "1 2 3\n");
   }
 
   /** \return the names of the selected scans, each followed by a blank */
-  std::string names(const ScanFolderOptions& options = {}) const
+  std::string
+  names(const ScanFolderOptions& options = {}) const
   {
     const ScanFolder scans(folder_.path(), options);
     std::string all;
@@ -33,8 +35,8 @@ protected:
     return all;
   }
 
-  void expectMessage(const std::string& message,
-                     const ScanFolderOptions& options = {}) const
+  void
+  expectMessage(const std::string& message, const ScanFolderOptions& options = {}) const
   {
     expectIoFailed(folder_.path(), message, [&] { names(options); });
   }

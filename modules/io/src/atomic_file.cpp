@@ -34,12 +34,18 @@ public:
       fs::remove(path_, ignored);
   }
   TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  TemporaryFile&
+  operator=(const TemporaryFile&) = delete;
 
-  const fs::path& path() const { return path_; }
+  const fs::path&
+  path() const
+  {
+    return path_;
+  }
 
   /** \return the reason if it did not work */
-  std::error_code rename()
+  std::error_code
+  rename()
   {
     std::error_code error;
     fs::rename(path_, target_, error);

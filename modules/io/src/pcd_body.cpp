@@ -6,6 +6,7 @@
 #include <pcl/io/lzf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -161,7 +162,7 @@ isDense(const pcl::PCLPointCloud2& cloud)
           std::memcpy(&value,
                       &cloud.data[start + field.offset + i * sizeof value],
                       sizeof value);
-          if (value - value != 0) // nan or infinite
+          if (!std::isfinite(static_cast<double>(value)))
             return false;
         }
         return true;

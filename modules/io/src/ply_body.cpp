@@ -20,8 +20,7 @@ class TextBody : public PlyBody {
 public:
   TextBody(const std::filesystem::path& path, std::string_view body, std::size_t line)
   : PlyBody(path), lines_(body, line), tokens_({})
-  {
-  }
+  {}
 
   void
   read(std::uint8_t datatype, const PlyProperty& property, std::uint8_t* value) override
@@ -39,7 +38,8 @@ public:
     });
   }
 
-  void finish() override
+  void
+  finish() override
   {
     endRow();
     while (lines_.next())
@@ -48,7 +48,8 @@ public:
   }
 
 private:
-  void endRow()
+  void
+  endRow()
   {
     const auto token = tokens_.next();
     if (!token.empty())
@@ -57,7 +58,8 @@ private:
                    text::quoted(token) + " is more than the element's properties");
   }
 
-  void nextRow() override
+  void
+  nextRow() override
   {
     endRow();
     do {
@@ -67,7 +69,8 @@ private:
     tokens_ = text::Tokens(lines_.line());
   }
 
-  void skip(const PlyProperty& property, std::size_t count) override
+  void
+  skip(const PlyProperty& property, std::size_t count) override
   {
     std::uint8_t ignored[sizeof(double)];
     for (std::size_t i = 0; i < count; ++i)
@@ -82,10 +85,10 @@ class BinaryBody : public PlyBody {
 public:
   BinaryBody(const std::filesystem::path& path, std::string_view body, bool big_endian)
   : PlyBody(path), rest_(body), big_endian_(big_endian)
-  {
-  }
+  {}
 
-  void read(std::uint8_t datatype, const PlyProperty&, std::uint8_t* value) override
+  void
+  read(std::uint8_t datatype, const PlyProperty&, std::uint8_t* value) override
   {
     const std::size_t size = sizeOf(datatype);
     const std::string_view bytes = take(size);
@@ -94,10 +97,13 @@ public:
       std::reverse(value, value + size);
   }
 
-  void finish() override {} // some writers end the file with a line end
+  void
+  finish() override
+  {} // some writers end the file with a line end
 
 private:
-  std::string_view take(std::size_t size)
+  std::string_view
+  take(std::size_t size)
   {
     if (size > rest_.size())
       text::fail(path_, "the file ends inside " + place());
@@ -106,9 +112,12 @@ private:
     return bytes;
   }
 
-  void nextRow() override {}
+  void
+  nextRow() override
+  {}
 
-  void skip(const PlyProperty& property, std::size_t count) override
+  void
+  skip(const PlyProperty& property, std::size_t count) override
   {
     const std::size_t size = sizeOf(property.datatype);
     take(count > rest_.size() ? count : count * size); // without overflow

@@ -40,7 +40,8 @@ public:
   explicit Parser(const std::filesystem::path& path) : path_(path) {}
 
   /** \return false after the last line of the header */
-  bool take(const text::Lines& lines)
+  bool
+  take(const text::Lines& lines)
   {
     line_ = lines.number();
     text::Tokens tokens(lines.line());
@@ -59,7 +60,8 @@ public:
     return word != "end_header";
   }
 
-  PlyHeader finish()
+  PlyHeader
+  finish()
   {
     if (!has_format_)
       text::fail(path_, "the header has no format");
@@ -67,12 +69,14 @@ public:
   }
 
 private:
-  [[noreturn]] void fail(const std::string& message) const
+  [[noreturn]] void
+  fail(const std::string& message) const
   {
     text::failAt(path_, line_, message);
   }
 
-  void takeFormat(text::Tokens& tokens)
+  void
+  takeFormat(text::Tokens& tokens)
   {
     const auto name = tokens.next();
     const auto encoding = kEncodings.find(name);
@@ -85,7 +89,8 @@ private:
     has_format_ = true;
   }
 
-  void takeElement(text::Tokens& tokens)
+  void
+  takeElement(text::Tokens& tokens)
   {
     PlyElement element;
     element.name = tokens.next();
@@ -98,7 +103,8 @@ private:
     header_.elements.push_back(element);
   }
 
-  void takeProperty(text::Tokens& tokens)
+  void
+  takeProperty(text::Tokens& tokens)
   {
     if (header_.elements.empty())
       fail("a property ahead of all elements");
@@ -119,7 +125,8 @@ private:
     header_.elements.back().properties.push_back(property);
   }
 
-  std::uint8_t datatype(std::string_view name) const
+  std::uint8_t
+  datatype(std::string_view name) const
   {
     const auto known = kDatatypes.find(name);
     if (known == kDatatypes.end())

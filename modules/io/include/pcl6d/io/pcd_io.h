@@ -15,7 +15,8 @@ enum class PcdEncoding { kAscii, kBinary, kBinaryCompressed };
  * moves a scan in national coordinates by up to a metre). Written atomically.
  * \param[in] cloud points in the scan's own frame [m]
  * \param[in] T_world_scan pose of the scan, written as VIEWPOINT tx ty tz qw qx qy qz
- * \throws IoFailed the file cannot be written \ingroup io */
+ * \throws IoFailed the file cannot be written, or compressed has no room for 4 GiB
+ * \throws BadArgument the cloud's fields and data do not fit together \ingroup io */
 void
 writePcd(const std::filesystem::path& path,
          const pcl::PCLPointCloud2& cloud,
@@ -25,7 +26,7 @@ writePcd(const std::filesystem::path& path,
 /** \brief Reads the VIEWPOINT line of a PCD header in double precision.
  * \return T_world_scan; identity if the header has no VIEWPOINT
  * \throws IoFailed the file cannot be read, its header is broken, or the quaternion is
- * zero or not finite */
+ * not finite or not of unit length within 1e-2 */
 Eigen::Isometry3d
 readPcdViewpoint(const std::filesystem::path& path);
 

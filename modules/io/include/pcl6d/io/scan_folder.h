@@ -16,10 +16,12 @@ struct ScanFolderOptions {
   ScanFormat format = ScanFormat::kAuto; ///< auto: the one format found in the folder
   std::filesystem::path poses_file;      ///< KITTI or TUM; empty: search the folder
   int first = 0;                         ///< index of the first scan, >= 0
-  std::optional<int> last; ///< index of the last scan, >= first; none: the end
-  int every = 1;           ///< take each n-th scan, >= 1
+  std::optional<int>
+      last;      ///< index of the last scan, >= first; none or beyond: the end
+  int every = 1; ///< take each n-th scan, >= 1
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \brief Scans of a folder in natural order (scan2 before scan10), opened lazily: only
@@ -39,26 +41,33 @@ public:
                       const ScanFolderOptions& options = {});
 
   /** \return the number of selected scans, >= 1 */
-  std::size_t size() const;
+  std::size_t
+  size() const;
 
   /** \return the file of the i-th selected scan */
-  const std::filesystem::path& file(std::size_t i) const;
+  const std::filesystem::path&
+  file(std::size_t i) const;
 
   /** \return the place of the i-th selected scan among all scans of the folder */
-  int index(std::size_t i) const;
+  int
+  index(std::size_t i) const;
 
   /** \return the initial pose of the i-th selected scan, exactly rigid */
-  const Eigen::Isometry3d& initialPose(std::size_t i) const;
+  const Eigen::Isometry3d&
+  initialPose(std::size_t i) const;
 
   /** \return time stamps [s] of the selected scans, or empty if the poses have none */
-  const std::vector<double>& stamps() const;
+  const std::vector<double>&
+  stamps() const;
 
   /** \return where the poses come from, for people: "odometry.txt", "PCD VIEWPOINT",
    * "scan poses (*.pose)", "identity", or the name of the given file */
-  const std::string& poseSource() const;
+  const std::string&
+  poseSource() const;
 
   /** \brief Reads the i-th selected scan. \throws IoFailed as readScan() */
-  Scan read(std::size_t i) const;
+  Scan
+  read(std::size_t i) const;
 
 private:
   struct Entry {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/registration/icp6d.h>
 #include <pcl6d/registration/transformation_estimation_quaternion.h>
 
@@ -68,7 +69,7 @@ ICP6D<PointSource, PointTarget, Scalar>::effectiveOptions() const
     options.translation_epsilon = std::sqrt(this->transformation_epsilon_);
   if (this->transformation_rotation_epsilon_ > 0)
     options.rotation_epsilon =
-        std::acos(std::min(1.0, this->transformation_rotation_epsilon_));
+        portableAcos(std::min(1.0, this->transformation_rotation_epsilon_));
   return options;
 }
 
@@ -95,25 +96,35 @@ ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource&
     throw BadArgument("ICP6D: the search method of the target must be a pcl6d::KdTree");
   if (!this->correspondence_rejectors_.empty())
     throw BadArgument("ICP6D: correspondence rejectors are not supported");
+  if (this->correspondence_estimation_)
+    throw BadArgument("ICP6D: a correspondence estimation is not supported");
   if (!tree->tree()) // given by setSearchMethodTarget() without a cloud
     tree->setInputCloud(this->target_);
+  if (tree->getInputCloud() != this->target_)
+    throw BadArgument("ICP6D: the search method of the target was built from another "
+                      "cloud than the target");
+  const auto searched = tree->getIndices();
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   start.matrix() = guess.template cast<double>();
 
-  result_ = icp(*tree->tree(),
-                toPoints(*this->target_),
-                toPoints(*this->input_, *this->indices_),
-                start,
-                effectiveOptions(),
-                minimiser(),
-                observer_);
+  result_ =
+      icp(*tree->tree(),
+          searched ? toPoints(*this->target_, *searched) : toPoints(*this->target_),
+          toPoints(*this->input_, *this->indices_),
+          start,
+          effectiveOptions(),
+          minimiser(),
+          observer_);
   this->converged_ = result_.status == Status::kOk;
   this->nr_iterations_ = result_.iterations;
   this->final_transformation_ =
       result_.T_target_source.matrix().template cast<Scalar>();
   this->transformation_ = this->final_transformation_;
   const PointCloudSource chosen = output;
-  pcl::transformPointCloud(chosen, output, this->final_transformation_);
+  if constexpr (pcl::traits::has_normal<PointSource>::value)
+    pcl::transformPointCloudWithNormals(chosen, output, this->final_transformation_);
+  else
+    pcl::transformPointCloud(chosen, output, this->final_transformation_);
 }
 
 } // namespace pcl6d

@@ -88,13 +88,22 @@ match(const Settings& settings,
   return slam.optimize();
 }
 
+/** A selection that holds no scan is a mistake of the command line. */
+ScanFolder
+openFolder(const Settings& settings)
+try {
+  return ScanFolder(settings.input, settings.folder);
+} catch (const BadArgument& e) {
+  throw app::UsageError(e.what());
+}
+
 int
 run(const Settings& settings)
 {
   const app::Interrupt interrupt;
   app::ProgressBar bar(settings.quiet);
   app::Run run;
-  const ScanFolder folder(settings.input, settings.folder);
+  const ScanFolder folder = openFolder(settings);
   app::OutputFolder out(settings.out, settings.input, app::kRunMarker, settings.force);
   bar.say(std::to_string(folder.size()) + " scans, initial poses from " +
           folder.poseSource());

@@ -55,7 +55,7 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
        "table");
   if (!line.parse(arguments))
     return false;
-  s.matching.validate();
+  app::checkOptions([&] { s.matching.validate(); });
   std::error_code missing; // a missing file is no input
   for (const auto& input : {s.estimate, s.reference})
     if (fs::equivalent(s.json, input, missing))

@@ -6,6 +6,7 @@
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/trajectory_io.h>
@@ -78,7 +79,7 @@ parse(const std::vector<std::string>& arguments, Settings& s)
        "folder to write; made if missing") //
       ("force",
        po::bool_switch(&s.force),
-       "write into a folder with other files; scans in it are replaced") //
+       "write into a folder that holds other files, but no scans") //
       ("threads",
        po::value(&s.threads)->default_value(s.threads),
        "0: one per core; never changes results") //
@@ -104,6 +105,18 @@ applySettings(Settings& s)
       s.scanner == "pitching" ? pitchingScanner() : rotatingScanner());
 }
 
+/** \return the scans of an earlier run in a folder */
+std::vector<fs::path>
+scansIn(const fs::path& folder)
+{
+  const std::regex scan_file("scan[0-9]+\\.pcd");
+  std::vector<fs::path> scans;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (std::regex_match(entry.path().filename().string(), scan_file))
+      scans.push_back(entry.path());
+  return scans;
+}
+
 /** \brief A folder inside the output that holds all files until the last is written. */
 class StagingFolder {
 public:
@@ -117,22 +130,23 @@ public:
     fs::remove_all(folder_, ignored);
   }
   StagingFolder(const StagingFolder&) = delete;
-  StagingFolder& operator=(const StagingFolder&) = delete;
+  StagingFolder&
+  operator=(const StagingFolder&) = delete;
 
-  fs::path operator/(const std::string& name) const { return folder_ / name; }
+  fs::path
+  operator/(const std::string& name) const
+  {
+    return folder_ / name;
+  }
 
   /** \brief Replaces an earlier run in the folder above by the staged files. The marker
    * comes first, so that whatever stops it there, the folder is still known as ours. */
-  void publish() const
+  void
+  publish() const
   {
     const fs::path target = folder_.parent_path();
     fs::rename(folder_ / kMarker, target / kMarker);
-    const std::regex scan_file("scan[0-9]+\\.pcd");
-    std::vector<fs::path> old;
-    for (const auto& entry : fs::directory_iterator(target))
-      if (std::regex_match(entry.path().filename().string(), scan_file))
-        old.push_back(entry.path());
-    for (const auto& file : old)
+    for (const auto& file : scansIn(target))
       fs::remove(file);
     for (const auto& entry : fs::directory_iterator(folder_))
       fs::rename(entry.path(), target / entry.path().filename());
@@ -216,8 +230,15 @@ run(const std::vector<std::string>& arguments)
   if (!parse(arguments, s))
     return app::kDone;
   applySettings(s);
-  const Simulator simulator(builtInScene(s.scene), s.simulation);
+  SimulationScene scene;
+  app::checkOptions([&] {
+    scene = builtInScene(s.scene);
+    s.simulation.validate();
+  });
+  const Simulator simulator(scene, s.simulation);
   app::OutputFolder out(s.out, {}, kMarker, s.force);
+  if (!out.holdsEarlierRun() && !scansIn(out / "").empty())
+    throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");
   {
     const StagingFolder staging(out / (".simulating-" + std::to_string(::getpid())));
     app::ProgressBar progress(s.quiet);

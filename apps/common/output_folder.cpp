@@ -20,6 +20,22 @@ refuseForeignFolder(const fs::path& folder, const std::string& marker, bool forc
                  "); use another folder or --force");
 }
 
+/** Old results are removed from the output folder, so no input may lie in it. */
+void
+refuseInput(const fs::path& folder, const fs::path& input, const std::string& name)
+{
+  std::error_code error;
+  if (input.empty() || !fs::exists(folder, error))
+    return;
+  if (fs::equivalent(folder, input, error))
+    throw IoFailed(name + ": output folder is the input folder");
+  fs::path above = fs::weakly_canonical(input, error);
+  for (; above.has_relative_path(); above = above.parent_path())
+    if (fs::equivalent(folder, above, error))
+      throw IoFailed(name + ": the input folder " + input.string() +
+                     " lies inside the output folder");
+}
+
 /** \return the topmost part of the path that does not exist yet; empty if all exists */
 fs::path
 topmostMissing(const fs::path& folder)
@@ -40,12 +56,12 @@ OutputFolder::OutputFolder(const fs::path& folder,
   if (!folder_.has_filename()) // "out/" names the folder "out"
     folder_ = folder_.parent_path();
   std::error_code error;
-  if (!input.empty() && fs::equivalent(folder_, input, error))
-    throw IoFailed(folder.string() + ": output folder is the input folder");
+  refuseInput(folder_, input, folder.string());
   if (fs::exists(folder_, error) && !fs::is_directory(folder_))
     throw IoFailed(folder.string() + ": output is a file, not a folder");
   if (fs::is_directory(folder_)) {
     refuseForeignFolder(folder_, marker, force);
+    holds_earlier_run_ = fs::exists(folder_ / marker);
     if (::access(folder_.c_str(), W_OK) != 0)
       throw IoFailed(folder.string() + ": output folder is not writable");
     return;
@@ -68,6 +84,8 @@ OutputFolder::~OutputFolder()
 void
 OutputFolder::removeOld(const std::vector<std::string>& names) const
 {
+  if (!holds_earlier_run_)
+    return;
   for (const auto& name : names)
     fs::remove_all(folder_ / name);
 }

@@ -15,8 +15,8 @@ namespace pcl6d::app {
 class OutputFolder {
 public:
   /** \param[in] input a folder that must not be the output; may be empty
-   * \throws IoFailed the path leads through a file, is the input folder, holds foreign
-   * files, or cannot be made */
+   * \throws IoFailed the path leads through a file, is or holds the input folder, holds
+   * foreign files, or cannot be made */
   OutputFolder(const std::filesystem::path& folder,
                const std::filesystem::path& input,
                const std::string& marker,
@@ -26,7 +26,8 @@ public:
   OutputFolder&
   operator=(const OutputFolder&) = delete;
 
-  /** \brief Removes what an earlier run left under these names (files or folders). */
+  /** \brief Removes what an earlier run left under these names (files or folders). Does
+   * nothing in a folder that holds no earlier run, where they are somebody else's. */
   void
   removeOld(const std::vector<std::string>& names) const;
 
@@ -34,11 +35,19 @@ public:
   void
   commit();
 
+  /** \return whether an earlier run of ours is in the folder */
+  bool
+  holdsEarlierRun() const
+  {
+    return holds_earlier_run_;
+  }
+
   std::filesystem::path
   operator/(const std::string& name) const;
 
 private:
   std::filesystem::path folder_;
+  bool holds_earlier_run_ = false;
   std::filesystem::path made_; ///< topmost folder that was made here; empty if none
 };
 

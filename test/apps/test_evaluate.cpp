@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate as a user runs it.
-#include "support/temp_folder.h"
+#include "support/run_program.h"
 
-#include <boost/process.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -10,43 +9,24 @@
 #include <string>
 #include <vector>
 
-namespace bp = boost::process;
 namespace fs = std::filesystem;
+using pcl6d::test::Outcome;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
 
 namespace {
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
+constexpr const char* kName = "pcl_slam6d_evaluate";
 
 Outcome
 evaluate(const std::vector<std::string>& arguments)
 {
-  const TempFolder folder;
-  const std::string out = folder / "out", err = folder / "err";
-  Outcome outcome;
-  outcome.code = bp::system(PCL6D_BIN_DIR "/pcl_slam6d_evaluate",
-                            bp::args(arguments),
-                            bp::std_out > out,
-                            bp::std_err > err);
-  outcome.out = pcl6d::test::readText(out);
-  outcome.err = pcl6d::test::readText(err);
-  return outcome;
+  return pcl6d::test::runProgram(kName, arguments);
 }
 
-/** Expects one line `pcl_slam6d_evaluate: error: ...` that holds the words. */
 void
 expectError(const Outcome& outcome, int code, const std::vector<std::string>& words)
 {
-  EXPECT_EQ(outcome.code, code) << outcome.err;
-  EXPECT_EQ(outcome.err.rfind("pcl_slam6d_evaluate: error: ", 0), 0u) << outcome.err;
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  for (const auto& word : words)
-    EXPECT_NE(outcome.err.find(word), std::string::npos)
-        << '"' << word << "\" in: " << outcome.err;
+  pcl6d::test::expectError(outcome, kName, code, words);
 }
 
 constexpr const char* kPath = "1 0 0 0 0 1 0 0 0 0 1 0\n"
@@ -68,7 +48,11 @@ struct Files : TempFolder {
     writeText(*this / "moved.tum",
               "0.01 3 4 0 0 0 0 1\n1.01 5 4 0 0 0 0 1\n2.01 5 7 0 0 0 0 1\n");
   }
-  std::string name(const std::string& file) const { return *this / file; }
+  std::string
+  name(const std::string& file) const
+  {
+    return *this / file;
+  }
 };
 } // namespace
 
@@ -77,7 +61,7 @@ TEST(Evaluate, PrintsErrorsWithoutAlignmentFirst)
   const Files files;
   const auto outcome =
       evaluate({"trajectory", files.name("moved.txt"), files.name("path.txt")});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   const auto first = outcome.out.find("without alignment");
   const auto second = outcome.out.find("with alignment");
@@ -96,7 +80,7 @@ TEST(Evaluate, WritesTheSameNumbersAsJson)
                                  files.name("path.txt"),
                                  "--json",
                                  files.name("errors.json")});
-  EXPECT_EQ(to_file.code, 0) << to_file.err;
+  EXPECT_EQ(to_file.exit_code, 0) << to_file.err;
   EXPECT_NE(to_file.out.find("without alignment"), std::string::npos);
   const auto to_stdout = evaluate(
       {"trajectory", files.name("moved.txt"), files.name("path.txt"), "--json", "-"});
@@ -136,7 +120,7 @@ TEST(Evaluate, ComparesTumWithKittiByIndex)
   const Files files;
   const auto outcome = evaluate(
       {"trajectory", files.name("moved.tum"), files.name("path.txt"), "--json", "-"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["matched_by"], "index");
 }
 
@@ -146,7 +130,7 @@ TEST(Evaluate, SaysWhenThePositionsDetermineNoRotation)
   writeText(files / "two.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 2 0 1 0 0 0 0 1 0\n");
   const auto outcome =
       evaluate({"trajectory", files.name("two.txt"), files.name("two.txt")});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("too-few-pairs"), std::string::npos) << outcome.out;
 }
 
@@ -190,11 +174,11 @@ TEST(Evaluate, NamesWhatIsWrongWithTheData)
 TEST(Evaluate, Helps)
 {
   const auto overview = evaluate({"--help"});
-  EXPECT_EQ(overview.code, 0);
+  EXPECT_EQ(overview.exit_code, 0);
   EXPECT_NE(overview.out.find("trajectory ESTIMATE REFERENCE"), std::string::npos);
   const auto details = evaluate({"trajectory", "--help"});
-  EXPECT_EQ(details.code, 0);
+  EXPECT_EQ(details.exit_code, 0);
   EXPECT_NE(details.out.find("--max-time-difference"), std::string::npos);
   EXPECT_NE(details.out.find("0.02"), std::string::npos) << "defaults are shown";
-  EXPECT_EQ(evaluate({"--version"}).code, 0);
+  EXPECT_EQ(evaluate({"--version"}).exit_code, 0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/temp_folder.h"
+#include "support/run_program.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/pcd_io.h>
@@ -18,26 +18,17 @@
 namespace {
 namespace bp = boost::process;
 namespace fs = std::filesystem;
+using pcl6d::test::contentOf;
+using pcl6d::test::Outcome;
 using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
 
-const std::string kProgram = PCL6D_BIN_DIR "/pcl_slam6d_simulate";
-
-struct Outcome {
-  int exit_code;
-  std::string out;
-  std::string err;
-};
+constexpr const char* kName = "pcl_slam6d_simulate";
 
 Outcome
 simulate(const std::vector<std::string>& arguments)
 {
-  const TempFolder folder;
-  const std::string out = (folder / "out").string();
-  const std::string err = (folder / "err").string();
-  const int code =
-      bp::system(kProgram, bp::args = arguments, bp::std_out > out, bp::std_err > err);
-  return {code, readText(out), readText(err)};
+  return pcl6d::test::runProgram(kName, arguments);
 }
 
 std::set<std::string>
@@ -49,23 +40,10 @@ namesIn(const fs::path& folder)
   return names;
 }
 
-// All names and bytes of a folder's files.
-std::map<std::string, std::string>
-contentOf(const fs::path& folder)
-{
-  std::map<std::string, std::string> content;
-  for (const auto& name : namesIn(folder))
-    content[name] = readText(folder / name);
-  return content;
-}
-
 void
 expectOneErrorLine(const Outcome& outcome, int exit_code, const std::string& part)
 {
-  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-  EXPECT_EQ(outcome.err.rfind("pcl_slam6d_simulate: error: ", 0), 0u) << outcome.err;
-  EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  pcl6d::test::expectError(outcome, kName, exit_code, {part});
 }
 } // namespace
 
@@ -165,6 +143,10 @@ TEST(Simulate, RefusesForeignFoldersUnlessForced)
   const std::string out = folder.path().string();
   expectOneErrorLine(simulate({"corridor", "-o", out, "--scans", "1"}), 1, out);
   EXPECT_EQ(contentOf(folder.path()), before);
+  expectOneErrorLine(
+      simulate({"corridor", "-o", out, "--scans", "1", "--force"}), 1, "not simulated");
+  EXPECT_EQ(contentOf(folder.path()), before) << "somebody's scans, even with --force";
+  std::filesystem::remove(folder / "scan007.pcd");
   ASSERT_EQ(simulate({"corridor", "-o", out, "--scans", "1", "--force"}).exit_code, 0);
   EXPECT_EQ(pcl6d::ScanFolder(folder.path()).size(), 1u);
   EXPECT_EQ(readText(folder / "thesis.tex"), "not yours either");
@@ -208,7 +190,7 @@ TEST(Simulate, LeavesNothingBehindWhenInterrupted)
 {
   const TempFolder folder;
   const fs::path out = folder / "out";
-  bp::child program(kProgram,
+  bp::child program(PCL6D_BIN_DIR "/pcl_slam6d_simulate",
                     bp::args = {"corridor", "-o", out.string(), "--scans", "100000"},
                     bp::std_out > bp::null,
                     bp::std_err > bp::null);

@@ -24,11 +24,8 @@ struct FoundScans {
 bool
 isScan(const fs::directory_entry& entry)
 {
-  std::error_code error;
-  const fs::file_type type = entry.status(error).type();
-  // A link to nowhere is no file; left out in silence it would shift all poses.
-  if (type != fs::file_type::regular && type != fs::file_type::not_found)
-    return false;
+  // The name decides. What then proves to be a folder or a link to nowhere is an error when
+  // it is read: left out in silence it would shift all poses.
   return entry.path().filename().string().front() != '.' &&
          !isGroundtruth(entry.path()) &&
          formatOfExtension(entry.path()) != ScanFormat::kAuto;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rule "same binary, same input, same bits on any x86-64 CPU" (portable_math.h).
+#include "support/run_program.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+namespace {
+namespace fs = std::filesystem;
+using pcl6d::test::TempFolder;
+
+// Runs a command of the shell with the C library that a CPU with or without vector and
+// FMA units would get. glibc reads this variable at the start of a program.
+std::string
+outputOf(const std::string& command, bool is_plain_cpu)
+{
+  const TempFolder folder;
+  const std::string tunables =
+      is_plain_cpu ? "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA " : "";
+  const std::string out = folder / "out";
+  const std::string line = tunables + command + " > " + out + " 2> /dev/null";
+  EXPECT_EQ(std::system(line.c_str()), 0) << line;
+  return pcl6d::test::readText(out);
+}
+
+// Every file but the summary, which holds times.
+std::map<std::string, std::string>
+resultIn(const fs::path& folder)
+{
+  auto content = pcl6d::test::contentOf(folder);
+  for (auto it = content.begin(); it != content.end();)
+    it = fs::path(it->first).filename() == "summary.json" ? content.erase(it) : ++it;
+  return content;
+}
+} // namespace
+
+TEST(SameBits, ComeFromTheCLibrarysOtherCode)
+{
+  const std::string sines =
+      "awk 'BEGIN { for (i = 1; i < 9999; ++i) printf \"%.17g \", sin(i) }'";
+  if (outputOf(sines, false) == outputOf(sines, true))
+    GTEST_SKIP() << "std::sin has one form here: an old CPU or another C library";
+  const TempFolder folder;
+  for (const bool is_plain_cpu : {false, true}) {
+    const std::string out = folder / (is_plain_cpu ? "plain" : "fma");
+    fs::create_directory(out);
+    outputOf(PCL6D_BIN_DIR "/pcl_slam6d_simulate corridor --scans 3 -o " + out +
+                 "/scans",
+             is_plain_cpu);
+    outputOf(PCL6D_BIN_DIR "/pcl_slam6d " + out + "/scans -o " + out + "/map --quiet",
+             is_plain_cpu);
+  }
+  const auto expected = resultIn(folder / "fma");
+  const auto plain = resultIn(folder / "plain");
+  EXPECT_EQ(expected.count("map/trajectory.kitti"), 1u);
+  ASSERT_EQ(expected.size(), plain.size());
+  for (const auto& [name, bytes] : expected) // not EXPECT_EQ, which would print them
+    EXPECT_TRUE(plain.count(name) && plain.at(name) == bytes) << name;
+}
+
+TEST(SameBits, NoModuleOfTheComputePathCallsTheCLibrarysFunctions)
+{
+  if (std::system("nm --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "nm (package binutils) not found";
+  const std::set<std::string> of_other_bits = {
+      "sin",  "cos",   "tan",   "sincos", "asin",  "acos",  "atan",  "atan2", "exp",
+      "exp2", "exp10", "expm1", "log",    "log2",  "log10", "log1p", "pow",   "sinh",
+      "cosh", "tanh",  "asinh", "acosh",  "atanh", "cbrt",  "hypot", "fma"};
+  for (const std::string module :
+       {"common", "filters", "io", "registration", "scanner", "search", "slam6d"}) {
+    const std::string names =
+        outputOf("nm -D --undefined-only -f posix " PCL6D_BUILD_DIR "/lib/libpcl6d_" +
+                     module + ".so",
+                 false);
+    EXPECT_FALSE(names.empty()) << module;
+    std::istringstream lines(names);
+    for (std::string line; std::getline(lines, line);) {
+      std::string name = line.substr(0, line.find_first_of("@ "));
+      if (!name.empty() && name.back() == 'f') // float
+        name.pop_back();
+      EXPECT_EQ(of_other_bits.count(name), 0u) << module << " calls " << line;
+    }
+  }
+}

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/rotation.h>
 
 #include <Eigen/SVD>
@@ -10,9 +11,9 @@ namespace pcl6d {
 Eigen::Matrix3d
 rotationFromEuler(const EulerAngles& angles)
 {
-  const double cr = std::cos(angles.roll), sr = std::sin(angles.roll);
-  const double cp = std::cos(angles.pitch), sp = std::sin(angles.pitch);
-  const double cy = std::cos(angles.yaw), sy = std::sin(angles.yaw);
+  const auto [sr, cr] = portableSinCos(angles.roll);
+  const auto [sp, cp] = portableSinCos(angles.pitch);
+  const auto [sy, cy] = portableSinCos(angles.yaw);
   Eigen::Matrix3d R;
   R << cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, //
       sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr,  //
@@ -23,16 +24,16 @@ rotationFromEuler(const EulerAngles& angles)
 EulerAngles
 eulerFromRotation(const Eigen::Matrix3d& R)
 {
-  const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
+  const double cos_pitch = std::sqrt(R(0, 0) * R(0, 0) + R(1, 0) * R(1, 0));
   EulerAngles angles;
-  angles.pitch = std::atan2(-R(2, 0), cos_pitch);
+  angles.pitch = portableAtan2(-R(2, 0), cos_pitch);
   if (cos_pitch < 1e-6) { // gimbal lock: only roll -+ yaw is fixed, so yaw stays 0
     const double sign = R(2, 0) < 0 ? 1.0 : -1.0;
-    angles.roll = std::atan2(sign * R(0, 1), R(1, 1));
+    angles.roll = portableAtan2(sign * R(0, 1), R(1, 1));
     return angles;
   }
-  angles.roll = std::atan2(R(2, 1), R(2, 2));
-  angles.yaw = std::atan2(R(1, 0), R(0, 0));
+  angles.roll = portableAtan2(R(2, 1), R(2, 2));
+  angles.yaw = portableAtan2(R(1, 0), R(0, 0));
   return angles;
 }
 
@@ -53,8 +54,8 @@ rotationFromVector(const Eigen::Vector3d& w)
     return Eigen::Matrix3d::Identity() + W + 0.5 * W * W;
   const Eigen::Matrix3d K = W / angle;
   // 1 - cos as 2 sin^2 of the half angle, which does not cancel for small angles.
-  const double half_sine = std::sin(0.5 * angle);
-  return Eigen::Matrix3d::Identity() + std::sin(angle) * K +
+  const double half_sine = portableSinCos(0.5 * angle).sin;
+  return Eigen::Matrix3d::Identity() + portableSinCos(angle).sin * K +
          2 * half_sine * half_sine * K * K;
 }
 
@@ -65,7 +66,7 @@ rotationVector(const Eigen::Matrix3d& R)
   const double half_sine = q.vec().norm();
   if (half_sine < 1e-12)
     return 2 * q.vec();
-  return q.vec() * (2 * std::atan2(half_sine, q.w()) / half_sine);
+  return q.vec() * (2 * portableAtan2(half_sine, q.w()) / half_sine);
 }
 
 double

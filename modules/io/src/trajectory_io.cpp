@@ -161,10 +161,10 @@ readUosPose(const std::filesystem::path& path)
                    std::to_string(values.size()));
   // 3DTK turns about x first in its own axes: R = Rx(a) Ry(b) Rz(c).
   const Eigen::Vector3d angles = kDegree * Eigen::Vector3d(&values[3]);
-  const Eigen::Matrix3d R = (Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()) *
-                             Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
-                             Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()))
-                                .toRotationMatrix();
+  const Eigen::Matrix3d R =
+      rotationFromEuler({-angles.x(), -angles.y(), -angles.z()}).transpose();
+  if (!R.allFinite())
+    text::fail(path, "an angle is out of range");
   return poseFromLeftHanded(R, Eigen::Vector3d(&values[0]));
 }
 

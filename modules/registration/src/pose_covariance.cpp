@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/pose_covariance.h>
 
@@ -13,8 +14,8 @@ namespace {
 Eigen::Matrix3d
 eulerRates(const EulerAngles& a)
 {
-  const double cp = std::cos(a.pitch), sp = std::sin(a.pitch);
-  const double cy = std::cos(a.yaw), sy = std::sin(a.yaw);
+  const auto [sp, cp] = portableSinCos(a.pitch);
+  const auto [sy, cy] = portableSinCos(a.yaw);
   Eigen::Matrix3d J;
   J << cy * cp, -sy, 0, sy * cp, cy, 0, -sp, 0, 1;
   return J;
@@ -25,7 +26,7 @@ std::optional<PoseCovariance>
 poseCovariance(const PairSums& sums, const Eigen::Isometry3d& T_world_scan)
 {
   const EulerAngles angles = eulerFromRotation(T_world_scan.linear());
-  if (sums.count < 3 || std::abs(std::cos(angles.pitch)) < 1e-3)
+  if (sums.count < 3 || std::abs(portableSinCos(angles.pitch).cos) < 1e-3)
     return std::nullopt;
   // About the centroid of the points M^T M falls apart into two 3x3 blocks.
   const Eigen::Matrix3d turning =

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "require.h"
 
+#include <pcl6d/common/portable_math.h>
+#include <pcl6d/common/random.h>
 #include <pcl6d/scanner/odometry_model.h>
-#include <pcl6d/scanner/portable_math.h>
+
+#include <cmath>
 
 namespace pcl6d {
 namespace {
@@ -33,10 +36,9 @@ disturbed(Eigen::Isometry3d motion, const OdometryOptions& options, Random& rand
   const double spread = std::sqrt(way);
   motion.translation().head<2>() *= 1 + options.scale_error;
   for (int axis = 0; axis < 2; ++axis)
-    motion.translation()[axis] +=
-        options.translation_noise * spread * portableNormal(random);
-  const auto [s, c] = portableSinCos(
-      options.yaw_bias * way + options.yaw_noise * spread * portableNormal(random));
+    motion.translation()[axis] += options.translation_noise * spread * random.normal();
+  const auto [s, c] = portableSinCos(options.yaw_bias * way +
+                                     options.yaw_noise * spread * random.normal());
   Eigen::Matrix3d error;
   error << c, -s, 0, s, c, 0, 0, 0, 1;
   motion.linear() = motion.linear() * error;

@@ -2,9 +2,10 @@
 #include "require.h"
 
 #include <pcl6d/common/parallel.h>
-#include <pcl6d/scanner/portable_math.h>
+#include <pcl6d/common/random.h>
 #include <pcl6d/scanner/range_scan.h>
 
+#include <cmath>
 #include <limits>
 
 namespace pcl6d {
@@ -35,7 +36,7 @@ castScan(const RayCaster& caster,
     for (std::size_t i = 0; i < per_line; ++i) {
       RangeSample& sample = scan.samples[line * per_line + i];
       // Drawn with or without return, so that noise does not depend on the scene.
-      const double error = options.noise * portableNormal(random);
+      const double error = options.noise * random.normal();
       const Ray ray = scanner.ray(static_cast<int>(line), static_cast<int>(i));
       const auto hit = caster.cast(
           {T_scene_scan * ray.origin, T_scene_scan.linear() * ray.direction});

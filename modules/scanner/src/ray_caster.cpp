@@ -134,9 +134,11 @@ struct RayCaster::Impl {
     rtcReleaseDevice(device);
   }
   Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
+  Impl&
+  operator=(const Impl&) = delete;
 
-  void buildTree()
+  void
+  buildTree()
   {
     tree = rtcNewScene(device);
     rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
@@ -167,8 +169,7 @@ struct RayCaster::Impl {
 };
 
 RayCaster::RayCaster(TriangleScene scene) : impl_(new Impl(std::move(scene)))
-{
-}
+{}
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster&

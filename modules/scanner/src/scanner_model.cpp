@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "require.h"
 
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
-#include <pcl6d/scanner/portable_math.h>
 #include <pcl6d/scanner/scanner_model.h>
+
+#include <cmath>
 
 namespace pcl6d {
 namespace {

@@ -27,9 +27,8 @@ roundToTwoDigits(double value)
 {
   if (!(value > 0) || !std::isfinite(value))
     return value;
-  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  std::ostringstream text; // through text, so that 0.17 is the 0.17 that a user types
-  text << std::setprecision(2) << std::round(value / unit) * unit;
+  std::ostringstream text; // so 0.17 is the 0.17 that a user types, on every CPU
+  text << std::setprecision(2) << value;
   return std::stod(text.str());
 }
 

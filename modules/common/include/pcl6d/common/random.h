@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <random>
 
 namespace pcl6d {
 
-/** \brief Seeded random numbers that are the same with every standard library: the
- * distributions of the standard are not, so they are spelled out here. \ingroup common
- */
+/** \brief Seeded random numbers that are the same with every standard library and on
+ * every CPU: the distributions of the standard are not, so they are spelled out here.
+ * \ingroup common */
 class Random {
 public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -28,13 +27,9 @@ public:
     return low + (high - low) * uniform();
   }
 
-  /** \return a standard normal number (Box and Muller 1958) */
+  /** \return a standard normal number (polar method, Marsaglia and Bray 1964) */
   double
-  normal()
-  {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-    return radius * std::cos(2 * M_PI * uniform());
-  }
+  normal();
 
 private:
   std::mt19937_64 engine_;

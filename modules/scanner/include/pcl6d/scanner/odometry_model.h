@@ -14,7 +14,8 @@ struct OdometryOptions {
   double translation_noise = 0.01; ///< [m/sqrt(m)] standard deviation, ahead and aside
   double yaw_noise = 0.005;        ///< [rad/sqrt(m)] standard deviation
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \brief What a robot that believes the world to be flat makes of its way.

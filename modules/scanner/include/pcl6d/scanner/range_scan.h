@@ -22,7 +22,8 @@ struct RangeOptions {
   std::uint64_t seed = 1;   ///< same seed, same noise
   unsigned num_threads = 0; ///< 0: one per core; never changes results
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \brief One sample: what the scanner says and what it looked at. */
@@ -38,7 +39,8 @@ struct RangeScan {
   int samples_per_line = 0;
   std::vector<RangeSample> samples; ///< line * samples_per_line + sample
 
-  const RangeSample& at(int line, int sample) const
+  const RangeSample&
+  at(int line, int sample) const
   {
     return samples[static_cast<std::size_t>(line) *
                        static_cast<std::size_t>(samples_per_line) +

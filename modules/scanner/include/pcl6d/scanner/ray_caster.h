@@ -29,9 +29,10 @@ public:
 
   /** \return range > 0 [m] at which the ray meets the triangle, infinity if it does not
    * or runs within its plane */
-  double range(const Eigen::Vector3d& a,
-               const Eigen::Vector3d& b,
-               const Eigen::Vector3d& c) const;
+  double
+  range(const Eigen::Vector3d& a,
+        const Eigen::Vector3d& b,
+        const Eigen::Vector3d& c) const;
 
 private:
   Eigen::Vector3d origin_;
@@ -62,14 +63,16 @@ public:
   explicit RayCaster(TriangleScene scene);
   ~RayCaster();
   RayCaster(RayCaster&&) noexcept;
-  RayCaster& operator=(RayCaster&&) noexcept;
+  RayCaster&
+  operator=(RayCaster&&) noexcept;
 
   /** \brief Thread-safe. \param[in] max_range [m] farther surfaces are not seen */
   std::optional<RayHit>
   cast(const Ray& ray,
        double max_range = std::numeric_limits<double>::infinity()) const;
 
-  const TriangleScene& scene() const;
+  const TriangleScene&
+  scene() const;
 
 private:
   struct Impl;

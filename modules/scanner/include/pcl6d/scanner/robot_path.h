@@ -15,7 +15,8 @@ struct RobotOptions {
   double wheel_base = 0.5;    ///< [m] between front and rear contact, > 0
   double track_width = 0.4;   ///< [m] between left and right contact, > 0
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \brief A closed drive through a scene with six degrees of freedom.
@@ -33,12 +34,14 @@ public:
   RobotPath(const std::vector<Eigen::Vector3d>& waypoints, const RobotOptions& options);
 
   /** \return the length in plan [m] of one round */
-  double length() const;
+  double
+  length() const;
 
   /** \param[in] s way in plan [m], any number; wraps after each round
    * \return T_scene_sensor: x ahead, z square to the contact plane
    * \throws ComputeFailed there is no floor below the path */
-  Eigen::Isometry3d sensorPose(const RayCaster& caster, double s) const;
+  Eigen::Isometry3d
+  sensorPose(const RayCaster& caster, double s) const;
 
 private:
   std::vector<Eigen::Vector3d> waypoints_;

@@ -15,10 +15,13 @@ namespace pcl6d {
 class ScannerModel {
 public:
   virtual ~ScannerModel() = default;
-  virtual int numLines() const = 0;
-  virtual int samplesPerLine() const = 0;
+  virtual int
+  numLines() const = 0;
+  virtual int
+  samplesPerLine() const = 0;
   /** \return the beam of a sample; its range counts from the ray's origin */
-  virtual Ray ray(int line, int sample) const = 0;
+  virtual Ray
+  ray(int line, int sample) const = 0;
 };
 
 /** \brief Equally spaced angles, both ends included. */
@@ -27,7 +30,8 @@ struct AngleRange {
   double last = 0;  ///< [rad]
   int count = 1;    ///< >= 1
 
-  double angle(int i) const
+  double
+  angle(int i) const
   {
     return count > 1 ? first + (last - first) * i / (count - 1) : first;
   }
@@ -49,7 +53,8 @@ struct DrivenScannerOptions {
   Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();    ///< o, axis to optical centre
   Eigen::Vector3d axis_position = Eigen::Vector3d::Zero(); ///< c, in the scanner frame
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \return full turns about the vertical of a fan that stands upright: 360 lines of
@@ -68,9 +73,12 @@ public:
   /** \throws BadArgument see DrivenScannerOptions::validate() */
   explicit DrivenScanner(const DrivenScannerOptions& options = rotatingScanner());
 
-  int numLines() const override;
-  int samplesPerLine() const override;
-  Ray ray(int line, int sample) const override;
+  int
+  numLines() const override;
+  int
+  samplesPerLine() const override;
+  Ray
+  ray(int line, int sample) const override;
 
 private:
   Eigen::Vector3d lever_arm_, axis_position_;

@@ -21,7 +21,8 @@ struct SimulationOptions {
   RobotOptions robot;
   OdometryOptions odometry;
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \brief A robot drives once through a scene, stops for each scan, and keeps a
@@ -40,24 +41,46 @@ public:
    * leaves the floor */
   explicit Simulator(SimulationScene scene, const SimulationOptions& options = {});
 
-  std::size_t size() const { return truth_.poses.size(); }
+  std::size_t
+  size() const
+  {
+    return truth_.poses.size();
+  }
 
   /** \return T_world_scan, six degrees of freedom */
-  const Trajectory& truth() const { return truth_; }
+  const Trajectory&
+  truth() const
+  {
+    return truth_;
+  }
 
   /** \return planar odometry, see wheelOdometry() */
-  const Trajectory& odometry() const { return odometry_; }
+  const Trajectory&
+  odometry() const
+  {
+    return odometry_;
+  }
 
   /** \return the world's frame in the coordinates of the scene */
-  const Eigen::Isometry3d& sceneFromWorld() const { return T_scene_world_; }
+  const Eigen::Isometry3d&
+  sceneFromWorld() const
+  {
+    return T_scene_world_;
+  }
 
-  const RayCaster& caster() const { return caster_; }
+  const RayCaster&
+  caster() const
+  {
+    return caster_;
+  }
 
   /** \brief Makes the i-th scan; nothing is kept. \throws BadArgument i >= size() */
-  RangeScan rangeScan(std::size_t i) const;
+  RangeScan
+  rangeScan(std::size_t i) const;
 
   /** \brief The same as an organized cloud in the scan's frame. */
-  pcl::PointCloud<pcl::PointXYZI> scan(std::size_t i) const;
+  pcl::PointCloud<pcl::PointXYZI>
+  scan(std::size_t i) const;
 
 private:
   RayCaster caster_;

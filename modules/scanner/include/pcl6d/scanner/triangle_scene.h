@@ -33,25 +33,30 @@ struct TriangleScene {
   std::vector<Surface> surfaces;
 
   /** \return the index of the new surface */
-  std::uint32_t addSurface(const Surface& surface);
+  std::uint32_t
+  addSurface(const Surface& surface);
 
   /** \brief Adds a plane convex quadrangle of four existing vertices, in order around
    * it, as two triangles. */
-  void addQuad(const std::array<std::uint32_t, 4>& corners, std::uint32_t surface);
+  void
+  addQuad(const std::array<std::uint32_t, 4>& corners, std::uint32_t surface);
 
   /** \return the corner of a triangle. \param[in] corner 0, 1 or 2 */
-  const Eigen::Vector3d& corner(std::uint32_t triangle, int corner) const
+  const Eigen::Vector3d&
+  corner(std::uint32_t triangle, int corner) const
   {
     return vertices[triangles[triangle].vertices[static_cast<std::size_t>(corner)]];
   }
 
   /** \return the unit normal of a triangle, by the right-hand rule of its corners */
-  Eigen::Vector3d normal(std::uint32_t triangle) const;
+  Eigen::Vector3d
+  normal(std::uint32_t triangle) const;
 
   /** \throws BadArgument naming the first vertex, triangle or surface that breaks a
    * rule: coordinates finite, indices in range, area above zero, reflectance in [0, 1]
    */
-  void validate() const;
+  void
+  validate() const;
 };
 
 } // namespace pcl6d

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# From the installed simulator to a map by the example program.
+include(${SETTINGS})
+file(REMOVE_RECURSE ${work}/scans ${work}/map.pcd)
+run(COMMAND env -i ${prefix}/bin/pcl_slam6d_simulate corridor -o ${work}/scans --scans 10
+  --quiet)
+set(example ${work}/examples_build/map_in_20_lines)
+run(COMMAND ${example} ${work}/scans ${work}/map.pcd OUTPUT text
+  PRINTS "9 of 9 scans matched to the first, [1-9][0-9]+ points in")
+
+string(REGEX MATCH "[0-9]+ points" points "${text}")
+string(REPLACE " points" "" points "${points}")
+file(STRINGS ${work}/map.pcd header LIMIT_COUNT 11)
+if(NOT header MATCHES "FIELDS x y z" OR NOT header MATCHES "POINTS ${points}")
+  message(FATAL_ERROR "map.pcd has another header: ${header}")
+endif()
+
+run(COMMAND ${example} EXIT 1 PRINTS "usage: map_in_20_lines SCAN_DIR MAP.pcd")
+run(COMMAND ${example} ${work}/nowhere ${work}/map.pcd EXIT 1 PRINTS "error: .*nowhere")

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The installed programs run with an empty environment, on the installed libraries.
+include(${SETTINGS})
+file(GLOB programs ${prefix}/bin/*)
+if(NOT programs)
+  message(FATAL_ERROR "no programs in ${prefix}/bin")
+endif()
+foreach(program IN LISTS programs)
+  get_filename_component(name ${program} NAME)
+  run(COMMAND env -i ${program} --help PRINTS "usage: ${name} ")
+  run(COMMAND env -i ${program} --version PRINTS "^pcl6d ${version} ")
+  run(COMMAND env -i ldd ${program} OUTPUT libraries)
+  string(REGEX MATCHALL "libpcl6d[^ ]* => [^ ]*" ours "${libraries}")
+  foreach(library IN LISTS ours)
+    string(REGEX REPLACE ".* => " "" path ${library})
+    get_filename_component(path ${path} ABSOLUTE) # was $ORIGIN/../lib
+    string(FIND "${path}" "${prefix}/lib" place)
+    if(NOT place EQUAL 0)
+      message(FATAL_ERROR "${name} takes a library from elsewhere: ${library}")
+    endif()
+  endforeach()
+endforeach()

@@ -23,12 +23,12 @@ middle(std::vector<double> values)
 }
 
 double
-roundToTwoDigits(double value)
+rounded(double value, int digits)
 {
   if (!(value > 0) || !std::isfinite(value))
     return value;
   std::ostringstream text; // so 0.17 is the 0.17 that a user types, on every CPU
-  text << std::setprecision(2) << value;
+  text << std::setprecision(digits) << value;
   return std::stod(text.str());
 }
 
@@ -43,7 +43,7 @@ metres(double value)
 Parameter
 derived(double value, const std::string& why)
 {
-  return {roundToTwoDigits(value), false, why};
+  return {rounded(value, 2), false, why};
 }
 
 Parameter
@@ -62,7 +62,7 @@ deriveMaxRange(const std::vector<Points>& scans)
       smallest = std::min(smallest, *code);
   if (std::isinf(smallest))
     return {smallest, false, "no range is shared by many points"};
-  return {0.999 * smallest, false, "no-return code at " + metres(smallest)};
+  return {rounded(0.999 * smallest, 4), false, "no-return code at " + metres(smallest)};
 }
 } // namespace
 

@@ -8,8 +8,8 @@
 namespace pcl6d {
 
 /** \brief Fills in what the user left open, from the first scans of a run. Derived
- * values are rounded to two digits, so that giving the printed value gives the same
- * run. */
+ * values are rounded to two digits (max_range: four), so that giving the printed value
+ * gives the same run. */
 Slam6DParameters
 deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans);
 

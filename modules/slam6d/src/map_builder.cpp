@@ -24,16 +24,18 @@ MapBuilder::addScan(const Points& points,
   if (!intensities.empty() && intensities.size() != points.size())
     throw BadArgument(std::to_string(intensities.size()) + " intensities for " +
                       std::to_string(points.size()) + " points");
-  has_intensity_ = has_intensity_ && intensities.size() == points.size();
   Eigen::Isometry3d T = T_world_scan;
   T.translation() -= world_offset_;
+  const Points moved = transformed(points, T);
+  std::vector<VoxelKey> keys; // all before the map changes, as voxelKey() may throw
+  keys.reserve(moved.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    keys.push_back(points[i].allFinite() ? voxelKey(moved[i], voxel_) : 0);
+  has_intensity_ = has_intensity_ && intensities.size() == points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite())
+    if (!points[i].allFinite() || !occupied_.insert(keys[i]).second)
       continue;
-    const Eigen::Vector3f p = (T * points[i].cast<double>()).cast<float>();
-    if (!occupied_.insert(voxelKey(p, voxel_)).second)
-      continue;
-    points_.push_back(p);
+    points_.push_back(moved[i]);
     scans_.push_back(scan);
     intensities_.push_back(intensities.empty() ? 0 : intensities[i]);
   }

@@ -86,8 +86,13 @@ public:
     predict(place);
     unreduced_.push_back(points);
     names_.push_back(name);
-    if (metascan_ || unreduced_.size() >= kScansForParameters)
-      reducePending();
+    try {
+      if (metascan_ || unreduced_.size() >= kScansForParameters)
+        reducePending();
+    } catch (...) {
+      forget(place);
+      throw;
+    }
   }
 
   bool
@@ -105,6 +110,7 @@ public:
       if (progress)
         progress({"matching", next_, total});
     }
+    cancelled_ = false; // also a request that came with the last scan
     const std::chrono::duration<double> spent =
         std::chrono::steady_clock::now() - start;
     result_.matching_seconds += spent.count();
@@ -132,6 +138,16 @@ private:
         before.T_world_scan, before.initial_pose, scan.initial_pose);
   }
 
+  /** Takes back a scan that was just added and could not be reduced. */
+  void
+  forget(std::size_t place)
+  {
+    result_.scans.resize(place);
+    names_.resize(place);
+    if (reduced_.size() + unreduced_.size() > place)
+      unreduced_.pop_back();
+  }
+
   void
   reducePending()
   {
@@ -142,7 +158,8 @@ private:
     }
     for (; !unreduced_.empty(); unreduced_.pop_front()) {
       const std::size_t place = reduced_.size();
-      reduced_.push_back(prepare(unreduced_.front(), names_[place], result_.parameters));
+      reduced_.push_back(
+          prepare(unreduced_.front(), names_[place], result_.parameters));
       result_.scans[place].reduced = reduced_.back().size();
     }
   }
@@ -169,7 +186,10 @@ private:
   match(const Points& points, ScanResult& scan) const
   {
     const Slam6DParameters& p = result_.parameters;
-    const Eigen::Vector3d origin = scan.T_world_scan.translation().array().round();
+    // Whole metres from the first scan: the same voxels wherever the world's origin is.
+    const Eigen::Vector3d first = result_.scans.front().T_world_scan.translation();
+    const Eigen::Vector3d origin =
+        first.array() + (scan.T_world_scan.translation() - first).array().round();
     // A scan may move by more than the first limit on its way; twice leaves room.
     const double reach = radiusOf(points) + 2 * p.max_distance_start.value + 1;
     const Points model = metascan_->around(origin, reach);

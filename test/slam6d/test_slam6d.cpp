@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/bits.h"
+#include "support/drift.h"
+#include "support/points.h"
+
+#include <pcl6d/slam6d/slam6d.h>
+
+#include <pcl/point_types.h>
+
+using pcl6d::Points;
+using pcl6d::Random;
+using pcl6d::ScanState;
+using pcl6d::Slam6D;
+using pcl6d::Slam6DOptions;
+using pcl6d::Slam6DResult;
+using pcl6d::Status;
+using pcl6d::test::DriftingRun;
+using pcl6d::test::kNan;
+using pcl6d::test::makeDriftingRun;
+using pcl6d::test::sameBits;
+
+namespace {
+const Eigen::Isometry3d kTilted = pcl6d::poseFromEuler({2, -3, 1}, {0.2, -0.3, 2.5});
+
+// Two scans never meet the same points, and a reduced point stands for its voxel: what
+// point-to-point matching leaves over is a share of the voxel. Against the union of
+// scans a quarter; pairwise it adds up on the way. The odometry drifts by 30 cm.
+constexpr double kShareOfUnion = 0.25, kSharePairwise = 0.5;
+constexpr double kLever = 2.5; // [m] from the scanner to the nearer walls
+
+Slam6DResult
+registered(const DriftingRun& run, const Slam6DOptions& options = {})
+{
+  Slam6D slam(options);
+  for (std::size_t i = 0; i < run.scans.size(); ++i)
+    slam.addScan(run.scans[i], run.odometry[i]);
+  EXPECT_TRUE(slam.optimize());
+  return slam.result();
+}
+
+void
+expectTruth(const Slam6DResult& result,
+            const DriftingRun& run,
+            double share = kShareOfUnion)
+{
+  const double tolerance = share * result.parameters.voxel.value; // [m]
+  ASSERT_EQ(result.scans.size(), run.truth.size());
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    SCOPED_TRACE("scan " + std::to_string(i));
+    const auto error =
+        pcl6d::distanceBetween(run.truth[i], result.scans[i].T_world_scan);
+    EXPECT_LT(error.translation, tolerance);
+    EXPECT_LT(error.rotation, tolerance / kLever);
+  }
+}
+
+void
+expectSameBits(const Slam6DResult& a, const Slam6DResult& b)
+{
+  ASSERT_EQ(a.scans.size(), b.scans.size());
+  for (std::size_t i = 0; i < a.scans.size(); ++i) {
+    EXPECT_TRUE(sameBits(a.scans[i].T_world_scan, b.scans[i].T_world_scan));
+    EXPECT_EQ(a.scans[i].rms, b.scans[i].rms);
+    EXPECT_EQ(a.scans[i].pairs, b.scans[i].pairs);
+    EXPECT_EQ(a.scans[i].state, b.scans[i].state);
+  }
+}
+} // namespace
+
+TEST(Slam6D, FollowsThePathWhereTheOdometryDrifts)
+{
+  const DriftingRun run = makeDriftingRun(8, {}, kTilted);
+  const Slam6DResult result = registered(run);
+  ASSERT_GT(pcl6d::distanceBetween(run.truth.back(), run.odometry.back()).translation,
+            0.3);
+  expectTruth(result, run);
+  EXPECT_TRUE(result.trusted());
+  EXPECT_EQ(result.count(ScanState::kFixed), 1u);
+  EXPECT_EQ(result.count(ScanState::kMatched), 7u);
+  EXPECT_TRUE(sameBits(result.scans[0].T_world_scan, run.odometry[0]));
+  for (std::size_t i = 1; i < run.scans.size(); ++i) {
+    const auto& scan = result.scans[i];
+    EXPECT_EQ(scan.status, Status::kOk);
+    EXPECT_TRUE(sameBits(scan.initial_pose, run.odometry[i]));
+    EXPECT_EQ(scan.points, run.scans[i].size());
+    EXPECT_GT(scan.reduced, 3u);
+    EXPECT_LE(scan.reduced, scan.points);
+    EXPECT_GT(scan.overlap, 0.5);
+    EXPECT_NEAR(scan.overlap, static_cast<double>(scan.pairs) / scan.reduced, 1e-12);
+    EXPECT_GT(scan.iterations, 0);
+    EXPECT_GT(scan.rms, 0);
+    EXPECT_LE(scan.rms, result.parameters.max_distance.value);
+    EXPECT_TRUE(scan.covariance);
+  }
+  EXPECT_EQ(*result.scans[0].covariance, pcl6d::PoseCovariance::Zero());
+}
+
+TEST(Slam6D, MatchesAgainstOneOrThreeOrAllScans)
+{
+  const DriftingRun run = makeDriftingRun(5);
+  std::vector<Slam6DResult> results;
+  for (const int metascan : {0, 1, 3, 5}) {
+    SCOPED_TRACE("metascan " + std::to_string(metascan));
+    Slam6DOptions options;
+    options.max_distance_start = 1; // for speed
+    options.metascan = metascan;
+    results.push_back(registered(run, options));
+    expectTruth(results.back(), run, metascan == 1 ? kSharePairwise : kShareOfUnion);
+  }
+  // Only the fifth scan can tell 3 from all; 5 are all.
+  EXPECT_TRUE(
+      sameBits(results[0].scans[3].T_world_scan, results[2].scans[3].T_world_scan));
+  EXPECT_FALSE(
+      sameBits(results[0].scans[4].T_world_scan, results[2].scans[4].T_world_scan));
+  EXPECT_FALSE(
+      sameBits(results[0].scans[2].T_world_scan, results[1].scans[2].T_world_scan));
+  expectSameBits(results[0], results[3]);
+}
+
+TEST(Slam6D, CarriesTheOdometryOverInAllSixDegreesOfFreedom)
+{
+  // Nothing to match, so that poses are predictions: T0 O0^-1 O1.
+  const Points cube = [] {
+    Random random(5);
+    return pcl6d::test::randomCube(random, 500, 4);
+  }();
+  const Points far = pcl6d::transformed(cube, pcl6d::poseFromEuler({0, 0, 40}, {}));
+  const Eigen::Isometry3d o0 = kTilted;
+  const Eigen::Isometry3d o1 = pcl6d::poseFromEuler({3, -2, 1.5}, {-0.4, 0.6, 1});
+  Slam6D slam;
+  slam.addScan(cube, o0);
+  slam.addScan(far, o1);
+  EXPECT_EQ(slam.result().scans[1].state, ScanState::kPending);
+  EXPECT_TRUE(slam.optimize());
+  const auto& scan = slam.result().scans[1];
+  EXPECT_EQ(scan.state, ScanState::kPredicted);
+  const auto error = pcl6d::distanceBetween(o1, scan.T_world_scan);
+  EXPECT_LT(error.translation, 1e-12);
+  EXPECT_LT(error.rotation, 1e-12);
+}
+
+TEST(Slam6D, KeepsThePoseOfASingleScan)
+{
+  const DriftingRun run = makeDriftingRun(1, {}, kTilted);
+  const Slam6DResult result = registered(run);
+  EXPECT_EQ(result.scans[0].state, ScanState::kFixed);
+  EXPECT_TRUE(sameBits(result.scans[0].T_world_scan, run.odometry[0]));
+  EXPECT_TRUE(result.trusted());
+}
+
+TEST(Slam6D, GoesOnAfterAScanOfAnotherWorld)
+{
+  DriftingRun run = makeDriftingRun(6);
+  Random random(9);
+  run.scans[3] = pcl6d::transformed(pcl6d::test::randomCube(random, 2000, 5),
+                                    pcl6d::poseFromEuler({0, 0, 60}, {}));
+  const Slam6DResult result = registered(run);
+  EXPECT_EQ(result.scans[3].state, ScanState::kPredicted);
+  EXPECT_FALSE(result.scans[3].covariance);
+  EXPECT_FALSE(result.trusted());
+  const Eigen::Isometry3d predicted =
+      result.scans[2].T_world_scan * run.odometry[2].inverse() * run.odometry[3];
+  EXPECT_LT(pcl6d::distanceBetween(predicted, result.scans[3].T_world_scan).translation,
+            1e-9);
+  for (const std::size_t i : {1u, 2u, 4u, 5u})
+    EXPECT_EQ(result.scans[i].state, ScanState::kMatched);
+  run.truth[3] = result.scans[3].T_world_scan;
+  expectTruth(result, run);
+}
+
+TEST(Slam6D, DoesNotMatchAgainstAScanThatWasOnlyPredicted)
+{
+  // Pairwise: the scan after the lost one is matched against the last good one.
+  DriftingRun run = makeDriftingRun(4);
+  Random random(9);
+  run.scans[2] = pcl6d::transformed(pcl6d::test::randomCube(random, 2000, 5),
+                                    pcl6d::poseFromEuler({0, 0, 60}, {}));
+  Slam6DOptions options;
+  options.metascan = 1;
+  const Slam6DResult result = registered(run, options);
+  EXPECT_EQ(result.scans[2].state, ScanState::kPredicted);
+  EXPECT_EQ(result.scans[3].state, ScanState::kMatched);
+  run.truth[2] = result.scans[2].T_world_scan;
+  expectTruth(result, run, kSharePairwise);
+}
+
+TEST(Slam6D, SaysWhenIcpStoppedAtItsLimit)
+{
+  Slam6DOptions options;
+  options.max_iterations = 3;
+  const Slam6DResult result = registered(makeDriftingRun(3), options);
+  EXPECT_EQ(result.scans[1].state, ScanState::kUnconverged);
+  EXPECT_EQ(result.scans[1].status, Status::kMaxIterations);
+  EXPECT_EQ(result.scans[1].iterations, 3);
+  EXPECT_FALSE(result.trusted());
+}
+
+TEST(Slam6D, DoesNotBelieveASmallOverlap)
+{
+  Slam6DOptions options;
+  options.min_overlap = 1; // no scan of another place has a partner for every point
+  const Slam6DResult result = registered(makeDriftingRun(3), options);
+  EXPECT_EQ(result.count(ScanState::kPredicted), 2u);
+}
+
+TEST(Slam6D, GivesTheSameBitsForEveryNumberOfThreads)
+{
+  const DriftingRun run = makeDriftingRun(3, {}, kTilted);
+  Slam6DOptions options;
+  options.num_threads = 1;
+  const Slam6DResult one = registered(run, options);
+  for (const unsigned int threads : {2u, 8u}) {
+    options.num_threads = threads;
+    expectSameBits(registered(run, options), one);
+  }
+}
+
+TEST(Slam6D, GivesTheSameFarFromTheOrigin)
+{
+  const Eigen::Isometry3d utm =
+      pcl6d::poseFromEuler({691234.567, 5336789.123, 512}, {});
+  const DriftingRun near = makeDriftingRun(4);
+  DriftingRun far = near;
+  for (auto& pose : far.odometry)
+    pose = utm * pose;
+  const Slam6DResult a = registered(near), b = registered(far);
+  for (std::size_t i = 0; i < near.scans.size(); ++i) {
+    SCOPED_TRACE("scan " + std::to_string(i));
+    const auto error = pcl6d::distanceBetween(
+        a.scans[0].T_world_scan.inverse() * a.scans[i].T_world_scan,
+        b.scans[0].T_world_scan.inverse() * b.scans[i].T_world_scan);
+    EXPECT_LT(error.translation, 1e-6);
+    EXPECT_LT(error.rotation, 1e-6);
+  }
+}
+
+TEST(Slam6D, RefusesScansWithoutThreePointsAndPosesThatAreNotRigid)
+{
+  const DriftingRun run = makeDriftingRun(1);
+  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+  Slam6D slam;
+  EXPECT_THROW(slam.optimize(), pcl6d::BadArgument) << "no scan";
+  EXPECT_THROW(slam.addScan(Points(), identity), pcl6d::BadArgument);
+  EXPECT_THROW(slam.addScan(Points{{1, 0, 0}, {0, 1, 0}}, identity),
+               pcl6d::BadArgument);
+  EXPECT_THROW(slam.addScan(Points(100, {kNan, 0, 0}), identity), pcl6d::BadArgument);
+  for (const int entry : {0, 5, 10, 12}) { // diagonal, and a translation
+    Eigen::Isometry3d pose = identity;
+    pose.matrix()(entry) = kNan;
+    EXPECT_THROW(slam.addScan(run.scans[0], pose), pcl6d::BadArgument);
+    if (entry == 12)
+      continue;
+    pose.matrix()(entry) = -1; // mirrored
+    EXPECT_THROW(slam.addScan(run.scans[0], pose), pcl6d::BadArgument);
+    pose.matrix()(entry) = 1.1; // scaled
+    EXPECT_THROW(slam.addScan(run.scans[0], pose), pcl6d::BadArgument);
+  }
+  EXPECT_TRUE(slam.result().scans.empty());
+}
+
+TEST(Slam6D, TakesPclClouds)
+{
+  const DriftingRun run = makeDriftingRun(3);
+  Slam6D slam;
+  for (std::size_t i = 0; i < 3; ++i) {
+    auto cloud = pcl6d::test::toCloud<pcl::PointXYZI>(run.scans[i]);
+    cloud->push_back(pcl::PointXYZI(kNan, kNan, kNan, 0));
+    slam.addScan(*cloud, run.odometry[i]);
+  }
+  EXPECT_TRUE(slam.optimize());
+  expectSameBits(slam.result(), registered(run));
+  EXPECT_EQ(slam.result().scans[1].points, run.scans[1].size());
+}

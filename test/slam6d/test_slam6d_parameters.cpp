@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/bits.h"
+#include "support/drift.h"
+#include "support/points.h"
+
+#include <pcl6d/slam6d/slam6d.h>
+
+#include <sstream>
+
+using pcl6d::Parameter;
+using pcl6d::Points;
+using pcl6d::Random;
+using pcl6d::Slam6D;
+using pcl6d::Slam6DOptions;
+using pcl6d::Slam6DParameters;
+using pcl6d::Slam6DResult;
+using pcl6d::test::badArgumentOf;
+using pcl6d::test::DriftingRun;
+using pcl6d::test::kNan;
+using pcl6d::test::makeDriftingRun;
+using pcl6d::test::sameBits;
+
+namespace {
+constexpr double kNoReturn = 32.767; // [m]
+
+/** A run whose scanner writes a code where no echo came back. */
+DriftingRun
+runWithNoReturns(std::size_t count)
+{
+  DriftingRun run = makeDriftingRun(count);
+  Random random(3);
+  for (auto& scan : run.scans)
+    for (std::size_t i = 0; i < scan.size(); i += 10)
+      scan[i] = (kNoReturn * scan[i].normalized().cast<double>()).cast<float>();
+  return run;
+}
+
+Slam6DResult
+registered(const DriftingRun& run, const Slam6DOptions& options = {})
+{
+  Slam6D slam(options);
+  for (std::size_t i = 0; i < run.scans.size(); ++i)
+    slam.addScan(run.scans[i], run.odometry[i]);
+  EXPECT_TRUE(slam.optimize());
+  return slam.result();
+}
+
+/** The value as a user reads it in a summary and types it again. */
+double
+printed(const Parameter& parameter)
+{
+  std::ostringstream text;
+  text << parameter.value;
+  return std::stod(text.str());
+}
+
+std::vector<double>
+valuesOf(const Slam6DParameters& p)
+{
+  return {p.min_range.value,
+          p.max_range.value,
+          p.voxel.value,
+          p.max_distance.value,
+          p.max_distance_start.value};
+}
+} // namespace
+
+TEST(Slam6DParameters, AreDerivedFromTheScans)
+{
+  const auto p = registered(runWithNoReturns(2)).parameters;
+  for (const auto& parameter :
+       {p.min_range, p.max_range, p.voxel, p.max_distance, p.max_distance_start}) {
+    EXPECT_FALSE(parameter.given);
+    EXPECT_FALSE(parameter.why.empty());
+    EXPECT_GT(parameter.value, 0);
+  }
+  EXPECT_LT(p.max_range.value, kNoReturn) << "codes are no surfaces";
+  EXPECT_GT(p.max_range.value, 14) << "the room is";
+  EXPECT_LE(p.min_range.value, 0.2);
+  // Never anneal below the point spacing of the reduced model (4.1.5).
+  EXPECT_GE(p.max_distance.value, p.voxel.value);
+  EXPECT_GE(p.max_distance_start.value, p.max_distance.value);
+}
+
+TEST(Slam6DParameters, DoNotLimitTheRangeWithoutACode)
+{
+  const auto p = registered(makeDriftingRun(1)).parameters;
+  EXPECT_EQ(p.max_range.value, std::numeric_limits<double>::infinity());
+}
+
+TEST(Slam6DParameters, GiveTheSameRunWhenGivenAsPrinted)
+{
+  const DriftingRun run = runWithNoReturns(3);
+  const Slam6DResult derived = registered(run);
+  const Slam6DParameters& p = derived.parameters;
+  Slam6DOptions options;
+  options.min_range = printed(p.min_range);
+  options.max_range = printed(p.max_range);
+  options.voxel = printed(p.voxel);
+  options.max_distance = printed(p.max_distance);
+  options.max_distance_start = printed(p.max_distance_start);
+  const Slam6DResult given = registered(run, options);
+  EXPECT_EQ(valuesOf(given.parameters), valuesOf(p));
+  for (std::size_t i = 0; i < run.scans.size(); ++i)
+    EXPECT_TRUE(sameBits(given.scans[i].T_world_scan, derived.scans[i].T_world_scan));
+}
+
+TEST(Slam6DParameters, GivenOnesWin)
+{
+  Slam6DOptions options;
+  options.min_range = 0.5;
+  options.max_range = 12;
+  options.voxel = 0.3;
+  options.max_distance = 0.7;
+  options.max_distance_start = 1.5;
+  const auto p = registered(runWithNoReturns(2), options).parameters;
+  EXPECT_EQ(valuesOf(p), (std::vector<double>{0.5, 12, 0.3, 0.7, 1.5}));
+  for (const auto& parameter :
+       {p.min_range, p.max_range, p.voxel, p.max_distance, p.max_distance_start})
+    EXPECT_TRUE(parameter.given);
+}
+
+TEST(Slam6DParameters, FollowAGivenVoxel)
+{
+  Slam6DOptions options;
+  options.voxel = 0.4;
+  const auto p = registered(makeDriftingRun(2), options).parameters;
+  EXPECT_TRUE(p.voxel.given);
+  EXPECT_FALSE(p.max_distance.given);
+  EXPECT_EQ(p.max_distance.value, 0.8); // "2 x voxel", its own words
+}
+
+TEST(Slam6DParameters, DropWhatIsOutsideTheGate)
+{
+  Slam6DOptions options;
+  options.voxel = 0.001; // keeps every point
+  options.max_distance_start = options.max_distance = 0.5;
+  options.min_range = 2;
+  options.max_range = 4;
+  const DriftingRun run = makeDriftingRun(1);
+  std::size_t expected = 0;
+  for (const auto& p : run.scans[0])
+    expected += p.norm() >= 2 && p.norm() <= 4;
+  const auto result = registered(run, options);
+  EXPECT_EQ(result.scans[0].reduced, expected);
+  EXPECT_EQ(result.scans[0].points, run.scans[0].size());
+}
+
+TEST(Slam6DParameters, ComeFromTheFirstSixteenScans)
+{
+  DriftingRun first = makeDriftingRun(16), more = makeDriftingRun(18);
+  // The scans that come later are of another kind: twice as large.
+  for (const std::size_t i : {16u, 17u})
+    for (auto& p : more.scans[i])
+      p *= 2;
+  const auto parameters = [](const DriftingRun& run) {
+    Slam6D slam;
+    slam.setObserver([&](std::size_t, const pcl6d::ScanResult&) { slam.cancel(); });
+    for (std::size_t i = 0; i < run.scans.size(); ++i)
+      slam.addScan(run.scans[i], run.odometry[i]);
+    slam.optimize(); // stops after the first scan: only the parameters are wanted
+    return valuesOf(slam.result().parameters);
+  };
+  EXPECT_EQ(parameters(more), parameters(first));
+  // All sixteen count: without nine of them the others would be the majority.
+  for (std::size_t i = 7; i < 16; ++i)
+    for (auto& p : first.scans[i])
+      p *= 2;
+  EXPECT_NE(parameters(more), parameters(first));
+}
+
+TEST(Slam6DParameters, ScaleWithTheWorld)
+{
+  // An object of 1 m on a turntable is mapped as well as a room of 10 m.
+  const DriftingRun room = makeDriftingRun(3);
+  DriftingRun toy = room;
+  for (auto& scan : toy.scans)
+    for (auto& p : scan)
+      p *= 0.1f;
+  for (auto* poses : {&toy.truth, &toy.odometry})
+    for (auto& pose : *poses)
+      pose.translation() *= 0.1;
+  const auto a = registered(room), b = registered(toy);
+  EXPECT_NEAR(b.parameters.voxel.value, 0.1 * a.parameters.voxel.value, 1e-3);
+  EXPECT_TRUE(b.trusted());
+}
+
+TEST(Slam6DOptions, NameTheValueThatBreaksItsRule)
+{
+  const auto message = [](auto change) {
+    Slam6DOptions options;
+    change(options);
+    return badArgumentOf([&] { Slam6D slam(options); });
+  };
+  EXPECT_EQ(message([](auto& o) { o.min_range = -1; }).find("min_range ="), 0u);
+  EXPECT_EQ(message([](auto& o) { o.max_range = -1; }).find("max_range ="), 0u);
+  EXPECT_EQ(message([](auto& o) { o.max_range = kNan; }).find("max_range ="), 0u);
+  EXPECT_EQ(message([](auto& o) { o.voxel = 0; }).find("voxel = 0"), 0u);
+  EXPECT_EQ(message([](auto& o) { o.voxel = kNan; }).find("voxel ="), 0u);
+  EXPECT_EQ(message([](auto& o) { o.max_distance = 0; }).find("max_distance = 0"), 0u);
+  EXPECT_EQ(
+      message([](auto& o) { o.max_distance_start = -1; }).find("max_distance_start ="),
+      0u);
+  EXPECT_EQ(message([](auto& o) { o.metascan = -1; }).find("metascan = -1"), 0u);
+  EXPECT_EQ(message([](auto& o) { o.max_iterations = 0; }).find("max_iterations = 0"),
+            0u);
+  EXPECT_EQ(message([](auto& o) {
+              o.translation_epsilon = -1;
+            }).find("translation_epsilon ="),
+            0u);
+  EXPECT_EQ(
+      message([](auto& o) { o.rotation_epsilon = kNan; }).find("rotation_epsilon ="),
+      0u);
+  for (const double overlap : {-0.1, 1.1, double{kNan}})
+    EXPECT_EQ(message([&](auto& o) { o.min_overlap = overlap; }).find("min_overlap ="),
+              0u);
+  EXPECT_NO_THROW(Slam6DOptions().validate());
+}
+
+TEST(Slam6D, SaysWhichScanTheGateLeavesEmpty)
+{
+  Slam6DOptions options;
+  options.min_range = 100;
+  Slam6D slam(options);
+  const DriftingRun run = makeDriftingRun(1);
+  slam.addScan(run.scans[0], run.odometry[0], "scan003.pcd");
+  try {
+    slam.optimize();
+    FAIL() << "no point passes";
+  } catch (const pcl6d::ComputeFailed& e) {
+    EXPECT_EQ(std::string(e.what()).find("scan003.pcd: "), 0u) << e.what();
+  }
+}
+
+TEST(Slam6D, IsAsBeforeWhenAScanIsRefusedOnTheWay)
+{
+  // Once the parameters are derived, addScan() reduces at once and may find nothing.
+  const DriftingRun run = makeDriftingRun(2);
+  Slam6D slam;
+  slam.addScan(run.scans[0], run.odometry[0]);
+  EXPECT_TRUE(slam.optimize());
+  const Points inside_the_gate(10, {0.01f, 0, 0});
+  EXPECT_THROW(slam.addScan(inside_the_gate, run.odometry[1]), pcl6d::ComputeFailed);
+  EXPECT_EQ(slam.result().scans.size(), 1u);
+  slam.addScan(run.scans[1], run.odometry[1]);
+  EXPECT_TRUE(slam.optimize());
+  EXPECT_EQ(slam.result().scans.size(), 2u);
+}

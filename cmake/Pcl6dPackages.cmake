@@ -4,7 +4,6 @@ find_package(PCL 1.12 REQUIRED COMPONENTS common io kdtree search filters regist
 # PCL's own configuration hands its definitions to every folder below; keep them here.
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(Boost 1.71 REQUIRED COMPONENTS program_options filesystem)
-find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(Threads REQUIRED)
 find_package(nlohmann_json 3.9 REQUIRED)
 find_package(embree 3 REQUIRED)

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace {
 std::vector<double>
@@ -58,6 +60,34 @@ TEST(ParallelFor, ThrowsTheErrorOfTheLowestIndex)
     } catch (const std::runtime_error& e) {
       EXPECT_STREQ(e.what(), "7");
     }
+}
+
+TEST(ParallelFor, MayNestAndRunFromSeveralThreads)
+{
+  std::vector<std::atomic<int>> calls(3 * 7 * 50);
+  std::vector<std::thread> callers;
+  for (std::size_t a = 0; a < 3; ++a)
+    callers.emplace_back([&, a] {
+      pcl6d::parallelFor(7, 4, [&](std::size_t b) {
+        pcl6d::parallelFor(
+            50, 3, [&](std::size_t c) { ++calls[(a * 7 + b) * 50 + c]; });
+      });
+    });
+  for (auto& caller : callers)
+    caller.join();
+  for (const auto& count : calls)
+    EXPECT_EQ(count, 1);
+}
+
+TEST(ParallelFor, ManyShortLoopsAllComplete)
+{
+  std::size_t sum = 0;
+  for (std::size_t round = 0; round < 20000; ++round) {
+    std::atomic<std::size_t> steps{0};
+    pcl6d::parallelFor(3, 2, [&](std::size_t) { ++steps; });
+    sum += steps;
+  }
+  EXPECT_EQ(sum, 60000u);
 }
 
 TEST(BlockedSum, HasTheSameBitsForEveryThreadCount)

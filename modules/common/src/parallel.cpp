@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "thread_pool.h"
+
 #include <pcl6d/common/parallel.h>
 
 #include <algorithm>
-#include <exception>
-#include <limits>
 #include <thread>
 
 namespace pcl6d {
@@ -19,29 +19,11 @@ parallelFor(std::size_t count,
             unsigned int num_threads,
             const std::function<void(std::size_t)>& body)
 {
-  const auto threads =
-      static_cast<int>(std::min<std::size_t>(threadCount(num_threads), count));
-  if (threads <= 1) {
-    for (std::size_t i = 0; i < count; ++i)
-      body(i);
-    return;
-  }
-  std::exception_ptr error;
-  std::size_t error_index = std::numeric_limits<std::size_t>::max();
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < count; ++i) {
-    try {
-      body(i);
-    } catch (...) {
-#pragma omp critical(pcl6d_parallel_for)
-      if (i < error_index) {
-        error_index = i;
-        error = std::current_exception();
-      }
-    }
-  }
-  if (error)
-    std::rethrow_exception(error);
+  const std::size_t threads = std::min<std::size_t>(threadCount(num_threads), count);
+  if (threads > 1)
+    return ThreadPool::instance().run(count, threads, body);
+  for (std::size_t i = 0; i < count; ++i)
+    body(i);
 }
 
 std::size_t

@@ -64,15 +64,15 @@ parse(const std::vector<std::string>& arguments, Settings& s)
   line.group("Simulation")
       .add_options() //
       ("scans",
-       po::value(&s.simulation.num_scans)->default_value(s.simulation.num_scans),
+       app::valueOf(s.simulation.num_scans),
        "number of scans, evenly along the way") //
       ("scanner",
-       po::value(&s.scanner)->default_value(s.scanner),
+       app::valueOf(s.scanner),
        "rotating (360 x 120 deg) or pitching (180 x 120 deg)") //
       ("noise",
-       po::value(&range.noise)->default_value(range.noise),
+       app::valueOf(range.noise),
        "[m] standard deviation of the ranges") //
-      ("seed", po::value(&s.seed)->default_value(s.seed), "same seed, same bytes");
+      ("seed", app::valueOf(s.seed), "same seed, same bytes");
   line.group("Run").add_options() //
       ("output,o",
        po::value(&s.out)->value_name("DIR")->required(),
@@ -81,7 +81,7 @@ parse(const std::vector<std::string>& arguments, Settings& s)
        po::bool_switch(&s.force),
        "write into a folder that holds other files, but no scans") //
       ("threads",
-       po::value(&s.threads)->default_value(s.threads),
+       app::valueOf(s.threads),
        "0: one per core; never changes results") //
       ("quiet", po::bool_switch(&s.quiet), "print errors only");
   return line.parse(arguments);

@@ -3,7 +3,7 @@
 
 #include <boost/program_options.hpp>
 
-#include <functional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -48,6 +48,17 @@ private:
   std::vector<std::string> positional_names_;
   boost::program_options::variables_map values_;
 };
+
+/** \return an option's value that defaults to what the variable holds, and shows it in
+ * --help with as many digits as a person would write */
+template <typename T>
+boost::program_options::typed_value<T>*
+valueOf(T& variable)
+{
+  std::ostringstream text;
+  text << variable;
+  return boost::program_options::value(&variable)->default_value(variable, text.str());
+}
 
 /** \brief A value that may be a number or the word "auto" (none). */
 struct AutoDouble {

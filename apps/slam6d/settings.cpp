@@ -30,22 +30,18 @@ describeInput(CommandLine& line, Settings& s, Raw& raw)
 {
   line.group("Input").add_options()(
       "first",
-      po::value(&s.folder.first)->default_value(s.folder.first),
+      valueOf(s.folder.first),
       "index of the first scan to take, in the order of the folder")(
       "last",
       po::value(&raw.last),
       "index of the last scan to take (default: the end)")(
-      "every",
-      po::value(&s.folder.every)->default_value(s.folder.every),
-      "take each n-th scan")(
+      "every", valueOf(s.folder.every), "take each n-th scan")(
       "poses",
       po::value<std::string>()->value_name("FILE")->notifier(
           [&s](const std::string& file) { s.folder.poses_file = file; }),
       "initial poses, KITTI or TUM rows, one per scan of the folder (default: *.pose, "
       "odometry.txt, poses.txt, PCD VIEWPOINT or identity, the first that is there)")(
-      "format",
-      po::value(&raw.format)->default_value(raw.format),
-      "auto|pcd|ply|uos|kitti|xyz");
+      "format", valueOf(raw.format), "auto|pcd|ply|uos|kitti|xyz");
 }
 
 void
@@ -53,20 +49,20 @@ describeMatching(CommandLine& line, Settings& s, Raw& raw)
 {
   line.group("Range gate and reduction")
       .add_options()("min-range",
-                     po::value(&raw.min_range)->default_value(raw.min_range),
+                     valueOf(raw.min_range),
                      "[m] or auto: nearer points are dropped")(
           "max-range",
-          po::value(&raw.max_range)->default_value(raw.max_range),
+          valueOf(raw.max_range),
           "[m] or auto: farther points are dropped; auto drops no-return codes")(
           "voxel",
-          po::value(&raw.voxel)->default_value(raw.voxel),
+          valueOf(raw.voxel),
           "[m] or auto: edge length of the octree reduction");
   line.group("Matching")
       .add_options()("max-distance",
-                     po::value(&raw.max_distance)->default_value(raw.max_distance),
+                     valueOf(raw.max_distance),
                      "[m] or auto: largest pair distance")(
           "max-distance-start",
-          po::value(&raw.max_distance_start)->default_value(raw.max_distance_start),
+          valueOf(raw.max_distance_start),
           "[m] or auto: largest pair distance of the first iteration, which then "
           "shrinks to "
           "--max-distance")(
@@ -74,10 +70,10 @@ describeMatching(CommandLine& line, Settings& s, Raw& raw)
           po::value(&raw.metascan)->value_name("N|all")->default_value("all"),
           "match against the union of the last N scans; 1 is pairwise")(
           "iterations",
-          po::value(&s.slam.max_iterations)->default_value(s.slam.max_iterations),
+          valueOf(s.slam.max_iterations),
           "most iterations of one ICP; a scan that needs more is not converged")(
           "min-overlap",
-          po::value(&s.slam.min_overlap)->default_value(s.slam.min_overlap),
+          valueOf(s.slam.min_overlap),
           "share of points with a partner below which a match is not believed");
 }
 
@@ -90,9 +86,7 @@ describeRun(CommandLine& line, Settings& s, Raw& raw)
       "threads",
       po::value(&raw.threads)->default_value(0),
       "0: one per core; never changes the result")(
-      "seed",
-      po::value(&s.seed)->default_value(s.seed),
-      "of random choices (none in the methods so far)")(
+      "seed", valueOf(s.seed), "of random choices (none in the methods so far)")(
       "force", po::bool_switch(&s.force), "write into a folder that holds other files")(
       "quiet", po::bool_switch(&s.quiet), "print errors only")(
       "verbose", po::bool_switch(&s.verbose), "print a line per scan");

@@ -83,8 +83,16 @@ TEST_F(ScanFolderTest, OnlyFilesThatAreScansCount)
        "xyz",
        "Groundtruth_map.xyz",
        "scan2.xyz~"});
-  fs::create_directory(folder_ / "scan3.xyz");
   EXPECT_EQ(names(), "scan0.xyz scan1.XYZ ");
+}
+
+TEST_F(ScanFolderTest, AFolderWithTheNameOfAScanIsNotSkipped)
+{
+  add({"scan0.xyz", "scan2.xyz"});
+  fs::create_directory(folder_ / "scan1.xyz");
+  const ScanFolder scans(folder_.path());
+  ASSERT_EQ(scans.size(), 3u);
+  EXPECT_THROW(scans.read(1), pcl6d::IoFailed);
 }
 
 TEST_F(ScanFolderTest, ALinkToAScanIsAScanAndALinkToNowhereIsNotSkipped)

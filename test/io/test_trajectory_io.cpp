@@ -206,4 +206,5 @@ TEST(UosPose, BrokenFilesAreNamedWithLineValueAndRule)
   expectMessage("0 0 0\n0 0 0 0\n", rule + "got 7");
   expectMessage("0 0 0\n0 x 0\n", "line 2: 'x' is not a number");
   expectMessage("0 nan 0\n0 0 0\n", "line 1: a number is not finite");
+  expectMessage("0 0 0\n0 1e300 0\n", "an angle is out of range");
 }

@@ -24,70 +24,6 @@ using app::Settings;
 
 constexpr const char* kName = "pcl_slam6d";
 
-/** Reads all scans into the chain. \return false if interrupted */
-bool
-readScans(const ScanFolder& folder,
-          const app::Interrupt& interrupt,
-          app::ProgressBar& bar,
-          Slam6D& slam,
-          app::Run& run)
-{
-  const app::StageTimer timer("reading", run);
-  for (std::size_t i = 0; i < folder.size(); ++i) {
-    if (interrupt.requested())
-      return false;
-    const Scan scan = folder.read(i);
-    const std::string file = folder.file(i).string();
-    if (scan.points.size() < 3)
-      throw IoFailed(file + ": " + std::to_string(scan.points.size()) +
-                     " points with finite coordinates (" +
-                     std::to_string(scan.dropped) +
-                     " without), but at least 3 are needed");
-    run.dropped.push_back(scan.dropped);
-    slam.addScan(scan.points, folder.initialPose(i), file);
-    bar.show({"reading", i + 1, folder.size()});
-  }
-  return true;
-}
-
-void
-printParameters(const Slam6DParameters& parameters, app::ProgressBar& bar)
-{
-  for (const auto& [name, parameter] : app::named(parameters)) {
-    std::ostringstream line;
-    line << "  " << name << " = " << parameter.value << " m ("
-         << (parameter.given ? "given" : "auto: " + parameter.why) << ")";
-    bar.say(line.str());
-  }
-}
-
-/** Registers all scans. \return false if interrupted */
-bool
-match(const Settings& settings,
-      const ScanFolder& folder,
-      const app::Interrupt& interrupt,
-      app::ProgressBar& bar,
-      Slam6D& slam,
-      app::Run& run)
-{
-  const app::StageTimer timer("matching", run);
-  slam.setProgressCallback([&](const Progress& progress) { bar.show(progress); });
-  slam.setObserver([&](std::size_t i, const ScanResult& scan) {
-    if (i == 0)
-      printParameters(slam.result().parameters, bar);
-    if (interrupt.requested())
-      slam.cancel();
-    if (!settings.verbose)
-      return;
-    std::ostringstream line;
-    line << folder.file(i).filename().string() << ": " << toString(scan.state) << " ("
-         << toString(scan.status) << "), " << scan.iterations << " iterations, "
-         << scan.pairs << " pairs, rms " << scan.rms << " m, overlap " << scan.overlap;
-    bar.say(line.str());
-  });
-  return slam.optimize();
-}
-
 /** A selection that holds no scan is a mistake of the command line. */
 ScanFolder
 openFolder(const Settings& settings)
@@ -97,32 +33,106 @@ try {
   throw app::UsageError(e.what());
 }
 
-int
-run(const Settings& settings)
-{
-  const app::Interrupt interrupt;
-  app::ProgressBar bar(settings.quiet);
-  app::Run run;
-  const ScanFolder folder = openFolder(settings);
-  app::OutputFolder out(settings.out, settings.input, app::kRunMarker, settings.force);
-  bar.say(std::to_string(folder.size()) + " scans, initial poses from " +
-          folder.poseSource());
+/** The main job: reading, matching, writing. */
+class Job {
+public:
+  explicit Job(const Settings& settings)
+  : settings_(settings)
+  , bar_(settings.quiet)
+  , folder_(openFolder(settings))
+  , out_(settings.out, settings.input, app::kRunMarker, settings.force)
+  , slam_(settings.slam)
+  {}
 
-  Slam6D slam(settings.slam);
-  if (!readScans(folder, interrupt, bar, slam, run)) {
-    bar.say("interrupted while reading; nothing is written");
-    return app::kInterrupted;
+  int
+  run()
+  {
+    bar_.say(std::to_string(folder_.size()) + " scans, initial poses from " +
+             folder_.poseSource());
+    if (!readScans()) {
+      bar_.say("interrupted while reading; nothing is written");
+      return app::kInterrupted;
+    }
+    const bool complete = match();
+    app::RunWriter writer(settings_, folder_, slam_.result(), out_, bar_);
+    const RunSummary& summary = writer.write(complete, log_);
+    out_.commit();
+    if (!settings_.quiet)
+      std::cout << app::closingText(summary, out_) << std::flush;
+    if (!complete)
+      return app::kInterrupted;
+    return summary.trusted ? app::kDone : app::kDoubtful;
   }
-  const bool complete = match(settings, folder, interrupt, bar, slam, run);
 
-  app::writeRun(settings, folder, slam.result(), complete, bar, out, run);
-  out.commit();
-  if (!settings.quiet)
-    std::cout << app::closingText(run.summary, out) << std::flush;
-  if (!complete)
-    return app::kInterrupted;
-  return slam.result().trusted() ? app::kDone : app::kDoubtful;
-}
+private:
+  /** \return false if interrupted */
+  bool
+  readScans()
+  {
+    const app::StageTimer timer("reading", log_.stages);
+    for (std::size_t i = 0; i < folder_.size(); ++i) {
+      if (interrupt_.requested())
+        return false;
+      const Scan scan = folder_.read(i);
+      const std::string file = folder_.file(i).string();
+      if (scan.points.size() < 3)
+        throw IoFailed(file + ": " + std::to_string(scan.points.size()) +
+                       " points with finite coordinates (" +
+                       std::to_string(scan.dropped) +
+                       " without), but at least 3 are needed");
+      log_.dropped.push_back(scan.dropped);
+      slam_.addScan(scan.points, folder_.initialPose(i), file);
+      bar_.show({"reading", i + 1, folder_.size()});
+    }
+    return true;
+  }
+
+  /** \return false if interrupted */
+  bool
+  match()
+  {
+    const app::StageTimer timer("matching", log_.stages);
+    slam_.setProgressCallback([&](const Progress& progress) { bar_.show(progress); });
+    slam_.setObserver([&](std::size_t i, const ScanResult& scan) {
+      if (i == 0)
+        printParameters();
+      if (settings_.verbose)
+        printScan(i, scan);
+      if (interrupt_.requested())
+        slam_.cancel();
+    });
+    return slam_.optimize();
+  }
+
+  void
+  printParameters()
+  {
+    for (const auto& [name, parameter] : app::named(slam_.result().parameters)) {
+      std::ostringstream line;
+      line << "  " << name << " = " << parameter.value << " m ("
+           << (parameter.given ? "given" : "auto: " + parameter.why) << ")";
+      bar_.say(line.str());
+    }
+  }
+
+  void
+  printScan(std::size_t i, const ScanResult& scan)
+  {
+    std::ostringstream line;
+    line << folder_.file(i).filename().string() << ": " << toString(scan.state) << " ("
+         << toString(scan.status) << "), " << scan.iterations << " iterations, "
+         << scan.pairs << " pairs, rms " << scan.rms << " m, overlap " << scan.overlap;
+    bar_.say(line.str());
+  }
+
+  const Settings& settings_;
+  const app::Interrupt interrupt_;
+  app::ProgressBar bar_;
+  const ScanFolder folder_;
+  app::OutputFolder out_;
+  Slam6D slam_;
+  app::RunLog log_;
+};
 } // namespace
 
 int
@@ -134,6 +144,6 @@ main(int argc, char** argv)
       return static_cast<int>(app::kDone);
     if (settings.verbose)
       pcl::console::setVerbosityLevel(pcl::console::L_INFO);
-    return run(settings);
+    return Job(settings).run();
   });
 }

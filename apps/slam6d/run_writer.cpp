@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam6d/map_writer.h"
 #include "slam6d/run_writer.h"
 
 #include <pcl6d/common/pose.h>
@@ -7,6 +6,7 @@
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/trajectory_io.h>
 
+#include <cstdio>
 #include <sstream>
 #include <sys/resource.h>
 
@@ -29,33 +29,6 @@ const std::vector<std::string> kRunFiles = {"trajectory.kitti",
                                             "semantic_map.json",
                                             "top_view.png",
                                             "report.html"};
-
-Trajectory
-trajectoryOf(const ScanFolder& folder, const Slam6DResult& result)
-{
-  Trajectory trajectory;
-  for (std::size_t i = 0; i < folder.size(); ++i) {
-    trajectory.poses.push_back(result.scans[i].T_world_scan);
-    trajectory.stamps.push_back(folder.stamps().empty() ? folder.index(i)
-                                                        : folder.stamps()[i]);
-  }
-  return trajectory;
-}
-
-void
-writeHistory(const ScanFolder& folder,
-             const Slam6DResult& result,
-             const OutputFolder& out)
-{
-  fs::create_directories(out / "frames");
-  for (std::size_t i = 0; i < folder.size(); ++i) {
-    const ScanResult& scan = result.scans[i];
-    const FrameKind kind =
-        scan.state == ScanState::kPending ? FrameKind::kInvalid : FrameKind::kIcp;
-    writeFrames(out / "frames" / (scanName(folder, i) + ".frames"),
-                {{scan.initial_pose, FrameKind::kInvalid}, {scan.T_world_scan, kind}});
-  }
-}
 
 RunSummary::ScanEntry
 entryOf(const std::string& file, const ScanResult& scan, std::size_t dropped)
@@ -114,45 +87,24 @@ verdictOf(const Slam6DResult& result, const RunSummary& summary)
   return text.str();
 }
 
-void
-describeOptions(const Settings& settings,
-                const Slam6DParameters& parameters,
-                RunSummary& summary)
+std::vector<RunSummary::Option>
+optionsOf(const Settings& settings, const Slam6DParameters& parameters)
 {
+  std::vector<RunSummary::Option> options;
   for (const auto& word : settings.words)
-    summary.options.push_back(
-        {word.name, word.value, word.given ? "given" : "default", ""});
+    options.push_back({word.name, word.value, word.given ? "given" : "default", ""});
   for (const auto& [name, parameter] : named(parameters)) {
     std::ostringstream value;
     value << parameter.value;
-    summary.options.push_back(
+    options.push_back(
         {name, value.str(), parameter.given ? "given" : "derived", parameter.why});
   }
-}
-
-void
-completeSummary(const Settings& settings,
-                const ScanFolder& folder,
-                const Slam6DResult& result,
-                bool complete,
-                Run& run)
-{
-  RunSummary& summary = run.summary;
-  summary.version = PCL6D_VERSION;
-  summary.pose_source = folder.poseSource();
-  summary.world_offset = worldOffset(result.scans.front().T_world_scan);
-  describeOptions(settings, result.parameters, summary);
-  for (std::size_t i = 0; i < folder.size(); ++i)
-    summary.scans.push_back(
-        entryOf(folder.file(i).filename().string(), result.scans[i], run.dropped[i]));
-  summary.complete = complete;
-  summary.trusted = complete && result.trusted();
-  summary.verdict = verdictOf(result, summary);
+  return options;
 }
 } // namespace
 
-StageTimer::StageTimer(const std::string& name, Run& run)
-: name_(name), run_(run), start_(std::chrono::steady_clock::now())
+StageTimer::StageTimer(const std::string& name, std::vector<RunSummary::Stage>& stages)
+: name_(name), stages_(stages), start_(std::chrono::steady_clock::now())
 {}
 
 StageTimer::~StageTimer()
@@ -160,30 +112,81 @@ StageTimer::~StageTimer()
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
-  run_.summary.stages.push_back({name_, spent.count(), usage.ru_maxrss / 1024.0});
+  stages_.push_back({name_, spent.count(), usage.ru_maxrss / 1024.0});
+}
+
+RunWriter::RunWriter(const Settings& settings,
+                     const ScanFolder& folder,
+                     const Slam6DResult& result,
+                     const OutputFolder& out,
+                     ProgressBar& bar)
+: settings_(settings), folder_(folder), result_(result), out_(out), bar_(bar)
+{}
+
+const RunSummary&
+RunWriter::write(bool complete, const RunLog& log)
+{
+  describe(complete, log);
+  out_.removeOld(kRunFiles);
+  writeTrajectoryKitti(out_ / "trajectory.kitti", trajectory());
+  writeTrajectoryTum(out_ / "trajectory.tum", trajectory());
+  writeHistory();
+  if (complete) {
+    const MapBuilder map = writeScansAndMap();
+    summary_.map_points = map.points().size();
+    drawTopView(map);
+  }
+  writeRunSummary(out_ / "summary.json", summary_);
+  return summary_;
+}
+
+Trajectory
+RunWriter::trajectory() const
+{
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < folder_.size(); ++i) {
+    trajectory.poses.push_back(result_.scans[i].T_world_scan);
+    trajectory.stamps.push_back(folder_.stamps().empty() ? folder_.index(i)
+                                                         : folder_.stamps()[i]);
+  }
+  return trajectory;
 }
 
 void
-writeRun(const Settings& settings,
-         const ScanFolder& folder,
-         const Slam6DResult& result,
-         bool complete,
-         ProgressBar& bar,
-         const OutputFolder& out,
-         Run& run)
+RunWriter::writeHistory() const
 {
-  out.removeOld(kRunFiles);
-  completeSummary(settings, folder, result, complete, run);
-  const Trajectory trajectory = trajectoryOf(folder, result);
-  writeTrajectoryKitti(out / "trajectory.kitti", trajectory);
-  writeTrajectoryTum(out / "trajectory.tum", trajectory);
-  writeHistory(folder, result, out);
-  if (complete) {
-    const MapBuilder map = writeScansAndMap(settings, folder, result, bar, out, run);
-    run.summary.map_points = map.points().size();
-    drawTopView(map, folder, result, bar, out, run);
+  fs::create_directories(out_ / "frames");
+  for (std::size_t i = 0; i < folder_.size(); ++i) {
+    const ScanResult& scan = result_.scans[i];
+    const FrameKind kind =
+        scan.state == ScanState::kPending ? FrameKind::kInvalid : FrameKind::kIcp;
+    writeFrames(out_ / "frames" / (scanName(folder_.index(i)) + ".frames"),
+                {{scan.initial_pose, FrameKind::kInvalid}, {scan.T_world_scan, kind}});
   }
-  writeRunSummary(out / "summary.json", run.summary);
+}
+
+void
+RunWriter::describe(bool complete, const RunLog& log)
+{
+  summary_.version = PCL6D_VERSION;
+  summary_.pose_source = folder_.poseSource();
+  summary_.world_offset = worldOffset(result_.scans.front().T_world_scan);
+  summary_.options = optionsOf(settings_, result_.parameters);
+  summary_.stages = log.stages;
+  for (std::size_t i = 0; i < folder_.size(); ++i)
+    summary_.scans.push_back(
+        entryOf(folder_.file(i).filename().string(), result_.scans[i], log.dropped[i]));
+  summary_.complete = complete;
+  summary_.trusted = complete && result_.trusted();
+  summary_.verdict = verdictOf(result_, summary_);
+}
+
+std::string
+scanName(int index)
+{
+  char name[32];
+  std::snprintf(name, sizeof name, "scan%03d", index);
+  return name;
 }
 
 std::string

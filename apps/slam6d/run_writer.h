@@ -5,8 +5,10 @@
 #include "common/progress_bar.h"
 #include "slam6d/settings.h"
 
+#include <pcl6d/common/trajectory.h>
 #include <pcl6d/io/run_summary.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/slam6d/map_builder.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <chrono>
@@ -19,15 +21,15 @@ namespace pcl6d::app {
 constexpr const char* kRunMarker = "summary.json";
 
 /** \brief What a run gathers on its way, for the summary. */
-struct Run {
+struct RunLog {
   std::vector<std::size_t> dropped; ///< per scan: points that were not finite
-  RunSummary summary;
+  std::vector<RunSummary::Stage> stages;
 };
 
-/** \brief Adds a stage with its time and memory to the summary at the end of its scope. */
+/** \brief Adds a stage with its time and memory at the end of its scope. */
 class StageTimer {
 public:
-  StageTimer(const std::string& name, Run& run);
+  StageTimer(const std::string& name, std::vector<RunSummary::Stage>& stages);
   ~StageTimer();
   StageTimer(const StageTimer&) = delete;
   StageTimer&
@@ -35,21 +37,49 @@ public:
 
 private:
   std::string name_;
-  Run& run_;
+  std::vector<RunSummary::Stage>& stages_;
   std::chrono::steady_clock::time_point start_;
 };
 
-/** \brief Writes the run folder (run_folder.md). Of an interrupted run only poses, history
- * and summary are written.
- * \param[in,out] run its summary is completed */
-void
-writeRun(const Settings& settings,
-         const ScanFolder& folder,
-         const Slam6DResult& result,
-         bool complete,
-         ProgressBar& bar,
-         const OutputFolder& out,
-         Run& run);
+/** \brief Writes the run folder (share/doc/run_folder.md). */
+class RunWriter {
+public:
+  /** Keeps references to all of them. */
+  RunWriter(const Settings& settings,
+            const ScanFolder& folder,
+            const Slam6DResult& result,
+            const OutputFolder& out,
+            ProgressBar& bar);
+
+  /** \brief Replaces an earlier run. Of an interrupted one (not complete) only poses,
+   * history and summary are written. \return the summary, as it stands in the file */
+  const RunSummary&
+  write(bool complete, const RunLog& log);
+
+private:
+  Trajectory
+  trajectory() const;
+  void
+  writeHistory() const;
+  MapBuilder
+  writeScansAndMap();
+  void
+  drawTopView(const MapBuilder& map);
+  void
+  describe(bool complete, const RunLog& log);
+
+  const Settings& settings_;
+  const ScanFolder& folder_;
+  const Slam6DResult& result_;
+  const OutputFolder& out_;
+  ProgressBar& bar_;
+  RunSummary summary_;
+};
+
+/** \return "scan007" for the scan at place 7 of its folder, as in the names of the files that
+ * a run writes */
+std::string
+scanName(int index);
 
 /** \return the last lines of a run: the verdict and the files that were written */
 std::string

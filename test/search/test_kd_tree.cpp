@@ -72,5 +72,7 @@ TEST(KdTree, FindsNothingBeforeItHasACloud)
   pcl::Indices found;
   std::vector<float> distances;
   EXPECT_EQ(tree.nearestKSearch(Point(), 1, found, distances), 0);
+  ASSERT_EQ(distances.size(), 1u); // what pcl::Registration::getFitnessScore reads
+  EXPECT_TRUE(std::isinf(distances[0]));
   EXPECT_EQ(tree.radiusSearch(Point(), 1.0, found, distances), 0);
 }

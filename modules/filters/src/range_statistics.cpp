@@ -1,27 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/error.h>
+#include <pcl6d/common/median.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/search/point_tree.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <string>
+#include <sstream>
 
 namespace pcl6d {
 
 namespace {
-/** \return the median (the upper one of two), or 0 without values */
-double
-median(std::vector<double> values)
-{
-  if (values.empty())
-    return 0;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 std::vector<double>
 rangesOf(const Points& points)
 {
@@ -37,12 +27,10 @@ rangesOf(const Points& points)
 void
 validateRangeLimits(double min_range, double max_range)
 {
-  if (!(min_range >= 0))
-    throw BadArgument("min_range = " + std::to_string(min_range) +
-                      ", but must be >= 0");
-  if (!(max_range >= min_range))
-    throw BadArgument("max_range = " + std::to_string(max_range) +
-                      ", but must be >= min_range = " + std::to_string(min_range));
+  require(min_range >= 0, "min_range", min_range, ">= 0");
+  std::ostringstream rule;
+  rule << ">= min_range = " << min_range;
+  require(max_range >= min_range, "max_range", max_range, rule.str());
 }
 
 bool
@@ -84,7 +72,7 @@ noReturnRange(const Points& points)
 double
 medianRange(const Points& points)
 {
-  return median(rangesOf(points));
+  return upperMedian(rangesOf(points));
 }
 
 double
@@ -103,7 +91,7 @@ medianSpacing(const Points& all)
     if (found.size() == 2)
       spacings.push_back(std::sqrt(static_cast<double>(found[1].distance_sq)));
   }
-  return median(std::move(spacings));
+  return upperMedian(std::move(spacings));
 }
 
 } // namespace pcl6d

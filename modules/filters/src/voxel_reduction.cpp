@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/random.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/filters/voxel_reduction.h>
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace pcl6d {
 
 void
 ReductionOptions::validate() const
 {
-  if (!(voxel > 0) || !std::isfinite(voxel))
-    throw BadArgument("voxel = " + std::to_string(voxel) + ", but must be > 0");
-  if (points_per_voxel < 1)
-    throw BadArgument("points_per_voxel = " + std::to_string(points_per_voxel) +
-                      ", but must be >= 1");
+  require(voxel > 0 && std::isfinite(voxel), "voxel", voxel, "> 0");
+  require(points_per_voxel >= 1, "points_per_voxel", points_per_voxel, ">= 1");
 }
 
 VoxelGroups::VoxelGroups(const Points& points, double voxel)

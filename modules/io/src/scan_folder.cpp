@@ -5,6 +5,7 @@
 #include "text.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/io/scan_folder.h>
 
 #include <algorithm>
@@ -99,13 +100,12 @@ findScans(const fs::path& folder, ScanFormat format)
 void
 ScanFolderOptions::validate() const
 {
-  if (first < 0)
-    throw BadArgument("first = " + std::to_string(first) + ", but must be >= 0");
-  if (last && *last < first)
-    throw BadArgument("last = " + std::to_string(*last) +
-                      ", but must be >= first = " + std::to_string(first));
-  if (every < 1)
-    throw BadArgument("every = " + std::to_string(every) + ", but must be >= 1");
+  require(first >= 0, "first", first, ">= 0");
+  require(!last || *last >= first,
+          "last",
+          last.value_or(0),
+          ">= first = " + std::to_string(first));
+  require(every >= 1, "every", every, ">= 1");
 }
 
 ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/icp.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace pcl6d {
 
 namespace {
 constexpr std::size_t kBlockSize = 1024; // source points; independent of the threads
-
-void
-require(bool rule, const std::string& name, double value, const std::string& text)
-{
-  if (!rule)
-    throw BadArgument(name + " = " + std::to_string(value) + ", but must be " + text);
-}
 
 /** The closest pairs at one pose, and what they add up to. */
 class PairFinder {
@@ -38,7 +32,10 @@ public:
   PairSums
   sumsAt(const Eigen::Isometry3d& T_target_source, double max_distance)
   {
-    const auto max_sq = static_cast<float>(max_distance * max_distance);
+    // PCL's "no limit" is the root of the largest double.
+    const auto max_sq = static_cast<float>(
+        std::min(max_distance * max_distance,
+                 static_cast<double>(std::numeric_limits<float>::max())));
     parallelBlocks(source_.size(), kBlockSize, num_threads_, [&](const Block& block) {
       PairAccumulator pairs;
       for (std::size_t i = block.begin; i < block.end; ++i) {
@@ -139,8 +136,8 @@ private:
     seen.T_target_source = result_.T_target_source;
     if (observer && !observer(seen))
       stopped_ = true;
-    const bool at_rest = seen.translation < o_.translation_epsilon &&
-                         seen.rotation < o_.rotation_epsilon;
+    const bool at_rest = seen.translation <= o_.translation_epsilon &&
+                         seen.rotation <= o_.rotation_epsilon;
     return limit <= o_.max_distance && at_rest ? Status::kOk : Status::kMaxIterations;
   }
 
@@ -156,7 +153,10 @@ IcpOptions::validate() const
 {
   require(max_iterations > 0, "max_iterations", max_iterations, "> 0");
   require(max_distance > 0, "max_distance", max_distance, "> 0");
-  require(max_distance_start >= 0, "max_distance_start", max_distance_start, ">= 0");
+  require(max_distance_start >= 0 && std::isfinite(max_distance_start),
+          "max_distance_start",
+          max_distance_start,
+          "finite and >= 0");
   require(distance_decay > 0 && distance_decay < 1,
           "distance_decay",
           distance_decay,

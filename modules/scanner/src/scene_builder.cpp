@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "require.h"
+#include <pcl6d/common/require.h>
 
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/scanner/scene_builder.h>

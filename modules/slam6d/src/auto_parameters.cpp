@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "auto_parameters.h"
 
+#include <pcl6d/common/median.h>
 #include <pcl6d/filters/range_statistics.h>
 
 #include <algorithm>
@@ -12,16 +13,6 @@
 namespace pcl6d {
 
 namespace {
-/** \return the middle of some values (the upper one of two); 0 without values */
-double
-middle(std::vector<double> values)
-{
-  if (values.empty())
-    return 0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 double
 rounded(double value, int digits)
 {
@@ -77,7 +68,7 @@ deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans)
     ranges.push_back(medianRange(seen));
     spacings.push_back(medianSpacing(seen));
   }
-  const double range = middle(ranges), spacing = middle(spacings);
+  const double range = upperMedian(ranges), spacing = upperMedian(spacings);
 
   // The scanner's own housing and the robot are nearer than any room; 0.2 m holds for
   // scanners of rooms, the tenth of the range for small objects.

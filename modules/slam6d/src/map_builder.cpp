@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/slam6d/map_builder.h>
 
 #include <cmath>
@@ -11,8 +11,7 @@ namespace pcl6d {
 MapBuilder::MapBuilder(double voxel, const Eigen::Vector3d& world_offset)
 : voxel_(voxel), world_offset_(world_offset)
 {
-  if (!(voxel > 0) || !std::isfinite(voxel))
-    throw BadArgument("voxel = " + std::to_string(voxel) + ", but must be > 0");
+  require(voxel > 0 && std::isfinite(voxel), "voxel", voxel, "> 0");
 }
 
 void

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "auto_parameters.h"
 #include "metascan.h"
+#include "scan_preparation.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
-#include <pcl6d/filters/range_statistics.h>
-#include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/registration/icp.h>
 #include <pcl6d/slam6d/slam6d.h>
 
@@ -14,7 +13,6 @@
 #include <chrono>
 #include <deque>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -23,40 +21,6 @@ namespace pcl6d {
 namespace {
 /** So many scans are held back in full, until the parameters are derived from them. */
 constexpr std::size_t kScansForParameters = 16;
-
-std::size_t
-countFinite(const Points& points)
-{
-  return std::count_if(
-      points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
-}
-
-std::string
-tooFew(const std::string& scan, std::size_t count, const std::string& where)
-{
-  return scan + ": " + std::to_string(count) + " points " + where +
-         ", but at least 3 are needed";
-}
-
-/** Gate and reduction of one scan. */
-Points
-prepare(const Points& points, const std::string& name, const Slam6DParameters& p)
-{
-  const Points kept = gateByRange(points, p.min_range.value, p.max_range.value);
-  if (kept.size() < 3) {
-    std::ostringstream gate;
-    gate << "within the range gate of " << p.min_range.value << " to "
-         << p.max_range.value << " m";
-    throw ComputeFailed(tooFew(name, kept.size(), gate.str()));
-  }
-  ReductionOptions reduction;
-  reduction.voxel = p.voxel.value;
-  try {
-    return reducePoints(kept, reduction);
-  } catch (const BadArgument& e) {
-    throw ComputeFailed(name + ": " + e.what());
-  }
-}
 } // namespace
 
 class Slam6D::Implementation {
@@ -76,7 +40,7 @@ public:
         given_name.empty() ? "scan " + std::to_string(place) : given_name;
     const std::size_t finite = countFinite(points);
     if (finite < 3)
-      throw BadArgument(tooFew(name, finite, "with finite coordinates"));
+      throw BadArgument(tooFewPoints(name, finite, "with finite coordinates"));
     if (!isRigid(initial_pose))
       throw BadArgument(name + ": the initial pose is not a rigid motion");
     ScanResult scan;
@@ -159,7 +123,7 @@ private:
     for (; !unreduced_.empty(); unreduced_.pop_front()) {
       const std::size_t place = reduced_.size();
       reduced_.push_back(
-          prepare(unreduced_.front(), names_[place], result_.parameters));
+          prepareScan(unreduced_.front(), names_[place], result_.parameters));
       result_.scans[place].reduced = reduced_.back().size();
     }
   }
@@ -282,38 +246,6 @@ void
 Slam6D::setObserver(Observer observer)
 {
   implementation_->observer = std::move(observer);
-}
-
-const char*
-toString(ScanState state)
-{
-  switch (state) {
-  case ScanState::kPending:
-    return "pending";
-  case ScanState::kFixed:
-    return "fixed";
-  case ScanState::kMatched:
-    return "matched";
-  case ScanState::kUnconverged:
-    return "unconverged";
-  case ScanState::kPredicted:
-    return "predicted";
-  }
-  return "unknown";
-}
-
-std::size_t
-Slam6DResult::count(ScanState state) const
-{
-  return std::count_if(scans.begin(), scans.end(), [&](const ScanResult& scan) {
-    return scan.state == state;
-  });
-}
-
-bool
-Slam6DResult::trusted() const
-{
-  return count(ScanState::kFixed) + count(ScanState::kMatched) == scans.size();
 }
 
 } // namespace pcl6d

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 
@@ -7,15 +7,6 @@
 #include <string>
 
 namespace pcl6d {
-
-namespace {
-void
-require(bool rule, const std::string& name, double value, const std::string& text)
-{
-  if (!rule)
-    throw BadArgument(name + " = " + std::to_string(value) + ", but must be " + text);
-}
-} // namespace
 
 void
 Slam6DOptions::validate() const

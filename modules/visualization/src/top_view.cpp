@@ -4,6 +4,7 @@
 #include "top_view_painter.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/visualization/top_view.h>
 
 #include <algorithm>
@@ -13,17 +14,6 @@
 namespace pcl6d {
 
 namespace {
-template <typename T>
-void
-require(bool holds, const char* field, const T& value, const std::string& rule)
-{
-  if (holds)
-    return;
-  std::ostringstream message;
-  message << field << " = " << value << ", but must be " << rule;
-  throw BadArgument(message.str());
-}
-
 void
 checkScene(const TopViewScene& scene, PointColour colour)
 {

@@ -18,8 +18,8 @@ struct IcpOptions {
   double max_distance_start = 0; ///< [m] the limit at the start, which then shrinks to
                                  ///< max_distance; 0: max_distance from the start
   double distance_decay = 0.9;   ///< the limit's factor per iteration; in (0, 1)
-  double translation_epsilon = 1e-4; ///< [m] stop at a smaller step ...
-  double rotation_epsilon = 1e-5;    ///< [rad] ... that also turns less; >= 0
+  double translation_epsilon = 1e-4; ///< [m] stop at a step no longer ...
+  double rotation_epsilon = 1e-5;    ///< [rad] ... that also turns no more; >= 0
   unsigned int num_threads = 0;      ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
@@ -42,7 +42,7 @@ using IcpObserver = std::function<bool(const IcpIteration&)>;
 
 /** \brief The outcome of ICP. */
 struct IcpResult {
-  Status status = Status::kTooFewPairs; ///< kOk: the step fell below both thresholds
+  Status status = Status::kTooFewPairs; ///< kOk: the step was within both thresholds
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
   int iterations = 0;
   std::size_t pairs = 0; ///< pairs at the final pose within max_distance

@@ -40,7 +40,9 @@ public:
   setInputCloud(const PointCloudConstPtr& cloud,
                 const pcl::IndicesConstPtr& indices = nullptr) override;
 
-  /** \return the number of neighbours found: k, or all points if there are fewer */
+  /** \return the number of neighbours found: k, or all points if there are fewer. If it is
+   * 0, the vectors hold one entry all the same, index -1 and an infinite distance, as PCL's
+   * own callers read it without looking */
   int
   nearestKSearch(const PointT& point,
                  int k,

@@ -4,6 +4,8 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/search/kd_tree.h>
 
+#include <limits>
+
 namespace pcl6d {
 
 template <typename PointT>
@@ -35,7 +37,13 @@ KdTree<PointT>::nearestKSearch(const PointT& point,
   std::vector<Neighbour> found;
   if (point_tree_ && k > 0)
     found = point_tree_->nearestK(point.getVector3fMap(), k);
-  return toPcl(found, k_indices, k_sqr_distances);
+  const int count = toPcl(found, k_indices, k_sqr_distances);
+  if (count == 0 && k > 0) {
+    // PCL's own code (Registration::getFitnessScore) reads the first entry unseen.
+    k_indices.assign(1, -1);
+    k_sqr_distances.assign(1, std::numeric_limits<float>::infinity());
+  }
+  return count;
 }
 
 template <typename PointT>

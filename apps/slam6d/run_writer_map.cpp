@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam6d/map_writer.h"
+// The part of RunWriter that needs the scans again: scans/, map.pcd and the picture.
+#include "slam6d/run_writer.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
@@ -8,7 +9,6 @@
 #include <pcl6d/visualization/top_view.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 
@@ -53,71 +53,53 @@ relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
 }
 } // namespace
 
-std::string
-scanName(const ScanFolder& folder, std::size_t i)
-{
-  char name[32];
-  std::snprintf(name, sizeof name, "scan%03d", folder.index(i));
-  return name;
-}
-
 MapBuilder
-writeScansAndMap(const Settings& settings,
-                 const ScanFolder& folder,
-                 const Slam6DResult& result,
-                 ProgressBar& bar,
-                 const OutputFolder& out,
-                 Run& run)
+RunWriter::writeScansAndMap()
 {
-  const StageTimer timer("writing", run);
-  const Eigen::Vector3d& offset = run.summary.world_offset;
-  MapBuilder map(result.parameters.voxel.value, offset);
-  fs::create_directories(out / "scans");
+  const StageTimer timer("writing", summary_.stages);
+  const Eigen::Vector3d& offset = summary_.world_offset;
+  MapBuilder map(result_.parameters.voxel.value, offset);
+  fs::create_directories(out_ / "scans");
   // A few scans at a time: read and written in parallel, joined in their order.
-  const unsigned int threads = threadCount(settings.slam.num_threads);
+  const unsigned int threads = threadCount(settings_.slam.num_threads);
   std::vector<Scan> batch(2 * threads);
-  for (std::size_t begin = 0; begin < folder.size(); begin += batch.size()) {
-    const std::size_t count = std::min(batch.size(), folder.size() - begin);
+  for (std::size_t begin = 0; begin < folder_.size(); begin += batch.size()) {
+    const std::size_t count = std::min(batch.size(), folder_.size() - begin);
     parallelFor(count, threads, [&](std::size_t k) {
       const std::size_t i = begin + k;
-      batch[k] = folder.read(i);
-      writePcd(out / "scans" / (scanName(folder, i) + ".pcd"),
+      batch[k] = folder_.read(i);
+      writePcd(out_ / "scans" / (scanName(folder_.index(i)) + ".pcd"),
                batch[k].cloud,
-               relativeTo(offset, result.scans[i].T_world_scan));
+               relativeTo(offset, result_.scans[i].T_world_scan));
     });
     for (std::size_t k = 0; k < count; ++k)
-      map.addScan(gated(std::move(batch[k].points), result.parameters),
+      map.addScan(gated(std::move(batch[k].points), result_.parameters),
                   intensitiesOf(batch[k].cloud),
-                  result.scans[begin + k].T_world_scan,
-                  static_cast<std::uint32_t>(folder.index(begin + k)));
-    bar.show({"writing", begin + count, folder.size()});
+                  result_.scans[begin + k].T_world_scan,
+                  static_cast<std::uint32_t>(folder_.index(begin + k)));
+    bar_.show({"writing", begin + count, folder_.size()});
   }
-  writePcd(out / "map.pcd", map.cloud());
+  writePcd(out_ / "map.pcd", map.cloud());
   return map;
 }
 
+/** Without a display the run goes on and says so. */
 void
-drawTopView(const MapBuilder& map,
-            const ScanFolder& folder,
-            const Slam6DResult& result,
-            ProgressBar& bar,
-            const OutputFolder& out,
-            Run& run)
+RunWriter::drawTopView(const MapBuilder& map)
 {
-  const StageTimer timer("picture", run);
+  const StageTimer timer("picture", summary_.stages);
   TopViewScene scene;
   scene.points = map.points();
   scene.scans = map.scans();
-  const Eigen::Vector3d& offset = run.summary.world_offset;
-  for (std::size_t i = 0; i < folder.size(); ++i) {
-    const ScanResult& scan = result.scans[i];
-    scene.trajectory.poses.push_back(relativeTo(offset, scan.T_world_scan));
-    scene.initial.poses.push_back(relativeTo(offset, scan.initial_pose));
+  for (const ScanResult& scan : result_.scans) {
+    scene.trajectory.poses.push_back(
+        relativeTo(summary_.world_offset, scan.T_world_scan));
+    scene.initial.poses.push_back(relativeTo(summary_.world_offset, scan.initial_pose));
   }
   try {
-    TopView().write(out / "top_view.png", scene);
+    TopView().write(out_ / "top_view.png", scene);
   } catch (const IoFailed& e) {
-    bar.say("warning: no picture: " + std::string(e.what()));
+    bar_.say("warning: no picture: " + std::string(e.what()));
   }
 }
 

@@ -4,13 +4,15 @@
 #include <pcl6d/common/error.h>
 
 #include <sstream>
+#include <string>
 
 namespace pcl6d {
 
-/** \throws BadArgument "name = value, but must be rule" unless the rule is kept */
+/** \brief Checks an option against its rule, with one wording for all of them.
+ * \throws BadArgument "name = value, but must be rule" unless the rule is kept */
 template <typename Value>
 void
-require(bool kept, const char* name, const Value& value, const char* rule)
+require(bool kept, const char* name, const Value& value, const std::string& rule)
 {
   if (kept)
     return;

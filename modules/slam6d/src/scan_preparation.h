@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+#include <pcl6d/slam6d/slam6d_result.h>
+
+#include <string>
+
+namespace pcl6d {
+
+std::size_t
+countFinite(const Points& points);
+
+/** \return the message for a scan of so few points that nothing can be matched */
+std::string
+tooFewPoints(const std::string& scan, std::size_t count, const std::string& where);
+
+/** \brief Range gate and reduction of one scan. \param[in] name for messages
+ * \throws ComputeFailed fewer than 3 points are left, or the scan is too large for the grid */
+Points
+prepareScan(const Points& points,
+            const std::string& name,
+            const Slam6DParameters& parameters);
+
+} // namespace pcl6d

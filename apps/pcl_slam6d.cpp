@@ -14,8 +14,9 @@
 
 #include <pcl/console/print.h>
 
-#include <chrono>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace {
@@ -27,10 +28,11 @@ constexpr const char* kName = "pcl_slam6d";
 /** A selection that holds no scan is a mistake of the command line. */
 ScanFolder
 openFolder(const Settings& settings)
-try {
-  return ScanFolder(settings.input, settings.folder);
-} catch (const BadArgument& e) {
-  throw app::UsageError(e.what());
+{
+  std::optional<ScanFolder> folder;
+  app::checkOptions([&] { folder.emplace(settings.input, settings.folder); },
+                    {{"poses_file", "poses"}});
+  return *std::move(folder);
 }
 
 /** The main job: reading, matching, writing. */
@@ -40,7 +42,7 @@ public:
   : settings_(settings)
   , bar_(settings.quiet)
   , folder_(openFolder(settings))
-  , out_(settings.out, settings.input, app::kRunMarker, settings.force)
+  , out_(app::runFolderRules(settings))
   , slam_(settings.slam)
   {}
 
@@ -54,12 +56,16 @@ public:
       return app::kInterrupted;
     }
     const bool complete = match();
-    app::RunWriter writer(settings_, folder_, slam_.result(), out_, bar_);
+    app::RunWriter writer(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
     const RunSummary& summary = writer.write(complete, log_);
-    out_.commit();
+    const auto written = out_.publish();
+    for (const auto& warning : summary.warnings)
+      bar_.warn(warning);
     if (!settings_.quiet)
-      std::cout << app::closingText(summary, out_) << std::flush;
-    if (!complete)
+      printClosing(summary, written);
+    else if (!summary.trusted)
+      bar_.warn(summary.verdict); // not a word of it would be a lie
+    if (!summary.complete)
       return app::kInterrupted;
     return summary.trusted ? app::kDone : app::kDoubtful;
   }
@@ -102,6 +108,16 @@ private:
         slam_.cancel();
     });
     return slam_.optimize();
+  }
+
+  static void
+  printClosing(const RunSummary& summary,
+               const std::vector<std::filesystem::path>& written)
+  {
+    std::cout << summary.verdict << '\n';
+    for (const auto& path : written)
+      std::cout << "  " << path.string() << '\n';
+    std::cout << std::flush;
   }
 
   void

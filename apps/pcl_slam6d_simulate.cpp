@@ -5,8 +5,10 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
+#include "common/scan_name.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/trajectory_io.h>
@@ -16,12 +18,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <regex>
-#include <unistd.h>
 
 namespace {
 namespace fs = std::filesystem;
@@ -91,11 +91,10 @@ parse(const std::vector<std::string>& arguments, Settings& s)
 void
 applySettings(Settings& s)
 {
-  if (s.seed < 0)
-    throw app::UsageError("--seed = " + std::to_string(s.seed) + ", but must be >= 0");
-  if (s.threads < 0)
-    throw app::UsageError("--threads = " + std::to_string(s.threads) +
-                          ", but must be >= 0");
+  app::checkOptions([&] {
+    require(s.seed >= 0, "seed", s.seed, ">= 0");
+    require(s.threads >= 0, "threads", s.threads, ">= 0");
+  });
   if (s.scanner != "rotating" && s.scanner != "pitching")
     throw app::UsageError("--scanner = " + s.scanner +
                           ", but must be rotating or pitching");
@@ -105,63 +104,28 @@ applySettings(Settings& s)
       s.scanner == "pitching" ? pitchingScanner() : rotatingScanner());
 }
 
-/** \return the scans of an earlier run in a folder */
-std::vector<fs::path>
-scansIn(const fs::path& folder)
+/** \return whether a folder holds scans */
+bool
+holdsScans(const fs::path& folder)
 {
-  const std::regex scan_file("scan[0-9]+\\.pcd");
-  std::vector<fs::path> scans;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (std::regex_match(entry.path().filename().string(), scan_file))
-      scans.push_back(entry.path());
-  return scans;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".pcd")
+      return true;
+  return false;
 }
 
-/** \brief A folder inside the output that holds all files until the last is written. */
-class StagingFolder {
-public:
-  explicit StagingFolder(const fs::path& folder) : folder_(folder)
-  {
-    fs::create_directory(folder_);
-  }
-  ~StagingFolder()
-  {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  StagingFolder(const StagingFolder&) = delete;
-  StagingFolder&
-  operator=(const StagingFolder&) = delete;
-
-  fs::path
-  operator/(const std::string& name) const
-  {
-    return folder_ / name;
-  }
-
-  /** \brief Replaces an earlier run in the folder above by the staged files. The marker
-   * comes first, so that whatever stops it there, the folder is still known as ours. */
-  void
-  publish() const
-  {
-    const fs::path target = folder_.parent_path();
-    fs::rename(folder_ / kMarker, target / kMarker);
-    for (const auto& file : scansIn(target))
-      fs::remove(file);
-    for (const auto& entry : fs::directory_iterator(folder_))
-      fs::rename(entry.path(), target / entry.path().filename());
-  }
-
-private:
-  fs::path folder_;
-};
-
-std::string
-scanName(std::size_t i)
+app::OutputRules
+outputRules(const Settings& s)
 {
-  char name[32];
-  std::snprintf(name, sizeof name, "scan%03zu.pcd", i);
-  return name;
+  app::OutputRules rules;
+  rules.folder = s.out;
+  rules.program = kName;
+  rules.marker = kMarker;
+  rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
+                           "scene\\.json");
+  rules.force = s.force;
+  return rules;
 }
 
 void
@@ -180,7 +144,7 @@ writeSceneFile(const fs::path& path, const Settings& s)
 
 /** \return false when a signal came in before the last scan */
 bool
-writeFiles(const StagingFolder& folder,
+writeFiles(const app::OutputFolder& folder,
            const Settings& s,
            const Simulator& simulator,
            app::ProgressBar& progress)
@@ -191,7 +155,9 @@ writeFiles(const StagingFolder& folder,
       return false;
     pcl::PCLPointCloud2 cloud;
     pcl::toPCLPointCloud2(simulator.scan(i), cloud);
-    writePcd(folder / scanName(i), cloud, simulator.odometry().poses[i]);
+    writePcd(folder / (app::scanName(static_cast<int>(i)) + ".pcd"),
+             cloud,
+             simulator.odometry().poses[i]);
     progress.show({"simulating", i + 1, simulator.size()});
   }
   writeTrajectoryKitti(folder / "odometry.txt", simulator.odometry());
@@ -231,24 +197,22 @@ run(const std::vector<std::string>& arguments)
     return app::kDone;
   applySettings(s);
   SimulationScene scene;
-  app::checkOptions([&] {
-    scene = builtInScene(s.scene);
-    s.simulation.validate();
-  });
+  app::checkOptions(
+      [&] {
+        scene = builtInScene(s.scene);
+        s.simulation.validate();
+      },
+      {{"num_scans", "scans"}});
   const Simulator simulator(scene, s.simulation);
-  app::OutputFolder out(s.out, {}, kMarker, s.force);
-  if (!out.holdsEarlierRun() && !scansIn(out / "").empty())
+  app::OutputFolder out(outputRules(s));
+  if (!out.holdsEarlierRun() && holdsScans(s.out))
     throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");
-  {
-    const StagingFolder staging(out / (".simulating-" + std::to_string(::getpid())));
-    app::ProgressBar progress(s.quiet);
-    if (!writeFiles(staging, s, simulator, progress)) {
-      progress.say("interrupted: nothing written");
-      return app::kInterrupted;
-    }
-    staging.publish();
+  app::ProgressBar progress(s.quiet);
+  if (!writeFiles(out, s, simulator, progress)) {
+    progress.say("interrupted: nothing written");
+    return app::kInterrupted;
   }
-  out.commit();
+  out.publish();
   if (!s.quiet)
     printSummary(s, simulator);
   return app::kDone;

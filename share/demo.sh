@@ -4,7 +4,7 @@
 # usage: share/demo.sh [OUT_DIR]     (default: build/demo)
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-out=${1:-$root/build/demo}
+out=$(realpath -m "${1:-$root/build/demo}")
 bin=$root/build/release/bin
 
 step() { printf '\n== %s\n' "$*"; }

@@ -7,7 +7,10 @@
 
 #include <boost/program_options/errors.hpp>
 
+#include <algorithm>
+#include <csignal>
 #include <iostream>
+#include <regex>
 
 namespace pcl6d::app {
 
@@ -15,7 +18,10 @@ namespace {
 int
 report(const std::string& name, const std::string& message, ExitCode code)
 {
-  std::cerr << name << ": error: " << message
+  std::string line; // a file's name may hold a line break
+  for (const char c : message)
+    line += c == '\n' ? std::string("\\n") : std::string(1, c);
+  std::cerr << name << ": error: " << line
             << (code == kUsage ? " (see --help)\n" : "\n");
   return code;
 }
@@ -27,6 +33,7 @@ runMain(const std::string& name,
         char** argv,
         const std::function<int(const std::vector<std::string>&)>& body)
 try {
+  std::signal(SIGPIPE, SIG_IGN); // `... | head` must not leave half a run
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   return body(std::vector<std::string>(argv + 1, argv + argc));
 } catch (const UsageError& e) {
@@ -40,11 +47,22 @@ try {
 }
 
 void
-checkOptions(const std::function<void()>& check)
+checkOptions(const std::function<void()>& check,
+             const std::map<std::string, std::string>& words)
 try {
   check();
 } catch (const BadArgument& e) {
-  throw UsageError(e.what());
+  const std::string message = e.what();
+  static const std::regex kRule("([a-z_]+)( = .*)");
+  std::smatch match;
+  if (!std::regex_match(message, match, kRule))
+    throw UsageError(message);
+  std::string option = match[1];
+  const auto word = words.find(option);
+  if (word != words.end())
+    option = word->second;
+  std::replace(option.begin(), option.end(), '_', '-');
+  throw UsageError("--" + option + match[2].str());
 }
 
 } // namespace pcl6d::app

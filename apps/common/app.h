@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -34,8 +35,10 @@ runMain(const std::string& name,
         const std::function<int(const std::vector<std::string>&)>& body);
 
 /** \brief Calls check and turns its BadArgument into a UsageError: for options that the
- * library validates. */
+ * library validates. "max_range = -1, but ..." becomes "--max-range = -1, but ...".
+ * \param[in] words options that are not called like the library's field */
 void
-checkOptions(const std::function<void()>& check);
+checkOptions(const std::function<void()>& check,
+             const std::map<std::string, std::string>& words = {});
 
 } // namespace pcl6d::app

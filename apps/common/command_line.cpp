@@ -48,7 +48,8 @@ CommandLine::readConfig(const std::string& file)
     throw UsageError(file + ": cannot read config file");
   po::options_description all;
   for (const auto& group : groups_)
-    all.add(group);
+    if (group.options().front()->long_name() != "config") // these have no sense in it
+      all.add(group);
   try {
     po::store(po::parse_config_file(stream, all), values_);
   } catch (const po::error& e) {
@@ -73,12 +74,20 @@ CommandLine::parse(const std::vector<std::string>& arguments)
   all.add(hidden_);
   using Style = po::command_line_style::style_t;
   const int style = po::command_line_style::unix_style ^ Style::allow_guessing;
-  po::store(po::command_line_parser(arguments)
-                .options(all)
-                .positional(positions_)
-                .style(style)
-                .run(),
-            values_);
+  try {
+    po::store(po::command_line_parser(arguments)
+                  .options(all)
+                  .positional(positions_)
+                  .style(style)
+                  .run(),
+              values_);
+  } catch (const po::too_many_positional_options_error&) {
+    std::string wanted;
+    for (const auto& name : positional_names_)
+      wanted += " " + name;
+    throw UsageError("too many arguments; expected" + wanted +
+                     ", and everything else with the name of its option");
+  }
   if (values_.count("help")) {
     printHelp();
     return false;

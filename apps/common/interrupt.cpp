@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/interrupt.h"
 
-#include <csignal>
-
 namespace pcl6d::app {
 
 namespace {
 volatile std::sig_atomic_t g_requested = 0;
 
 extern "C" void
-onSignal(int signal)
+onSignal(int)
 {
   g_requested = 1;
-  std::signal(signal, SIG_DFL); // the next one ends the program
 }
 } // namespace
 
 Interrupt::Interrupt()
 {
   g_requested = 0;
-  std::signal(SIGINT, onSignal);
-  std::signal(SIGTERM, onSignal);
+  struct sigaction action {};
+  action.sa_handler = onSignal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART; // the next one ends it
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    ::sigaction(kSignals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN)
+      ::sigaction(kSignals[i], &action, nullptr);
+  }
 }
 
 Interrupt::~Interrupt()
 {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (std::size_t i = 0; i < kSignals.size(); ++i)
+    ::sigaction(kSignals[i], &before_[i], nullptr);
 }
 
 bool

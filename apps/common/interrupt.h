@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <csignal>
+
 namespace pcl6d::app {
 
-/** \brief Turns SIGINT and SIGTERM into a request to stop, for the length of its scope.
- * A second signal ends the program at once. One at a time. */
+/** \brief Turns SIGINT, SIGTERM and SIGHUP into a request to stop, for the length of its
+ * scope. A second signal of a kind ends the program at once. A signal that was ignored
+ * before (nohup) stays so. One at a time. */
 class Interrupt {
 public:
   Interrupt();
@@ -16,6 +20,10 @@ public:
   /** \return whether a signal came in */
   bool
   requested() const;
+
+private:
+  static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, 3> before_{};
 };
 
 } // namespace pcl6d::app

@@ -3,37 +3,84 @@
 
 #include <pcl6d/common/error.h>
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
 #include <unistd.h>
+#include <utility>
 
 namespace fs = std::filesystem;
 
 namespace pcl6d::app {
 
 namespace {
-void
-refuseForeignFolder(const fs::path& folder, const std::string& marker, bool force)
+constexpr const char* kStagingPrefix = ".pcl6d-writing-";
+
+/** \return whether a file is the marker that a program left */
+bool
+isMarkerOf(const fs::path& file, const std::string& program)
 {
-  if (force || fs::is_empty(folder) || fs::exists(folder / marker))
-    return;
-  throw IoFailed(folder.string() +
-                 ": folder is not empty and holds no earlier run (no " + marker +
-                 "); use another folder or --force");
+  std::ifstream stream(file);
+  const auto json = nlohmann::json::parse(stream, nullptr, false);
+  return json.is_object() && json.value("generator", nlohmann::json()) == program;
 }
 
-/** Old results are removed from the output folder, so no input may lie in it. */
+/** Removes the hidden folders of programs that were killed. */
+void
+removeLeftovers(const fs::path& folder)
+{
+  const std::string prefix = kStagingPrefix;
+  std::vector<fs::path> dead;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(prefix, 0) != 0)
+      continue;
+    const int pid = std::atoi(name.c_str() + prefix.size());
+    if (pid <= 0 || ::kill(pid, 0) != 0)
+      dead.push_back(entry.path());
+  }
+  std::error_code ignored;
+  for (const auto& path : dead)
+    fs::remove_all(path, ignored);
+}
+
+void
+refuseForeignFolder(const fs::path& folder, const OutputRules& rules)
+{
+  if (rules.force || fs::is_empty(folder) ||
+      isMarkerOf(folder / rules.marker, rules.program))
+    return;
+  throw IoFailed(rules.folder.string() +
+                 ": folder is not empty and holds no earlier run of " + rules.program +
+                 " (no " + rules.marker + " of it); use another folder or --force");
+}
+
+/** Files of an earlier run are replaced, so no input may be or lie in the folder. */
 void
 refuseInput(const fs::path& folder, const fs::path& input, const std::string& name)
 {
   std::error_code error;
-  if (input.empty() || !fs::exists(folder, error))
+  if (input.empty() || !fs::exists(folder, error) || !fs::exists(input, error))
     return;
   if (fs::equivalent(folder, input, error))
     throw IoFailed(name + ": output folder is the input folder");
-  fs::path above = fs::weakly_canonical(input, error);
+  fs::path above = fs::canonical(input, error).parent_path();
   for (; above.has_relative_path(); above = above.parent_path())
     if (fs::equivalent(folder, above, error))
-      throw IoFailed(name + ": the input folder " + input.string() +
+      throw IoFailed(name + ": the input " + input.string() +
                      " lies inside the output folder");
+}
+
+/** A link in the folder may lead to an input, whose files would be replaced. */
+void
+refuseLinkedFolders(const fs::path& folder, const std::string& name)
+{
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_symlink() && entry.is_directory())
+      throw IoFailed(name + ": holds a link to a folder, " +
+                     entry.path().filename().string() + "; use another output folder");
 }
 
 /** \return the topmost part of the path that does not exist yet; empty if all exists */
@@ -45,61 +92,104 @@ topmostMissing(const fs::path& folder)
     missing = p;
   return missing;
 }
+
+/** \return the files below a folder, relative to it */
+std::vector<fs::path>
+filesBelow(const fs::path& folder)
+{
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory() || entry.is_symlink())
+      files.push_back(
+          fs::relative(entry.path().parent_path(), folder).lexically_normal() /
+          entry.path().filename());
+  for (auto& file : files)
+    file = file.lexically_normal();
+  std::sort(files.begin(), files.end());
+  return files;
+}
 } // namespace
 
-OutputFolder::OutputFolder(const fs::path& folder,
-                           const fs::path& input,
-                           const std::string& marker,
-                           bool force)
-: folder_(fs::absolute(folder).lexically_normal())
+OutputFolder::OutputFolder(OutputRules rules)
+: rules_(std::move(rules)), folder_(fs::absolute(rules_.folder).lexically_normal())
 {
   if (!folder_.has_filename()) // "out/" names the folder "out"
     folder_ = folder_.parent_path();
+  const std::string name = rules_.folder.string();
+  for (const auto& input : rules_.inputs)
+    refuseInput(folder_, input, name);
   std::error_code error;
-  refuseInput(folder_, input, folder.string());
   if (fs::exists(folder_, error) && !fs::is_directory(folder_))
-    throw IoFailed(folder.string() + ": output is a file, not a folder");
-  if (fs::is_directory(folder_)) {
-    refuseForeignFolder(folder_, marker, force);
-    holds_earlier_run_ = fs::exists(folder_ / marker);
-    if (::access(folder_.c_str(), W_OK) != 0)
-      throw IoFailed(folder.string() + ": output folder is not writable");
-    return;
+    throw IoFailed(name + ": output is a file, not a folder");
+  if (fs::is_directory(folder_, error)) {
+    removeLeftovers(folder_);
+    refuseForeignFolder(folder_, rules_);
+    refuseLinkedFolders(folder_, name);
+    holds_earlier_run_ = isMarkerOf(folder_ / rules_.marker, rules_.program);
   }
-  made_ = topmostMissing(folder_);
-  fs::create_directories(folder_, error);
+  else {
+    made_ = topmostMissing(folder_);
+  }
+  staging_ = folder_ / (kStagingPrefix + std::to_string(::getpid()));
+  fs::create_directories(staging_, error);
   if (error) {
-    made_.clear();
-    throw IoFailed(folder.string() + ": cannot make output folder: " + error.message());
+    if (!made_.empty())
+      fs::remove_all(std::exchange(made_, fs::path()), error);
+    throw IoFailed(name + ": cannot write into the output folder: " + error.message());
   }
 }
 
 OutputFolder::~OutputFolder()
 {
   std::error_code ignored;
-  if (!made_.empty())
-    fs::remove_all(made_, ignored);
-}
-
-void
-OutputFolder::removeOld(const std::vector<std::string>& names) const
-{
-  if (!holds_earlier_run_)
-    return;
-  for (const auto& name : names)
-    fs::remove_all(folder_ / name);
-}
-
-void
-OutputFolder::commit()
-{
-  made_.clear();
+  fs::remove_all(made_.empty() ? staging_ : made_, ignored);
 }
 
 fs::path
 OutputFolder::operator/(const std::string& name) const
 {
-  return folder_ / name;
+  fs::create_directories((staging_ / name).parent_path());
+  return staging_ / name;
+}
+
+void
+OutputFolder::discard(const std::string& name) const
+{
+  fs::remove_all(staging_ / name);
+}
+
+void
+OutputFolder::removeOldRun() const
+{
+  for (const auto& file : filesBelow(folder_))
+    if (std::regex_match(file.string(), rules_.files)) {
+      fs::remove(folder_ / file);
+      const fs::path parent = (folder_ / file).parent_path();
+      if (parent != folder_ && fs::is_empty(parent))
+        fs::remove(parent);
+    }
+}
+
+std::vector<fs::path>
+OutputFolder::publish()
+{
+  const auto files = filesBelow(staging_);
+  for (const auto& file : files)
+    if (fs::is_directory(folder_ / file))
+      throw IoFailed((folder_ / file).string() + ": is a folder, but a file is to be "
+                                                 "written there");
+  if (holds_earlier_run_)
+    removeOldRun();
+  std::vector<fs::path> written;
+  for (const auto& file : files) {
+    fs::create_directories((folder_ / file).parent_path());
+    fs::rename(staging_ / file, folder_ / file);
+    const fs::path top = folder_ / *file.begin();
+    if (written.empty() || written.back() != top)
+      written.push_back(top);
+  }
+  made_.clear();
+  return written;
 }
 
 } // namespace pcl6d::app

@@ -2,53 +2,70 @@
 #pragma once
 
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
 namespace pcl6d::app {
 
-/** \brief The rules for a folder that a program writes.
+/** \brief What a program may do to the folder that it writes. */
+struct OutputRules {
+  std::filesystem::path folder;
+  std::vector<std::filesystem::path>
+      inputs;          ///< files and folders; may hold empty paths
+  std::string program; ///< its name, which its marker holds as "generator"
+  std::string marker;  ///< the JSON file that every run of the program leaves
+  std::regex files;    ///< relative paths of all files that a run may leave
+  bool force = false;  ///< accept a folder that holds other things
+};
+
+/** \brief The folder that a program writes: whole or not at all.
  *
- * A folder that exists and holds something is refused, unless `marker` (a file that
- * every run of ours leaves) is in it, or `force` is given. Folders that were made here
- * are removed again, with what is in them, if commit() is not reached. */
+ * Files are written to a hidden folder inside it and moved to their places by publish(),
+ * together. What an earlier run of the program left is then removed, and nothing else: a
+ * folder that holds other things is refused without `force`, and with it only files of the
+ * same name are replaced. Inputs are never touched. If publish() is not reached, all is as
+ * it was before. */
 class OutputFolder {
 public:
-  /** \param[in] input a folder that must not be the output; may be empty
-   * \throws IoFailed the path leads through a file, is or holds the input folder, holds
-   * foreign files, or cannot be made */
-  OutputFolder(const std::filesystem::path& folder,
-               const std::filesystem::path& input,
-               const std::string& marker,
-               bool force);
+  /** \throws IoFailed the path leads through a file, is or holds an input, holds foreign
+   * files or a link in place of a folder of ours, or cannot be made */
+  explicit OutputFolder(OutputRules rules);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder&
   operator=(const OutputFolder&) = delete;
 
-  /** \brief Removes what an earlier run left under these names (files or folders). Does
-   * nothing in a folder that holds no earlier run, where they are somebody else's. */
-  void
-  removeOld(const std::vector<std::string>& names) const;
+  /** \return where to write a file, such as "scans/scan000.pcd"; its folder is made */
+  std::filesystem::path
+  operator/(const std::string& name) const;
 
-  /** \brief Everything is written: keep the folder. */
+  /** \brief Takes back what was written below a name. */
   void
-  commit();
+  discard(const std::string& name) const;
 
-  /** \return whether an earlier run of ours is in the folder */
+  /** \brief Moves everything to its place. \return the names at the top of the folder that
+   * were written, as full paths, sorted
+   * \throws IoFailed something else stands in the place of a file; nothing is moved */
+  std::vector<std::filesystem::path>
+  publish();
+
+  /** \return whether an earlier run of the program is in the folder */
   bool
   holdsEarlierRun() const
   {
     return holds_earlier_run_;
   }
 
-  std::filesystem::path
-  operator/(const std::string& name) const;
-
 private:
+  void
+  removeOldRun() const;
+
+  OutputRules rules_;
   std::filesystem::path folder_;
-  bool holds_earlier_run_ = false;
+  std::filesystem::path staging_;
   std::filesystem::path made_; ///< topmost folder that was made here; empty if none
+  bool holds_earlier_run_ = false;
 };
 
 } // namespace pcl6d::app

@@ -33,6 +33,13 @@ ProgressBar::say(const std::string& line)
 }
 
 void
+ProgressBar::warn(const std::string& line)
+{
+  endLine();
+  std::cerr << "warning: " << line << '\n';
+}
+
+void
 ProgressBar::show(const Progress& progress)
 {
   if (quiet_ || progress.total == 0)

@@ -25,6 +25,10 @@ public:
   void
   say(const std::string& line);
 
+  /** \brief Prints `warning: line`, also when quiet. */
+  void
+  warn(const std::string& line);
+
 private:
   void
   endLine();

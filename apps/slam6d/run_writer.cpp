@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/scan_name.h"
 #include "slam6d/run_writer.h"
 
 #include <pcl6d/common/pose.h>
@@ -6,29 +7,29 @@
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/trajectory_io.h>
 
-#include <cstdio>
 #include <sstream>
 #include <sys/resource.h>
-
-namespace fs = std::filesystem;
 
 namespace pcl6d::app {
 
 namespace {
-/** Everything that a run may leave behind. */
-const std::vector<std::string> kRunFiles = {"trajectory.kitti",
-                                            "trajectory.tum",
-                                            "frames",
-                                            "scans",
-                                            "map.pcd",
-                                            "graph.g2o",
-                                            "links.csv",
-                                            "summary.json",
-                                            "planes.json",
-                                            "objects.json",
-                                            "semantic_map.json",
-                                            "top_view.png",
-                                            "report.html"};
+constexpr const char* kProgram = "pcl_slam6d";
+
+FrameKind
+kindOf(ScanState state)
+{
+  switch (state) {
+  case ScanState::kMatched:
+  case ScanState::kUnconverged:
+    return FrameKind::kIcp;
+  case ScanState::kFixed:
+    return FrameKind::kInactive;
+  case ScanState::kPredicted:
+  case ScanState::kPending:
+    break;
+  }
+  return FrameKind::kInvalid;
+}
 
 RunSummary::ScanEntry
 entryOf(const std::string& file, const ScanResult& scan, std::size_t dropped)
@@ -64,26 +65,38 @@ filesIn(const std::string& state, const RunSummary& summary)
 }
 
 std::string
+counted(std::size_t count, const std::string& thing)
+{
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+std::string
 verdictOf(const Slam6DResult& result, const RunSummary& summary)
 {
-  const std::string all = std::to_string(result.scans.size());
+  const std::string all = counted(result.scans.size(), "scan");
+  const std::size_t pending = result.count(ScanState::kPending);
   std::ostringstream text;
-  if (!summary.complete)
-    text << "PARTIAL: interrupted; " << result.count(ScanState::kPending) << " of "
-         << all << " scans are not registered and have predicted poses";
+  if (pending > 0)
+    text << "PARTIAL: interrupted; " << pending << " of " << all
+         << " not registered, at predicted poses";
+  else if (!summary.complete)
+    text << "PARTIAL: interrupted; the poses are complete, but scans, map and picture "
+            "are missing";
   else if (result.trusted())
-    text << "all " << all << " scans registered, every match converged";
+    text << (result.scans.size() == 1
+                 ? "1 scan, nothing to match"
+                 : "all " + all + " registered, every match converged");
   else
-    text << result.count(ScanState::kMatched) + 1 << " of " << all
-         << " scans registered";
+    text << result.count(ScanState::kMatched) + 1 << " of " << all << " registered";
   if (const auto failed = result.count(ScanState::kPredicted))
-    text << "\nNOT TO BE TRUSTED: " << failed
-         << " scans could not be matched and keep their predicted pose"
+    text << "\nNOT TO BE TRUSTED: " << counted(failed, "scan")
+         << " could not be matched, predicted pose kept"
          << filesIn("predicted", summary);
   if (const auto limit = result.count(ScanState::kUnconverged))
-    text << "\nNOT TO BE TRUSTED: the match of " << limit
-         << " scans did not converge (see --iterations)"
-         << filesIn("unconverged", summary);
+    text
+        << "\nNOT TO BE TRUSTED: " << counted(limit, "scan")
+        << " did not converge (bad initial pose, little overlap, --metascan too small?)"
+        << filesIn("unconverged", summary);
   return text.str();
 }
 
@@ -115,27 +128,52 @@ StageTimer::~StageTimer()
   stages_.push_back({name_, spent.count(), usage.ru_maxrss / 1024.0});
 }
 
+OutputRules
+runFolderRules(const Settings& settings)
+{
+  OutputRules rules;
+  rules.folder = settings.out;
+  rules.inputs = {settings.input, settings.folder.poses_file};
+  rules.program = kProgram;
+  rules.marker = "summary.json";
+  rules.files = std::regex("trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
+                           "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|links\\.csv|"
+                           "(summary|planes|objects|semantic_map)\\.json|"
+                           "top_view\\.png|report\\.html");
+  rules.force = settings.force;
+  return rules;
+}
+
 RunWriter::RunWriter(const Settings& settings,
                      const ScanFolder& folder,
                      const Slam6DResult& result,
                      const OutputFolder& out,
-                     ProgressBar& bar)
-: settings_(settings), folder_(folder), result_(result), out_(out), bar_(bar)
+                     ProgressBar& bar,
+                     const Interrupt& interrupt)
+: settings_(settings)
+, folder_(folder)
+, result_(result)
+, out_(out)
+, bar_(bar)
+, interrupt_(interrupt)
 {}
 
 const RunSummary&
 RunWriter::write(bool complete, const RunLog& log)
 {
   describe(complete, log);
-  out_.removeOld(kRunFiles);
   writeTrajectoryKitti(out_ / "trajectory.kitti", trajectory());
   writeTrajectoryTum(out_ / "trajectory.tum", trajectory());
   writeHistory();
   if (complete) {
-    const MapBuilder map = writeScansAndMap();
-    summary_.map_points = map.points().size();
-    drawTopView(map);
+    MapBuilder map(result_.parameters.voxel.value, summary_.world_offset);
+    summary_.complete = writeScansAndMap(map);
+    if (summary_.complete)
+      drawTopView(map);
+    summary_.map_points = summary_.complete ? map.points().size() : 0;
   }
+  summary_.trusted = summary_.complete && result_.trusted();
+  summary_.verdict = verdictOf(result_, summary_);
   writeRunSummary(out_ / "summary.json", summary_);
   return summary_;
 }
@@ -155,19 +193,18 @@ RunWriter::trajectory() const
 void
 RunWriter::writeHistory() const
 {
-  fs::create_directories(out_ / "frames");
   for (std::size_t i = 0; i < folder_.size(); ++i) {
     const ScanResult& scan = result_.scans[i];
-    const FrameKind kind =
-        scan.state == ScanState::kPending ? FrameKind::kInvalid : FrameKind::kIcp;
-    writeFrames(out_ / "frames" / (scanName(folder_.index(i)) + ".frames"),
-                {{scan.initial_pose, FrameKind::kInvalid}, {scan.T_world_scan, kind}});
+    writeFrames(out_ / ("frames/" + scanName(folder_.index(i)) + ".frames"),
+                {{scan.initial_pose, FrameKind::kInvalid},
+                 {scan.T_world_scan, kindOf(scan.state)}});
   }
 }
 
 void
 RunWriter::describe(bool complete, const RunLog& log)
 {
+  summary_.generator = kProgram;
   summary_.version = PCL6D_VERSION;
   summary_.pose_source = folder_.poseSource();
   summary_.world_offset = worldOffset(result_.scans.front().T_world_scan);
@@ -177,27 +214,11 @@ RunWriter::describe(bool complete, const RunLog& log)
     summary_.scans.push_back(
         entryOf(folder_.file(i).filename().string(), result_.scans[i], log.dropped[i]));
   summary_.complete = complete;
-  summary_.trusted = complete && result_.trusted();
-  summary_.verdict = verdictOf(result_, summary_);
-}
-
-std::string
-scanName(int index)
-{
-  char name[32];
-  std::snprintf(name, sizeof name, "scan%03d", index);
-  return name;
-}
-
-std::string
-closingText(const RunSummary& summary, const OutputFolder& out)
-{
-  std::ostringstream text;
-  text << summary.verdict << '\n';
-  for (const auto& name : kRunFiles)
-    if (fs::exists(out / name))
-      text << "  " << (out / name).string() << '\n';
-  return text.str();
+  if (folder_.poseSource() == "identity" && folder_.size() > 1)
+    summary_.warnings.push_back(
+        "no initial poses were found: each scan starts where the "
+        "one before is, which only fits scans taken close "
+        "together; give poses with --poses or odometry.txt");
 }
 
 } // namespace pcl6d::app

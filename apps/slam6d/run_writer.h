@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "slam6d/settings.h"
@@ -17,8 +18,9 @@
 
 namespace pcl6d::app {
 
-/** The file that every run leaves in its folder. */
-constexpr const char* kRunMarker = "summary.json";
+/** \return what pcl_slam6d may do to its output folder */
+OutputRules
+runFolderRules(const Settings& settings);
 
 /** \brief What a run gathers on its way, for the summary. */
 struct RunLog {
@@ -49,10 +51,11 @@ public:
             const ScanFolder& folder,
             const Slam6DResult& result,
             const OutputFolder& out,
-            ProgressBar& bar);
+            ProgressBar& bar,
+            const Interrupt& interrupt);
 
-  /** \brief Replaces an earlier run. Of an interrupted one (not complete) only poses,
-   * history and summary are written. \return the summary, as it stands in the file */
+  /** \brief Of an interrupted run, be it before (not complete) or now, only poses, history
+   * and summary are written. \return the summary, as it stands in the file */
   const RunSummary&
   write(bool complete, const RunLog& log);
 
@@ -61,8 +64,8 @@ private:
   trajectory() const;
   void
   writeHistory() const;
-  MapBuilder
-  writeScansAndMap();
+  bool
+  writeScansAndMap(MapBuilder& map);
   void
   drawTopView(const MapBuilder& map);
   void
@@ -73,16 +76,8 @@ private:
   const Slam6DResult& result_;
   const OutputFolder& out_;
   ProgressBar& bar_;
+  const Interrupt& interrupt_;
   RunSummary summary_;
 };
-
-/** \return "scan007" for the scan at place 7 of its folder, as in the names of the files that
- * a run writes */
-std::string
-scanName(int index);
-
-/** \return the last lines of a run: the verdict and the files that were written */
-std::string
-closingText(const RunSummary& summary, const OutputFolder& out);
 
 } // namespace pcl6d::app

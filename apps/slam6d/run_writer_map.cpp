@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of RunWriter that needs the scans again: scans/, map.pcd and the picture.
+#include "common/scan_name.h"
 #include "slam6d/run_writer.h"
 
 #include <pcl6d/common/error.h>
@@ -12,26 +13,51 @@
 #include <cstring>
 #include <limits>
 
-namespace fs = std::filesystem;
-
 namespace pcl6d::app {
 
 namespace {
-/** \return the values of a float field called "intensity", or nothing */
+template <typename T>
+std::vector<float>
+valuesOf(const pcl::PCLPointCloud2& cloud, const pcl::PCLPointField& field)
+{
+  std::vector<float> values(std::size_t{cloud.width} * cloud.height);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    T value;
+    std::memcpy(
+        &value, cloud.data.data() + i * cloud.point_step + field.offset, sizeof value);
+    values[i] = static_cast<float>(value);
+  }
+  return values;
+}
+
+/** \return the values of the field "intensity", whatever its type, or nothing */
 std::vector<float>
 intensitiesOf(const pcl::PCLPointCloud2& cloud)
 {
-  const auto field =
-      std::find_if(cloud.fields.begin(), cloud.fields.end(), [](const auto& f) {
-        return f.name == "intensity" && f.datatype == pcl::PCLPointField::FLOAT32;
-      });
-  if (field == cloud.fields.end())
-    return {};
-  std::vector<float> values(std::size_t{cloud.width} * cloud.height);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    std::memcpy(
-        &values[i], cloud.data.data() + i * cloud.point_step + field->offset, 4);
-  return values;
+  using Field = pcl::PCLPointField;
+  for (const auto& field : cloud.fields)
+    if (field.name == "intensity")
+      switch (field.datatype) {
+      case Field::INT8:
+        return valuesOf<std::int8_t>(cloud, field);
+      case Field::UINT8:
+        return valuesOf<std::uint8_t>(cloud, field);
+      case Field::INT16:
+        return valuesOf<std::int16_t>(cloud, field);
+      case Field::UINT16:
+        return valuesOf<std::uint16_t>(cloud, field);
+      case Field::INT32:
+        return valuesOf<std::int32_t>(cloud, field);
+      case Field::UINT32:
+        return valuesOf<std::uint32_t>(cloud, field);
+      case Field::FLOAT32:
+        return valuesOf<float>(cloud, field);
+      case Field::FLOAT64:
+        return valuesOf<double>(cloud, field);
+      default:
+        break;
+      }
+  return {};
 }
 
 /** Points outside the range gate are no surfaces; the map leaves out what is NaN. */
@@ -53,24 +79,26 @@ relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
 }
 } // namespace
 
-MapBuilder
-RunWriter::writeScansAndMap()
+/** \return false if interrupted */
+bool
+RunWriter::writeScansAndMap(MapBuilder& map)
 {
   const StageTimer timer("writing", summary_.stages);
-  const Eigen::Vector3d& offset = summary_.world_offset;
-  MapBuilder map(result_.parameters.voxel.value, offset);
-  fs::create_directories(out_ / "scans");
   // A few scans at a time: read and written in parallel, joined in their order.
-  const unsigned int threads = threadCount(settings_.slam.num_threads);
-  std::vector<Scan> batch(2 * threads);
-  for (std::size_t begin = 0; begin < folder_.size(); begin += batch.size()) {
-    const std::size_t count = std::min(batch.size(), folder_.size() - begin);
-    parallelFor(count, threads, [&](std::size_t k) {
+  constexpr std::size_t kBatch = 8;
+  std::vector<Scan> batch(kBatch);
+  for (std::size_t begin = 0; begin < folder_.size(); begin += kBatch) {
+    if (interrupt_.requested()) {
+      out_.discard("scans");
+      return false;
+    }
+    const std::size_t count = std::min(kBatch, folder_.size() - begin);
+    parallelFor(count, settings_.slam.num_threads, [&](std::size_t k) {
       const std::size_t i = begin + k;
       batch[k] = folder_.read(i);
-      writePcd(out_ / "scans" / (scanName(folder_.index(i)) + ".pcd"),
+      writePcd(out_ / ("scans/" + scanName(folder_.index(i)) + ".pcd"),
                batch[k].cloud,
-               relativeTo(offset, result_.scans[i].T_world_scan));
+               relativeTo(summary_.world_offset, result_.scans[i].T_world_scan));
     });
     for (std::size_t k = 0; k < count; ++k)
       map.addScan(gated(std::move(batch[k].points), result_.parameters),
@@ -80,7 +108,7 @@ RunWriter::writeScansAndMap()
     bar_.show({"writing", begin + count, folder_.size()});
   }
   writePcd(out_ / "map.pcd", map.cloud());
-  return map;
+  return true;
 }
 
 /** Without a display the run goes on and says so. */
@@ -99,7 +127,7 @@ RunWriter::drawTopView(const MapBuilder& map)
   try {
     TopView().write(out_ / "top_view.png", scene);
   } catch (const IoFailed& e) {
-    bar_.say("warning: no picture: " + std::string(e.what()));
+    summary_.warnings.push_back("no picture: " + std::string(e.what()));
   }
 }
 

@@ -3,6 +3,8 @@
 #include "common/command_line.h"
 #include "slam6d/settings.h"
 
+#include <pcl6d/common/require.h>
+
 #include <sstream>
 
 namespace po = boost::program_options;
@@ -10,6 +12,8 @@ namespace po = boost::program_options;
 namespace pcl6d::app {
 
 namespace {
+constexpr int kMostThreads = 1024;
+
 constexpr const char* kUsageText =
     "usage: pcl_slam6d SCAN_DIR -o OUT_DIR [options]\n"
     "Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one "
@@ -115,8 +119,6 @@ interpret(const CommandLine& line, const Raw& raw, Settings& s)
 {
   if (s.out.empty())
     throw UsageError("-o OUT_DIR is missing");
-  if (raw.threads < 0)
-    throw UsageError("--threads " + std::to_string(raw.threads) + ": must be >= 0");
   if (line.given("last"))
     s.folder.last = raw.last;
   s.slam.num_threads = static_cast<unsigned int>(raw.threads);
@@ -126,11 +128,18 @@ interpret(const CommandLine& line, const Raw& raw, Settings& s)
   s.slam.voxel = toOptional(raw.voxel);
   s.slam.max_distance = toOptional(raw.max_distance);
   s.slam.max_distance_start = toOptional(raw.max_distance_start);
-  checkOptions([&] {
-    s.folder.format = scanFormatFromName(raw.format);
-    s.folder.validate();
-    s.slam.validate();
-  });
+  checkOptions(
+      [&] {
+        require(raw.threads >= 0 && raw.threads <= kMostThreads,
+                "threads",
+                raw.threads,
+                "in [0, " + std::to_string(kMostThreads) + "]");
+        require(s.seed >= 0, "seed", s.seed, ">= 0");
+        s.folder.format = scanFormatFromName(raw.format);
+        s.folder.validate();
+        s.slam.validate();
+      },
+      {{"max_iterations", "iterations"}});
 }
 
 template <typename T>

@@ -18,7 +18,7 @@ struct Settings {
   std::string out;
   ScanFolderOptions folder;
   Slam6DOptions slam;
-  std::uint64_t seed = 1;
+  std::int64_t seed = 1; ///< signed, as boost takes -1 for a large unsigned number
   bool force = false;
   bool quiet = false;
   bool verbose = false;

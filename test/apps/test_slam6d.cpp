@@ -303,6 +303,55 @@ TEST(PclSlam6d, HelpShowsGroupsUnitsAndDefaults)
     EXPECT_NE(outcome.out.find(text), std::string::npos) << text;
 }
 
+TEST(PclSlam6d, WithoutXvfbTheRunIsWholeAndSaysThatThePictureIsMissing)
+{
+  const TempFolder folder;
+  const std::string err = folder / "err";
+  const int code = bp::system(
+      PCL6D_BIN_DIR "/pcl_slam6d",
+      bp::args = {scans().string(), "-o", folder / "out", "--last", "1", "--quiet"},
+      bp::env["PATH"] = folder.path().string(),
+      bp::std_err > err);
+  EXPECT_EQ(code, 0);
+  EXPECT_NE(readText(err).find("xvfb"), std::string::npos) << readText(err);
+  const auto json = nlohmann::json::parse(readText(folder / "out" / "summary.json"));
+  ASSERT_EQ(json["warnings"].size(), 1u);
+  EXPECT_FALSE(fs::exists(folder / "out" / "top_view.png"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "map.pcd"));
+}
+
+TEST(PclSlam6d, WarnsWhenThereAreNoInitialPoses)
+{
+  const TempFolder folder;
+  fs::create_directory(folder / "in");
+  writeText(folder / "in" / "scan0.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
+  fs::copy(folder / "in" / "scan0.xyz", folder / "in" / "scan1.xyz");
+  const Outcome outcome = slam(folder / "in", folder / "out");
+  EXPECT_NE(outcome.err.find("warning: no initial poses"), std::string::npos)
+      << outcome.err;
+}
+
+TEST(PclSlam6d, InterruptedWhileWritingLeavesPosesAndNoScans)
+{
+  const TempFolder folder;
+  const fs::path out = folder / "out";
+  const std::string err = folder / "err";
+  bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
+                    bp::args = {scans().string(), "-o", out.string(), "--last", "17"},
+                    bp::std_out > bp::null,
+                    bp::std_err > err);
+  while (program.running() && readText(err).find("matching 18/18") == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ::kill(program.id(), SIGINT);
+  program.wait();
+  EXPECT_EQ(program.exit_code(), 130) << readText(err);
+  const auto json = nlohmann::json::parse(readText(out / "summary.json"));
+  EXPECT_FALSE(json["verdict"]["complete"]);
+  EXPECT_EQ(json["scans"][17]["state"], "matched");
+  EXPECT_FALSE(fs::exists(out / "scans"));
+  EXPECT_FALSE(fs::exists(out / "map.pcd"));
+}
+
 TEST(PclSlam6d, InterruptedWritesPosesSoFarAndMarksThemPartial)
 {
   const TempFolder folder;

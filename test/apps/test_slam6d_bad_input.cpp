@@ -234,6 +234,66 @@ TEST_F(BadInput, OutputHoldsForeignFiles)
   EXPECT_EQ(contentOf(out).size(), 1u);
 }
 
+TEST_F(BadInput, LinkInTheOutputThatLeadsToTheInput)
+{
+  fs::create_directory(out);
+  fs::create_directory_symlink(in, out / "scans");
+  const auto before = contentOf(in);
+  const auto outcome =
+      pcl6d::test::runProgram(kName, {in.string(), "-o", out.string(), "--force"});
+  pcl6d::test::expectError(outcome, kName, 1, {"link", "scans"});
+  EXPECT_EQ(contentOf(in), before);
+}
+
+TEST_F(BadInput, PosesInsideTheOutput)
+{
+  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
+            0);
+  const auto before = contentOf(out);
+  const std::string poses = out / "trajectory.kitti";
+  const auto outcome = pcl6d::test::runProgram(
+      kName, {in.string(), "-o", out.string(), "--poses", poses});
+  pcl6d::test::expectError(outcome, kName, 1, {poses, "inside"});
+  EXPECT_EQ(contentOf(out), before);
+}
+
+TEST_F(BadInput, SomebodyElsesSummaryIsNoLicence)
+{
+  fs::create_directories(out / "scans");
+  writeText(out / "summary.json", "{\"mine\": 1}");
+  writeText(out / "scans" / "mydata.txt", "mine too");
+  const auto before = contentOf(out);
+  const auto outcome =
+      pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()});
+  pcl6d::test::expectError(outcome, kName, 1, {"--force"});
+  EXPECT_EQ(contentOf(out), before);
+}
+
+TEST_F(BadInput, EarlierRunKeepsWhatIsNotOurs)
+{
+  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
+            0);
+  writeText(out / "scans" / "notes.txt", "mine");
+  fs::remove(in / "scan002.pcd");
+  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
+            0);
+  EXPECT_EQ(readText(out / "scans" / "notes.txt"), "mine");
+  EXPECT_FALSE(fs::exists(out / "scans" / "scan002.pcd"));
+}
+
+TEST_F(BadInput, LateFailureKeepsAnEarlierRun)
+{
+  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
+            0);
+  fs::remove(out / "map.pcd");
+  fs::create_directory(out / "map.pcd"); // found only when all is computed
+  const auto before = contentOf(out);
+  const auto outcome =
+      pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()});
+  pcl6d::test::expectError(outcome, kName, 1, {"map.pcd"});
+  EXPECT_EQ(contentOf(out), before);
+}
+
 TEST_F(BadInput, UnknownOption)
 {
   expectUsageError({in.string(), "-o", out.string(), "--voxle", "1"}, {"voxle"});
@@ -252,6 +312,9 @@ TEST_F(BadInput, OptionsOutOfRange)
                                       Case("--iterations", "0"),
                                       Case("--min-overlap", "2"),
                                       Case("--threads", "-1"),
+                                      Case("--threads", "2000000000"),
+                                      Case("--seed", "-1"),
+                                      Case("--voxel", "inf"),
                                       Case("--every", "0"),
                                       Case("--first", "-1"),
                                       Case("--first", "3"),
@@ -265,13 +328,16 @@ TEST_F(BadInput, MissingArguments)
 {
   expectUsageError({}, {"SCAN_DIR"});
   expectUsageError({in.string()}, {"-o"});
-  expectUsageError({in.string(), "more", "-o", out.string()}, {"--help"});
+  expectUsageError({in.string(), "more", "-o", out.string()}, {"SCAN_DIR", "--help"});
 }
 
 TEST_F(BadInput, BrokenConfig)
 {
   const std::string config = folder / "run.cfg";
   expectUsageError({in.string(), "-o", out.string(), "--config", config}, {"run.cfg"});
+  writeText(config, "config = other.cfg\n");
+  expectUsageError({in.string(), "-o", out.string(), "--config", config},
+                   {"run.cfg", "config"});
   writeText(config, "voxle = 1\n");
   expectUsageError({in.string(), "-o", out.string(), "--config", config},
                    {"run.cfg", "voxle"});

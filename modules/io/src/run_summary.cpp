@@ -84,12 +84,14 @@ writeRunSummary(const std::filesystem::path& path, const RunSummary& summary)
 {
   Json json;
   json["schema_version"] = RunSummary::kSchemaVersion;
+  json["generator"] = summary.generator;
   json["version"] = summary.version;
   json["world_offset"] = rowByRow(summary.world_offset.transpose());
   json["pose_source"] = summary.pose_source;
   json["verdict"] = {{"trusted", summary.trusted},
                      {"complete", summary.complete},
                      {"text", summary.verdict}};
+  json["warnings"] = summary.warnings;
   json["totals"] = totalsOf(summary);
   json["options"] = Json::object();
   for (const auto& option : summary.options)
@@ -102,8 +104,9 @@ writeRunSummary(const std::filesystem::path& path, const RunSummary& summary)
   json["scans"] = Json::array();
   for (const auto& scan : summary.scans)
     json["scans"].push_back(toJson(scan));
-  writeFileAtomically(path,
-                      [&](std::ostream& stream) { stream << json.dump(1) << '\n'; });
+  writeFileAtomically(path, [&](std::ostream& stream) {
+    stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  });
 }
 
 } // namespace pcl6d

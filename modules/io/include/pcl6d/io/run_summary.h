@@ -46,6 +46,7 @@ struct RunSummary {
     int iterations = 0;
   };
 
+  std::string generator; ///< the program's name
   std::string version;
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero(); ///< [m]
   std::string pose_source;
@@ -55,7 +56,8 @@ struct RunSummary {
   std::size_t map_points = 0;
   bool complete = true; ///< false: interrupted, part of the scans is not registered
   bool trusted = true;  ///< every scan was matched
-  std::string verdict;  ///< the same in words, naming what is not to be trusted
+  std::vector<std::string> warnings; ///< what went wrong without touching the poses
+  std::string verdict; ///< the same in words, naming what is not to be trusted
 };
 
 /** \brief Writes summary.json (fields: share/doc/run_folder.md), atomically.

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace pcl6d::app {
+
+/** \return "scan007" for 7: the stem of the files that belong to a scan */
+inline std::string
+scanName(int index)
+{
+  char name[32];
+  std::snprintf(name, sizeof name, "scan%03d", index);
+  return name;
+}
+
+} // namespace pcl6d::app

@@ -1,129 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/poses.h"
+#include "oracle.h"
+#include "plain_point_tree.h"
+#include "support/points.h"
 
+#include <pcl6d/common/error.h>
+#include <pcl6d/search/point_octree.h>
 #include <pcl6d/search/point_tree.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-
+using namespace pcl6d::test;
 using pcl6d::Neighbour;
 using pcl6d::Points;
 using pcl6d::PointTree;
 using pcl6d::Random;
 
-namespace {
-const float kInfinity = std::numeric_limits<float>::infinity();
-const float kNan = std::numeric_limits<float>::quiet_NaN();
-
-/** The oracle: all finite points nearer than the limit, sorted by distance, then index.
- */
-std::vector<Neighbour>
-bruteForce(const Points& points, const Eigen::Vector3f& q, float limit_sq)
-{
-  std::vector<Neighbour> found;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f d = q - points[i];
-    const float sq = d.x() * d.x() + d.y() * d.y() + d.z() * d.z();
-    if (sq < limit_sq)
-      found.push_back({static_cast<int>(i), sq});
-  }
-  std::sort(found.begin(), found.end(), [](const Neighbour& a, const Neighbour& b) {
-    return a.distance_sq < b.distance_sq ||
-           (a.distance_sq == b.distance_sq && a.index < b.index);
-  });
-  return found;
-}
-
-void
-expectEqual(const std::vector<Neighbour>& found, const std::vector<Neighbour>& expected)
-{
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    EXPECT_EQ(found[i].index, expected[i].index);
-    EXPECT_EQ(found[i].distance_sq, expected[i].distance_sq);
-  }
-}
-
-/** Points on an integer grid, each several times: as many ties as there can be. */
-Points
-gridWithDuplicates(Random& random, std::size_t count)
-{
-  Points points(count);
-  for (auto& p : points)
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = std::floor(static_cast<float>(random.uniform(0, 5)));
-  return points;
-}
-
-void
-expectAgreesWithBruteForce(const Points& points, const Points& queries)
-{
-  const PointTree tree(points, 2);
-  for (const auto& q : queries)
-    for (const float limit_sq : {0.01f, 1.0f, 25.0f, kInfinity}) {
-      const auto expected = bruteForce(points, q, limit_sq);
-      const Neighbour nearest = tree.nearest(q, limit_sq);
-      EXPECT_EQ(nearest.index, expected.empty() ? -1 : expected[0].index);
-      expectEqual(tree.withinRadius(q, limit_sq), expected);
-      auto first = expected;
-      first.resize(std::min<std::size_t>(first.size(), 7));
-      expectEqual(tree.withinRadius(q, limit_sq, 7), first);
-    }
-}
-} // namespace
-
-TEST(PointTree, AgreesWithBruteForceOnRandomPoints)
-{
-  Random random(1);
-  for (const std::size_t count : {1u, 2u, 8u, 9u, 17u, 1000u})
-    expectAgreesWithBruteForce(pcl6d::test::randomCube(random, count, 10),
-                               pcl6d::test::randomCube(random, 100, 14));
-}
-
-TEST(PointTree, ReturnsTheSmallestIndexAmongManyTies)
-{
-  Random random(2);
-  const Points points = gridWithDuplicates(random, 1000);
-  expectAgreesWithBruteForce(points, gridWithDuplicates(random, 100));
-}
-
-TEST(PointTree, BuildsFromManyEqualPoints)
-{
-  const Points points(1000, Eigen::Vector3f(1, 2, 3));
-  const PointTree tree(points);
-  EXPECT_EQ(tree.nearest({0, 0, 0}, kInfinity).index, 0);
-  EXPECT_EQ(tree.withinRadius({1, 2, 3}, 1).size(), 1000u);
-}
-
 TEST(PointTree, FindsEachOfItsOwnPoints)
 {
   Random random(3);
-  const Points points = pcl6d::test::randomCube(random, 5000, 10);
+  const Points points = randomCube(random, 5000, 10);
   const PointTree tree(points);
+  EXPECT_EQ(tree.size(), 5000u);
   for (std::size_t i = 0; i < points.size(); ++i)
     EXPECT_EQ(tree.nearest(points[i], 1e-9f).index, static_cast<int>(i));
-}
-
-TEST(PointTree, LeavesOutPointsThatAreNotFinite)
-{
-  const Points points{{kNan, 0, 0}, {1, 0, 0}, {0, kInfinity, 0}, {2, 0, 0}};
-  const PointTree tree(points);
-  EXPECT_EQ(tree.size(), 2u);
-  EXPECT_EQ(tree.nearest({0, 0, 0}, kInfinity).index, 1);
-  EXPECT_EQ(tree.nearestK({0, 0, 0}, 9).size(), 2u);
-}
-
-TEST(PointTree, FindsNothingWhereThereIsNothing)
-{
-  const PointTree empty;
-  EXPECT_EQ(empty.nearest({0, 0, 0}, kInfinity).index, -1);
-  EXPECT_TRUE(empty.nearestK({0, 0, 0}, 3).empty());
-  const PointTree tree(Points{{1, 0, 0}});
-  EXPECT_EQ(tree.nearest({kNan, 0, 0}, kInfinity).index, -1);
-  EXPECT_EQ(tree.nearest({0, 0, 0}, 1.0f).index, -1) << "exactly at the limit";
-  EXPECT_EQ(tree.nearest({0, 0, 0}, 1.0001f).index, 0);
 }
 
 TEST(PointTree, FindsTheSameFromAnyCandidate)
@@ -138,11 +35,132 @@ TEST(PointTree, FindsTheSameFromAnyCandidate)
                   tree.nearest(q, limit_sq).index);
 }
 
+/** Large enough that the build is shared. An approximate search shows the tree itself. */
 TEST(PointTree, IsTheSameForEveryThreadCount)
 {
   Random random(4);
-  const Points points = gridWithDuplicates(random, 3000);
-  const PointTree one(points, 1), eight(points, 8);
-  for (const auto& q : pcl6d::test::randomCube(random, 300, 10))
-    expectEqual(one.nearestK(q, 20), eight.nearestK(q, 20));
+  for (const Points& points :
+       {randomCube(random, 40000, 10), gridWithDuplicates(random, 20000)}) {
+    const PointTree one(points, 1);
+    const pcl6d::PointOctree octree_one(points, 1);
+    for (const unsigned int threads : {2u, 3u, 8u}) {
+      const PointTree tree(points, threads);
+      const pcl6d::PointOctree octree(points, threads);
+      for (const auto& q : randomCube(random, 200, 10)) {
+        EXPECT_EQ(tree.nearestApproximate(q, kInfinity, kInfinity).index,
+                  one.nearestApproximate(q, kInfinity, kInfinity).index);
+        expectEqual(tree.nearestK(q, 20), one.nearestK(q, 20));
+        expectEqual(octree.nearestK(q, 20), octree_one.nearestK(q, 20));
+      }
+    }
+  }
+}
+
+TEST(PointTree, GivesTheSameBitsWithoutTheVectorClone)
+{
+  Random random(12);
+  for (const Points& points :
+       {randomCube(random, 30000, 20), gridWithDuplicates(random, 3000)}) {
+    const Points queries = randomCube(random, 500, 24);
+    expectEqual(searchAll<PointTree>(points, queries), plainSearchAll(points, queries));
+  }
+}
+
+/** The cached search, from where the query was before, over growing displacements. */
+TEST(CachedSearch, FindsTheSameAsTheSearchFromTheRoot)
+{
+  Random random(10);
+  for (const Points& points :
+       {randomCube(random, 3000, 20), gridWithDuplicates(random, 2000)}) {
+    const PointTree tree(points, 1, PointTree::Cells::kKeep);
+    for (const float limit_sq : {0.3f, 1.0f, kInfinity})
+      for (const double step : {0.01, 0.1, 0.5, 1.0, 5.0})
+        for (Eigen::Vector3f q : randomCube(random, 100, 22)) {
+          int leaf = -1;
+          for (int i = 0; i < 4; ++i) {
+            const Neighbour found = tree.nearestFrom(leaf, q, limit_sq);
+            const Neighbour expected = tree.nearest(q, limit_sq);
+            ASSERT_EQ(found.index, expected.index);
+            ASSERT_EQ(found.distance_sq, expected.distance_sq);
+            q += randomCube(random, 1, 2 * step)[0];
+          }
+        }
+  }
+}
+
+/** Queries on the cuts, starts in every leaf: the points that equal a cut lie on both
+ * sides. */
+TEST(CachedSearch, FindsTheSmallestIndexFromEveryLeaf)
+{
+  Random random(11);
+  const Points points = gridWithDuplicates(random, 400);
+  const PointTree tree(points, 1, PointTree::Cells::kKeep);
+  for (const auto& q : gridWithDuplicates(random, 60))
+    for (int start = 0; start < 64; ++start)
+      for (const float limit_sq : {1.0f, kInfinity}) {
+        int leaf = start;
+        EXPECT_EQ(tree.nearestFrom(leaf, q, limit_sq).index,
+                  tree.nearest(q, limit_sq).index);
+      }
+}
+
+TEST(CachedSearch, KeepsTheLeafWhenNothingIsFound)
+{
+  Random random(13);
+  const PointTree tree(randomCube(random, 100, 10), 1, PointTree::Cells::kKeep);
+  int leaf = 5;
+  EXPECT_EQ(tree.nearestFrom(leaf, {90, 0, 0}, 1).index, -1);
+  EXPECT_EQ(leaf, 5);
+  EXPECT_EQ(tree.nearestFrom(leaf, {kNan, 0, 0}, 1).index, -1);
+  EXPECT_EQ(leaf, 5);
+}
+
+TEST(CachedSearch, RefusesATreeWithoutCellsAndALeafThatIsNone)
+{
+  const Points points(3, {1, 2, 3});
+  int leaf = 1;
+  EXPECT_EQ(badArgumentOf([&] {
+              PointTree(points).nearestFrom(leaf, {0, 0, 0}, 1);
+            }),
+            "PointTree: cached search in a tree that keeps no cells");
+  const PointTree tree(points, 1, PointTree::Cells::kKeep);
+  EXPECT_EQ(badArgumentOf([&] {
+              tree.nearestFrom(leaf, {0, 0, 0}, 1);
+            }),
+            "PointTree: leaf 1 of 1");
+}
+
+TEST(ApproximateSearch, KeepsItsBoundAndMissesNothingWithinTheLimit)
+{
+  constexpr float kRounding = 1e-5f; // of the squares and the factor, relative
+  Random random(14);
+  const Points points = randomCube(random, 3000, 20);
+  const PointTree tree(points);
+  int inexact = 0;
+  for (const float epsilon : {0.1f, 1.0f, 3.0f, kInfinity}) {
+    const float factor = (1 + epsilon) * (1 + epsilon) * (1 + kRounding);
+    for (const auto& q : randomCube(random, 300, 24)) {
+      for (const float limit_sq : {0.3f, 2.0f, kInfinity}) {
+        const Neighbour best = tree.nearest(q, limit_sq);
+        const Neighbour found = tree.nearestApproximate(q, limit_sq, epsilon);
+        ASSERT_EQ(found.index < 0, best.index < 0);
+        if (best.index >= 0) {
+          EXPECT_LE(found.distance_sq, factor * best.distance_sq);
+        }
+        inexact += found.index != best.index;
+      }
+      const auto exact = tree.nearestK(q, 10), some = tree.nearestK(q, 10, epsilon);
+      ASSERT_EQ(some.size(), 10u);
+      for (int i = 0; i < 10; ++i)
+        EXPECT_LE(some[i].distance_sq, factor * exact[i].distance_sq);
+    }
+  }
+  EXPECT_GT(inexact, 0) << "the search is not approximate at all";
+}
+
+TEST(ApproximateSearch, RefusesANegativeEpsilon)
+{
+  const PointTree tree(Points(3, {1, 2, 3}));
+  EXPECT_THROW(tree.nearestApproximate({0, 0, 0}, 1, -0.5), pcl6d::BadArgument);
+  EXPECT_THROW(tree.nearestK({0, 0, 0}, 1, std::nan("")), pcl6d::BadArgument);
 }

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/points.h>
+#include <pcl6d/search/neighbour.h>
+
+#include <pcl/search/kdtree.h>
+#include <pcl/search/search.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief The seam between PCL's interface of searches and our cores.
+ *
+ * Converts clouds, indices and results; a class for one structure adds build() and what
+ * else differs. Distances are those of the coordinates x, y, z [m]; point
+ * representations of the base class are not used. Results are always sorted, ties by
+ * index. Indices refer to the input cloud, also when only some of its points are
+ * searched. Searches of one object may run in parallel.
+ * \tparam Core structure free of point types, such as PointTree
+ * \tparam Base pcl::search::KdTree<PointT>, the only type that pcl::Registration accepts
+ * (its FLANN part stays empty), or pcl::search::Search<PointT> \ingroup search */
+template <typename PointT, typename Core, typename Base>
+class CoreSearch : public Base {
+public:
+  using Base::nearestKSearch;
+  using Base::radiusSearch;
+  using PointCloudConstPtr = typename pcl::PointCloud<PointT>::ConstPtr;
+
+  /** \brief Builds the structure. \param[in] indices the points to search; null: all
+   * \throws BadArgument the cloud is null */
+  void
+  setInputCloud(const PointCloudConstPtr& cloud,
+                const pcl::IndicesConstPtr& indices = nullptr) override;
+
+  /** \return the number of neighbours found: k, or all points if there are fewer. If it is
+   * 0, the vectors hold one entry all the same, index -1 and an infinite distance, as PCL's
+   * own callers read it without looking */
+  int
+  nearestKSearch(const PointT& point,
+                 int k,
+                 pcl::Indices& k_indices,
+                 std::vector<float>& k_sqr_distances) const override;
+
+  /** \return the number of points nearer than radius [m]
+   * \param[in] max_nn keep only so many of the nearest; 0: all */
+  int
+  radiusSearch(const PointT& point,
+               double radius,
+               pcl::Indices& k_indices,
+               std::vector<float>& k_sqr_distances,
+               unsigned int max_nn = 0) const override;
+
+  /** \brief Limited search: the nearest point within a distance, without vectors.
+   * \param[in] max_distance [m]; a point at exactly this distance is not accepted
+   * \return index in the input cloud, -1: none */
+  Neighbour
+  nearest(const PointT& point, double max_distance) const;
+
+protected:
+  /** \param[in] name as getName() returns it */
+  explicit CoreSearch(const std::string& name)
+  {
+    this->name_ = name;
+    this->sorted_results_ = true;
+  }
+
+  /** \return the structure over the points to be searched */
+  virtual std::shared_ptr<const Core>
+  build(const Points& points) = 0;
+
+  // The points found are places in those of build().
+  virtual Neighbour
+  findNearest(const Eigen::Vector3f& query, float max_distance_sq) const
+  {
+    return core_->nearest(query, max_distance_sq);
+  }
+  virtual std::vector<Neighbour>
+  findK(const Eigen::Vector3f& query, std::size_t k) const
+  {
+    return core_->nearestK(query, k);
+  }
+
+  /** \return the same with the index of the input cloud */
+  Neighbour
+  inCloud(Neighbour found) const
+  {
+    if (this->indices_ && found.index >= 0)
+      found.index = (*this->indices_)[found.index];
+    return found;
+  }
+
+  /** \brief Writes the result of a search for k points as PCL's callers expect it. */
+  int
+  toPcl(const Neighbour& found,
+        pcl::Indices& indices,
+        std::vector<float>& sqr_distances) const;
+  int
+  toPcl(const std::vector<Neighbour>& found,
+        pcl::Indices& indices,
+        std::vector<float>& sqr_distances) const;
+
+  std::shared_ptr<const Core> core_ = std::make_shared<Core>(); ///< at first empty
+};
+
+/** \return the square of a distance [m] for the cores; infinite if float ends before */
+inline float
+squaredLimit(double distance)
+{
+  constexpr float kMost = std::numeric_limits<float>::max();
+  const double sq = distance * distance;
+  return sq > kMost ? std::numeric_limits<float>::infinity() : static_cast<float>(sq);
+}
+
+} // namespace pcl6d
+#include <pcl6d/search/impl/core_search.hpp>

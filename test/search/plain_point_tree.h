@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+#include <pcl6d/search/neighbour.h>
+
+#include <limits>
+#include <vector>
+
+namespace pcl6d::test {
+
+/** Everything that the compiled search of a tree answers, in one row. */
+template <typename Tree>
+std::vector<Neighbour>
+searchAll(const Points& points, const Points& queries)
+{
+  constexpr float kNoLimit = std::numeric_limits<float>::infinity();
+  const Tree tree(points, 1, Tree::Cells::kKeep);
+  std::vector<Neighbour> all;
+  const auto add = [&](const auto& found) {
+    all.push_back({found.index, found.distance_sq});
+  };
+  int leaf = -1;
+  for (const auto& q : queries) {
+    add(tree.nearest(q, kNoLimit));
+    add(tree.nearestFrom(leaf, q, 1.0f));
+    add(tree.nearestApproximate(q, kNoLimit, 2.0));
+    for (const auto& found : tree.nearestK(q, 10))
+      add(found);
+    for (const auto& found : tree.withinRadius(q, 1.0f))
+      add(found);
+  }
+  return all;
+}
+
+/** The same by PointTree compiled once more, for the plainest x86-64 alone. */
+std::vector<Neighbour>
+plainSearchAll(const Points& points, const Points& queries);
+
+} // namespace pcl6d::test

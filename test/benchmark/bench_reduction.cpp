@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "peer_ratio.h"
+#include "room_cloud.h"
+
+#include <pcl6d/filters/octree_reduction.h>
+
+#include <pcl/filters/voxel_grid.h>
+#include <pcl/search/kdtree.h>
+
+#include <memory>
+
+namespace pcl6d::benchmarks {
+
+namespace {
+constexpr char kPeer[] = "pcl::VoxelGrid";
+constexpr std::size_t kPoints = 300000;
+// Both keep the mean of each voxel of a grid with a corner at the origin, but PCL sorts
+// points into it and sums them in float: points on a border may change sides.
+constexpr double kSameMean = 1e-5;     // [m]
+constexpr double kShareOfSame = 0.999; // of our points that are also the peer's
+
+struct Data {
+  Cloud::Ptr cloud = roomCloud(kPoints, Eigen::Isometry3d::Identity(), 1);
+  Cloud::Ptr ours = pcl::make_shared<Cloud>();
+  Cloud::Ptr theirs = pcl::make_shared<Cloud>();
+};
+
+void
+reduceOurs(Data& data, double voxel)
+{
+  pcl6d::OctreeReduction<Point> reduction;
+  reduction.options().voxel = voxel;
+  reduction.setInputCloud(data.cloud);
+  reduction.filter(*data.ours);
+}
+
+void
+reduceTheirs(Data& data, double voxel)
+{
+  pcl::VoxelGrid<Point> grid;
+  const auto leaf = static_cast<float>(voxel);
+  grid.setLeafSize(leaf, leaf, leaf);
+  grid.setInputCloud(data.cloud);
+  grid.filter(*data.theirs);
+}
+
+void
+checkSamePoints(benchmark::State& state, const Data& data)
+{
+  pcl::search::KdTree<Point> tree;
+  tree.setInputCloud(data.theirs);
+  pcl::Indices index;
+  std::vector<float> distance_sq;
+  std::size_t same = 0;
+  for (const auto& point : *data.ours) {
+    tree.nearestKSearch(point, 1, index, distance_sq);
+    if (distance_sq[0] <= kSameMean * kSameMean)
+      ++same;
+  }
+  state.counters["ours_points"] = static_cast<double>(data.ours->size());
+  state.counters["peer_points"] = static_cast<double>(data.theirs->size());
+  const auto larger =
+      static_cast<double>(std::max(data.ours->size(), data.theirs->size()));
+  if (static_cast<double>(same) < kShareOfSame * larger)
+    state.SkipWithError("the reduced clouds differ");
+}
+
+PeerJob
+reduceJob(double voxel)
+{
+  const auto data = std::make_shared<Data>();
+  return {[=] { reduceOurs(*data, voxel); },
+          [=] { reduceTheirs(*data, voxel); },
+          [=](benchmark::State& state) { checkSamePoints(state, *data); }};
+}
+} // namespace
+
+} // namespace pcl6d::benchmarks
+
+int
+main(int argc, char** argv)
+{
+  using namespace pcl6d::benchmarks;
+  const std::string size = "/" + std::to_string(kPoints);
+  addPeerCase({"reduction_10cm" + size, kPeer, 1, 21, [] { return reduceJob(0.10); }});
+  addPeerCase({"reduction_2cm" + size, kPeer, 1, 21, [] { return reduceJob(0.02); }});
+  return runPeerCases(argc, argv);
+}

@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/portable_math.h>
-#include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/pose_covariance.h>
+#include <pcl6d/registration/twist.h>
 
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
 
 namespace pcl6d {
-
-namespace {
-/** J of the book's H: maps Euler rates (roll, pitch, yaw) to the angular velocity. */
-Eigen::Matrix3d
-eulerRates(const EulerAngles& a)
-{
-  const auto [sp, cp] = portableSinCos(a.pitch);
-  const auto [sy, cy] = portableSinCos(a.yaw);
-  Eigen::Matrix3d J;
-  J << cy * cp, -sy, 0, sy * cp, cy, 0, -sp, 0, 1;
-  return J;
-}
-} // namespace
 
 std::optional<PoseCovariance>
 poseCovariance(const PairSums& sums, const Eigen::Isometry3d& T_world_scan)

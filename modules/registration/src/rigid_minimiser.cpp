@@ -5,6 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
+#include <algorithm>
+#include <cmath>
+
 namespace pcl6d {
 
 namespace {
@@ -33,12 +36,24 @@ rankDeficient(const PairSums& sums, const Eigen::Matrix3d& R)
 {
   return {Status::kRankDeficient, aboutCentroids(sums, R)};
 }
-} // namespace
 
+/** Mirrored pairs whose last count singular values are equal: R = V (I - 2 n n^T) U^T
+ * is as good for every unit n in their span. The smallest rotation has the largest
+ * trace, hence the n that minimises n^T U^T V n. */
 Eigen::Matrix3d
-rotationByQuaternion(const Eigen::Matrix3d& S)
+smallestOfMirrored(const Eigen::Matrix3d& U, const Eigen::Matrix3d& V, int count)
 {
-  // N is built from the trace, the antisymmetric and the symmetric part of S.
+  const Eigen::MatrixXd M = (U.transpose() * V).bottomRightCorner(count, count);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(M + M.transpose());
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();
+  n.tail(count) = solver.eigenvectors().col(0);
+  return V * (Eigen::Matrix3d::Identity() - 2 * n * n.transpose()) * U.transpose();
+}
+
+/** Horn's N: trace, antisymmetric and symmetric part of S. */
+Eigen::Matrix4d
+hornMatrix(const Eigen::Matrix3d& S)
+{
   const Eigen::Vector3d turn(S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0));
   Eigen::Matrix4d N;
   N(0, 0) = S.trace();
@@ -46,44 +61,167 @@ rotationByQuaternion(const Eigen::Matrix3d& S)
   N.bottomLeftCorner<3, 1>() = turn;
   N.bottomRightCorner<3, 3>() =
       S + S.transpose() - S.trace() * Eigen::Matrix3d::Identity();
+  return N;
+}
+
+/** \param[in] q in the order w, x, y, z */
+Eigen::Quaterniond
+quaternion(const Eigen::Vector4d& q)
+{
+  return {q(0), q(1), q(2), q(3)};
+}
+
+/** The grid point nearest to a centroid; spacing: a power of two not above spread. */
+Eigen::Vector3d
+roundedTo(const Eigen::Vector3d& centroid, double spread)
+{
+  int exponent = 0;
+  std::frexp(spread, &exponent);
+  const double grid = std::ldexp(1.0, exponent - 1);
+  return (centroid / grid).array().round() * grid;
+}
+
+/** Q(m) - W(d) of pure quaternions: left minus right multiplication. */
+Eigen::Matrix4d
+commutator(const Eigen::Vector3d& m, const Eigen::Vector3d& d)
+{
+  Eigen::Matrix4d C = Eigen::Matrix4d::Zero();
+  C.topRightCorner<1, 3>() = (d - m).transpose();
+  C.bottomLeftCorner<3, 1>() = m - d;
+  C.bottomRightCorner<3, 3>() = skew(m + d);
+  return C;
+}
+} // namespace
+
+Eigen::Matrix3d
+rotationByQuaternion(const Eigen::Matrix3d& S)
+{
   // The maximising quaternion is the eigenvector of the largest eigenvalue (the last).
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(N);
-  const Eigen::Vector4d q = solver.eigenvectors().col(3); // order w, x, y, z
-  return Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized().toRotationMatrix();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(hornMatrix(S));
+  return quaternion(solver.eigenvectors().col(3)).normalized().toRotationMatrix();
+}
+
+Eigen::Matrix3d
+rotationBySVD(const Eigen::Matrix3d& S)
+{
+  return nearestRotation(S.transpose());
+}
+
+Eigen::Matrix3d
+rotationByOrthonormal(const Eigen::Matrix3d& S)
+{
+  using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+  const Eigen::Matrix3d M = S.transpose();
+  const Eigen::Vector3d u1 = Solver(M.transpose() * M).eigenvectors().col(2);
+  const Eigen::Vector3d v1 = (M * u1).normalized();
+  // M^T M holds ratios of singular values down to 1e-8 only; without its first
+  // direction the matrix shows the second to full accuracy.
+  const Eigen::Matrix3d rest = M - v1 * (v1.transpose() * M);
+  Eigen::Vector3d u2 = Solver(rest.transpose() * rest).eigenvectors().col(2);
+  u2 = (u2 - u1 * u1.dot(u2)).normalized();
+  Eigen::Vector3d v2 = rest * u2;
+  v2 = (v2 - v1 * v1.dot(v2)).normalized();
+  return v1 * u1.transpose() + v2 * u2.transpose() +
+         v1.cross(v2) * u1.cross(u2).transpose();
+}
+
+std::optional<RigidEstimate>
+degenerateEstimate(const PairSums& sums)
+{
+  if (sums.count == 0)
+    return RigidEstimate{Status::kTooFewPairs, Eigen::Isometry3d::Identity()};
+  if (!sums.cross.allFinite() || !sums.scatter.allFinite() ||
+      !sums.mean_source.allFinite() || !sums.mean_target.allFinite() ||
+      !std::isfinite(sums.target_sq))
+    return RigidEstimate{Status::kDiverged, Eigen::Isometry3d::Identity()};
+  const double nothing = 1e-18 * sums.weight; // (1 nm)^2 per pair
+  if (sums.count == 1 || sums.sourceSq() <= nothing || sums.target_sq <= nothing)
+    return rankDeficient(sums, Eigen::Matrix3d::Identity());
+
+  // S = U diag(s) V^T; source directions are the columns of U, target directions of V.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+      sums.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d &U = svd.matrixU(), &V = svd.matrixV();
+  const Eigen::Vector3d s = svd.singularValues();
+  const double limit = kRankTolerance * s(0);
+  if (sums.count == 2 || s(1) <= limit)
+    return rankDeficient(sums, minimalRotation(U.col(0), V.col(0)));
+  const bool mirrored = U.determinant() * V.determinant() < 0;
+  if (mirrored && s(2) > limit && s(1) - s(2) <= limit)
+    return rankDeficient(sums, smallestOfMirrored(U, V, s(0) - s(2) <= limit ? 3 : 2));
+  return std::nullopt;
 }
 
 RigidEstimate
 minimiseRigid(const PairSums& sums, Eigen::Matrix3d (*rotation)(const Eigen::Matrix3d&))
 {
-  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  if (sums.count == 0)
-    return {Status::kTooFewPairs, Eigen::Isometry3d::Identity()};
-  if (!sums.cross.allFinite() || !sums.mean_source.allFinite() ||
-      !sums.mean_target.allFinite())
-    return {Status::kDiverged, Eigen::Isometry3d::Identity()};
-  const double nothing = 1e-18 * sums.weight; // (1 nm)^2 per pair
-  if (sums.count == 1 || sums.sourceSq() <= nothing || sums.target_sq <= nothing)
-    return rankDeficient(sums, identity);
-
-  // S = U diag(s) V^T; source directions are the columns of U, target directions of V.
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-      sums.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d s = svd.singularValues();
-  const double limit = kRankTolerance * s(0);
-  if (sums.count == 2 || s(1) <= limit)
-    return rankDeficient(sums,
-                         minimalRotation(svd.matrixU().col(0), svd.matrixV().col(0)));
-  const bool mirrored = sums.cross.determinant() < 0;
-  const Eigen::Isometry3d T = aboutCentroids(sums, rotation(sums.cross));
-  if (mirrored && s(1) - s(2) <= limit)
-    return {Status::kRankDeficient, T};
-  return {Status::kOk, T};
+  if (const auto degenerate = degenerateEstimate(sums))
+    return *degenerate;
+  return {Status::kOk, aboutCentroids(sums, rotation(sums.cross))};
 }
 
 RigidEstimate
 minimiseByQuaternion(const PairSums& sums)
 {
   return minimiseRigid(sums, &rotationByQuaternion);
+}
+
+RigidEstimate
+minimiseBySVD(const PairSums& sums)
+{
+  return minimiseRigid(sums, &rotationBySVD);
+}
+
+RigidEstimate
+minimiseByOrthonormal(const PairSums& sums)
+{
+  return minimiseRigid(sums, &rotationByOrthonormal);
+}
+
+RigidEstimate
+minimiseByDualQuaternion(const PairSums& sums)
+{
+  if (const auto degenerate = degenerateEstimate(sums))
+    return *degenerate;
+  const double spread = std::sqrt(std::min(sums.sourceSq(), sums.target_sq) / //
+                                  sums.weight);
+  const Eigen::Vector3d offset_d = roundedTo(sums.mean_source, spread);
+  const Eigen::Vector3d offset_m = roundedTo(sums.mean_target, spread);
+  const Eigen::Vector3d d = sums.mean_source - offset_d;
+  const Eigen::Vector3d m = sums.mean_target - offset_m;
+  const double W = sums.weight;
+
+  // The book's C1 = -2 sum w Q(m)^T W(d) is -2 N of the sums about the offsets.
+  const Eigen::Matrix4d C1 = -2 * hornMatrix(sums.cross + W * d * m.transpose());
+  const Eigen::Matrix4d C3 = W * commutator(m, d);
+  const Eigen::Matrix4d A = C1 - C3.transpose() * C3 / W;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(A);
+  const Eigen::Vector4d real = solver.eigenvectors().col(0).normalized();
+  const Eigen::Vector4d dual = C3 * real / W; // twice the dual part
+
+  const Eigen::Quaterniond q = quaternion(real);
+  RigidEstimate estimate{Status::kOk, Eigen::Isometry3d::Identity()};
+  estimate.transform.linear() = q.toRotationMatrix();
+  estimate.transform.translation() = (quaternion(dual) * q.conjugate()).vec() +
+                                     offset_m - estimate.transform.linear() * offset_d;
+  return estimate;
+}
+
+SimilarityEstimate
+similarityByQuaternion(const PairSums& sums)
+{
+  SimilarityEstimate estimate;
+  estimate.rigid = minimiseByQuaternion(sums);
+  if (estimate.rigid.status == Status::kOk)
+    estimate.scale =
+        (estimate.rigid.transform.linear() * sums.cross).trace() / sums.sourceSq();
+  return estimate;
+}
+
+RigidEstimate
+minimiseByScaleQuaternion(const PairSums& sums)
+{
+  return similarityByQuaternion(sums).rigid;
 }
 
 } // namespace pcl6d

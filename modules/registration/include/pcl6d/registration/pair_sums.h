@@ -42,6 +42,10 @@ struct PairSums {
  * far from the origin lose no digits. */
 class PairAccumulator {
 public:
+  /** What pairs must have to fix a motion, for error messages. */
+  static constexpr const char* kNeeds =
+      "at least 3 that are not on one line are needed";
+
   /** \brief Adds a pair; pairs with a coordinate that is not finite are skipped. */
   void
   add(const Eigen::Vector3d& source, const Eigen::Vector3d& target, double weight = 1);

@@ -4,29 +4,87 @@
 #include <pcl6d/registration/pair_sums.h>
 
 #include <functional>
+#include <optional>
 
+/** \file
+ * The closed forms of book 4.1.1: all minimise sum w |m - (R d + t)|^2 and differ in
+ * rounding only. Each returns a proper rotation, also for planar and mirrored pairs.
+ * S is the cross-covariance sum w d' m'^T [m^2] of the centred points. */
 namespace pcl6d {
 
-/** \brief A closed-form minimiser of sum w |m - (R d + t)|^2. */
+/** \brief From the sums of matched points to the motion from source to target. */
 using RigidMinimiser = std::function<RigidEstimate(const PairSums&)>;
 
-/** \brief The rotation by Horn's unit quaternion.
- * \param[in] S cross-covariance sum w d' m'^T [m^2]
- * \return the rotation from source to target, det = +1, also for planar and mirrored
- * pairs \note Source: B. K. P. Horn, "Closed-form solution of absolute orientation
- * using unit quaternions", JOSA A 4(4), 1987, matrix N. Book: 4.1.1. */
+/** \return the rotation by Horn's unit quaternion \note Source: B. K. P. Horn,
+ * "Closed-form solution of absolute orientation using unit quaternions", JOSA A 4(4),
+ * 1987, matrix N. Book: 4.1.1. */
 Eigen::Matrix3d
 rotationByQuaternion(const Eigen::Matrix3d& S);
 
-/** \brief Completes a rotation method to a minimiser: centroids, and the degenerate
- * cases, which are the same for all closed forms: no pair, one pair, two pairs or pairs
- * on one line (smallest rotation), equal points, mirrored pairs. */
+/** \return the rotation by the singular value decomposition \note Source: K. S. Arun,
+ * T. S. Huang, S. D. Blostein, PAMI 9(5), 1987; sign after S. Umeyama, PAMI 13(4),
+ * 1991. Book: 4.1.1. */
+Eigen::Matrix3d
+rotationBySVD(const Eigen::Matrix3d& S);
+
+/** \brief The rotation by orthonormal matrices: the two dominant directions are matched
+ * and their vector products give the third, so that planar pairs and mirrored ones need
+ * no case of their own. \note Source: B. K. P. Horn, H. M. Hilden, S. Negahdaripour,
+ * JOSA A 5(7), 1988. Book: 4.1.1. */
+Eigen::Matrix3d
+rotationByOrthonormal(const Eigen::Matrix3d& S);
+
+/** \brief What all minimisers of these pairs answer when the pairs do not fix a motion:
+ * no pair, sums that are not finite, one pair, equal points, two pairs or pairs on one
+ * line, a mirrored figure of rotation. \return of the whole family of minimisers the
+ * one with the smallest rotation; nothing when the minimiser is unique */
+std::optional<RigidEstimate>
+degenerateEstimate(const PairSums& sums);
+
+/** \brief Completes a rotation method to a minimiser: centroids, and
+ * degenerateEstimate(). */
 RigidEstimate
 minimiseRigid(const PairSums& sums,
               Eigen::Matrix3d (*rotation)(const Eigen::Matrix3d&));
 
-/** \brief minimiseRigid() with rotationByQuaternion(). */
 RigidEstimate
 minimiseByQuaternion(const PairSums& sums);
+
+RigidEstimate
+minimiseBySVD(const PairSums& sums);
+
+RigidEstimate
+minimiseByOrthonormal(const PairSums& sums);
+
+/** \brief Rotation and translation from one eigenproblem, by Walker's dual quaternion.
+ *
+ * The sums are taken about one offset for each side, as near to its centroid as half
+ * the spread of the points: nearer, the dual part would vanish and Horn's matrix N
+ * remain; farther, its sums would cancel. \note Source: M. W. Walker, L. Shao, R. A.
+ * Volz, "Estimating 3-D location parameters using dual number quaternions", CVGIP:
+ * Image Understanding 54(3), 1991. Book: 4.1.1. */
+RigidEstimate
+minimiseByDualQuaternion(const PairSums& sums);
+
+/** \brief A rigid motion and the scale that was found with it. */
+struct SimilarityEstimate {
+  RigidEstimate rigid; ///< the best motion without the scale
+  double scale = 1;    ///< > 0; how much larger the target is; 1 unless kOk
+};
+
+/** \brief Horn's unit quaternion with scale: the closed form of min sum w |m - (s R d +
+ * t)|^2 over s, R and t.
+ *
+ * Rotation and scale are independent, so the rigid part (R and t = c_m - R c_d) is that
+ * of minimiseByQuaternion(). Laser scans have one scale, hence registration drops it;
+ * it tells of wrong units or a range scale that is off. Noise of the source makes it
+ * too small, by the noise's share of the source's variance. To apply it, use
+ * t = c_m - s R c_d; to keep that t without s would be wrong by |s - 1| |c_d|. */
+SimilarityEstimate
+similarityByQuaternion(const PairSums& sums);
+
+/** \brief The rigid part of similarityByQuaternion(). */
+RigidEstimate
+minimiseByScaleQuaternion(const PairSums& sums);
 
 } // namespace pcl6d

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/registration/closed_form_estimation.h>
+#include <pcl6d/registration/rigid_minimiser.h>
+#include <pcl6d/registration/sums_estimation.h>
 
 namespace pcl6d {
 
@@ -18,7 +19,7 @@ namespace pcl6d {
  * quaternions", JOSA A 4(4), 1987. Book: 4.1.1. \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class TransformationEstimationQuaternion
-: public ClosedFormEstimation<PointSource, PointTarget, Scalar> {
+: public SumsEstimation<PointSource, PointTarget, Scalar> {
 public:
   using Ptr = pcl::shared_ptr<
       TransformationEstimationQuaternion<PointSource, PointTarget, Scalar>>;

@@ -77,13 +77,13 @@ template <typename PointSource, typename PointTarget, typename Scalar>
 RigidMinimiser
 ICP6D<PointSource, PointTarget, Scalar>::minimiser() const
 {
-  using ClosedForm = ClosedFormEstimation<PointSource, PointTarget, Scalar>;
+  using PointToPoint = SumsEstimation<PointSource, PointTarget, Scalar>;
   const auto estimation =
-      std::dynamic_pointer_cast<const ClosedForm>(this->transformation_estimation_);
+      std::dynamic_pointer_cast<const PointToPoint>(this->transformation_estimation_);
   if (!estimation)
     throw BadArgument("ICP6D: the transformation estimation must be one of pcl6d's "
-                      "closed forms, such as TransformationEstimationQuaternion");
-  return [estimation](const PairSums& sums) { return estimation->minimise(sums); };
+                      "point to point, such as TransformationEstimationQuaternion");
+  return [estimation](const PairSums& sums) { return estimation->step(sums); };
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>

@@ -2,20 +2,27 @@
 #pragma once
 
 #include <pcl6d/common/instantiate.h>
-#include <pcl6d/registration/rigid_minimiser.h>
+#include <pcl6d/registration/pair_sums.h>
+#include <pcl6d/registration/plane_sums.h>
 
 #include <pcl/registration/transformation_estimation.h>
 
+#include <utility>
+
 namespace pcl6d {
 
-/** \brief The seam between PCL's estimation classes and our closed-form minimisers:
- * PCL's four overloads, once. A minimiser adds only minimise().
+/** \brief The seam between PCL's estimation classes and our minimisers, which work on
+ * sums over pairs: PCL's four overloads, once. A minimiser adds only minimise().
  *
- * Sums run in double whatever the Scalar. Pairs with NaN are skipped. \ingroup
- * registration
- */
-template <typename PointSource, typename PointTarget, typename Scalar = float>
-class ClosedFormEstimation
+ * Sums run in double whatever the Scalar. Pairs with NaN are skipped.
+ * \tparam Accumulator adds up pairs: PairAccumulator (point to point), or
+ * PlaneAccumulator (point to plane), whose one step per pass over the pairs is repeated
+ * until it rests \ingroup registration */
+template <typename PointSource,
+          typename PointTarget,
+          typename Scalar = float,
+          typename Accumulator = PairAccumulator>
+class SumsEstimation
 : public pcl::registration::TransformationEstimation<PointSource, PointTarget, Scalar> {
 public:
   using Base =
@@ -23,10 +30,19 @@ public:
   using typename Base::Matrix4;
   using SourceCloud = pcl::PointCloud<PointSource>;
   using TargetCloud = pcl::PointCloud<PointTarget>;
+  using Sums = decltype(std::declval<Accumulator>().sums());
 
   /** \brief The minimiser itself. \return status and motion from source to target */
   virtual RigidEstimate
-  minimise(const PairSums& sums) const = 0;
+  minimise(const Sums& sums) const = 0;
+
+  /** \brief What an ICP of ours does between two searches: a linearised minimiser takes
+   * one step, all others minimise. */
+  virtual RigidEstimate
+  step(const Sums& sums) const
+  {
+    return minimise(sums);
+  }
 
   /** \throws BadArgument the two sides differ in size
    * \throws ComputeFailed the pairs do not fix a motion; the matrix stays as it was */
@@ -62,13 +78,34 @@ private:
            Matrix4& transformation) const;
 };
 
-/** \throws ComputeFailed the estimate is anything but kOk */
+/** \brief Base of the point-to-plane estimations, which need a normal in the target. */
+template <typename PointSource, typename PointTarget, typename Scalar>
+using PlaneEstimation =
+    SumsEstimation<PointSource, PointTarget, Scalar, PlaneAccumulator>;
+
+/** \param[in] needs what the pairs must have \throws ComputeFailed the estimate is
+ * anything but kOk */
 void
-throwUnlessOk(const RigidEstimate& estimate, std::size_t num_pairs);
+throwUnlessOk(const RigidEstimate& estimate, std::size_t num_pairs, const char* needs);
 
 /** \throws BadArgument the sizes differ */
 void
 requireSameSize(std::size_t num_source, std::size_t num_target);
 
+/** \return true: what a minimiser makes of PairSums needs no second pass */
+inline bool
+isFinal(const PairSums&, const Eigen::Isometry3d&)
+{
+  return true;
+}
+
+/** \return whether a step on these sums has come to rest: turn and shift are within
+ * 1e-10 rad and 1e-10 of the spread of the points */
+bool
+isFinal(const PlaneSums& sums, const Eigen::Isometry3d& step);
+
 } // namespace pcl6d
-#include <pcl6d/registration/impl/closed_form_estimation.hpp>
+#include <pcl6d/registration/impl/sums_estimation.hpp>
+namespace pcl6d {
+PCL6D_DECLARE_PAIR_INSTANCES(SumsEstimation)
+} // namespace pcl6d

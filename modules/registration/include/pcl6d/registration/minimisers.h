@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/registration/linear_minimiser.h>
+
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A point-to-point minimiser by the name that the command line gives it. */
+struct NamedMinimiser {
+  std::string name;
+  RigidMinimiser step;     ///< between two searches of an ICP; closed forms: minimise
+  RigidMinimiser minimise; ///< for fixed pairs
+};
+
+/** \return svd, quaternion, orthonormal, dual-quaternion, scale-quaternion, helix,
+ * small-angle, euler, quaternion-linear */
+const std::vector<NamedMinimiser>&
+namedMinimisers();
+
+/** \return the names of namedMinimisers(), in that order */
+std::vector<std::string>
+minimiserNames();
+
+/** \return the step of the minimiser of that name, as icp() takes it
+ * \throws BadArgument no such name; the message lists all */
+RigidMinimiser
+minimiserFromName(const std::string& name);
+
+} // namespace pcl6d

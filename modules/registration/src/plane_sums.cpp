@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/registration/plane_sums.h>
+
+namespace pcl6d {
+
+namespace {
+/** Moves the origin of the twist by an offset: a becomes (n, a_x - offset x n). */
+void
+moveOrigin(PlaneSums& sums, const Eigen::Vector3d& offset)
+{
+  PlaneSums::Matrix L = PlaneSums::Matrix::Identity();
+  L.bottomLeftCorner<3, 3>() = -skew(offset);
+  sums.A = (L * sums.A * L.transpose()).eval();
+  sums.b = (L * sums.b).eval();
+}
+} // namespace
+
+PlaneSums
+PlaneSums::merge(const PlaneSums& a, const PlaneSums& b)
+{
+  if (a.count == 0)
+    return b;
+  if (b.count == 0)
+    return a;
+  const Eigen::Vector3d distance = b.mean_source - a.mean_source;
+  const double share = b.weight / (a.weight + b.weight);
+  PlaneSums sum = a, other = b;
+  moveOrigin(sum, share * distance);
+  moveOrigin(other, (share - 1) * distance);
+  sum.count += b.count;
+  sum.weight += b.weight;
+  sum.mean_source += share * distance;
+  sum.A += other.A;
+  sum.b += other.b;
+  sum.residual_sq += b.residual_sq;
+  sum.source_sq += b.source_sq + a.weight * share * distance.squaredNorm();
+  return sum;
+}
+
+void
+PlaneAccumulator::add(const Eigen::Vector3d& source,
+                      const Eigen::Vector3d& target,
+                      const Eigen::Vector3d& normal,
+                      double weight)
+{
+  const double length = normal.norm();
+  if (!source.allFinite() || !target.allFinite() || !normal.allFinite() || length == 0)
+    return;
+  if (sums_.count == 0)
+    origin_ = source;
+  const Eigen::Vector3d n = normal / length;
+  const Eigen::Vector3d d = source - origin_;
+  const double residual = n.dot(target - source);
+  Twist a;
+  a << n, d.cross(n);
+  ++sums_.count;
+  sums_.weight += weight;
+  sums_.mean_source += weight * d;
+  sums_.A += (weight * a) * a.transpose();
+  sums_.b += (weight * residual) * a;
+  sums_.residual_sq += weight * residual * residual;
+  sums_.source_sq += weight * d.squaredNorm();
+}
+
+PlaneSums
+PlaneAccumulator::sums() const
+{
+  PlaneSums sums = sums_;
+  if (sums.count == 0)
+    return sums;
+  const Eigen::Vector3d mean = sums.mean_source / sums.weight;
+  moveOrigin(sums, mean);
+  sums.mean_source = origin_ + mean;
+  sums.source_sq -= sums.weight * mean.squaredNorm();
+  return sums;
+}
+
+} // namespace pcl6d

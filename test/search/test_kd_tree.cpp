@@ -40,6 +40,12 @@ struct SearchClass {
   std::function<Search::Ptr()> make;
 };
 
+void
+PrintTo(const SearchClass& search, std::ostream* out)
+{
+  *out << search.name;
+}
+
 class PclSearch : public testing::TestWithParam<SearchClass> {};
 } // namespace
 

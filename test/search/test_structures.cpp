@@ -30,6 +30,12 @@ struct Structure {
   std::function<Searches(const Points&)> make;
 };
 
+void
+PrintTo(const Structure& structure, std::ostream* out)
+{
+  *out << structure.name;
+}
+
 template <typename Core>
 Searches
 searchesOf(std::shared_ptr<Core> core)

@@ -75,6 +75,35 @@ TEST(NoReturnRange, NeedsMoreThanAFewPoints)
   EXPECT_FALSE(noReturnRange({{kNan, 0, 0}, {0, kInfinity, 0}}));
 }
 
+TEST(NoReturnRange, IsNotThePlaceOfAnObjectFarAway)
+{
+  // 1 mm per 10 m is 100 m there.
+  Random random(6);
+  for (const double depth : {1.0, 50.0, 1000.0}) {
+    Points object;
+    for (int i = 0; i < 1000; ++i)
+      object.push_back(inDirection(random, random.uniform(1e6 - depth, 1e6)));
+    EXPECT_FALSE(noReturnRange(object)) << depth << " m deep";
+  }
+}
+
+TEST(NoReturnRange, IsNotTheRadiusOfASphereAroundTheScanner)
+{
+  EXPECT_FALSE(noReturnRange(scanWithCode(0, 1000, 5)));
+}
+
+TEST(NoReturnRange, LeavesMoreThanHalfOfThePointsWellInside)
+{
+  EXPECT_TRUE(noReturnRange(scanWithCode(501, 499, kCode)));
+  EXPECT_FALSE(noReturnRange(scanWithCode(500, 500, kCode)));
+  // Well inside is nearer than 0.9 of it: measured ranges end at 20 m.
+  EXPECT_TRUE(noReturnRange(scanWithCode(900, 100, 20.1)));
+  Points shell = scanWithCode(0, 900, 18.2);
+  const Points code = scanWithCode(0, 100, 20.1);
+  shell.insert(shell.end(), code.begin(), code.end());
+  EXPECT_FALSE(noReturnRange(shell)) << "18.2 m is not well inside 20.1 m";
+}
+
 TEST(NoReturnRange, LooksAtFinitePointsOnly)
 {
   Points points = scanWithCode(900, 100, kCode);

@@ -256,6 +256,8 @@ TEST(ReductionOptions, NameTheValueThatBreaksItsRule)
     EXPECT_NE(badArgumentOf([&] { reducePoints({}, o); }).find("voxel = "),
               std::string::npos);
   }
+  EXPECT_EQ(badArgumentOf([&] { o.validate(); }),
+            "voxel = inf, but must be finite and > 0");
   o = ReductionOptions();
   o.points_per_voxel = 0;
   EXPECT_EQ(badArgumentOf([&] { o.validate(); }),

@@ -59,6 +59,9 @@ noReturnRange(const Points& points)
   if (ranges.empty())
     return std::nullopt;
   const double largest = *std::max_element(ranges.begin(), ranges.end());
+  // Where most points are about as far, the largest range is the place of an object.
+  if (upperMedian(ranges) >= 0.9 * largest)
+    return std::nullopt;
   const double tolerance = 1e-4 * largest;
   const auto sharing = std::count_if(
       ranges.begin(), ranges.end(), [&](double r) { return r >= largest - tolerance; });

@@ -11,7 +11,7 @@ namespace pcl6d {
 void
 ReductionOptions::validate() const
 {
-  require(voxel > 0 && std::isfinite(voxel), "voxel", voxel, "> 0");
+  require(voxel > 0 && std::isfinite(voxel), "voxel", voxel, "finite and > 0");
   require(points_per_voxel >= 1, "points_per_voxel", points_per_voxel, ">= 1");
 }
 

@@ -21,8 +21,10 @@ Points
 gateByRange(const Points& points, double min_range, double max_range);
 
 /** \brief The range [m] that a scanner writes when no echo came back: the largest range
- * of a scan if more than 0.5 % of its points share it to within 1 mm per 10 m. Such
- * points are no surfaces. \return nothing if the largest range is a measured one */
+ * of a scan if more than 0.5 % of its points share it to within 1 mm per 10 m, while
+ * more than half lie well inside it, nearer than 0.9 of it. Such points are no
+ * surfaces. \return nothing if the largest range is a measured one, as of an object far
+ * away or of a sphere around the scanner */
 std::optional<double>
 noReturnRange(const Points& points);
 

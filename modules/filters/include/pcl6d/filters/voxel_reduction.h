@@ -19,7 +19,7 @@ enum class ReductionMethod {
 
 /** \brief Knobs of the octree reduction. */
 struct ReductionOptions {
-  double voxel = 0.1; ///< [m] edge length of a voxel; > 0
+  double voxel = 0.1; ///< [m] edge length of a voxel; finite, > 0
   ReductionMethod method = ReductionMethod::kMean;
   int points_per_voxel = 1; ///< kept by kRandom; >= 1
   std::uint64_t seed = 0;   ///< of kRandom

@@ -31,20 +31,37 @@ partitionItems(Item* first, Item* last, Predicate goes_left)
   return middle;
 }
 
+inline float
+medianOf(float a, float b, float c)
+{
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
 /** \return a coordinate near that of the item that belongs at nth, a little on the side
- * of the middle, so that nth falls into the smaller part (Floyd and Rivest 1975) */
+ * of the middle, so that nth falls into the smaller part (Floyd and Rivest 1975); among
+ * few items a median of three or nine */
 inline float
 pivotFor(const Item* first, const Item* nth, const Item* last, int axis)
 {
   constexpr std::size_t kMaxSample = 1024;
   const std::size_t size = last - first;
+  const auto sampled = [=](std::size_t i, std::size_t count) {
+    return first[(2 * i + 1) * size / (2 * count)].xyz[axis];
+  };
+  if (size < 64)
+    return medianOf(first->xyz[axis], first[size / 2].xyz[axis], last[-1].xyz[axis]);
+  if (size < 512) {
+    float medians[3];
+    for (int i = 0; i < 3; ++i)
+      medians[i] = medianOf(sampled(i, 9), sampled(i + 3, 9), sampled(i + 6, 9));
+    return medianOf(medians[0], medians[1], medians[2]);
+  }
   float sample[kMaxSample];
-  const std::size_t count =
-      size < 512 ? (size < 64 ? 3 : 9) : std::min(kMaxSample, size / 32);
+  const std::size_t count = std::min(kMaxSample, size / 32);
   for (std::size_t i = 0; i < count; ++i)
-    sample[i] = first[(2 * i + 1) * size / (2 * count)].xyz[axis];
+    sample[i] = sampled(i, count);
   const double rank = static_cast<double>(nth - first) / size * count;
-  const double shift = count < 16 ? 0 : std::sqrt(static_cast<double>(count));
+  const double shift = std::sqrt(static_cast<double>(count));
   const double wanted = 2 * (nth - first) <= last - first ? rank + shift : rank - shift;
   const auto place =
       static_cast<std::size_t>(std::clamp(wanted, 0.0, static_cast<double>(count - 1)));

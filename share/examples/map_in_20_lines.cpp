@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shows: from a folder of scans to a registered map, the whole chain in 20 lines.
+#include <pcl6d/common/pose.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/slam6d/map_builder.h>
@@ -20,7 +21,8 @@ try {
   slam.optimize();
 
   const pcl6d::Slam6DResult& result = slam.result();
-  pcl6d::MapBuilder map(result.parameters.voxel.value);
+  pcl6d::MapBuilder map(result.parameters.voxel.value,
+                        pcl6d::worldOffset(result.scans[0].T_world_scan));
   for (std::size_t i = 0; i < folder.size(); ++i)
     map.addScan(folder.read(i).points, {}, result.scans[i].T_world_scan, i);
   pcl6d::writePcd(argv[2], map.cloud());

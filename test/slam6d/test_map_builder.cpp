@@ -8,6 +8,7 @@
 #include <pcl/point_types.h>
 
 #include <cstring>
+#include <set>
 
 using pcl6d::MapBuilder;
 using pcl6d::Points;
@@ -39,6 +40,61 @@ TEST(MapBuilder, LooksAtTheVoxelsOfTheWorld)
   map.addScan({{0.1f, -0.1f, 0.1f}}, {}, pcl6d::planarPose(0, 0, M_PI / 2), 2);
   ASSERT_EQ(map.points().size(), 2u) << "the third falls into the voxel of the first";
   EXPECT_FLOAT_EQ(map.points()[1].x(), 1.1f);
+}
+
+TEST(MapBuilder, CountsVoxelsFromTheWholeMetresOfTheFirstScan)
+{
+  MapBuilder map(0.3, {1, 2, 3}); // a metre is no whole number of voxels
+  map.addScan({{0.05f, 0, 0}, {0.25f, 0, 0}, {0.35f, 0, 0}},
+              {},
+              pcl6d::poseFromEuler({8, 0, 0}, {}),
+              0);
+  EXPECT_EQ(map.points(), (Points{{7.05f, -2, -3}, {7.35f, -2, -3}}));
+  map.addScan({{1.35f, 0, 0}, {2.05f, 0, 0}},
+              {},
+              pcl6d::poseFromEuler({6.9, 0, 0}, {}),
+              1); // 8.25 m and 8.95 m
+  ASSERT_EQ(map.points().size(), 3u) << "the same voxels for every scan";
+  EXPECT_NEAR(map.points()[2].x(), 7.95, 1e-6);
+}
+
+TEST(MapBuilder, MapsAMillimetreFarFromTheOriginAsAtTheOrigin)
+{
+  pcl6d::Random random(4);
+  const Points object = pcl6d::test::randomCube(random, 3000, 1e-3);
+  constexpr double kVoxel = 1e-4; // [m] the grid reaches 105 m
+  MapBuilder near(kVoxel), far(kVoxel);
+  for (std::uint32_t scan = 0; scan < 2; ++scan) {
+    const double x = 3e-4 * scan;
+    near.addScan(object, {}, pcl6d::poseFromEuler({x, 0, 0}, {}), scan);
+    far.addScan(object, {}, pcl6d::poseFromEuler({500 + x, 0, 0}, {}), scan);
+  }
+  EXPECT_GT(near.points().size(), 1000u);
+  EXPECT_EQ(far.scans(), near.scans()) << "the same points";
+}
+
+TEST(MapBuilder, KeepsOnePointPerVoxelWhereverTheFirstScanIs)
+{
+  pcl6d::Random random(8);
+  constexpr double kVoxel = 0.25; // [m] exact, so that no rounding moves a point
+  for (int turn = 0; turn < 5; ++turn) {
+    Eigen::Isometry3d pose = pcl6d::test::randomPose(random, 5000, 1);
+    const Eigen::Vector3d offset = pose.translation().array().round();
+    MapBuilder map(kVoxel, offset);
+    std::set<pcl6d::VoxelKey> all, kept;
+    for (std::uint32_t scan = 0; scan < 3; ++scan) {
+      const Points points = pcl6d::test::randomCube(random, 2000, 4);
+      map.addScan(points, {}, pose, scan);
+      Eigen::Isometry3d relative = pose;
+      relative.translation() -= offset;
+      for (const auto& p : pcl6d::transformed(points, relative))
+        all.insert(pcl6d::voxelKey(p, kVoxel));
+      pose.translation().x() += 1.3;
+    }
+    for (const auto& p : map.points())
+      EXPECT_TRUE(kept.insert(pcl6d::voxelKey(p, kVoxel)).second);
+    EXPECT_EQ(kept, all);
+  }
 }
 
 TEST(MapBuilder, SubtractsTheOffsetInDouble)
@@ -122,9 +178,19 @@ TEST(MapBuilder, RefusesWhatBreaksItsRules)
 {
   for (const double voxel : {0.0, -1.0, double{kNan}, double{kInfinity}})
     EXPECT_EQ(badArgumentOf([&] { MapBuilder map(voxel); }).find("voxel = "), 0u);
+  EXPECT_EQ(badArgumentOf([&] { MapBuilder map(kInfinity); }),
+            "voxel = inf, but must be finite and > 0");
   MapBuilder map(0.5);
   EXPECT_THROW(map.addScan({{1, 2, 3}}, {1, 2}, kIdentity, 0), pcl6d::BadArgument);
   EXPECT_TRUE(map.points().empty());
+}
+
+TEST(MapBuilder, TakesItsGridFromTheFirstScanThatIsNotRefused)
+{
+  MapBuilder map(0.5);
+  EXPECT_THROW(map.addScan({{1e9f, 0, 0}}, {}, kIdentity, 0), pcl6d::BadArgument);
+  EXPECT_NO_THROW(
+      map.addScan({{1, 0, 0}}, {}, pcl6d::poseFromEuler({1e7, 0, 0}, {}), 0));
 }
 
 TEST(MapBuilder, IsAsBeforeWhenAScanIsRefused)

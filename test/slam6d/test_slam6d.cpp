@@ -203,6 +203,29 @@ TEST(Slam6D, DoesNotBelieveASmallOverlap)
   EXPECT_EQ(result.count(ScanState::kPredicted), 2u);
 }
 
+TEST(Slam6D, DoesNotBelievePairsAsFarApartAsThoseOfUnrelatedClouds)
+{
+  // A blob fills the room and finds partners on its walls, evenly near and far.
+  DriftingRun run = makeDriftingRun(2);
+  Random random(12);
+  for (auto& p : run.scans[1])
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = static_cast<float>(2 * random.normal());
+  Slam6DOptions options;
+  options.max_range = 20;
+  options.voxel = 0.25;
+  options.max_distance = 0.5;
+  const Slam6DResult result = registered(run, options);
+  const auto& blob = result.scans[1];
+  EXPECT_GE(blob.overlap, options.min_overlap) << "which is not the reason";
+  EXPECT_EQ(blob.status, Status::kOk) << "nor is this";
+  EXPECT_GT(blob.rms, 0.6 * 0.5) << "this is";
+  EXPECT_EQ(blob.state, ScanState::kPredicted);
+  EXPECT_FALSE(blob.covariance);
+  EXPECT_LT(pcl6d::distanceBetween(run.odometry[1], blob.T_world_scan).translation,
+            1e-9);
+}
+
 TEST(Slam6D, GivesTheSameBitsForEveryNumberOfThreads)
 {
   const DriftingRun run = makeDriftingRun(3, {}, kTilted);
@@ -256,6 +279,42 @@ TEST(Slam6D, RefusesScansWithoutThreePointsAndPosesThatAreNotRigid)
     EXPECT_THROW(slam.addScan(run.scans[0], pose), pcl6d::BadArgument);
   }
   EXPECT_TRUE(slam.result().scans.empty());
+}
+
+TEST(Slam6D, TakesPointersToPclClouds)
+{
+  const DriftingRun run = makeDriftingRun(2);
+  Slam6D slam;
+  const pcl::PointCloud<pcl::PointXYZ>::Ptr first =
+      pcl6d::test::toCloud<pcl::PointXYZ>(run.scans[0]);
+  pcl::PointCloud<pcl::PointXYZ>::ConstPtr second =
+      pcl6d::test::toCloud<pcl::PointXYZ>(run.scans[1]);
+  slam.addScan(first, run.odometry[0]);
+  slam.addScan(second, run.odometry[1]);
+  EXPECT_TRUE(slam.optimize());
+  expectSameBits(slam.result(), registered(run));
+
+  second.reset();
+  EXPECT_EQ(pcl6d::test::badArgumentOf([&] { slam.addScan(second, run.odometry[1]); }),
+            "scan 2: the cloud is null");
+  EXPECT_EQ(pcl6d::test::badArgumentOf(
+                [&] { slam.addScan(second, run.odometry[1], "scan007.pcd"); }),
+            "scan007.pcd: the cloud is null");
+  EXPECT_EQ(slam.result().scans.size(), 2u);
+}
+
+TEST(Slam6D, IgnoresTheSensorPoseOfPclClouds)
+{
+  const DriftingRun run = makeDriftingRun(2);
+  Slam6D slam;
+  for (std::size_t i = 0; i < 2; ++i) {
+    auto cloud = pcl6d::test::toCloud<pcl::PointXYZ>(run.scans[i]);
+    cloud->sensor_origin_ << 3, -2, 1, 1;
+    cloud->sensor_orientation_ = Eigen::Quaternionf(0, 1, 0, 0);
+    slam.addScan(*cloud, run.odometry[i]);
+  }
+  EXPECT_TRUE(slam.optimize());
+  expectSameBits(slam.result(), registered(run));
 }
 
 TEST(Slam6D, TakesPclClouds)

@@ -82,10 +82,51 @@ TEST(Slam6DParameters, AreDerivedFromTheScans)
   EXPECT_GE(p.max_distance_start.value, p.max_distance.value);
 }
 
-TEST(Slam6DParameters, DoNotLimitTheRangeWithoutACode)
+TEST(Slam6DParameters, LetTheRangeEndWithTheGridWithoutACode)
 {
   const auto p = registered(makeDriftingRun(1)).parameters;
-  EXPECT_EQ(p.max_range.value, std::numeric_limits<double>::infinity());
+  constexpr double kVoxels = 1 << 18;
+  EXPECT_LE(p.max_range.value, kVoxels * p.voxel.value) << "rounded down";
+  EXPECT_GT(p.max_range.value, 0.9 * kVoxels * p.voxel.value) << "to two digits";
+  EXPECT_EQ(p.max_range.value, printed(p.max_range));
+  EXPECT_EQ(p.max_range.why, "as far as the grid of the reduction reaches");
+  EXPECT_FALSE(p.max_range.given);
+}
+
+TEST(Slam6DParameters, LetTheRangeEndWithTheGridIfTheCodeLiesBeyond)
+{
+  Slam6DOptions options;
+  options.voxel = 1e-4;
+  const auto p = registered(runWithNoReturns(1), options).parameters;
+  EXPECT_EQ(p.max_range.value, 26) << "2^18 voxels are 26.2 m";
+  EXPECT_EQ(p.max_range.why, "as far as the grid of the reduction reaches");
+}
+
+TEST(Slam6DParameters, KeepOneWildReturnFromEndingTheRun)
+{
+  DriftingRun run = makeDriftingRun(3);
+  run.scans[1][100] = {2e5f, 0, 0};   // 200 km
+  run.scans[2][100] = {0, -1e30f, 0}; // its square overflows float
+  Slam6DOptions options;
+  options.voxel = 0.15; // the grid of the reduction ends at 157 km
+  EXPECT_TRUE(registered(run, options).trusted());
+}
+
+TEST(Slam6D, MatchesWithinTheGridHoweverFarAScanReaches)
+{
+  // Given an infinite range, a scan may reach 2^20 voxels, but the metascan is thinned
+  // on a grid that is half as wide.
+  DriftingRun run = makeDriftingRun(3);
+  Slam6DOptions options;
+  options.max_range = pcl6d::test::kInfinity;
+  options.voxel = 0.25;
+  const Slam6DResult tame = registered(run, options);
+  for (auto& scan : run.scans)
+    scan.push_back({2e5f, 0, 0}); // 800000 voxels
+  const Slam6DResult wild = registered(run, options);
+  EXPECT_TRUE(wild.trusted());
+  for (std::size_t i = 0; i < run.scans.size(); ++i)
+    EXPECT_TRUE(sameBits(wild.scans[i].T_world_scan, tame.scans[i].T_world_scan));
 }
 
 TEST(Slam6DParameters, GiveTheSameRunWhenGivenAsPrinted)
@@ -217,19 +258,77 @@ TEST(Slam6DOptions, NameTheValueThatBreaksItsRule)
   EXPECT_NO_THROW(Slam6DOptions().validate());
 }
 
-TEST(Slam6D, SaysWhichScanTheGateLeavesEmpty)
+TEST(Slam6DOptions, RefuseAnInfiniteLengthButNotAnInfiniteRange)
 {
-  Slam6DOptions options;
-  options.min_range = 100;
+  const double infinity = pcl6d::test::kInfinity;
+  const auto message = [](auto change) {
+    Slam6DOptions options;
+    change(options);
+    return badArgumentOf([&] { options.validate(); });
+  };
+  EXPECT_EQ(message([&](auto& o) { o.voxel = infinity; }),
+            "voxel = inf, but must be finite and > 0");
+  EXPECT_EQ(message([&](auto& o) { o.max_distance = infinity; }),
+            "max_distance = inf, but must be finite and > 0");
+  EXPECT_EQ(message([&](auto& o) { o.max_distance_start = infinity; }),
+            "max_distance_start = inf, but must be finite and >= 0");
+  EXPECT_EQ(message([&](auto& o) { o.max_range = infinity; }), "");
+}
+
+namespace {
+/** The message of a run of one scan of a room that cannot be prepared. */
+std::string
+failureOf(const Slam6DOptions& options, const Eigen::Vector3f& last_point = {1, 1, 1})
+{
   Slam6D slam(options);
-  const DriftingRun run = makeDriftingRun(1);
+  DriftingRun run = makeDriftingRun(1);
+  run.scans[0].back() = last_point;
   slam.addScan(run.scans[0], run.odometry[0], "scan003.pcd");
   try {
     slam.optimize();
-    FAIL() << "no point passes";
   } catch (const pcl6d::ComputeFailed& e) {
-    EXPECT_EQ(std::string(e.what()).find("scan003.pcd: "), 0u) << e.what();
+    return e.what();
   }
+  return "";
+}
+} // namespace
+
+TEST(Slam6D, SaysWhichScanTheGateLeavesEmptyAndWhichLimitsAreDerived)
+{
+  Slam6DOptions options;
+  options.max_range = 0.25;
+  options.min_range = 0;
+  EXPECT_EQ(
+      failureOf(options),
+      "scan003.pcd: 0 points within the range gate of 0 to 0.25 m, but at least 3 "
+      "are needed");
+  options.min_range.reset();
+  options.max_range = 0.1;
+  EXPECT_NE(failureOf(options).find("to 0.1 m (derived; see min_range), but"),
+            std::string::npos);
+  options.max_range.reset();
+  options.voxel = 1e-6;
+  EXPECT_NE(
+      failureOf(options).find("to 0.26 m (derived; see min_range and max_range),"),
+      std::string::npos);
+  options.min_range = 0;
+  EXPECT_EQ(failureOf(options),
+            "scan003.pcd: 0 points within the range gate of 0 to 0.26 m (derived; see "
+            "max_range), but at least 3 are needed");
+}
+
+TEST(Slam6D, SaysWhichScanIsTooLargeForTheGridAndWhatToGive)
+{
+  Slam6DOptions options;
+  options.max_range = pcl6d::test::kInfinity;
+  const std::string derived = failureOf(options, {1e8f, 0, 0});
+  EXPECT_EQ(derived.find("scan003.pcd: point (1e+08, 0, 0) lies outside the grid"), 0u)
+      << derived;
+  EXPECT_NE(derived.find("(see voxel, derived, and max_range)"), std::string::npos);
+  EXPECT_EQ(derived.find('\n'), std::string::npos);
+  options.voxel = 0.1;
+  EXPECT_NE(failureOf(options, {1e8f, 0, 0}).find("(see voxel and max_range)"),
+            std::string::npos);
 }
 
 TEST(Slam6D, IsAsBeforeWhenAScanIsRefusedOnTheWay)

@@ -16,11 +16,23 @@ namespace {
 double
 rounded(double value, int digits)
 {
-  if (!(value > 0) || !std::isfinite(value))
+  if (!(value > 0) || !std::isnormal(value))
     return value;
   std::ostringstream text; // so 0.17 is the 0.17 that a user types, on every CPU
   text << std::setprecision(digits) << value;
   return std::stod(text.str());
+}
+
+/** \return the largest number of two digits that is no larger, for a value > 0 */
+double
+roundedDown(double value)
+{
+  if (!std::isnormal(value))
+    return value;
+  std::ostringstream text; // 2.621440000000000e+04 becomes 2.6e+04
+  text << std::scientific << std::setprecision(15) << value;
+  const std::string digits = text.str();
+  return std::stod(digits.substr(0, 3) + digits.substr(digits.find('e')));
 }
 
 std::string
@@ -43,17 +55,27 @@ orDerived(const std::optional<double>& option, const Parameter& otherwise)
   return option ? Parameter{*option, true, ""} : otherwise;
 }
 
-/** A no-return code is no surface: the gate ends just below it. */
+/** A no-return code is no surface: the gate ends just below it. Infinite without one. */
 Parameter
-deriveMaxRange(const std::vector<Points>& scans)
+gateBelowCode(const std::vector<Points>& scans)
 {
   double smallest = std::numeric_limits<double>::infinity();
   for (const auto& scan : scans)
     if (const auto code = noReturnRange(scan))
       smallest = std::min(smallest, *code);
-  if (std::isinf(smallest))
-    return {smallest, false, "no range is shared by many points"};
   return {rounded(0.999 * smallest, 4), false, "no-return code at " + metres(smallest)};
+}
+
+/** One wild return must not end the run: a point beyond could not be numbered. The
+ * grid of the metascan, half as wide, reaches 2^19 voxels; half of these are left for
+ * the way from its origin to the scan. */
+Parameter
+gateAtGrid(double voxel)
+{
+  constexpr double kVoxels = 1 << 18;
+  return {roundedDown(kVoxels * voxel),
+          false,
+          "as far as the grid of the reduction reaches"};
 }
 } // namespace
 
@@ -61,7 +83,7 @@ Slam6DParameters
 deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans)
 {
   Slam6DParameters p;
-  p.max_range = orDerived(options.max_range, deriveMaxRange(scans));
+  p.max_range = orDerived(options.max_range, gateBelowCode(scans));
   std::vector<double> ranges, spacings;
   for (const auto& scan : scans) {
     const Points seen = gateByRange(scan, 0, p.max_range.value);
@@ -83,6 +105,9 @@ deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans)
                       derived(std::max(voxel, 1e-6),
                               "larger of 2.5 x median spacing " + metres(spacing) +
                                   " and median range " + metres(range) + " / 60"));
+  const Parameter grid = gateAtGrid(p.voxel.value);
+  if (!options.max_range && grid.value < p.max_range.value)
+    p.max_range = grid;
   p.max_distance =
       orDerived(options.max_distance, derived(2 * p.voxel.value, "2 x voxel"));
   p.max_distance_start = orDerived(

@@ -8,7 +8,7 @@
 namespace pcl6d {
 
 /** \brief Fills in what the user left open, from the first scans of a run. Derived
- * values are rounded to two digits (max_range: four), so that giving the printed value
+ * values are rounded to two digits (max_range below a code: four), so that giving the printed value
  * gives the same run. */
 Slam6DParameters
 deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans);

@@ -11,8 +11,17 @@ namespace pcl6d {
 MapBuilder::MapBuilder(double voxel, const Eigen::Vector3d& world_offset)
 : voxel_(voxel), world_offset_(world_offset)
 {
-  require(voxel > 0 && std::isfinite(voxel), "voxel", voxel, "> 0");
+  require(voxel > 0 && std::isfinite(voxel), "voxel", voxel, "finite and > 0");
 }
+
+namespace {
+Eigen::Isometry3d
+relativeTo(const Eigen::Vector3d& origin, Eigen::Isometry3d pose)
+{
+  pose.translation() -= origin;
+  return pose;
+}
+} // namespace
 
 void
 MapBuilder::addScan(const Points& points,
@@ -23,13 +32,15 @@ MapBuilder::addScan(const Points& points,
   if (!intensities.empty() && intensities.size() != points.size())
     throw BadArgument(std::to_string(intensities.size()) + " intensities for " +
                       std::to_string(points.size()) + " points");
-  Eigen::Isometry3d T = T_world_scan;
-  T.translation() -= world_offset_;
-  const Points moved = transformed(points, T);
+  const Eigen::Vector3d grid_origin =
+      grid_origin_.value_or(T_world_scan.translation().array().round().matrix());
+  const Points in_grid = transformed(points, relativeTo(grid_origin, T_world_scan));
+  const Points moved = transformed(points, relativeTo(world_offset_, T_world_scan));
   std::vector<VoxelKey> keys; // all before the map changes, as voxelKey() may throw
-  keys.reserve(moved.size());
+  keys.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    keys.push_back(points[i].allFinite() ? voxelKey(moved[i], voxel_) : 0);
+    keys.push_back(points[i].allFinite() ? voxelKey(in_grid[i], voxel_) : 0);
+  grid_origin_ = grid_origin;
   has_intensity_ = has_intensity_ && intensities.size() == points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite() || !occupied_.insert(keys[i]).second)

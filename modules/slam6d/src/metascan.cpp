@@ -18,8 +18,10 @@ Metascan::add(const Points& points, const Eigen::Isometry3d& T_world_scan)
 }
 
 Points
-Metascan::around(const Eigen::Vector3d& origin, double reach) const
+Metascan::around(const Eigen::Vector3d& origin, double wanted_reach) const
 {
+  constexpr double kGridCells = (1 << 20) - 1; // voxelKey(); one less for rounding
+  const double reach = std::min(wanted_reach, kGridCells * voxel_);
   const std::size_t count = members_.size();
   const std::size_t wanted =
       max_scans_ > 0 ? std::min<std::size_t>(max_scans_, count) : count;

@@ -23,7 +23,8 @@ public:
   void
   add(const Points& points, const Eigen::Isometry3d& T_world_scan);
 
-  /** \return the points [m] relative to an origin, that lie within reach of it */
+  /** \return the points [m] relative to an origin, that lie within reach of it, and no
+   * farther than the grid of the thinning reaches: 2^20 voxels */
   Points
   around(const Eigen::Vector3d& origin, double reach) const;
 

@@ -24,6 +24,18 @@ tooFewPoints(const std::string& scan, std::size_t count, const std::string& wher
          ", but at least 3 are needed";
 }
 
+namespace {
+/** \return which limits of the gate the user may want to give, "" if both are given */
+std::string
+derivedLimits(const Slam6DParameters& p)
+{
+  std::string names = p.min_range.given ? "" : "min_range";
+  if (!p.max_range.given)
+    names += names.empty() ? "max_range" : " and max_range";
+  return names.empty() ? "" : " (derived; see " + names + ")";
+}
+} // namespace
+
 Points
 prepareScan(const Points& points, const std::string& name, const Slam6DParameters& p)
 {
@@ -31,7 +43,7 @@ prepareScan(const Points& points, const std::string& name, const Slam6DParameter
   if (kept.size() < 3) {
     std::ostringstream gate;
     gate << "within the range gate of " << p.min_range.value << " to "
-         << p.max_range.value << " m";
+         << p.max_range.value << " m" << derivedLimits(p);
     throw ComputeFailed(tooFewPoints(name, kept.size(), gate.str()));
   }
   ReductionOptions reduction;
@@ -39,7 +51,8 @@ prepareScan(const Points& points, const std::string& name, const Slam6DParameter
   try {
     return reducePoints(kept, reduction);
   } catch (const BadArgument& e) {
-    throw ComputeFailed(name + ": " + e.what());
+    throw ComputeFailed(name + ": " + e.what() + " (see voxel" +
+                        (p.voxel.given ? "" : ", derived,") + " and max_range)");
   }
 }
 } // namespace pcl6d

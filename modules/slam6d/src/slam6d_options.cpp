@@ -3,25 +3,35 @@
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
 namespace pcl6d {
+
+namespace {
+void
+requirePositive(const std::optional<double>& option, const char* name)
+{
+  require(!option || (*option > 0 && std::isfinite(*option)),
+          name,
+          option.value_or(0),
+          "finite and > 0");
+}
+} // namespace
 
 void
 Slam6DOptions::validate() const
 {
   validateRangeLimits(min_range.value_or(0),
                       max_range.value_or(std::numeric_limits<double>::infinity()));
-  require(!voxel || *voxel > 0, "voxel", voxel.value_or(0), "> 0");
-  require(!max_distance || *max_distance > 0,
-          "max_distance",
-          max_distance.value_or(0),
-          "> 0");
-  require(!max_distance_start || *max_distance_start >= 0,
+  requirePositive(voxel, "voxel");
+  requirePositive(max_distance, "max_distance");
+  require(!max_distance_start ||
+              (*max_distance_start >= 0 && std::isfinite(*max_distance_start)),
           "max_distance_start",
           max_distance_start.value_or(0),
-          ">= 0");
+          "finite and >= 0");
   require(metascan >= 0, "metascan", metascan, ">= 0");
   require(max_iterations > 0, "max_iterations", max_iterations, "> 0");
   require(translation_epsilon >= 0, "translation_epsilon", translation_epsilon, ">= 0");

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <optional>
 #include <unordered_set>
 #include <vector>
 
@@ -16,10 +17,12 @@ namespace pcl6d {
 
 /** \brief Joins registered scans into one reduced map: the first point in each voxel of
  * the world stays. Scans can be added one at a time, so that they need not be in memory
- * together. \ingroup slam6d */
+ * together. The voxels are counted from the whole metres of the first scan's position,
+ * so that a small object is mapped as finely far from the origin as near it.
+ * \ingroup slam6d */
 class MapBuilder {
 public:
-  /** \param[in] voxel [m] > 0
+  /** \param[in] voxel [m] finite and > 0
    * \param[in] world_offset [m] subtracted from world coordinates, so that float keeps
    * their digits
    * \throws BadArgument voxel breaks its rule */
@@ -30,7 +33,8 @@ public:
    * \param[in] points in the scan's frame [m]; those that are not finite are left out
    * \param[in] intensities one per point, or empty
    * \param[in] scan the scan's number, kept with each point
-   * \throws BadArgument sizes differ, or a point lies outside the grid (voxelKey()) */
+   * \throws BadArgument sizes differ, or a point lies outside the grid about the first
+   * scan (voxelKey()) */
   void
   addScan(const Points& points,
           const std::vector<float>& intensities,
@@ -59,6 +63,7 @@ public:
 private:
   double voxel_;
   Eigen::Vector3d world_offset_;
+  std::optional<Eigen::Vector3d> grid_origin_; ///< [m] in the world
   bool has_intensity_ = true;
   Points points_;
   std::vector<float> intensities_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/progress.h>
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -19,8 +20,9 @@ namespace pcl6d {
  * after the other: the odometry's motion is carried over to the corrected pose (5.1.1),
  * then ICP (4.1) matches the scan against the union of earlier scans (metascan). A scan
  * that cannot be matched keeps its predicted pose, says so in its state, and is left
- * out of the metascan. The first scan keeps its pose. The same bits for any number of
- * threads.
+ * out of the metascan; so is one with little overlap or with pairs as far apart as
+ * those of unrelated clouds (rms above 0.6 of max_distance). The first scan keeps its
+ * pose. The same bits for any number of threads.
  * \code
  * pcl6d::Slam6D slam;
  * for (...)
@@ -52,6 +54,9 @@ public:
           const Eigen::Isometry3d& initial_pose,
           const std::string& name = "");
 
+  /** \brief The same for a PCL cloud. Its sensor_origin_ and sensor_orientation_ are
+   * ignored: the points are taken to be in the scan's frame, and initial_pose alone says
+   * where that is. */
   template <typename PointT>
   void
   addScan(const pcl::PointCloud<PointT>& cloud,
@@ -59,6 +64,21 @@ public:
           const std::string& name = "")
   {
     addScan(toPoints(cloud), initial_pose, name);
+  }
+
+  /** \brief The same for a Ptr or ConstPtr of a PCL cloud, which is not kept.
+   * \throws BadArgument also if it is null */
+  template <typename Cloud>
+  void
+  addScan(const pcl::shared_ptr<Cloud>& cloud,
+          const Eigen::Isometry3d& initial_pose,
+          const std::string& name = "")
+  {
+    if (!cloud)
+      throw BadArgument(
+          (name.empty() ? "scan " + std::to_string(result().scans.size()) : name) +
+          ": the cloud is null");
+    addScan(*cloud, initial_pose, name);
   }
 
   /** \brief Registers all scans that were added and not yet registered.

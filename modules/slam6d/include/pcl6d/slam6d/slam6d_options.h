@@ -9,10 +9,11 @@ namespace pcl6d {
 struct Slam6DOptions {
   std::optional<double> min_range;    ///< [m] nearer points are dropped; >= 0
   std::optional<double> max_range;    ///< [m] farther points are dropped; >= min_range
-  std::optional<double> voxel;        ///< [m] edge length of the reduction; > 0
-  std::optional<double> max_distance; ///< [m] largest pair distance; > 0
+  std::optional<double> voxel;        ///< [m] edge length of the reduction; finite, > 0
+  std::optional<double> max_distance; ///< [m] largest pair distance; finite, > 0
   std::optional<double> max_distance_start; ///< [m] largest pair distance of the first
-                                            ///< iteration, which then shrinks; >= 0
+                                            ///< iteration, which then shrinks; finite,
+                                            ///< >= 0
   int metascan =
       0; ///< match against the union of the last N scans; 1 is pairwise, 0: all
   int max_iterations = 200;          ///< of one ICP; > 0

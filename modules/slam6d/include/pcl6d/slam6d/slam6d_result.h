@@ -23,7 +23,7 @@ struct Parameter {
 /** \brief The values that a run works with. */
 struct Slam6DParameters {
   Parameter min_range;          ///< [m]
-  Parameter max_range;          ///< [m] may be infinite
+  Parameter max_range;          ///< [m] infinite only if given so
   Parameter voxel;              ///< [m]
   Parameter max_distance;       ///< [m]
   Parameter max_distance_start; ///< [m]

@@ -40,7 +40,10 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
       "Position and orientation errors of a trajectory against a reference, first\n"
       "without alignment, then after the rigid motion that fits the positions best.\n"
       "Files: KITTI (12 numbers a row) or TUM (8 numbers a row). Poses are matched by\n"
-      "time if both files have stamps (TUM), else by their index.\n");
+      "time if both files have stamps (TUM), else by their index. If one file is TUM\n"
+      "and all its stamps are whole numbers within the rows of the other, these are\n"
+      "indices: so give trajectory.tum of a run of selected scans (--first, "
+      "--every).\n");
   line.positional("ESTIMATE", &s.estimate);
   line.positional("REFERENCE", &s.reference);
   double& difference = s.matching.max_time_difference;

@@ -124,6 +124,30 @@ TEST(Evaluate, ComparesTumWithKittiByIndex)
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["matched_by"], "index");
 }
 
+TEST(Evaluate, TakesWholeStampsAsTheIndicesOfSelectedScans)
+{
+  const Files files;
+  writeText(files / "selected.tum", "0 3 4 0 0 0 0 1\n2 5 7 0 0 0 0 1\n");
+  const auto outcome = evaluate({"trajectory",
+                                 files.name("selected.tum"),
+                                 files.name("path.txt"),
+                                 "--json",
+                                 "-"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["matched_by"], "index");
+  EXPECT_EQ(json["pairs"], 2);
+  EXPECT_EQ(json["unmatched_reference"], 1);
+  EXPECT_DOUBLE_EQ(json["without_alignment"]["position"]["max"], 5);
+
+  writeText(files / "selected.txt",
+            "1 0 0 3 0 1 0 4 0 0 1 0\n1 0 0 5 0 1 0 7 0 0 1 0\n");
+  expectError(
+      evaluate({"trajectory", files.name("selected.txt"), files.name("path.txt")}),
+      1,
+      {"2 poses", "has 3", "trajectory.tum"});
+}
+
 TEST(Evaluate, SaysWhenThePositionsDetermineNoRotation)
 {
   const Files files;
@@ -179,6 +203,7 @@ TEST(Evaluate, Helps)
   const auto details = evaluate({"trajectory", "--help"});
   EXPECT_EQ(details.exit_code, 0);
   EXPECT_NE(details.out.find("--max-time-difference"), std::string::npos);
+  EXPECT_NE(details.out.find("trajectory.tum"), std::string::npos);
   EXPECT_NE(details.out.find("0.02"), std::string::npos) << "defaults are shown";
   EXPECT_EQ(evaluate({"--version"}).exit_code, 0);
 }

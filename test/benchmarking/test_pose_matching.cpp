@@ -48,14 +48,42 @@ TEST(MatchPoses, GoesByIndexUnlessBothHaveStamps)
   }
 }
 
+TEST(MatchPoses, TakesWholeStampsOfOneSideAsIndicesOfTheOther)
+{
+  // The trajectory.tum of a run with --first 2 --every 3 against a reference of all.
+  auto matching = matchPoses(atStamps({2, 5, 8}), withoutStamps(9));
+  EXPECT_FALSE(matching.by_time);
+  EXPECT_EQ(describe(matching.pairs), "0-2 1-5 2-8 ");
+  EXPECT_EQ(matching.unmatched_estimate, 0u);
+  EXPECT_EQ(matching.unmatched_reference, 6u);
+
+  matching = matchPoses(withoutStamps(9), atStamps({2, 5, 8}));
+  EXPECT_EQ(describe(matching.pairs), "2-0 5-1 8-2 ");
+  EXPECT_EQ(matching.unmatched_estimate, 6u);
+  EXPECT_EQ(matching.unmatched_reference, 0u);
+}
+
+TEST(MatchPoses, TakesNoOtherStampsAsIndices)
+{
+  for (const auto& stamps : {std::vector<double>{0, 1.5}, {0, 3}, {-1, 0}}) {
+    EXPECT_THROW(matchPoses(atStamps(stamps), withoutStamps(3)), BadArgument);
+    EXPECT_THROW(matchPoses(withoutStamps(3), atStamps(stamps)), BadArgument);
+  }
+  // The counts are equal: by index, as without stamps.
+  EXPECT_EQ(describe(matchPoses(atStamps({0, 1.5}), withoutStamps(2)).pairs),
+            "0-0 1-1 ");
+}
+
 TEST(MatchPoses, ByIndexNamesBothCountsWhenTheyDiffer)
 {
   try {
-    matchPoses(withoutStamps(61), atStamps({1, 2}));
+    matchPoses(withoutStamps(61), atStamps({1, 70}));
     FAIL() << "accepted";
   } catch (const BadArgument& e) {
     EXPECT_NE(std::string(e.what()).find("61"), std::string::npos) << e.what();
     EXPECT_NE(std::string(e.what()).find("reference has 2;"), std::string::npos)
+        << e.what();
+    EXPECT_NE(std::string(e.what()).find("trajectory.tum"), std::string::npos)
         << e.what();
   }
 }

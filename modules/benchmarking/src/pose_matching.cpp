@@ -33,16 +33,45 @@ checkTrajectory(const Trajectory& trajectory, const std::string& name)
 }
 
 PoseMatching
-matchByIndex(std::size_t estimate_count, std::size_t reference_count)
+matchEqualIndices(std::size_t estimate_count, std::size_t reference_count)
 {
   if (estimate_count != reference_count)
-    throw BadArgument("the estimate has " + std::to_string(estimate_count) +
-                      " poses, but the reference has " +
-                      std::to_string(reference_count) +
-                      "; without time stamps in both the counts must be equal");
+    throw BadArgument(
+        "the estimate has " + std::to_string(estimate_count) +
+        " poses, but the reference has " + std::to_string(reference_count) +
+        "; without time stamps in both the counts must be equal; for selected "
+        "scans take trajectory.tum, whose stamps are their indices");
   PoseMatching matching;
   for (std::size_t i = 0; i < estimate_count; ++i)
     matching.pairs.push_back({i, i});
+  return matching;
+}
+
+/** \return whether every stamp is the index of one of count poses */
+bool
+areIndices(const std::vector<double>& stamps, std::size_t count)
+{
+  return !stamps.empty() &&
+         std::all_of(stamps.begin(), stamps.end(), [&](double stamp) {
+           return stamp >= 0 && stamp < static_cast<double>(count) &&
+                  stamp == std::floor(stamp);
+         });
+}
+
+/** One of the two has no stamps. */
+PoseMatching
+matchByIndex(const Trajectory& estimate, const Trajectory& reference)
+{
+  PoseMatching matching;
+  const auto index = [](double stamp) { return static_cast<std::size_t>(stamp); };
+  if (areIndices(estimate.stamps, reference.poses.size()))
+    for (std::size_t i = 0; i < estimate.stamps.size(); ++i)
+      matching.pairs.push_back({i, index(estimate.stamps[i])});
+  else if (areIndices(reference.stamps, estimate.poses.size()))
+    for (std::size_t i = 0; i < reference.stamps.size(); ++i)
+      matching.pairs.push_back({index(reference.stamps[i]), i});
+  else
+    matching = matchEqualIndices(estimate.poses.size(), reference.poses.size());
   return matching;
 }
 
@@ -99,10 +128,11 @@ matchPoses(const Trajectory& estimate,
   options.validate();
   checkTrajectory(estimate, "estimate");
   checkTrajectory(reference, "reference");
-  if (estimate.stamps.empty() || reference.stamps.empty())
-    return matchByIndex(estimate.poses.size(), reference.poses.size());
+  const bool by_time = !estimate.stamps.empty() && !reference.stamps.empty();
   PoseMatching matching =
-      matchByTime(estimate.stamps, reference.stamps, options.max_time_difference);
+      by_time
+          ? matchByTime(estimate.stamps, reference.stamps, options.max_time_difference)
+          : matchByIndex(estimate, reference);
   if (matching.pairs.empty()) {
     std::ostringstream message;
     message << "no pose of the estimate (stamps " << estimate.stamps.front() << " to "

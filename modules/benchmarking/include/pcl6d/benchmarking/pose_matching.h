@@ -13,7 +13,8 @@ struct PoseMatchingOptions {
   double max_time_difference = 0.02; ///< [s] between the stamps of a pair; >= 0
 
   /** \throws BadArgument naming the field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \brief Two poses that are compared, by their index. */
@@ -24,7 +25,7 @@ struct PosePair {
 
 /** \brief The pairs of poses, in the order of the estimate. */
 struct PoseMatching {
-  bool by_time = false; ///< else by index
+  bool by_time = false; ///< else by index, which a stamp may be
   std::vector<PosePair> pairs;
   std::size_t unmatched_estimate = 0;  ///< poses of the estimate without partner
   std::size_t unmatched_reference = 0; ///< poses of the reference without partner
@@ -33,9 +34,12 @@ struct PoseMatching {
 /** \brief Finds which poses to compare.
  *
  * If both trajectories have stamps: by time, each pose at most once, closest stamps
- * first, none farther apart than the option says. Else by index.
+ * first, none farther apart than the option says. Else by index: if the stamps of the
+ * one that has them are whole numbers below the count of the other, as in the
+ * trajectory.tum of a run of selected scans, a stamp is the index of its partner;
+ * otherwise equal indices belong together.
  * \throws BadArgument a trajectory is empty, holds a pose that is not rigid, or stamps
- * that do not increase or are not as many as its poses; by index: the counts differ
+ * that do not increase or are not as many as its poses; by index without such stamps: the counts differ
  * \throws ComputeFailed by time: no two stamps are close enough
  * \ingroup benchmarking */
 PoseMatching

@@ -316,6 +316,23 @@ TEST_P(PlaneSteps, TurnNotABall)
   EXPECT_LT((found.transform * Eigen::Vector3d(0.1, 0, 0)).norm(), 0.02);
 }
 
+TEST_P(PlaneSteps, DoNotDependOnTheUnitOfLength)
+{
+  Random random(14);
+  const Eigen::Isometry3d truth = randomPose(random, 1, 0.1);
+  const Planes planes = roomPlanes(random, truth);
+  for (const double unit : {1e-8, 1e8}) {
+    Planes scaled = planes;
+    for (std::size_t i = 0; i < kPairs; ++i) {
+      scaled.source[i] *= unit;
+      scaled.target[i] *= unit;
+    }
+    const Eigen::Isometry3d found = iterate(step_, scaled);
+    EXPECT_LT((found.linear() - truth.linear()).norm(), 1e-13);
+    EXPECT_LT((found.translation() / unit - truth.translation()).norm(), 1e-12);
+  }
+}
+
 TEST_P(PlaneSteps, SayWhatIsMissing)
 {
   EXPECT_EQ(step_(PlaneSums()).status, Status::kTooFewPairs);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "bench_search_nanoflann.h"
 #include "peer_ratio.h"
 #include "room_cloud.h"
 
@@ -150,5 +151,6 @@ main(int argc, char** argv)
 {
   pcl6d::benchmarks::addCases(30000);
   pcl6d::benchmarks::addCases(300000);
+  pcl6d::benchmarks::addNanoflannCases(300000);
   return pcl6d::benchmarks::runPeerCases(argc, argv);
 }

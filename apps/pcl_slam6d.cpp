@@ -137,7 +137,9 @@ private:
     std::ostringstream line;
     line << folder_.file(i).filename().string() << ": " << toString(scan.state) << " ("
          << toString(scan.status) << "), " << scan.iterations << " iterations, "
-         << scan.pairs << " pairs, rms " << scan.rms << " m, overlap " << scan.overlap;
+         << scan.pairs << " pairs, rms " << scan.rms << " m, overlap " << scan.overlap
+         << ", correction " << scan.correction << " m"
+         << (scan.reason.empty() ? "" : "; not believed: ") << scan.reason;
     bar_.say(line.str());
   }
 

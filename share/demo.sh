@@ -36,5 +36,6 @@ poses:    $out/map/trajectory.kitti
 map:      $out/map/map.pcd   (pcl_viewer $out/map/scans/*.pcd shows the scans in place)
 picture:  $out/map/top_view.png
 summary:  $out/map/summary.json
+your own:  $bin/pcl_slam6d SCAN_DIR -o OUT_DIR
 position error (rms against the truth): $(printf '%.3f' "$before") m before, $(printf '%.3f' "$after") m after
 TEXT

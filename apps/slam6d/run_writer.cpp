@@ -7,6 +7,8 @@
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/trajectory_io.h>
 
+#include <algorithm>
+#include <iomanip>
 #include <sstream>
 #include <sys/resource.h>
 
@@ -47,6 +49,8 @@ entryOf(const std::string& file, const ScanResult& scan, std::size_t dropped)
   entry.rms = scan.rms;
   entry.overlap = scan.overlap;
   entry.iterations = scan.iterations;
+  entry.correction = scan.correction;
+  entry.reason = scan.reason;
   return entry;
 }
 
@@ -62,6 +66,32 @@ filesIn(const std::string& state, const RunSummary& summary)
       text += (count == 1 ? ": " : ", ") + scan.file;
   return count > kMost ? text + " and " + std::to_string(count - kMost) + " more"
                        : text;
+}
+
+/** The worst numbers of the matched scans, so that a bad match shows without --verbose. */
+void
+describeQuality(const RunSummary& summary, std::ostream& text)
+{
+  using Entry = RunSummary::ScanEntry;
+  std::vector<const Entry*> matched;
+  for (const auto& scan : summary.scans)
+    if (scan.state == "matched")
+      matched.push_back(&scan);
+  if (matched.empty())
+    return;
+  const auto largest = [&](double Entry::*member, double sign) {
+    return *std::max_element(
+        matched.begin(), matched.end(), [&](const Entry* a, const Entry* b) {
+          return sign * a->*member < sign * b->*member;
+        });
+  };
+  const Entry* overlap = largest(&Entry::overlap, -1);
+  const Entry* correction = largest(&Entry::correction, 1);
+  const Entry* rms = largest(&Entry::rms, 1);
+  text << std::fixed << std::setprecision(2) << "\nleast overlap " << overlap->overlap
+       << " (" << overlap->file << "), largest correction " << correction->correction
+       << " m (" << correction->file << "), largest rms " << std::setprecision(3)
+       << rms->rms << " m (" << rms->file << ")";
 }
 
 std::string
@@ -97,6 +127,7 @@ verdictOf(const Slam6DResult& result, const RunSummary& summary)
         << "\nNOT TO BE TRUSTED: " << counted(limit, "scan")
         << " did not converge (bad initial pose, little overlap, --metascan too small?)"
         << filesIn("unconverged", summary);
+  describeQuality(summary, text);
   return text.str();
 }
 

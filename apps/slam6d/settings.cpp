@@ -78,7 +78,12 @@ describeMatching(CommandLine& line, Settings& s, Raw& raw)
           "most iterations of one ICP; a scan that needs more is not converged")(
           "min-overlap",
           valueOf(s.slam.min_overlap),
-          "share of points with a partner below which a match is not believed");
+          "share of points with a partner below which a match is not believed") //
+      ("max-correction",
+       valueOf(s.slam.max_correction),
+       "share of the odometry's step by which a match may move a scan; beyond, it is "
+       "not "
+       "believed (inf: always)");
 }
 
 void
@@ -163,6 +168,7 @@ wordsOf(const CommandLine& line, const Raw& raw, const Settings& s)
           word(line, "metascan", raw.metascan),
           word(line, "iterations", s.slam.max_iterations),
           word(line, "min-overlap", s.slam.min_overlap),
+          word(line, "max-correction", s.slam.max_correction),
           word(line, "threads", raw.threads),
           word(line, "seed", s.seed)};
 }

@@ -330,3 +330,35 @@ TEST(Slam6D, TakesPclClouds)
   expectSameBits(slam.result(), registered(run));
   EXPECT_EQ(slam.result().scans[1].points, run.scans[1].size());
 }
+
+TEST(Slam6D, DoesNotBelieveAMatchThatDeniesTheOdometry)
+{
+  // The last odometry step is 0.3 m longer than the way, most of its own length.
+  DriftingRun run = makeDriftingRun(4);
+  run.odometry = run.truth;
+  run.odometry.back().translation() += Eigen::Vector3d(0.3, 0, 0);
+  Slam6DOptions options;
+  options.voxel = 0.1;
+  options.max_distance_start = 1.0;
+  const auto careful = registered(run, options).scans.back();
+  EXPECT_EQ(careful.state, ScanState::kPredicted);
+  EXPECT_NE(careful.reason.find("correction"), std::string::npos) << careful.reason;
+  EXPECT_NEAR(careful.correction, 0.3, kShareOfUnion * *options.voxel);
+  options.max_correction = std::numeric_limits<double>::infinity();
+  const auto trusting = registered(run, options).scans.back();
+  EXPECT_EQ(trusting.state, ScanState::kMatched);
+  EXPECT_EQ(trusting.reason, "");
+  const auto error =
+      pcl6d::distanceBetween(run.truth.back(), trusting.T_world_scan).translation;
+  EXPECT_LT(error, kShareOfUnion * *options.voxel);
+}
+
+TEST(Slam6D, BelievesAnyCorrectionWhereTheOdometryHasNoStep)
+{
+  DriftingRun run = makeDriftingRun(2);
+  run.odometry.assign(2, run.truth.front()); // 0.4 m from the second
+  Slam6DOptions options;
+  options.voxel = 0.1;
+  options.max_distance_start = 1.0;
+  EXPECT_EQ(registered(run, options).scans.back().state, ScanState::kMatched);
+}

@@ -57,7 +57,9 @@ toJson(const RunSummary::ScanEntry& scan)
           {"pairs", scan.pairs},
           {"rms", scan.rms},
           {"overlap", scan.overlap},
-          {"iterations", scan.iterations}};
+          {"iterations", scan.iterations},
+          {"correction", scan.correction},
+          {"reason", scan.reason}};
 }
 
 Json

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <deque>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -28,6 +29,11 @@ constexpr std::size_t kScansForParameters = 16;
  * (hand-held outdoors) have up to 0.458, but those of kurt3d, whose noise is about as
  * large as max_distance, 0.590. So this finds many unrelated clouds, not all. */
 constexpr double kLargestRmsShare = 0.6;
+
+/** A smaller correction, as share of max_distance, is always believed. Wrong matches of
+ * hku1 (pairwise, or of each third scan) move a scan by 0.57 m and more, by a third of the
+ * step and more; right ones by at most 0.29 m and a fifth of the step. */
+constexpr double kSmallCorrection = 1.5;
 } // namespace
 
 class Slam6D::Implementation {
@@ -146,7 +152,7 @@ private:
       scan.covariance = PoseCovariance(PoseCovariance::Zero());
     }
     else {
-      match(reduced_[i], scan);
+      match(reduced_[i], odometryStep(i), scan);
     }
     if (scan.state != ScanState::kPredicted)
       metascan_->add(reduced_[i], scan.T_world_scan);
@@ -154,7 +160,7 @@ private:
 
   /** Matches a scan against the metascan, from its predicted pose. */
   void
-  match(const Points& points, ScanResult& scan) const
+  match(const Points& points, double odometry_step, ScanResult& scan) const
   {
     const Slam6DParameters& p = result_.parameters;
     // Whole metres from the first scan: the same voxels wherever the world's origin is.
@@ -174,7 +180,10 @@ private:
     scan.rms = found.rms;
     scan.overlap = found.overlap;
     scan.iterations = found.iterations;
-    if (!isBelieved(found)) {
+    scan.correction =
+        (found.T_target_source.translation() - guess.translation()).norm();
+    scan.reason = doubt(found, scan.correction, odometry_step);
+    if (!scan.reason.empty()) {
       scan.state = ScanState::kPredicted;
       return;
     }
@@ -185,13 +194,32 @@ private:
     scan.T_world_scan.translation() += origin;
   }
 
-  bool
-  isBelieved(const IcpResult& found) const
+  /** \return the length of the odometry's motion from the scan before [m] */
+  double
+  odometryStep(std::size_t i) const
   {
-    const bool arrived =
-        found.status == Status::kOk || found.status == Status::kMaxIterations;
-    return arrived && found.overlap >= options_.min_overlap &&
-           found.rms <= kLargestRmsShare * result_.parameters.max_distance.value;
+    return distanceBetween(result_.scans[i - 1].initial_pose,
+                           result_.scans[i].initial_pose)
+        .translation;
+  }
+
+  /** \return why a match is not believed, or nothing */
+  std::string
+  doubt(const IcpResult& found, double correction, double odometry_step) const
+  {
+    const double max_distance = result_.parameters.max_distance.value;
+    std::ostringstream reason;
+    if (found.status != Status::kOk && found.status != Status::kMaxIterations)
+      reason << "ICP: " << toString(found.status);
+    else if (found.overlap < options_.min_overlap)
+      reason << "overlap " << found.overlap << " is less than " << options_.min_overlap;
+    else if (found.rms > kLargestRmsShare * max_distance)
+      reason << "rms " << found.rms << " m is that of unrelated points";
+    else if (odometry_step > 0 && correction > kSmallCorrection * max_distance &&
+             correction > options_.max_correction * odometry_step)
+      reason << "a correction of " << correction << " m is too much for a step of "
+             << odometry_step << " m";
+    return reason.str();
   }
 
   IcpOptions

@@ -38,6 +38,7 @@ Slam6DOptions::validate() const
   require(rotation_epsilon >= 0, "rotation_epsilon", rotation_epsilon, ">= 0");
   require(
       min_overlap >= 0 && min_overlap <= 1, "min_overlap", min_overlap, "in [0, 1]");
+  require(max_correction >= 0, "max_correction", max_correction, ">= 0");
 }
 
 } // namespace pcl6d

@@ -44,6 +44,8 @@ struct RunSummary {
     double rms = 0; ///< [m]
     double overlap = 0;
     int iterations = 0;
+    double correction = 0; ///< [m] from the predicted to the matched position
+    std::string reason;    ///< why the match is not believed; else empty
   };
 
   std::string generator; ///< the program's name

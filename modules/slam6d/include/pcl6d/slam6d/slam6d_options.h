@@ -14,13 +14,17 @@ struct Slam6DOptions {
   std::optional<double> max_distance_start; ///< [m] largest pair distance of the first
                                             ///< iteration, which then shrinks; finite,
                                             ///< >= 0
-  int metascan =
-      0; ///< match against the union of the last N scans; 1 is pairwise, 0: all
+  /** match against the union of the last N scans; 1 is pairwise, 0: all */
+  int metascan = 0;
   int max_iterations = 200;          ///< of one ICP; > 0
   double translation_epsilon = 2e-4; ///< [m] ICP stops at a smaller step ...
   double rotation_epsilon = 2e-5;    ///< [rad] ... that also turns less; >= 0
-  double min_overlap = 0.1;     ///< share of points with a partner below which a match
-                                ///< is not believed; in [0, 1]
+  double min_overlap = 0.1; ///< share of points with a partner below which a match
+                            ///< is not believed; in [0, 1]
+  /** a match is not believed if it moves a scan by a larger share of the odometry's step
+   * (and by more than 1.5 max_distance); >= 0, infinite: no limit. Not applied where the
+   * odometry has no step, as without initial poses */
+  double max_correction = 0.4;
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void

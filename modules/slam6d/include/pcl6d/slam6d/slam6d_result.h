@@ -54,6 +54,8 @@ struct ScanResult {
   double rms = 0;                       ///< [m] of these pairs
   double overlap = 0;                   ///< pairs / reduced points
   int iterations = 0;
+  double correction = 0; ///< [m] from the predicted to the matched position
+  std::string reason;    ///< why a match is not believed; else empty
   std::optional<PoseCovariance> covariance; ///< x y z roll pitch yaw [m, rad]; zero for
                                             ///< the fixed scan, none if not known
 };

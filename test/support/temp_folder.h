@@ -24,13 +24,19 @@ public:
     std::filesystem::remove_all(path_, ignored);
   }
   TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
+  TempFolder&
+  operator=(const TempFolder&) = delete;
 
-  std::filesystem::path operator/(const std::string& name) const
+  std::filesystem::path
+  operator/(const std::string& name) const
   {
     return path_ / name;
   }
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path&
+  path() const
+  {
+    return path_;
+  }
 
 private:
   std::filesystem::path path_;

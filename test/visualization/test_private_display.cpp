@@ -62,31 +62,55 @@ public:
   }
   ~Drawing() { end(SIGKILL); }
   Drawing(const Drawing&) = delete;
-  Drawing& operator=(const Drawing&) = delete;
+  Drawing&
+  operator=(const Drawing&) = delete;
 
-  void end(int signal)
+  void
+  end(int signal)
   {
     if (process_.valid() && process_.running())
       ::kill(process_.id(), signal);
     wait();
   }
-  int wait()
+  int
+  wait()
   {
     std::error_code ignored;
     process_.wait(ignored);
     return process_.exit_code();
   }
-  std::string nextLine()
+  std::string
+  nextLine()
   {
     std::string line;
     std::getline(output_, line);
     return line;
   }
-  std::string errors() { return {std::istreambuf_iterator<char>(errors_), {}}; }
-  int pid() const { return process_.id(); }
-  int serverPid() const { return server_pid_; }
-  const std::string& display() const { return display_; }
-  const std::string& line() const { return line_; }
+  std::string
+  errors()
+  {
+    return {std::istreambuf_iterator<char>(errors_), {}};
+  }
+  int
+  pid() const
+  {
+    return process_.id();
+  }
+  int
+  serverPid() const
+  {
+    return server_pid_;
+  }
+  const std::string&
+  display() const
+  {
+    return display_;
+  }
+  const std::string&
+  line() const
+  {
+    return line_;
+  }
 
 private:
   bp::ipstream output_;

@@ -17,20 +17,34 @@ public:
    * messages \throws IoFailed unknown or repeated entry, or no DATA */
   PcdEntries(std::istream& stream, const std::filesystem::path& path);
 
-  const std::filesystem::path& path() const { return path_; }
-  std::size_t numLines() const { return num_lines_; }
-  bool has(std::string_view word) const { return entries_.count(word) > 0; }
+  const std::filesystem::path&
+  path() const
+  {
+    return path_;
+  }
+  std::size_t
+  numLines() const
+  {
+    return num_lines_;
+  }
+  bool
+  has(std::string_view word) const
+  {
+    return entries_.count(word) > 0;
+  }
 
   /** \return the values after the word \throws IoFailed there is no such entry */
-  const std::vector<std::string>& values(std::string_view word) const;
+  const std::vector<std::string>&
+  values(std::string_view word) const;
 
   /** \return the same for an entry that must have so many values */
-  const std::vector<std::string>& values(std::string_view word,
-                                         std::size_t count) const;
+  const std::vector<std::string>&
+  values(std::string_view word, std::size_t count) const;
 
   /** \return a value of the entry as a number */
   template <typename T>
-  T number(std::string_view word, const std::string& token) const
+  T
+  number(std::string_view word, const std::string& token) const
   {
     T value{};
     if (!text::parseNumber(token, value))
@@ -41,10 +55,12 @@ public:
   }
 
   /** \return the number of the line that holds the entry */
-  std::size_t lineOf(std::string_view word) const;
+  std::size_t
+  lineOf(std::string_view word) const;
 
   /** \throws IoFailed with the line of the entry */
-  [[noreturn]] void fail(std::string_view word, const std::string& message) const;
+  [[noreturn]] void
+  fail(std::string_view word, const std::string& message) const;
 
 private:
   struct Entry {
@@ -52,8 +68,10 @@ private:
     std::vector<std::string> values;
   };
 
-  bool readLine(std::istream& stream, std::string& line) const;
-  void add(const std::string& line);
+  bool
+  readLine(std::istream& stream, std::string& line) const;
+  void
+  add(const std::string& line);
 
   std::filesystem::path path_;
   std::map<std::string, Entry, std::less<>> entries_;

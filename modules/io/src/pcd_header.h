@@ -23,7 +23,11 @@ struct PcdHeader {
   PcdEncoding encoding = PcdEncoding::kAscii;
   std::size_t num_lines = 0; ///< lines of the header; the body follows
 
-  std::size_t numPoints() const { return width * height; }
+  std::size_t
+  numPoints() const
+  {
+    return width * height;
+  }
 };
 
 constexpr std::int64_t kMaxPointSize = 1 << 20; // [byte]

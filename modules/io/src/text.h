@@ -50,11 +50,11 @@ public:
   /** \param[in] first number of the first line, for messages */
   explicit Lines(std::string_view text, std::size_t first = 1)
   : rest_(text), number_(first - 1)
-  {
-  }
+  {}
 
   /** \return whether there was another line */
-  bool next()
+  bool
+  next()
   {
     if (rest_.empty())
       return false;
@@ -66,11 +66,23 @@ public:
     ++number_;
     return true;
   }
-  std::string_view line() const { return line_; }
-  std::size_t number() const { return number_; }
+  std::string_view
+  line() const
+  {
+    return line_;
+  }
+  std::size_t
+  number() const
+  {
+    return number_;
+  }
 
   /** \return what follows the line */
-  std::string_view rest() const { return rest_; }
+  std::string_view
+  rest() const
+  {
+    return rest_;
+  }
 
 private:
   std::string_view rest_;
@@ -84,11 +96,11 @@ class Tokens {
 public:
   explicit Tokens(std::string_view line, std::string_view extra = {})
   : rest_(line), extra_(extra)
-  {
-  }
+  {}
 
   /** \return the next token; empty at the end of the line */
-  std::string_view next()
+  std::string_view
+  next()
   {
     std::size_t begin = 0;
     while (begin < rest_.size() && separates(rest_[begin]))
@@ -102,7 +114,8 @@ public:
   }
 
 private:
-  bool separates(char c) const
+  bool
+  separates(char c) const
   {
     return c == ' ' || c == '\t' || extra_.find(c) != std::string_view::npos;
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/require.h>
-
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/random.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/scanner/range_scan.h>
 
 #include <cmath>

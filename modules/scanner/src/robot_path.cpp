@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/require.h>
-
 #include <pcl6d/scanner/robot_path.h>
 
 #include <algorithm>

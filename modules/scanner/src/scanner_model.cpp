@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/require.h>
-
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/scanner/scanner_model.h>
 
 #include <cmath>

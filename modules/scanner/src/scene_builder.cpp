@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/require.h>
-
 #include <pcl6d/common/portable_math.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/scanner/scene_builder.h>
 
 namespace pcl6d {

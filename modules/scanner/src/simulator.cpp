@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/require.h>
-
 #include <pcl6d/common/random.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/scanner/simulator.h>
 
 #include <utility>

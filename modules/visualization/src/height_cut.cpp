@@ -17,22 +17,25 @@ public:
            const std::vector<std::size_t>& indices,
            const Trajectory& trajectory);
 
-  std::size_t cellOf(const Eigen::Vector3f& p) const
+  std::size_t
+  cellOf(const Eigen::Vector3f& p) const
   {
     const Eigen::Array2f place = (p.head<2>() - corner_).array() / cell_;
     return static_cast<std::size_t>(place.y()) * columns_ +
            static_cast<std::size_t>(place.x());
   }
   /** \return how much higher the point lies than the nearest pose [m] */
-  float heightOverPath(const Eigen::Vector3f& p) const
+  float
+  heightOverPath(const Eigen::Vector3f& p) const
   {
     return p.z() - path_height_[cellOf(p)];
   }
   /** \return the share of the cells along the path that hold points higher than cut
    * above it [m] */
-  double coveredShare(const Points& points,
-                      const std::vector<std::size_t>& indices,
-                      float cut) const;
+  double
+  coveredShare(const Points& points,
+               const std::vector<std::size_t>& indices,
+               float cut) const;
 
 private:
   Eigen::Vector2f corner_;

@@ -27,10 +27,12 @@ public:
   }
   ~CaughtMessages() { vtkOutputWindow::SetInstance(before_); }
   CaughtMessages(const CaughtMessages&) = delete;
-  CaughtMessages& operator=(const CaughtMessages&) = delete;
+  CaughtMessages&
+  operator=(const CaughtMessages&) = delete;
 
   /** \return the text of the first error, on one line; empty if there was none */
-  std::string firstError()
+  std::string
+  firstError()
   {
     std::string text = caught_->GetOutput();
     const auto begin = text.find("ERROR:");

@@ -31,27 +31,34 @@ public:
   ~PixelScene();
 
   /** \param[in] points column, row, layer */
-  void addPoints(const std::vector<Eigen::Vector3f>& points,
-                 const std::vector<Colour>& colours,
-                 double size);
+  void
+  addPoints(const std::vector<Eigen::Vector3f>& points,
+            const std::vector<Colour>& colours,
+            double size);
   /** \brief Points joined in order. */
-  void addLine(const std::vector<Eigen::Vector2d>& points, const Pen& pen);
+  void
+  addLine(const std::vector<Eigen::Vector2d>& points, const Pen& pen);
   /** \brief A filled circle; the pen's size is its diameter. */
-  void addDisc(const Eigen::Vector2d& centre, const Pen& pen);
+  void
+  addDisc(const Eigen::Vector2d& centre, const Pen& pen);
   /** \param[in] place left, centre or right end of the text, half way up */
-  void addText(const Eigen::Vector2d& place,
-               const std::string& text,
-               Align align,
-               const Pen& pen);
+  void
+  addText(const Eigen::Vector2d& place,
+          const std::string& text,
+          Align align,
+          const Pen& pen);
 
   /** \return the width of a text of this size [px] */
-  static double textWidth(const std::string& text, double size);
+  static double
+  textWidth(const std::string& text, double size);
 
   /** \throws IoFailed as drawOffscreen() */
-  Image draw();
+  Image
+  draw();
 
 private:
-  vtkActor* addActor(vtkPolyData* shape);
+  vtkActor*
+  addActor(vtkPolyData* shape);
   vtkActor*
   addShape(const std::vector<Eigen::Vector2d>& points, bool filled, const Pen& pen);
 

@@ -41,7 +41,8 @@ struct Detach : bp::extend::handler {
   std::vector<int> files = openFiles();
 
   template <typename Executor>
-  void on_exec_setup(Executor&) const
+  void
+  on_exec_setup(Executor&) const
   {
     ::setsid();
     for (const int file : files)
@@ -107,7 +108,8 @@ struct PrivateDisplay::Server {
 
   Server();
   ~Server();
-  void waitForEnd();
+  void
+  waitForEnd();
 };
 
 PrivateDisplay::Server::Server()
@@ -155,8 +157,7 @@ PrivateDisplay::Server::waitForEnd()
 }
 
 PrivateDisplay::PrivateDisplay() : server_(std::make_unique<Server>())
-{
-}
+{}
 PrivateDisplay::~PrivateDisplay() = default;
 
 PrivateDisplay&

@@ -40,10 +40,11 @@ TopViewPainter::themeOf(Background background)
 
 TopViewPainter::TopViewPainter(const TopViewOptions& options,
                                const TopViewLayout& layout)
-: options_(options), layout_(layout), theme_(themeOf(options.background)),
-  scene_(layout.width, layout.height, theme_.background)
-{
-}
+: options_(options)
+, layout_(layout)
+, theme_(themeOf(options.background))
+, scene_(layout.width, layout.height, theme_.background)
+{}
 
 void
 TopViewPainter::addMap(const DrawnPoints& points)

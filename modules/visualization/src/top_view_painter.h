@@ -12,15 +12,22 @@ public:
   /** Both are referred to, not copied. */
   TopViewPainter(const TopViewOptions& options, const TopViewLayout& layout);
 
-  void addMap(const DrawnPoints& points);
+  void
+  addMap(const DrawnPoints& points);
   /** \brief The paths and a ring where they start. */
-  void addTrajectories(const TopViewScene& scene);
-  void addTitle();
+  void
+  addTrajectories(const TopViewScene& scene);
+  void
+  addTitle();
   /** \brief Which path is which. */
-  void addLegend(const TopViewScene& scene);
-  void addScaleBar();
-  void addColourBar();
-  Image draw();
+  void
+  addLegend(const TopViewScene& scene);
+  void
+  addScaleBar();
+  void
+  addColourBar();
+  Image
+  draw();
 
 private:
   /** The colours of everything but the points. */
@@ -31,16 +38,22 @@ private:
     Colour final;
   };
 
-  static Theme themeOf(Background background);
+  static Theme
+  themeOf(Background background);
   void
   addPath(const std::vector<Eigen::Vector2d>& path, const Colour& colour, double layer);
-  void addStartRing(const Eigen::Vector2d& place, const Colour& colour);
+  void
+  addStartRing(const Eigen::Vector2d& place, const Colour& colour);
   /** \return where the next entry to the left ends */
-  double addLegendText(double right, const std::string& label);
-  double addLegendEntry(double right, const std::string& label, const Colour& colour);
-  PixelScene::Pen text() const;
+  double
+  addLegendText(double right, const std::string& label);
+  double
+  addLegendEntry(double right, const std::string& label, const Colour& colour);
+  PixelScene::Pen
+  text() const;
   /** \return a length [px] that looks the same on pictures of any size */
-  double scaled(double length) const;
+  double
+  scaled(double length) const;
 
   const TopViewOptions& options_;
   const TopViewLayout& layout_;

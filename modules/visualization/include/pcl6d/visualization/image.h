@@ -18,7 +18,8 @@ struct Image {
   std::vector<std::uint8_t> rgb; ///< 3 bytes a pixel, row by row from the top
 
   /** \return the colour of a pixel; column from the left, row from the top */
-  Colour at(int column, int row) const;
+  Colour
+  at(int column, int row) const;
 };
 
 /** \brief Writes a PNG file, atomically. \throws IoFailed it cannot be written

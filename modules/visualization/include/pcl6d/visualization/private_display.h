@@ -20,21 +20,26 @@ public:
   /** \brief The one display of this process; started by the first call, which takes
    * about 0.2 s. \throws IoFailed Xvfb is not installed, does not start within 20 s, or
    * has ended since */
-  static PrivateDisplay& instance();
+  static PrivateDisplay&
+  instance();
 
   /** \brief Closes the connection and waits until the server has ended. */
   ~PrivateDisplay();
   PrivateDisplay(const PrivateDisplay&) = delete;
-  PrivateDisplay& operator=(const PrivateDisplay&) = delete;
+  PrivateDisplay&
+  operator=(const PrivateDisplay&) = delete;
 
   /** \return the connection, an X11 `Display*` */
-  void* connection() const;
+  void*
+  connection() const;
 
   /** \return the name of the display, ":99" */
-  const std::string& name() const;
+  const std::string&
+  name() const;
 
   /** \return the process id of the server */
-  int serverPid() const;
+  int
+  serverPid() const;
 
 private:
   PrivateDisplay();

@@ -38,7 +38,8 @@ struct TopViewOptions {
   double cut_above_trajectory = 0.5; ///< [m] see max_height
 
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void validate() const;
+  void
+  validate() const;
 };
 
 /** \brief What is to be seen. */
@@ -76,13 +77,14 @@ public:
   /** \throws BadArgument no finite point, as many scan indices as points neither nor
    * none, or colour by scan without scan indices
    * \throws IoFailed there is no display to draw on */
-  TopViewPicture draw(const TopViewScene& scene) const;
+  TopViewPicture
+  draw(const TopViewScene& scene) const;
 
   /** \brief Draws into a PNG file, atomically. \return where things are on it
    * \throws BadArgument as draw() \throws IoFailed as draw(), or the file cannot be
    * written */
-  TopViewLayout write(const std::filesystem::path& path,
-                      const TopViewScene& scene) const;
+  TopViewLayout
+  write(const std::filesystem::path& path, const TopViewScene& scene) const;
 
 private:
   TopViewOptions options_;

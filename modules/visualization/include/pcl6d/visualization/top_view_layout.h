@@ -14,7 +14,8 @@ struct PixelBox {
   double right = 0;
   double bottom = 0;
 
-  bool contains(const Eigen::Vector2d& pixel) const
+  bool
+  contains(const Eigen::Vector2d& pixel) const
   {
     return pixel.x() >= left && pixel.x() <= right && pixel.y() >= top &&
            pixel.y() <= bottom;
@@ -39,7 +40,8 @@ struct TopViewLayout {
 
   /** \return column and row of a place in the world [m]; pixel (c, r) reaches from
    * there to (c + 1, r + 1) */
-  Eigen::Vector2d toPixel(const Eigen::Vector2d& world) const
+  Eigen::Vector2d
+  toPixel(const Eigen::Vector2d& world) const
   {
     const Eigen::Vector2d offset = (world - centre) / metres_per_pixel;
     return {0.5 * (map.left + map.right) + offset.x(),

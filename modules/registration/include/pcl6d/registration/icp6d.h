@@ -20,7 +20,10 @@ namespace pcl6d {
  * setMaxCorrespondenceDistance (no limit unless set), setTransformationEpsilon (squared
  * [m^2], as in PCL), setTransformationRotationEpsilon (cosine, as in PCL), setIndices.
  * align() never throws on data; not converged, getFinalTransformation() is the last
- * good estimate or the guess.
+ * good estimate or the guess. Not taken over from PCL, and refused by align() with
+ * BadArgument: a search method that is no pcl6d::KdTree, correspondence rejectors, a
+ * correspondence estimation, a transformation estimation of another library. Without
+ * effect: setEuclideanFitnessEpsilon and the RANSAC settings.
  * \code
  * pcl6d::ICP6D<pcl::PointXYZ, pcl::PointXYZ> icp;
  * icp.setInputSource(data);
@@ -53,7 +56,8 @@ public:
   void
   setMotionEpsilon(double translation, double rotation);
 
-  /** \param[in] num_threads 0: one per core; never changes the result */
+  /** \brief Threads for the tree and the pairs.
+   * \param[in] num_threads 0: one per core; never changes the result */
   void
   setNumberOfThreads(unsigned int num_threads);
 

@@ -24,6 +24,13 @@ public:
   : KdTree("pcl6d::KdTree", num_threads, PointTree::Cells::kNone)
   {}
 
+  /** \param[in] num_threads for the next setInputCloud(); 0: one per core */
+  void
+  setNumberOfThreads(unsigned int num_threads)
+  {
+    num_threads_ = num_threads;
+  }
+
   /** \return the tree of the core; null before setInputCloud(). Its indices are those
    * of the searched points, in their order */
   std::shared_ptr<const PointTree>

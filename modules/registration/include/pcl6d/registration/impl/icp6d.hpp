@@ -48,6 +48,8 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::setNumberOfThreads(unsigned int num_threads)
 {
   options_.num_threads = num_threads;
+  if (const auto tree = std::dynamic_pointer_cast<KdTree<PointTarget>>(this->tree_))
+    tree->setNumberOfThreads(num_threads);
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The packages of the whole suite, each found once.
 find_package(PCL 1.12 REQUIRED COMPONENTS common io kdtree search filters registration)
-# PCL's own configuration hands its definitions to every folder below; keep them here.
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(Boost 1.71 REQUIRED COMPONENTS program_options filesystem)
 find_package(Threads REQUIRED)

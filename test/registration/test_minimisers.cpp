@@ -26,6 +26,7 @@ using pcl6d::test::movedPairs;
 using pcl6d::test::Pairs;
 using pcl6d::test::randomPoints;
 using pcl6d::test::randomPose;
+using pcl6d::test::umeyamaOracle;
 
 namespace {
 constexpr std::size_t kPairs = 50;
@@ -44,18 +45,6 @@ expectMotion(const RigidEstimate& found, const Eigen::Isometry3d& truth)
   EXPECT_LT(error.translation, kPositionTol);
   EXPECT_LT(error.rotation, kAngleTol);
   EXPECT_NEAR(found.transform.linear().determinant(), 1, kAngleTol);
-}
-
-/** Umeyama's closed form by SVD, from Eigen. */
-Eigen::Isometry3d
-oracle(const Pairs& pairs)
-{
-  Eigen::Matrix3Xd d(3, pairs.source.size()), m(3, pairs.source.size());
-  for (std::size_t i = 0; i < pairs.source.size(); ++i) {
-    d.col(i) = pairs.source[i];
-    m.col(i) = pairs.target[i];
-  }
-  return Eigen::Isometry3d(Eigen::umeyama(d, m, false));
 }
 
 /** Pairs on a plane that stands anywhere. */
@@ -137,7 +126,7 @@ TEST_P(Minimisers, AgreeWithTheSvdOnNoisyPairs)
                                      randomPose(random, kExtent, 1.5),
                                      random,
                                      sigma);
-      expectMotion(minimise(pairs), oracle(pairs));
+      expectMotion(minimise(pairs), umeyamaOracle(pairs));
     }
 }
 
@@ -161,7 +150,7 @@ TEST_P(Minimisers, AreFixedByAPlane)
   for (const double sigma : {0.0, 0.05})
     for (int trial = 0; trial < 30; ++trial) {
       const Pairs pairs = planarPairs(random, sigma);
-      expectMotion(minimise(pairs), oracle(pairs));
+      expectMotion(minimise(pairs), umeyamaOracle(pairs));
     }
 }
 
@@ -173,7 +162,7 @@ TEST_P(Minimisers, StayRotationsOnMirroredPairs)
     for (int trial = 0; trial < 30; ++trial) {
       const Pairs pairs = mirroredPairs(random, smallest);
       ASSERT_LT(pairs.sums().cross.determinant(), 0);
-      expectMotion(minimise(pairs), oracle(pairs));
+      expectMotion(minimise(pairs), umeyamaOracle(pairs));
     }
 }
 
@@ -191,7 +180,7 @@ TEST_P(Minimisers, CountWeights)
       repeated.target.push_back(pairs.target[i]);
     }
   }
-  expectMotion(GetParam().minimise(weighted.sums()), oracle(repeated));
+  expectMotion(GetParam().minimise(weighted.sums()), umeyamaOracle(repeated));
 }
 
 TEST_P(Minimisers, KeepTheirDigitsFarFromTheOrigin)
@@ -285,7 +274,8 @@ TEST_P(Minimisers, StepTowardsTheMinimum)
     const auto step = GetParam().step(pairs.sums());
     ASSERT_EQ(step.status, Status::kOk);
     // A linearised step leaves an error of second order, 0.1^2 / 2.
-    EXPECT_LT(pcl6d::distanceBetween(oracle(pairs), step.transform).rotation, 0.01);
+    EXPECT_LT(pcl6d::distanceBetween(umeyamaOracle(pairs), step.transform).rotation,
+              0.01);
     EXPECT_LT(
         (step.transform * pairs.sums().mean_source - pairs.sums().mean_target).norm(),
         0.1 * 0.5 * 2 * kExtent); // the helix: half the turn over the way
@@ -354,7 +344,8 @@ TEST(Similarity, IsThatOfUmeyama)
     EXPECT_EQ(found.rigid.status, Status::kOk);
     const double umeyama = std::cbrt(expected.topLeftCorner<3, 3>().determinant());
     EXPECT_NEAR(found.scale, umeyama, 1e-12);
-    expectMotion(found.rigid, oracle(pairs)); // dropped: as if it had not been asked
+    expectMotion(found.rigid,
+                 umeyamaOracle(pairs)); // dropped: as if it had not been asked
     const Eigen::Vector3d t = sums.mean_target - found.scale *
                                                      found.rigid.transform.linear() * //
                                                      sums.mean_source;

@@ -15,6 +15,7 @@ using pcl6d::test::movedPairs;
 using pcl6d::test::Pairs;
 using pcl6d::test::randomPoints;
 using pcl6d::test::randomPose;
+using pcl6d::test::umeyamaOracle;
 
 namespace {
 constexpr std::size_t kPairs = 50;
@@ -38,17 +39,6 @@ expectMotion(const pcl6d::RigidEstimate& found,
   EXPECT_NEAR(found.transform.linear().determinant(), 1, kAngleTol);
 }
 
-/** Umeyama's closed form by SVD, from Eigen. */
-Eigen::Isometry3d
-oracle(const Pairs& pairs)
-{
-  Eigen::Matrix3Xd d(3, pairs.source.size()), m(3, pairs.source.size());
-  for (std::size_t i = 0; i < pairs.source.size(); ++i) {
-    d.col(i) = pairs.source[i];
-    m.col(i) = pairs.target[i];
-  }
-  return Eigen::Isometry3d(Eigen::umeyama(d, m, false));
-}
 } // namespace
 
 TEST(MinimiseByQuaternion, GivesBackTheMotionThatMadeThePairs)
@@ -89,7 +79,7 @@ TEST(MinimiseByQuaternion, AgreesWithTheSvdOnNoisyPairs)
       const Eigen::Isometry3d truth = randomPose(random, kExtent, 1.5);
       const Pairs pairs =
           movedPairs(randomPoints(random, kPairs, kHalf), truth, random, sigma);
-      expectMotion(minimiseByQuaternion(pairs.sums()), oracle(pairs));
+      expectMotion(minimiseByQuaternion(pairs.sums()), umeyamaOracle(pairs));
     }
 }
 
@@ -121,7 +111,7 @@ TEST(MinimiseByQuaternion, IsFixedByAPlane)
       const Eigen::Isometry3d truth = randomPose(random, kExtent, 2.5);
       const Pairs pairs = movedPairs(source, truth, random, sigma);
       expectMotion(minimiseByQuaternion(pairs.sums()),
-                   sigma > 0 ? oracle(pairs) : truth);
+                   sigma > 0 ? umeyamaOracle(pairs) : truth);
     }
 }
 
@@ -136,7 +126,7 @@ TEST(MinimiseByQuaternion, StaysARotationOnMirroredPairs)
     for (auto& m : pairs.target)
       m.x() = -m.x();
     ASSERT_LT(pairs.sums().cross.determinant(), 0);
-    expectMotion(minimiseByQuaternion(pairs.sums()), oracle(pairs));
+    expectMotion(minimiseByQuaternion(pairs.sums()), umeyamaOracle(pairs));
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include <pcl6d/registration/pair_sums.h>
 
+#include <Eigen/Geometry>
+
 #include <vector>
 
 namespace pcl6d::test {
@@ -64,6 +66,19 @@ randomPoints(Random& random,
   for (std::size_t i = 0; i < count; ++i)
     points.push_back(centre + randomVector(random, half));
   return points;
+}
+
+/** \return the rigid fit of the pairs by Umeyama's closed form, from Eigen: an independent
+ * oracle for our minimisers */
+inline Eigen::Isometry3d
+umeyamaOracle(const Pairs& pairs)
+{
+  Eigen::Matrix3Xd d(3, pairs.source.size()), m(3, pairs.source.size());
+  for (std::size_t i = 0; i < pairs.source.size(); ++i) {
+    d.col(i) = pairs.source[i];
+    m.col(i) = pairs.target[i];
+  }
+  return Eigen::Isometry3d(Eigen::umeyama(d, m, false));
 }
 
 } // namespace pcl6d::test

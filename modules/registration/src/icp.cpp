@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/parallel.h>
+#include "metric_step.h"
+#include "pair_finder.h"
+
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/icp.h>
@@ -12,61 +14,7 @@
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kBlockSize = 1024; // source points; independent of the threads
-
-/** The closest pairs at one pose, and what they add up to. */
-class PairFinder {
-public:
-  PairFinder(const PointTree& target,
-             const Points& target_points,
-             const Points& source,
-             unsigned int num_threads)
-  : target_(target)
-  , target_points_(target_points)
-  , source_(source)
-  , num_threads_(num_threads)
-  , neighbours_(source.size(), -1)
-  , partials_((source.size() + kBlockSize - 1) / kBlockSize)
-  {}
-
-  PairSums
-  sumsAt(const Eigen::Isometry3d& T_target_source, double max_distance)
-  {
-    // PCL's "no limit" is the root of the largest double.
-    const auto max_sq = static_cast<float>(
-        std::min(max_distance * max_distance,
-                 static_cast<double>(std::numeric_limits<float>::max())));
-    parallelBlocks(source_.size(), kBlockSize, num_threads_, [&](const Block& block) {
-      PairAccumulator pairs;
-      for (std::size_t i = block.begin; i < block.end; ++i) {
-        const Eigen::Vector3d p = T_target_source * source_[i].cast<double>();
-        const int last = neighbours_[i];
-        const Neighbour found =
-            target_.nearest(p.cast<float>(),
-                            max_sq,
-                            last,
-                            last < 0 ? source_[i] : target_points_[last]);
-        if (found.index < 0)
-          continue;
-        neighbours_[i] = found.index;
-        pairs.add(p, target_points_[found.index].cast<double>());
-      }
-      partials_[block.index] = pairs.sums();
-    });
-    return mergeTree(partials_, &PairSums::merge);
-  }
-
-private:
-  const PointTree& target_;
-  const Points& target_points_;
-  const Points& source_;
-  unsigned int num_threads_;
-  std::vector<int> neighbours_; ///< of the last search: where the next one starts
-  std::vector<PairSums> partials_;
-};
-
-/** Makes an accumulated motion exactly rigid again, so that rounding does not add up.
- */
+/** Makes an accumulated motion exactly rigid again, so that rounding does not add up. */
 Eigen::Isometry3d
 rigid(Eigen::Isometry3d T)
 {
@@ -74,95 +22,243 @@ rigid(Eigen::Isometry3d T)
   return T;
 }
 
-double
-rmsOf(const PairSums& sums, const Eigen::Isometry3d& T)
+std::size_t
+countFinite(const Points& points)
 {
-  return sums.count > 0 ? std::sqrt(sums.errorSq(T) / sums.weight) : 0;
+  return std::count_if(
+      points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
+}
+
+/** \return the largest coordinate of the source points [m]: turns move them by about so
+ * much */
+double
+extentOf(const Points& points)
+{
+  float largest = 0;
+  for (const auto& p : points)
+    if (p.allFinite())
+      largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return largest;
 }
 
 class IcpRun {
 public:
-  IcpRun(PairFinder& finder, const IcpOptions& options) : finder_(finder), o_(options)
+  IcpRun(const IcpTarget& target,
+         const IcpSource& source,
+         const IcpOptions& options,
+         const IcpHooks& hooks)
+  : o_(options)
+  , hooks_(hooks)
+  , finder_(target, source, options)
+  , problem_(source, options)
+  , extent_(extentOf(*source.points))
   {}
 
   IcpResult
-  run(const Eigen::Isometry3d& guess,
-      const RigidMinimiser& minimiser,
-      const IcpObserver& observer)
+  run(const Eigen::Isometry3d& guess)
   {
     result_.T_target_source = guess;
+    result_.stop = IcpStop::kIterationLimit;
     double limit = std::max(o_.max_distance, o_.max_distance_start);
-    Status stop = Status::kMaxIterations;
-    for (int i = 1; i <= o_.max_iterations && stop == Status::kMaxIterations; ++i) {
-      stop = iterate(i, limit, minimiser, observer);
-      limit = std::max(o_.max_distance, o_.distance_decay * limit);
-      if (stopped_)
+    for (int i = 1; i <= o_.max_iterations; ++i) {
+      result_.iterations = i;
+      if (const auto stop = iterate(limit)) {
+        result_.stop = *stop;
         break;
+      }
+      limit = std::max(o_.max_distance, o_.distance_decay * limit);
     }
-    if (stop == Status::kTooFewPairs || stop == Status::kDiverged)
+    result_.status = statusOf(result_.stop);
+    if (result_.status == Status::kTooFewPairs || result_.status == Status::kDiverged)
       result_.T_target_source = guess;
-    result_.status = stop;
+    finish();
     return result_;
   }
 
 private:
-  /** One step. \return kMaxIterations to go on, else the reason to stop */
-  Status
-  iterate(int number,
-          double limit,
-          const RigidMinimiser& minimiser,
-          const IcpObserver& observer)
+  /** One step. \return why to stop, if so */
+  std::optional<IcpStop>
+  iterate(double limit)
   {
-    const PairSums sums = finder_.sumsAt(result_.T_target_source, limit);
-    result_.iterations = number;
-    if (sums.count < 3)
-      return Status::kTooFewPairs;
-    const RigidEstimate step = minimiser(sums);
-    if (step.status == Status::kDiverged || !step.transform.matrix().allFinite())
-      return Status::kDiverged;
-    if (step.status != Status::kOk)
-      return step.status;
-    result_.T_target_source = rigid(step.transform * result_.T_target_source);
+    findPairs(limit);
+    MetricStep step = problem_.step(result_.T_target_source, finder_.partners());
+    if (hooks_.minimise && step.pairs >= 3)
+      step.motion = hooks_.minimise(result_.T_target_source, finder_.pairs());
+    if (step.pairs < 3 || step.motion.status == Status::kTooFewPairs)
+      return IcpStop::kTooFewPairs;
+    const Eigen::Isometry3d& motion = step.motion.transform;
+    if (step.motion.status == Status::kDiverged || !motion.matrix().allFinite() ||
+        hasGrown(step, limit))
+      return IcpStop::kDiverged;
+    is_unique_ = step.motion.status == Status::kOk;
+    result_.T_target_source = rigid(motion * result_.T_target_source);
+    return observe(step, limit);
+  }
 
+  void
+  findPairs(double limit)
+  {
+    const Eigen::Isometry3d& T = result_.T_target_source;
+    if (hooks_.find)
+      finder_.setPairs(hooks_.find(T, limit));
+    else
+      finder_.update(T, limit, next_motion_);
+    if (hooks_.reject)
+      finder_.setPairs(hooks_.reject(T, finder_.pairs()));
+    problem_.weigh(T, finder_.partners());
+  }
+
+  /** Whether the error is more than three times its best at this limit, with no more pairs
+   * to show for it. */
+  bool
+  hasGrown(const MetricStep& step, double limit)
+  {
+    if (limit > o_.max_distance)
+      return false;
+    if (step.residual > 3 * least_residual_ && step.pairs <= pairs_at_least_)
+      return true;
+    if (step.residual < least_residual_) {
+      least_residual_ = step.residual;
+      pairs_at_least_ = step.pairs;
+    }
+    return false;
+  }
+
+  /** Tells the observer. \return why to stop, if so */
+  std::optional<IcpStop>
+  observe(const MetricStep& step, double limit)
+  {
     IcpIteration seen;
-    seen.number = number;
-    seen.pairs = sums.count;
-    seen.rms = rmsOf(sums, Eigen::Isometry3d::Identity());
+    seen.number = result_.iterations;
+    seen.pairs = step.pairs;
+    seen.rms = step.rms;
     seen.max_distance = limit;
     // The length of the step is that of the points' centroid: it does not depend on
     // where the origin is, as the translation part of the motion would.
-    seen.translation = (step.transform * sums.mean_source - sums.mean_source).norm();
-    seen.rotation = rotationAngle(step.transform.linear());
+    seen.translation = (step.motion.transform * step.centroid - step.centroid).norm();
+    seen.rotation = rotationAngle(step.motion.transform.linear());
+    seen.searched = finder_.searched();
     seen.T_target_source = result_.T_target_source;
-    if (observer && !observer(seen))
-      stopped_ = true;
-    const bool at_rest = seen.translation <= o_.translation_epsilon &&
-                         seen.rotation <= o_.rotation_epsilon;
-    return limit <= o_.max_distance && at_rest ? Status::kOk : Status::kMaxIterations;
+    next_motion_ = likelyMotion(seen);
+    if (hooks_.observer && !hooks_.observer(seen))
+      return IcpStop::kObserver;
+    if (limit <= o_.max_distance && seen.translation <= o_.translation_epsilon &&
+        seen.rotation <= o_.rotation_epsilon)
+      return IcpStop::kAtRest;
+    return std::nullopt;
   }
 
-  PairFinder& finder_;
+  /** \return how far points will move before they are at rest, [m]; 0 while that is so far
+   * that to remember neighbours does not pay: for speed only */
+  double
+  likelyMotion(const IcpIteration& last) const
+  {
+    const double motion = last.translation + last.rotation * extent_;
+    return motion > last.rms ? 0 : std::min(4 * motion, last.rms);
+  }
+
+  Status
+  statusOf(IcpStop stop) const
+  {
+    switch (stop) {
+    case IcpStop::kAtRest:
+      return is_unique_ ? Status::kOk : Status::kRankDeficient;
+    case IcpStop::kIterationLimit:
+    case IcpStop::kObserver:
+      return Status::kMaxIterations;
+    case IcpStop::kDiverged:
+      return Status::kDiverged;
+    case IcpStop::kTooFewPairs:
+      break;
+    }
+    return Status::kTooFewPairs;
+  }
+
+  /** Rates the final pose. */
+  void
+  finish()
+  {
+    next_motion_ = 0;
+    findPairs(o_.max_distance);
+    problem_.rate(finder_.partners(), result_);
+  }
+
   const IcpOptions& o_;
+  const IcpHooks& hooks_;
+  PairFinder finder_;
+  MetricProblem problem_;
+  double extent_;
   IcpResult result_;
-  bool stopped_ = false;
+  bool is_unique_ = true; ///< of the last step: the pairs fixed it
+  double next_motion_ = 0;
+  double least_residual_ = std::numeric_limits<double>::infinity();
+  std::size_t pairs_at_least_ = 0;
 };
-} // namespace
 
 void
-IcpOptions::validate() const
+requireNormals(const Normals* normals, const Points& points, const char* whose)
 {
-  require(max_iterations > 0, "max_iterations", max_iterations, "> 0");
-  require(max_distance > 0, "max_distance", max_distance, "> 0");
-  require(max_distance_start >= 0 && std::isfinite(max_distance_start),
-          "max_distance_start",
-          max_distance_start,
-          "finite and >= 0");
-  require(distance_decay > 0 && distance_decay < 1,
-          "distance_decay",
-          distance_decay,
-          "in (0, 1)");
-  require(translation_epsilon >= 0, "translation_epsilon", translation_epsilon, ">= 0");
-  require(rotation_epsilon >= 0, "rotation_epsilon", rotation_epsilon, ">= 0");
+  require(normals && normals->size() == points.size(),
+          whose,
+          normals ? normals->size() : 0,
+          "one per point for this metric");
+}
+
+void
+requireUsable(const IcpTarget& target,
+              const IcpSource& source,
+              const IcpOptions& options,
+              const IcpHooks& hooks)
+{
+  options.validate();
+  require(source.points != nullptr, "source points", "null", "given");
+  if (options.metric == Metric::kGicp)
+    requireNormals(source.normals, *source.points, "source normals");
+  for (const auto& part : target) {
+    require(part.points && (part.tree || part.search || hooks.find),
+            "target part",
+            "null",
+            "points with a tree or a search");
+    if (options.metric != Metric::kPoint)
+      requireNormals(part.normals, *part.points, "target normals");
+  }
+  require(target.size() == 1 || !(hooks.find || hooks.reject || hooks.minimise),
+          "parts of the target",
+          target.size(),
+          "1 with hooks of pairs");
+}
+} // namespace
+
+const char*
+toString(IcpStop stop)
+{
+  switch (stop) {
+  case IcpStop::kAtRest:
+    return "at rest";
+  case IcpStop::kIterationLimit:
+    return "iteration limit";
+  case IcpStop::kObserver:
+    return "observer";
+  case IcpStop::kTooFewPairs:
+    return "too few pairs";
+  case IcpStop::kDiverged:
+    return "diverged";
+  }
+  return "unknown";
+}
+
+IcpResult
+icp(const IcpTarget& target,
+    const IcpSource& source,
+    const Eigen::Isometry3d& guess,
+    const IcpOptions& options,
+    const IcpHooks& hooks)
+{
+  requireUsable(target, source, options, hooks);
+  IcpResult result = IcpRun(target, source, options, hooks).run(guess);
+  const std::size_t finite = countFinite(*source.points);
+  result.overlap = finite > 0 ? static_cast<double>(result.pairs) / finite : 0;
+  return result;
 }
 
 IcpResult
@@ -174,19 +270,15 @@ icp(const PointTree& target,
     const RigidMinimiser& minimiser,
     const IcpObserver& observer)
 {
-  options.validate();
-  PairFinder finder(target, target_points, source, options.num_threads);
-  IcpResult result = IcpRun(finder, options).run(guess, minimiser, observer);
-
-  const PairSums final_pairs =
-      finder.sumsAt(result.T_target_source, options.max_distance);
-  const auto finite = std::count_if(
-      source.begin(), source.end(), [](const auto& p) { return p.allFinite(); });
-  result.pairs = final_pairs.count;
-  result.rms = rmsOf(final_pairs, Eigen::Isometry3d::Identity());
-  result.covariance = poseCovariance(final_pairs, result.T_target_source);
-  result.overlap = finite > 0 ? static_cast<double>(result.pairs) / finite : 0;
-  return result;
+  IcpOptions of_points = options;
+  of_points.metric = Metric::kPoint;
+  of_points.minimiser = minimiser;
+  IcpTargetPart part;
+  part.tree = &target;
+  part.points = &target_points;
+  IcpHooks hooks;
+  hooks.observer = observer;
+  return icp({part}, {&source}, guess, of_points, hooks);
 }
 
 } // namespace pcl6d

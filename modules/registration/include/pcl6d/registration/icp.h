@@ -3,66 +3,128 @@
 
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/status.h>
-#include <pcl6d/registration/pose_covariance.h>
-#include <pcl6d/registration/rigid_minimiser.h>
+#include <pcl6d/filters/point_normals.h>
+#include <pcl6d/registration/icp_options.h>
+#include <pcl6d/registration/localizability.h>
+#include <pcl6d/registration/pose_information.h>
 #include <pcl6d/search/point_tree.h>
 
 #include <functional>
 
 namespace pcl6d {
 
-/** \brief Knobs of ICP. Defaults suit scans with 1 cm to 10 cm point spacing. */
-struct IcpOptions {
-  int max_iterations = 100;      ///< > 0
-  double max_distance = 0.25;    ///< [m] farther pairs are dropped; > 0
-  double max_distance_start = 0; ///< [m] the limit at the start, which then shrinks to
-                                 ///< max_distance; 0: max_distance from the start
-  double distance_decay = 0.9;   ///< the limit's factor per iteration; in (0, 1)
-  double translation_epsilon = 1e-4; ///< [m] stop at a step no longer ...
-  double rotation_epsilon = 1e-5;    ///< [rad] ... that also turns no more; >= 0
-  unsigned int num_threads = 0;      ///< 0: one per core; never changes the result
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void
-  validate() const;
+/** \brief The data points of ICP; refers to what its maker owns. */
+struct IcpSource {
+  const Points* points = nullptr;
+  const Normals* normals = nullptr; ///< for the metric kGicp
+};
+
+/** \brief A part of the model, such as one scan; refers to what its maker owns. */
+struct IcpTargetPart {
+  const PointTree* tree = nullptr; ///< over the points
+  const Points* points = nullptr;
+  const Normals* normals = nullptr; ///< for the metrics with normals
+  Eigen::Isometry3d T_target_part = Eigen::Isometry3d::Identity();
+  /** another search than that of the tree (which may then be null): the nearest point
+   * within the root of a squared distance */
+  std::function<Neighbour(const Eigen::Vector3f&, float)> search = {};
+};
+
+/** \brief The model of ICP: the union of its parts, each with a tree of its own, so
+ * that many scans together need no tree. */
+using IcpTarget = std::vector<IcpTargetPart>;
+
+/** \brief A pair of ICP with a target of one part. */
+struct IcpPair {
+  int source = -1;       ///< place among the source points
+  int target = -1;       ///< place among the target points
+  float distance_sq = 0; ///< [m^2]
 };
 
 /** \brief One iteration, as an observer sees it. */
 struct IcpIteration {
-  int number = 0;          ///< from 1
-  std::size_t pairs = 0;   ///< pairs within max_distance
-  double rms = 0;          ///< [m] of these pairs, before the step
-  double max_distance = 0; ///< [m] the limit of this iteration
-  double translation = 0;  ///< [m] length of the step
-  double rotation = 0;     ///< [rad] angle of the step
+  int number = 0;           ///< from 1
+  std::size_t pairs = 0;    ///< pairs that counted
+  double rms = 0;           ///< [m] distance of these pairs, before the step
+  double max_distance = 0;  ///< [m] the limit of this iteration
+  double translation = 0;   ///< [m] way of the pairs' centroid in this step
+  double rotation = 0;      ///< [rad] angle of the step
+  std::size_t searched = 0; ///< source points whose neighbour had to be searched
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity(); ///< after the step
 };
 
 /** \brief Called after each iteration. \return false to stop (status kMaxIterations) */
 using IcpObserver = std::function<bool(const IcpIteration&)>;
 
+/** \brief Places where a caller may take part. Those of pairs need a target of one part. */
+struct IcpHooks {
+  IcpObserver observer;
+  /** finds the pairs at a pose within a distance [m], in place of the tree; of several
+   * pairs of one source point the closest counts */
+  std::function<std::vector<IcpPair>(const Eigen::Isometry3d&, double)> find;
+  /** leaves out pairs at a pose */
+  std::function<std::vector<IcpPair>(const Eigen::Isometry3d&, std::vector<IcpPair>)>
+      reject;
+  /** the step from the pairs at a pose, in place of the minimisers */
+  std::function<RigidEstimate(const Eigen::Isometry3d&, const std::vector<IcpPair>&)>
+      minimise;
+};
+
+/** \brief Why ICP stopped. */
+enum class IcpStop {
+  kAtRest,         ///< the step was within both thresholds
+  kIterationLimit, ///< max_iterations
+  kObserver,       ///< the observer said so
+  kTooFewPairs,    ///< fewer than 3 pairs
+  kDiverged        ///< a value was not finite, or the error grew beyond its limit
+};
+
+/** \return "at rest", "iteration limit", "observer", "too few pairs" or "diverged" */
+const char*
+toString(IcpStop stop);
+
 /** \brief The outcome of ICP. */
 struct IcpResult {
-  Status status = Status::kTooFewPairs; ///< kOk: the step was within both thresholds
+  /** kOk: at rest, and the pairs fix the pose; kRankDeficient: at rest, but they do not */
+  Status status = Status::kTooFewPairs;
+  IcpStop stop = IcpStop::kTooFewPairs;
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
   int iterations = 0;
   std::size_t pairs = 0; ///< pairs at the final pose within max_distance
-  double rms = 0;        ///< [m] of these pairs
+  double rms = 0;        ///< [m] distance of these pairs
+  double residual = 0;   ///< [m] rms of what the metric minimises
   double overlap = 0;    ///< pairs / finite source points, in [0, 1]
-  std::optional<PoseCovariance> covariance; ///< of T_target_source, if the pairs fix it
+  /** of T_target_source (x y z roll pitch yaw) [m, rad]: singular if the pairs leave a
+   * direction open; none without 3 pairs or near a pitch of a right angle */
+  std::optional<PoseInformation> information;
+  std::optional<PoseCovariance> covariance; ///< its inverse, if the pairs fix the pose
+  /** which motions the surfaces fix, and how well; none if the target has no tree */
+  std::optional<Localizability> localizability;
 };
 
-/** \brief Point-to-point ICP (book 4.1): closest pairs within a limit, closed-form
- * motion, until the motion stops.
+/** \brief ICP (book 4.1): closest pairs within a limit, the motion that brings them
+ * together, until it stops.
  *
- * The same bits for any number of threads: blocks of 1024 source points, merged in a
- * fixed order (4.1.6). The limit may shrink from max_distance_start to max_distance
- * (4.1.5); the iteration does not stop before it has arrived there. Source points that
- * are not finite are skipped. \param[in] target tree of the model points \param[in]
- * target_points the points that the tree was built from \param[in] source data points
- * in their own frame \param[in] guess T_target_source to start from \return never
- * throws on data. kTooFewPairs and kDiverged return the guess, kRankDeficient and
- * kMaxIterations the last iterate \throws BadArgument an option breaks its rule
- * \ingroup registration */
+ * The same bits for any number of threads: blocks of source points, merged in a fixed
+ * order (4.1.6). A neighbour is searched only if the point has moved so far since the
+ * last search that another could be nearer: exact. The limit may shrink from
+ * max_distance_start to max_distance (4.1.5); the iteration does not stop before it has
+ * arrived there. Points that are not finite are skipped; so are pairs without the
+ * normals that kPlane needs.
+ * \param[in] guess T_target_source to start from; the coordinates of the target's frame
+ * should be small enough for float
+ * \return never throws on data. kTooFewPairs and kDiverged return the guess, others the
+ * last iterate
+ * \throws BadArgument an option breaks its rule, normals are missing or not one per
+ * point, or hooks of pairs meet a target of several parts */
+IcpResult
+icp(const IcpTarget& target,
+    const IcpSource& source,
+    const Eigen::Isometry3d& guess,
+    const IcpOptions& options,
+    const IcpHooks& hooks = {});
+
+/** \brief The same point to point, against one tree. \ingroup registration */
 IcpResult
 icp(const PointTree& target,
     const Points& target_points,

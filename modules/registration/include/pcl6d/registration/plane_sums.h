@@ -7,27 +7,39 @@
 
 namespace pcl6d {
 
-/** \brief All that a point-to-plane step needs to know of its pairs: the normal
- * equations A u = b of sum w (n . (m - d - v(d)))^2 for a small motion v, the twist u
+/** \brief All that a step of the metrics with normals needs to know of its pairs: the
+ * normal equations A u = b of sum w |m - d - v(d)|^2_N for a small motion v, the twist u
  * about the centroid of the source points (book 4.1.2 with normals).
  *
- * d: source point, m: target point [m], n: unit normal in m, w: weight. Sums of parts
- * are merged pairwise (4.1.6), like PairSums. \ingroup registration */
+ * d: source point, m: target point [m], w: weight, |e|^2_N = e . N e. Point to plane:
+ * N = n n^T with the unit normal n in m. Plane to plane: planeToPlane(). Sums of parts are
+ * merged pairwise (4.1.6), like PairSums. \ingroup registration */
 struct PlaneSums {
   using Matrix = Eigen::Matrix<double, 6, 6>;
 
   std::size_t count = 0;                                 ///< pairs
   double weight = 0;                                     ///< W = sum w
   Eigen::Vector3d mean_source = Eigen::Vector3d::Zero(); ///< c_d [m]
-  Matrix A = Matrix::Zero(); ///< sum w a a^T, a = (n, (d - c_d) x n)
-  Twist b = Twist::Zero();   ///< sum w a n.(m - d)
-  double residual_sq = 0;    ///< sum w (n.(m - d))^2 [m^2]
+  Matrix A = Matrix::Zero(); ///< sum w J^T N J, J u = v(d); of planes J^T n = (n, (d -
+                             ///< c_d) x n)
+  Twist b = Twist::Zero();   ///< sum w J^T N (m - d)
+  double residual_sq = 0;    ///< sum w |m - d|^2_N [m^2]
+  double distance_sq = 0;    ///< sum w |m - d|^2 [m^2]
   double source_sq = 0;      ///< sum w |d - c_d|^2 [m^2]
 
   /** \return the sums of two disjoint sets of pairs */
   static PlaneSums
   merge(const PlaneSums& a, const PlaneSums& b);
 };
+
+/** \brief N of Generalized-ICP: the inverse of the sum of two covariances that are 1
+ * along a plane and epsilon across it, times 2 epsilon, so that two equal planes give their
+ * distance. A normal of no length stands for a covariance that is 1 in all directions.
+ * \param[in] n, m unit normals; their signs do not matter
+ * \note Source: A. Segal, D. Haehnel, S. Thrun, "Generalized-ICP", RSS 2009; inverted in
+ * closed form, as both covariances are a unit matrix less a dyad. */
+Eigen::Matrix3d
+planeToPlane(const Eigen::Vector3d& n, const Eigen::Vector3d& m, double epsilon = 1e-3);
 
 /** \brief Adds up pairs one by one, about the first source point, so that points far
  * from the origin lose no digits. */
@@ -44,6 +56,13 @@ public:
       const Eigen::Vector3d& target,
       const Eigen::Vector3d& normal,
       double weight = 1);
+
+  /** \brief Adds a pair with a symmetric N; skipped if a value is not finite. */
+  void
+  addNorm(const Eigen::Vector3d& source,
+          const Eigen::Vector3d& target,
+          const Eigen::Matrix3d& N,
+          double weight = 1);
 
   PlaneSums
   sums() const;

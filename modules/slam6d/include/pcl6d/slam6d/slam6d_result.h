@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/status.h>
-#include <pcl6d/registration/pose_covariance.h>
+#include <pcl6d/registration/pose_information.h>
 
 #include <Eigen/Geometry>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/pairs.h"
 
-#include <pcl6d/registration/pose_covariance.h>
+#include <pcl6d/registration/pose_information.h>
 #include <pcl6d/registration/rigid_minimiser.h>
 
 #include <Eigen/Eigenvalues>

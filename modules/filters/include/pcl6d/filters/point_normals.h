@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+#include <pcl6d/search/point_tree.h>
+
+#include <cstddef>
+
+namespace pcl6d {
+
+/** \brief Unit normals, one per point; zero where a point has none. */
+using Normals = std::vector<Eigen::Vector3f>;
+
+/** \brief The normal of the surface at a place: the direction in which the nearest
+ * points spread least (Hoppe et al. 1992), towards the origin of their frame, which is
+ * the scanner.
+ * \param[in] tree over the points
+ * \param[in] neighbours k, the number of nearest points that make a patch; in [3, 64]
+ * \return zero if the place is not finite, there are fewer than 3 points, or they lie on a
+ * line */
+Eigen::Vector3f
+normalAt(const Eigen::Vector3f& place,
+         const PointTree& tree,
+         const Points& points,
+         std::size_t neighbours);
+
+/** \brief normalAt() each of the points. In parallel, the same bits for any number of
+ * threads.
+ * \param[in] num_threads 0: one per core
+ * \throws BadArgument neighbours is outside [3, 64] */
+Normals
+estimateNormals(const Points& points,
+                const PointTree& tree,
+                std::size_t neighbours = 20,
+                unsigned int num_threads = 0);
+
+} // namespace pcl6d

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/registration/icp.h>
+
+#include <memory>
+
+namespace pcl6d {
+
+/** \brief How ICP looks for closest points (book 4.1.4). All but kApproximate are exact and
+ * give the same result. */
+enum class SearchMethod {
+  kKdTree,      ///< the k-d tree, searched for each point in each iteration
+  kCached,      ///< the k-d tree with remembered neighbours: the fastest
+  kApproximate, ///< the k-d tree; a neighbour may be farther by a tenth than the nearest
+  kOctree,
+  kBruteForce ///< every point: the oracle of tests
+};
+
+/** \return kdtree, cached, approximate, octree, brute-force */
+std::vector<std::string>
+searchMethodNames();
+/** \throws BadArgument no such name; the message lists all */
+SearchMethod
+searchMethodFromName(const std::string& name);
+const char*
+toString(SearchMethod method);
+
+/** \brief A scan made ready for ICP, as source or as part of a target: points, what finds
+ * the closest of them, and normals if a metric needs them. Made once, matched often. */
+class IcpModel {
+public:
+  struct Options {
+    SearchMethod search = SearchMethod::kCached;
+    bool normals = false;         ///< estimate them; towards the origin of the points
+    std::size_t neighbours = 20;  ///< of a normal; in [3, 64]
+    unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  };
+
+  /** \param[in] points [m] in their own frame
+   * \throws BadArgument an option breaks its rule */
+  IcpModel(Points points, const Options& options);
+  /** \param[in] normals one per point, given
+   * \throws BadArgument their number differs */
+  IcpModel(Points points, Normals normals, const Options& options);
+
+  const Points&
+  points() const
+  {
+    return points_;
+  }
+  const Normals&
+  normals() const
+  {
+    return normals_;
+  }
+  const PointTree&
+  tree() const
+  {
+    return *tree_;
+  }
+
+  /** \return itself as the data of ICP. Both views must not outlive the model. */
+  IcpSource
+  source() const;
+  /** \return itself as a part of the model of ICP, at a pose */
+  IcpTargetPart
+  part(const Eigen::Isometry3d& T_target_part = Eigen::Isometry3d::Identity()) const;
+
+private:
+  void
+  build(const Options& options);
+
+  Points points_;
+  Normals normals_;
+  std::shared_ptr<const PointTree> tree_;
+  std::function<Neighbour(const Eigen::Vector3f&, float)> search_;
+};
+
+} // namespace pcl6d

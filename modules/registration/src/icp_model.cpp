@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "name_table.h"
+
+#include <pcl6d/registration/icp_model.h>
+#include <pcl6d/search/point_list.h>
+#include <pcl6d/search/point_octree.h>
+
+#include <utility>
+
+namespace pcl6d {
+
+namespace {
+constexpr double kApproximation = 0.1; ///< epsilon of the approximate search
+
+constexpr NameTable<SearchMethod, 5> kMethods{
+    {{SearchMethod::kKdTree, "kdtree"},
+     {SearchMethod::kCached, "cached"},
+     {SearchMethod::kApproximate, "approximate"},
+     {SearchMethod::kOctree, "octree"},
+     {SearchMethod::kBruteForce, "brute-force"}}};
+
+/** \return the plain search of a structure that is made here */
+template <typename Structure>
+std::function<Neighbour(const Eigen::Vector3f&, float)>
+searchOf(const Points& points)
+{
+  return [structure = std::make_shared<const Structure>(points)](
+             const Eigen::Vector3f& query, float max_distance_sq) {
+    return structure->nearest(query, max_distance_sq);
+  };
+}
+} // namespace
+
+std::vector<std::string>
+searchMethodNames()
+{
+  return namesOf(kMethods);
+}
+
+SearchMethod
+searchMethodFromName(const std::string& name)
+{
+  return fromName(kMethods, "search", name);
+}
+
+const char*
+toString(SearchMethod method)
+{
+  return nameOf(kMethods, method);
+}
+
+IcpModel::IcpModel(Points points, const Options& options) : points_(std::move(points))
+{
+  build(options);
+  if (options.normals)
+    normals_ =
+        estimateNormals(points_, *tree_, options.neighbours, options.num_threads);
+}
+
+IcpModel::IcpModel(Points points, Normals normals, const Options& options)
+: points_(std::move(points)), normals_(std::move(normals))
+{
+  require(
+      normals_.size() == points_.size(), "normals", normals_.size(), "one per point");
+  build(options);
+}
+
+void
+IcpModel::build(const Options& options)
+{
+  tree_ = std::make_shared<const PointTree>(points_, options.num_threads);
+  switch (options.search) {
+  case SearchMethod::kCached:
+    break;
+  case SearchMethod::kKdTree:
+    search_ = [tree = tree_](const Eigen::Vector3f& query, float max_distance_sq) {
+      return tree->nearest(query, max_distance_sq);
+    };
+    break;
+  case SearchMethod::kApproximate:
+    search_ = [tree = tree_](const Eigen::Vector3f& query, float max_distance_sq) {
+      return tree->nearestApproximate(query, max_distance_sq, kApproximation);
+    };
+    break;
+  case SearchMethod::kOctree:
+    search_ = searchOf<PointOctree>(points_);
+    break;
+  case SearchMethod::kBruteForce:
+    search_ = searchOf<PointList>(points_);
+    break;
+  }
+}
+
+IcpSource
+IcpModel::source() const
+{
+  return {&points_, normals_.empty() ? nullptr : &normals_};
+}
+
+IcpTargetPart
+IcpModel::part(const Eigen::Isometry3d& T_target_part) const
+{
+  return {tree_.get(),
+          &points_,
+          normals_.empty() ? nullptr : &normals_,
+          T_target_part,
+          search_};
+}
+
+} // namespace pcl6d

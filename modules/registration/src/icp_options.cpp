@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "name_table.h"
+
+#include <pcl6d/registration/icp_options.h>
+
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+constexpr NameTable<Metric, 3> kMetrics{
+    {{Metric::kPoint, "point"}, {Metric::kPlane, "plane"}, {Metric::kGicp, "gicp"}}};
+constexpr NameTable<RobustKernel, 4> kKernels{
+    {{RobustKernel::kNone, "none"},
+     {RobustKernel::kHuber, "huber"},
+     {RobustKernel::kCauchy, "cauchy"},
+     {RobustKernel::kGemanMcClure, "geman-mcclure"}}};
+} // namespace
+
+std::vector<std::string>
+metricNames()
+{
+  return namesOf(kMetrics);
+}
+
+Metric
+metricFromName(const std::string& name)
+{
+  return fromName(kMetrics, "metric", name);
+}
+
+const char*
+toString(Metric metric)
+{
+  return nameOf(kMetrics, metric);
+}
+
+std::vector<std::string>
+robustKernelNames()
+{
+  return namesOf(kKernels);
+}
+
+RobustKernel
+robustKernelFromName(const std::string& name)
+{
+  return fromName(kKernels, "robust", name);
+}
+
+const char*
+toString(RobustKernel kernel)
+{
+  return nameOf(kKernels, kernel);
+}
+
+void
+IcpOptions::validate() const
+{
+  require(max_iterations > 0, "max_iterations", max_iterations, "> 0");
+  require(max_distance > 0, "max_distance", max_distance, "> 0");
+  require(max_distance_start >= 0 && std::isfinite(max_distance_start),
+          "max_distance_start",
+          max_distance_start,
+          "finite and >= 0");
+  require(distance_decay > 0 && distance_decay < 1,
+          "distance_decay",
+          distance_decay,
+          "in (0, 1)");
+  require(kept_share > 0 && kept_share <= 1, "kept_share", kept_share, "in (0, 1]");
+  require(translation_epsilon >= 0, "translation_epsilon", translation_epsilon, ">= 0");
+  require(rotation_epsilon >= 0, "rotation_epsilon", rotation_epsilon, ">= 0");
+  require(minimiser != nullptr, "minimiser", "none", "a function");
+  require(plane_minimiser != nullptr, "plane_minimiser", "none", "a function");
+}
+
+} // namespace pcl6d

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pair_weights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+/** The square of the distance within which a share of the pairs lies. */
+float
+trimAt(double share, const std::vector<Partner>& partners)
+{
+  std::vector<float> distances;
+  for (const Partner& partner : partners)
+    if (partner.weight > 0)
+      distances.push_back(partner.distance_sq);
+  if (distances.empty())
+    return 0;
+  const auto kept = static_cast<std::size_t>(std::ceil(share * distances.size()));
+  const auto last = distances.begin() + (std::max<std::size_t>(kept, 1) - 1);
+  std::nth_element(distances.begin(), last, distances.end());
+  return *last;
+}
+
+/** 1.4826 times the median of the residuals: the standard deviation if they are normal,
+ * whatever a minority of outliers does (MAD about zero). */
+double
+scaleOf(const std::vector<float>& residuals, const std::vector<Partner>& partners)
+{
+  std::vector<float> of_pairs;
+  for (std::size_t i = 0; i < partners.size(); ++i)
+    if (partners[i].weight > 0)
+      of_pairs.push_back(residuals[i]);
+  if (of_pairs.empty())
+    return 0;
+  const auto middle = of_pairs.begin() + of_pairs.size() / 2;
+  std::nth_element(of_pairs.begin(), middle, of_pairs.end());
+  return 1.4826 * *middle;
+}
+} // namespace
+
+double
+robustWeight(RobustKernel kernel, double residual)
+{
+  const auto square = [](double x) { return x * x; };
+  switch (kernel) {
+  case RobustKernel::kHuber: // constants: 95 % efficiency on normal residuals
+    return residual <= 1.345 ? 1 : 1.345 / residual;
+  case RobustKernel::kCauchy:
+    return 1 / (1 + square(residual / 2.385));
+  case RobustKernel::kGemanMcClure:
+    return 1 / square(1 + square(residual / 2));
+  case RobustKernel::kNone:
+    break;
+  }
+  return 1;
+}
+
+void
+weightPairs(const IcpOptions& options,
+            const std::vector<float>& residuals,
+            std::vector<Partner>& partners)
+{
+  if (options.kept_share < 1) {
+    const float limit_sq = trimAt(options.kept_share, partners);
+    for (Partner& partner : partners)
+      if (partner.distance_sq > limit_sq)
+        partner.weight = 0;
+  }
+  if (options.robust == RobustKernel::kNone)
+    return;
+  const double scale = scaleOf(residuals, partners);
+  if (!(scale > 0)) // more than half of the pairs are exact: nothing to weigh by
+    return;
+  for (std::size_t i = 0; i < partners.size(); ++i)
+    if (partners[i].weight > 0)
+      partners[i].weight =
+          static_cast<float>(robustWeight(options.robust, residuals[i] / scale));
+}
+
+} // namespace pcl6d

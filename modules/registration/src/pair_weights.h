@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pair_finder.h"
+
+namespace pcl6d {
+
+/** \brief Trims and weights pairs by their residuals (book 4.1.5).
+ * \param[in] residuals [m] what the metric sees of each pair, per source point; only those
+ * of pairs count */
+void
+weightPairs(const IcpOptions& options,
+            const std::vector<float>& residuals,
+            std::vector<Partner>& partners);
+
+/** \return the weight of a residual in units of the scale */
+double
+robustWeight(RobustKernel kernel, double residual);
+
+} // namespace pcl6d

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "peer_ratio.h"
+#include "recorded_pair.h"
+
+#include <pcl6d/common/pose.h>
+#include <pcl6d/registration/icp6d.h>
+
+#include <pcl/registration/icp.h>
+
+#include <memory>
+
+namespace pcl6d::benchmarks {
+
+namespace {
+using Point = pcl::PointXYZ;
+using Cloud = pcl::PointCloud<Point>;
+constexpr char kIcp[] = "pcl::IterativeClosestPoint";
+constexpr int kMaxIterations = 500;
+// Both stop at a step of 20 micrometres: ICP's steps shrink by a few per cent each, so that
+// the rest of the way is well below the tolerance.
+constexpr double kTranslationEpsilon = 2e-5; // [m]
+constexpr double kRotationEpsilon = 4e-6;    // [rad]
+constexpr double kPositionTol = 1e-3;        // [m]
+constexpr double kAngleTol = 0.01 * M_PI / 180;
+
+Cloud::Ptr
+cloudOf(const Points& points)
+{
+  const Cloud::Ptr cloud(new Cloud);
+  for (const auto& p : points)
+    cloud->push_back({p.x(), p.y(), p.z()});
+  return cloud;
+}
+
+/** Lets the check see how many iterations the peer took. */
+class PeerIcp : public pcl::IterativeClosestPoint<Point, Point> {
+public:
+  int
+  iterations() const
+  {
+    return nr_iterations_;
+  }
+};
+
+/** A recorded pair as PCL clouds, and what the two programs made of it. */
+struct Work {
+  explicit Work(const RecordedPair& pair)
+  : target(cloudOf(pair.target))
+  , source(cloudOf(pair.source))
+  , guess(pair.guess.matrix().cast<float>())
+  , gate(pair.gate)
+  {}
+  Cloud::Ptr target, source;
+  Eigen::Matrix4f guess;
+  double gate;
+  Eigen::Matrix4f ours, theirs; // T_target_source
+  int our_iterations = 0, their_iterations = 0;
+  bool our_rest = false, their_rest = false;
+};
+
+void
+alignOurs(Work& work, unsigned int threads)
+{
+  pcl6d::ICP6D<Point, Point> icp;
+  icp.setNumberOfThreads(threads);
+  icp.setInputTarget(work.target);
+  icp.setInputSource(work.source);
+  icp.setMaximumIterations(kMaxIterations);
+  icp.setMaxCorrespondenceDistance(work.gate);
+  icp.setMotionEpsilon(kTranslationEpsilon, kRotationEpsilon);
+  Cloud aligned;
+  icp.align(aligned, work.guess);
+  work.ours = icp.getFinalTransformation();
+  work.our_iterations = icp.result().iterations;
+  work.our_rest = icp.hasConverged();
+}
+
+void
+alignTheirs(Work& work)
+{
+  PeerIcp icp;
+  icp.setInputTarget(work.target);
+  icp.setInputSource(work.source);
+  icp.setMaximumIterations(kMaxIterations);
+  icp.setMaxCorrespondenceDistance(work.gate);
+  icp.setTransformationEpsilon(kTranslationEpsilon * kTranslationEpsilon);
+  icp.getConvergeCriteria()->setAbsoluteMSE(0); // or it stops early, far from rest
+  icp.getConvergeCriteria()->setRelativeMSE(0);
+  Cloud aligned;
+  icp.align(aligned, work.guess);
+  work.theirs = icp.getFinalTransformation();
+  work.their_iterations = icp.iterations();
+  work.their_rest = icp.iterations() < kMaxIterations;
+}
+
+Eigen::Isometry3d
+rigid(const Eigen::Matrix4f& estimate)
+{
+  Eigen::Isometry3d pose(estimate.cast<double>());
+  pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
+  return pose;
+}
+
+void
+checkEqual(benchmark::State& state, const Work& work)
+{
+  const MotionSize apart = distanceBetween(rigid(work.ours), rigid(work.theirs));
+  state.counters["points"] = static_cast<double>(work.source->size());
+  state.counters["apart_mm"] = 1e3 * apart.translation;
+  state.counters["apart_mdeg"] = 1e3 * apart.rotation * 180 / M_PI;
+  state.counters["our_iter"] = work.our_iterations;
+  state.counters["peer_iter"] = work.their_iterations;
+  if (!work.our_rest || !work.their_rest)
+    return state.SkipWithError("not at rest at the iteration limit");
+  if (apart.translation > kPositionTol || apart.rotation > kAngleTol)
+    return state.SkipWithError("the transforms differ");
+}
+
+PeerJob
+icpJob(const RecordedPair& pair, unsigned int threads)
+{
+  const auto work = std::make_shared<Work>(pair);
+  return {[=] { alignOurs(*work, threads); },
+          [=] { alignTheirs(*work); },
+          [=](benchmark::State& state) { checkEqual(state, *work); }};
+}
+} // namespace
+
+} // namespace pcl6d::benchmarks
+
+int
+main(int argc, char** argv)
+{
+  using namespace pcl6d::benchmarks;
+  for (const auto& pair : recordedPairs())
+    for (const unsigned int threads : {1u, 2u})
+      addPeerCase({"icp/" + pair.name, kIcp, threads, 7, [=] {
+                     return icpJob(pair, threads);
+                   }});
+  return runPeerCases(argc, argv);
+}

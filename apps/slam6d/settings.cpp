@@ -4,6 +4,7 @@
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/require.h>
+#include <pcl6d/registration/minimisers.h>
 
 #include <sstream>
 
@@ -24,6 +25,12 @@ constexpr const char* kUsageText =
 struct Raw {
   std::string format = "auto";
   std::string metascan = "all";
+  std::string metric = toString(Slam6DOptions().metric);
+  std::string minimiser = "quaternion";
+  std::string plane_minimiser = "helix";
+  std::string search = toString(Slam6DOptions().search);
+  std::string robust = toString(Slam6DOptions().robust);
+  std::string initial_guess = "auto";
   AutoDouble min_range, max_range, voxel, max_distance, max_distance_start;
   int last = -1;
   int threads = 0;
@@ -48,6 +55,46 @@ describeInput(CommandLine& line, Settings& s, Raw& raw)
       "format", valueOf(raw.format), "auto|pcd|ply|uos|kitti|xyz");
 }
 
+std::string
+joined(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (const auto& name : names)
+    text += (text.empty() ? "" : "|") + name;
+  return text;
+}
+
+void
+describeMetric(CommandLine& line, Raw& raw)
+{
+  line.group("Matching")
+      .add_options()("metric",
+                     valueOf(raw.metric),
+                     (joined(metricNames()) +
+                      ": distance between points, of points to planes, of planes")
+                         .c_str())(
+          "minimiser",
+          valueOf(raw.minimiser),
+          (joined(minimiserNames()) + ", of the metric point").c_str())(
+          "plane-minimiser",
+          valueOf(raw.plane_minimiser),
+          (joined(planeMinimiserNames()) + ", of the metrics plane and gicp").c_str())(
+          "search",
+          valueOf(raw.search),
+          (joined(searchMethodNames()) + ": how closest points are found; all but "
+                                         "approximate give the same result")
+              .c_str())(
+          "robust",
+          valueOf(raw.robust),
+          (joined(robustKernelNames()) + ": less weight for pairs that are far apart")
+              .c_str())(
+          "initial-guess",
+          valueOf(raw.initial_guess),
+          ("auto|" + joined(initialGuessNames()) +
+           ": where matching starts; auto: odometry, features if there are no poses")
+              .c_str());
+}
+
 void
 describeMatching(CommandLine& line, Settings& s, Raw& raw)
 {
@@ -61,6 +108,7 @@ describeMatching(CommandLine& line, Settings& s, Raw& raw)
           "voxel",
           valueOf(raw.voxel),
           "[m] or auto: edge length of the octree reduction");
+  describeMetric(line, raw);
   line.group("Matching")
       .add_options()("max-distance",
                      valueOf(raw.max_distance),
@@ -95,7 +143,7 @@ describeRun(CommandLine& line, Settings& s, Raw& raw)
       "threads",
       po::value(&raw.threads)->default_value(0),
       "0: one per core; never changes the result")(
-      "seed", valueOf(s.seed), "of random choices (none in the methods so far)")(
+      "seed", valueOf(s.seed), "of random choices (those of --initial-guess features)")(
       "force", po::bool_switch(&s.force), "write into a folder that holds other files")(
       "quiet", po::bool_switch(&s.quiet), "print errors only")(
       "verbose", po::bool_switch(&s.verbose), "print a line per scan");
@@ -140,11 +188,22 @@ interpret(const CommandLine& line, const Raw& raw, Settings& s)
                 raw.threads,
                 "in [0, " + std::to_string(kMostThreads) + "]");
         require(s.seed >= 0, "seed", s.seed, ">= 0");
+        s.slam.metric = metricFromName(raw.metric);
+        s.slam.minimiser = minimiserFromName(raw.minimiser);
+        s.slam.plane_minimiser = planeMinimiserFromName(raw.plane_minimiser);
+        s.slam.search = searchMethodFromName(raw.search);
+        s.slam.robust = robustKernelFromName(raw.robust);
+        s.auto_guess = raw.initial_guess == "auto";
+        if (!s.auto_guess)
+          s.slam.initial_guess = initialGuessFromName(raw.initial_guess);
+        s.slam.seed = static_cast<std::uint64_t>(s.seed);
         s.folder.format = scanFormatFromName(raw.format);
         s.folder.validate();
         s.slam.validate();
       },
-      {{"max_iterations", "iterations"}});
+      {{"max_iterations", "iterations"},
+       {"plane minimiser", "plane-minimiser"},
+       {"initial guess", "initial-guess"}});
 }
 
 template <typename T>
@@ -165,6 +224,12 @@ wordsOf(const CommandLine& line, const Raw& raw, const Settings& s)
           word(line, "every", s.folder.every),
           word(line, "poses", s.folder.poses_file.string()),
           word(line, "format", raw.format),
+          word(line, "metric", raw.metric),
+          word(line, "minimiser", raw.minimiser),
+          word(line, "plane-minimiser", raw.plane_minimiser),
+          word(line, "search", raw.search),
+          word(line, "robust", raw.robust),
+          word(line, "initial-guess", raw.initial_guess),
           word(line, "metascan", raw.metascan),
           word(line, "iterations", s.slam.max_iterations),
           word(line, "min-overlap", s.slam.min_overlap),

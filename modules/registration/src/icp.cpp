@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "metric_step.h"
 #include "pair_finder.h"
+#include "pair_geometry.h"
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
@@ -47,7 +48,9 @@ public:
          const IcpSource& source,
          const IcpOptions& options,
          const IcpHooks& hooks)
-  : o_(options)
+  : target_(target)
+  , source_(*source.points)
+  , o_(options)
   , hooks_(hooks)
   , finder_(target, source, options)
   , problem_(source, options)
@@ -181,8 +184,12 @@ private:
     next_motion_ = 0;
     findPairs(o_.max_distance);
     problem_.rate(finder_.partners(), result_);
+    result_.localizability =
+        localizabilityOf(target_, source_, result_.T_target_source, finder_.partners());
   }
 
+  const IcpTarget& target_;
+  const Points& source_;
   const IcpOptions& o_;
   const IcpHooks& hooks_;
   PairFinder finder_;

@@ -1,55 +1,110 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "metascan.h"
 
-#include <pcl6d/filters/voxel_reduction.h>
+#include <pcl6d/common/voxel_key.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <unordered_set>
 
 namespace pcl6d {
 
-Metascan::Metascan(double voxel, int max_scans) : voxel_(voxel), max_scans_(max_scans)
+namespace {
+/** Points and normals, one per voxel: the first that comes. */
+class Union {
+public:
+  explicit Union(double voxel) : voxel_(voxel) {}
+
+  void
+  add(const IcpModel& scan, const Eigen::Isometry3d& T)
+  {
+    const bool has_normals = !scan.normals().empty();
+    for (std::size_t i = 0; i < scan.points().size(); ++i) {
+      const Eigen::Vector3f p = (T * scan.points()[i].cast<double>()).cast<float>();
+      const bool in_grid = p.cwiseAbs().maxCoeff() < kGridCells * voxel_;
+      if (in_grid && !occupied_.insert(voxelKey(p, voxel_)).second)
+        continue;
+      points.push_back(p);
+      if (has_normals)
+        normals.push_back(
+            (T.linear() * scan.normals()[i].cast<double>()).cast<float>());
+    }
+  }
+
+  Points points;
+  Normals normals;
+
+private:
+  static constexpr double kGridCells = (1 << 20) - 1; // voxelKey(); one for rounding
+  double voxel_;
+  std::unordered_set<VoxelKey> occupied_;
+};
+} // namespace
+
+Metascan::Metascan(double voxel, int max_scans, const IcpModel::Options& options)
+: voxel_(voxel)
+, max_scans_(max_scans > 0 ? max_scans : std::numeric_limits<std::size_t>::max())
+, options_(options)
 {}
 
 void
-Metascan::add(const Points& points, const Eigen::Isometry3d& T_world_scan)
+Metascan::add(const IcpModel& scan, const Eigen::Isometry3d& T_world_scan)
 {
-  members_.push_back({&points, T_world_scan, radiusOf(points)});
+  members_.push_back({&scan, T_world_scan});
 }
 
-Points
-Metascan::around(const Eigen::Vector3d& origin, double wanted_reach) const
+IcpTarget
+Metascan::around(const Eigen::Vector3d& origin)
 {
-  constexpr double kGridCells = (1 << 20) - 1; // voxelKey(); one less for rounding
-  const double reach = std::min(wanted_reach, kGridCells * voxel_);
-  const std::size_t count = members_.size();
-  const std::size_t wanted =
-      max_scans_ > 0 ? std::min<std::size_t>(max_scans_, count) : count;
-  Points all;
-  for (std::size_t i = count - wanted; i < count; ++i) {
-    const Member& member = members_[i];
-    Eigen::Isometry3d T = member.T_world_scan;
-    T.translation() -= origin;
-    if (T.translation().norm() > reach + member.radius)
-      continue;
-    for (const auto& p : *member.points) {
-      const Eigen::Vector3d moved = T * p.cast<double>();
-      if (moved.squaredNorm() <= reach * reach)
-        all.push_back(moved.cast<float>());
+  IcpTarget target;
+  std::size_t end = members_.size();
+  const std::size_t begin = end - std::min(end, max_scans_);
+  while (end > begin) { // the largest node that ends here
+    int level = 0;
+    while (end % (std::size_t{2} << level) == 0 && end - begin >= std::size_t{2}
+                                                                      << level)
+      ++level;
+    const std::size_t size = std::size_t{1} << level;
+    if (level == 0) {
+      const Member& member = members_[end - 1];
+      Eigen::Isometry3d T = member.T_world_scan;
+      T.translation() -= origin;
+      target.push_back(member.scan->part(T));
     }
+    else {
+      const Node& part = node({level, end / size - 1});
+      Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+      T.translation() = part.origin - origin;
+      target.push_back(part.model.part(T));
+    }
+    end -= size;
   }
-  ReductionOptions thinning;
-  thinning.voxel = voxel_;
-  return reducePoints(all, thinning);
+  return target;
 }
 
-double
-radiusOf(const Points& points)
+const Metascan::Node&
+Metascan::node(const Place& place)
 {
-  float largest_sq = 0;
-  for (const auto& p : points)
-    largest_sq = std::max(largest_sq, p.squaredNorm());
-  return std::sqrt(static_cast<double>(largest_sq));
+  const auto known = nodes_.find(place);
+  if (known != nodes_.end())
+    return known->second;
+  const std::size_t size = std::size_t{1} << place.first;
+  const std::size_t begin = place.second * size;
+  // Whole metres from the first scan: the same voxels wherever the world's origin is.
+  const Eigen::Vector3d first = members_.front().T_world_scan.translation();
+  const Eigen::Vector3d origin =
+      first.array() +
+      (members_[begin].T_world_scan.translation() - first).array().round();
+  Union all(voxel_);
+  for (std::size_t i = begin; i < begin + size; ++i) {
+    Eigen::Isometry3d T = members_[i].T_world_scan;
+    T.translation() -= origin;
+    all.add(*members_[i].scan, T);
+  }
+  IcpModel model = all.normals.size() == all.points.size() && !all.points.empty()
+                       ? IcpModel(all.points, all.normals, options_)
+                       : IcpModel(all.points, options_);
+  return nodes_.emplace(place, Node{origin, std::move(model)}).first->second;
 }
 
 } // namespace pcl6d

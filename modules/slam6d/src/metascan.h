@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/common/points.h>
+#include <pcl6d/registration/icp_model.h>
 
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace pcl6d {
@@ -10,37 +12,47 @@ namespace pcl6d {
 /** \brief The union of registered scans against which a new one is matched
  * (book 4.1.5).
  *
- * Each scan stays in its own frame; the union is formed anew for every match, about an
- * origin near the new scan, so that float coordinates stay small wherever the world's
- * origin is. */
+ * Scan i is a leaf of a binary tree over the scans; the node k of level l stands for the
+ * scans from k 2^l up to (k + 1) 2^l. Any run of scans is a union of few nodes, and each
+ * node is built once, when it is first needed: adding a scan never builds the whole union
+ * anew, and a point takes part in log2(number of scans) k-d trees. Leaves stay in their
+ * scan's frame; a node has an origin near its first scan, so that float coordinates stay
+ * small wherever the world's origin is. */
 class Metascan {
 public:
-  /** \param[in] voxel [m] the union is thinned to one point per voxel
-   * \param[in] max_scans use only the last so many scans; 0: all */
-  Metascan(double voxel, int max_scans);
+  /** \param[in] voxel [m] a node keeps one point per voxel
+   * \param[in] max_scans use only the last so many scans; 0: all
+   * \param[in] options of the nodes' models; normals are those of the scans */
+  Metascan(double voxel, int max_scans, const IcpModel::Options& options);
 
-  /** \param[in] points kept by reference: must outlive the metascan */
+  /** \param[in] scan kept by reference: must outlive the metascan */
   void
-  add(const Points& points, const Eigen::Isometry3d& T_world_scan);
+  add(const IcpModel& scan, const Eigen::Isometry3d& T_world_scan);
 
-  /** \return the points [m] relative to an origin, that lie within reach of it, and no
-   * farther than the grid of the thinning reaches: 2^20 voxels */
-  Points
-  around(const Eigen::Vector3d& origin, double reach) const;
+  /** \return the last scans as a target, in the world's axes about an origin. It refers to
+   * the metascan's nodes until the next add() */
+  IcpTarget
+  around(const Eigen::Vector3d& origin);
 
 private:
   struct Member {
-    const Points* points;
+    const IcpModel* scan;
     Eigen::Isometry3d T_world_scan;
-    double radius; ///< [m] of the scan about its own origin
   };
-  double voxel_;
-  int max_scans_;
-  std::vector<Member> members_;
-};
+  struct Node {
+    Eigen::Vector3d origin; ///< [m] in the world
+    IcpModel model;
+  };
+  using Place = std::pair<int, std::size_t>; ///< level, k
 
-/** \return the largest distance of a point from the origin [m] */
-double
-radiusOf(const Points& points);
+  const Node&
+  node(const Place& place);
+
+  double voxel_;
+  std::size_t max_scans_;
+  IcpModel::Options options_;
+  std::vector<Member> members_;
+  std::map<Place, Node> nodes_; ///< of level 1 and up
+};
 
 } // namespace pcl6d

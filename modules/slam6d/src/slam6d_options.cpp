@@ -20,6 +20,37 @@ requirePositive(const std::optional<double>& option, const char* name)
 }
 } // namespace
 
+std::vector<std::string>
+initialGuessNames()
+{
+  return {"odometry", "overlap", "features"};
+}
+
+InitialGuess
+initialGuessFromName(const std::string& name)
+{
+  for (const auto guess :
+       {InitialGuess::kOdometry, InitialGuess::kOverlap, InitialGuess::kFeatures})
+    if (name == toString(guess))
+      return guess;
+  require(false, "initial guess", name, "odometry|overlap|features");
+  return InitialGuess::kOdometry;
+}
+
+const char*
+toString(InitialGuess guess)
+{
+  switch (guess) {
+  case InitialGuess::kOdometry:
+    return "odometry";
+  case InitialGuess::kOverlap:
+    return "overlap";
+  case InitialGuess::kFeatures:
+    return "features";
+  }
+  return "unknown";
+}
+
 void
 Slam6DOptions::validate() const
 {
@@ -33,6 +64,8 @@ Slam6DOptions::validate() const
           max_distance_start.value_or(0),
           "finite and >= 0");
   require(metascan >= 0, "metascan", metascan, ">= 0");
+  require(minimiser != nullptr, "minimiser", "none", "a function");
+  require(plane_minimiser != nullptr, "plane_minimiser", "none", "a function");
   require(max_iterations > 0, "max_iterations", max_iterations, "> 0");
   require(translation_epsilon >= 0, "translation_epsilon", translation_epsilon, ">= 0");
   require(rotation_epsilon >= 0, "rotation_epsilon", rotation_epsilon, ">= 0");

@@ -1,9 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/registration/icp_model.h>
+
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace pcl6d {
+
+/** \brief Where a scan's registration starts from. */
+enum class InitialGuess {
+  kOdometry, ///< the initial poses, carried over from the scan before (book 5.1.1)
+  kOverlap,  ///< the same, then the motion about it with the largest octree overlap
+  kFeatures  ///< nothing: descriptors of the scan and the one before are matched
+};
+
+/** \return odometry, overlap, features */
+std::vector<std::string>
+initialGuessNames();
+/** \throws BadArgument no such name; the message lists all */
+InitialGuess
+initialGuessFromName(const std::string& name);
+const char*
+toString(InitialGuess guess);
 
 /** \brief Knobs of Slam6D. What is left empty is derived from the scans. */
 struct Slam6DOptions {
@@ -14,6 +34,13 @@ struct Slam6DOptions {
   std::optional<double> max_distance_start; ///< [m] largest pair distance of the first
                                             ///< iteration, which then shrinks; finite,
                                             ///< >= 0
+  Metric metric = Metric::kPoint;
+  RigidMinimiser minimiser = minimiseByQuaternion;   ///< of the metric kPoint
+  PlaneMinimiser plane_minimiser = planeStepByHelix; ///< of the metrics with normals
+  SearchMethod search = SearchMethod::kCached;
+  RobustKernel robust = RobustKernel::kNone;
+  InitialGuess initial_guess = InitialGuess::kOdometry;
+  std::uint64_t seed = 1; ///< of the random choices of kFeatures
   /** match against the union of the last N scans; 1 is pairwise, 0: all */
   int metascan = 0;
   int max_iterations = 200;          ///< of one ICP; > 0

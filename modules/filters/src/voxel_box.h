@@ -20,12 +20,12 @@ bitsOf(std::uint64_t value)
   return bits;
 }
 
-/** \brief The box of grid cells that holds the points of a cloud. Its own keys have only
- * as many bits as its sides need, and the order of the keys of the grid. */
+/** \brief The box of grid cells that holds the points of a cloud. Its own keys have
+ * only as many bits as its sides need, and the order of the keys of the grid. */
 class VoxelBox {
 public:
-  /** \return the box of the finite coordinates; nothing if there are none on an axis, or
-   * if one of them lies outside the grid */
+  /** \return the box of the finite coordinates; nothing if there are none on an axis,
+   * or if one of them lies outside the grid */
   static std::optional<VoxelBox>
   around(const Points& points, double voxel);
 

@@ -27,7 +27,7 @@ entriesOf(const Points& points, double voxel, const VoxelBox& box, int index_bit
     findCells(points[begin].data(), 3 * count, voxel, cells.data());
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3f& p = points[begin + i];
-      // Written in any case, kept if finite: no branch that a scan with gaps would miss.
+      // Written in any case, kept if finite: no branch that gaps would make random.
       entries[num_entries] = (box.keyInBox(&cells[3 * i]) << index_bits) | (begin + i);
       num_entries += std::isfinite(p.x()) & std::isfinite(p.y()) & std::isfinite(p.z());
     }

@@ -100,7 +100,7 @@ private:
   std::vector<pcl::index_t> begin_; ///< first member of each group, and the end
 };
 
-/** \return the mean [m] of the chosen points, which must be one at least; summed in double
+/** \return the mean [m] of the chosen points, which are at least one; summed in double
  */
 Eigen::Vector3f
 meanOf(const Points& points, const IndexRange& indices);

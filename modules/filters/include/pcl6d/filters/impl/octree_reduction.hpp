@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/filters/impl/average_fields.hpp>
 #include <pcl6d/filters/octree_reduction.h>
-
-#include <pcl/common/centroid.h>
-#include <pcl/type_traits.h>
-
-#include <boost/mpl/size.hpp>
+#include <pcl6d/filters/require_indices.h>
 
 namespace pcl6d {
 
@@ -16,24 +13,6 @@ OctreeReduction<PointT>::OctreeReduction()
   this->filter_name_ = "OctreeReduction";
 }
 
-/** Sets the fields of a point to the means of those of the members. Does nothing where
- * x, y, z are all that there is: their mean is not computed here. */
-template <typename PointT>
-void
-averageFields(const pcl::PointCloud<PointT>& input,
-              const pcl::Indices& chosen,
-              const IndexRange& members,
-              PointT& point)
-{
-  if constexpr (boost::mpl::size<typename pcl::traits::fieldList<PointT>::type>::value >
-                3) {
-    pcl::CentroidPoint<PointT> mean;
-    for (const auto i : members)
-      mean.add(input[chosen[i]]);
-    mean.get(point);
-  }
-}
-
 template <typename PointT>
 void
 OctreeReduction<PointT>::applyFilter(PointCloud& output)
@@ -41,6 +20,10 @@ OctreeReduction<PointT>::applyFilter(PointCloud& output)
   options_.validate();
   const auto& input = *this->input_;
   const pcl::Indices& chosen = *this->indices_;
+  requireIndices(chosen, input.size());
+  const auto pointOf = [&](pcl::index_t i) -> const PointT& {
+    return input[chosen[i]];
+  };
   const Points points = toPoints(input, chosen);
   const VoxelGroups groups(points, options_.voxel);
   output.clear();
@@ -48,21 +31,17 @@ OctreeReduction<PointT>::applyFilter(PointCloud& output)
   output.is_dense = true;
   if (options_.method == ReductionMethod::kRandom) {
     for (const auto i : groups.chooseRandom(options_.points_per_voxel, options_.seed))
-      output.push_back(input[chosen[i]]);
+      output.push_back(pointOf(i));
     return;
   }
   output.resize(groups.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const IndexRange members = groups.indices(g);
-    PointT& point = output[g] = input[chosen[*members.begin()]];
-    if (options_.method == ReductionMethod::kMean) {
-      averageFields(input, chosen, members, point);
-      // PCL sums in float, which drifts out of the voxel far from the origin.
-      point.getVector3fMap() = meanOf(points, members);
-    }
-    else {
+    PointT& point = output[g] = pointOf(*members.begin());
+    if (options_.method == ReductionMethod::kMean)
+      averageMembers(points, members, pointOf, point);
+    else
       point.getVector3fMap() = voxelCentre(groups.key(g), options_.voxel);
-    }
   }
 }
 

@@ -137,7 +137,22 @@ TEST(MedianSpacing, IsTheMedianOfNearestDistances)
   // Distances to the nearest on the line: 1, 1, 2, 4, 8.
   const Points line{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {7, 0, 0}, {15, 0, 0}};
   EXPECT_EQ(medianSpacing(line), 2);
-  EXPECT_EQ(medianSpacing({{1, 1, 1}, {1, 1, 1}, {9, 9, 9}}), 0) << "equal points";
+}
+
+TEST(MedianSpacing, TakesExactDuplicatesForOnePoint)
+{
+  EXPECT_EQ(medianSpacing({{1, 0, 0}, {1, 0, 0}, {1, 3, 4}}), 5);
+  EXPECT_EQ(medianSpacing({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), 0) << "no other place";
+  EXPECT_EQ(medianSpacing({{0, 0, 0}, {-0.0f, 0, 0}, {0, 0, 2}}), 2)
+      << "zeros are equal";
+  Points grid;
+  for (int copies = 0; copies < 7; ++copies)
+    for (int x = 0; x < 60; ++x)
+      for (int y = 0; y < 60; ++y)
+        grid.push_back({0.25f * x, 0.25f * y, 3});
+  EXPECT_EQ(medianSpacing(grid), 0.25);
+  grid.insert(grid.end(), 20000, {1, 1, 3}); // a heap, on the grid
+  EXPECT_EQ(medianSpacing(grid), 0.25);
 }
 
 TEST(MedianSpacing, IsZeroWithFewerThanTwoFinitePoints)

@@ -78,21 +78,54 @@ medianRange(const Points& points)
   return upperMedian(rangesOf(points));
 }
 
+namespace {
+/** \return about 1000 evenly chosen points, equal ones side by side */
+Points
+samplesOf(const Points& points)
+{
+  constexpr std::size_t kSamples = 1000;
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kSamples);
+  Points samples;
+  for (std::size_t i = 0; i < points.size(); i += step)
+    samples.push_back(points[i]);
+  std::sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  });
+  return samples;
+}
+
+/** \return the distance to the nearest point at another place; none: nothing */
+std::optional<double>
+spacingAt(const Eigen::Vector3f& place, const PointTree& tree, std::size_t tree_size)
+{
+  for (std::size_t k = 2; k < 4 * tree_size; k *= 4) { // twice the same point is rare
+    const auto found = tree.nearestK(place, k);
+    if (!found.empty() && found.back().distance_sq > 0) {
+      const auto other = std::find_if(
+          found.begin(), found.end(), [](const auto& n) { return n.distance_sq > 0; });
+      return std::sqrt(static_cast<double>(other->distance_sq));
+    }
+  }
+  return std::nullopt;
+}
+} // namespace
+
 double
 medianSpacing(const Points& all)
 {
-  constexpr std::size_t kSamples = 1000;
   Points points; // the finite ones, so that samples are chosen from these
   std::copy_if(all.begin(), all.end(), std::back_inserter(points), [](const auto& p) {
     return p.allFinite();
   });
   const PointTree tree(points);
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kSamples);
+  const Points samples = samplesOf(points);
   std::vector<double> spacings;
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    const auto found = tree.nearestK(points[i], 2);
-    if (found.size() == 2)
-      spacings.push_back(std::sqrt(static_cast<double>(found[1].distance_sq)));
+  std::optional<double> spacing; // of the last sample; a heap of equal points asks once
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i == 0 || samples[i] != samples[i - 1])
+      spacing = spacingAt(samples[i], tree, points.size());
+    if (spacing)
+      spacings.push_back(*spacing);
   }
   return upperMedian(std::move(spacings));
 }

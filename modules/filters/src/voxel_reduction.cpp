@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "voxel_sort.h"
+
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/voxel_reduction.h>
@@ -17,59 +19,35 @@ ReductionOptions::validate() const
 
 VoxelGroups::VoxelGroups(const Points& points, double voxel)
 {
-  members_.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i].allFinite())
-      members_.push_back({voxelKey(points[i], voxel), static_cast<int>(i)});
-  std::sort(members_.begin(), members_.end(), [](const Member& a, const Member& b) {
-    return a.key < b.key || (a.key == b.key && a.index < b.index);
-  });
-  for (std::size_t i = 0; i < members_.size(); ++i)
-    if (i == 0 || members_[i].key != members_[i - 1].key)
-      begin_.push_back(i);
-  begin_.push_back(members_.size());
-}
-
-std::size_t
-VoxelGroups::size() const
-{
-  return begin_.size() - 1;
-}
-
-VoxelKey
-VoxelGroups::key(std::size_t group) const
-{
-  return members_[begin_[group]].key;
+  VoxelOrder order = sortByVoxel(points, voxel);
+  indices_.swap(order.indices);
+  keys_.swap(order.keys);
+  begin_.swap(order.begin);
 }
 
 pcl::Indices
-VoxelGroups::indices(std::size_t group) const
+VoxelGroups::chooseRandom(int count, std::uint64_t seed) const
 {
-  pcl::Indices indices;
-  for (std::size_t i = begin_[group]; i < begin_[group + 1]; ++i)
-    indices.push_back(members_[i].index);
-  return indices;
-}
-
-pcl::Indices
-VoxelGroups::chooseRandom(std::size_t group, int count, std::uint64_t seed) const
-{
-  pcl::Indices indices = this->indices(group);
   const auto wanted = static_cast<std::size_t>(count);
-  if (indices.size() <= wanted)
-    return indices;
-  std::uint64_t bits = mixBits(key(group) ^ mixBits(seed));
-  for (std::size_t i = 0; i < wanted; ++i) { // partial shuffle of Fisher and Yates
-    bits = mixBits(bits);
-    std::swap(indices[i], indices[i + bits % (indices.size() - i)]);
+  pcl::Indices chosen, members;
+  for (std::size_t g = 0; g < size(); ++g) {
+    members.assign(indices(g).begin(), indices(g).end());
+    if (members.size() > wanted) {
+      std::uint64_t bits = mixBits(key(g) ^ mixBits(seed));
+      for (std::size_t i = 0; i < wanted; ++i) { // partial shuffle of Fisher and Yates
+        bits = mixBits(bits);
+        std::swap(members[i], members[i + bits % (members.size() - i)]);
+      }
+      members.resize(wanted);
+      std::sort(members.begin(), members.end());
+    }
+    chosen.insert(chosen.end(), members.begin(), members.end());
   }
-  indices.resize(wanted);
-  std::sort(indices.begin(), indices.end());
-  return indices;
+  return chosen;
 }
 
 Eigen::Vector3f
-meanOf(const Points& points, const pcl::Indices& indices)
+meanOf(const Points& points, const IndexRange& indices)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto index : indices)
@@ -84,20 +62,15 @@ reducePoints(const Points& points, const ReductionOptions& options)
   const VoxelGroups groups(points, options.voxel);
   Points reduced;
   reduced.reserve(groups.size());
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    switch (options.method) {
-    case ReductionMethod::kCentre:
+  if (options.method == ReductionMethod::kRandom)
+    for (const auto i : groups.chooseRandom(options.points_per_voxel, options.seed))
+      reduced.push_back(points[i]);
+  else if (options.method == ReductionMethod::kCentre)
+    for (std::size_t g = 0; g < groups.size(); ++g)
       reduced.push_back(voxelCentre(groups.key(g), options.voxel));
-      break;
-    case ReductionMethod::kMean:
+  else
+    for (std::size_t g = 0; g < groups.size(); ++g)
       reduced.push_back(meanOf(points, groups.indices(g)));
-      break;
-    case ReductionMethod::kRandom:
-      for (const auto i :
-           groups.chooseRandom(g, options.points_per_voxel, options.seed))
-        reduced.push_back(points[i]);
-      break;
-    }
   return reduced;
 }
 

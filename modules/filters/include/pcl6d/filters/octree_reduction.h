@@ -33,7 +33,8 @@ public:
   }
 
 protected:
-  /** \throws BadArgument an option breaks its rule, or a point lies outside the grid */
+  /** \throws BadArgument an option breaks its rule, an index is not that of a point, or
+   * a point lies outside the grid */
   void
   applyFilter(PointCloud& output) override;
 

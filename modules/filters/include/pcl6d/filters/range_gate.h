@@ -26,6 +26,7 @@ public:
   setLimits(double min_range, double max_range);
 
 protected:
+  /** \throws BadArgument an index is not that of a point */
   void
   applyFilter(pcl::Indices& indices) override;
 

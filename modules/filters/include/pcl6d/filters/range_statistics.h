@@ -32,8 +32,9 @@ noReturnRange(const Points& points);
 double
 medianRange(const Points& points);
 
-/** \return the median distance from a point to its nearest neighbour [m], over at most
- * 1000 evenly chosen points; 0 with fewer than 2 points */
+/** \return the median distance from a point to the nearest other one [m], over about
+ * 1000 evenly chosen points. Exact duplicates are no other points: their distance of 0
+ * says nothing of the spacing. 0 with fewer than 2 different points */
 double
 medianSpacing(const Points& points);
 

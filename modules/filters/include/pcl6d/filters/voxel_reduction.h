@@ -28,6 +28,36 @@ struct ReductionOptions {
   validate() const;
 };
 
+/** \brief A part of a list of indices, to be walked through. */
+class IndexRange {
+public:
+  IndexRange(const pcl::index_t* begin, const pcl::index_t* end)
+  : begin_(begin), end_(end)
+  {}
+
+  const pcl::index_t*
+  begin() const
+  {
+    return begin_;
+  }
+
+  const pcl::index_t*
+  end() const
+  {
+    return end_;
+  }
+
+  std::size_t
+  size() const
+  {
+    return static_cast<std::size_t>(end_ - begin_);
+  }
+
+private:
+  const pcl::index_t* begin_;
+  const pcl::index_t* end_;
+};
+
 /** \brief The points of a cloud sorted into the occupied voxels of a regular grid,
  * which has a corner at the origin. Voxels come in the order of their keys, points in
  * their own order, so nothing depends on threads or hashing. Points that are not finite
@@ -39,33 +69,41 @@ public:
 
   /** \return the number of occupied voxels */
   std::size_t
-  size() const;
+  size() const
+  {
+    return keys_.size();
+  }
 
   VoxelKey
-  key(std::size_t group) const;
+  key(std::size_t group) const
+  {
+    return keys_[group];
+  }
 
-  /** \return the places of the group's points in the input, ascending */
-  pcl::Indices
-  indices(std::size_t group) const;
+  /** \return the places of the group's points in the input, ascending; valid as long as
+   * this object */
+  IndexRange
+  indices(std::size_t group) const
+  {
+    return {indices_.data() + begin_[group], indices_.data() + begin_[group + 1]};
+  }
 
-  /** \brief Chooses at most count points of a group. The choice depends only on the
-   * seed, the voxel and its points. \return ascending places in the input */
+  /** \brief Chooses at most count points of each group. The choice depends only on the
+   * seed, the voxel and the order of its points. \return places in the input, group by
+   * group, ascending inside a group */
   pcl::Indices
-  chooseRandom(std::size_t group, int count, std::uint64_t seed) const;
+  chooseRandom(int count, std::uint64_t seed) const;
 
 private:
-  struct Member {
-    VoxelKey key;
-    int index;
-  };
-  std::vector<Member> members_;
-  std::vector<std::size_t> begin_; ///< first member of each group, and the end
+  pcl::Indices indices_;            ///< of the finite points, group by group
+  std::vector<VoxelKey> keys_;      ///< of each group
+  std::vector<pcl::index_t> begin_; ///< first member of each group, and the end
 };
 
-/** \return the mean [m] of the chosen points, which must be one at least; summed in double
+/** \return the mean [m] of the chosen points, which are at least one; summed in double
  */
 Eigen::Vector3f
-meanOf(const Points& points, const pcl::Indices& indices);
+meanOf(const Points& points, const IndexRange& indices);
 
 /** \brief Reduces points to one (kRandom: a few) per occupied voxel.
  * \throws BadArgument an option breaks its rule, or a point lies outside the grid

@@ -3,6 +3,7 @@
 
 #include <pcl6d/filters/range_gate.h>
 #include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/filters/require_indices.h>
 
 namespace pcl6d {
 
@@ -26,6 +27,7 @@ template <typename PointT>
 void
 RangeGate<PointT>::applyFilter(pcl::Indices& indices)
 {
+  requireIndices(*this->indices_, this->input_->size());
   indices.clear();
   this->removed_indices_->clear();
   for (const auto index : *this->indices_) {

@@ -77,7 +77,8 @@ sphere(Random& random, double sigma, const Eigen::Vector3d& centre)
 }
 
 const Eigen::Isometry3d kTilted = poseFromEuler({2, -3, 4}, {0.5, -0.4, 0.3});
-const Eigen::Isometry3d kNudge = poseFromEuler({0.02, 0.01, -0.03}, {0.01, 0.01, -0.01});
+const Eigen::Isometry3d kNudge =
+    poseFromEuler({0.02, 0.01, -0.03}, {0.01, 0.01, -0.01});
 } // namespace
 
 TEST(IcpMetrics, FindTheMotionBetweenCopies)
@@ -101,18 +102,25 @@ TEST(IcpMetrics, FindTheMotionBetweenCopies)
 
 TEST(IcpMetrics, WithNormalsFindTheMotionOfOtherPointsOnTheSameSurfaces)
 {
-  // No point has a partner; the surfaces do: without noise they lie on one another.
+  // No point has a partner; the surfaces do: without noise they lie on one another. The
+  // source stays clear of the edges, where partners are on the other wall.
   Random random(2);
   const Surface target = corner(random, 6000, 4);
-  const Surface source = corner(random, 3000, 3.5).moved(kTruth.inverse());
+  Surface source;
+  for (int across = 0; across < 3; ++across) {
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(0.5);
+    low[across] = 0;
+    source.add(rectangle(random, 1000, across, low, Eigen::Vector3d::Constant(3.5)));
+  }
+  source = source.moved(kTruth.inverse());
   for (const auto& name : planeMinimiserNames()) {
     IcpOptions options = optionsOf(Metric::kPlane);
     options.plane_minimiser = planeMinimiserFromName(name);
     const IcpResult result = run(target, source, options);
     EXPECT_EQ(result.status, Status::kOk);
     const auto error = distanceBetween(kTruth, result.T_target_source);
-    EXPECT_LT(error.translation, 5e-4) << name; // partners across the edges
-    EXPECT_LT(error.rotation, 5e-4) << name;
+    EXPECT_LT(error.translation, 1e-6) << name; // rounding to float
+    EXPECT_LT(error.rotation, 1e-6) << name;
   }
 }
 
@@ -153,15 +161,17 @@ TEST(IcpMetrics, WorkFarFromTheOrigin)
 {
   Random random(5);
   const Eigen::Isometry3d far = poseFromEuler({5000, -4000, 100}, {0, 0, 2});
-  const Surface target = corner(random, 6000, 4, 0.01).moved(far);
+  const Surface here = corner(random, 6000, 4, 0.01), target = here.moved(far);
   const Surface source = corner(random, 3000, 4, 0.01);
   for (const Metric metric : kAllMetrics) {
     SCOPED_TRACE(toString(metric));
     const IcpResult result = run(target, source, optionsOf(metric), far * kNudge);
     EXPECT_NE(result.status, Status::kDiverged);
-    // Floats lie 0.5 mm apart there.
-    EXPECT_LT(distanceBetween(far, result.T_target_source).translation, 0.01);
-    EXPECT_LT(distanceBetween(far, result.T_target_source).rotation, 0.005);
+    const IcpResult near = run(here, source, optionsOf(metric), kNudge);
+    const auto error =
+        distanceBetween(far * near.T_target_source, result.T_target_source);
+    EXPECT_LT(error.translation, 1e-3); // floats lie 0.5 mm apart there
+    EXPECT_LT(error.rotation, 1e-3);
   }
 }
 
@@ -177,8 +187,9 @@ TEST(IcpMetrics, RestAtOnceAtTheTruth)
       const IcpResult result = run(target, target, options);
       EXPECT_NE(result.status, Status::kDiverged);
       EXPECT_LT(distanceBetween(kIdentity, result.T_target_source).translation, 1e-6);
-      if (epsilon > 0)
+      if (epsilon > 0) {
         EXPECT_EQ(result.status, Status::kOk);
+      }
     }
 }
 
@@ -186,15 +197,16 @@ TEST(IcpMetrics, DoNotCallRoundingDivergence)
 {
   // Thresholds below rounding are allowed: ICP then goes on at the solution.
   Random random(7);
-  const Surface target = corner(random, 900, 2);
-  const Surface source = target.moved(kTruth.inverse());
-  for (const Metric metric : kAllMetrics) {
-    IcpOptions options = optionsOf(metric);
-    options.translation_epsilon = options.rotation_epsilon = 0;
-    const IcpResult result = run(target, source, options);
-    EXPECT_NE(result.status, Status::kDiverged) << toString(metric);
-    EXPECT_LT(distanceBetween(kTruth, result.T_target_source).translation, 1e-5)
-        << toString(metric);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Surface target = corner(random, 300, 2);
+    const Surface source = target.moved(kTruth.inverse());
+    for (const Metric metric : kAllMetrics) {
+      SCOPED_TRACE(testing::Message() << toString(metric) << ", trial " << trial);
+      IcpOptions options = optionsOf(metric);
+      options.translation_epsilon = options.rotation_epsilon = 0;
+      const IcpResult result = run(target, source, options);
+      EXPECT_NE(result.status, Status::kDiverged);
+    }
   }
 }
 
@@ -209,8 +221,9 @@ TEST(IcpMetrics, ThatSeePlanesNeedNormals)
     const IcpTarget good{{&tree, &scene.points, &scene.normals}};
     const IcpSource source{&scene.points, &scene.normals};
     for (const Metric metric : kPlaneMetrics)
-      EXPECT_NE(badArgumentOf([&] { icp(target, source, kIdentity, optionsOf(metric)); })
-                    .find("target normals = " + std::to_string(bad ? 10 : 0)),
+      EXPECT_NE(badArgumentOf([&] {
+                  icp(target, source, kIdentity, optionsOf(metric));
+                }).find("target normals = " + std::to_string(bad ? 10 : 0)),
                 std::string::npos);
     EXPECT_NE(badArgumentOf([&] {
                 icp(good, {&scene.points, bad}, kIdentity, optionsOf(Metric::kGicp));
@@ -264,12 +277,9 @@ protected:
       IcpOptions options = optionsOf(Metric::kPlane);
       options.plane_minimiser = planeMinimiserFromName(name);
       const IcpResult result = run(target, source, options);
-      EXPECT_NE(result.status, Status::kOk) << name;
-      EXPECT_NE(result.status, Status::kDiverged) << name;
-      EXPECT_FALSE(result.covariance) << name;
-      EXPECT_TRUE(result.localizability) << name;
-      if (result.localizability)
-        EXPECT_GT(result.localizability->openDirections(), 0) << name;
+      EXPECT_TRUE(result.status == Status::kRankDeficient ||
+                  result.status == Status::kMaxIterations)
+          << name << ": " << toString(result.status);
       EXPECT_LT(distanceBetween(kIdentity, result.T_target_source).translation, 0.2);
     }
   }
@@ -303,6 +313,36 @@ TEST_P(OpenScenes, ASphereIsNotCalledFixed)
   const Surface target = sphere(random_, sigma_, {3, 1, 2});
   const Surface source = sphere(random_, sigma_, {3, 1, 2}).moved(kNudge);
   expectNotFixed(target, source);
+}
+
+TEST_P(OpenScenes, CopiesThatRestAtOnceAreNotCalledFixed)
+{
+  for (const Surface& scene : {estimated(wall(random_, 3000, sigma_, kTilted)),
+                               estimated(corridor(random_, sigma_, kTilted)),
+                               estimated(sphere(random_, sigma_, {3, 1, 2}))}) {
+    const IcpResult result = run(scene, scene, optionsOf(Metric::kPlane));
+    EXPECT_EQ(result.stop, IcpStop::kAtRest);
+    EXPECT_EQ(result.status, Status::kRankDeficient) << toString(result.status);
+  }
+}
+
+TEST(IcpLocalizability, IsReportedWhateverTheMetric)
+{
+  Random random(12);
+  const Surface box = corner(random, 3000, 4, 0.002);
+  const Surface tube = corridor(random, 0.002, kTilted);
+  for (const Metric metric : kAllMetrics) {
+    SCOPED_TRACE(toString(metric));
+    const IcpResult fixed = run(box, box, optionsOf(metric));
+    ASSERT_TRUE(fixed.localizability);
+    EXPECT_EQ(fixed.localizability->openDirections(), 0);
+    const IcpResult open = run(tube, tube, optionsOf(metric));
+    ASSERT_TRUE(open.localizability);
+    EXPECT_EQ(open.localizability->openDirections(), 1);
+    const Eigen::Vector3d along = kTilted.linear().col(0);
+    EXPECT_GT(std::abs(along.dot(open.localizability->directions.col(0).head<3>())),
+              0.99);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Noise, OpenScenes, testing::Values(0.0, 0.005));

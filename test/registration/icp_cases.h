@@ -6,6 +6,7 @@
 #include "support/room.h"
 
 #include <pcl6d/registration/icp_model.h>
+#include <pcl6d/search/point_list.h>
 
 #include <gtest/gtest.h>
 
@@ -47,8 +48,8 @@ struct Surface {
   }
 };
 
-/** \return points of a rectangle from the origin along two axes, u by v [m], at a height
- * w along the third, with noise across it */
+/** \return points of a rectangle between two corners, at the height of the low one along
+ * one axis, with noise across it */
 inline Surface
 rectangle(Random& random,
           std::size_t count,
@@ -81,6 +82,24 @@ corner(Random& random, std::size_t count, double side, double sigma = 0)
                           Eigen::Vector3d::Constant(side),
                           sigma));
   return surface;
+}
+
+/** The nearest points by the definition. */
+inline std::vector<IcpPair>
+pairsByForce(const Points& target,
+             const Points& source,
+             const Eigen::Isometry3d& T,
+             float limit)
+{
+  const PointList list(target);
+  std::vector<IcpPair> pairs;
+  const Points moved = transformed(source, T);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Neighbour found = list.nearest(moved[i], limit * limit);
+    if (found.index >= 0)
+      pairs.push_back({static_cast<int>(i), found.index, found.distance_sq});
+  }
+  return pairs;
 }
 
 /** What an observer saw. */

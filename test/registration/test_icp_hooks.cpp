@@ -2,8 +2,6 @@
 // Callers who take part in ICP, and callers who err.
 #include "icp_cases.h"
 
-#include <pcl6d/search/point_list.h>
-
 #include <cmath>
 #include <stdexcept>
 
@@ -35,19 +33,11 @@ protected:
     };
   }
 
-  /** The nearest points by the definition. */
   Pairs
   nearest(const Eigen::Isometry3d& T, double limit) const
   {
-    Pairs pairs;
-    const Points moved = transformed(data_.points(), T);
-    const auto limit_f = static_cast<float>(limit);
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      const Neighbour found = list_.nearest(moved[i], limit_f * limit_f);
-      if (found.index >= 0)
-        pairs.push_back({static_cast<int>(i), found.index, found.distance_sq});
-    }
-    return pairs;
+    return test::pairsByForce(
+        scene_.points, data_.points(), T, static_cast<float>(limit));
   }
 
   Trace
@@ -62,7 +52,6 @@ protected:
   Surface scene_ = corner(random_, 900, 2, 0.002);
   IcpModel model_ = scene_.model();
   IcpModel data_ = scene_.moved(kTruth.inverse()).model();
-  PointList list_{scene_.points};
   IcpOptions options_;
   IcpHooks hooks_;
   Trace trace_;

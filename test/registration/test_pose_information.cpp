@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/pairs.h"
 
+#include <pcl6d/registration/plane_minimiser.h>
 #include <pcl6d/registration/pose_information.h>
 #include <pcl6d/registration/rigid_minimiser.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
@@ -126,4 +128,157 @@ TEST(PoseCovariance, IsNotGivenAtAPitchOfARightAngle)
     EXPECT_FALSE(given(sign * (M_PI / 2 - 0.0009)));
     EXPECT_TRUE(given(sign * (M_PI / 2 - 0.0011)));
   }
+}
+
+namespace {
+/** Sums of pairs on planes of the given normals; source points already in the world. */
+template <typename NormalOf>
+pcl6d::PlaneSums
+planeSumsAt(Random& random, int count, double sigma, NormalOf normal_of)
+{
+  pcl6d::PlaneAccumulator sums;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d p = pcl6d::test::randomVector(random, 5);
+    const Eigen::Vector3d n = normal_of(i).normalized();
+    sums.add(p, p + sigma * random.normal() * n, n);
+  }
+  return sums.sums();
+}
+
+const Eigen::Isometry3d kPose = pcl6d::poseFromEuler({20, -30, 5}, {0.4, -0.7, 2.1});
+} // namespace
+
+TEST(PoseInformation, IsTheInverseOfTheCovariance)
+{
+  Random random(10);
+  const auto expectInverse = [](const auto& sums) {
+    const auto information = poseInformation(sums, kPose);
+    const auto covariance = poseCovariance(sums, kPose);
+    ASSERT_TRUE(information);
+    ASSERT_TRUE(covariance);
+    // In units in which both have ones on their diagonals.
+    const Vector6 unit = covariance->diagonal().cwiseSqrt();
+    const PoseCovariance product = unit.cwiseInverse().asDiagonal() * *covariance *
+                                   *information * unit.asDiagonal();
+    EXPECT_LT((product - PoseCovariance::Identity()).norm(), 1e-7);
+    EXPECT_LT((*information - information->transpose()).norm(),
+              1e-12 * information->norm());
+  };
+  const Pairs pairs = movedPairs(randomPoints(random, 100, 5), kPose, random, kSigma);
+  expectInverse(sumsAt(pairs, kPose));
+  expectInverse(planeSumsAt(
+      random, 300, kSigma, [&](int) { return pcl6d::test::randomVector(random, 1); }));
+}
+
+TEST(PoseInformation, IsTheCurvatureOfTheError)
+{
+  // Half the second derivative of the error by the pose parameters, over s^2.
+  Random random(11);
+  const Pairs pairs = movedPairs(randomPoints(random, 50, 5), kPose, random, kSigma);
+  const auto angles = pcl6d::eulerFromRotation(kPose.linear());
+  const auto errorAt = [&](const Vector6& x) {
+    const auto pose = pcl6d::poseFromEuler(
+        kPose.translation() + x.head<3>(),
+        {angles.roll + x(3), angles.pitch + x(4), angles.yaw + x(5)});
+    double sum = 0;
+    for (std::size_t i = 0; i < pairs.source.size(); ++i)
+      sum += (pairs.target[i] - pose * pairs.source[i]).squaredNorm();
+    return sum;
+  };
+  const auto sums = sumsAt(pairs, kPose);
+  const double variance = sums.errorSq(Eigen::Isometry3d::Identity()) / (3 * 50 - 6);
+  const auto information = poseInformation(sums, kPose);
+  ASSERT_TRUE(information);
+  constexpr double h = 1e-3;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const Vector6 a = h * Vector6::Unit(i), b = h * Vector6::Unit(j);
+      const double second =
+          (errorAt(a + b) - errorAt(a - b) - errorAt(b - a) + errorAt(-a - b)) /
+          (8 * h * h);
+      // Gauss-Newton leaves out residual times curvature: sigma of a lever of 9 m.
+      EXPECT_NEAR(second / variance,
+                  (*information)(i, j),
+                  0.01 * std::sqrt((*information)(i, i) * (*information)(j, j)))
+          << i << ", " << j;
+    }
+}
+
+TEST(PoseInformation, IsSingularForAPlane)
+{
+  Random random(12);
+  pcl6d::PlaneAccumulator accumulator;
+  const Eigen::Vector3d n = Eigen::Vector3d(1, -2, 3).normalized();
+  for (int i = 0; i < 200; ++i) {
+    Eigen::Vector3d p = pcl6d::test::randomVector(random, 5);
+    p -= n * n.dot(p);
+    accumulator.add(p, p + kSigma * random.normal() * n, n);
+  }
+  const auto sums = accumulator.sums();
+  EXPECT_FALSE(poseCovariance(sums, kPose));
+  const auto information = poseInformation(sums, kPose);
+  ASSERT_TRUE(information);
+  const Eigen::SelfAdjointEigenSolver<PoseCovariance> solver(*information);
+  EXPECT_LT(std::abs(solver.eigenvalues()(2)), 1e-9 * solver.eigenvalues()(5));
+  EXPECT_GT(solver.eigenvalues()(3), 1e-6 * solver.eigenvalues()(5));
+  // To slide along the plane costs nothing.
+  Vector6 slide = Vector6::Zero();
+  slide.head<3>() = n.unitOrthogonal();
+  EXPECT_LT(std::abs(slide.dot(*information * slide)), 1e-9 * information->norm());
+}
+
+TEST(PoseInformation, IsNotGivenWithoutPairsOrError)
+{
+  Random random(13);
+  EXPECT_FALSE(poseInformation(pcl6d::PairSums(), kPose));
+  EXPECT_FALSE(poseInformation(pcl6d::PlaneSums(), kPose));
+  const auto normal = [&](int) { return pcl6d::test::randomVector(random, 1); };
+  EXPECT_FALSE(poseInformation(planeSumsAt(random, 2, kSigma, normal), kPose));
+  EXPECT_FALSE(poseInformation(planeSumsAt(random, 300, 0, normal), kPose));
+  const auto up = pcl6d::poseFromEuler({1, 2, 3}, {0.1, M_PI / 2, 0.3});
+  EXPECT_FALSE(poseInformation(planeSumsAt(random, 300, kSigma, normal), up));
+}
+
+TEST(PoseCovariance, IsNotGivenWithoutError)
+{
+  // As the inverse of the information; a covariance of zero would claim certainty.
+  Random random(14);
+  const auto normal = [&](int) { return pcl6d::test::randomVector(random, 1); };
+  EXPECT_FALSE(poseCovariance(planeSumsAt(random, 300, 0, normal), kPose));
+}
+
+TEST(PoseInformation, OfPlanesIsTheSpreadOfRepeatedFits)
+{
+  // One room, fitted again and again with new noise along the normals.
+  Random random(15);
+  constexpr int kPlanes = 30;
+  std::vector<Eigen::Vector3d> points, normals;
+  for (int i = 0; i < kPlanes; ++i) {
+    points.push_back(pcl6d::test::randomVector(random, 5));
+    normals.push_back(pcl6d::test::randomVector(random, 1).normalized());
+  }
+  PoseCovariance sample = PoseCovariance::Zero(), predicted = PoseCovariance::Zero();
+  for (int trial = 0; trial < kTrials; ++trial) {
+    pcl6d::PlaneAccumulator accumulator;
+    for (int i = 0; i < kPlanes; ++i)
+      accumulator.add(
+          points[i], points[i] + kSigma * random.normal() * normals[i], normals[i]);
+    const auto sums = accumulator.sums();
+    const auto pose = pcl6d::planeStepByHelix(sums).transform * kPose;
+    const Vector6 error = errorOf(pose, kPose);
+    sample += error * error.transpose() / kTrials;
+    // The error before the step is known: replace it by that after it.
+    auto at_rest = sums;
+    at_rest.residual_sq -= sums.b.dot(sums.A.ldlt().solve(sums.b));
+    const auto covariance = poseCovariance(at_rest, kPose);
+    ASSERT_TRUE(covariance);
+    predicted += *covariance / kTrials;
+  }
+  const double tolerance = 5 * std::sqrt(2.0 / kTrials);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const double scale = std::sqrt(predicted(i, i) * predicted(j, j));
+      EXPECT_NEAR(sample(i, j) / scale, predicted(i, j) / scale, tolerance)
+          << i << ", " << j;
+    }
 }

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icp_cases.h"
+
+#include <memory>
+
+using namespace pcl6d; // NOLINT: the whole API of ICP
+using pcl6d::test::badArgumentOf;
+using pcl6d::test::corner;
+using pcl6d::test::Surface;
+
+namespace {
+constexpr SearchMethod kExact[] = {SearchMethod::kKdTree,
+                                   SearchMethod::kOctree,
+                                   SearchMethod::kBruteForce};
+const Eigen::Isometry3d kStart =
+    poseFromEuler({0.08, -0.06, 0.05}, {0.02, -0.01, 0.03});
+} // namespace
+
+TEST(IcpModel, FindsTheSamePoseApproximately)
+{
+  Random random(8);
+  const Surface scene = corner(random, 3000, 2, 0.002);
+  const IcpModel model = scene.model(SearchMethod::kApproximate);
+  const IcpModel data = scene.moved(kStart.inverse()).model();
+  const IcpResult result =
+      icp({model.part()}, data.source(), Eigen::Isometry3d::Identity(), {});
+  EXPECT_EQ(result.status, Status::kOk);
+  EXPECT_LT(distanceBetween(kStart, result.T_target_source).translation, 1e-3);
+}
+
+TEST(IcpModel, EstimatesNormalsOrTakesThem)
+{
+  Random random(9);
+  const Surface scene = corner(random, 900, 2);
+  IcpModel::Options options;
+  const IcpModel without(scene.points, options);
+  EXPECT_TRUE(without.normals().empty());
+  EXPECT_EQ(without.source().normals, nullptr);
+  EXPECT_EQ(without.part().normals, nullptr);
+  options.normals = true;
+  const IcpModel with(scene.points, options);
+  const Normals expected =
+      estimateNormals(scene.points, with.tree(), options.neighbours);
+  ASSERT_EQ(with.normals().size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_TRUE(test::sameBits(with.normals()[i], expected[i]));
+  EXPECT_EQ(with.part().normals, &with.normals());
+  EXPECT_EQ(with.source().points, &with.points());
+}
+
+TEST(IcpModel, RefusesBadOptions)
+{
+  const Points points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (const std::size_t neighbours : {0u, 2u, 65u}) {
+    IcpModel::Options options;
+    options.neighbours = neighbours;
+    options.normals = true;
+    EXPECT_THROW(IcpModel(points, options), BadArgument);
+  }
+  EXPECT_THROW(IcpModel(points, Normals(2, {0, 0, 1}), {}), BadArgument);
+  EXPECT_THROW(IcpModel(points, Normals(), {}), BadArgument);
+}
+
+TEST(IcpModel, OutlivesCopiesAndMoves)
+{
+  Random random(10);
+  const Surface scene = corner(random, 600, 2, 0.01);
+  const IcpModel data = scene.moved(kStart.inverse()).model();
+  for (const SearchMethod search : kExact) {
+    auto first = std::make_unique<IcpModel>(scene.model(search));
+    const IcpModel copy = *first;
+    const IcpResult expected =
+        icp({first->part()}, data.source(), Eigen::Isometry3d::Identity(), {});
+    const IcpModel taken = std::move(*first);
+    first.reset();
+    for (const IcpModel* model : {&copy, &taken})
+      EXPECT_TRUE(test::sameBits(
+          icp({model->part()}, data.source(), Eigen::Isometry3d::Identity(), {})
+              .T_target_source,
+          expected.T_target_source));
+  }
+}
+
+TEST(SearchMethod, HasNames)
+{
+  EXPECT_EQ(searchMethodNames(),
+            (std::vector<std::string>{
+                "kdtree", "cached", "approximate", "octree", "brute-force"}));
+  for (const auto& name : searchMethodNames())
+    EXPECT_EQ(toString(searchMethodFromName(name)), name);
+  const std::string message = badArgumentOf([] { searchMethodFromName("flann"); });
+  for (const auto& name : searchMethodNames())
+    EXPECT_NE(message.find(name), std::string::npos) << message;
+}

@@ -13,10 +13,11 @@ using namespace pcl6d;
 #define pcl6d plain
 #include "../../modules/search/src/point_tree.cpp"
 #include "../../modules/search/src/point_tree_search.cpp"
+#include "../../modules/search/src/point_tree_several.cpp"
 #undef pcl6d
 
 std::vector<pcl6d::Neighbour>
 pcl6d::test::plainSearchAll(const Points& points, const Points& queries)
 {
-  return searchAll<plain::PointTree>(points, queries);
+  return searchAll<plain::PointTree, plain::TwoNearest>(points, queries);
 }

@@ -10,7 +10,7 @@
 namespace pcl6d::test {
 
 /** Everything that the compiled search of a tree answers, in one row. */
-template <typename Tree>
+template <typename Tree, typename Two>
 std::vector<Neighbour>
 searchAll(const Points& points, const Points& queries)
 {
@@ -25,6 +25,10 @@ searchAll(const Points& points, const Points& queries)
     add(tree.nearest(q, kNoLimit));
     add(tree.nearestFrom(leaf, q, 1.0f));
     add(tree.nearestApproximate(q, kNoLimit, 2.0));
+    Two two{{-1, kNoLimit}, kNoLimit};
+    tree.improveTwo(q, two);
+    add(two.nearest);
+    all.push_back({-1, two.second_sq});
     for (const auto& found : tree.nearestK(q, 10))
       add(found);
     for (const auto& found : tree.withinRadius(q, 1.0f))

@@ -62,7 +62,8 @@ TEST(PointTree, GivesTheSameBitsWithoutTheVectorClone)
   for (const Points& points :
        {randomCube(random, 30000, 20), gridWithDuplicates(random, 3000)}) {
     const Points queries = randomCube(random, 500, 24);
-    expectEqual(searchAll<PointTree>(points, queries), plainSearchAll(points, queries));
+    expectEqual(searchAll<PointTree, pcl6d::TwoNearest>(points, queries),
+                plainSearchAll(points, queries));
   }
 }
 

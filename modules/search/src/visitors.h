@@ -3,8 +3,6 @@
 
 #include <pcl6d/search/neighbour.h>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -15,23 +13,10 @@
  * but none at exactly that distance. */
 namespace pcl6d {
 
-/** Squares are summed in the order x, y, z, in float, everywhere: the same bits. */
-inline float
-distanceSq(const Eigen::Vector3f& a, const Eigen::Vector3f& b)
-{
-  float sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float d = a[axis] - b[axis];
-    sum += d * d;
-  }
-  return sum;
-}
-
 /** Keeps the nearest point within a limit. */
 struct NearestVisitor {
   Neighbour best;   ///< at first: index -1 and the limit
   float shrink = 1; ///< of the squared bound once there is a point; < 1: approximate
-  int leaf = -1;    ///< that held the best
 
   float
   bound() const

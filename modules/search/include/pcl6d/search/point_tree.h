@@ -60,6 +60,28 @@ public:
           int candidate,
           const Eigen::Vector3f& candidate_point) const;
 
+  /** \brief The nearest point with the distance of the second nearest, of one tree or,
+   * called for each in turn, of the union of several.
+   *
+   * A query that moves by less than (sqrt(second_sq) - sqrt(nearest.distance_sq)) / 2
+   * keeps its neighbour, and may spare the search.
+   * \param[in,out] best before: in nearest a first candidate, or {-1, limit} where a
+   * point at exactly the limit is not accepted; in second_sq the distance beyond which
+   * nothing matters, >= nearest.distance_sq. Afterwards: in nearest the nearest point;
+   * in second_sq the smallest distance of any other, never more than it was. Two points
+   * in one place count twice. Of the points of this tree that are equally near the one
+   * with the smallest index is nearest; a candidate from elsewhere stays if it is
+   * equally near
+   * \param[in] own_candidate >= 0: best.nearest is this point of this tree, the neighbour
+   * of the last iteration say, and is not to be its own second; its distance must be that
+   * of distanceSq(). -1: it is no point of this tree
+   * \return whether nearest is now another point, which is one of this tree; false if
+   * the query is not finite */
+  bool
+  improveTwo(const Eigen::Vector3f& query,
+             TwoNearest& best,
+             int own_candidate = -1) const;
+
   /** \brief The same by the cached search: starts at a leaf and climbs no further than
    * the ball of the best point so far reaches. Never changes the result.
    * \param[in,out] leaf where to start; becomes the leaf of the neighbour, and stays
@@ -86,6 +108,13 @@ public:
    * i-th */
   std::vector<Neighbour>
   nearestK(const Eigen::Vector3f& query, std::size_t k, double epsilon = 0) const;
+
+  /** \brief The same into the caller's array: takes no memory, meant for many queries
+   * with a small k.
+   * \param[out] out place for k \return how many there are: k, or all if there are fewer;
+   * 0 if the query is not finite */
+  std::size_t
+  nearestK(const Eigen::Vector3f& query, std::size_t k, Neighbour* out) const;
 
   /** \brief All points nearer than a distance, nearest first, ties by index.
    * \param[in] max_count keep only so many of the nearest; 0: all */
@@ -122,6 +151,11 @@ private:
   view() const;
   bool
   canAnswer(const Eigen::Vector3f& query) const;
+  std::size_t
+  collectK(const Eigen::Vector3f& query,
+           std::size_t k,
+           float shrink,
+           Neighbour* out) const;
 
   std::size_t size_ = 0;
   int leaf_level_ = 0;                   ///< in levels of nodes; the root is level 0

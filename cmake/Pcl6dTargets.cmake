@@ -109,13 +109,12 @@ function(pcl6d_add_test name)
 endfunction()
 
 # pcl6d_add_benchmark(NAME SOURCES ... [DEPENDS module ...] [LINK_PRIVATE targets ...])
+# makes the program NAME in bin/, beside the apps; it is not installed.
 function(pcl6d_add_benchmark name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK_PRIVATE" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_benchmark(${name})")
   add_executable(${name} ${ARG_SOURCES})
   _pcl6d_compile_rules(${name})
-  set_target_properties(${name} PROPERTIES
-    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test/bin)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
   target_link_libraries(${name} PRIVATE

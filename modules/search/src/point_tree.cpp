@@ -156,7 +156,8 @@ private:
   }
 
   /** Cells of the leaves [first, last) of a lowest node. The cut between two halves is
-   * no plane but all that lies between them, or is common to them. */
+   * no plane but all that lies between them, or is common to them as keys round; a part
+   * never leaves the whole. */
   void
   writeLeafCells(std::size_t bottom,
                  const Node& node,
@@ -178,7 +179,7 @@ private:
         *std::min_element(&node.min[axis][middle], &node.min[axis][last]);
     const float left_max =
         *std::max_element(&node.max[axis][first], &node.max[axis][middle]);
-    left.max[axis] = std::min(cell.max[axis], right_min); // infinite: no points there
+    left.max[axis] = std::min(cell.max[axis], right_min);
     right.min[axis] = std::max(cell.min[axis], left_max);
     writeLeafCells(bottom, node, left, axes, 2 * cut + 1, first, middle);
     writeLeafCells(bottom, node, right, axes, 2 * cut + 2, middle, last);

@@ -14,7 +14,7 @@ namespace {
 using Search = pcl::search::Search<Point>;
 using OurTree = pcl6d::KdTree<Point>;
 using PeerTree = pcl::search::KdTree<Point>;
-constexpr char kPeer[] = "pcl::search::KdTree";
+constexpr char kPeer[] = "flann"; // as a user of PCL meets it
 constexpr std::size_t kQueries = 30000;
 constexpr double kRadius = 0.1; // [m]
 // FLANN prunes by distances that it updates step by step, so that rounding may hide a
@@ -34,10 +34,11 @@ nearest(const Search& tree, const Point& point, Found& found)
   return tree.nearestKSearch(point, 1, found.indices, found.distances_sq);
 }
 
+template <int k>
 int
-tenNearest(const Search& tree, const Point& point, Found& found)
+nearestK(const Search& tree, const Point& point, Found& found)
 {
-  return tree.nearestKSearch(point, 10, found.indices, found.distances_sq);
+  return tree.nearestKSearch(point, k, found.indices, found.distances_sq);
 }
 
 int
@@ -48,8 +49,8 @@ withinRadius(const Search& tree, const Point& point, Found& found)
 
 /** The cloud, and the points of a second scan as an ICP would ask for them. */
 struct Data {
-  explicit Data(std::size_t count)
-  : cloud(roomCloud(count, Eigen::Isometry3d::Identity(), 1))
+  Data(std::size_t count, Order order)
+  : cloud(roomCloud(count, Eigen::Isometry3d::Identity(), 1, order))
   , queries(roomCloud(kQueries, poseFromEuler({0.3, 0.2, 0.05}, {0.02, 0.01, 0.1}), 2))
   {}
   Cloud::Ptr cloud;
@@ -98,9 +99,9 @@ checkSameAnswers(benchmark::State& state,
 }
 
 PeerJob
-buildJob(std::size_t count, unsigned int threads)
+buildJob(std::size_t count, Order order, unsigned int threads)
 {
-  const auto data = std::make_shared<Data>(count);
+  const auto data = std::make_shared<Data>(count, order);
   return {[=] { OurTree(threads).setInputCloud(data->cloud); },
           [=] { PeerTree().setInputCloud(data->cloud); },
           [=](benchmark::State& state) {
@@ -113,9 +114,9 @@ buildJob(std::size_t count, unsigned int threads)
 }
 
 PeerJob
-queryJob(std::size_t count, Query query)
+queryJob(std::size_t count, Order order, Query query)
 {
-  const auto data = std::make_shared<Data>(count);
+  const auto data = std::make_shared<Data>(count, order);
   const auto ours = std::make_shared<OurTree>();
   const auto theirs = std::make_shared<PeerTree>();
   ours->setInputCloud(data->cloud);
@@ -127,19 +128,41 @@ queryJob(std::size_t count, Query query)
           }};
 }
 
+/** \param[in] threads that ours may use for it */
 void
-addCases(std::size_t count)
+addCase(const std::string& name,
+        std::size_t count,
+        unsigned int threads,
+        std::function<PeerJob()> make)
 {
-  const std::string size = "/" + std::to_string(count);
+  addPeerCase({name + "/" + std::to_string(count),
+               kPeer,
+               threads,
+               repetitionsFor(count),
+               make});
+}
+
+void
+addCases(std::size_t count, Order order)
+{
   for (const unsigned int threads : {1u, 2u})
-    addPeerCase({"search_build" + size, kPeer, threads, 21, [=] {
-                   return buildJob(count, threads);
-                 }});
+    addCase("search_build_" + nameOf(order), count, threads, [=] {
+      return buildJob(count, order, threads);
+    });
+  addCase("search_nearest_" + nameOf(order), count, 1, [=] {
+    return queryJob(count, order, nearest);
+  });
+}
+
+/** Searches that depend little on the order. */
+void
+addMoreCases(std::size_t count)
+{
   const auto add = [&](const std::string& name, Query query) {
-    addPeerCase({name + size, kPeer, 1, 21, [=] { return queryJob(count, query); }});
+    addCase(name, count, 1, [=] { return queryJob(count, Order::kScanner, query); });
   };
-  add("search_nearest", nearest);
-  add("search_10_nearest", tenNearest);
+  add("search_10_nearest", nearestK<10>);
+  add("search_20_nearest", nearestK<20>);
   add("search_radius", withinRadius);
 }
 } // namespace
@@ -149,8 +172,14 @@ addCases(std::size_t count)
 int
 main(int argc, char** argv)
 {
-  pcl6d::benchmarks::addCases(30000);
-  pcl6d::benchmarks::addCases(300000);
-  pcl6d::benchmarks::addNanoflannCases(300000);
-  return pcl6d::benchmarks::runPeerCases(argc, argv);
+  using namespace pcl6d::benchmarks;
+  for (const std::size_t count : {100000, 300000, 1000000}) {
+    for (const Order order : {Order::kScanner, Order::kRandom}) {
+      addCases(count, order);
+      addNanoflannCases(count, order);
+    }
+    addMoreCases(count);
+    addMoreNanoflannCases(count);
+  }
+  return runPeerCases(argc, argv);
 }

@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -25,6 +26,14 @@ struct PeerCase {
   int repetitions = 21;          ///< timed calls of each; odd, for the median
   std::function<PeerJob()> make; ///< prepares data; not timed
 };
+
+/** \return how many repetitions make a good median in a fair time. \param[in] count of
+ * points */
+inline int
+repetitionsFor(std::size_t count)
+{
+  return count < 500000 ? 21 : 7;
+}
 
 /** \brief Puts a case on the list of runPeerCases(). */
 void

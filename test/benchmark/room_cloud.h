@@ -6,19 +6,34 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
+#include <string>
 
 namespace pcl6d::benchmarks {
 
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
 
-/** \return a scan of the pillar room from a pose, in its own frame and in the order of
- * the scanner, dense near the scanner and sparse far away. \param[in] count wanted
- * points; the scan has about as many */
+/** In which order the points of a scan come. */
+enum class Order { kScanner, kRandom };
+
+inline std::string
+nameOf(Order order)
+{
+  return order == Order::kScanner ? "scanner_order" : "random_order";
+}
+
+/** \return a scan of the pillar room from a pose, in its own frame, dense near the
+ * scanner and sparse far away. \param[in] count wanted points; the scan has about as
+ * many */
 inline Cloud::Ptr
-roomCloud(std::size_t count, const Eigen::Isometry3d& T_world_scan, std::uint64_t seed)
+roomCloud(std::size_t count,
+          const Eigen::Isometry3d& T_world_scan,
+          std::uint64_t seed,
+          Order order = Order::kScanner)
 {
   const double field = 2 * 0.87 * 2 * M_PI; // [rad^2] that PillarRoom::scan() covers
   Random random(seed);
@@ -26,6 +41,8 @@ roomCloud(std::size_t count, const Eigen::Isometry3d& T_world_scan, std::uint64_
   for (const auto& p : test::PillarRoom().scan(
            T_world_scan, random, std::sqrt(field / static_cast<double>(count))))
     cloud->push_back(Point(p.x(), p.y(), p.z()));
+  if (order == Order::kRandom)
+    std::shuffle(cloud->begin(), cloud->end(), std::mt19937_64(seed));
   return cloud;
 }
 

@@ -31,8 +31,9 @@ allWithin(const Points& points, const Eigen::Vector3f& q, float limit_sq)
   return found;
 }
 
-inline std::vector<Neighbour>
-firstOf(std::vector<Neighbour> found, std::size_t count)
+template <typename Vector>
+Vector
+firstOf(Vector found, std::size_t count)
 {
   found.resize(std::min(found.size(), count));
   return found;

@@ -97,12 +97,27 @@ TEST(CachedSearch, FindsTheSmallestIndexFromEveryLeaf)
   const Points points = gridWithDuplicates(random, 400);
   const PointTree tree(points, 1, PointTree::Cells::kKeep);
   for (const auto& q : gridWithDuplicates(random, 60))
-    for (int start = 0; start < 64; ++start)
+    for (int start = 0; start < 50; ++start)
       for (const float limit_sq : {1.0f, kInfinity}) {
         int leaf = start;
         EXPECT_EQ(tree.nearestFrom(leaf, q, limit_sq).index,
                   tree.nearest(q, limit_sq).index);
       }
+}
+
+/** Also from the last leaves, where a node is not full. */
+TEST(CachedSearch, FindsEachPointFromEveryLeafOfTreesOfAnySize)
+{
+  Random random(17);
+  for (std::size_t size = 9; size < 200; size += 5) {
+    const Points points = randomCube(random, size, 10);
+    const PointTree tree(points, 1, PointTree::Cells::kKeep);
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t start = 0; start < (size + 7) / 8; ++start) {
+        int leaf = static_cast<int>(start); // small limit: it is easy to stop too early
+        EXPECT_EQ(tree.nearestFrom(leaf, points[i], 0.01f).index, static_cast<int>(i));
+      }
+  }
 }
 
 TEST(CachedSearch, KeepsTheLeafWhenNothingIsFound)

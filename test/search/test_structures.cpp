@@ -112,6 +112,28 @@ TEST_P(Structures, AgreeOnEveryFewPoints)
     expectAgreesWithOracle(randomCube(random, count, 4), randomCube(random, 10, 6));
 }
 
+/** Sides of boxes from nothing at all to beyond float. */
+TEST_P(Structures, AgreeOnCoordinatesOfAllSizes)
+{
+  Random random(15);
+  for (const float size : {1e-42f, 1e-30f, 1e-20f, 1e12f, 1e18f, 3e38f}) {
+    Points points = randomCube(random, 300, 2);
+    for (auto& p : points)
+      p *= size;
+    const Points queries = firstOf(points, 10);
+    points.resize(310, {1, 2, 3});
+    expectAgreesWithOracle(points, queries);
+  }
+}
+
+/** Sizes about those at which the shape of a tree changes. */
+TEST_P(Structures, AgreeOnSizesAboutPowersOfTwo)
+{
+  Random random(16);
+  for (const std::size_t size : {127u, 192u, 193u, 511u, 512u, 576u, 1025u, 4097u})
+    expectAgreesWithOracle(randomCube(random, size, 10), randomCube(random, 5, 12));
+}
+
 TEST_P(Structures, AgreeOnTheSmallestIndexAmongManyTies)
 {
   Random random(2);

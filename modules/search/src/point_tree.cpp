@@ -1,80 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "point_tree_bottom.h"
 #include "select.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/search/point_tree.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pcl6d {
 
 namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-using Vector4 = float __attribute__((vector_size(16)));
+constexpr std::size_t kBottomSize =
+    8 * PointTree::kLeafSize;            ///< points of a lowest node
+constexpr std::size_t kShareFrom = 4096; ///< points that are worth a second thread
 
-/** Tight box of some items; the fourth lane holds nothing. */
-struct Box {
-  Vector4 min{kInfinity, kInfinity, kInfinity, kInfinity};
-  Vector4 max{-kInfinity, -kInfinity, -kInfinity, -kInfinity};
-
-  void
-  extend(const Item& item)
-  {
-    const Vector4 p{item.xyz[0], item.xyz[1], item.xyz[2], 0};
-    min = p < min ? p : min;
-    max = p > max ? p : max;
-  }
-  void
-  extend(const Box& box)
-  {
-    min = box.min < min ? box.min : min;
-    max = box.max > max ? box.max : max;
-  }
-  int
-  longestAxis() const
-  {
-    const Vector4 size = max - min;
-    const int axis = size[1] > size[0] ? 1 : 0;
-    return size[2] > size[axis] ? 2 : axis;
-  }
-};
-
-Box
-boxOf(const Item* first, const Item* last)
+PointTree::Node
+emptyNode()
 {
-  Box even, odd; // two chains, as each waits for its own last result
-  for (; last - first >= 2; first += 2) {
-    even.extend(first[0]);
-    odd.extend(first[1]);
-  }
-  if (first != last)
-    even.extend(*first);
-  even.extend(odd);
-  return even;
+  PointTree::Node empty;
+  std::fill_n(&empty.min[0][0], 3 * PointTree::kLeafSize, kInfinity);
+  std::fill_n(&empty.max[0][0], 3 * PointTree::kLeafSize, -kInfinity);
+  return empty;
 }
 } // namespace
 
-/** Cuts the points level by level; works on binary levels, whereof each third one is a
- * level of nodes, counted from the leaves. */
+/** Cuts the points in two until one lowest node is left; works on binary levels, whereof
+ * each third one is a level of nodes, counted from the lowest. */
 class PointTree::Builder {
 public:
-  Builder(PointTree& tree, std::vector<Item>& items) : tree_(tree), items_(items)
+  /** Makes room for the nodes. The points go to and fro between the items and the memory
+   * of the leaves, which is as large. */
+  Builder(PointTree& tree, std::vector<Item>& items)
+  : tree_(tree), items_(items.data()), size_(items.size())
   {
-    while ((kLeafSize << depth_) < items.size())
-      ++depth_;
-    const int levels = (depth_ + 2) / 3;
+    tree.num_bottoms_ = (size_ + kBottomSize - 1) / kBottomSize;
+    while ((std::size_t{1} << tree.depth_) < tree.num_bottoms_)
+      ++tree.depth_;
+    tree.leaf_level_ = (tree.depth_ + 2) / 3 + 1;
     std::size_t count = 0;
-    for (int level = 0; level < levels; ++level) {
+    for (int level = 0; level + 1 < tree.leaf_level_; ++level) {
       tree.offset_[level] = count;
-      count += std::size_t{1} << binaryLevel(level, levels);
+      count += std::size_t{1} << binaryLevel(level);
     }
-    tree.offset_[levels] = count;
-    tree.leaf_level_ = levels;
-    Node empty;
-    std::fill_n(&empty.min[0][0], 3 * kLeafSize, kInfinity);
-    std::fill_n(&empty.max[0][0], 3 * kLeafSize, -kInfinity);
-    tree.nodes_.resize(count, empty);
-    tree.leaves_.resize(std::size_t{1} << depth_);
+    tree.offset_[tree.leaf_level_ - 1] = count;
+    count += tree.num_bottoms_;
+    tree.offset_[tree.leaf_level_] = count;
+    tree.nodes_.resize(count, emptyNode());
+    tree.leaves_.resize((size_ + kLeafSize - 1) / kLeafSize);
   }
 
   void
@@ -84,96 +59,185 @@ public:
   }
 
   void
-  build(std::size_t place, int level, const Cell& cell, unsigned int num_threads)
+  build(unsigned int num_threads)
   {
-    Item* first = items_.data() + begin(place, level);
-    Item* last = items_.data() + begin(place + 1, level);
-    const Box box = boxOf(first, last);
-    if ((depth_ - level) % 3 == 0 || level == 0)
-      writeNode(place, level, box, cell);
-    if (level == depth_)
-      return writeLeaf(place, first, last);
-    const int axis = box.longestAxis();
-    Item* middle = items_.data() + begin(2 * place + 1, level + 1);
-    selectNth(first, middle, last, axis);
-    const float cut = middle->xyz[axis];
-    const unsigned int threads_below = (num_threads + 1) / 2;
-    const auto buildChild = [&](std::size_t child) {
-      Cell part = cell;
-      (child == 0 ? part.max : part.min)[axis] = cut;
-      build(2 * place + child, level + 1, part, threads_below);
-    };
-    if (num_threads >= 2 && last - first > 4096)
-      return parallelFor(2, 2, buildChild);
-    buildChild(0);
-    buildChild(1);
+    static_assert(sizeof(Leaf) == kLeafSize * sizeof(Item));
+    Part all;
+    all.from = items_;
+    all.to = reinterpret_cast<Item*>(tree_.leaves_.data());
+    all.num_threads = num_threads;
+    build(all);
   }
 
 private:
-  int
-  binaryLevel(int level, int levels) const
+  /** The points of a place on a binary level. */
+  struct Part {
+    std::size_t place = 0;
+    int level = 0;
+    Item* from = nullptr; ///< where they are, counted from the first of all points
+    Item* to = nullptr;   ///< the other array
+    Cell cell{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+    unsigned int num_threads = 1;
+  };
+
+  /** \return their box, which is also written into the node above */
+  ItemBox
+  build(const Part& part)
   {
-    return level == 0 ? 0 : depth_ - 3 * (levels - level);
+    ItemBox box;
+    if (part.level == tree_.depth_) {
+      if (begin(part.place, part.level) < begin(part.place + 1, part.level))
+        box = buildBottom(part);
+    }
+    else
+      box = buildBoth(part);
+    if ((tree_.depth_ - part.level) % 3 == 0 || part.level == 0)
+      writeNode(part, box);
+    return box;
   }
 
-  /** Nodes of one level share the points evenly, in order. */
+  ItemBox
+  buildBoth(const Part& part)
+  {
+    const std::size_t first = begin(part.place, part.level);
+    const std::size_t middle = begin(2 * part.place + 1, part.level + 1);
+    const std::size_t last = begin(part.place + 1, part.level);
+    Part half[2] = {part, part};
+    for (std::size_t i = 0; i < 2; ++i) {
+      half[i].place = 2 * part.place + i;
+      half[i].level = part.level + 1;
+      half[i].num_threads = (part.num_threads + 1) / 2;
+    }
+    if (first < middle && middle < last)
+      cut(part, first, middle, last, half);
+    ItemBox box[2];
+    const auto buildHalf = [&](std::size_t i) { box[i] = build(half[i]); };
+    if (part.num_threads >= 2 && last - first > kShareFrom)
+      parallelFor(2, 2, buildHalf);
+    else {
+      buildHalf(0);
+      buildHalf(1);
+    }
+    box[0].extend(box[1]);
+    return box[0];
+  }
+
+  static void
+  cut(const Part& part,
+      std::size_t first,
+      std::size_t middle,
+      std::size_t last,
+      Part (&half)[2])
+  {
+    const int axis =
+        splitInto(part.to + first, part.from + first, last - first, middle - first);
+    const float at = part.to[middle].xyz[axis];
+    half[0].cell.max[axis] = half[1].cell.min[axis] = at;
+    for (Part& one : half)
+      std::swap(one.from, one.to);
+  }
+
+  ItemBox
+  buildBottom(const Part& part)
+  {
+    const std::size_t first = begin(part.place, part.level);
+    const std::size_t last = begin(part.place + 1, part.level);
+    const std::size_t bottom = first / kBottomSize;
+    Node& node = tree_.nodes_[tree_.offset_[tree_.leaf_level_ - 1] + bottom];
+    BottomAxes axes;
+    const ItemBox box = makeBottom(part.from + first,
+                                   static_cast<int>(last - first),
+                                   &tree_.leaves_[bottom * 8],
+                                   node,
+                                   axes);
+    if (!tree_.cells_.empty())
+      writeLeafCells(bottom, node, part.cell, axes, 0, 0, 8);
+    return box;
+  }
+
+  /** Cells of the leaves [first, last) of a lowest node. The cut between two halves is
+   * no plane but all that lies between them, or is common to them as keys round; a part
+   * never leaves the whole. */
+  void
+  writeLeafCells(std::size_t bottom,
+                 const Node& node,
+                 const Cell& cell,
+                 const BottomAxes& axes,
+                 int cut,
+                 int first,
+                 int last)
+  {
+    if (last - first == 1) {
+      const std::size_t leaf = 8 * bottom + first;
+      if (leaf < tree_.leaves_.size())
+        tree_.cells_[tree_.nodes_.size() + leaf] = cell;
+      return;
+    }
+    const int axis = axes[cut], middle = (first + last) / 2;
+    Cell left = cell, right = cell;
+    const float right_min =
+        *std::min_element(&node.min[axis][middle], &node.min[axis][last]);
+    const float left_max =
+        *std::max_element(&node.max[axis][first], &node.max[axis][middle]);
+    left.max[axis] = std::min(cell.max[axis], right_min);
+    right.min[axis] = std::max(cell.min[axis], left_max);
+    writeLeafCells(bottom, node, left, axes, 2 * cut + 1, first, middle);
+    writeLeafCells(bottom, node, right, axes, 2 * cut + 2, middle, last);
+  }
+
+  int
+  binaryLevel(int level) const
+  {
+    return level == 0 ? 0 : tree_.depth_ - 3 * (tree_.leaf_level_ - 1 - level);
+  }
+
+  /** The lowest nodes are shared evenly among the places of a level, in order. */
   std::size_t
   begin(std::size_t place, int level) const
   {
-    return (place * items_.size()) >> level;
+    return std::min(((place * tree_.num_bottoms_) >> level) * kBottomSize, size_);
   }
 
   void
-  writeNode(std::size_t place, int binary_level, const Box& box, const Cell& cell)
+  writeNode(const Part& part, const ItemBox& box)
   {
     const int level =
-        binary_level == 0 ? 0 : tree_.leaf_level_ - (depth_ - binary_level) / 3;
-    if (!tree_.cells_.empty())
-      tree_.cells_[tree_.offset_[level] + place] = cell;
+        part.level == 0 ? 0 : tree_.leaf_level_ - 1 - (tree_.depth_ - part.level) / 3;
+    if (!tree_.cells_.empty() && box.min[0] < kInfinity) {
+      const bool lowest = level + 1 == tree_.leaf_level_;
+      const std::size_t place =
+          lowest ? begin(part.place, part.level) / kBottomSize : part.place;
+      tree_.cells_[tree_.offset_[level] + place] = part.cell;
+    }
     if (level == 0)
       return;
-    Node& parent = tree_.nodes_[tree_.offset_[level - 1] + place / 8];
+    Node& parent = tree_.nodes_[tree_.offset_[level - 1] + part.place / 8];
     for (int axis = 0; axis < 3; ++axis) {
-      parent.min[axis][place % 8] = box.min[axis];
-      parent.max[axis][place % 8] = box.max[axis];
-    }
-  }
-
-  void
-  writeLeaf(std::size_t place, const Item* first, const Item* last)
-  {
-    Leaf& leaf = tree_.leaves_[place];
-    std::fill_n(&leaf.xyz[0][0], 3 * kLeafSize, kInfinity);
-    std::fill_n(leaf.index, kLeafSize, std::numeric_limits<int>::max());
-    for (int i = 0; first != last; ++first, ++i) {
-      for (int axis = 0; axis < 3; ++axis)
-        leaf.xyz[axis][i] = first->xyz[axis];
-      leaf.index[i] = first->index;
+      parent.min[axis][part.place % 8] = box.min[axis];
+      parent.max[axis][part.place % 8] = box.max[axis];
     }
   }
 
   PointTree& tree_;
-  std::vector<Item>& items_;
-  int depth_ = 0; ///< binary level of the leaves
+  Item* items_;
+  std::size_t size_;
 };
 
 PointTree::PointTree(const Points& points, unsigned int num_threads, Cells cells)
 {
-  std::vector<Item> items;
-  items.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i].allFinite())
-      items.push_back(
-          {{points[i].x(), points[i].y(), points[i].z()}, static_cast<int>(i)});
-  size_ = items.size();
+  std::vector<Item> items(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& p = points[i];
+    items[size_] = {{p.x(), p.y(), p.z()}, static_cast<int>(i)};
+    size_ += std::isfinite(p.x()) & std::isfinite(p.y()) & std::isfinite(p.z());
+  }
+  items.resize(size_);
   if (items.empty())
     return;
   Builder builder(*this, items);
   if (cells == Cells::kKeep)
     builder.keepCells();
-  const Cell space{{-kInfinity, -kInfinity, -kInfinity},
-                   {kInfinity, kInfinity, kInfinity}};
-  builder.build(0, 0, space, threadCount(num_threads));
+  builder.build(threadCount(num_threads));
 }
 
 } // namespace pcl6d

@@ -68,11 +68,11 @@ visitFrom(const PointTree::View& tree, int leaf, const float* q, TreeNearest& vi
                                   visitor.best.distance_sq,
                                   tree.cells[tree.offset[level] + place])) {
     --level;
-    stack[0].place = place / 8;
+    const std::size_t child = tree.placeOf(place, level + 1);
+    stack[0].place = place = child / 8;
     stack[0].level = level;
     openNode(tree, q, stack[0]);
-    reinterpret_cast<float*>(&stack[0].keys)[place % 8] = kUsed; // seen already
-    place /= 8;
+    reinterpret_cast<float*>(&stack[0].keys)[child % 8] = kUsed; // seen already
     descend(tree, q, stack, 1, visitor);
   }
 }
@@ -81,7 +81,13 @@ visitFrom(const PointTree::View& tree, int leaf, const float* q, TreeNearest& vi
 PointTree::View
 PointTree::view() const
 {
-  return {nodes_.data(), leaves_.data(), cells_.data(), offset_.data(), leaf_level_};
+  return {nodes_.data(),
+          leaves_.data(),
+          cells_.data(),
+          offset_.data(),
+          leaf_level_,
+          num_bottoms_,
+          depth_};
 }
 
 bool

@@ -91,11 +91,14 @@ struct TreeNearestK {
   PCL6D_INLINE void
   meet(const PointTree::Leaf& leaf, std::size_t, const Vector8& distances)
   {
-    if (!(smallest(distances) <= worst()))
-      return;
-    for (int i = 0; i < 8; ++i)
-      if (distances[i] <= worst() && distances[i] < kInfinity)
-        add({leaf.index[i], distances[i]});
+    const Bits8 passes = distances <= std::min(worst(), kUsed); // none is infinite
+    int lanes[8], num_lanes = 0; // without branches; add() looks again
+    for (int i = 0; i < 8; ++i) {
+      lanes[num_lanes] = i;
+      num_lanes -= passes[i];
+    }
+    for (int i = 0; i < num_lanes; ++i)
+      add({leaf.index[lanes[i]], distances[lanes[i]]});
   }
 
   void
@@ -114,9 +117,7 @@ private:
     std::size_t place = count;
     if (count < k)
       ++count;
-    else if (candidate < out[--place])
-      ;
-    else
+    else if (!(candidate < out[--place]))
       return;
     for (; place > 0 && candidate < out[place - 1]; --place)
       out[place] = out[place - 1];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "simd.h"
 #include "visitors.h"
 
 #include <pcl6d/common/error.h>
@@ -18,25 +19,10 @@
  * is the squared distance beyond which it needs nothing, and meet(leaf, place, distances)
  * is handed each leaf, with the squared distances of its points, that is not beyond. */
 
-// One source, two machine codes with the same bits: the project forbids fused
-// multiply-add, and everything else is done lane by lane.
-#ifndef PCL6D_SIMD_CLONES
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PCL6D_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define PCL6D_SIMD_CLONES
-#endif
-#endif
-#define PCL6D_INLINE __attribute__((always_inline)) inline
-
 namespace pcl6d {
 
 namespace tree_search {
-using Vector4 = float __attribute__((vector_size(16)));
-using Vector8 = float __attribute__((vector_size(32)));
-using Bits8 = std::int32_t __attribute__((vector_size(32)));
-
-/** A node on the way down: its level and place, and for each child the squared distance
+/** A node on the way down: its level and its place in the arrays, and for each child the squared distance
  * of its box with the number of the child in the last three bits. */
 struct Pending {
   Vector8 keys;
@@ -47,22 +33,6 @@ struct Pending {
 constexpr float kUsed = std::numeric_limits<float>::max(); ///< key of no child
 constexpr float kLargest = 3.4028e38f;                     ///< below each such key
 constexpr int kMaxLevels = 24;
-
-PCL6D_INLINE float
-smallest(const Vector8& v)
-{
-  const Vector4 a{v[0], v[1], v[2], v[3]}, b{v[4], v[5], v[6], v[7]};
-  const Vector4 four = a < b ? a : b;
-  const Vector4 crossed{four[2], four[3], four[0], four[1]};
-  const Vector4 two = four < crossed ? four : crossed;
-  return two[0] < two[1] ? two[0] : two[1];
-}
-
-PCL6D_INLINE void
-load(Vector8& v, const float* from)
-{
-  std::memcpy(&v, from, sizeof(v));
-}
 
 /** \return the smallest index among those at a distance */
 PCL6D_INLINE int
@@ -144,8 +114,8 @@ descend(const PointTree::View& tree,
     if (node.level + 1 == tree.leaf_level)
       scanLeaf(tree, place, q, visitor);
     else {
-      stack[top].place = place;
       stack[top].level = node.level + 1;
+      stack[top].place = tree.nodeAt(place, node.level + 1);
       openNode(tree, q, stack[top++]);
     }
   }
@@ -155,8 +125,6 @@ template <typename Visitor>
 PCL6D_INLINE void
 visit(const PointTree::View& tree, const float* q, Visitor& visitor)
 {
-  if (tree.leaf_level == 0)
-    return scanLeaf(tree, 0, q, visitor);
   Pending stack[kMaxLevels]; // one for each level
   stack[0].place = 0;
   stack[0].level = 0;

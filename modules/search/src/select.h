@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "items.h"
+
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 /** \file
  * Selection without unpredictable branches: what building a k-d tree spends its time on.
  * Own code, so that the order of the points does not depend on the C++ library. */
 namespace pcl6d {
-
-/** A point on its way into a tree; one vector register. */
-struct alignas(16) Item {
-  float xyz[3];
-  int index;
-};
 
 /** Moves the items for which goes_left holds to the front. \return their end */
 template <typename Predicate>
@@ -37,36 +33,20 @@ medianOf(float a, float b, float c)
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-/** \return a coordinate near that of the item that belongs at nth, a little on the side
- * of the middle, so that nth falls into the smaller part (Floyd and Rivest 1975); among
- * few items a median of three or nine */
+/** \return a median of three coordinates, or of nine among many */
 inline float
-pivotFor(const Item* first, const Item* nth, const Item* last, int axis)
+pivotFor(const Item* first, const Item* last, int axis)
 {
-  constexpr std::size_t kMaxSample = 1024;
   const std::size_t size = last - first;
-  const auto sampled = [=](std::size_t i, std::size_t count) {
-    return first[(2 * i + 1) * size / (2 * count)].xyz[axis];
+  const auto sampled = [=](std::size_t i) {
+    return first[(2 * i + 1) * size / 18].xyz[axis];
   };
   if (size < 64)
     return medianOf(first->xyz[axis], first[size / 2].xyz[axis], last[-1].xyz[axis]);
-  if (size < 512) {
-    float medians[3];
-    for (int i = 0; i < 3; ++i)
-      medians[i] = medianOf(sampled(i, 9), sampled(i + 3, 9), sampled(i + 6, 9));
-    return medianOf(medians[0], medians[1], medians[2]);
-  }
-  float sample[kMaxSample];
-  const std::size_t count = std::min(kMaxSample, size / 32);
-  for (std::size_t i = 0; i < count; ++i)
-    sample[i] = sampled(i, count);
-  const double rank = static_cast<double>(nth - first) / size * count;
-  const double shift = std::sqrt(static_cast<double>(count));
-  const double wanted = 2 * (nth - first) <= last - first ? rank + shift : rank - shift;
-  const auto place =
-      static_cast<std::size_t>(std::clamp(wanted, 0.0, static_cast<double>(count - 1)));
-  std::nth_element(sample, sample + place, sample + count);
-  return sample[place];
+  float medians[3];
+  for (int i = 0; i < 3; ++i)
+    medians[i] = medianOf(sampled(i), sampled(i + 3), sampled(i + 6));
+  return medianOf(medians[0], medians[1], medians[2]);
 }
 
 /** Orders the items so that none before nth has a larger coordinate than nth, and none
@@ -75,7 +55,7 @@ inline void
 selectNth(Item* first, Item* nth, Item* last, int axis)
 {
   while (last - first > 1) {
-    const float pivot = pivotFor(first, nth, last, axis);
+    const float pivot = pivotFor(first, last, axis);
     Item* middle = partitionItems(
         first, last, [=](const Item& item) { return item.xyz[axis] < pivot; });
     if (nth < middle)
@@ -89,6 +69,48 @@ selectNth(Item* first, Item* nth, Item* last, int axis)
         return;
     }
   }
+}
+
+/** What a sample tells about many items. */
+struct Cut {
+  int axis;   ///< of the longest side of their box
+  float low;  ///< the coordinate wanted most likely lies from low
+  float high; ///< to high
+};
+
+/** \param[in] share of the items that are to lie before the cut */
+Cut
+cutBySample(const Item* items, std::size_t size, float share);
+
+/** As selectNth(), from one array into another, across the longest side of the items'
+ * box as a sample shows it; the first array is left without sense. Most items are looked
+ * at once: only those in a narrow band about the cut need selecting (R. W. Floyd,
+ * R. L. Rivest, "Expected time bounds for selection", CACM 18(3), 1975).
+ * \return the axis */
+inline int
+splitInto(Item* to, Item* from, std::size_t size, std::size_t nth)
+{
+  const Cut cut =
+      cutBySample(from, size, static_cast<float>(nth) / static_cast<float>(size));
+  Item *left = to, *right = to + size;
+  for (Item* next = from; next != from + size; ++next) {
+    const float x = next->xyz[cut.axis];
+    Vector4 item; // moved as one
+    load(item, next);
+    store(left, item);
+    store(right - 1, item);
+    store(next - size + (right - left), item); // the band closes up where it is
+    left += x < cut.low;
+    right -= x > cut.high;
+  }
+  std::copy(from, from + (right - left), left);
+  if (to + nth < left)
+    selectNth(to, to + nth, left, cut.axis);
+  else if (to + nth < right)
+    selectNth(left, to + nth, right, cut.axis);
+  else
+    selectNth(right, to + nth, to + size, cut.axis);
+  return cut.axis;
 }
 
 } // namespace pcl6d

@@ -12,11 +12,13 @@ namespace pcl6d {
 
 /** \brief The optimised k-d tree of the book (4.1.4), free of point types.
  *
- * Cuts at the median, perpendicular to the longest side of the points' box, until a
- * leaf holds at most kLeafSize points. All leaves have the same depth. Three levels of
- * cuts make one node of eight children, whose tight boxes stand side by side, as do the
- * coordinates of a leaf: both are tested at once, with AVX2 where the CPU has it. Nodes
- * need no pointers: child i of the node at place p of its level has the place 8p + i.
+ * Cuts at the median, perpendicular to the longest side of the points' box as a sample
+ * shows it, until 64 points are left, which make eight leaves. The cuts are moved by a few
+ * points so that all leaves but the last are full. Three levels of cuts make one node of
+ * eight children, whose tight boxes stand side by side, as do the coordinates of a leaf:
+ * both are tested at once, with AVX2 where the CPU has it. Nodes need no pointers: child i
+ * of the node at place p of its level has the place 8p + i; the lowest nodes, which may be
+ * fewer than their places, are counted through.
  *
  * Exact: distances are those of float arithmetic, and of several nearest points the one
  * with the smallest index is returned, whatever the shape of the tree and the CPU.
@@ -142,6 +144,21 @@ public:
     const Cell* cells;         ///< of the nodes, then of the leaves
     const std::size_t* offset; ///< of each level in nodes and cells
     int leaf_level;
+    std::size_t num_bottoms; ///< of the lowest nodes
+    int depth;               ///< they are shared by 2^depth places
+
+    /** \return which node of its level has a place */
+    std::size_t
+    nodeAt(std::size_t place, int level) const
+    {
+      return level + 1 == leaf_level ? (place * num_bottoms) >> depth : place;
+    }
+    /** \return the place of a node or leaf of a level: the inverse */
+    std::size_t
+    placeOf(std::size_t node, int level) const
+    {
+      return level + 1 == leaf_level ? (((node + 1) << depth) - 1) / num_bottoms : node;
+    }
   };
 
 private:
@@ -159,6 +176,8 @@ private:
 
   std::size_t size_ = 0;
   int leaf_level_ = 0;                   ///< in levels of nodes; the root is level 0
+  std::size_t num_bottoms_ = 0;          ///< nodes of the level above the leaves
+  int depth_ = 0;                        ///< of these in binary cuts
   std::array<std::size_t, 24> offset_{}; ///< the first node of each level
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;

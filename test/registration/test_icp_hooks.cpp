@@ -88,11 +88,12 @@ TEST_F(IcpHooksTest, FindNeedsNoTree)
   };
   IcpTargetPart part = model_.part();
   part.tree = nullptr;
+  part.normals = nullptr;
   part.search = nullptr;
   const IcpResult result = icp({part}, data_.source(), kIdentity, options_, hooks_);
   EXPECT_EQ(result.status, Status::kOk);
   EXPECT_LT(distanceBetween(kTruth, result.T_target_source).translation, 2e-6);
-  EXPECT_FALSE(result.localizability) << "none if the target has no tree";
+  EXPECT_FALSE(result.localizability) << "none without a tree or normals";
 }
 
 TEST_F(IcpHooksTest, RejectDropsHalfOfThePairs)

@@ -122,7 +122,7 @@ expectNear(const PlaneSums& found, const PlaneSums& expected, double scale = 1)
   EXPECT_LT((found.A - expected.A).norm(), kSumTol * scale);
   EXPECT_LT((found.b - expected.b).norm(), kSumTol * scale);
   EXPECT_NEAR(found.residual_sq, expected.residual_sq, kSumTol * scale);
-  EXPECT_NEAR(found.source_sq, expected.source_sq, kSumTol * scale);
+  EXPECT_LT((found.scatter - expected.scatter).norm(), kSumTol * scale);
 }
 } // namespace
 
@@ -145,7 +145,7 @@ TEST(PlaneSums, EqualTheirDefinitions)
     expected.A += a * a.transpose();
     expected.b += a * r;
     expected.residual_sq += r * r;
-    expected.source_sq += d.squaredNorm();
+    expected.scatter += d * d.transpose();
   }
   expectNear(sums, expected);
 }

@@ -90,7 +90,7 @@ expectNear(const PlaneSums& a, const PlaneSums& b, double tolerance = 1e-9)
   EXPECT_LT((a.b - b.b).norm(), tolerance);
   EXPECT_NEAR(a.residual_sq, b.residual_sq, tolerance);
   EXPECT_NEAR(a.distance_sq, b.distance_sq, tolerance);
-  EXPECT_NEAR(a.source_sq, b.source_sq, tolerance * (1 + b.source_sq));
+  EXPECT_LT((a.scatter - b.scatter).norm(), tolerance * (1 + b.sourceSq()));
 }
 } // namespace
 
@@ -195,7 +195,7 @@ TEST(PlaneSumsWithNorms, EqualTheirDefinitions)
   EXPECT_NEAR(sums.weight, weight, 1e-10);
   EXPECT_LT((sums.mean_source - mean).norm(), 1e-11);
   EXPECT_NEAR(sums.distance_sq, distance_sq, 1e-10);
-  EXPECT_NEAR(sums.source_sq, source_sq, 1e-8);
+  EXPECT_NEAR(sums.sourceSq(), source_sq, 1e-8);
 }
 
 TEST(PlaneSumsWithNorms, MergeToTheSumsOfTheWholeForEverySplit)

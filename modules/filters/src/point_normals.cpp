@@ -33,6 +33,15 @@ scatterOf(const Patch& patch,
   }
   return squares - sum * sum.transpose() / static_cast<double>(size);
 }
+
+void
+requireNeighbours(std::size_t neighbours)
+{
+  require(neighbours >= 3 && neighbours <= kMostNeighbours,
+          "neighbours",
+          neighbours,
+          "in [3, 64]");
+}
 } // namespace
 
 Eigen::Vector3f
@@ -41,6 +50,7 @@ normalAt(const Eigen::Vector3f& place,
          const Points& points,
          std::size_t neighbours)
 {
+  requireNeighbours(neighbours);
   Patch patch;
   const std::size_t size = tree.nearestK(place, neighbours, patch.data());
   if (size < 3)
@@ -54,19 +64,17 @@ normalAt(const Eigen::Vector3f& place,
 }
 
 Normals
-estimateNormals(const Points& points,
+estimateNormals(const Points& places,
+                const Points& points,
                 const PointTree& tree,
                 std::size_t neighbours,
                 unsigned int num_threads)
 {
-  require(neighbours >= 3 && neighbours <= kMostNeighbours,
-          "neighbours",
-          neighbours,
-          "in [3, 64]");
-  Normals normals(points.size());
-  parallelBlocks(points.size(), kBlockSize, num_threads, [&](const Block& block) {
+  requireNeighbours(neighbours);
+  Normals normals(places.size());
+  parallelBlocks(places.size(), kBlockSize, num_threads, [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i)
-      normals[i] = normalAt(points[i], tree, points, neighbours);
+      normals[i] = normalAt(places[i], tree, points, neighbours);
   });
   return normals;
 }

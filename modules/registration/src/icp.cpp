@@ -108,17 +108,20 @@ private:
       finder_.update(T, limit, next_motion_);
     if (hooks_.reject)
       finder_.setPairs(hooks_.reject(T, finder_.pairs()));
+    pairs_found_ = finder_.count();
     problem_.weigh(T, finder_.partners());
   }
 
   /** Whether the error is more than three times its best at this limit, with no more pairs
-   * to show for it. */
+   * to show for it, and more than rounding. */
   bool
   hasGrown(const MetricStep& step, double limit)
   {
     if (limit > o_.max_distance)
       return false;
-    if (step.residual > 3 * least_residual_ && step.pairs <= pairs_at_least_)
+    const double rounding = 0.01 * std::min(o_.max_distance, extent_);
+    if (step.residual > 3 * least_residual_ && step.residual > rounding &&
+        step.pairs <= pairs_at_least_)
       return true;
     if (step.residual < least_residual_) {
       least_residual_ = step.residual;
@@ -183,9 +186,16 @@ private:
   {
     next_motion_ = 0;
     findPairs(o_.max_distance);
+    const std::size_t finite = countFinite(source_);
+    result_.overlap = finite > 0 ? static_cast<double>(pairs_found_) / finite : 0;
     problem_.rate(finder_.partners(), result_);
     result_.localizability =
         localizabilityOf(target_, source_, result_.T_target_source, finder_.partners());
+    if (result_.status == Status::kOk && result_.localizability &&
+        result_.localizability->openDirections() > 0)
+      result_.status = Status::kRankDeficient;
+    if (result_.status == Status::kRankDeficient)
+      result_.covariance.reset();
   }
 
   const IcpTarget& target_;
@@ -198,6 +208,7 @@ private:
   IcpResult result_;
   bool is_unique_ = true; ///< of the last step: the pairs fixed it
   double next_motion_ = 0;
+  std::size_t pairs_found_ = 0; ///< before trimming
   double least_residual_ = std::numeric_limits<double>::infinity();
   std::size_t pairs_at_least_ = 0;
 };
@@ -226,7 +237,7 @@ requireUsable(const IcpTarget& target,
             "target part",
             "null",
             "points with a tree or a search");
-    if (options.metric != Metric::kPoint)
+    if (part.normals || options.metric != Metric::kPoint)
       requireNormals(part.normals, *part.points, "target normals");
   }
   require(target.size() == 1 || !(hooks.find || hooks.reject || hooks.minimise),
@@ -262,10 +273,7 @@ icp(const IcpTarget& target,
     const IcpHooks& hooks)
 {
   requireUsable(target, source, options, hooks);
-  IcpResult result = IcpRun(target, source, options, hooks).run(guess);
-  const std::size_t finite = countFinite(*source.points);
-  result.overlap = finite > 0 ? static_cast<double>(result.pairs) / finite : 0;
-  return result;
+  return IcpRun(target, source, options, hooks).run(guess);
 }
 
 IcpResult

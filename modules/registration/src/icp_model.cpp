@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "name_table.h"
 
+#include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/registration/icp_model.h>
 #include <pcl6d/search/point_list.h>
 #include <pcl6d/search/point_octree.h>
@@ -49,20 +50,36 @@ toString(SearchMethod method)
   return nameOf(kMethods, method);
 }
 
-IcpModel::IcpModel(Points points, const Options& options) : points_(std::move(points))
+IcpModel::IcpModel(Points points, const Options& options)
+: points_(std::move(points)), has_normals_(options.normals)
 {
   build(options);
   if (options.normals)
-    normals_ =
-        estimateNormals(points_, *tree_, options.neighbours, options.num_threads);
+    normals_ = makeNormals(options);
 }
 
 IcpModel::IcpModel(Points points, Normals normals, const Options& options)
-: points_(std::move(points)), normals_(std::move(normals))
+: points_(std::move(points)), normals_(std::move(normals)), has_normals_(true)
 {
   require(
       normals_.size() == points_.size(), "normals", normals_.size(), "one per point");
   build(options);
+}
+
+Normals
+IcpModel::makeNormals(const Options& options) const
+{
+  if (options.normal_voxel == 0)
+    return estimateNormals(
+        points_, points_, *tree_, options.neighbours, options.num_threads);
+  ReductionOptions reduction;
+  reduction.voxel = options.normal_voxel;
+  const Points patches = reducePoints(points_, reduction);
+  return estimateNormals(points_,
+                         patches,
+                         PointTree(patches, options.num_threads),
+                         options.neighbours,
+                         options.num_threads);
 }
 
 void
@@ -94,7 +111,7 @@ IcpModel::build(const Options& options)
 IcpSource
 IcpModel::source() const
 {
-  return {&points_, normals_.empty() ? nullptr : &normals_};
+  return {&points_, has_normals_ ? &normals_ : nullptr};
 }
 
 IcpTargetPart
@@ -102,7 +119,7 @@ IcpModel::part(const Eigen::Isometry3d& T_target_part) const
 {
   return {tree_.get(),
           &points_,
-          normals_.empty() ? nullptr : &normals_,
+          has_normals_ ? &normals_ : nullptr,
           T_target_part,
           search_};
 }

@@ -13,22 +13,39 @@ Localizability::openDirections(double threshold) const
   return static_cast<int>((eigenvalues.array() < threshold).count());
 }
 
+namespace {
+/** \return B^-1/2: from coordinates in which a motion has its mean square length, to
+ * twists. Turns that move no point (about a line of points) count as if the line had a
+ * thickness of a thousandth of its length. */
+PlaneSums::Matrix
+unitMotions(const PlaneSums& sums)
+{
+  const Eigen::Matrix3d turning =
+      (sums.sourceSq() * Eigen::Matrix3d::Identity() - sums.scatter) / sums.weight;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(turning);
+  const Eigen::Vector3d& squares = solver.eigenvalues();
+  const double least = squares(2) > 0 ? 1e-6 * squares(2) : 1;
+  PlaneSums::Matrix unit = PlaneSums::Matrix::Identity();
+  unit.bottomRightCorner<3, 3>() =
+      solver.eigenvectors() *
+      squares.cwiseMax(least).cwiseSqrt().cwiseInverse().asDiagonal() *
+      solver.eigenvectors().transpose();
+  return unit;
+}
+} // namespace
+
 Localizability
 localizabilityOf(const PlaneSums& sums)
 {
   Localizability found;
-  if (sums.count == 0 || !sums.A.allFinite())
+  if (sums.count == 0 || !sums.A.allFinite() || !sums.scatter.allFinite())
     return found;
   found.centroid = sums.mean_source;
-  const double spread_sq = sums.source_sq / sums.weight;
-  found.scale = spread_sq > 0 ? std::sqrt(spread_sq) : 1;
-  Twist unit = Twist::Ones();
-  unit.tail<3>().setConstant(1 / found.scale);
-  const PlaneSums::Matrix scaled =
-      unit.asDiagonal() * sums.A * unit.asDiagonal() / sums.weight;
+  const PlaneSums::Matrix unit = unitMotions(sums);
+  const PlaneSums::Matrix scaled = unit * sums.A * unit / sums.weight;
   const Eigen::SelfAdjointEigenSolver<PlaneSums::Matrix> solver(scaled);
-  found.eigenvalues = solver.eigenvalues().cwiseMax(0);
-  found.directions = solver.eigenvectors();
+  found.eigenvalues = solver.eigenvalues().cwiseMax(0).cwiseMin(1);
+  found.directions = unit * solver.eigenvectors();
   return found;
 }
 

@@ -46,12 +46,6 @@ squared(double x)
 {
   return x * x;
 }
-
-Eigen::Matrix3d
-normOf(const Partner& partner, const Eigen::Vector3d& source_normal)
-{
-  return planeToPlane(partner.normal.cast<double>(), source_normal);
-}
 } // namespace
 
 PairSums
@@ -80,11 +74,21 @@ MetricProblem::planeSums(const Eigen::Isometry3d& T,
           sums.addNorm(
               p,
               m,
-              normOf(partner, T.linear() * (*source_.normals)[i].cast<double>()),
+              normOf(T, partner, i),
               partner.weight);
         else
           sums.add(p, m, partner.normal.cast<double>(), partner.weight);
       });
+}
+
+Eigen::Matrix3d
+MetricProblem::normOf(const Eigen::Isometry3d& T,
+                      const Partner& partner,
+                      std::size_t i) const
+{
+  return planeToPlane(partner.normal.cast<double>(),
+                      T.linear() * (*source_.normals)[i].cast<double>(),
+                      options_.gicp_epsilon);
 }
 
 void
@@ -107,7 +111,7 @@ MetricProblem::weigh(const Eigen::Isometry3d& T, std::vector<Partner>& partners)
             residual_sq = squared(partner.normal.cast<double>().dot(e));
           else if (options_.metric == Metric::kGicp)
             residual_sq = e.dot(
-                normOf(partner, T.linear() * (*source_.normals)[i].cast<double>()) * e);
+                normOf(T, partner, i) * e);
           residuals[i] = static_cast<float>(std::sqrt(residual_sq));
         }
       });

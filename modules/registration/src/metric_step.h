@@ -40,6 +40,10 @@ private:
   PlaneSums
   planeSums(const Eigen::Isometry3d& T, const std::vector<Partner>& partners) const;
 
+  /** N of a pair, for kGicp. */
+  Eigen::Matrix3d
+  normOf(const Eigen::Isometry3d& T, const Partner& partner, std::size_t i) const;
+
   const IcpSource& source_;
   const IcpOptions& options_;
 };

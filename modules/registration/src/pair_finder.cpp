@@ -40,10 +40,17 @@ struct PairFinder::Look {
 PairFinder::PairFinder(const IcpTarget& target,
                        const IcpSource& source,
                        const IcpOptions& options)
-: target_(target), source_(*source.points), options_(options), partners_(source_.size())
+: target_(target)
+, source_(*source.points)
+, source_normals_(options.metric == Metric::kGicp ? source.normals : nullptr)
+, options_(options)
+, partners_(source_.size())
 {
-  for (const auto& part : target_)
+  for (const auto& part : target_) {
     is_identity_.push_back(isIdentity(part.T_target_part));
+    frames_ =
+        std::max(frames_, static_cast<float>(part.T_target_part.translation().norm()));
+  }
 }
 
 void
@@ -67,6 +74,8 @@ PairFinder::update(const Eigen::Isometry3d& T_target_source,
   });
 }
 
+/** Keeps a neighbour if no other point can have become nearer, by the triangle inequality
+ * and with room for the rounding of all distances that it compares. */
 std::size_t
 PairFinder::updateBlock(const Look& look, const Block& block)
 {
@@ -77,17 +86,18 @@ PairFinder::updateBlock(const Look& look, const Block& block)
     Partner& partner = partners_[i];
     const Eigen::Vector3f p =
         (look.T_target_source * source_[i].cast<double>()).cast<float>();
+    const float own = partner.index < 0 ? kInfinity : (p - partner.point).norm();
     const float moved = (p - partner.searched_at).norm();
-    const float rounding = kRounding * p.cwiseAbs().maxCoeff();
-    const float others = partner.others - moved - rounding;
-    float own = partner.index < 0 ? kInfinity : (p - partner.point).norm();
+    const float sizes = p.cwiseAbs().maxCoeff() + frames_ + partner.others +
+                        (partner.index < 0 ? 0 : own);
+    const float others = partner.others - moved - kRounding * sizes;
     if (!(own < others || (own >= look.limit && others >= look.limit))) {
       search(look, i, p, own);
-      own = partner.index < 0 ? kInfinity : std::sqrt(partner.distance_sq);
       ++searched;
     }
-    partner.distance_sq = own * own;
-    partner.weight = partner.distance_sq < limit_sq ? 1 : 0;
+    partner.distance_sq =
+        partner.index < 0 ? kInfinity : pcl6d::distanceSq(p, partner.point);
+    partner.weight = partner.usable && partner.distance_sq < limit_sq ? 1 : 0;
   }
   return searched;
 }
@@ -115,8 +125,7 @@ PairFinder::search(const Look& look, std::size_t i, const Eigen::Vector3f& p, fl
   }
   partner.searched_at = p;
   partner.others = std::sqrt(best.second_sq);
-  partner.distance_sq = best.nearest.distance_sq;
-  setPartner(partner, part, index);
+  setPartner(i, part, index);
 }
 
 bool
@@ -143,31 +152,52 @@ PairFinder::searchPart(const Look& look,
       : candidate >= 0
           ? part.tree->nearest(q, limit_sq, candidate, (*part.points)[candidate])
           : part.tree->nearest(q, limit_sq);
-  if (found.index < 0)
+  if (found.index < 0) { // what lies between nearest and second remains unknown
+    best.second_sq = std::min(best.second_sq, limit_sq);
     return false;
+  }
+  require(found.index < static_cast<int>(part.points->size()),
+          "index found by a search",
+          found.index,
+          "that of a point");
   best = {found, found.distance_sq};
   return true;
 }
 
 void
-PairFinder::setPartner(Partner& partner, int part, int index) const
+PairFinder::setPartner(std::size_t i, int part, int index)
 {
+  Partner& partner = partners_[i];
   if (index < 0)
     part = -1;
   const bool same = part == partner.part && index == partner.index;
   partner.part = part;
   partner.index = index;
-  if (part < 0 || same)
+  if (same)
     return;
-  const IcpTargetPart& from = target_[part];
-  const Eigen::Isometry3d& T = from.T_target_part;
-  const Eigen::Vector3f& point = (*from.points)[index];
-  const bool moved = !is_identity_[part];
-  partner.point = moved ? (T * point.cast<double>()).cast<float>() : point;
-  if (!from.normals)
-    return;
-  const Eigen::Vector3f& normal = (*from.normals)[index];
-  partner.normal = moved ? (T.linear() * normal.cast<double>()).cast<float>() : normal;
+  if (part >= 0) {
+    const IcpTargetPart& from = target_[part];
+    const Eigen::Isometry3d& T = from.T_target_part;
+    const Eigen::Vector3f& point = (*from.points)[index];
+    const bool moved = !is_identity_[part];
+    partner.point = moved ? (T * point.cast<double>()).cast<float>() : point;
+    if (options_.metric != Metric::kPoint) {
+      const Eigen::Vector3f normal = (*from.normals)[index].stableNormalized();
+      partner.normal =
+          moved ? (T.linear() * normal.cast<double>()).cast<float>() : normal;
+    }
+  }
+  partner.usable = part >= 0 && isUsable(i);
+}
+
+bool
+PairFinder::isUsable(std::size_t i) const
+{
+  const Partner& partner = partners_[i];
+  return partner.point.allFinite() && source_[i].allFinite() &&
+         partner.normal.allFinite() &&
+         (options_.metric != Metric::kPlane || !partner.normal.isZero(0)) &&
+         (!source_normals_ || (*source_normals_)[i].allFinite());
 }
 
 void
@@ -188,9 +218,9 @@ PairFinder::setPairs(const std::vector<IcpPair>& pairs)
     Partner& partner = partners_[pair.source];
     if (partner.weight > 0 && partner.distance_sq <= pair.distance_sq)
       continue;
-    setPartner(partner, 0, pair.target);
+    setPartner(pair.source, 0, pair.target);
     partner.distance_sq = pair.distance_sq;
-    partner.weight = 1;
+    partner.weight = partner.usable ? 1 : 0;
   }
 }
 
@@ -203,6 +233,14 @@ PairFinder::pairs() const
       pairs.push_back(
           {static_cast<int>(i), partners_[i].index, partners_[i].distance_sq});
   return pairs;
+}
+
+std::size_t
+PairFinder::count() const
+{
+  return std::count_if(partners_.begin(), partners_.end(), [](const Partner& partner) {
+    return partner.weight > 0;
+  });
 }
 
 std::size_t

@@ -11,7 +11,8 @@ namespace pcl6d {
 /** What a source point knows of its neighbour in the target; one cache line. */
 struct alignas(64) Partner {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< the neighbour, target's frame
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< there, if the target has any
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< there, of unit length, for the
+                                                    ///< metrics with normals
   Eigen::Vector3f searched_at = Eigen::Vector3f::Constant(
       std::numeric_limits<float>::infinity()); ///< where the source point was then
   float others = 0; ///< [m] all other points were no nearer to searched_at than this
@@ -19,6 +20,7 @@ struct alignas(64) Partner {
   int part = -1;
   float distance_sq = 0; ///< [m^2] at the last pose
   float weight = 0;      ///< of the pair at the last pose; 0: no pair
+  bool usable = false;   ///< the neighbour and its normal are what the metric needs
 };
 
 /** The closest pairs at one pose after the other. Whether another point has become the
@@ -52,6 +54,10 @@ public:
     return partners_;
   }
 
+  /** \return their number */
+  std::size_t
+  count() const;
+
   /** \return the number of searches in the last update() */
   std::size_t
   searched() const;
@@ -71,11 +77,16 @@ private:
              int candidate,
              TwoNearest& best) const;
   void
-  setPartner(Partner& partner, int part, int index) const;
+  setPartner(std::size_t i, int part, int index);
+  bool
+  isUsable(std::size_t i) const;
 
   const IcpTarget& target_;
   const Points& source_;
+  const Normals* source_normals_; ///< null unless the metric needs them
   const IcpOptions& options_;
+  float frames_ =
+      0; ///< [m] largest distance of a part's origin from that of the target
   std::vector<char> is_identity_; ///< T_target_part, per part
   std::vector<Partner> partners_;
   std::vector<std::size_t> searched_; ///< per block

@@ -11,11 +11,11 @@ constexpr std::size_t kNeighbours = 10;
 Eigen::Vector3d
 normalOf(const IcpTargetPart& part, const Partner& partner)
 {
-  if (part.normals)
-    return partner.normal.cast<double>();
   const Eigen::Vector3f& point = (*part.points)[partner.index];
-  return part.T_target_part.linear() *
-         normalAt(point, *part.tree, *part.points, kNeighbours).cast<double>();
+  const Eigen::Vector3f normal =
+      part.normals ? (*part.normals)[partner.index]
+                   : normalAt(point, *part.tree, *part.points, kNeighbours);
+  return part.T_target_part.linear() * normal.cast<double>();
 }
 } // namespace
 

@@ -70,9 +70,8 @@ weightPairs(const IcpOptions& options,
   }
   if (options.robust == RobustKernel::kNone)
     return;
-  const double scale = scaleOf(residuals, partners);
-  if (!(scale > 0)) // more than half of the pairs are exact: nothing to weigh by
-    return;
+  constexpr double kLeastScale = 1e-6; // [m] finer than any scanner: exact copies
+  const double scale = std::max(scaleOf(residuals, partners), kLeastScale);
   for (std::size_t i = 0; i < partners.size(); ++i)
     if (partners[i].weight > 0)
       partners[i].weight =

@@ -25,7 +25,7 @@ solve(const PlaneSums& sums)
     return {};
   if (!sums.A.allFinite() || !sums.b.allFinite() || !sums.mean_source.allFinite())
     return {Status::kDiverged};
-  const double spread_sq = sums.source_sq / sums.weight;
+  const double spread_sq = sums.sourceSq() / sums.weight;
   Twist unit = Twist::Ones();
   unit.tail<3>().setConstant(spread_sq > 1e-18 ? 1 / std::sqrt(spread_sq) : 1);
 

@@ -48,7 +48,7 @@ PlaneSums::merge(const PlaneSums& a, const PlaneSums& b)
   sum.b += other.b;
   sum.residual_sq += b.residual_sq;
   sum.distance_sq += b.distance_sq;
-  sum.source_sq += b.source_sq + a.weight * share * distance.squaredNorm();
+  sum.scatter += b.scatter + a.weight * share * distance * distance.transpose();
   return sum;
 }
 
@@ -75,7 +75,7 @@ PlaneAccumulator::add(const Eigen::Vector3d& source,
   sums_.b += (weight * residual) * a;
   sums_.residual_sq += weight * residual * residual;
   sums_.distance_sq += weight * (target - source).squaredNorm();
-  sums_.source_sq += weight * d.squaredNorm();
+  sums_.scatter += weight * d * d.transpose();
 }
 
 void
@@ -105,7 +105,7 @@ PlaneAccumulator::addNorm(const Eigen::Vector3d& source,
   sums_.b.tail<3>() += d.cross(We);
   sums_.residual_sq += e.dot(We);
   sums_.distance_sq += weight * e.squaredNorm();
-  sums_.source_sq += weight * d.squaredNorm();
+  sums_.scatter += weight * d * d.transpose();
 }
 
 PlaneSums
@@ -117,7 +117,7 @@ PlaneAccumulator::sums() const
   const Eigen::Vector3d mean = sums.mean_source / sums.weight;
   moveOrigin(sums, mean);
   sums.mean_source = origin_ + mean;
-  sums.source_sq -= sums.weight * mean.squaredNorm();
+  sums.scatter -= sums.weight * mean * mean.transpose();
   return sums;
 }
 

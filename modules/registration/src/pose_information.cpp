@@ -45,7 +45,7 @@ systemOf(const PlaneSums& sums)
   return {sums.A,
           sums.mean_source,
           sums.residual_sq / std::max(1.0, sums.weight - 6),
-          sums.source_sq / sums.weight};
+          sums.sourceSq() / sums.weight};
 }
 
 /** Whether roll and yaw are defined, and three pairs are there. */
@@ -106,7 +106,7 @@ covarianceOf(const Sums& sums, const Eigen::Isometry3d& T_world_scan)
     return std::nullopt;
   const TwistSystem system = systemOf(sums);
   const auto inverse = inverseOf(system);
-  if (!inverse)
+  if (!inverse || !(system.variance > 0))
     return std::nullopt;
   Matrix6 H_inverse = Matrix6::Identity();
   H_inverse.topRightCorner<3, 3>() =

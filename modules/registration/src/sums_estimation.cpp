@@ -32,7 +32,7 @@ isFinal(const PlaneSums& sums, const Eigen::Isometry3d& step)
   const Eigen::Vector3d& centroid = sums.mean_source;
   const double rounding =
       64 * std::numeric_limits<double>::epsilon() * centroid.cwiseAbs().sum();
-  const double spread = std::sqrt(sums.source_sq / sums.weight);
+  const double spread = std::sqrt(sums.sourceSq() / sums.weight);
   return rotationAngle(step.linear()) <= kAtRest &&
          (step * centroid - centroid).norm() <= kAtRest * spread + rounding;
 }

@@ -18,6 +18,10 @@ constexpr double kLargestRmsShare = 0.6;
  * hku1 (pairwise, or of each third scan) move a scan by 0.57 m and more, by a third of the
  * step and more; right ones by at most 0.29 m and a fifth of the step. */
 constexpr double kSmallCorrection = 1.5;
+
+/** Normals of voxels so many times as wide: ten of them are a patch on which the noise of
+ * kurt3d (its size is that of a voxel) averages out, and which hku1's rooms still fill. */
+constexpr double kNormalVoxels = 3;
 } // namespace
 
 ScanMatcher::ScanMatcher(const Slam6DOptions& options,
@@ -33,6 +37,8 @@ ScanMatcher::modelOptions() const
   IcpModel::Options model;
   model.search = options_.search;
   model.normals = options_.metric != Metric::kPoint;
+  model.neighbours = 10;
+  model.normal_voxel = kNormalVoxels * parameters_.voxel.value;
   model.num_threads = options_.num_threads;
   return model;
 }
@@ -110,9 +116,12 @@ ScanMatcher::icpOptions() const
   icp.minimiser = options_.minimiser;
   icp.plane_minimiser = options_.plane_minimiser;
   icp.robust = options_.robust;
+  icp.gicp_epsilon = 0.01;
   icp.max_iterations = options_.max_iterations;
   icp.max_distance = parameters_.max_distance.value;
   icp.max_distance_start = parameters_.max_distance_start.value;
+  // Steps towards planes come faster to rest than those towards points.
+  icp.distance_decay = options_.metric == Metric::kPoint ? 0.9 : 0.75;
   icp.translation_epsilon = options_.translation_epsilon;
   icp.rotation_epsilon = options_.rotation_epsilon;
   icp.num_threads = options_.num_threads;

@@ -17,19 +17,23 @@ using Normals = std::vector<Eigen::Vector3f>;
  * \param[in] tree over the points
  * \param[in] neighbours k, the number of nearest points that make a patch; in [3, 64]
  * \return zero if the place is not finite, there are fewer than 3 points, or they lie on a
- * line */
+ * line
+ * \throws BadArgument neighbours is outside [3, 64] */
 Eigen::Vector3f
 normalAt(const Eigen::Vector3f& place,
          const PointTree& tree,
          const Points& points,
          std::size_t neighbours);
 
-/** \brief normalAt() each of the points. In parallel, the same bits for any number of
+/** \brief normalAt() each of some places. In parallel, the same bits for any number of
  * threads.
+ * \param[in] places [m] usually the points themselves
+ * \param[in] points, tree the surface
  * \param[in] num_threads 0: one per core
  * \throws BadArgument neighbours is outside [3, 64] */
 Normals
-estimateNormals(const Points& points,
+estimateNormals(const Points& places,
+                const Points& points,
                 const PointTree& tree,
                 std::size_t neighbours = 20,
                 unsigned int num_threads = 0);

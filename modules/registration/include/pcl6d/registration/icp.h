@@ -85,20 +85,23 @@ toString(IcpStop stop);
 
 /** \brief The outcome of ICP. */
 struct IcpResult {
-  /** kOk: at rest, and the pairs fix the pose; kRankDeficient: at rest, but they do not */
+  /** kOk: at rest, and the surfaces fix the pose; kRankDeficient: at rest, but they leave a
+   * motion open, such as that along a corridor: the pose is one of many as good */
   Status status = Status::kTooFewPairs;
   IcpStop stop = IcpStop::kTooFewPairs;
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
   int iterations = 0;
-  std::size_t pairs = 0; ///< pairs at the final pose within max_distance
+  std::size_t pairs = 0; ///< pairs at the final pose that count
   double rms = 0;        ///< [m] distance of these pairs
   double residual = 0;   ///< [m] rms of what the metric minimises
-  double overlap = 0;    ///< pairs / finite source points, in [0, 1]
+  double overlap = 0;    ///< share of the finite source points with a partner within
+                         ///< max_distance, before trimming
   /** of T_target_source (x y z roll pitch yaw) [m, rad]: singular if the pairs leave a
    * direction open; none without 3 pairs or near a pitch of a right angle */
   std::optional<PoseInformation> information;
   std::optional<PoseCovariance> covariance; ///< its inverse, if the pairs fix the pose
-  /** which motions the surfaces fix, and how well; none if the target has no tree */
+  /** which motions the surfaces fix, and how well; none if the target has neither
+   * tree nor normals */
   std::optional<Localizability> localizability;
 };
 

@@ -34,6 +34,9 @@ public:
     SearchMethod search = SearchMethod::kCached;
     bool normals = false;         ///< estimate them; towards the origin of the points
     std::size_t neighbours = 20;  ///< of a normal; in [3, 64]
+    double normal_voxel = 0;      ///< [m] normals are those of the points reduced by this
+                                  ///< voxel: from a wider patch, whose noise is averaged,
+                                  ///< in less time; 0: of the points themselves
     unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   };
 
@@ -70,9 +73,12 @@ public:
 private:
   void
   build(const Options& options);
+  Normals
+  makeNormals(const Options& options) const;
 
   Points points_;
   Normals normals_;
+  bool has_normals_;
   std::shared_ptr<const PointTree> tree_;
   std::function<Neighbour(const Eigen::Vector3f&, float)> search_;
 };

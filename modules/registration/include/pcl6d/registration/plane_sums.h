@@ -25,7 +25,14 @@ struct PlaneSums {
   Twist b = Twist::Zero();   ///< sum w J^T N (m - d)
   double residual_sq = 0;    ///< sum w |m - d|^2_N [m^2]
   double distance_sq = 0;    ///< sum w |m - d|^2 [m^2]
-  double source_sq = 0;      ///< sum w |d - c_d|^2 [m^2]
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero(); ///< sum w d' d'^T [m^2]
+
+  /** \return s_d = sum w |d - c_d|^2 [m^2] */
+  double
+  sourceSq() const
+  {
+    return scatter.trace();
+  }
 
   /** \return the sums of two disjoint sets of pairs */
   static PlaneSums

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fpfh.h"
+
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A point of the source and one of the target that look alike. */
+struct FeatureMatch {
+  int source = -1;
+  int target = -1;
+};
+
+/** \brief The points that are each other's most similar one, by exact search. Features
+ * are compared after each bin was divided by its spread over both scans... */
+std::vector<FeatureMatch>
+matchFeatures(const std::vector<Fpfh>& target,
+              const std::vector<Fpfh>& source,
+              std::size_t max_matches,
+              unsigned int num_threads);
+
+} // namespace pcl6d

@@ -2,28 +2,12 @@
 #pragma once
 
 #include "feature_matching.h"
-
-#include <Eigen/Geometry>
+#include "placement_distance.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace pcl6d {
-
-/** \brief How far two placements of the same points are apart: the root mean square of
- * the distances between the two places of each point. */
-class PlacementDistance {
-public:
-  explicit PlacementDistance(const Points& points);
-
-  /** \return [m] */
-  double
-  operator()(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
-
-private:
-  Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
-};
 
 /** \brief A motion that many matches agree with. */
 struct Hypothesis {

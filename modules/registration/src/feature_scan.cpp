@@ -62,10 +62,16 @@ measuredPoints(const Points& scan)
 }
 
 double
+distinctSpacing(const Points& points)
+{
+  return medianSpacing(withoutRepeats(points));
+}
+
+double
 featureVoxel(const Points& measured, std::size_t max_points)
 {
   const double range = medianRange(measured);
-  double voxel = std::max(2.5 * medianSpacing(withoutRepeats(measured)), range / 60);
+  double voxel = std::max(2.5 * distinctSpacing(measured), range / 60);
   if (!(voxel > 0))
     return 0;
   for (int i = 0; i < 4; ++i) { // surfaces: their number falls with the square

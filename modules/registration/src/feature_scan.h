@@ -21,6 +21,11 @@ struct FeatureScan {
 Points
 measuredPoints(const Points& scan);
 
+/** \return the median distance [m] to the nearest other place: equal points, of which
+ * some recordings are full, count once */
+double
+distinctSpacing(const Points& points);
+
 /** \brief The edge [m] of the voxels for a scan: 2.5 median spacings (equal points
  * count once), at least a sixtieth of the median range, and so coarse that few more
  * than max_points remain. \return 0 for a scan without extent */

@@ -101,6 +101,7 @@ private:
   refined(std::vector<Hypothesis> hypotheses) const
   {
     IcpOptions icp_options;
+    icp_options.metric = Metric::kGicp; // slides where points would lock into points
     icp_options.max_iterations = 30;
     icp_options.max_distance = kMeetingDistance * voxel_;
     icp_options.max_distance_start = 2 * icp_options.max_distance;
@@ -108,14 +109,13 @@ private:
     icp_options.translation_epsilon = 0.02 * voxel_;
     icp_options.rotation_epsilon = 1e-3;
     icp_options.num_threads = 1;
+    const IcpTarget target = {
+        {&target_.scan.tree, &target_.scan.points, &target_.scan.normals}};
+    const IcpSource from = {&source_.scan.points, &source_.scan.normals};
     parallelFor(hypotheses.size(), o_.num_threads, [&](std::size_t i) {
       auto& h = hypotheses[i];
-      h.T_target_source = icp(target_.scan.tree,
-                              target_.scan.points,
-                              source_.scan.points,
-                              h.T_target_source,
-                              icp_options)
-                              .T_target_source;
+      h.T_target_source =
+          icp(target, from, h.T_target_source, icp_options).T_target_source;
       h.score = supportAt(h.T_target_source).value();
     });
     return hypotheses;

@@ -20,7 +20,6 @@ constexpr std::size_t kRefined = 16;    // placements refined by ICP
 constexpr std::size_t kStep = 4;        // of the points that judge the short list
 
 // In voxels:
-constexpr double kNormalRadius = 2.5;
 constexpr double kFeatureRadius = 7;
 constexpr double kMatchTolerance = 2; // corners of a voxel are 1.7 apart
 constexpr double kMinLength = 4;
@@ -56,6 +55,8 @@ public:
       estimate.second_score = std::max(estimate.second_score, distinct[1].score);
     estimate.second_score = std::min(estimate.second_score, estimate.score);
     estimate.status = verdict(estimate);
+    if (estimate.status == Status::kTooFewPairs)
+      estimate.T_target_source.setIdentity();
     return estimate;
   }
 
@@ -155,8 +156,7 @@ private:
 PlacedScan
 placed(const Points& measured, double voxel, unsigned int num_threads)
 {
-  return {makeFeatureScan(measured, voxel, kNormalRadius * voxel, num_threads),
-          SeenSpace(measured)};
+  return {makeFeatureScan(measured, voxel, num_threads), SeenSpace(measured)};
 }
 
 void

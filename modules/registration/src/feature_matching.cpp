@@ -110,6 +110,8 @@ matchFeatures(const std::vector<Fpfh>& target,
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const auto& n = of_source[i];
+    if (source[i] == Fpfh{}) // describes nothing
+      continue;
     if (n.index >= 0 && of_target[n.index].index == static_cast<int>(i))
       candidates.push_back(
           {n.second > 0 ? n.best / n.second : 1.f, {static_cast<int>(i), n.index}});

@@ -13,8 +13,10 @@ struct FeatureMatch {
   int target = -1;
 };
 
-/** \brief The points that are each other's most similar one, by exact search. Features
- * are compared after each bin was divided by its spread over both scans... */
+/** \brief The points that are each other's most similar one, by exact search.
+ * \param[in] max_matches keep those that are most distinctive: the second most similar
+ * point is much less so (Lowe's ratio)
+ * \return most distinctive first, ties by source */
 std::vector<FeatureMatch>
 matchFeatures(const std::vector<Fpfh>& target,
               const std::vector<Fpfh>& source,

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "feature_scan.h"
 
-#include <pcl6d/common/parallel.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/filters/voxel_reduction.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +11,7 @@
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kBlockSize = 256;
-constexpr std::size_t kMinNeighbours = 5;
+constexpr std::size_t kNormalNeighbours = 20; // within 2.5 voxels on a plane
 
 Points
 withoutRepeats(Points points)
@@ -25,28 +21,6 @@ withoutRepeats(Points points)
   });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
-}
-
-/** \return the direction of least spread, towards the origin; zero without a plane */
-Eigen::Vector3f
-normalOf(const Points& points, const std::vector<Neighbour>& near)
-{
-  if (near.size() < kMinNeighbours)
-    return Eigen::Vector3f::Zero();
-  const Eigen::Vector3d origin = points[near.front().index].cast<double>();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (const auto& n : near) {
-    const Eigen::Vector3d d = points[n.index].cast<double>() - origin;
-    sum += d;
-    squares += d * d.transpose();
-  }
-  squares -= sum * sum.transpose() / static_cast<double>(near.size());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
-  if (!(solver.eigenvalues()(1) > 1e-4 * solver.eigenvalues()(2))) // a line, or a point
-    return Eigen::Vector3f::Zero();
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
-  return (normal.dot(origin) > 0 ? Eigen::Vector3d(-normal) : normal).cast<float>();
 }
 } // namespace
 
@@ -84,23 +58,15 @@ featureVoxel(const Points& measured, std::size_t max_points)
 }
 
 FeatureScan
-makeFeatureScan(const Points& measured,
-                double voxel,
-                double normal_radius,
-                unsigned int num_threads)
+makeFeatureScan(const Points& measured, double voxel, unsigned int num_threads)
 {
   FeatureScan scan;
   ReductionOptions reduction;
   reduction.voxel = voxel;
   scan.points = reducePoints(measured, reduction);
   scan.tree = PointTree(scan.points, num_threads);
-  scan.normals.resize(scan.points.size());
-  const auto radius_sq = static_cast<float>(normal_radius * normal_radius);
-  parallelBlocks(scan.points.size(), kBlockSize, num_threads, [&](const Block& block) {
-    for (std::size_t i = block.begin; i < block.end; ++i)
-      scan.normals[i] =
-          normalOf(scan.points, scan.tree.withinRadius(scan.points[i], radius_sq));
-  });
+  scan.normals =
+      estimateNormals(scan.points, scan.tree, kNormalNeighbours, num_threads);
   return scan;
 }
 

@@ -2,18 +2,17 @@
 #pragma once
 
 #include <pcl6d/common/points.h>
+#include <pcl6d/filters/point_normals.h>
 #include <pcl6d/search/point_tree.h>
-
-#include <vector>
 
 namespace pcl6d {
 
 /** \brief A scan made ready for matching by features: one mean point per voxel, its
  * normal, and the tree of the points. */
 struct FeatureScan {
-  Points points;  ///< [m], in the scan's own frame
-  Points normals; ///< of length 1, towards the scanner; zero where there is no surface
-  PointTree tree; ///< of points
+  Points points;   ///< [m], in the scan's own frame
+  Normals normals; ///< towards the scanner; zero where there is no surface
+  PointTree tree;  ///< of points
 };
 
 /** \return the points that a scanner measured: finite, not its own housing, not the
@@ -32,12 +31,8 @@ distinctSpacing(const Points& points);
 double
 featureVoxel(const Points& measured, std::size_t max_points);
 
-/** \brief Reduces a scan and estimates its normals from the neighbours within
- * normal_radius [m]; a point needs 5 of them. */
+/** \brief Reduces a scan, and estimates the normals of what is left. */
 FeatureScan
-makeFeatureScan(const Points& measured,
-                double voxel,
-                double normal_radius,
-                unsigned int num_threads);
+makeFeatureScan(const Points& measured, double voxel, unsigned int num_threads);
 
 } // namespace pcl6d

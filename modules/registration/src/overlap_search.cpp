@@ -23,6 +23,12 @@ constexpr std::array<int, 6> kSteps = {5, 5, 3, 3, 3, 5};
 constexpr std::size_t kTuples = 5 * 5 * 3 * 3 * 3 * 5;
 constexpr std::size_t kBlockSize = 125; // tuples; independent of the threads
 
+Eigen::IOFormat
+oneLine()
+{
+  return Eigen::IOFormat(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", "; ");
+}
+
 std::array<int, 6>
 stepsOf(std::size_t tuple)
 {
@@ -247,7 +253,10 @@ void
 OverlapSearchOptions::validate() const
 {
   const auto requireWindow = [](const Eigen::Vector3d& w, const char* name) {
-    require(w.allFinite() && w.minCoeff() > 0, name, w.transpose(), "finite and > 0");
+    require(w.allFinite() && w.minCoeff() > 0,
+            name,
+            w.transpose().format(oneLine()),
+            "finite and > 0");
   };
   const auto requireCube = [](const std::optional<double>& edge, const char* name) {
     if (edge)
@@ -261,7 +270,7 @@ OverlapSearchOptions::validate() const
   requireWindow(rotation_window, "rotation_window");
   require(rotation_window.maxCoeff() <= M_PI,
           "rotation_window",
-          rotation_window.transpose(),
+          rotation_window.transpose().format(oneLine()),
           "<= pi");
   requireCube(first_cube, "first_cube");
   requireCube(last_cube, "last_cube");
@@ -278,8 +287,7 @@ searchByOverlap(const Points& target,
                 const OverlapSearchOptions& options)
 {
   options.validate();
-  static const Eigen::IOFormat one_line(Eigen::StreamPrecision, 0, " ", "; ");
-  require(isRigid(guess), "guess", guess.matrix().format(one_line), "a rigid motion");
+  require(isRigid(guess), "guess", guess.matrix().format(oneLine()), "a rigid motion");
   const Points seen_target = finite(target), seen_source = finite(source);
   if (seen_target.empty() || seen_source.empty()) {
     CoarseEstimate nothing;

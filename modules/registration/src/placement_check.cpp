@@ -2,6 +2,7 @@
 #include "placement_check.h"
 
 #include <pcl6d/common/rotation.h>
+#include <pcl6d/registration/plane_sums.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -12,9 +13,6 @@
 namespace pcl6d {
 
 namespace {
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 constexpr float kLikeNormal = 0.8f;   // cosine of 37 degrees
 constexpr double kRangeMargin = 0.05; // of the range: a slanted surface within a cell
 
@@ -60,27 +58,23 @@ supportBy(const PlacedScan& other,
   return support;
 }
 
-/** A point that a surface of the target holds back along its normal. */
-struct HeldPoint {
-  Eigen::Vector3d point, normal;
-};
-
-std::vector<HeldPoint>
-heldPoints(const FeatureScan& target,
-           const FeatureScan& source,
-           const Eigen::Isometry3d& T_target_source,
-           double distance)
+/** What the surfaces of the target say of small motions of the source's points. */
+PlaneSums
+heldBy(const FeatureScan& target,
+       const FeatureScan& source,
+       const Eigen::Isometry3d& T_target_source,
+       double distance)
 {
-  std::vector<HeldPoint> held;
+  PlaneAccumulator held;
+  const auto distance_sq = static_cast<float>(distance * distance);
   for (const auto& s : source.points) {
     const Eigen::Vector3d p = T_target_source * s.cast<double>();
-    const int found =
-        target.tree.nearest(p.cast<float>(), static_cast<float>(distance * distance))
-            .index;
-    if (found >= 0 && !target.normals[found].isZero(0))
-      held.push_back({p, target.normals[found].cast<double>()});
+    const int found = target.tree.nearest(p.cast<float>(), distance_sq).index;
+    if (found >= 0)
+      held.add(
+          p, target.points[found].cast<double>(), target.normals[found].cast<double>());
   }
-  return held;
+  return held.sums();
 }
 } // namespace
 
@@ -174,35 +168,23 @@ looselyHeld(const PlacedScan& target,
             double distance,
             double way)
 {
-  const auto held = heldPoints(target.scan, source.scan, T_target_source, distance);
-  if (held.size() < 6)
+  const PlaneSums held = heldBy(target.scan, source.scan, T_target_source, distance);
+  if (held.count < 6 || !(held.source_sq > 0))
     return {};
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const auto& h : held)
-    centre += h.point;
-  centre /= static_cast<double>(held.size());
-  double spread_sq = 0;
-  for (const auto& h : held)
-    spread_sq += (h.point - centre).squaredNorm();
-  const double spread = std::sqrt(spread_sq / static_cast<double>(held.size()));
-  if (!(spread > 0))
-    return {};
-
-  // Turns are measured by the way of a point at that distance, so as ways they compare.
-  Matrix6d information = Matrix6d::Zero();
-  for (const auto& h : held) {
-    Vector6d row;
-    row << (h.point - centre).cross(h.normal) / spread, h.normal;
-    information += row * row.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);
+  // A turn counts by the way of a point that lies as far out as the others on average.
+  const double spread = std::sqrt(held.source_sq / held.weight);
+  Twist unit = Twist::Ones();
+  unit.tail<3>().setConstant(1 / spread);
+  const PlaneSums::Matrix ways = unit.asDiagonal() * held.A * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<PlaneSums::Matrix> solver(ways);
   std::vector<Eigen::Isometry3d> moved;
   for (int weakest = 0; weakest < 3; ++weakest)
     for (const double to : {way, -way}) {
-      const Vector6d step = to * solver.eigenvectors().col(weakest);
+      const Twist step = to * unit.cwiseProduct(solver.eigenvectors().col(weakest));
+      const Eigen::Vector3d centre = held.mean_source, shift = step.head<3>();
       Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-      motion.linear() = rotationFromVector(step.head<3>() / spread);
-      motion.translation() = centre + step.tail<3>() - motion.linear() * centre;
+      motion.linear() = rotationFromVector(step.tail<3>());
+      motion.translation() = centre + shift - motion.linear() * centre;
       moved.push_back(motion * T_target_source);
     }
   return moved;

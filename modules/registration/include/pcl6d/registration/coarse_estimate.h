@@ -12,8 +12,8 @@ namespace pcl6d {
  * kOk: one placement, clearly better than all others. kRankDeficient: a clearly
  * different one is nearly as good (repeated structure, a corridor, one plane); the
  * transform is the best. kTooFewPairs: nothing to match, or the best placement explains
- * too little of the source; the transform is that best one, or the guess. Whatever is
- * not kOk needs other evidence before it is used. \ingroup registration */
+ * too little; the transform is the guess or the identity, the score that of the best.
+ * Only kOk may be used without other evidence. \ingroup registration */
 struct CoarseEstimate {
   Status status = Status::kTooFewPairs;
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();

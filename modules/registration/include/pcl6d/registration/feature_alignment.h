@@ -42,9 +42,9 @@ struct FeatureAlignmentOptions {
  * \param[in] target, source points [m] in the frames of their scanners, from whose
  * origins they were seen (a robot's frame will do if the scanner is near its origin);
  * points that are not finite, and the range that stands for "no echo", are left out
- * \return never throws on data. kTooFewPairs: no matches (identity), or the best
- * placement misses min_overlap or min_consistency; kRankDeficient: it is as good as
- * another
+ * \return never throws on data. kTooFewPairs (with the identity): no matches, or
+ * the best placement misses min_overlap or min_consistency; kRankDeficient: it is as good
+ * as another
  * \throws BadArgument an option breaks its rule
  * \note Sources: R. B. Rusu, N. Blodow, M. Beetz, ICRA 2009 (FPFH); Z. Chen et al.,
  * CVPR 2022 (compatibility of second order). \ingroup registration */

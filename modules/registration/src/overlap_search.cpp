@@ -7,12 +7,13 @@
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/registration/overlap_search.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
+#include <limits>
 
 namespace pcl6d {
 
@@ -81,17 +82,6 @@ struct Scale {
   double first_cube, last_cube; ///< [m]
   Vector6d window;
 };
-
-Points
-finite(const Points& points)
-{
-  Points kept;
-  std::copy_if(points.begin(),
-               points.end(),
-               std::back_inserter(kept),
-               [](const auto& p) { return p.allFinite(); });
-  return kept;
-}
 
 Eigen::Vector3d
 centroidOf(const Points& points)
@@ -288,7 +278,9 @@ searchByOverlap(const Points& target,
 {
   options.validate();
   require(isRigid(guess), "guess", guess.matrix().format(oneLine()), "a rigid motion");
-  const Points seen_target = finite(target), seen_source = finite(source);
+  constexpr double kAnyRange = std::numeric_limits<double>::infinity();
+  const Points seen_target = gateByRange(target, 0, kAnyRange); // finite ones
+  const Points seen_source = gateByRange(source, 0, kAnyRange);
   if (seen_target.empty() || seen_source.empty()) {
     CoarseEstimate nothing;
     nothing.T_target_source = guess;

@@ -145,6 +145,27 @@ TEST(FeatureAlignment, DoesNotBelieveTwoDifferentPlaces)
   EXPECT_NE(found.status, Status::kOk) << found.score << " " << found.second_score;
 }
 
+TEST(FeatureAlignment, CountsWhatTheOtherScanLookedThrough)
+{
+  const PillarRoom room;
+  PillarRoom parted = room; // by a screen that the first scan did not see
+  parted.pillars.push_back({Eigen::Vector3d(2, -2, -1), Eigen::Vector3d(2.2, 2, 2)});
+  Random random(17);
+  const Eigen::Isometry3d pose = planarPose(0.3, 0.2, 0.4);
+  const Points before = room.scan(Eigen::Isometry3d::Identity(), random, 0.03);
+  const Points again = room.scan(pose, random, 0.03);
+  const Points after = parted.scan(pose, random, 0.03);
+  FeatureAlignmentOptions strict, lenient; // the screen denies 3 % of what meets
+  strict.min_consistency = 0.99;
+  lenient.min_consistency = 0;
+  EXPECT_EQ(alignByFeatures(before, again, strict).status, Status::kOk);
+  EXPECT_EQ(alignByFeatures(before, after, strict).status, Status::kTooFewPairs);
+  EXPECT_EQ(alignByFeatures(after, before, strict).status, Status::kTooFewPairs);
+  const CoarseEstimate found = alignByFeatures(before, after, lenient);
+  EXPECT_EQ(found.status, Status::kOk);
+  expectNear(found.T_target_source, pose);
+}
+
 TEST(FeatureAlignment, DoesNotChooseAPlaceAlongACorridor)
 {
   Random random(3);

@@ -46,7 +46,7 @@ struct OverlapSearchOptions {
  * 3 cubes, or the score is below min_score; kRankDeficient: another placement is as
  * good
  * \throws BadArgument an option breaks its rule, or the guess is not rigid
- * \note Source: A. Nuechter, K. Lingemann, J. Hertzberg, H. Surmann, "6D SLAM - 3D
+ * \note Source: A. Nüchter, K. Lingemann, J. Hertzberg, H. Surmann, "6D SLAM - 3D
  * mapping outdoor environments", JFR 24(8/9), 2007. \ingroup registration */
 CoarseEstimate
 searchByOverlap(const Points& target,

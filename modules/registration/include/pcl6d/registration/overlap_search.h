@@ -15,17 +15,16 @@ struct OverlapSearchOptions {
       translation_window; ///< [m] x, y, z: how far the guess may be off; > 0. None:
                           ///< 1.25, 1.25 and 0.375 times the first cube as derived
   Eigen::Vector3d rotation_window{0.1, 0.1, 0.35}; ///< [rad] roll, pitch, yaw; > 0
-  std::optional<double>
-      first_cube; ///< [m] coarsest edge; > 0. None: r / 6, at least 8
-                  ///< median spacings, and at least what a wide
-                  ///< translation window needs
-  std::optional<double> last_cube; ///< [m] edges are halved down to about this; > 0.
-                                   ///< None: a quarter of r / 6 or of 8 spacings
-  int max_cubes = 600;             ///< of the source that are looked at; >= 3
-  int max_candidates = 4;          ///< placements pursued at a time; >= 2
-  double min_score = 0.3;          ///< accepted share of the source's cubes; in [0, 1]
-  double max_ambiguity = 0.95;     ///< accepted second score / score; in [0, 1]
-  unsigned int num_threads = 0;    ///< 0: one per core; never changes the result
+  std::optional<double> first_cube; ///< [m] coarsest edge; > 0. None: r / 6, at least 8
+                                    ///< median spacings, and at least what a wide
+                                    ///< translation window needs
+  std::optional<double> last_cube;  ///< [m] edges are halved down to about this; > 0.
+                                    ///< None: a quarter of r / 6 or of 8 spacings
+  int max_cubes = 600;              ///< of the source that are looked at; >= 3
+  int max_candidates = 4;           ///< placements pursued at a time; >= 2
+  double min_score = 0.3;           ///< accepted share of the source's cubes; in [0, 1]
+  double max_ambiguity = 0.95;      ///< accepted second score / score; in [0, 1]
+  unsigned int num_threads = 0;     ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "placement_check.h"
+
+#include <pcl6d/common/rotation.h>
+#include <pcl6d/registration/plane_sums.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl6d {
+
+namespace {
+constexpr float kLikeNormal = 0.8f;   // cosine of 37 degrees
+constexpr double kRangeMargin = 0.05; // of the range: a slanted surface within a cell
+
+/** The place of a direction on the faces of the cube, -1 to 1 along u and v. */
+struct OnCube {
+  int face;
+  float u, v;
+};
+
+OnCube
+projected(const Eigen::Vector3f& p)
+{
+  Eigen::Index axis = 0;
+  const float length = p.cwiseAbs().maxCoeff(&axis);
+  const int face = 2 * static_cast<int>(axis) + (p[axis] < 0 ? 1 : 0);
+  return {face, p[(axis + 1) % 3] / length, p[(axis + 2) % 3] / length};
+}
+
+/** Support of the points of one scan, seen from the other. */
+Support
+supportBy(const PlacedScan& other,
+          const FeatureScan& scan,
+          const Eigen::Isometry3d& T_other_scan,
+          double distance,
+          std::size_t step)
+{
+  Support support;
+  const auto distance_sq = static_cast<float>(distance * distance);
+  const Eigen::Matrix3f R = T_other_scan.linear().cast<float>();
+  for (std::size_t i = 0; i < scan.points.size(); i += step) {
+    const Eigen::Vector3f p =
+        (T_other_scan * scan.points[i].cast<double>()).cast<float>();
+    ++support.points;
+    const int found = other.scan.tree.nearest(p, distance_sq).index;
+    if (found < 0) {
+      support.contradicted += other.seen.sawThrough(p, 2 * distance) ? 1 : 0;
+      continue;
+    }
+    const auto &n = scan.normals[i], &m = other.scan.normals[found];
+    if (n.isZero(0) || m.isZero(0) || (R * n).dot(m) > kLikeNormal)
+      ++support.met;
+  }
+  return support;
+}
+
+/** What the surfaces of the target say of small motions of the source's points. */
+PlaneSums
+heldBy(const FeatureScan& target,
+       const FeatureScan& source,
+       const Eigen::Isometry3d& T_target_source,
+       double distance)
+{
+  PlaneAccumulator held;
+  const auto distance_sq = static_cast<float>(distance * distance);
+  for (const auto& s : source.points) {
+    const Eigen::Vector3d p = T_target_source * s.cast<double>();
+    const int found = target.tree.nearest(p.cast<float>(), distance_sq).index;
+    if (found >= 0)
+      held.add(
+          p, target.points[found].cast<double>(), target.normals[found].cast<double>());
+  }
+  return held.sums();
+}
+} // namespace
+
+SeenSpace::SeenSpace(const Points& measured)
+{
+  // Several points a cell, if they were spread over all directions.
+  const double wanted = std::sqrt(static_cast<double>(measured.size()) / 24);
+  side_ = static_cast<int>(std::min(std::max(wanted, 8.0), 48.0));
+  const std::size_t cells = static_cast<std::size_t>(6 * side_ * side_);
+  constexpr float kUnseen = std::numeric_limits<float>::infinity();
+  std::vector<float> nearest(cells, kUnseen);
+  for (const auto& p : measured)
+    if (!p.isZero(0)) {
+      float& range = nearest[static_cast<std::size_t>(cellOf(p))];
+      range = std::min(range, p.norm());
+    }
+  range_.assign(cells, 0);
+  for (int cell = 0; cell < static_cast<int>(cells); ++cell) {
+    if (nearest[cell] == kUnseen)
+      continue;
+    const int face = cell / (side_ * side_);
+    const int row = cell / side_ % side_, column = cell % side_;
+    float smallest = nearest[cell];
+    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, side_ - 1); ++r)
+      for (int c = std::max(column - 1, 0); c <= std::min(column + 1, side_ - 1); ++c)
+        smallest = std::min(smallest, nearest[(face * side_ + r) * side_ + c]);
+    range_[cell] = smallest;
+  }
+}
+
+int
+SeenSpace::cellOf(const Eigen::Vector3f& p) const
+{
+  const OnCube place = projected(p);
+  const auto cell = [this](float x) {
+    return std::min(static_cast<int>((x + 1) / 2 * static_cast<float>(side_)),
+                    side_ - 1);
+  };
+  return (place.face * side_ + cell(place.u)) * side_ + cell(place.v);
+}
+
+bool
+SeenSpace::sawThrough(const Eigen::Vector3f& p, double margin) const
+{
+  const double range = p.norm();
+  if (side_ == 0 || !(range > 0))
+    return false;
+  return range + margin + kRangeMargin * range < range_[cellOf(p)];
+}
+
+double
+PlacementSupport::overlap() const
+{
+  const auto share = [](const Support& s) {
+    return s.points > 0 ? static_cast<double>(s.met) / static_cast<double>(s.points)
+                        : 0;
+  };
+  return std::max(share(source), share(target));
+}
+
+double
+PlacementSupport::consistency() const
+{
+  const auto met = static_cast<double>(source.met + target.met);
+  const auto contradicted =
+      static_cast<double>(source.contradicted + target.contradicted);
+  return met > 0 ? met / (met + contradicted) : 0;
+}
+
+double
+PlacementSupport::value() const
+{
+  return overlap() * consistency();
+}
+
+PlacementSupport
+supportOf(const PlacedScan& target,
+          const PlacedScan& source,
+          const Eigen::Isometry3d& T_target_source,
+          double distance,
+          std::size_t step)
+{
+  return {supportBy(target, source.scan, T_target_source, distance, step),
+          supportBy(source, target.scan, T_target_source.inverse(), distance, step)};
+}
+
+std::vector<Eigen::Isometry3d>
+looselyHeld(const PlacedScan& target,
+            const PlacedScan& source,
+            const Eigen::Isometry3d& T_target_source,
+            double distance,
+            double way)
+{
+  const PlaneSums held = heldBy(target.scan, source.scan, T_target_source, distance);
+  if (held.count < 6 || !(held.source_sq > 0))
+    return {};
+  // A turn counts by the way of a point that lies as far out as the others on average.
+  const double spread = std::sqrt(held.source_sq / held.weight);
+  Twist unit = Twist::Ones();
+  unit.tail<3>().setConstant(1 / spread);
+  const PlaneSums::Matrix ways = unit.asDiagonal() * held.A * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<PlaneSums::Matrix> solver(ways);
+  std::vector<Eigen::Isometry3d> moved;
+  for (int weakest = 0; weakest < 3; ++weakest)
+    for (const double to : {way, -way}) {
+      const Twist step = to * unit.cwiseProduct(solver.eigenvectors().col(weakest));
+      const Eigen::Vector3d centre = held.mean_source, shift = step.head<3>();
+      Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+      motion.linear() = rotationFromVector(step.tail<3>());
+      motion.translation() = centre + shift - motion.linear() * centre;
+      moved.push_back(motion * T_target_source);
+    }
+  return moved;
+}
+
+} // namespace pcl6d

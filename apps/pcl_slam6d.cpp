@@ -39,11 +39,11 @@ openFolder(const Settings& settings)
 class Job {
 public:
   explicit Job(const Settings& settings)
-  : settings_(settings)
+  : folder_(openFolder(settings))
+  , settings_(resolved(settings, folder_))
   , bar_(settings.quiet)
-  , folder_(openFolder(settings))
   , out_(app::runFolderRules(settings))
-  , slam_(settings.slam)
+  , slam_(settings_.slam)
   {}
 
   int
@@ -71,6 +71,13 @@ public:
   }
 
 private:
+  static Settings
+  resolved(Settings settings, const ScanFolder& folder)
+  {
+    settings.resolveGuess(folder.hasPoses());
+    return settings;
+  }
+
   /** \return false if interrupted */
   bool
   readScans()
@@ -143,10 +150,10 @@ private:
     bar_.say(line.str());
   }
 
-  const Settings& settings_;
+  const ScanFolder folder_;
+  const Settings settings_;
   const app::Interrupt interrupt_;
   app::ProgressBar bar_;
-  const ScanFolder folder_;
   app::OutputFolder out_;
   Slam6D slam_;
   app::RunLog log_;

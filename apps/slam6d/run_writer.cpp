@@ -245,11 +245,13 @@ RunWriter::describe(bool complete, const RunLog& log)
     summary_.scans.push_back(
         entryOf(folder_.file(i).filename().string(), result_.scans[i], log.dropped[i]));
   summary_.complete = complete;
-  if (folder_.poseSource() == "identity" && folder_.size() > 1)
+  if (!folder_.hasPoses() && folder_.size() > 1)
     summary_.warnings.push_back(
-        "no initial poses were found: each scan starts where the "
-        "one before is, which only fits scans taken close "
-        "together; give poses with --poses or odometry.txt");
+        settings_.slam.initial_guess == InitialGuess::kFeatures
+            ? "no initial poses were found: scans were placed by features alone"
+            : "no initial poses were found: each scan starts where the one before is, "
+              "which only fits scans taken close together; give poses with --poses or "
+              "odometry.txt");
 }
 
 } // namespace pcl6d::app

@@ -239,6 +239,17 @@ wordsOf(const CommandLine& line, const Raw& raw, const Settings& s)
 }
 } // namespace
 
+void
+Settings::resolveGuess(bool has_poses)
+{
+  if (!auto_guess)
+    return;
+  slam.initial_guess = has_poses ? InitialGuess::kOdometry : InitialGuess::kFeatures;
+  for (auto& word : words)
+    if (word.name == "initial-guess")
+      word.value = toString(slam.initial_guess);
+}
+
 bool
 parseSettings(const std::vector<std::string>& arguments, Settings& settings)
 {

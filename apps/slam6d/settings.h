@@ -30,6 +30,10 @@ struct Settings {
     bool given;
   };
   std::vector<Word> words;
+
+  /** Decides what --initial-guess auto means for a folder. */
+  void
+  resolveGuess(bool has_poses);
 };
 
 /** \brief Fills the settings from the command line and the config file.

@@ -109,7 +109,7 @@ findInitialPoses(const fs::path& folder,
   }
   Trajectory identity;
   identity.poses.assign(scans.size(), Eigen::Isometry3d::Identity());
-  return {std::move(identity), "identity"};
+  return {std::move(identity), kNoPoses};
 }
 
 } // namespace pcl6d

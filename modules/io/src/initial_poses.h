@@ -11,6 +11,9 @@
 /** \file Where the poses of a scan folder come from. Internal to the module io. */
 namespace pcl6d {
 
+/** The pose source of a folder without poses. */
+constexpr const char* kNoPoses = "identity";
+
 /** \brief One pose per scan of the folder. */
 struct InitialPoses {
   Trajectory trajectory;

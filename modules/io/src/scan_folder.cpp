@@ -168,6 +168,12 @@ ScanFolder::poseSource() const
   return pose_source_;
 }
 
+bool
+ScanFolder::hasPoses() const
+{
+  return pose_source_ != kNoPoses;
+}
+
 Scan
 ScanFolder::read(std::size_t i) const
 {

@@ -56,10 +56,8 @@ toString(RobustKernel kernel)
 void
 IcpOptions::validate() const
 {
-  require(gicp_epsilon > 0 && gicp_epsilon <= 1,
-          "gicp_epsilon",
-          gicp_epsilon,
-          "in (0, 1]");
+  require(
+      gicp_epsilon > 0 && gicp_epsilon <= 1, "gicp_epsilon", gicp_epsilon, "in (0, 1]");
   require(max_iterations > 0, "max_iterations", max_iterations, "> 0");
   require(max_distance > 0, "max_distance", max_distance, "> 0");
   require(max_distance_start >= 0 && std::isfinite(max_distance_start),

@@ -71,11 +71,7 @@ MetricProblem::planeSums(const Eigen::Isometry3d& T,
         const Eigen::Vector3d p = T * (*source_.points)[i].cast<double>();
         const Eigen::Vector3d m = partner.point.cast<double>();
         if (planes)
-          sums.addNorm(
-              p,
-              m,
-              normOf(T, partner, i),
-              partner.weight);
+          sums.addNorm(p, m, normOf(T, partner, i), partner.weight);
         else
           sums.add(p, m, partner.normal.cast<double>(), partner.weight);
       });
@@ -110,8 +106,7 @@ MetricProblem::weigh(const Eigen::Isometry3d& T, std::vector<Partner>& partners)
           if (options_.metric == Metric::kPlane)
             residual_sq = squared(partner.normal.cast<double>().dot(e));
           else if (options_.metric == Metric::kGicp)
-            residual_sq = e.dot(
-                normOf(T, partner, i) * e);
+            residual_sq = e.dot(normOf(T, partner, i) * e);
           residuals[i] = static_cast<float>(std::sqrt(residual_sq));
         }
       });

@@ -56,15 +56,29 @@ ScanMatcher::fix(const IcpModel& points, ScanResult& scan)
   scan.status = Status::kOk;
   scan.covariance = PoseCovariance(PoseCovariance::Zero());
   first_ = scan.T_world_scan.translation();
-  metascan_.add(points, scan.T_world_scan);
+  place(points, scan.T_world_scan);
+}
+
+void
+ScanMatcher::place(const IcpModel& points, const Eigen::Isometry3d& T_world_scan)
+{
+  metascan_.add(points, T_world_scan);
+  placed_.push_back({&points, T_world_scan});
 }
 
 void
 ScanMatcher::match(const IcpModel& points, double odometry_step, ScanResult& scan)
 {
+  const StartingPose start =
+      startingPose(options_, placed_, points.points(), scan.T_world_scan);
+  if (!start.doubt.empty()) {
+    scan.state = ScanState::kPredicted;
+    scan.reason = start.doubt;
+    return;
+  }
+  Eigen::Isometry3d guess = start.T_world_scan;
   const Eigen::Vector3d origin =
-      first_.array() + (scan.T_world_scan.translation() - first_).array().round();
-  Eigen::Isometry3d guess = scan.T_world_scan;
+      first_.array() + (guess.translation() - first_).array().round();
   guess.translation() -= origin;
   const IcpResult found =
       icp(metascan_.around(origin), points.source(), guess, icpOptions());
@@ -85,7 +99,7 @@ ScanMatcher::match(const IcpModel& points, double odometry_step, ScanResult& sca
   scan.covariance = found.covariance;
   scan.T_world_scan = found.T_target_source;
   scan.T_world_scan.translation() += origin;
-  metascan_.add(points, scan.T_world_scan);
+  place(points, scan.T_world_scan);
 }
 
 std::string
@@ -101,7 +115,8 @@ ScanMatcher::doubt(const IcpResult& found,
     reason << "overlap " << found.overlap << " is less than " << options_.min_overlap;
   else if (found.rms > kLargestRmsShare * max_distance)
     reason << "rms " << found.rms << " m is that of unrelated points";
-  else if (odometry_step > 0 && correction > kSmallCorrection * max_distance &&
+  else if (options_.initial_guess == InitialGuess::kOdometry && odometry_step > 0 &&
+           correction > kSmallCorrection * max_distance &&
            correction > options_.max_correction * odometry_step)
     reason << "a correction of " << correction << " m is too much for a step of "
            << odometry_step << " m";

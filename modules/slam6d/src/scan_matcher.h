@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "initial_guess.h"
 #include "metascan.h"
 
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -33,6 +34,8 @@ public:
   match(const IcpModel& points, double odometry_step, ScanResult& scan);
 
 private:
+  void
+  place(const IcpModel& points, const Eigen::Isometry3d& T_world_scan);
   IcpOptions
   icpOptions() const;
   IcpModel::Options
@@ -43,6 +46,7 @@ private:
   const Slam6DOptions& options_;
   const Slam6DParameters& parameters_;
   Metascan metascan_;
+  std::vector<PlacedScan> placed_; ///< first scan, and those whose match is believed
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero(); ///< position of the first scan [m]
 };
 

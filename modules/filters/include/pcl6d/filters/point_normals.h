@@ -38,4 +38,14 @@ estimateNormals(const Points& places,
                 std::size_t neighbours = 20,
                 unsigned int num_threads = 0);
 
+/** \brief The same at the points themselves. */
+inline Normals
+estimateNormals(const Points& points,
+                const PointTree& tree,
+                std::size_t neighbours = 20,
+                unsigned int num_threads = 0)
+{
+  return estimateNormals(points, points, tree, neighbours, num_threads);
+}
+
 } // namespace pcl6d

@@ -65,6 +65,10 @@ public:
   const std::string&
   poseSource() const;
 
+  /** \return false if no pose source was found, so that all poses are the identity */
+  bool
+  hasPoses() const;
+
   /** \brief Reads the i-th selected scan. \throws IoFailed as readScan() */
   Scan
   read(std::size_t i) const;

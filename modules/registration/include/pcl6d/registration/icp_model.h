@@ -32,11 +32,11 @@ class IcpModel {
 public:
   struct Options {
     SearchMethod search = SearchMethod::kCached;
-    bool normals = false;         ///< estimate them; towards the origin of the points
-    std::size_t neighbours = 20;  ///< of a normal; in [3, 64]
-    double normal_voxel = 0;      ///< [m] normals are those of the points reduced by this
-                                  ///< voxel: from a wider patch, whose noise is averaged,
-                                  ///< in less time; 0: of the points themselves
+    bool normals = false;        ///< estimate them; towards the origin of the points
+    std::size_t neighbours = 20; ///< of a normal; in [3, 64]
+    double normal_voxel = 0; ///< [m] normals are those of the points reduced by this
+                             ///< voxel: from a wider patch, whose noise is averaged,
+                             ///< in less time; 0: of the points themselves
     unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   };
 

@@ -49,9 +49,10 @@ struct IcpOptions {
   Metric metric = Metric::kPoint;
   RigidMinimiser minimiser = minimiseByQuaternion;   ///< of the metric kPoint
   PlaneMinimiser plane_minimiser = planeStepByHelix; ///< of the metrics with normals
-  double gicp_epsilon = 1e-3; ///< variance across a plane over that along it, of kGicp; in
-                              ///< (0, 1]
-  int max_iterations = 100;                          ///< > 0
+  double gicp_epsilon =
+      1e-3; ///< variance across a plane over that along it, of kGicp; in
+            ///< (0, 1]
+  int max_iterations = 100;      ///< > 0
   double max_distance = 0.25;    ///< [m] farther pairs are dropped; > 0
   double max_distance_start = 0; ///< [m] the limit at the start, which then shrinks to
                                  ///< max_distance; 0: max_distance from the start

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "initial_guess.h"
+
+#include <pcl6d/registration/feature_alignment.h>
+#include <pcl6d/registration/overlap_search.h>
+
+namespace pcl6d {
+
+namespace {
+/** So many of the last scans are tried in turn: one that sees the same surfaces is usually
+ * the last, unless it looked into a wall. */
+constexpr std::size_t kScansTried = 3;
+
+CoarseEstimate
+searchFor(const Slam6DOptions& options,
+          const PlacedScan& target,
+          const Points& scan,
+          const Eigen::Isometry3d& predicted)
+{
+  if (options.initial_guess == InitialGuess::kOverlap) {
+    OverlapSearchOptions search;
+    search.num_threads = options.num_threads;
+    return searchByOverlap(target.points->points(),
+                           scan,
+                           target.T_world_scan.inverse() * predicted,
+                           search);
+  }
+  FeatureAlignmentOptions alignment;
+  alignment.seed = options.seed;
+  alignment.num_threads = options.num_threads;
+  return alignByFeatures(target.points->points(), scan, alignment);
+}
+} // namespace
+
+StartingPose
+startingPose(const Slam6DOptions& options,
+             const std::vector<PlacedScan>& placed,
+             const Points& scan,
+             const Eigen::Isometry3d& predicted)
+{
+  StartingPose start{predicted, ""};
+  if (options.initial_guess == InitialGuess::kOdometry)
+    return start;
+  const std::size_t count = std::min(kScansTried, placed.size());
+  Status why = Status::kTooFewPairs;
+  for (std::size_t i = 0; i < count; ++i) {
+    const PlacedScan& target = placed[placed.size() - 1 - i];
+    const CoarseEstimate found = searchFor(options, target, scan, predicted);
+    if (found.status == Status::kOk) {
+      start.T_world_scan = target.T_world_scan * found.T_target_source;
+      return start;
+    }
+    if (found.status == Status::kRankDeficient)
+      why = found.status;
+  }
+  if (options.initial_guess == InitialGuess::kFeatures)
+    start.doubt = why == Status::kRankDeficient
+                      ? "features: several places are as good"
+                      : "features: too little in common with the last scans";
+  return start;
+}
+
+} // namespace pcl6d

@@ -2,9 +2,7 @@
 #include "placement_check.h"
 
 #include <pcl6d/common/rotation.h>
-#include <pcl6d/registration/plane_sums.h>
-
-#include <Eigen/Eigenvalues>
+#include <pcl6d/registration/localizability.h>
 
 #include <algorithm>
 #include <cmath>
@@ -169,18 +167,13 @@ looselyHeld(const PlacedScan& target,
             double way)
 {
   const PlaneSums held = heldBy(target.scan, source.scan, T_target_source, distance);
-  if (held.count < 6 || !(held.source_sq > 0))
+  if (held.count < 6)
     return {};
-  // A turn counts by the way of a point that lies as far out as the others on average.
-  const double spread = std::sqrt(held.source_sq / held.weight);
-  Twist unit = Twist::Ones();
-  unit.tail<3>().setConstant(1 / spread);
-  const PlaneSums::Matrix ways = unit.asDiagonal() * held.A * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<PlaneSums::Matrix> solver(ways);
+  const Localizability ways = localizabilityOf(held);
   std::vector<Eigen::Isometry3d> moved;
   for (int weakest = 0; weakest < 3; ++weakest)
     for (const double to : {way, -way}) {
-      const Twist step = to * unit.cwiseProduct(solver.eigenvectors().col(weakest));
+      const Twist step = to * ways.directions.col(weakest);
       const Eigen::Vector3d centre = held.mean_source, shift = step.head<3>();
       Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
       motion.linear() = rotationFromVector(step.tail<3>());

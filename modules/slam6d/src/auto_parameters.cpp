@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "auto_parameters.h"
-
 #include <pcl6d/common/median.h>
 #include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/slam6d/auto_parameters.h>
 
 #include <algorithm>
 #include <cmath>

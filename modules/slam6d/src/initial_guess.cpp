@@ -13,7 +13,7 @@ constexpr std::size_t kScansTried = 3;
 
 CoarseEstimate
 searchFor(const Slam6DOptions& options,
-          const PlacedScan& target,
+          const BelievedScan& target,
           const Points& scan,
           const Eigen::Isometry3d& predicted)
 {
@@ -34,7 +34,7 @@ searchFor(const Slam6DOptions& options,
 
 StartingPose
 startingPose(const Slam6DOptions& options,
-             const std::vector<PlacedScan>& placed,
+             const std::vector<BelievedScan>& placed,
              const Points& scan,
              const Eigen::Isometry3d& predicted)
 {
@@ -44,7 +44,7 @@ startingPose(const Slam6DOptions& options,
   const std::size_t count = std::min(kScansTried, placed.size());
   Status why = Status::kTooFewPairs;
   for (std::size_t i = 0; i < count; ++i) {
-    const PlacedScan& target = placed[placed.size() - 1 - i];
+    const BelievedScan& target = placed[placed.size() - 1 - i];
     const CoarseEstimate found = searchFor(options, target, scan, predicted);
     if (found.status == Status::kOk) {
       start.T_world_scan = target.T_world_scan * found.T_target_source;

@@ -10,7 +10,7 @@
 namespace pcl6d {
 
 /** \brief A scan whose match is believed. */
-struct PlacedScan {
+struct BelievedScan {
   const IcpModel* points = nullptr;
   Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
 };
@@ -27,7 +27,7 @@ struct StartingPose {
  * \param[in] placed at least one */
 StartingPose
 startingPose(const Slam6DOptions& options,
-             const std::vector<PlacedScan>& placed,
+             const std::vector<BelievedScan>& placed,
              const Points& scan,
              const Eigen::Isometry3d& predicted);
 

@@ -46,7 +46,7 @@ private:
   const Slam6DOptions& options_;
   const Slam6DParameters& parameters_;
   Metascan metascan_;
-  std::vector<PlacedScan> placed_; ///< first scan, and those whose match is believed
+  std::vector<BelievedScan> placed_; ///< first scan, and those whose match is believed
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero(); ///< position of the first scan [m]
 };
 

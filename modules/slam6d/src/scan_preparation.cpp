@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scan_preparation.h"
-
 #include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/filters/voxel_reduction.h>
+#include <pcl6d/slam6d/scan_preparation.h>
 
 #include <algorithm>
 #include <sstream>

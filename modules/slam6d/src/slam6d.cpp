@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "auto_parameters.h"
 #include "scan_matcher.h"
-#include "scan_preparation.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/slam6d/auto_parameters.h>
+#include <pcl6d/slam6d/scan_preparation.h>
 #include <pcl6d/slam6d/slam6d.h>
 
 #include <atomic>

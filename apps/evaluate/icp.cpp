@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/interrupt.h"
+#include "evaluate/icp_report.h"
+#include "evaluate/verbs.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/slam6d/auto_parameters.h>
+#include <pcl6d/slam6d/scan_preparation.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+
+Points
+readPoints(const std::string& file, ScanFormat format)
+{
+  const Scan scan = readScan(file, format);
+  if (scan.points.size() < 3)
+    throw IoFailed(tooFewPoints(file, scan.points.size(), "with finite coordinates") +
+                   " (" + std::to_string(scan.dropped) + " without)");
+  return scan.points;
+}
+
+struct InitialPose {
+  Eigen::Isometry3d T_world_scan;
+  std::string source;
+};
+
+/** \return the pose of a file among the scans of its folder */
+InitialPose
+initialPoseOf(const fs::path& file, const ScanFolder& folder)
+{
+  for (std::size_t i = 0; i < folder.size(); ++i)
+    if (fs::equivalent(folder.file(i), file))
+      return {folder.initialPose(i), folder.poseSource()};
+  throw IoFailed(file.string() + ": no scan of its folder; give --guess");
+}
+
+/** \return T_a_b, and where it comes from */
+InitialPose
+startOf(const IcpSettings& s)
+{
+  if (s.guess)
+    return {*s.guess, "--guess"};
+  ScanFolderOptions options;
+  options.format = s.format;
+  const auto folderOf = [](const std::string& file) {
+    return fs::absolute(file).parent_path();
+  };
+  const ScanFolder folder_a(folderOf(s.scan_a), options);
+  const InitialPose a = initialPoseOf(s.scan_a, folder_a);
+  const bool together = fs::equivalent(folderOf(s.scan_a), folderOf(s.scan_b));
+  const InitialPose b =
+      together ? initialPoseOf(s.scan_b, folder_a)
+               : initialPoseOf(s.scan_b, ScanFolder(folderOf(s.scan_b), options));
+  if (a.source != b.source)
+    throw IoFailed("the poses of the scans are not of a kind: " + a.source + " for " +
+                   s.scan_a + ", " + b.source + " for " + s.scan_b + "; give --guess");
+  return {a.T_world_scan.inverse() * b.T_world_scan, a.source};
+}
+
+/** The options of the runs, what is auto derived from the scans. */
+IcpBasinOptions
+basinOptions(const IcpSettings& s, const Slam6DParameters& p, const Points& points)
+{
+  constexpr double kSigmaShare = 0.1;  // of the voxel
+  constexpr double kOffsetShare = 1.5; // of the first pair distance
+  IcpBasinOptions o = s.basin;
+  const double first_distance =
+      std::max(p.max_distance_start.value, p.max_distance.value);
+  const double range = medianRange(points);
+  o.offset_xy = s.offset_xy.value_or(kOffsetShare * first_distance);
+  o.offset_yaw = s.offset_yaw.value_or(std::min(first_distance / range, M_PI));
+  o.min_sigma_position = kSigmaShare * p.voxel.value;
+  o.min_sigma_orientation = o.min_sigma_position / range;
+  o.icp.max_iterations = s.slam.max_iterations;
+  o.icp.max_distance = p.max_distance.value;
+  o.icp.max_distance_start = p.max_distance_start.value;
+  o.icp.translation_epsilon = s.slam.translation_epsilon;
+  o.icp.rotation_epsilon = s.slam.rotation_epsilon;
+  return o;
+}
+
+IcpEvaluation
+evaluate(const IcpSettings& s, ProgressBar& bar, const Interrupt& interrupt)
+{
+  const Points a = readPoints(s.scan_a, s.format), b = readPoints(s.scan_b, s.format);
+  const InitialPose start = startOf(s);
+  IcpEvaluation e;
+  e.pose_source = start.source;
+  e.guess = start.T_world_scan;
+  e.parameters = deriveParameters(s.slam, {a, b});
+  const Points target = prepareScan(a, s.scan_a, e.parameters);
+  const Points source = prepareScan(b, s.scan_b, e.parameters);
+  e.points_a = target.size();
+  e.points_b = source.size();
+  e.options = basinOptions(s, e.parameters, source);
+  e.basin = evaluateIcpBasin(target,
+                             source,
+                             e.guess,
+                             icpVariants(s.methods, s.combination),
+                             e.options,
+                             [&](const Progress& progress) {
+                               bar.show(progress);
+                               return !interrupt.requested();
+                             });
+  return e;
+}
+
+/** \return whether all metrics could be measured */
+bool
+warnOfDoubts(const IcpSettings& s, const IcpBasin& basin, ProgressBar& bar)
+{
+  bool trusted = true;
+  for (const IcpBestPose& best : basin.best)
+    if (!best.doubt.empty()) {
+      trusted = false;
+      bar.warn(std::string("metric ") + toString(best.metric) + ": " + s.scan_b +
+               " cannot be matched onto " + s.scan_a +
+               " even from the unperturbed start: " + best.doubt);
+    }
+  return trusted;
+}
+} // namespace
+
+int
+runIcp(const std::vector<std::string>& arguments)
+{
+  IcpSettings s;
+  if (!parseIcpSettings(arguments, s))
+    return kDone;
+  const Interrupt interrupt;
+  ProgressBar bar(s.quiet);
+  std::optional<OutputFolder> out;
+  if (!s.out.empty())
+    out.emplace(icpFolderRules(s));
+  const IcpEvaluation e = evaluate(s, bar, interrupt);
+  printIcpTable(s, e);
+  if (out) {
+    writeIcpFiles(*out, s, e);
+    drawIcpBasins(*out, s, e, bar);
+    for (const auto& path : out->publish())
+      std::printf("  %s\n", path.c_str());
+  }
+  if (std::fflush(stdout) != 0)
+    throw IoFailed("cannot write to the standard output");
+  const bool trusted = warnOfDoubts(s, e.basin, bar);
+  if (!e.basin.complete) {
+    bar.warn("interrupted; the table holds the methods that were finished");
+    return kInterrupted;
+  }
+  return trusted ? kDone : kDoubtful;
+}
+
+} // namespace pcl6d::app

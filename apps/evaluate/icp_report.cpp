@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/icp_report.h"
+#include "evaluate/verbs.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/version.h>
+#include <pcl6d/io/atomic_file.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <iomanip>
+#include <sstream>
+
+namespace pcl6d::app {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegrees = 180 / M_PI;
+
+std::vector<std::pair<const char*, Parameter>>
+named(const Slam6DParameters& p)
+{
+  return {{"min-range", p.min_range},
+          {"max-range", p.max_range},
+          {"voxel", p.voxel},
+          {"max-distance", p.max_distance},
+          {"max-distance-start", p.max_distance_start}};
+}
+
+std::string
+meaningOf(const Parameter& parameter)
+{
+  return parameter.given ? "given" : "auto: " + parameter.why;
+}
+
+std::string
+fixed(double value, int decimals)
+{
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string
+orDash(const std::optional<double>& value, double unit, int decimals)
+{
+  return value ? fixed(unit * *value, decimals) : "-";
+}
+
+std::string
+axisText(double offset, const char* unit, int steps)
+{
+  if (steps == 1)
+    return " 0";
+  std::ostringstream text;
+  text << std::setprecision(3) << " to +-" << offset << ' ' << unit << " in " << steps
+       << " steps";
+  return text.str();
+}
+
+void
+printHeader(const IcpSettings& settings, const IcpEvaluation& e)
+{
+  std::printf("%s onto %s: %zu onto %zu reduced points\n",
+              settings.scan_b.c_str(),
+              settings.scan_a.c_str(),
+              e.points_b,
+              e.points_a);
+  for (const auto& [name, parameter] : named(e.parameters))
+    std::printf(
+        "  %s = %g m (%s)\n", name, parameter.value, meaningOf(parameter).c_str());
+  const IcpBasinOptions& o = e.options;
+  std::printf("start from %s; %zu %s each: x, y%s, yaw%s\n",
+              e.pose_source.c_str(),
+              icpStarts(o).size(),
+              icpStarts(o).size() == 1 ? "run" : "runs",
+              axisText(o.offset_xy, "m", o.steps_xy).c_str(),
+              axisText(kDegrees * o.offset_yaw, "deg", o.steps_yaw).c_str());
+  for (const IcpBestPose& best : e.basin.best)
+    if (best.doubt.empty()) {
+      const Eigen::Vector3d t = best.result.T_target_source.translation();
+      std::printf("best pose of %s: (%.4f, %.4f, %.4f) m, rms %.4f m, overlap %.3f; "
+                  "sigma %.4f m, %.3f deg\n",
+                  toString(best.metric),
+                  t.x(),
+                  t.y(),
+                  t.z(),
+                  best.result.rms,
+                  best.result.overlap,
+                  best.sigma_position,
+                  kDegrees * best.sigma_orientation);
+    }
+}
+
+void
+printRow(const IcpBasinRow& row)
+{
+  const IcpBasinSummary& s = row.summary;
+  const auto mean = [&s](double value, int decimals) {
+    return s.correct > 0 ? fixed(value, decimals) : std::string("-");
+  };
+  std::printf("%-7s%-18s%-12s%9.1f%11s%12s%9s%12s%9s%9s%11s\n",
+              toString(row.variant.metric),
+              row.variant.minimiser.c_str(),
+              toString(row.variant.search),
+              100 * s.success,
+              mean(1000 * s.position_rms, 3).c_str(),
+              mean(kDegrees * s.orientation_rms, 4).c_str(),
+              mean(s.rms, 5).c_str(),
+              mean(s.iterations, 3).c_str(),
+              mean(1000 * s.seconds, 2).c_str(),
+              orDash(s.reach_xy, 1, 2).c_str(),
+              orDash(s.reach_yaw, kDegrees, 1).c_str());
+}
+
+/** Numbers that can be read back to the last bit; nothing for "none". */
+class CsvLine {
+public:
+  explicit CsvLine(std::ostream& stream) : stream_(stream) { stream_.precision(17); }
+  ~CsvLine() { stream_ << '\n'; }
+  CsvLine(const CsvLine&) = delete;
+  CsvLine&
+  operator=(const CsvLine&) = delete;
+
+  template <typename T>
+  CsvLine&
+  operator<<(const T& value)
+  {
+    stream_ << separator_ << value;
+    separator_ = ",";
+    return *this;
+  }
+  CsvLine&
+  operator<<(const std::optional<double>& value)
+  {
+    return value ? *this << *value : *this << "";
+  }
+
+private:
+  std::ostream& stream_;
+  const char* separator_ = "";
+};
+
+void
+writeRows(std::ostream& stream, const IcpBasin& basin)
+{
+  stream << "metric,minimiser,search,runs,correct,success,position_error_rms,"
+            "orientation_error_rms,pair_rms,iterations,seconds,reach_xy,reach_yaw\n";
+  for (const IcpBasinRow& row : basin.rows) {
+    const IcpBasinSummary& s = row.summary;
+    const auto mean = [&s](double value) {
+      return s.correct > 0 ? std::optional<double>(value) : std::nullopt;
+    };
+    CsvLine(stream) << toString(row.variant.metric) << row.variant.minimiser
+                    << toString(row.variant.search) << s.runs << s.correct << s.success
+                    << mean(s.position_rms) << mean(s.orientation_rms) << mean(s.rms)
+                    << mean(s.iterations) << mean(s.seconds) << s.reach_xy
+                    << s.reach_yaw;
+  }
+}
+
+void
+writeRuns(std::ostream& stream, const IcpBasin& basin)
+{
+  stream << "metric,minimiser,search,x,y,yaw,correct,position_error,orientation_error,"
+            "pairs,pair_rms,iterations,stop,seconds\n";
+  for (const IcpBasinRow& row : basin.rows)
+    for (const IcpBasinRun& run : row.runs)
+      CsvLine(stream) << toString(row.variant.metric) << row.variant.minimiser
+                      << toString(row.variant.search) << run.start.x << run.start.y
+                      << run.start.yaw << run.correct << run.position_error
+                      << run.orientation_error << run.pairs << run.rms << run.iterations
+                      << toString(run.stop) << run.seconds;
+}
+
+std::vector<double>
+rowsOf(const Eigen::Isometry3d& pose)
+{
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = pose.matrix();
+  return {rows.data(), rows.data() + rows.size()};
+}
+
+Json
+toJson(const IcpBestPose& best)
+{
+  return {{"metric", toString(best.metric)},
+          {"believed", best.doubt.empty()},
+          {"doubt", best.doubt},
+          {"T_a_b", rowsOf(best.result.T_target_source)},
+          {"status", toString(best.result.status)},
+          {"iterations", best.result.iterations},
+          {"pairs", best.result.pairs},
+          {"rms", best.result.rms},
+          {"overlap", best.result.overlap},
+          {"sigma_position", best.sigma_position},
+          {"sigma_orientation", best.sigma_orientation}};
+}
+
+Json
+toJson(const IcpSettings& settings, const IcpEvaluation& e)
+{
+  const IcpBasinOptions& o = e.options;
+  Json json = {{"schema_version", 1},
+               {"generator", kEvaluate},
+               {"version", PCL6D_VERSION},
+               {"complete", e.basin.complete},
+               {"scan_a", settings.scan_a},
+               {"scan_b", settings.scan_b},
+               {"points_a", e.points_a},
+               {"points_b", e.points_b},
+               {"start", {{"source", e.pose_source}, {"T_a_b", rowsOf(e.guess)}}},
+               {"x", gridValues(o.offset_xy, o.steps_xy)},
+               {"y", gridValues(o.offset_xy, o.steps_xy)},
+               {"yaw", gridValues(o.offset_yaw, o.steps_yaw)},
+               {"sigmas", o.sigmas},
+               {"robust", toString(o.icp.robust)},
+               {"iterations", o.icp.max_iterations}};
+  for (const auto& [name, parameter] : named(e.parameters))
+    json["parameters"].push_back({{"name", name},
+                                  {"value", parameter.value},
+                                  {"source", parameter.given ? "given" : "derived"},
+                                  {"why", parameter.why}});
+  for (const IcpBestPose& best : e.basin.best)
+    json["best"].push_back(toJson(best));
+  return json;
+}
+} // namespace
+
+OutputRules
+icpFolderRules(const IcpSettings& settings)
+{
+  OutputRules rules;
+  rules.folder = settings.out;
+  rules.inputs = {settings.scan_a, settings.scan_b};
+  rules.program = kEvaluate;
+  rules.marker = "icp.json";
+  rules.files = std::regex("icp\\.(csv|json)|icp_runs\\.csv|icp_basin_[a-z_]+\\.png");
+  rules.force = settings.force;
+  return rules;
+}
+
+void
+printIcpTable(const IcpSettings& settings, const IcpEvaluation& evaluation)
+{
+  printHeader(settings, evaluation);
+  if (evaluation.basin.rows.empty())
+    return;
+  std::printf("\n%-7s%-18s%-12s%9s%11s%12s%9s%12s%9s%9s%11s\n",
+              "metric",
+              "minimiser",
+              "search",
+              "correct %",
+              "error [mm]",
+              "error [deg]",
+              "rms [m]",
+              "iterations",
+              "ms",
+              "reach m",
+              "reach deg");
+  for (const IcpBasinRow& row : evaluation.basin.rows)
+    printRow(row);
+}
+
+void
+writeIcpFiles(const OutputFolder& out,
+              const IcpSettings& settings,
+              const IcpEvaluation& e)
+{
+  writeFileAtomically(out / "icp.csv",
+                      [&](std::ostream& stream) { writeRows(stream, e.basin); });
+  writeFileAtomically(out / "icp_runs.csv",
+                      [&](std::ostream& stream) { writeRuns(stream, e.basin); });
+  // File names need not be UTF-8, but JSON must be.
+  const std::string json =
+      toJson(settings, e).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  writeFileAtomically(out / "icp.json", [&](std::ostream& stream) { stream << json; });
+}
+
+} // namespace pcl6d::app

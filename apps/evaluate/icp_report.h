@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/output_folder.h"
+#include "common/progress_bar.h"
+#include "evaluate/icp_settings.h"
+
+#include <pcl6d/slam6d/slam6d_result.h>
+
+#include <string>
+
+namespace pcl6d::app {
+
+/** \brief What was measured, and with what. */
+struct IcpEvaluation {
+  std::string pose_source;
+  Eigen::Isometry3d guess = Eigen::Isometry3d::Identity(); ///< T_a_b
+  Slam6DParameters parameters;
+  std::size_t points_a = 0; ///< after the reduction
+  std::size_t points_b = 0;
+  IcpBasinOptions options; ///< as used
+  IcpBasin basin;
+};
+
+/** \return what the verb may do to its output folder */
+OutputRules
+icpFolderRules(const IcpSettings& settings);
+
+/** \brief Prints the table to stdout. */
+void
+printIcpTable(const IcpSettings& settings, const IcpEvaluation& evaluation);
+
+/** \brief Writes icp.csv, icp_runs.csv and icp.json. */
+void
+writeIcpFiles(const OutputFolder& out,
+              const IcpSettings& settings,
+              const IcpEvaluation& evaluation);
+
+/** \brief Draws icp_basin_*.png; without a display it says so and goes on. */
+void
+drawIcpBasins(const OutputFolder& out,
+              const IcpSettings& settings,
+              const IcpEvaluation& evaluation,
+              ProgressBar& bar);
+
+} // namespace pcl6d::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/benchmarking/icp_basin.h>
+#include <pcl6d/io/scan_reader.h>
+#include <pcl6d/slam6d/slam6d_options.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief The command line of `pcl_slam6d_evaluate icp`. */
+struct IcpSettings {
+  std::string scan_a; ///< the target
+  std::string scan_b; ///< the source
+  ScanFormat format = ScanFormat::kAuto;
+  std::optional<Eigen::Isometry3d> guess; ///< T_a_b
+  Slam6DOptions slam;                     ///< range gate, reduction, pair distances
+  IcpMethods methods;
+  IcpCombination combination = IcpCombination::kOneByOne;
+  IcpBasinOptions basin; ///< grid and sigma; what is auto is filled in from the scans
+  std::optional<double> offset_xy;  ///< [m]
+  std::optional<double> offset_yaw; ///< [rad]
+  std::string out;                  ///< or empty
+  bool force = false;
+  bool quiet = false;
+};
+
+/** \brief Fills the settings from the command line and the config file.
+ * \return false when there is nothing more to do (--help)
+ * \throws UsageError, boost::program_options::error an option breaks its rule */
+bool
+parseIcpSettings(const std::vector<std::string>& arguments, IcpSettings& settings);
+
+} // namespace pcl6d::app

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+constexpr const char* kEvaluate = "pcl_slam6d_evaluate"; ///< the program's name
+
+/** \brief `trajectory ESTIMATE REFERENCE`: errors of a trajectory against a reference.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runTrajectory(const std::vector<std::string>& arguments);
+
+/** \brief `icp SCAN_A SCAN_B`: the basin of convergence of ICP.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runIcp(const std::vector<std::string>& arguments);
+
+} // namespace pcl6d::app

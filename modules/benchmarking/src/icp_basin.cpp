@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/benchmarking/icp_basin.h>
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/pose.h>
+#include <pcl6d/common/require.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <map>
+#include <memory>
+#include <sstream>
+
+namespace pcl6d {
+
+namespace {
+/** \return the processor time of this thread [s] */
+double
+threadSeconds()
+{
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/** \return the largest distance from 0 up to which every run of a line through the grid is
+ * correct; none if the nearest is not */
+class Reach {
+public:
+  void
+  add(double distance, bool correct)
+  {
+    if (!correct)
+      nearest_wrong_ = std::min(nearest_wrong_, distance);
+    else
+      correct_.push_back(distance);
+  }
+
+  std::optional<double>
+  value() const
+  {
+    std::optional<double> farthest;
+    for (const double distance : correct_)
+      if (distance < nearest_wrong_ && distance >= farthest.value_or(0))
+        farthest = distance;
+    return farthest;
+  }
+
+private:
+  std::vector<double> correct_;
+  double nearest_wrong_ = std::numeric_limits<double>::infinity();
+};
+
+IcpBasinSummary
+summaryOf(const std::vector<IcpBasinRun>& runs)
+{
+  IcpBasinSummary s;
+  Reach xy, yaw;
+  for (const IcpBasinRun& run : runs) {
+    const IcpStart& start = run.start;
+    if (start.yaw == 0)
+      xy.add(std::sqrt(start.x * start.x + start.y * start.y), run.correct);
+    if (start.x == 0 && start.y == 0)
+      yaw.add(std::abs(start.yaw), run.correct);
+    if (!run.correct)
+      continue;
+    ++s.correct;
+    s.position_rms += run.position_error * run.position_error;
+    s.orientation_rms += run.orientation_error * run.orientation_error;
+    s.rms += run.rms;
+    s.iterations += run.iterations;
+    s.seconds += run.seconds;
+  }
+  s.runs = runs.size();
+  s.success = static_cast<double>(s.correct) / static_cast<double>(s.runs);
+  s.reach_xy = xy.value();
+  s.reach_yaw = yaw.value();
+  const auto count = static_cast<double>(std::max<std::size_t>(s.correct, 1));
+  s.position_rms = std::sqrt(s.position_rms / count);
+  s.orientation_rms = std::sqrt(s.orientation_rms / count);
+  for (double* sum : {&s.rms, &s.iterations, &s.seconds})
+    *sum /= count;
+  return s;
+}
+
+std::string
+doubtOf(const IcpResult& best, const IcpBasinOptions& options)
+{
+  const double largest_rms = options.max_rms_share * options.icp.max_distance;
+  std::ostringstream doubt;
+  if (best.status == Status::kRankDeficient)
+    doubt << "the pairs do not fix the pose (" << toString(best.status) << ")";
+  else if (best.status != Status::kOk)
+    doubt << "ICP stopped: " << toString(best.stop);
+  else if (best.overlap < options.min_overlap)
+    doubt << "overlap " << best.overlap << " is less than " << options.min_overlap;
+  else if (best.rms > largest_rms)
+    doubt << "rms " << best.rms << " m is that of unrelated points (more than "
+          << largest_rms << " m)";
+  return doubt.str();
+}
+
+/** \return given, or the root of the summed variances of three of the six, at least min */
+double
+sigmaOf(const std::optional<double>& given,
+        const std::optional<PoseCovariance>& covariance,
+        int first,
+        double min)
+{
+  if (given)
+    return *given;
+  if (!covariance)
+    return min;
+  const double variance = covariance->diagonal().segment<3>(first).sum();
+  return std::max(std::sqrt(variance), min);
+}
+
+class BasinMeasurement {
+public:
+  BasinMeasurement(const Points& target,
+                   const Points& source,
+                   const std::vector<IcpVariant>& variants,
+                   const IcpBasinOptions& options,
+                   const IcpBasinObserver& observer)
+  : o_(options)
+  , variants_(variants)
+  , observer_(observer)
+  , starts_(icpStarts(options))
+  , source_(source, modelOptions(SearchMethod::kCached))
+  {
+    addTarget(target, SearchMethod::kCached);
+    for (const IcpVariant& variant : variants)
+      addTarget(target, variant.search);
+  }
+
+  IcpBasin
+  measure(const Eigen::Isometry3d& guess)
+  {
+    for (const IcpVariant& variant : variants_)
+      if (!findBest(variant.metric))
+        basin_.best.push_back(bestPose(variant, guess));
+    std::vector<IcpVariant> believed;
+    for (const IcpVariant& variant : variants_)
+      if (findBest(variant.metric)->doubt.empty())
+        believed.push_back(variant);
+    total_ = believed.size() * starts_.size();
+    for (const IcpVariant& variant : believed)
+      if (!addRow(variant)) {
+        basin_.complete = false;
+        break;
+      }
+    return std::move(basin_);
+  }
+
+private:
+  IcpModel::Options
+  modelOptions(SearchMethod search) const
+  {
+    IcpModel::Options model;
+    model.search = search;
+    model.normals = std::any_of(variants_.begin(), variants_.end(), [](const auto& v) {
+      return v.metric != Metric::kPoint;
+    });
+    model.neighbours = o_.normal_neighbours;
+    model.num_threads = o_.num_threads;
+    return model;
+  }
+
+  void
+  addTarget(const Points& points, SearchMethod search)
+  {
+    auto& model = targets_[search];
+    if (!model)
+      model = std::make_unique<const IcpModel>(points, modelOptions(search));
+  }
+
+  const IcpBestPose*
+  findBest(Metric metric) const
+  {
+    for (const auto& best : basin_.best)
+      if (best.metric == metric)
+        return &best;
+    return nullptr;
+  }
+
+  IcpResult
+  match(const IcpVariant& variant,
+        const Eigen::Isometry3d& start,
+        unsigned int num_threads) const
+  {
+    IcpOptions options = withVariant(o_.icp, variant);
+    options.num_threads = num_threads;
+    return icp({targets_.at(variant.search)->part()}, source_.source(), start, options);
+  }
+
+  IcpBestPose
+  bestPose(IcpVariant variant, const Eigen::Isometry3d& guess) const
+  {
+    variant.search = SearchMethod::kCached;
+    IcpBestPose best;
+    best.metric = variant.metric;
+    best.result = match(variant, guess, o_.num_threads);
+    best.doubt = doubtOf(best.result, o_);
+    const auto& covariance = best.result.covariance;
+    best.sigma_position =
+        sigmaOf(o_.sigma_position, covariance, 0, o_.min_sigma_position);
+    best.sigma_orientation =
+        sigmaOf(o_.sigma_orientation, covariance, 3, o_.min_sigma_orientation);
+    return best;
+  }
+
+  /** \return false if stopped */
+  bool
+  addRow(const IcpVariant& variant)
+  {
+    const IcpBestPose& best = *findBest(variant.metric);
+    IcpBasinRow row;
+    row.variant = variant;
+    row.runs.resize(starts_.size());
+    constexpr std::size_t kBatch = 32; // between two calls of the observer
+    for (std::size_t begin = 0; begin < starts_.size(); begin += kBatch) {
+      const std::size_t count = std::min(kBatch, starts_.size() - begin);
+      parallelFor(count, o_.num_threads, [&](std::size_t i) {
+        row.runs[begin + i] = runFrom(starts_[begin + i], variant, best);
+      });
+      done_ += count;
+      if (observer_ && !observer_({"matching", done_, total_}))
+        return false;
+    }
+    row.summary = summaryOf(row.runs);
+    basin_.rows.push_back(std::move(row));
+    return true;
+  }
+
+  IcpBasinRun
+  runFrom(const IcpStart& start,
+          const IcpVariant& variant,
+          const IcpBestPose& best) const
+  {
+    const Eigen::Isometry3d& goal = best.result.T_target_source;
+    IcpBasinRun run;
+    run.start = start;
+    const double before = threadSeconds();
+    const IcpResult result = match(variant, perturbed(goal, start), 1);
+    run.seconds = threadSeconds() - before;
+    run.stop = result.stop;
+    run.iterations = result.iterations;
+    run.pairs = result.pairs;
+    run.rms = result.rms;
+    run.T_target_source = result.T_target_source;
+    const MotionSize error = distanceBetween(goal, run.T_target_source);
+    run.position_error = error.translation;
+    run.orientation_error = error.rotation;
+    run.correct = error.translation <= o_.sigmas * best.sigma_position &&
+                  error.rotation <= o_.sigmas * best.sigma_orientation;
+    return run;
+  }
+
+  const IcpBasinOptions& o_;
+  const std::vector<IcpVariant>& variants_;
+  const IcpBasinObserver& observer_;
+  const std::vector<IcpStart> starts_;
+  const IcpModel source_;
+  std::map<SearchMethod, std::unique_ptr<const IcpModel>> targets_;
+  IcpBasin basin_;
+  std::size_t done_ = 0;
+  std::size_t total_ = 0;
+};
+} // namespace
+
+IcpBasin
+evaluateIcpBasin(const Points& target,
+                 const Points& source,
+                 const Eigen::Isometry3d& guess,
+                 const std::vector<IcpVariant>& variants,
+                 const IcpBasinOptions& options,
+                 const IcpBasinObserver& observer)
+{
+  options.validate();
+  require(!variants.empty(), "variants", "none", "one at least");
+  for (const IcpVariant& variant : variants)
+    withVariant({}, variant); // is there such a minimiser?
+  require(isRigid(guess), "guess", "not rigid", "a rigid motion");
+  return BasinMeasurement(target, source, variants, options, observer).measure(guess);
+}
+
+} // namespace pcl6d

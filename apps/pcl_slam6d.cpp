@@ -11,10 +11,12 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/slam6d/slam6d.h>
+#include <pcl6d/visualization/private_display.h>
 
 #include <pcl/console/print.h>
 
 #include <filesystem>
+#include <future>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -49,6 +51,7 @@ public:
   int
   run()
   {
+    const auto display = startDisplay();
     bar_.say(std::to_string(folder_.size()) + " scans, initial poses from " +
              folder_.poseSource());
     if (!readScans()) {
@@ -71,6 +74,18 @@ public:
   }
 
 private:
+  /** Starts what the picture needs while there is other work to do. Failing, it is tried
+   * again when the picture is drawn, where its error is told. */
+  static std::future<void>
+  startDisplay()
+  {
+    return std::async(std::launch::async, [] {
+      try {
+        PrivateDisplay::instance();
+      } catch (const pcl::PCLException&) {}
+    });
+  }
+
   static Settings
   resolved(Settings settings, const ScanFolder& folder)
   {

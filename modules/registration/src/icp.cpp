@@ -105,7 +105,8 @@ private:
     if (hooks_.find)
       finder_.setPairs(hooks_.find(T, limit));
     else
-      finder_.update(T, limit, next_motion_);
+      finder_.update(
+          T, limit, next_motion_, limit > o_.max_distance ? o_.shrinking_stride : 1);
     if (hooks_.reject)
       finder_.setPairs(hooks_.reject(T, finder_.pairs()));
     pairs_found_ = finder_.count();

@@ -70,8 +70,7 @@ Normals
 IcpModel::makeNormals(const Options& options) const
 {
   if (options.normal_voxel == 0)
-    return estimateNormals(
-        points_, *tree_, options.neighbours, options.num_threads);
+    return estimateNormals(points_, *tree_, options.neighbours, options.num_threads);
   ReductionOptions reduction;
   reduction.voxel = options.normal_voxel;
   const Points patches = reducePoints(points_, reduction);

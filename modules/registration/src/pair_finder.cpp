@@ -30,6 +30,7 @@ isIdentity(const Eigen::Isometry3d& T)
 } // namespace
 
 struct PairFinder::Look {
+  std::size_t stride;
   Eigen::Isometry3d T_target_source;
   std::vector<Eigen::Isometry3d> T_part_source;
   float limit;    ///< [m]
@@ -56,9 +57,11 @@ PairFinder::PairFinder(const IcpTarget& target,
 void
 PairFinder::update(const Eigen::Isometry3d& T_target_source,
                    double limit,
-                   double next_motion)
+                   double next_motion,
+                   int stride)
 {
   Look look;
+  look.stride = stride;
   look.T_target_source = T_target_source;
   for (std::size_t i = 0; i < target_.size(); ++i)
     look.T_part_source.push_back(
@@ -84,6 +87,10 @@ PairFinder::updateBlock(const Look& look, const Block& block)
   std::size_t searched = 0;
   for (std::size_t i = block.begin; i < block.end; ++i) {
     Partner& partner = partners_[i];
+    if (i % look.stride != 0) {
+      partner.weight = 0;
+      continue;
+    }
     const Eigen::Vector3f p =
         (look.T_target_source * source_[i].cast<double>()).cast<float>();
     const float own = partner.index < 0 ? kInfinity : (p - partner.point).norm();

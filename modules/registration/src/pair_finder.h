@@ -36,9 +36,13 @@ public:
 
   /** Finds the pairs at a pose.
    * \param[in] limit [m] largest distance of a pair, exclusive
-   * \param[in] next_motion [m] how far points are likely to move in further iterations */
+   * \param[in] next_motion [m] how far points are likely to move in further iterations
+   * \param[in] stride only every n-th source point is looked at */
   void
-  update(const Eigen::Isometry3d& T_target_source, double limit, double next_motion);
+  update(const Eigen::Isometry3d& T_target_source,
+         double limit,
+         double next_motion,
+         int stride);
 
   /** Takes the pairs of a caller instead. \throws BadArgument an index is out of range */
   void

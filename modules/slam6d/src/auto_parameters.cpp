@@ -108,7 +108,10 @@ deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans)
   if (!options.max_range && grid.value < p.max_range.value)
     p.max_range = grid;
   p.max_distance =
-      orDerived(options.max_distance, derived(2 * p.voxel.value, "2 x voxel"));
+      orDerived(options.max_distance,
+                options.metric == Metric::kPoint
+                    ? derived(2 * p.voxel.value, "2 x voxel")
+                    : derived(1.7 * p.voxel.value, "1.7 x voxel, with normals"));
   p.max_distance_start = orDerived(
       options.max_distance_start,
       derived(std::max(12 * p.voxel.value, p.max_distance.value), "12 x voxel"));

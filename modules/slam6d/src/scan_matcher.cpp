@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "agreement.h"
 #include "scan_matcher.h"
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -14,6 +16,13 @@ namespace {
  * large as max_distance, 0.590. So this finds many unrelated clouds, not all. */
 constexpr double kLargestRmsShare = 0.6;
 
+/** The same for the metrics with normals, whose max_distance is shorter: kurt3d has up to
+ * 0.627. */
+constexpr double kLargestRmsShareOfPlanes = 0.66;
+
+/** A match must not let fewer points meet than its start did; so much is chance. */
+constexpr double kAgreementTolerance = 0.005;
+
 /** A smaller correction, as share of max_distance, is always believed. Wrong matches of
  * hku1 (pairwise, or of each third scan) move a scan by 0.57 m and more, by a third of the
  * step and more; right ones by at most 0.29 m and a fifth of the step. */
@@ -22,6 +31,9 @@ constexpr double kSmallCorrection = 1.5;
 /** Normals of voxels so many times as wide: ten of them are a patch on which the noise of
  * kurt3d (its size is that of a voxel) averages out, and which hku1's rooms still fill. */
 constexpr double kNormalVoxels = 3;
+
+/** So many points of a scan are enough while the pair distance shrinks. */
+constexpr std::size_t kPointsToComeNear = 1500;
 } // namespace
 
 ScanMatcher::ScanMatcher(const Slam6DOptions& options,
@@ -80,8 +92,9 @@ ScanMatcher::match(const IcpModel& points, double odometry_step, ScanResult& sca
   const Eigen::Vector3d origin =
       first_.array() + (guess.translation() - first_).array().round();
   guess.translation() -= origin;
+  const IcpTarget target = metascan_.around(origin);
   const IcpResult found =
-      icp(metascan_.around(origin), points.source(), guess, icpOptions());
+      icp(target, points.source(), guess, icpOptions(points.points().size()));
 
   scan.status = found.status;
   scan.pairs = found.pairs;
@@ -90,6 +103,9 @@ ScanMatcher::match(const IcpModel& points, double odometry_step, ScanResult& sca
   scan.iterations = found.iterations;
   scan.correction = (found.T_target_source.translation() - guess.translation()).norm();
   scan.reason = doubt(found, scan.correction, odometry_step);
+  if (scan.reason.empty())
+    scan.reason =
+        lossOfAgreement(target, points.points(), guess, found.T_target_source);
   if (!scan.reason.empty()) {
     scan.state = ScanState::kPredicted;
     return;
@@ -113,7 +129,9 @@ ScanMatcher::doubt(const IcpResult& found,
     reason << "ICP: " << toString(found.status);
   else if (found.overlap < options_.min_overlap)
     reason << "overlap " << found.overlap << " is less than " << options_.min_overlap;
-  else if (found.rms > kLargestRmsShare * max_distance)
+  else if (found.rms > max_distance * (options_.metric == Metric::kPoint
+                                           ? kLargestRmsShare
+                                           : kLargestRmsShareOfPlanes))
     reason << "rms " << found.rms << " m is that of unrelated points";
   else if (options_.initial_guess == InitialGuess::kOdometry && odometry_step > 0 &&
            correction > kSmallCorrection * max_distance &&
@@ -123,8 +141,26 @@ ScanMatcher::doubt(const IcpResult& found,
   return reason.str();
 }
 
+std::string
+ScanMatcher::lossOfAgreement(const IcpTarget& target,
+                             const Points& points,
+                             const Eigen::Isometry3d& before,
+                             const Eigen::Isometry3d& after) const
+{
+  const double distance = std::max(0.03, parameters_.voxel.value / 2.5);
+  const auto agreement = [&](const Eigen::Isometry3d& T) {
+    return agreementOf(target, points, T, distance, options_.num_threads);
+  };
+  const double at_start = agreement(before), at_end = agreement(after);
+  if (at_end >= at_start - kAgreementTolerance)
+    return "";
+  std::ostringstream reason;
+  reason << "agreement fell from " << at_start << " to " << at_end;
+  return reason.str();
+}
+
 IcpOptions
-ScanMatcher::icpOptions() const
+ScanMatcher::icpOptions(std::size_t num_points) const
 {
   IcpOptions icp;
   icp.metric = options_.metric;
@@ -132,6 +168,7 @@ ScanMatcher::icpOptions() const
   icp.plane_minimiser = options_.plane_minimiser;
   icp.robust = options_.robust;
   icp.gicp_epsilon = 0.01;
+  icp.shrinking_stride = std::clamp<int>(num_points / kPointsToComeNear, 1, 5);
   icp.max_iterations = options_.max_iterations;
   icp.max_distance = parameters_.max_distance.value;
   icp.max_distance_start = parameters_.max_distance_start.value;

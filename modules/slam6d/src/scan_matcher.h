@@ -37,11 +37,18 @@ private:
   void
   place(const IcpModel& points, const Eigen::Isometry3d& T_world_scan);
   IcpOptions
-  icpOptions() const;
+  icpOptions(std::size_t num_points) const;
   IcpModel::Options
   modelOptions() const;
   std::string
   doubt(const IcpResult& found, double correction, double odometry_step) const;
+
+  /** \return that fewer points meet than at the start, if so */
+  std::string
+  lossOfAgreement(const IcpTarget& target,
+                  const Points& points,
+                  const Eigen::Isometry3d& before,
+                  const Eigen::Isometry3d& after) const;
 
   const Slam6DOptions& options_;
   const Slam6DParameters& parameters_;

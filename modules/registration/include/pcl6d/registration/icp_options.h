@@ -57,6 +57,9 @@ struct IcpOptions {
   double max_distance_start = 0; ///< [m] the limit at the start, which then shrinks to
                                  ///< max_distance; 0: max_distance from the start
   double distance_decay = 0.9;   ///< the limit's factor per iteration; in (0, 1)
+  int shrinking_stride =
+      1; ///< while the limit shrinks, only every n-th source point is
+         ///< looked at, which is enough to come near; > 0
   RobustKernel robust = RobustKernel::kNone;
   double kept_share = 1; ///< trimmed ICP (Chetverikov 2002): only the closest of the
                          ///< pairs count; in (0, 1]

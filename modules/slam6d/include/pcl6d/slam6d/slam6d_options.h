@@ -34,7 +34,7 @@ struct Slam6DOptions {
   std::optional<double> max_distance_start; ///< [m] largest pair distance of the first
                                             ///< iteration, which then shrinks; finite,
                                             ///< >= 0
-  Metric metric = Metric::kPoint;
+  Metric metric = Metric::kGicp;
   RigidMinimiser minimiser = minimiseByQuaternion;   ///< of the metric kPoint
   PlaneMinimiser plane_minimiser = planeStepByHelix; ///< of the metrics with normals
   SearchMethod search = SearchMethod::kCached;

@@ -3,4 +3,5 @@
 
 namespace pcl6d {
 PCL6D_DEFINE_PAIR_INSTANCES(ICP6D)
+PCL6D_DEFINE_PAIR_INSTANCES(GICP6D)
 } // namespace pcl6d

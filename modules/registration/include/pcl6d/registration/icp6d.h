@@ -13,17 +13,24 @@ namespace pcl6d {
  * honestly whether it converged.
  *
  * Where pcl::IterativeClosestPoint reports success at the iteration limit and on NaN,
- * here hasConverged() is true only if the motion fell below both thresholds;
- * result().status says why not. Runs in parallel with the same bits for any number of
- * threads; all sums are in double. Owns its search tree (FLANN is never built). PCL's
- * setters are honoured: setMaximumIterations (100 unless set),
+ * here hasConverged() is true only if the motion fell below both thresholds and the
+ * surfaces leave no motion open; result() says why not, and how well each is fixed. Runs
+ * in parallel with the same bits for any number of threads; all sums are in double, about
+ * a place near the target, so that UTM-sized coordinates lose nothing.
+ *
+ * Minimises the distance of points, of points to planes, or of planes (setMetric()).
+ * Normals are those of the point type if it has them and they are filled in, else they
+ * are estimated, towards the origin.
+ *
+ * PCL's setters are honoured: setMaximumIterations (100 unless set),
  * setMaxCorrespondenceDistance (no limit unless set), setTransformationEpsilon (squared
- * [m^2], as in PCL), setTransformationRotationEpsilon (cosine, as in PCL), setIndices.
- * align() never throws on data; not converged, getFinalTransformation() is the last
- * good estimate or the guess. Not taken over from PCL, and refused by align() with
- * BadArgument: a search method that is no pcl6d::KdTree, correspondence rejectors, a
- * correspondence estimation, a transformation estimation of another library. Without
- * effect: setEuclideanFitnessEpsilon and the RANSAC settings.
+ * [m^2], as in PCL), setTransformationRotationEpsilon (cosine, as in PCL), setIndices,
+ * setTransformationEstimation (ours, points to points or to planes, which sets the metric;
+ * also PCL's), setCorrespondenceEstimation, addCorrespondenceRejector,
+ * setSearchMethodTarget. The target's tree is built once; FLANN never, unless it is given
+ * as search method. Without effect: setEuclideanFitnessEpsilon, the RANSAC settings,
+ * visualisation callbacks (see setObserver()). align() never throws on data; not
+ * converged, getFinalTransformation() is the last good estimate or the guess.
  * \code
  * pcl6d::ICP6D<pcl::PointXYZ, pcl::PointXYZ> icp;
  * icp.setInputSource(data);
@@ -47,10 +54,49 @@ public:
 
   ICP6D();
 
+  /** \brief What is minimised; points to points unless set. */
+  void
+  setMetric(Metric metric)
+  {
+    options_.metric = metric;
+  }
+
+  /** \brief The number of nearest points that make a normal where none is given; 20
+   * unless set. \throws BadArgument by align(), if outside [3, 64] */
+  void
+  setNormalNeighbours(std::size_t neighbours)
+  {
+    normal_neighbours_ = neighbours;
+  }
+
+  /** \brief Less weight for pairs that are far apart; none unless set. */
+  void
+  setRobustKernel(RobustKernel kernel)
+  {
+    options_.robust = kernel;
+  }
+
+  /** \brief Only so large a share of the pairs, the closest ones, counts (trimmed ICP). */
+  void
+  setKeptShare(double share)
+  {
+    options_.kept_share = share;
+  }
+
+  /** \brief Only pairs that are each other's closest count. */
+  void
+  setUseReciprocalCorrespondences(bool reciprocal)
+  {
+    reciprocal_ = reciprocal;
+  }
+
   /** \brief Limit of the pair distance at the start [m], which shrinks by a tenth per
    * iteration to setMaxCorrespondenceDistance() (annealing, book 4.1.5). 0: off. */
   void
-  setMaxCorrespondenceDistanceStart(double distance);
+  setMaxCorrespondenceDistanceStart(double distance)
+  {
+    options_.max_distance_start = distance;
+  }
 
   /** \brief Stop when a step is shorter [m] and turns less [rad]. */
   void
@@ -65,7 +111,7 @@ public:
   void
   setObserver(IcpObserver observer);
 
-  /** \return what the last align() came to */
+  /** \return what the last align() came to, in the frame of the target */
   const IcpResult&
   result() const
   {
@@ -73,22 +119,61 @@ public:
   }
 
 protected:
+  /** \throws BadArgument a setting breaks its rule, or the search method was built from
+   * another cloud than the target */
   void
   computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
 
+  IcpOptions options_; ///< what PCL's base class has no member for
+  std::size_t normal_neighbours_ = 20;
+
 private:
+  struct Sides;
+
   IcpOptions
   effectiveOptions() const;
-  RigidMinimiser
-  minimiser() const;
+  Sides
+  sides(const IcpOptions& options);
+  IcpHooks
+  hooks(const Sides& sides);
+  void
+  store(const IcpResult& found,
+        const Eigen::Vector3d& origin,
+        PointCloudSource& output);
 
-  IcpOptions options_;
+  bool reciprocal_ = false;
   IcpObserver observer_;
   IcpResult result_;
+};
+
+/** \brief Generalized-ICP as a drop-in for pcl::GeneralizedIterativeClosestPoint: ICP6D
+ * with Metric::kGicp. Takes one Gauss-Newton step between two searches, so that PCL's
+ * settings of the inner optimizer have no counterpart.
+ * \note Source: A. Segal, D. Haehnel, S. Thrun, "Generalized-ICP", RSS 2009.
+ * \ingroup registration */
+template <typename PointSource, typename PointTarget, typename Scalar = float>
+class GICP6D : public ICP6D<PointSource, PointTarget, Scalar> {
+public:
+  using Ptr = pcl::shared_ptr<GICP6D<PointSource, PointTarget, Scalar>>;
+  using ConstPtr = pcl::shared_ptr<const GICP6D<PointSource, PointTarget, Scalar>>;
+
+  GICP6D()
+  {
+    this->reg_name_ = "GICP6D";
+    this->setMetric(Metric::kGicp);
+  }
+
+  /** \brief PCL's name for setNormalNeighbours(). */
+  void
+  setCorrespondenceRandomness(int neighbours)
+  {
+    this->setNormalNeighbours(neighbours > 0 ? neighbours : 0);
+  }
 };
 
 } // namespace pcl6d
 #include <pcl6d/registration/impl/icp6d.hpp>
 namespace pcl6d {
 PCL6D_DECLARE_PAIR_INSTANCES(ICP6D)
+PCL6D_DECLARE_PAIR_INSTANCES(GICP6D)
 } // namespace pcl6d

@@ -50,7 +50,7 @@ public:
       throw BadArgument("CachedKdTree: slot " + std::to_string(slot) + " of " +
                         std::to_string(leaf_of_slot_.size()));
     return this->inCloud(this->core_->nearestFrom(
-        leaf_of_slot_[slot], point.getVector3fMap(), squaredLimit(max_distance)));
+        leaf_of_slot_[slot], this->local(point), squaredLimit(max_distance)));
   }
 
   /** \brief PCL's search for the neighbours of cloud[index]: with k = 1 the index is the
@@ -67,7 +67,7 @@ public:
           cloud, index, k, k_indices, k_sqr_distances);
     const Neighbour found =
         this->core_->nearestFrom(leaf_of_slot_[index],
-                                 cloud[index].getVector3fMap(),
+                                 this->local(cloud[index]),
                                  std::numeric_limits<float>::infinity());
     return this->toPcl(found, k_indices, k_sqr_distances);
   }

@@ -15,6 +15,13 @@
 
 namespace pcl6d {
 
+/** \brief Where coordinates of some points are best counted from: zero, unless the points
+ * lie farther than 8 km from it; then a place near them in whole kilobinary metres (1024
+ * m), which float subtracts without rounding. So distances to points in UTM coordinates
+ * keep the digits that a query of double has. */
+Eigen::Vector3f
+localOrigin(const Points& points);
+
 /** \brief The seam between PCL's interface of searches and our cores.
  *
  * Converts clouds, indices and results; a class for one structure adds build() and what
@@ -55,6 +62,13 @@ public:
                pcl::Indices& k_indices,
                std::vector<float>& k_sqr_distances,
                unsigned int max_nn = 0) const override;
+
+  /** \return the place that the core's coordinates are relative to [m], see localOrigin() */
+  const Eigen::Vector3f&
+  origin() const
+  {
+    return origin_;
+  }
 
   /** \brief Limited search: the nearest point within a distance, without vectors.
    * \param[in] max_distance [m]; a point at exactly this distance is not accepted
@@ -105,6 +119,14 @@ protected:
         pcl::Indices& indices,
         std::vector<float>& sqr_distances) const;
 
+  /** \return the coordinates of a point as the core counts them */
+  Eigen::Vector3f
+  local(const PointT& point) const
+  {
+    return point.getVector3fMap() - origin_;
+  }
+
+  Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
   std::shared_ptr<const Core> core_ = std::make_shared<Core>(); ///< at first empty
 };
 

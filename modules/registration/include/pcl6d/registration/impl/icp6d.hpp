@@ -4,6 +4,7 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/registration/icp6d.h>
+#include <pcl6d/registration/impl/icp6d_plugs.hpp>
 #include <pcl6d/registration/transformation_estimation_quaternion.h>
 
 #include <pcl/common/transforms.h>
@@ -14,6 +15,17 @@
 
 namespace pcl6d {
 
+/** The two clouds as the core takes them. The target's coordinates are relative to origin;
+ * so are poses. */
+template <typename PointSource, typename PointTarget, typename Scalar>
+struct ICP6D<PointSource, PointTarget, Scalar>::Sides {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< [m]
+  Points source, target;
+  Normals source_normals, target_normals;
+  std::shared_ptr<const PointTree> tree; ///< null with a search
+  std::function<Neighbour(const Eigen::Vector3f&, float)> search;
+};
+
 template <typename PointSource, typename PointTarget, typename Scalar>
 ICP6D<PointSource, PointTarget, Scalar>::ICP6D()
 {
@@ -22,14 +34,6 @@ ICP6D<PointSource, PointTarget, Scalar>::ICP6D()
   this->tree_.reset(new KdTree<PointTarget>);
   this->transformation_estimation_.reset(
       new TransformationEstimationQuaternion<PointSource, PointTarget, Scalar>);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setMaxCorrespondenceDistanceStart(
-    double distance)
-{
-  options_.max_distance_start = distance;
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -72,20 +76,93 @@ ICP6D<PointSource, PointTarget, Scalar>::effectiveOptions() const
   if (this->transformation_rotation_epsilon_ > 0)
     options.rotation_epsilon =
         portableAcos(std::min(1.0, this->transformation_rotation_epsilon_));
+  using ToPoints = SumsEstimation<PointSource, PointTarget, Scalar>;
+  if (const auto estimation =
+          std::dynamic_pointer_cast<const ToPoints>(this->transformation_estimation_))
+    options.minimiser = [estimation](const PairSums& s) { return estimation->step(s); };
+  if constexpr (pcl::traits::has_normal<PointTarget>::value) {
+    using ToPlanes = PlaneEstimation<PointSource, PointTarget, Scalar>;
+    const auto estimation =
+        std::dynamic_pointer_cast<const ToPlanes>(this->transformation_estimation_);
+    if (estimation) {
+      options.plane_minimiser = [estimation](const PlaneSums& s) {
+        return estimation->step(s);
+      };
+      if (options.metric == Metric::kPoint)
+        options.metric = Metric::kPlane;
+    }
+  }
   return options;
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
-RigidMinimiser
-ICP6D<PointSource, PointTarget, Scalar>::minimiser() const
+typename ICP6D<PointSource, PointTarget, Scalar>::Sides
+ICP6D<PointSource, PointTarget, Scalar>::sides(const IcpOptions& options)
 {
-  using PointToPoint = SumsEstimation<PointSource, PointTarget, Scalar>;
-  const auto estimation =
-      std::dynamic_pointer_cast<const PointToPoint>(this->transformation_estimation_);
-  if (!estimation)
-    throw BadArgument("ICP6D: the transformation estimation must be one of pcl6d's "
-                      "point to point, such as TransformationEstimationQuaternion");
-  return [estimation](const PairSums& sums) { return estimation->step(sums); };
+  if (!this->tree_->getInputCloud()) // given by setSearchMethodTarget() without a cloud
+    this->tree_->setInputCloud(this->target_);
+  if (this->tree_->getInputCloud() != this->target_)
+    throw BadArgument("ICP6D: the search method of the target was built from another "
+                      "cloud than the target");
+  Sides sides;
+  const auto ours = std::dynamic_pointer_cast<KdTree<PointTarget>>(this->tree_);
+  const pcl::IndicesConstPtr searched = ours ? this->tree_->getIndices() : nullptr;
+  if (ours) {
+    sides.origin = ours->origin().template cast<double>();
+    sides.tree = ours->tree();
+  }
+  else {
+    sides.search = plugs::searchOf<PointTarget>(this->tree_);
+  }
+  const pcl::Indices all = searched ? *searched : plugs::allOf(*this->target_);
+  sides.target = toPoints(*this->target_, all);
+  for (auto& p : sides.target)
+    p -= sides.origin.template cast<float>();
+  sides.source = toPoints(*this->input_, *this->indices_);
+  if (options.metric != Metric::kPoint)
+    sides.target_normals = plugs::normalsOf(*this->target_,
+                                            all,
+                                            sides.target,
+                                            sides.tree.get(),
+                                            normal_neighbours_,
+                                            options);
+  if (options.metric == Metric::kGicp)
+    sides.source_normals = plugs::normalsOf(*this->input_,
+                                            *this->indices_,
+                                            sides.source,
+                                            nullptr,
+                                            normal_neighbours_,
+                                            options);
+  return sides;
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+IcpHooks
+ICP6D<PointSource, PointTarget, Scalar>::hooks(const Sides& sides)
+{
+  using Plugs = plugs::PclPlugs<PointSource, PointTarget, Scalar>;
+  IcpHooks hooks;
+  if (observer_)
+    hooks.observer = [this, &sides](const IcpIteration& centred) {
+      IcpIteration seen = centred;
+      seen.T_target_source.pretranslate(sides.origin);
+      return observer_(seen);
+    };
+  const auto plugged = std::make_shared<Plugs>(
+      this->input_, this->indices_, this->target_, this->tree_, sides.origin);
+  if (this->correspondence_estimation_)
+    hooks.find = plugged->finder(this->correspondence_estimation_, reciprocal_);
+  std::vector<plugs::Rejector> rejectors;
+  if (reciprocal_ && !this->correspondence_estimation_)
+    rejectors.push_back(plugs::reciprocal(sides.source, sides.target));
+  for (const auto& rejector : this->correspondence_rejectors_)
+    rejectors.push_back(plugged->rejector(rejector));
+  if (!rejectors.empty())
+    hooks.reject = plugs::inTurn(std::move(rejectors));
+  if (!plugs::isOurs<PointSource, PointTarget, Scalar>(
+          *this->transformation_estimation_))
+    hooks.minimise = plugged->minimiser(this->transformation_estimation_);
+  return hooks;
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -93,30 +170,32 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource& output,
                                                                const Matrix4& guess)
 {
-  const auto tree = std::dynamic_pointer_cast<KdTree<PointTarget>>(this->tree_);
-  if (!tree)
-    throw BadArgument("ICP6D: the search method of the target must be a pcl6d::KdTree");
-  if (!this->correspondence_rejectors_.empty())
-    throw BadArgument("ICP6D: correspondence rejectors are not supported");
-  if (this->correspondence_estimation_)
-    throw BadArgument("ICP6D: a correspondence estimation is not supported");
-  if (!tree->tree()) // given by setSearchMethodTarget() without a cloud
-    tree->setInputCloud(this->target_);
-  if (tree->getInputCloud() != this->target_)
-    throw BadArgument("ICP6D: the search method of the target was built from another "
-                      "cloud than the target");
-  const auto searched = tree->getIndices();
+  const IcpOptions options = effectiveOptions();
+  const Sides sides = this->sides(options);
+  IcpTargetPart part;
+  part.tree = sides.tree.get();
+  part.points = &sides.target;
+  part.normals = options.metric == Metric::kPoint ? nullptr : &sides.target_normals;
+  part.search = sides.search;
+  IcpSource source{&sides.source, nullptr};
+  if (options.metric == Metric::kGicp)
+    source.normals = &sides.source_normals;
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   start.matrix() = guess.template cast<double>();
+  start.pretranslate(-sides.origin);
+  store(icp({part}, source, start, options, hooks(sides)), sides.origin, output);
+}
 
-  result_ =
-      icp(*tree->tree(),
-          searched ? toPoints(*this->target_, *searched) : toPoints(*this->target_),
-          toPoints(*this->input_, *this->indices_),
-          start,
-          effectiveOptions(),
-          minimiser(),
-          observer_);
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::store(const IcpResult& found,
+                                               const Eigen::Vector3d& origin,
+                                               PointCloudSource& output)
+{
+  result_ = found;
+  result_.T_target_source.pretranslate(origin);
+  if (result_.localizability)
+    result_.localizability->centroid += origin;
   this->converged_ = result_.status == Status::kOk;
   this->nr_iterations_ = result_.iterations;
   this->final_transformation_ =

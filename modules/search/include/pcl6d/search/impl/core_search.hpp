@@ -12,7 +12,11 @@ CoreSearch<PointT, Core, Base>::setInputCloud(const PointCloudConstPtr& cloud,
 {
   if (!cloud)
     throw BadArgument(this->name_ + ": the input cloud is null");
-  core_ = build(indices ? toPoints(*cloud, *indices) : toPoints(*cloud));
+  Points points = indices ? toPoints(*cloud, *indices) : toPoints(*cloud);
+  origin_ = localOrigin(points);
+  for (auto& p : points)
+    p -= origin_;
+  core_ = build(points);
   this->input_ = cloud;
   this->indices_ = indices;
 }
@@ -25,7 +29,7 @@ CoreSearch<PointT, Core, Base>::nearestKSearch(
     pcl::Indices& k_indices,
     std::vector<float>& k_sqr_distances) const
 {
-  const Eigen::Vector3f query = point.getVector3fMap();
+  const Eigen::Vector3f query = local(point);
   if (k == 1)
     return toPcl(findNearest(query, std::numeric_limits<float>::infinity()),
                  k_indices,
@@ -43,8 +47,7 @@ CoreSearch<PointT, Core, Base>::radiusSearch(const PointT& point,
                                              std::vector<float>& k_sqr_distances,
                                              unsigned int max_nn) const
 {
-  const auto found =
-      core_->withinRadius(point.getVector3fMap(), squaredLimit(radius), max_nn);
+  const auto found = core_->withinRadius(local(point), squaredLimit(radius), max_nn);
   return toPcl(found, k_indices, k_sqr_distances);
 }
 
@@ -52,7 +55,7 @@ template <typename PointT, typename Core, typename Base>
 Neighbour
 CoreSearch<PointT, Core, Base>::nearest(const PointT& point, double max_distance) const
 {
-  return inCloud(findNearest(point.getVector3fMap(), squaredLimit(max_distance)));
+  return inCloud(findNearest(local(point), squaredLimit(max_distance)));
 }
 
 template <typename PointT, typename Core, typename Base>

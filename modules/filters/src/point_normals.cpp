@@ -5,7 +5,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace pcl6d {
 
@@ -13,7 +15,7 @@ namespace {
 constexpr std::size_t kMostNeighbours = 64;
 constexpr std::size_t kBlockSize = 256; // points
 /** Ratio of squared spreads below which points count as lying on a line. */
-constexpr double kLineTolerance = 1e-9;
+constexpr double kLineTolerance = 1e-8;
 
 using Patch = std::array<Neighbour, kMostNeighbours>;
 
@@ -32,6 +34,45 @@ scatterOf(const Patch& patch,
     squares += d * d.transpose();
   }
   return squares - sum * sum.transpose() / static_cast<double>(size);
+}
+
+/** The direction of least spread; zero for points on a line. The smallest root of the
+ * characteristic polynomial is found by Newton's method from zero, where it is increasing
+ * and concave, so that no step goes too far; the direction is orthogonal to two rows of S -
+ * root. Several times as fast as a general solver, which is left what this cannot decide:
+ * patches that are nearly as thick as they are wide in some direction. */
+Eigen::Vector3d
+leastSpread(const Eigen::Matrix3d& scatter)
+{
+  const double trace = scatter.trace();
+  if (!(trace > 0))
+    return Eigen::Vector3d::Zero();
+  const Eigen::Matrix3d S = scatter / trace;
+  const double c1 = S(0, 0) * S(1, 1) - S(0, 1) * S(0, 1) + S(0, 0) * S(2, 2) -
+                    S(0, 2) * S(0, 2) + S(1, 1) * S(2, 2) - S(1, 2) * S(1, 2);
+  const double c0 = S.determinant();
+  double root = 0, step = 1;
+  for (int i = 0; i < 40 && step > 1e-15; ++i) {
+    const double value = ((root - 1) * root + c1) * root - c0;
+    const double slope = (3 * root - 2) * root + c1;
+    step = slope > 0 ? std::max(0.0, -value / slope) : 0;
+    root += step;
+  }
+  const double others = 1 - root, product = c1 - root * others;
+  const double largest =
+      (others + std::sqrt(std::max(0.0, others * others - 4 * product))) / 2;
+  if (!(product > kLineTolerance * largest * largest))
+    return Eigen::Vector3d::Zero();
+  const Eigen::Matrix3d rest = S - root * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d direction = rest.row(i).cross(rest.row((i + 1) % 3));
+    if (direction.squaredNorm() > best.squaredNorm())
+      best = direction;
+  }
+  if (best.squaredNorm() > 1e-8)
+    return best.normalized();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(S).eigenvectors().col(0);
 }
 
 void
@@ -55,11 +96,8 @@ normalAt(const Eigen::Vector3f& place,
   const std::size_t size = tree.nearestK(place, neighbours, patch.data());
   if (size < 3)
     return Eigen::Vector3f::Zero();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-      scatterOf(patch, size, points, place));
-  if (!(solver.eigenvalues()(1) > kLineTolerance * solver.eigenvalues()(2)))
-    return Eigen::Vector3f::Zero();
-  const Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
+  const Eigen::Vector3f normal =
+      leastSpread(scatterOf(patch, size, points, place)).cast<float>();
   return normal.dot(place) > 0 ? Eigen::Vector3f(-normal) : normal;
 }
 

@@ -1,11 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pair_geometry.h"
 
+#include <cmath>
+
 namespace pcl6d {
 
 namespace {
 constexpr std::size_t kSample = 400; ///< pairs: a few per cent of error, under 1 ms
 constexpr std::size_t kNeighbours = 10;
+
+/** \return the k-th of count places in [0, size): multiples of the golden section, which
+ * keep no step with scan lines or faces that take turns; all places if count is size */
+std::size_t
+spread(std::size_t k, std::size_t count, std::size_t size)
+{
+  if (count == size)
+    return k;
+  constexpr double kGolden = 0.6180339887498949;
+  const double share = kGolden * static_cast<double>(k);
+  return static_cast<std::size_t>((share - std::floor(share)) *
+                                  static_cast<double>(size));
+}
 
 /** \return the normal at a partner, in the target's frame */
 Eigen::Vector3d
@@ -32,7 +47,7 @@ localizabilityOf(const IcpTarget& target,
   const std::size_t count = std::min(kSample, paired.size());
   PlaneAccumulator sums;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = paired[k * paired.size() / count];
+    const std::size_t i = paired[spread(k, count, paired.size())];
     const Partner& partner = partners[i];
     const IcpTargetPart& part = target[partner.part];
     if (!part.normals && !part.tree)

@@ -109,7 +109,7 @@ describeMatching(CommandLine& line, Settings& s, Raw& raw)
           valueOf(raw.voxel),
           "[m] or auto: edge length of the octree reduction");
   describeMetric(line, raw);
-  line.group("Matching")
+  line.group("Limits of matching")
       .add_options()("max-distance",
                      valueOf(raw.max_distance),
                      "[m] or auto: largest pair distance")(

@@ -53,7 +53,7 @@ try {
   check();
 } catch (const BadArgument& e) {
   const std::string message = e.what();
-  static const std::regex kRule("([a-z_]+)( = .*)");
+  static const std::regex kRule("([a-z_ ]+)( = .*)");
   std::smatch match;
   if (!std::regex_match(message, match, kRule))
     throw UsageError(message);

@@ -30,7 +30,7 @@ TEST(EvaluateIcp, PrintsATableAndWritesItsFiles)
   for (const char* const word :
        {"start from odometry.txt",
         "27 runs each: x, y to +-0.2 m in 3 steps, yaw to +-3 deg in 3 steps",
-        "max-distance = 0.4 m (auto: 2 x voxel)",
+        "max-distance = 0.34 m (auto: 1.7 x voxel, with normals)",
         "best pose of gicp",
         "small-angle",
         "approximate",

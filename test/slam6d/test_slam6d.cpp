@@ -215,15 +215,47 @@ TEST(Slam6D, DoesNotBelievePairsAsFarApartAsThoseOfUnrelatedClouds)
   options.max_range = 20;
   options.voxel = 0.25;
   options.max_distance = 0.5;
+  options.metric = pcl6d::Metric::kPoint;
   const Slam6DResult result = registered(run, options);
   const auto& blob = result.scans[1];
   EXPECT_GE(blob.overlap, options.min_overlap) << "which is not the reason";
   EXPECT_EQ(blob.status, Status::kOk) << "nor is this";
   EXPECT_GT(blob.rms, 0.6 * 0.5) << "this is";
+  EXPECT_NE(blob.reason.find("unrelated points"), std::string::npos) << blob.reason;
   EXPECT_EQ(blob.state, ScanState::kPredicted);
   EXPECT_FALSE(blob.covariance);
   EXPECT_LT(pcl6d::distanceBetween(run.odometry[1], blob.T_world_scan).translation,
             1e-9);
+  for (const auto metric : {pcl6d::Metric::kPlane, pcl6d::Metric::kGicp}) {
+    options.metric = metric;
+    EXPECT_EQ(registered(run, options).scans[1].state, ScanState::kPredicted)
+        << toString(metric);
+  }
+}
+
+TEST(Slam6D, DoesNotBelieveUnrelatedHeapsOfPointsByAnyMetric)
+{
+  // Points so sparse that a partner lies anywhere within the largest distance.
+  Random random(3);
+  Slam6DOptions options;
+  options.max_range = 20;
+  options.voxel = 0.1;
+  options.max_distance = 0.5;
+  options.max_distance_start = 0.5;
+  options.max_correction = std::numeric_limits<double>::infinity();
+  DriftingRun run;
+  for (int i = 0; i < 2; ++i) {
+    run.scans.push_back(pcl6d::test::randomCube(random, 400, 8));
+    run.odometry.push_back(Eigen::Isometry3d::Identity());
+  }
+  for (const auto metric :
+       {pcl6d::Metric::kPoint, pcl6d::Metric::kPlane, pcl6d::Metric::kGicp}) {
+    SCOPED_TRACE(toString(metric));
+    options.metric = metric;
+    const auto heap = registered(run, options).scans[1];
+    EXPECT_EQ(heap.state, ScanState::kPredicted);
+    EXPECT_NE(heap.reason, "");
+  }
 }
 
 TEST(Slam6D, GivesTheSameBitsForEveryNumberOfThreads)

@@ -6,6 +6,7 @@
 #include <pcl6d/slam6d/slam6d.h>
 
 #include <sstream>
+#include <tuple>
 
 using pcl6d::Parameter;
 using pcl6d::Points;
@@ -161,14 +162,24 @@ TEST(Slam6DParameters, GivenOnesWin)
     EXPECT_TRUE(parameter.given);
 }
 
-TEST(Slam6DParameters, FollowAGivenVoxel)
+TEST(Slam6DParameters, FollowAGivenVoxelAndTheMetric)
 {
   Slam6DOptions options;
   options.voxel = 0.4;
-  const auto p = registered(makeDriftingRun(2), options).parameters;
-  EXPECT_TRUE(p.voxel.given);
-  EXPECT_FALSE(p.max_distance.given);
-  EXPECT_EQ(p.max_distance.value, 0.8); // "2 x voxel", its own words
+  for (const auto& [metric, max_distance, why] :
+       {std::tuple(pcl6d::Metric::kPoint, 0.8, "2 x voxel"),
+        std::tuple(pcl6d::Metric::kPlane, 0.68, "1.7 x voxel, with normals"),
+        std::tuple(pcl6d::Metric::kGicp, 0.68, "1.7 x voxel, with normals")}) {
+    SCOPED_TRACE(toString(metric));
+    options.metric = metric;
+    const auto p = registered(makeDriftingRun(2), options).parameters;
+    EXPECT_TRUE(p.voxel.given);
+    EXPECT_FALSE(p.max_distance.given);
+    EXPECT_EQ(p.max_distance.value, max_distance);
+    EXPECT_EQ(p.max_distance.why, why);
+    EXPECT_EQ(p.max_distance_start.value, 4.8);
+    EXPECT_EQ(p.max_distance_start.why, "12 x voxel");
+  }
 }
 
 TEST(Slam6DParameters, DropWhatIsOutsideTheGate)

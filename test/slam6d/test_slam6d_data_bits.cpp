@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The same bits for any number of threads, on recorded scans.
+#include "support/bits.h"
+#include "support/data_folder.h"
+
+#include <pcl6d/common/pose.h>
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/slam6d/slam6d.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+using pcl6d::ScanFolder;
+using pcl6d::ScanFolderOptions;
+using pcl6d::Slam6D;
+using pcl6d::Slam6DOptions;
+using pcl6d::Slam6DResult;
+
+constexpr int kLastScan = 7;
+
+/** Scans of a recorded data set with their initial poses. */
+struct RecordedRun {
+  explicit RecordedRun(const std::filesystem::path& path)
+  {
+    ScanFolderOptions options;
+    options.last = kLastScan;
+    const ScanFolder folder(path, options);
+    for (std::size_t i = 0; i < folder.size(); ++i) {
+      scans.push_back(folder.read(i).points);
+      poses.push_back(folder.initialPose(i));
+    }
+    if (!folder.hasPoses() && scans.size() == 2) // rooms: the usual guess
+      poses[1] = pcl6d::poseFromEuler({1.79387, 0.720047, 0}, {0, 0, 0.6931});
+  }
+
+  Slam6DResult
+  registered(const Slam6DOptions& options) const
+  {
+    Slam6D slam(options);
+    for (std::size_t i = 0; i < scans.size(); ++i)
+      slam.addScan(scans[i], poses[i]);
+    EXPECT_TRUE(slam.optimize());
+    return slam.result();
+  }
+
+  std::vector<pcl6d::Points> scans;
+  std::vector<Eigen::Isometry3d> poses;
+};
+} // namespace
+
+class SameBitsOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(SameBitsOf, ForEveryNumberOfThreadsAndMetric)
+{
+  PCL6D_DATA_OR_SKIP(folder, GetParam());
+  const RecordedRun run(folder);
+  ASSERT_GE(run.scans.size(), 2u);
+  for (const auto& metric : pcl6d::metricNames()) {
+    Slam6DOptions options;
+    options.metric = pcl6d::metricFromName(metric);
+    options.num_threads = 1;
+    const Slam6DResult one = run.registered(options);
+    EXPECT_GE(one.count(pcl6d::ScanState::kMatched), 1u) << metric;
+    for (const unsigned int threads : {2u, 3u, 8u}) {
+      SCOPED_TRACE(metric + ", " + std::to_string(threads) + " threads");
+      options.num_threads = threads;
+      const Slam6DResult more = run.registered(options);
+      for (std::size_t i = 0; i < run.scans.size(); ++i) {
+        EXPECT_TRUE(pcl6d::test::sameBits(more.scans[i].T_world_scan,
+                                          one.scans[i].T_world_scan))
+            << "scan " << i;
+        EXPECT_EQ(more.scans[i].rms, one.scans[i].rms);
+        EXPECT_EQ(more.scans[i].reason, one.scans[i].reason);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Recorded,
+                         SameBitsOf,
+                         testing::Values("hku1", "kurt3d", "rooms"),
+                         [](const auto& info) { return info.param; });

@@ -15,6 +15,7 @@ using pcl6d::test::writeText;
 
 constexpr const char* kName = "pcl_slam6d";
 
+/** A scan with a pose, from which matching starts. */
 std::string
 pcd(const std::string& fields, int count, const std::string& body)
 {
@@ -27,7 +28,7 @@ pcd(const std::string& fields, int count, const std::string& body)
   const std::string n = std::to_string(count);
   return "VERSION 0.7\nFIELDS " + fields + "\nSIZE" + sizes + "\nTYPE" + types +
          "\nCOUNT" + counts + "\nWIDTH " + n +
-         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA ascii\n" + body;
+         "\nHEIGHT 1\nVIEWPOINT 1 0 0 1 0 0 0\nPOINTS " + n + "\nDATA ascii\n" + body;
 }
 
 std::string
@@ -321,6 +322,40 @@ TEST_F(BadInput, OptionsOutOfRange)
                                       Case("--format", "las")}) {
     SCOPED_TRACE(option + " " + value);
     expectUsageError({in.string(), "-o", out.string(), option, value}, {value});
+  }
+}
+
+TEST_F(BadInput, UnknownWordsOfMethods)
+{
+  const std::vector<std::pair<std::string, std::string>> lists = {
+      {"metric", "point|plane|gicp"},
+      {"minimiser",
+       "svd|quaternion|orthonormal|dual-quaternion|scale-quaternion|helix|small-angle|"
+       "euler|quaternion-linear"},
+      {"plane-minimiser", "linear|helix"},
+      {"search", "kdtree|cached|approximate|octree|brute-force"},
+      {"robust", "none|huber|cauchy|geman-mcclure"},
+      {"initial-guess", "odometry|overlap|features"}};
+  for (const auto& [option, list] : lists)
+    for (const std::string word : {"gicpp", "Point", "none "}) {
+      SCOPED_TRACE(option + " '" + word + "'");
+      expectUsageError({in.string(), "-o", out.string(), "--" + option + "=" + word},
+                       {"--" + option, list});
+    }
+}
+
+TEST_F(BadInput, UnknownWordsOfMethodsInTheConfig)
+{
+  const std::string config = folder / "run.cfg";
+  for (const char* option : {"metric",
+                             "minimiser",
+                             "plane-minimiser",
+                             "search",
+                             "robust",
+                             "initial-guess"}) {
+    writeText(config, std::string(option) + " = best\n");
+    expectUsageError({in.string(), "-o", out.string(), "--config", config},
+                     {std::string("--") + option + " = best"});
   }
 }
 

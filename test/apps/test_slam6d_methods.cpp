@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The methods of pcl_slam6d as words of its command line, and what it does not believe.
+#include "slam6d/room_scans.h"
+#include "support/run_program.h"
+
+#include <pcl6d/io/trajectory_io.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using pcl6d::Points;
+using pcl6d::test::Outcome;
+using pcl6d::test::readText;
+using pcl6d::test::TempFolder;
+using pcl6d::test::TurnedScans;
+using pcl6d::test::writeText;
+
+const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
+
+/** A folder of scans, and what pcl_slam6d makes of it. */
+class Methods : public testing::Test {
+protected:
+  Methods() { fs::create_directory(in_); }
+
+  void
+  write(const std::vector<Points>& scans) const
+  {
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      std::ostringstream text;
+      for (const auto& p : scans[i])
+        text << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+      writeText(in_ / ("scan" + std::to_string(i) + ".xyz"), text.str());
+    }
+  }
+
+  void
+  writeOdometry(const std::vector<Eigen::Isometry3d>& poses) const
+  {
+    pcl6d::Trajectory odometry;
+    odometry.poses = poses;
+    pcl6d::writeTrajectoryKitti(in_ / "odometry.txt", odometry);
+  }
+
+  /** Runs the program, expects the exit code and reads the summary. */
+  void
+  run(int exit_code, std::vector<std::string> more = {})
+  {
+    more.insert(more.begin(), {in_.string(), "-o", out_.string()});
+    outcome_ = pcl6d::test::runProgram("pcl_slam6d", more);
+    ASSERT_EQ(outcome_.exit_code, exit_code) << outcome_.err;
+    summary_ = json::parse(readText(out_ / "summary.json"));
+  }
+
+  std::vector<Eigen::Isometry3d>
+  poses() const
+  {
+    return pcl6d::readTrajectory(out_ / "trajectory.kitti").poses;
+  }
+
+  void
+  expectOption(const std::string& name,
+               const std::string& value,
+               const std::string& source) const
+  {
+    EXPECT_EQ(summary_["options"][name]["value"], value) << name;
+    EXPECT_EQ(summary_["options"][name]["source"], source) << name;
+  }
+
+  void
+  expectPredicted(int scan, const std::string& reason) const
+  {
+    EXPECT_EQ(summary_["scans"][scan]["state"], "predicted");
+    const std::string found = summary_["scans"][scan]["reason"];
+    EXPECT_EQ(found.find(reason), 0u) << found;
+    EXPECT_FALSE(summary_["verdict"]["trusted"]);
+    EXPECT_NE(outcome_.out.find("NOT TO BE TRUSTED"), std::string::npos)
+        << outcome_.out;
+    const std::string file = "scan" + std::to_string(scan) + ".xyz";
+    EXPECT_NE(outcome_.out.find(file), std::string::npos) << outcome_.out;
+  }
+
+  /** Expects the path, seen from the first scan, within 5 cm. */
+  void
+  expectPath(const std::vector<Eigen::Isometry3d>& truth) const
+  {
+    const auto found = poses();
+    ASSERT_EQ(found.size(), truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const auto error = pcl6d::distanceBetween(truth[0].inverse() * truth[i],
+                                                found[0].inverse() * found[i]);
+      EXPECT_LT(error.translation, 0.05) << "scan " << i;
+      EXPECT_LT(error.rotation, 0.01) << "scan " << i;
+    }
+  }
+
+  const TempFolder folder_;
+  const fs::path in_ = folder_ / "in", out_ = folder_ / "out";
+  Outcome outcome_;
+  json summary_;
+};
+
+const TurnedScans&
+turned()
+{
+  static const TurnedScans scans;
+  return scans;
+}
+
+constexpr const char* kPlacedByFeatures =
+    "no initial poses were found: scans were placed by features alone";
+} // namespace
+
+TEST_F(Methods, WithoutPosesScansArePlacedByFeatures)
+{
+  write(turned().scans);
+  run(0);
+  expectOption("initial-guess", "features", "default");
+  EXPECT_EQ(summary_["pose_source"], "identity");
+  EXPECT_EQ(summary_["warnings"], json::array({kPlacedByFeatures}));
+  EXPECT_NE(outcome_.err.find(kPlacedByFeatures), std::string::npos);
+  expectPath(turned().truth);
+}
+
+TEST_F(Methods, WithPosesMatchingStartsAtTheOdometry)
+{
+  write({turned().scans[0], turned().scans[1]});
+  writeOdometry({turned().truth[0], turned().truth[1]});
+  run(0);
+  expectOption("initial-guess", "odometry", "default");
+  EXPECT_TRUE(summary_["warnings"].empty());
+  expectPath({turned().truth[0], turned().truth[1]});
+}
+
+TEST_F(Methods, FeaturesCanBeAskedForWherePosesAreWrong)
+{
+  write(turned().scans);
+  writeOdometry({kIdentity,
+                 pcl6d::poseFromEuler({9, 0, 0}, {}),
+                 pcl6d::poseFromEuler({0, 20, 0}, {0, 0, 3}),
+                 pcl6d::poseFromEuler({0, 0, 5}, {1, 0, 0})});
+  run(0, {"--initial-guess", "features", "--seed", "4"});
+  expectOption("initial-guess", "features", "given");
+  expectPath(turned().truth);
+}
+
+TEST_F(Methods, OdometryWithoutPosesStartsWhereTheScanBeforeIs)
+{
+  write({turned().scans[0], turned().scans[1]});
+  run(3, {"--initial-guess", "odometry"}); // turned by 60 degrees
+  expectOption("initial-guess", "odometry", "given");
+  ASSERT_EQ(summary_["warnings"].size(), 1u);
+  const std::string warning = summary_["warnings"][0];
+  EXPECT_NE(warning.find("each scan starts where the one before is"), std::string::npos)
+      << warning;
+}
+
+TEST_F(Methods, OdometryWithoutPosesFitsScansTakenCloseTogether)
+{
+  pcl6d::Random random(1);
+  const pcl6d::test::PillarRoom room;
+  const Eigen::Isometry3d truth = pcl6d::poseFromEuler({0.1, -0.1, 0}, {0, 0, 0.05});
+  write({room.scan(kIdentity, random), room.scan(truth, random)});
+  run(0, {"--initial-guess", "odometry"});
+  expectPath({kIdentity, truth});
+}
+
+TEST_F(Methods, UnrelatedScansWithoutPosesArePredicted)
+{
+  pcl6d::Random random(5);
+  write({turned().scans[0], pcl6d::test::heap(random)});
+  run(3);
+  expectOption("initial-guess", "features", "default");
+  expectPredicted(1, "features: ");
+  const auto found = poses();
+  EXPECT_LT(pcl6d::distanceBetween(found[0], found[1]).translation, 1e-12);
+}
+
+TEST_F(Methods, OverlapRepairsOdometryThatIsFarOff)
+{
+  pcl6d::Random random(1);
+  const pcl6d::test::PillarRoom room;
+  const Eigen::Isometry3d truth = pcl6d::poseFromEuler({0.8, 0.3, 0}, {0, 0, 0.2});
+  write({room.scan(kIdentity, random, 0.03), room.scan(truth, random, 0.03)});
+  Eigen::Isometry3d wrong = truth;
+  wrong.translation() += Eigen::Vector3d(0.9, -1.2, 0); // 1.5 m
+  writeOdometry({kIdentity, wrong});
+  const std::vector<std::string> narrow = {
+      "--voxel", "0.1", "--max-distance-start", "0.3"};
+  run(3, narrow);
+  std::vector<std::string> overlap = narrow;
+  overlap.insert(overlap.end(), {"--initial-guess", "overlap"});
+  run(0, overlap);
+  expectOption("initial-guess", "overlap", "given");
+  expectPath({kIdentity, truth});
+}
+
+TEST_F(Methods, AMatchThatLetsFewerPointsMeetIsPredicted)
+{
+  const pcl6d::test::TornPair pair;
+  write({pair.first, pair.second});
+  writeOdometry({kIdentity, pair.truth});
+  const std::vector<std::string> wide = {"--metric",
+                                         "point",
+                                         "--voxel",
+                                         "0.1",
+                                         "--max-distance",
+                                         "3",
+                                         "--max-distance-start",
+                                         "0"};
+  run(3, wide);
+  expectPredicted(1, "agreement fell from ");
+  EXPECT_TRUE(summary_["scans"][1]["covariance"].is_null());
+  expectPath({kIdentity, pair.truth}); // as the odometry has it
+}
+
+TEST_F(Methods, AScanOfAPipeIsPredicted)
+{
+  pcl6d::Random random(6);
+  write({pcl6d::test::smoothPipe(random, 0), pcl6d::test::smoothPipe(random, 1.3)});
+  const Eigen::Isometry3d odometry = pcl6d::poseFromEuler({1, 0.02, 0.01}, {});
+  writeOdometry({kIdentity, odometry});
+  run(3);
+  expectPredicted(1, "ICP: rank-deficient");
+  EXPECT_EQ(summary_["scans"][1]["status"], "rank-deficient");
+  EXPECT_LT(pcl6d::distanceBetween(poses()[1], odometry).translation, 1e-12);
+}
+
+TEST_F(Methods, TheConfigTakesTheSameWords)
+{
+  write({turned().scans[0], turned().scans[1]});
+  writeOdometry({turned().truth[0], turned().truth[1]});
+  const std::string config = folder_ / "run.cfg";
+  writeText(config,
+            "metric = plane\nminimiser = svd\nplane-minimiser = linear\n"
+            "search = octree\nrobust = huber\ninitial-guess = overlap\n");
+  run(0, {"--config", config, "--robust", "cauchy"});
+  expectOption("metric", "plane", "given");
+  expectOption("minimiser", "svd", "given");
+  expectOption("plane-minimiser", "linear", "given");
+  expectOption("search", "octree", "given");
+  expectOption("initial-guess", "overlap", "given");
+  expectOption("robust", "cauchy", "given"); // the command line wins
+  const std::string of_config = readText(out_ / "trajectory.kitti");
+  const std::vector<std::string> words = {"--metric=plane",
+                                          "--plane-minimiser=linear",
+                                          "--robust=cauchy",
+                                          "--initial-guess=overlap"};
+  run(0, words); // searched otherwise, and with another minimiser of points
+  EXPECT_EQ(readText(out_ / "trajectory.kitti"), of_config);
+  expectOption("search", "cached", "default");
+  run(0);
+  EXPECT_NE(readText(out_ / "trajectory.kitti"), of_config) << "the words do count";
+  expectOption("metric", "gicp", "default");
+}
+
+TEST(MethodsHelp, ListsTheWords)
+{
+  const Outcome outcome = pcl6d::test::runProgram("pcl_slam6d", {"--help"});
+  for (const char* words : {"point|plane|gicp",
+                            "kdtree|cached|approximate|octree|brute-force",
+                            "none|huber|cauchy|geman-mcclure",
+                            "auto|odometry|overlap|features",
+                            "linear|helix",
+                            "(=gicp)",
+                            "(=cached)"})
+    EXPECT_NE(outcome.out.find(words), std::string::npos) << words;
+}

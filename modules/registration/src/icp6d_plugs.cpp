@@ -34,6 +34,17 @@ reciprocal(const Points& source, const Points& target)
   };
 }
 
+std::vector<int>
+placesIn(const pcl::IndicesConstPtr& searched, std::size_t cloud_size)
+{
+  if (!searched)
+    return {};
+  std::vector<int> places(cloud_size, -1);
+  for (std::size_t i = 0; i < searched->size(); ++i)
+    places.at((*searched)[i]) = static_cast<int>(i);
+  return places;
+}
+
 Normals
 givenOrEstimated(Normals given,
                  const Points& points,

@@ -22,7 +22,7 @@ struct ICP6D<PointSource, PointTarget, Scalar>::Sides {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< [m]
   Points source, target;
   Normals source_normals, target_normals;
-  std::shared_ptr<const PointTree> tree; ///< null with a search
+  std::shared_ptr<const PointTree> tree;
   std::function<Neighbour(const Eigen::Vector3f&, float)> search;
 };
 
@@ -106,18 +106,20 @@ ICP6D<PointSource, PointTarget, Scalar>::sides(const IcpOptions& options)
                       "cloud than the target");
   Sides sides;
   const auto ours = std::dynamic_pointer_cast<KdTree<PointTarget>>(this->tree_);
-  const pcl::IndicesConstPtr searched = ours ? this->tree_->getIndices() : nullptr;
-  if (ours) {
+  const pcl::IndicesConstPtr searched = this->tree_->getIndices();
+  if (ours)
     sides.origin = ours->origin().template cast<double>();
-    sides.tree = ours->tree();
-  }
-  else {
-    sides.search = plugs::searchOf<PointTarget>(this->tree_);
-  }
   const pcl::Indices all = searched ? *searched : plugs::allOf(*this->target_);
   sides.target = toPoints(*this->target_, all);
   for (auto& p : sides.target)
     p -= sides.origin.template cast<float>();
+  if (ours) {
+    sides.tree = ours->tree();
+  }
+  else { // a tree of ours all the same, which judges how well the surfaces fix the pose
+    sides.search = plugs::searchOf<PointTarget>(this->tree_);
+    sides.tree = std::make_shared<PointTree>(sides.target, options.num_threads);
+  }
   sides.source = toPoints(*this->input_, *this->indices_);
   if (options.metric != Metric::kPoint)
     sides.target_normals = plugs::normalsOf(*this->target_,

@@ -69,12 +69,31 @@ normalsOf(const pcl::PointCloud<PointT>& cloud,
   return givenOrEstimated(std::move(given), points, tree, neighbours, options);
 }
 
-/** \return the search of any class of PCL's */
+/** \return the place of each point of a cloud among the searched ones, -1: not searched;
+ * empty if all are \param[in] searched null: all */
+std::vector<int>
+placesIn(const pcl::IndicesConstPtr& searched, std::size_t cloud_size);
+
+/** \return the indices of the points that are finite */
+template <typename PointT>
+pcl::IndicesPtr
+finiteOf(const pcl::PointCloud<PointT>& cloud)
+{
+  const pcl::IndicesPtr finite(new pcl::Indices);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (cloud[i].getVector3fMap().allFinite())
+      finite->push_back(static_cast<int>(i));
+  return finite;
+}
+
+/** \return the search of any class of PCL's, which gives places among searched points */
 template <typename PointT>
 std::function<Neighbour(const Eigen::Vector3f&, float)>
 searchOf(const typename pcl::search::KdTree<PointT>::Ptr& tree)
 {
-  return [tree](const Eigen::Vector3f& query, float max_distance_sq) -> Neighbour {
+  const auto place = placesIn(tree->getIndices(), tree->getInputCloud()->size());
+  return [tree, place](const Eigen::Vector3f& query,
+                       float max_distance_sq) -> Neighbour {
     if (!query.allFinite() || tree->getInputCloud()->empty())
       return {};
     PointT point;
@@ -84,7 +103,7 @@ searchOf(const typename pcl::search::KdTree<PointT>::Ptr& tree)
     if (tree->nearestKSearch(point, 1, index, distance_sq) < 1 ||
         !(distance_sq[0] < max_distance_sq))
       return {};
-    return {index[0], distance_sq[0]};
+    return {place.empty() ? index[0] : place.at(index[0]), distance_sq[0]};
   };
 }
 
@@ -120,16 +139,12 @@ public:
            const typename pcl::search::KdTree<PointTarget>::Ptr& tree,
            const Eigen::Vector3d& origin)
   : source_(new SourceCloud(*source, *indices))
+  , finite_(finiteOf(*source_))
   , target_(target)
   , tree_(tree)
   , origin_(origin)
-  {
-    if (const auto searched = tree->getIndices()) {
-      place_.assign(target->size(), -1);
-      for (std::size_t i = 0; i < searched->size(); ++i)
-        place_[(*searched)[i]] = static_cast<int>(i);
-    }
-  }
+  , place_(placesIn(tree->getIndices(), target->size()))
+  {}
 
   std::function<std::vector<IcpPair>(const Eigen::Isometry3d&, double)>
   finder(const typename Registration::CorrespondenceEstimationPtr& estimation,
@@ -141,10 +156,14 @@ public:
       estimation->setInputTarget(self->target_);
       estimation->setSearchMethodTarget(self->tree_, true);
       estimation->setInputSource(self->moved_);
-      if (estimation->requiresSourceNormals())
-        estimation->setSourceNormals(self->blob(*self->moved_));
-      if (estimation->requiresTargetNormals())
-        estimation->setTargetNormals(self->blob(*self->target_));
+      if (self->finite_->size() < self->moved_->size()) // PCL's own search NaN, too
+        estimation->setIndicesSource(self->finite_);
+      if constexpr (pcl::traits::has_normal<PointSource>::value)
+        if (estimation->requiresSourceNormals())
+          estimation->setSourceNormals(self->blob(*self->moved_));
+      if constexpr (pcl::traits::has_normal<PointTarget>::value)
+        if (estimation->requiresTargetNormals())
+          estimation->setTargetNormals(self->blob(*self->target_));
       pcl::Correspondences found;
       if (reciprocal)
         estimation->determineReciprocalCorrespondences(found, limit);
@@ -247,6 +266,7 @@ private:
   }
 
   typename SourceCloud::Ptr source_; ///< the chosen points
+  pcl::IndicesPtr finite_;           ///< of them
   typename SourceCloud::Ptr moved_;
   typename TargetCloud::ConstPtr target_;
   typename pcl::search::KdTree<PointTarget>::Ptr tree_;

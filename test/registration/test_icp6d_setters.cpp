@@ -5,10 +5,6 @@
 
 #include <pcl6d/registration/icp6d.h>
 
-#include <pcl/registration/correspondence_estimation.h>
-#include <pcl/registration/correspondence_rejection_distance.h>
-#include <pcl/registration/transformation_estimation_svd.h>
-
 using pcl6d::IcpIteration;
 using pcl6d::Points;
 using pcl6d::Random;
@@ -63,125 +59,7 @@ expectTruth(Icp& icp)
   EXPECT_LT(error.translation, kExactTol);
   EXPECT_LT(error.rotation, kExactTol);
 }
-
-/** Counts how often it is built. */
-struct CountingTree : pcl6d::KdTree<Point> {
-  int built = 0;
-  [[gnu::noinline]] void // GCC 12 warns of a guess of its own when it inlines
-  setInputCloud(const PointCloudConstPtr& cloud,
-                const pcl::IndicesConstPtr& indices = nullptr) override
-  {
-    ++built;
-    KdTree<Point>::setInputCloud(cloud, indices);
-  }
-};
 } // namespace
-
-TEST(Icp6DSetters, BuildTheTreeOncePerTarget)
-{
-  const auto tree = pcl::make_shared<CountingTree>();
-  Icp icp;
-  icp.setSearchMethodTarget(tree);
-  setUp(icp);
-  expectTruth(icp);
-  expectTruth(icp);
-  icp.setInputSource(data());
-  expectTruth(icp);
-  EXPECT_EQ(tree->built, 1);
-  icp.setInputTarget(model(2));
-  icp.setInputSource(data(2));
-  expectTruth(icp);
-  EXPECT_EQ(tree->built, 2);
-}
-
-TEST(Icp6DSetters, TakeATreeThatIsAlreadyBuilt)
-{
-  const auto tree = pcl::make_shared<CountingTree>();
-  const auto target = model();
-  tree->setInputCloud(target);
-  Icp icp;
-  setUp(icp);
-  icp.setInputTarget(target);
-  icp.setSearchMethodTarget(tree, true); // PCL: do not build again
-  expectTruth(icp);
-  EXPECT_EQ(tree->built, 1);
-}
-
-TEST(Icp6DSetters, TakeAnEmptyTreeThatMustNotBeBuiltByPcl)
-{
-  Icp icp;
-  setUp(icp);
-  icp.setSearchMethodTarget(pcl::make_shared<pcl6d::KdTree<Point>>(), true);
-  expectTruth(icp);
-}
-
-TEST(Icp6DSetters, TakeATreeOverSomePointsOfTheTarget)
-{
-  // Target indices, as a caller of PCL can give them: the tree knows only every other
-  // point; the wrong partners stand in between.
-  auto target = pcl::make_shared<Cloud>();
-  auto indices = pcl::make_shared<pcl::Indices>();
-  const auto chosen = model();
-  for (const auto& p : *chosen) {
-    target->push_back(Point(p.x + 0.1f, p.y - 0.05f, p.z));
-    indices->push_back(static_cast<int>(target->size()));
-    target->push_back(p);
-  }
-  const auto tree = pcl::make_shared<pcl6d::KdTree<Point>>();
-  tree->setInputCloud(target, indices);
-  Icp icp;
-  setUp(icp);
-  icp.setInputTarget(target);
-  icp.setSearchMethodTarget(tree, true);
-  expectTruth(icp);
-}
-
-TEST(Icp6DSetters, RefuseATreeOfAnotherCloud)
-{
-  const auto tree = pcl::make_shared<pcl6d::KdTree<Point>>();
-  tree->setInputCloud(model(5));
-  Icp icp;
-  setUp(icp);
-  icp.setInputTarget(toCloud<Point>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
-  icp.setSearchMethodTarget(tree, true);
-  EXPECT_THROW(align(icp), pcl6d::BadArgument); // its indices lie outside the target
-}
-
-TEST(Icp6DSetters, RefuseForeignParts)
-{
-  {
-    Icp icp;
-    setUp(icp);
-    icp.setSearchMethodTarget(pcl::make_shared<pcl::search::KdTree<Point>>());
-    EXPECT_THROW(align(icp), pcl6d::BadArgument);
-  }
-  {
-    pcl6d::ICP6D<Point, Point, double> icp;
-    icp.setInputSource(data());
-    icp.setInputTarget(model());
-    icp.setTransformationEstimation(
-        pcl::make_shared<
-            pcl::registration::TransformationEstimationSVD<Point, Point, double>>());
-    Cloud aligned;
-    EXPECT_THROW(icp.align(aligned), pcl6d::BadArgument);
-  }
-  {
-    Icp icp;
-    setUp(icp);
-    icp.addCorrespondenceRejector(
-        pcl::make_shared<pcl::registration::CorrespondenceRejectorDistance>());
-    EXPECT_THROW(align(icp), pcl6d::BadArgument);
-    icp.clearCorrespondenceRejectors();
-    expectTruth(icp);
-  }
-  {
-    Icp icp;
-    setUp(icp);
-    icp.setCorrespondenceEstimation(
-        pcl::make_shared<pcl::registration::CorrespondenceEstimation<Point, Point>>());
-    EXPECT_THROW(align(icp), pcl6d::BadArgument);
-  }
-}
 
 TEST(Icp6DSetters, RefuseValuesThatBreakTheirRule)
 {

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Clouds and settings that ICP6D can make nothing of.
+#include "icp6d_cases.h"
+
+using namespace pcl6d::test;
+using pcl6d::Metric;
+using pcl6d::Points;
+using pcl6d::Random;
+using pcl6d::Status;
+
+namespace {
+using Point = pcl::PointXYZ;
+using Cloud = pcl::PointCloud<Point>;
+using Icp = pcl6d::ICP6D<Point, Point, double>;
+using Gicp = pcl6d::GICP6D<Point, Point, double>;
+
+/** Runs a cloud against itself with each metric. \return the statuses */
+std::vector<Status>
+statusesOf(const Points& source, const Points& target)
+{
+  std::vector<Status> statuses;
+  for (const Metric metric : kMetrics) {
+    Icp icp;
+    icp.setInputSource(toCloud<Point>(source));
+    icp.setInputTarget(toCloud<Point>(target));
+    icp.setMaxCorrespondenceDistance(1);
+    icp.setMetric(metric);
+    alignFrom(icp);
+    EXPECT_EQ(icp.hasConverged(), icp.result().status == Status::kOk);
+    EXPECT_TRUE(icp.getFinalTransformation().allFinite()) << toString(metric);
+    statuses.push_back(icp.result().status);
+  }
+  return statuses;
+}
+
+const std::vector<Status> kAllOpen(3, Status::kRankDeficient);
+const std::vector<Status> kAllTooFew(3, Status::kTooFewPairs);
+
+/** \return points uniform in a box about the origin with these sides [m] */
+Points
+box(const Eigen::Vector3f& sides, std::size_t count = 900)
+{
+  Random random(4);
+  Points points = randomCube(random, count, 1);
+  for (auto& p : points)
+    p = p.cwiseProduct(sides) + Eigen::Vector3f(1, 2, 3);
+  return points;
+}
+
+template <typename Registration>
+bool
+refuses(std::function<void(Registration&)> change)
+{
+  Registration icp;
+  setUpCorner(icp);
+  change(icp);
+  return !badArgumentOf([&] { alignFrom(icp); }).empty() && !icp.hasConverged();
+}
+} // namespace
+
+TEST(Icp6DBadInput, WithoutCloudsNothingHappens)
+{
+  Icp icp;
+  alignFrom(icp); // PCL prints that clouds are missing
+  EXPECT_FALSE(icp.hasConverged());
+  icp.setInputTarget(cornerModel<Point>());
+  alignFrom(icp);
+  EXPECT_FALSE(icp.hasConverged());
+  EXPECT_EQ(icp.result().status, Status::kTooFewPairs);
+}
+
+TEST(Icp6DBadInput, EmptyCloudsAreIgnoredByPcl)
+{
+  Icp icp;
+  icp.setInputTarget(pcl::make_shared<Cloud>());
+  icp.setInputSource(pcl::make_shared<Cloud>());
+  alignFrom(icp);
+  EXPECT_FALSE(icp.hasConverged());
+}
+
+TEST(Icp6DBadInput, AGuessOfNanIsTooFewPairs)
+{
+  for (const Metric metric : kMetrics)
+    for (const float bad : {kNan, kInfinity}) {
+      Icp icp;
+      setUpCorner(icp);
+      icp.setMetric(metric);
+      Eigen::Isometry3d guess = Eigen::Isometry3d::Identity();
+      guess.translation().y() = bad;
+      alignFrom(icp, guess);
+      EXPECT_FALSE(icp.hasConverged());
+      EXPECT_EQ(icp.result().status, Status::kTooFewPairs);
+      EXPECT_FALSE(icp.getFinalTransformation().allFinite()) << "the guess";
+    }
+}
+
+TEST(Icp6DBadInput, AGuessThatIsNotRigidBecomesSo)
+{
+  Icp icp;
+  setUpCorner(icp);
+  Eigen::Isometry3d guess = Eigen::Isometry3d::Identity();
+  guess.linear() *= 1.001;
+  alignFrom(icp, guess);
+  EXPECT_LT(errorOf(icp).translation, kExactTol);
+  EXPECT_TRUE(pcl6d::isRigid(icp.result().T_target_source));
+}
+
+TEST(Icp6DBadInput, FewerThanThreePairsAreTooFew)
+{
+  const Points corner = cornerPoints();
+  for (std::size_t count : {1u, 2u}) {
+    const Points few(corner.begin(), corner.begin() + static_cast<long>(count));
+    EXPECT_EQ(statusesOf(few, corner), kAllTooFew);
+  }
+  const Points two(corner.begin(), corner.begin() + 2);
+  for (const Status status : statusesOf(corner, two)) // few targets, many pairs
+    EXPECT_NE(status, Status::kOk);
+}
+
+TEST(Icp6DBadInput, CloudsOfNanAreTooFew)
+{
+  const Points corner = cornerPoints();
+  for (const float bad : {kNan, kInfinity, -kInfinity}) {
+    const Points none(100, {bad, 1, 1});
+    EXPECT_EQ(statusesOf(none, corner), kAllTooFew);
+    EXPECT_EQ(statusesOf(corner, none), kAllTooFew);
+    EXPECT_EQ(statusesOf(none, none), kAllTooFew);
+  }
+}
+
+TEST(Icp6DBadInput, OpenMotionsAreSaid)
+{
+  EXPECT_EQ(statusesOf(box({4, 4, 0}), box({4, 4, 0})), kAllOpen) << "plane";
+  for (const Status status : statusesOf(box({4, 0, 0}), box({4, 0, 0})))
+    EXPECT_NE(status, Status::kOk) << "line";
+  for (const Status status : statusesOf(box({0, 0, 0}), box({0, 0, 0})))
+    EXPECT_NE(status, Status::kOk) << "duplicates of a point";
+}
+
+TEST(Icp6DBadInput, ACorridorIsOpenAlongItself)
+{
+  Random random(9);
+  Points corridor; // floor, ceiling and two walls without an end
+  for (int i = 0; i < 4000; ++i) {
+    const auto along = static_cast<float>(random.uniform(-10, 10));
+    const auto across = static_cast<float>(random.uniform(-1, 1));
+    const float side = i % 2 ? 1.0f : -1.0f;
+    corridor.push_back(i % 4 < 2 ? Eigen::Vector3f(along, across, side)
+                                 : Eigen::Vector3f(along, side, across));
+  }
+  EXPECT_EQ(statusesOf(corridor, corridor), kAllOpen);
+  for (const Metric metric : kMetrics) {
+    Icp icp;
+    icp.setInputSource(toCloud<Point>(corridor));
+    icp.setInputTarget(toCloud<Point>(corridor));
+    icp.setMaxCorrespondenceDistance(1);
+    icp.setMetric(metric);
+    alignFrom(icp);
+    ASSERT_TRUE(icp.result().localizability);
+    EXPECT_EQ(icp.result().localizability->openDirections(), 1) << toString(metric);
+    EXPECT_NEAR(std::abs(icp.result().localizability->directions(0, 0)), 1, 0.01)
+        << "along x";
+    EXPECT_FALSE(icp.result().covariance);
+  }
+}
+
+TEST(Icp6DBadInput, SettingsThatBreakTheirRuleAreRefused)
+{
+  for (const double gate : {0.0, -1.0, static_cast<double>(kNan)})
+    EXPECT_TRUE(refuses<Icp>([&](Icp& i) { i.setMaxCorrespondenceDistance(gate); }));
+  for (const double share : {0.0, -0.1, 1.1, static_cast<double>(kNan)})
+    EXPECT_TRUE(refuses<Icp>([&](Icp& i) { i.setKeptShare(share); })) << share;
+  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMaximumIterations(0); }));
+  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMaxCorrespondenceDistanceStart(-1); }));
+  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMotionEpsilon(-1, 1e-5); }));
+  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMotionEpsilon(1e-4, kNan); }));
+}
+
+TEST(Icp6DBadInput, NeighboursOfANormalAreLimited)
+{
+  for (const Metric metric : {Metric::kPlane, Metric::kGicp})
+    for (const std::size_t neighbours : {0u, 2u, 65u})
+      EXPECT_TRUE(refuses<Icp>([&](Icp& i) {
+        i.setMetric(metric);
+        i.setNormalNeighbours(neighbours);
+      })) << neighbours;
+  for (const int neighbours : {-5, 0, 2, 65})
+    EXPECT_TRUE(
+        refuses<Gicp>([&](Gicp& i) { i.setCorrespondenceRandomness(neighbours); }));
+  for (const int neighbours : {3, 64})
+    EXPECT_FALSE(
+        refuses<Gicp>([&](Gicp& i) { i.setCorrespondenceRandomness(neighbours); }));
+}
+
+TEST(Icp6DBadInput, ARefusedRunLeavesTheNextOneAsItIs)
+{
+  Icp icp;
+  setUpCorner(icp);
+  icp.setKeptShare(2);
+  EXPECT_THROW(alignFrom(icp), pcl6d::BadArgument);
+  icp.setKeptShare(1);
+  expectCorner(icp);
+}

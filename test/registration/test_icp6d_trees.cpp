@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The search method of the target.
+#include "icp6d_cases.h"
+
+#include <pcl6d/search/approximate_kd_tree.h>
+#include <pcl6d/search/cached_kd_tree.h>
+
+#include <pcl/registration/correspondence_rejection_distance.h>
+#include <pcl/registration/transformation_estimation_svd.h>
+
+using namespace pcl6d::test;
+using pcl6d::Metric;
+using pcl6d::Status;
+
+namespace {
+using Point = pcl::PointNormal;
+using Cloud = pcl::PointCloud<Point>;
+using Icp = pcl6d::ICP6D<Point, Point>;
+
+pcl::registration::CorrespondenceRejector::Ptr
+rejectFar(float distance)
+{
+  const auto rejector =
+      pcl::make_shared<pcl::registration::CorrespondenceRejectorDistance>();
+  rejector->setMaximumDistance(distance);
+  return rejector;
+}
+} // namespace
+
+template <typename Tree>
+class Icp6DTrees : public testing::Test {};
+using Trees = testing::Types<pcl6d::KdTree<Point>,
+                             pcl6d::CachedKdTree<Point>,
+                             pcl6d::ApproximateKdTree<Point>,
+                             pcl::search::KdTree<Point>>;
+TYPED_TEST_SUITE(Icp6DTrees, Trees);
+
+TYPED_TEST(Icp6DTrees, AreBuiltOncePerTargetForAllMetrics)
+{
+  const auto tree = pcl::make_shared<CountingTree<TypeParam>>();
+  Icp icp;
+  icp.setSearchMethodTarget(tree);
+  setUpCorner(icp);
+  for (const Metric metric : kMetrics) {
+    icp.setMetric(metric);
+    expectCorner(icp);
+    icp.setInputSource(cornerData<Point>());
+    expectCorner(icp);
+    icp.getFitnessScore();
+  }
+  EXPECT_EQ(tree->built, 1);
+  icp.setInputTarget(cornerModel<Point>(2));
+  icp.setInputSource(cornerData<Point>(2));
+  expectCorner(icp);
+  EXPECT_EQ(tree->built, 2);
+}
+
+TYPED_TEST(Icp6DTrees, MayBeBuiltBefore)
+{
+  const auto tree = pcl::make_shared<CountingTree<TypeParam>>();
+  const auto target = cornerModel<Point>();
+  tree->setInputCloud(target);
+  Icp icp;
+  setUpCorner(icp);
+  icp.setInputTarget(target);
+  icp.setSearchMethodTarget(tree, true); // PCL: do not build again
+  expectCorner(icp);
+  EXPECT_EQ(tree->built, 1);
+}
+
+TYPED_TEST(Icp6DTrees, MayBeEmptyAndNotToBeBuiltByPcl)
+{
+  Icp icp;
+  setUpCorner(icp);
+  icp.setSearchMethodTarget(pcl::make_shared<TypeParam>(), true);
+  expectCorner(icp);
+}
+
+TYPED_TEST(Icp6DTrees, MayHoldSomePointsOfTheTarget)
+{
+  // The tree knows only every other point; the wrong partners stand in between.
+  const auto target = pcl::make_shared<Cloud>();
+  const auto indices = pcl::make_shared<pcl::Indices>();
+  for (const auto& p : *cornerModel<Point>()) {
+    Point wrong = p;
+    wrong.getVector3fMap() += Eigen::Vector3f(0.1f, -0.05f, 0.03f);
+    target->push_back(wrong);
+    indices->push_back(static_cast<int>(target->size()));
+    target->push_back(p);
+  }
+  std::reverse(indices->begin(), indices->end());
+  const auto tree = pcl::make_shared<TypeParam>();
+  tree->setInputCloud(target, indices);
+  for (const Metric metric : kMetrics)
+    for (const int plugs : {0, 1, 2, 3}) { // none, a rejector, also the estimations
+      SCOPED_TRACE(std::string(toString(metric)) + " " + std::to_string(plugs));
+      Icp icp;
+      setUpCorner(icp);
+      icp.setInputTarget(target);
+      icp.setSearchMethodTarget(tree, true);
+      icp.setMetric(metric);
+      if (plugs > 0)
+        icp.addCorrespondenceRejector(rejectFar(0.3f));
+      if (plugs > 1)
+        icp.setTransformationEstimation(
+            pcl::make_shared<
+                pcl::registration::TransformationEstimationSVD<Point, Point>>());
+      if (plugs > 2)
+        icp.setCorrespondenceEstimation(
+            pcl::make_shared<
+                pcl::registration::CorrespondenceEstimation<Point, Point>>());
+      expectCorner(icp, plugs > 1 ? 1e-5 : kExactTol); // PCL's steps are of float
+      EXPECT_EQ(icp.result().pairs, 1998u);
+    }
+}
+
+TYPED_TEST(Icp6DTrees, MayHoldNan)
+{
+  auto target = cornerModel<Point>();
+  (*target)[5].x = kNan;
+  target->is_dense = false;
+  Icp icp;
+  icp.setSearchMethodTarget(pcl::make_shared<TypeParam>());
+  setUpCorner(icp);
+  icp.setInputTarget(target);
+  icp.setMaxCorrespondenceDistance(0.04); // not the neighbour of the missing one
+  expectCorner(icp, 1e-4);
+  EXPECT_GE(icp.result().pairs, 1990u);
+}
+
+TYPED_TEST(Icp6DTrees, KnowThatAPlaneIsOpen)
+{
+  pcl6d::Random random(3);
+  pcl6d::Points plane;
+  for (int i = 0; i < 900; ++i)
+    plane.emplace_back(static_cast<float>(random.uniform(-2, 2)),
+                       static_cast<float>(random.uniform(-2, 2)),
+                       1.0f);
+  for (const Metric metric : kMetrics) {
+    Icp icp;
+    icp.setSearchMethodTarget(pcl::make_shared<TypeParam>());
+    icp.setInputSource(toCloud<Point>(plane));
+    icp.setInputTarget(toCloud<Point>(plane));
+    icp.setMaxCorrespondenceDistance(0.5);
+    icp.setMetric(metric);
+    alignFrom(icp);
+    EXPECT_FALSE(icp.hasConverged()) << toString(metric);
+    EXPECT_EQ(icp.result().status, Status::kRankDeficient) << toString(metric);
+  }
+}
+
+TEST(Icp6DTree, OfAnotherCloudIsRefused)
+{
+  const auto tree = pcl::make_shared<pcl6d::KdTree<Point>>();
+  tree->setInputCloud(cornerModel<Point>(5));
+  Icp icp;
+  setUpCorner(icp);
+  icp.setInputTarget(toCloud<Point>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  icp.setSearchMethodTarget(tree, true);
+  EXPECT_THROW(alignFrom(icp), pcl6d::BadArgument); // its indices lie outside the target
+}

@@ -178,8 +178,9 @@ int
 main(int argc, char** argv)
 {
   using namespace pcl6d::benchmarks;
+  const auto thread_counts = takeThreadCounts(argc, argv);
   for (const auto& pair : recordedPairs())
-    for (const unsigned int threads : {1u, 2u}) {
+    for (const unsigned int threads : thread_counts) {
       addPeerCase({"icp/" + pair.name, kIcp, threads, 7, [=] {
                      return icpJob(pair, threads);
                    }});

@@ -143,9 +143,9 @@ addCase(const std::string& name,
 }
 
 void
-addCases(std::size_t count, Order order)
+addCases(std::size_t count, Order order, const std::vector<unsigned int>& thread_counts)
 {
-  for (const unsigned int threads : {1u, 2u})
+  for (const unsigned int threads : thread_counts)
     addCase("search_build_" + nameOf(order), count, threads, [=] {
       return buildJob(count, order, threads);
     });
@@ -173,10 +173,11 @@ int
 main(int argc, char** argv)
 {
   using namespace pcl6d::benchmarks;
+  const auto thread_counts = takeThreadCounts(argc, argv);
   for (const std::size_t count : {100000, 300000, 1000000}) {
     for (const Order order : {Order::kScanner, Order::kRandom}) {
-      addCases(count, order);
-      addNanoflannCases(count, order);
+      addCases(count, order, thread_counts);
+      addNanoflannCases(count, order, thread_counts);
     }
     addMoreCases(count);
     addMoreNanoflannCases(count);

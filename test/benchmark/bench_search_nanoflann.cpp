@@ -144,9 +144,11 @@ addCase(const std::string& name,
 } // namespace
 
 void
-addNanoflannCases(std::size_t count, Order order)
+addNanoflannCases(std::size_t count,
+                  Order order,
+                  const std::vector<unsigned int>& thread_counts)
 {
-  for (const unsigned int threads : {1u, 2u})
+  for (const unsigned int threads : thread_counts)
     addCase("search_build_" + nameOf(order), count, threads, [=] {
       return buildJob(count, order, threads);
     });
@@ -174,7 +176,7 @@ addMoreNanoflannCases(std::size_t count)
 #else
 namespace pcl6d::benchmarks {
 void
-addNanoflannCases(std::size_t, Order)
+addNanoflannCases(std::size_t, Order, const std::vector<unsigned int>&)
 {}
 void
 addMoreNanoflannCases(std::size_t)

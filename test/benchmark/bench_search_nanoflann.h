@@ -12,7 +12,9 @@ namespace pcl6d::benchmarks {
 
 /** \brief Build and nearest point. */
 void
-addNanoflannCases(std::size_t count, Order order);
+addNanoflannCases(std::size_t count,
+                  Order order,
+                  const std::vector<unsigned int>& thread_counts);
 
 /** \brief Two nearest; 10 and 20 nearest of each point of the cloud itself, as normals
  * and covariances need them. */

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <deque>
 #include <fstream>
-#include <vector>
+#include <sstream>
 
 namespace pcl6d::benchmarks {
 
@@ -85,6 +86,21 @@ measure(benchmark::State& state, Timing& timing)
   addCounters(state, timing);
 }
 
+/** \return the numbers of a list such as "1,2"; empty if it is none */
+std::vector<unsigned int>
+countsOf(const std::string& list)
+{
+  std::vector<unsigned int> counts;
+  std::istringstream items(list);
+  for (std::string item; std::getline(items, item, ',');) {
+    const int count = std::atoi(item.c_str());
+    if (count < 1 || std::to_string(count) != item)
+      return {};
+    counts.push_back(static_cast<unsigned int>(count));
+  }
+  return counts;
+}
+
 std::string
 cpuName()
 {
@@ -107,6 +123,26 @@ addPeerCase(const PeerCase& peer_case)
       ->Iterations(peer_case.repetitions)
       ->UseManualTime()
       ->Unit(benchmark::kMillisecond);
+}
+
+std::vector<unsigned int>
+takeThreadCounts(int& argc, char** argv)
+{
+  const std::string option = "--threads=";
+  std::vector<unsigned int> counts = {1, 2};
+  char** const end = std::stable_partition(argv, argv + argc, [&](const char* word) {
+    return std::string(word).rfind(option, 0) != 0;
+  });
+  for (char** word = end; word != argv + argc; ++word) {
+    counts = countsOf(std::string(*word).substr(option.size()));
+    if (counts.empty()) {
+      std::fprintf(
+          stderr, "error: %s: give counts from 1, such as --threads=1,2\n", *word);
+      std::exit(2);
+    }
+  }
+  argc = static_cast<int>(end - argv);
+  return counts;
 }
 
 int

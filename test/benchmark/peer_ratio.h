@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace pcl6d::benchmarks {
 
@@ -38,6 +39,12 @@ repetitionsFor(std::size_t count)
 /** \brief Puts a case on the list of runPeerCases(). */
 void
 addPeerCase(const PeerCase& peer_case);
+
+/** \brief Takes our own option `--threads=N` or `--threads=N,M` from the command line,
+ * before Google Benchmark sees it; exits with 2 if it is malformed.
+ * \return the counts of threads that the cases shall run ours with; 1, 2 if not given */
+std::vector<unsigned int>
+takeThreadCounts(int& argc, char** argv);
 
 /** \brief Runs the cases that the command line of Google Benchmark chooses. The
  * repetitions take turns, ours, peer, ours, peer, so that a busy machine slows down

@@ -4,3 +4,10 @@ include(${SETTINGS})
 run(COMMAND ${work}/examples_build/drop_in_icp
   PRINTS "pcl6d::ICP6D ok 0.1375 m 0.0549 rad" "all three found the true motion")
 run(COMMAND ${work}/examples_build/search_drop_in PRINTS "5000 normals")
+
+run(COMMAND ${work}/examples_build/planes_drop_in PRINTS "points +ok" "plane +ok" "planes +ok")
+run(COMMAND ${work}/examples_build/minimisers_drop_in PRINTS "all minimisers found the motion")
+run(COMMAND ${work}/examples_build/search_classes PRINTS "all of them agree")
+run(COMMAND ${work}/examples_build/filters_drop_in PRINTS "the mixed pixel at .* went to")
+run(COMMAND ${work}/examples_build/coarse_start PRINTS "features: ok" "ICP: ok")
+run(COMMAND ${work}/examples_build/slam_in_memory PRINTS "7 of 7 scans matched")

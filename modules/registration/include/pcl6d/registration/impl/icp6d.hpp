@@ -204,10 +204,11 @@ ICP6D<PointSource, PointTarget, Scalar>::store(const IcpResult& found,
       result_.T_target_source.matrix().template cast<Scalar>();
   this->transformation_ = this->final_transformation_;
   const PointCloudSource chosen = output;
+  const Eigen::Matrix4d T = result_.T_target_source.matrix(); // double, whatever Scalar
   if constexpr (pcl::traits::has_normal<PointSource>::value)
-    pcl::transformPointCloudWithNormals(chosen, output, this->final_transformation_);
+    pcl::transformPointCloudWithNormals(chosen, output, T);
   else
-    pcl::transformPointCloud(chosen, output, this->final_transformation_);
+    pcl::transformPointCloud(chosen, output, T);
 }
 
 } // namespace pcl6d

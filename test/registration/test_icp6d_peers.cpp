@@ -21,8 +21,10 @@ difference(Theirs& theirs, Ours& ours)
   using PointT = typename Ours::PointCloudSource::PointType;
   pcl6d::Points source = cornerPoints(7, 3000, 0.005);
   for (auto& p : source)
-    p += Eigen::Vector3f(0.3f, 0.3f, 0.3f).cwiseProduct(
-        (p.array() > 0.1f).matrix().cast<float>()); // reaches beyond the target
+    p +=
+        Eigen::Vector3f(0.3f, 0.3f, 0.3f)
+            .cwiseProduct(
+                (p.array() > 0.1f).matrix().cast<float>()); // reaches beyond the target
   const auto run = [&](auto& icp) {
     icp.setInputSource(cornerCloud<PointT>(source, kCornerTruth.inverse()));
     icp.setInputTarget(cornerCloud<PointT>(cornerPoints(1, 3000, 0.005)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PCL's parts, plugged into ICP6D.
+// PCL's estimations of correspondences and transformations, plugged into ICP6D.
 #include "icp6d_cases.h"
 
 #include <pcl6d/registration/transformation_estimation_plane_helix.h>
@@ -7,13 +7,6 @@
 
 #include <pcl/registration/correspondence_estimation_backprojection.h>
 #include <pcl/registration/correspondence_estimation_normal_shooting.h>
-#include <pcl/registration/correspondence_rejection_distance.h>
-#include <pcl/registration/correspondence_rejection_median_distance.h>
-#include <pcl/registration/correspondence_rejection_one_to_one.h>
-#include <pcl/registration/correspondence_rejection_sample_consensus.h>
-#include <pcl/registration/correspondence_rejection_surface_normal.h>
-#include <pcl/registration/correspondence_rejection_trimmed.h>
-#include <pcl/registration/correspondence_rejection_var_trimmed.h>
 #include <pcl/registration/transformation_estimation_dual_quaternion.h>
 #include <pcl/registration/transformation_estimation_lm.h>
 #include <pcl/registration/transformation_estimation_point_to_plane.h>
@@ -29,140 +22,9 @@ using pcl6d::Status;
 namespace {
 using Point = pcl::PointNormal;
 using Icp = pcl6d::ICP6D<Point, Point, double>;
-
-template <typename T>
-struct Named {
-  std::string name;
-  std::function<T()> make;
-};
-
-template <typename T>
-void
-PrintTo(const Named<T>& named, std::ostream* out)
-{
-  *out << named.name;
-}
-
-const auto kNameOf = [](const auto& tested) { return tested.param.name; };
-
-template <typename T, typename Base>
-Named<Base>
-named(const std::string& name, std::function<void(T&)> change = nullptr)
-{
-  return {name, [change]() -> Base {
-            const auto part = pcl::make_shared<T>();
-            if (change)
-              change(*part);
-            return part;
-          }};
-}
 } // namespace
 
-using Rejector = Named<reg::CorrespondenceRejector::Ptr>;
-
-class Icp6DRejectors : public testing::TestWithParam<Rejector> {
-protected:
-  Icp6DRejectors()
-  {
-    icp_.setInputSource(outlierData<Point>());
-    icp_.setInputTarget(cornerModel<Point>());
-    icp_.setMaxCorrespondenceDistance(0.5);
-    icp_.setMotionEpsilon(1e-7, 1e-7); // at rest only after the last outlier is gone
-  }
-  Icp icp_;
-};
-
-TEST_P(Icp6DRejectors, LeaveOutWhatWouldPull)
-{
-  for (const Metric metric : kMetrics) {
-    SCOPED_TRACE(toString(metric));
-    icp_.setMetric(metric);
-    icp_.clearCorrespondenceRejectors();
-    alignFrom(icp_);
-    EXPECT_GT(errorOf(icp_).translation, 1e-3) << "all pairs";
-    EXPECT_GT(icp_.result().pairs, 1900u);
-    icp_.addCorrespondenceRejector(GetParam().make());
-    expectCorner(icp_);
-    EXPECT_GT(icp_.result().pairs, 900u);
-    EXPECT_LE(icp_.result().pairs, 1798u) << "none of the outliers";
-  }
-}
-
-TEST_P(Icp6DRejectors, GiveTheSameBitsAgain)
-{
-  icp_.addCorrespondenceRejector(GetParam().make());
-  alignFrom(icp_);
-  const Eigen::Matrix4d first = icp_.getFinalTransformation();
-  alignFrom(icp_);
-  EXPECT_TRUE(sameBits(Eigen::Matrix4d(icp_.getFinalTransformation()), first));
-}
-
-TEST_P(Icp6DRejectors, SeeOnlyTheChosenPoints)
-{
-  auto source = outlierData<Point>();
-  const auto chosen = pcl::make_shared<pcl::Indices>();
-  for (std::size_t i = 0; i < source->size(); ++i)
-    if (i % 4 < 2)
-      chosen->push_back(static_cast<int>(i));
-    else
-      (*source)[i].getVector3fMap().array() += 0.1f; // would pull the others
-  icp_.setInputSource(source);
-  icp_.setIndices(chosen);
-  icp_.addCorrespondenceRejector(GetParam().make());
-  expectCorner(icp_);
-  EXPECT_LE(icp_.result().pairs, chosen->size());
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Pcl,
-    Icp6DRejectors,
-    testing::Values(
-        named<reg::CorrespondenceRejectorDistance, reg::CorrespondenceRejector::Ptr>(
-            "Distance", [](auto& r) { r.setMaximumDistance(0.1f); }),
-        named<reg::CorrespondenceRejectorMedianDistance,
-              reg::CorrespondenceRejector::Ptr>("MedianDistance",
-                                                [](auto& r) { r.setMedianFactor(4); }),
-        named<reg::CorrespondenceRejectorOneToOne, reg::CorrespondenceRejector::Ptr>(
-            "OneToOne"),
-        named<reg::CorrespondenceRejectorSampleConsensus<Point>,
-              reg::CorrespondenceRejector::Ptr>(
-            "SampleConsensus", [](auto& r) { r.setInlierThreshold(0.05); }),
-        named<reg::CorrespondenceRejectorSurfaceNormal,
-              reg::CorrespondenceRejector::Ptr>("SurfaceNormal",
-                                                [](auto& r) { r.setThreshold(0.9); }),
-        named<reg::CorrespondenceRejectorTrimmed, reg::CorrespondenceRejector::Ptr>(
-            "Trimmed", [](auto& r) { r.setOverlapRatio(0.85f); }),
-        named<reg::CorrespondenceRejectorVarTrimmed, reg::CorrespondenceRejector::Ptr>(
-            "VarTrimmed")),
-    kNameOf);
-
-TEST(Icp6DRejectorsInTurn, EachSeesWhatTheLastOneLeft)
-{
-  struct Counting : reg::CorrespondenceRejectorTrimmed {
-    std::size_t seen = 0;
-    void
-    getRemainingCorrespondences(const pcl::Correspondences& in,
-                                pcl::Correspondences& out) override
-    {
-      seen = in.size();
-      CorrespondenceRejectorTrimmed::getRemainingCorrespondences(in, out);
-    }
-  };
-  const auto first = pcl::make_shared<Counting>();
-  const auto second = pcl::make_shared<Counting>();
-  Icp icp;
-  setUpCorner(icp);
-  for (const auto& rejector : {first, second}) {
-    rejector->setOverlapRatio(0.5f);
-    icp.addCorrespondenceRejector(rejector);
-  }
-  expectCorner(icp);
-  EXPECT_EQ(first->seen, 1998u);
-  EXPECT_EQ(second->seen, 999u);
-  EXPECT_NEAR(static_cast<double>(icp.result().pairs), 499.5, 0.6);
-}
-
-using Estimation = Named<Icp::Base::CorrespondenceEstimationPtr>;
+using Estimation = NamedPart<Icp::Base::CorrespondenceEstimationPtr>;
 
 class Icp6DCorrespondences : public testing::TestWithParam<Estimation> {};
 
@@ -210,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
               Icp::Base::CorrespondenceEstimationPtr>("NormalShooting"),
         named<reg::CorrespondenceEstimationBackProjection<Point, Point, Point, double>,
               Icp::Base::CorrespondenceEstimationPtr>("BackProjection")),
-    kNameOf);
+    kNameOfPart);
 
 TEST(Icp6DCorrespondencesWithoutNormals, FindNoPairsWhereTheyNeedThem)
 {
@@ -224,7 +86,7 @@ TEST(Icp6DCorrespondencesWithoutNormals, FindNoPairsWhereTheyNeedThem)
   EXPECT_EQ(icp.result().status, Status::kTooFewPairs);
 }
 
-using Minimiser = Named<Icp::Base::TransformationEstimationPtr>;
+using Minimiser = NamedPart<Icp::Base::TransformationEstimationPtr>;
 
 class Icp6DEstimations : public testing::TestWithParam<Minimiser> {};
 
@@ -256,15 +118,14 @@ INSTANTIATE_TEST_SUITE_P(
               Icp::Base::TransformationEstimationPtr>("PointToPlane"),
         named<reg::TransformationEstimationPointToPlaneLLS<Point, Point, double>,
               Icp::Base::TransformationEstimationPtr>("PointToPlaneLls")),
-    kNameOf);
+    kNameOfPart);
 
 TEST(Icp6DOwnEstimations, SetTheMetric)
 {
   // Two samples of a corner, so that points and planes come to different poses.
   const auto found = [](auto change) {
     Icp icp;
-    icp.setInputSource(
-        cornerCloud<Point>(cornerPoints(7), kCornerTruth.inverse()));
+    icp.setInputSource(cornerCloud<Point>(cornerPoints(7), kCornerTruth.inverse()));
     icp.setInputTarget(cornerModel<Point>());
     icp.setMaxCorrespondenceDistance(0.5);
     change(icp);
@@ -276,8 +137,8 @@ TEST(Icp6DOwnEstimations, SetTheMetric)
   const auto by_metric = found([](Icp& icp) { icp.setMetric(Metric::kPlane); });
   const auto by_points = found([](Icp&) {});
   EXPECT_FALSE(sameBits(by_metric, by_points));
-  EXPECT_TRUE(sameBits(
-      found([&](Icp& icp) { icp.setTransformationEstimation(helix); }), by_metric));
+  EXPECT_TRUE(sameBits(found([&](Icp& icp) { icp.setTransformationEstimation(helix); }),
+                       by_metric));
   const auto by_gicp = found([](Icp& icp) { icp.setMetric(Metric::kGicp); });
   EXPECT_TRUE(sameBits(found([&](Icp& icp) {
                          icp.setMetric(Metric::kGicp);
@@ -287,8 +148,7 @@ TEST(Icp6DOwnEstimations, SetTheMetric)
       << "not GICP's";
   const auto svd =
       pcl::make_shared<pcl6d::TransformationEstimationSVD<Point, Point, double>>();
-  EXPECT_LT(
-      (found([&](Icp& icp) { icp.setTransformationEstimation(svd); }) - by_points)
-          .norm(),
-      1e-9);
+  EXPECT_LT((found([&](Icp& icp) { icp.setTransformationEstimation(svd); }) - by_points)
+                .norm(),
+            1e-9);
 }

@@ -79,10 +79,19 @@ TEST(Icp6DSetters, RefuseValuesThatBreakTheirRule)
 
 TEST(Icp6DSetters, LimitTheDistanceOfPairs)
 {
-  // Two copies of the same points, the nearer one out of reach of a small limit.
+  // Walls of points 9 m apart, moved by 1 m, out of reach of a small limit.
+  Points walls;
+  for (int i = 0; i < 48; ++i) {
+    Eigen::Vector3f p = Eigen::Vector3f::Zero();
+    p[i % 3] = static_cast<float>(9 * (i / 3 / 4));
+    p[(i + 1) % 3] = static_cast<float>(9 * (i / 3 % 4));
+    walls.push_back(p);
+  }
   Icp icp;
-  icp.setInputSource(toCloud<Point>({{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}}));
-  icp.setInputTarget(toCloud<Point>({{1, 0, 0}, {10, 0, 0}, {1, 9, 0}, {1, 0, 9}}));
+  icp.setInputSource(toCloud<Point>(walls));
+  for (auto& p : walls)
+    p.x() += 1;
+  icp.setInputTarget(toCloud<Point>(walls));
   align(icp);
   EXPECT_TRUE(icp.hasConverged()) << "no limit unless set";
   EXPECT_NEAR(icp.getFinalTransformation()(0, 3), 1, 1e-6);

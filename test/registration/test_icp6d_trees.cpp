@@ -81,7 +81,8 @@ TYPED_TEST(Icp6DTrees, MayHoldSomePointsOfTheTarget)
   // The tree knows only every other point; the wrong partners stand in between.
   const auto target = pcl::make_shared<Cloud>();
   const auto indices = pcl::make_shared<pcl::Indices>();
-  for (const auto& p : *cornerModel<Point>()) {
+  const auto model = cornerModel<Point>();
+  for (const auto& p : *model) {
     Point wrong = p;
     wrong.getVector3fMap() += Eigen::Vector3f(0.1f, -0.05f, 0.03f);
     target->push_back(wrong);
@@ -157,5 +158,6 @@ TEST(Icp6DTree, OfAnotherCloudIsRefused)
   setUpCorner(icp);
   icp.setInputTarget(toCloud<Point>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   icp.setSearchMethodTarget(tree, true);
-  EXPECT_THROW(alignFrom(icp), pcl6d::BadArgument); // its indices lie outside the target
+  EXPECT_THROW(alignFrom(icp),
+               pcl6d::BadArgument); // its indices lie outside the target
 }

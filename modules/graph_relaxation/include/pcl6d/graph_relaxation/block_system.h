@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A sparse symmetric positive definite system A x = b of dense blocks, such as the
+ * normal equations of a graph of poses: one diagonal block per pose, one off-diagonal
+ * block per pair of linked poses.
+ *
+ * The order of elimination and the structure of the factor are found once; then the
+ * numbers may change and be factorised again and again. The same bits for any number of
+ * threads. \tparam Size of a block: 1, 3, 6 or 7 \ingroup graph_relaxation */
+template <int Size>
+class BlockSystem {
+public:
+  using Block = Eigen::Matrix<double, Size, Size>;
+  using Vector = Eigen::Matrix<double, Size, 1>;
+  using Couplings = std::vector<std::pair<std::size_t, std::size_t>>;
+
+  /** \param[in] couplings (a, b) with a != b, each pair of blocks once in either order
+   * \throws BadArgument a block that does not exist, or a pair given twice */
+  BlockSystem(std::size_t num_blocks, const Couplings& couplings);
+  ~BlockSystem();
+  BlockSystem(BlockSystem&&) noexcept;
+  BlockSystem&
+  operator=(BlockSystem&&) noexcept;
+
+  /** \brief All numbers zero; the structure stays. */
+  void
+  setZero();
+
+  Block&
+  diagonal(std::size_t i);
+
+  /** \return the block in row a, column b of coupling k; (b, a) is its transpose */
+  Block&
+  coupling(std::size_t k);
+
+  /** \param[in] damping is added to the diagonal, times the diagonal (Marquardt)
+   * \param[in] num_threads 0: one per core
+   * \return false: not positive definite, or a value is not finite */
+  bool
+  factorize(double damping = 0, unsigned int num_threads = 0);
+
+  /** \return x of A x = b for the last factor \throws ComputeFailed there is none */
+  std::vector<Vector>
+  solve(const std::vector<Vector>& b) const;
+
+  /** \return the diagonal blocks of the inverse, by selected inversion
+   * \throws ComputeFailed there is no factor */
+  std::vector<Block>
+  inverseDiagonals() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace pcl6d

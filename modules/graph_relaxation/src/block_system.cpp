@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/graph_relaxation/block_system.h>

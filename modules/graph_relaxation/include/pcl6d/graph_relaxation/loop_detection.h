@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/graph_relaxation/network_scan.h>
+#include <pcl6d/graph_relaxation/scan_link.h>
+#include <pcl6d/registration/icp_options.h>
+
+namespace pcl6d {
+
+/** \brief Knobs of detectLoops(). */
+struct LoopDetectionOptions {
+  double max_distance = 5; ///< [m] between the positions, horizontally; > 0
+  double max_height = 10; ///< [m] between the positions, vertically: heights drift; > 0
+  std::size_t min_gap = 20;    ///< scans between both ends, and between two loops; > 0
+  std::size_t min_pairs = 250; ///< of points; > 0
+  double min_overlap = 0.3;    ///< share of the points with a partner; in [0, 1]
+  double max_rms_share = 0.66; ///< of icp.max_distance; > 0
+  double min_consistency =
+      0.8;        ///< near points, of those and of the ones where the other
+                  ///< scan looked through; in [0, 1]
+  IcpOptions icp; ///< how candidates are matched
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief Closed loops (book 5.1.2): scans that are near in space but not in time, matched
+ * to each other from small metascans ({j-1, j, j+1} and {n-1, n}), and believed only by
+ * evidence: pairs, overlap, rms, what the scans looked through, how well the surfaces fix
+ * the pose; and by each other: two loops close together in time must agree on the way
+ * between their ends (pairwise consistency); one that contradicts its neighbours is
+ * refused.
+ *
+ * From bad poses, where ICP alone finds nothing, the octree overlap search is tried.
+ * \param[in] usable per scan: false keeps it out, such as one that could not be matched
+ * \return every candidate with its verdict, in the order of its later scan; T_from_to is
+ * set where matching came to rest
+ * \throws BadArgument an option breaks its rule; not one pose and flag per scan
+ * \note Source: A. Nüchter, K. Lingemann, J. Hertzberg, H. Surmann, JFR 24(8/9), 2007;
+ * pairwise consistency: J. G. Mangelson et al., ICRA 2018. \ingroup graph_relaxation */
+std::vector<ScanLink>
+detectLoops(const std::vector<NetworkScan>& scans,
+            const Poses& poses,
+            const std::vector<bool>& usable,
+            const LoopDetectionOptions& options);
+
+} // namespace pcl6d

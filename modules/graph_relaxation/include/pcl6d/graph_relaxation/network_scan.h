@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/registration/icp_model.h>
+#include <pcl6d/registration/seen_space.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A scan as a member of a network: what finds its points, how far it reaches,
+ * and what it saw through. \ingroup graph_relaxation */
+class NetworkScan {
+public:
+  /** \param[in] model is kept by reference */
+  explicit NetworkScan(const IcpModel& model);
+
+  const IcpModel&
+  model() const
+  {
+    return *model_;
+  }
+  const SeenSpace&
+  seen() const
+  {
+    return seen_;
+  }
+  /** \return the middle of its points, in its own frame [m] */
+  const Eigen::Vector3d&
+  centre() const
+  {
+    return centre_;
+  }
+  /** \return the largest distance of a point from the centre [m] */
+  double
+  radius() const
+  {
+    return radius_;
+  }
+
+private:
+  const IcpModel* model_;
+  SeenSpace seen_;
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
+  double radius_ = 0;
+};
+
+/** \brief Two scans, first < second. */
+using ScanPair = std::pair<std::size_t, std::size_t>;
+using Poses = std::vector<Eigen::Isometry3d>; ///< T_world_scan, one per scan
+
+/** \brief What the points of one scan say of another. */
+struct PointVotes {
+  std::size_t points = 0; ///< that were looked at
+  std::size_t near = 0;   ///< that have a point of the other scan within a distance
+  std::size_t empty = 0;  ///< that lie where the other scan looked through
+
+  PointVotes&
+  operator+=(const PointVotes& other);
+
+  /** \return (near - empty) / points; 0 without points */
+  double
+  share() const;
+};
+
+/** \param[in] distance [m] within which a point is near
+ * \param[in] stride looks at each stride-th point of `scan`; >= 1 */
+PointVotes
+votesOf(const NetworkScan& scan,
+        const NetworkScan& other,
+        const Eigen::Isometry3d& T_other_scan,
+        double distance,
+        std::size_t stride = 1);
+
+/** \return the share of the points of one scan that have a partner in the other within a
+ * distance [m], the larger of both ways, in [0, 1]; of samples of the points */
+double
+overlapOf(const NetworkScan& a,
+          const NetworkScan& b,
+          const Eigen::Isometry3d& T_a_b,
+          double distance);
+
+/** \return all pairs of scans that see common places: overlapOf() is at least
+ * min_overlap at the poses. Candidates come from bounding spheres.
+ * \param[in] distance [m] within which points are partners
+ * \param[in] num_threads 0: one per core; never changes the result */
+std::vector<ScanPair>
+overlappingPairs(const std::vector<NetworkScan>& scans,
+                 const Poses& poses,
+                 double distance,
+                 double min_overlap,
+                 unsigned int num_threads);
+
+} // namespace pcl6d

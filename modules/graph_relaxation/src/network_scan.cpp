@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/graph_relaxation/network_scan.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+constexpr std::size_t kSample = 250; ///< points that tell an overlap
+
+/** The share of a sample of points that have a partner. */
+double
+sampledShare(const NetworkScan& scan,
+             const NetworkScan& other,
+             const Eigen::Isometry3d& T_other_scan,
+             double distance)
+{
+  const Points& points = scan.model().points();
+  const auto limit_sq = static_cast<float>(distance * distance);
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSample);
+  std::size_t looked = 0, near = 0;
+  for (std::size_t i = 0; i < points.size(); i += stride, ++looked) {
+    const Eigen::Vector3f p = (T_other_scan * points[i].cast<double>()).cast<float>();
+    near += other.model().tree().nearest(p, limit_sq).index >= 0;
+  }
+  return looked > 0 ? static_cast<double>(near) / static_cast<double>(looked) : 0;
+}
+} // namespace
+
+NetworkScan::NetworkScan(const IcpModel& model) : model_(&model), seen_(model.points())
+{
+  const Points& points = model.points();
+  if (points.empty())
+    return;
+  Eigen::Vector3f low = points.front(), high = low;
+  for (const auto& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  centre_ = 0.5 * (low + high).cast<double>();
+  for (const auto& p : points)
+    radius_ = std::max(radius_, (p.cast<double>() - centre_).norm());
+}
+
+PointVotes&
+PointVotes::operator+=(const PointVotes& other)
+{
+  points += other.points;
+  near += other.near;
+  empty += other.empty;
+  return *this;
+}
+
+double
+PointVotes::share() const
+{
+  return points > 0 ? (static_cast<double>(near) - static_cast<double>(empty)) /
+                          static_cast<double>(points)
+                    : 0;
+}
+
+PointVotes
+votesOf(const NetworkScan& scan,
+        const NetworkScan& other,
+        const Eigen::Isometry3d& T_other_scan,
+        double distance,
+        std::size_t stride)
+{
+  PointVotes votes;
+  const Points& points = scan.model().points();
+  const auto limit_sq = static_cast<float>(distance * distance);
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    const Eigen::Vector3f p = (T_other_scan * points[i].cast<double>()).cast<float>();
+    ++votes.points;
+    if (other.model().tree().nearest(p, limit_sq).index >= 0)
+      ++votes.near;
+    else if (other.seen().sawThrough(p, 2 * distance))
+      ++votes.empty;
+  }
+  return votes;
+}
+
+double
+overlapOf(const NetworkScan& a,
+          const NetworkScan& b,
+          const Eigen::Isometry3d& T_a_b,
+          double distance)
+{
+  return std::max(sampledShare(b, a, T_a_b, distance),
+                  sampledShare(a, b, T_a_b.inverse(), distance));
+}
+
+std::vector<ScanPair>
+overlappingPairs(const std::vector<NetworkScan>& scans,
+                 const Poses& poses,
+                 double distance,
+                 double min_overlap,
+                 unsigned int num_threads)
+{
+  std::vector<std::vector<ScanPair>> found(scans.size()); // of each second scan
+  parallelFor(scans.size(), num_threads, [&](std::size_t b) {
+    const Eigen::Vector3d centre = poses[b] * scans[b].centre();
+    for (std::size_t a = 0; a < b; ++a) {
+      const double apart = (poses[a] * scans[a].centre() - centre).norm();
+      if (apart <= scans[a].radius() + scans[b].radius() + distance &&
+          overlapOf(scans[a], scans[b], poses[a].inverse() * poses[b], distance) >=
+              min_overlap)
+        found[b].emplace_back(a, b);
+    }
+  });
+  std::vector<ScanPair> pairs;
+  for (const auto& of_one : found)
+    pairs.insert(pairs.end(), of_one.begin(), of_one.end());
+  return pairs;
+}
+
+} // namespace pcl6d

@@ -42,6 +42,7 @@ entryOf(const std::string& file, const ScanResult& scan, std::size_t dropped)
   entry.covariance = scan.covariance;
   entry.state = toString(scan.state);
   entry.status = toString(scan.status);
+  entry.start = toString(scan.start);
   entry.points = scan.points;
   entry.dropped = dropped;
   entry.reduced = scan.reduced;
@@ -252,6 +253,29 @@ RunWriter::describe(bool complete, const RunLog& log)
             : "no initial poses were found: each scan starts where the one before is, "
               "which only fits scans taken close together; give poses with --poses or "
               "odometry.txt");
+  if (settings_.slam.initial_guess == InitialGuess::kOverlap)
+    warnOfOdometry();
+}
+
+/** Tells of scans that the overlap search was asked for, and found no clear place. */
+void
+RunWriter::warnOfOdometry()
+{
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < folder_.size(); ++i) {
+    const ScanResult& scan = result_.scans[i];
+    if (scan.start != InitialGuess::kOdometry || scan.state == ScanState::kPending ||
+        scan.state == ScanState::kPredicted)
+      continue;
+    if (++count <= 5)
+      names += (names.empty() ? "" : ", ") + folder_.file(i).filename().string();
+  }
+  if (count > 0)
+    summary_.warnings.push_back("the overlap search was not sure of " +
+                                std::to_string(count) +
+                                " scans, which started from the odometry: " + names +
+                                (count > 5 ? ", ..." : ""));
 }
 
 } // namespace pcl6d::app

@@ -70,6 +70,8 @@ private:
   drawTopView(const MapBuilder& map);
   void
   describe(bool complete, const RunLog& log);
+  void
+  warnOfOdometry();
 
   const Settings& settings_;
   const ScanFolder& folder_;

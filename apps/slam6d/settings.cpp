@@ -130,8 +130,9 @@ describeMatching(CommandLine& line, Settings& s, Raw& raw)
       ("max-correction",
        valueOf(s.slam.max_correction),
        "share of the odometry's step by which a match may move a scan; beyond, it is "
-       "not "
-       "believed (inf: always)");
+       "not believed (inf: always). 1.5 x max-distance is always allowed; not applied "
+       "to "
+       "--initial-guess overlap and features");
 }
 
 void
@@ -145,7 +146,7 @@ describeRun(CommandLine& line, Settings& s, Raw& raw)
       "0: one per core; never changes the result")(
       "seed", valueOf(s.seed), "of random choices (those of --initial-guess features)")(
       "force", po::bool_switch(&s.force), "write into a folder that holds other files")(
-      "quiet", po::bool_switch(&s.quiet), "print errors only")(
+      "quiet", po::bool_switch(&s.quiet), "print warnings and errors only")(
       "verbose", po::bool_switch(&s.verbose), "print a line per scan");
 }
 

@@ -42,6 +42,18 @@ fromUsualGuess(const fs::path& folder)
 }
 } // namespace
 
+TEST(PclSlam6dDataRooms, SaysWhenTheOverlapSearchFoundNothingAndThereIsNoOdometry)
+{
+  PCL6D_DATA_OR_SKIP(data, "rooms");
+  const TempFolder folder;
+  const auto outcome = pcl6d::test::runProgram(
+      "pcl_slam6d",
+      {data.string(), "-o", (folder / "out").string(), "--initial-guess", "overlap"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.out;
+  EXPECT_NE(outcome.out.find("NOT TO BE TRUSTED"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("room_scan2.pcd"), std::string::npos) << outcome.out;
+}
+
 TEST(PclSlam6dDataRooms, FindsThePlaceWithoutPoses)
 {
   PCL6D_DATA_OR_SKIP(data, "rooms");

@@ -69,13 +69,79 @@ TEST(Icp6DBadInput, WithoutCloudsNothingHappens)
   EXPECT_EQ(icp.result().status, Status::kTooFewPairs);
 }
 
-TEST(Icp6DBadInput, EmptyCloudsAreIgnoredByPcl)
+TEST(Icp6DBadInput, EmptyCloudsTakeThePlaceOfOthersAndAreTooFew)
+{
+  const auto empty = pcl::make_shared<Cloud>();
+  for (const bool source : {true, false}) {
+    Icp icp;
+    setUpCorner(icp);
+    expectCorner(icp);
+    if (source)
+      icp.setInputSource(empty);
+    else
+      icp.setInputTarget(empty);
+    alignFrom(icp, kCornerTruth);
+    EXPECT_FALSE(icp.hasConverged());
+    EXPECT_EQ(icp.result().status, Status::kTooFewPairs);
+    EXPECT_LT(errorOf(icp).translation, 1e-12) << "the guess";
+    setUpCorner(icp);
+    expectCorner(icp);
+  }
+}
+
+TEST(Icp6DBadInput, NullIsRefused)
+{
+  const auto refused = [](auto change) {
+    Icp icp;
+    setUpCorner(icp);
+    const std::string message = badArgumentOf([&] { change(icp); });
+    EXPECT_NE(message.find("is null"), std::string::npos) << message;
+    expectCorner(icp); // as if nothing had been said
+  };
+  refused([](Icp& icp) { icp.setInputSource(nullptr); });
+  refused([](Icp& icp) { icp.setInputTarget(nullptr); });
+  refused([](Icp& icp) { icp.setIndices(pcl::IndicesPtr()); });
+  refused([](Icp& icp) { icp.setIndices(pcl::IndicesConstPtr()); });
+  refused([](Icp& icp) { icp.setIndices(pcl::PointIndicesConstPtr()); });
+  refused([](Icp& icp) { icp.setSearchMethodTarget(nullptr); });
+  refused([](Icp& icp) { icp.setTransformationEstimation(nullptr); });
+  refused([](Icp& icp) { icp.addCorrespondenceRejector(nullptr); });
+}
+
+TEST(Icp6DBadInput, NullThatCameThroughTheBaseClassIsRefusedByAlign)
 {
   Icp icp;
-  icp.setInputTarget(pcl::make_shared<Cloud>());
-  icp.setInputSource(pcl::make_shared<Cloud>());
-  alignFrom(icp);
+  setUpCorner(icp);
+  Icp::Base& base = icp;
+  base.setTransformationEstimation(nullptr);
+  EXPECT_THROW(alignFrom(icp), pcl6d::BadArgument);
+}
+
+TEST(Icp6DBadInput, IndicesOfNoPointAreRefused)
+{
+  for (const int bad : {-1, 1998, 999999999}) {
+    const auto indices = pcl::make_shared<pcl::Indices>(pcl::Indices{0, 1, 2, bad});
+    Icp icp;
+    setUpCorner(icp);
+    EXPECT_THROW(icp.setIndices(indices), pcl6d::BadArgument) << bad;
+    Icp other;
+    other.setIndices(indices); // which points there are is known later
+    EXPECT_THROW(other.setInputSource(cornerData<Point>()), pcl6d::BadArgument);
+    pcl6d::KdTree<Point> tree;
+    EXPECT_THROW(tree.setInputCloud(cornerData<Point>(), indices), pcl6d::BadArgument);
+  }
+}
+
+TEST(Icp6DBadInput, ARefusedSettingLeavesNoOldResult)
+{
+  Icp icp;
+  setUpCorner(icp);
+  expectCorner(icp);
+  icp.setKeptShare(-1);
+  EXPECT_THROW(alignFrom(icp), pcl6d::BadArgument);
   EXPECT_FALSE(icp.hasConverged());
+  EXPECT_EQ(icp.result().status, Status::kTooFewPairs);
+  EXPECT_EQ(icp.result().iterations, 0);
 }
 
 TEST(Icp6DBadInput, AGuessOfNanIsTooFewPairs)

@@ -132,6 +132,23 @@ TEST(Icp6DFar, ThePoseIsKnownAsWellAsNearTheOrigin)
   EXPECT_LT((*far.result().information - expected).norm(), 1e-6 * expected.norm());
 }
 
+TEST(Icp6DFar, ScalarFloatLosesNothingInTheResult)
+{
+  // The guess is of float: half a metre near the northing; so the scan lies there, too.
+  const Points corner = transformed(grid(), kOffset);
+  for (const Metric metric : kMetrics) {
+    pcl6d::ICP6D<Point, Point> icp;
+    icp.setInputSource(toCloud<Point>(corner));
+    icp.setInputTarget(toCloud<Point>(corner));
+    icp.setMaxCorrespondenceDistance(1);
+    icp.setMetric(metric);
+    alignFrom(icp);
+    EXPECT_TRUE(icp.hasConverged()) << toString(metric);
+    expectSameMotion(
+        icp.result().T_target_source, Eigen::Isometry3d::Identity(), kPlace);
+  }
+}
+
 TEST(Icp6DFar, TheCachedTreeIsCentredToo)
 {
   Icp icp;

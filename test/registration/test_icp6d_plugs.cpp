@@ -7,6 +7,7 @@
 
 #include <pcl/registration/correspondence_estimation_backprojection.h>
 #include <pcl/registration/correspondence_estimation_normal_shooting.h>
+#include <pcl/registration/transformation_estimation_3point.h>
 #include <pcl/registration/transformation_estimation_dual_quaternion.h>
 #include <pcl/registration/transformation_estimation_lm.h>
 #include <pcl/registration/transformation_estimation_point_to_plane.h>
@@ -119,6 +120,18 @@ INSTANTIATE_TEST_SUITE_P(
         named<reg::TransformationEstimationPointToPlaneLLS<Point, Point, double>,
               Icp::Base::TransformationEstimationPtr>("PointToPlaneLls")),
     kNameOfPart);
+
+TEST(Icp6DEstimation, ThatLeavesTheMotionAsItWasIsNotConverged)
+{
+  // It wants exactly three points, prints so, and returns.
+  Icp icp;
+  setUpCorner(icp);
+  icp.setTransformationEstimation(
+      pcl::make_shared<reg::TransformationEstimation3Point<Point, Point, double>>());
+  alignFrom(icp);
+  EXPECT_FALSE(icp.hasConverged());
+  EXPECT_EQ(icp.result().status, Status::kDiverged);
+}
 
 TEST(Icp6DOwnEstimations, SetTheMetric)
 {

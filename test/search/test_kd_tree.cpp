@@ -109,6 +109,29 @@ TEST_P(PclSearch, RefusesANullCloudAndKeepsTheOld)
   EXPECT_EQ(found, pcl::Indices{3});
 }
 
+TEST_P(PclSearch, RefusesIndicesOfNoPoint)
+{
+  const Search::Ptr search = GetParam().make();
+  for (const int bad : {-1, 10, 999999999})
+    EXPECT_NE(badArgumentOf([&] {
+                search->setInputCloud(
+                    randomCloud(10),
+                    pcl::make_shared<pcl::Indices>(pcl::Indices{0, bad}));
+              }).find("index = " + std::to_string(bad)),
+              std::string::npos);
+}
+
+TEST_P(PclSearch, FindsNothingWithinANegativeRadius)
+{
+  const Search::Ptr search = GetParam().make();
+  const auto cloud = randomCloud(10);
+  search->setInputCloud(cloud);
+  pcl::Indices found;
+  std::vector<float> distances;
+  for (const double radius : {-1.0, 0.0, std::nan("")})
+    EXPECT_EQ(search->radiusSearch((*cloud)[3], radius, found, distances), 0);
+}
+
 TEST_P(PclSearch, FindsNothingBeforeItHasACloudOrInAnEmptyOne)
 {
   const Search::Ptr search = GetParam().make();

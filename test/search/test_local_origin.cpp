@@ -88,6 +88,17 @@ TEST(LocalOrigin, IsZeroForWideClouds)
   EXPECT_EQ(localOrigin({{1e6f, 0, 0}, {1e6f + 8193, 0, 0}}), kZero);
 }
 
+TEST(LocalOrigin, IsNotMovedByAFewWildPoints)
+{
+  Random random(5);
+  Points points = shifted(gridPoints(random, 500, 60), kUtm);
+  const Eigen::Vector3f origin = localOrigin(points);
+  for (const Eigen::Vector3f& wild : {kZero, Eigen::Vector3f(1e7f, 1e7f, 1e7f)})
+    points.insert(points.begin() + 7, wild);
+  EXPECT_EQ(localOrigin(points), origin);
+  EXPECT_NE(origin, kZero);
+}
+
 TEST(LocalOrigin, LeavesOutPointsThatAreNotFinite)
 {
   EXPECT_EQ(localOrigin({{kNan, 0, 0}, {0, kInfinity, 0}}), kZero);

@@ -315,17 +315,17 @@ TEST(Slam6D, SaysWhichScanTheGateLeavesEmptyAndWhichLimitsAreDerived)
       "are needed");
   options.min_range.reset();
   options.max_range = 0.1;
-  EXPECT_NE(failureOf(options).find("to 0.1 m (derived; see min_range), but"),
+  EXPECT_NE(failureOf(options).find("to 0.1 m (derived; see min range), but"),
             std::string::npos);
   options.max_range.reset();
   options.voxel = 1e-6;
   EXPECT_NE(
-      failureOf(options).find("to 0.26 m (derived; see min_range and max_range),"),
+      failureOf(options).find("to 0.26 m (derived; see min range and max range),"),
       std::string::npos);
   options.min_range = 0;
   EXPECT_EQ(failureOf(options),
             "scan003.pcd: 0 points within the range gate of 0 to 0.26 m (derived; see "
-            "max_range), but at least 3 are needed");
+            "max range), but at least 3 are needed");
 }
 
 TEST(Slam6D, SaysWhichScanIsTooLargeForTheGridAndWhatToGive)
@@ -335,10 +335,10 @@ TEST(Slam6D, SaysWhichScanIsTooLargeForTheGridAndWhatToGive)
   const std::string derived = failureOf(options, {1e8f, 0, 0});
   EXPECT_EQ(derived.find("scan003.pcd: point (1e+08, 0, 0) lies outside the grid"), 0u)
       << derived;
-  EXPECT_NE(derived.find("(see voxel, derived, and max_range)"), std::string::npos);
+  EXPECT_NE(derived.find("(see voxel, derived, and max range)"), std::string::npos);
   EXPECT_EQ(derived.find('\n'), std::string::npos);
   options.voxel = 0.1;
-  EXPECT_NE(failureOf(options, {1e8f, 0, 0}).find("(see voxel and max_range)"),
+  EXPECT_NE(failureOf(options, {1e8f, 0, 0}).find("(see voxel and max range)"),
             std::string::npos);
 }
 

@@ -51,6 +51,7 @@ toJson(const RunSummary::ScanEntry& scan)
           {"covariance", covarianceOf(scan)},
           {"state", scan.state},
           {"status", scan.status},
+          {"start", scan.start},
           {"points", scan.points},
           {"dropped", scan.dropped},
           {"reduced", scan.reduced},

@@ -19,9 +19,9 @@ inTurn(std::vector<Rejector> rejectors)
 }
 
 Rejector
-reciprocal(const Points& source, const Points& target)
+reciprocal(const Points& source, const Points& target, unsigned int num_threads)
 {
-  const auto tree = std::make_shared<const PointTree>(source);
+  const auto tree = std::make_shared<const PointTree>(source, num_threads);
   return [tree, &target](const Eigen::Isometry3d& T, std::vector<IcpPair> pairs) {
     const Eigen::Isometry3d T_source_target = T.inverse();
     const auto denied = [&](const IcpPair& pair) {

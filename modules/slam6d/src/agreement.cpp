@@ -10,7 +10,7 @@ namespace pcl6d {
 
 namespace {
 constexpr std::size_t kBlockSize = 512; // points
-constexpr std::size_t kSample = 5000;   ///< points that are enough
+constexpr std::size_t kSample = 10000;  ///< points that are enough
 
 struct Count {
   std::size_t finite = 0;
@@ -54,6 +54,31 @@ agreementOf(const IcpTarget& target,
     all.near += count.near;
   }
   return all.finite > 0 ? static_cast<double>(all.near) / all.finite : 0;
+}
+
+const PointTree&
+MeasuredScan::tree(unsigned int num_threads) const
+{
+  if (!tree_)
+    tree_.emplace(points_, num_threads);
+  return *tree_;
+}
+
+double
+agreementOf(const MeasuredScan& a,
+            const MeasuredScan& b,
+            const Eigen::Isometry3d& T_a_b,
+            double distance,
+            unsigned int num_threads)
+{
+  const auto oneWay =
+      [&](const MeasuredScan& to, const MeasuredScan& of, const Eigen::Isometry3d& T) {
+        IcpTargetPart part;
+        part.tree = &to.tree(num_threads);
+        part.points = &to.points();
+        return agreementOf({part}, of.points(), T, distance, num_threads);
+      };
+  return 0.5 * (oneWay(a, b, T_a_b) + oneWay(b, a, T_a_b.inverse()));
 }
 
 } // namespace pcl6d

@@ -3,14 +3,46 @@
 
 #include <pcl6d/registration/icp.h>
 
+#include <optional>
+
 namespace pcl6d {
 
-/** \return the share of the finite points (of many, a sample) that have a point of the target within a
- * distance [m], in [0, 1]; 0 without a finite point. The same for any number of threads. */
+/** \return the share of the finite points (of many, a sample) that have a point of the
+ * target within a distance [m], in [0, 1]; 0 without a finite point. The same for any
+ * number of threads. */
 double
 agreementOf(const IcpTarget& target,
             const Points& points,
             const Eigen::Isometry3d& T_target_points,
+            double distance,
+            unsigned int num_threads);
+
+/** \brief All measured points of a scan within the range gate, which tell finer than the
+ * reduced ones how well it fits another one. Its tree is built when it is first needed. */
+class MeasuredScan {
+public:
+  MeasuredScan() = default;
+  explicit MeasuredScan(Points points) : points_(std::move(points)) {}
+
+  const Points&
+  points() const
+  {
+    return points_;
+  }
+  const PointTree&
+  tree(unsigned int num_threads) const;
+
+private:
+  Points points_;
+  mutable std::optional<PointTree> tree_;
+};
+
+/** \return the mean of both scans' shares of points that have a point of the other one
+ * within a distance [m] */
+double
+agreementOf(const MeasuredScan& a,
+            const MeasuredScan& b,
+            const Eigen::Isometry3d& T_a_b,
             double distance,
             unsigned int num_threads);
 

@@ -36,9 +36,10 @@ StartingPose
 startingPose(const Slam6DOptions& options,
              const std::vector<BelievedScan>& placed,
              const Points& scan,
-             const Eigen::Isometry3d& predicted)
+             const Eigen::Isometry3d& predicted,
+             bool has_odometry)
 {
-  StartingPose start{predicted, ""};
+  StartingPose start{predicted, InitialGuess::kOdometry, ""};
   if (options.initial_guess == InitialGuess::kOdometry)
     return start;
   const std::size_t count = std::min(kScansTried, placed.size());
@@ -46,17 +47,16 @@ startingPose(const Slam6DOptions& options,
   for (std::size_t i = 0; i < count; ++i) {
     const BelievedScan& target = placed[placed.size() - 1 - i];
     const CoarseEstimate found = searchFor(options, target, scan, predicted);
-    if (found.status == Status::kOk) {
-      start.T_world_scan = target.T_world_scan * found.T_target_source;
-      return start;
-    }
+    if (found.status == Status::kOk)
+      return {target.T_world_scan * found.T_target_source, options.initial_guess, ""};
     if (found.status == Status::kRankDeficient)
       why = found.status;
   }
-  if (options.initial_guess == InitialGuess::kFeatures)
-    start.doubt = why == Status::kRankDeficient
-                      ? "features: several places are as good"
-                      : "features: too little in common with the last scans";
+  if (options.initial_guess == InitialGuess::kFeatures || !has_odometry)
+    start.doubt =
+        std::string(toString(options.initial_guess)) +
+        (why == Status::kRankDeficient ? ": several places are as good"
+                                       : ": too little in common with the last scans");
   return start;
 }
 

@@ -23,6 +23,12 @@ constexpr double kLargestRmsShareOfPlanes = 0.66;
 /** A match must not let fewer points meet than its start did; so much is chance. */
 constexpr double kAgreementTolerance = 0.005;
 
+/** The same of all measured points of two scans, which say it finer. */
+constexpr double kPairTolerance = 0.003;
+
+/** So much more agreement is clear without a finer look. */
+constexpr double kClearGain = 0.02;
+
 /** A smaller correction, as share of max_distance, is always believed. Wrong matches of
  * hku1 (pairwise, or of each third scan) move a scan by 0.57 m and more, by a third of the
  * step and more; right ones by at most 0.29 m and a fifth of the step. */
@@ -62,13 +68,14 @@ ScanMatcher::prepare(Points reduced) const
 }
 
 void
-ScanMatcher::fix(const IcpModel& points, ScanResult& scan)
+ScanMatcher::fix(const IcpModel& points, const MeasuredScan& measured, ScanResult& scan)
 {
   scan.state = ScanState::kFixed;
   scan.status = Status::kOk;
   scan.covariance = PoseCovariance(PoseCovariance::Zero());
   first_ = scan.T_world_scan.translation();
   place(points, scan.T_world_scan);
+  before_ = {&measured, scan.T_world_scan};
 }
 
 void
@@ -79,19 +86,38 @@ ScanMatcher::place(const IcpModel& points, const Eigen::Isometry3d& T_world_scan
 }
 
 void
-ScanMatcher::match(const IcpModel& points, double odometry_step, ScanResult& scan)
+ScanMatcher::match(const IcpModel& points,
+                   const MeasuredScan& measured,
+                   const Eigen::Isometry3d& odometry,
+                   ScanResult& scan)
 {
+  const bool has_odometry = !odometry.isApprox(Eigen::Isometry3d::Identity(), 1e-12);
   const StartingPose start =
-      startingPose(options_, placed_, points.points(), scan.T_world_scan);
-  if (!start.doubt.empty()) {
+      startingPose(options_, placed_, points.points(), scan.T_world_scan, has_odometry);
+  scan.start = start.from;
+  scan.reason = start.doubt;
+  if (start.doubt.empty())
+    matchFrom(start, points, measured, odometry, scan);
+  else
     scan.state = ScanState::kPredicted;
-    scan.reason = start.doubt;
-    return;
-  }
+  before_ = {&measured, scan.T_world_scan};
+}
+
+void
+ScanMatcher::matchFrom(const StartingPose& start,
+                       const IcpModel& points,
+                       const MeasuredScan& measured,
+                       const Eigen::Isometry3d& odometry,
+                       ScanResult& scan)
+{
+  // Features need no predicted pose, so that it may be any: they are what is corrected.
   Eigen::Isometry3d guess = start.T_world_scan;
+  Eigen::Isometry3d predicted =
+      start.from == InitialGuess::kFeatures ? guess : scan.T_world_scan;
   const Eigen::Vector3d origin =
       first_.array() + (guess.translation() - first_).array().round();
   guess.translation() -= origin;
+  predicted.translation() -= origin;
   const IcpTarget target = metascan_.around(origin);
   const IcpResult found =
       icp(target, points.source(), guess, icpOptions(points.points().size()));
@@ -101,11 +127,13 @@ ScanMatcher::match(const IcpModel& points, double odometry_step, ScanResult& sca
   scan.rms = found.rms;
   scan.overlap = found.overlap;
   scan.iterations = found.iterations;
-  scan.correction = (found.T_target_source.translation() - guess.translation()).norm();
-  scan.reason = doubt(found, scan.correction, odometry_step);
+  scan.correction =
+      (found.T_target_source.translation() - predicted.translation()).norm();
+  scan.reason =
+      doubt(found, start.from, scan.correction, odometry.translation().norm());
   if (scan.reason.empty())
-    scan.reason =
-        lossOfAgreement(target, points.points(), guess, found.T_target_source);
+    scan.reason = lossOfAgreement(
+        target, points, measured, predicted, found.T_target_source, origin);
   if (!scan.reason.empty()) {
     scan.state = ScanState::kPredicted;
     return;
@@ -120,6 +148,7 @@ ScanMatcher::match(const IcpModel& points, double odometry_step, ScanResult& sca
 
 std::string
 ScanMatcher::doubt(const IcpResult& found,
+                   InitialGuess start,
                    double correction,
                    double odometry_step) const
 {
@@ -133,7 +162,7 @@ ScanMatcher::doubt(const IcpResult& found,
                                            ? kLargestRmsShare
                                            : kLargestRmsShareOfPlanes))
     reason << "rms " << found.rms << " m is that of unrelated points";
-  else if (options_.initial_guess == InitialGuess::kOdometry && odometry_step > 0 &&
+  else if (start == InitialGuess::kOdometry && odometry_step > 0 &&
            correction > kSmallCorrection * max_distance &&
            correction > options_.max_correction * odometry_step)
     reason << "a correction of " << correction << " m is too much for a step of "
@@ -143,20 +172,40 @@ ScanMatcher::doubt(const IcpResult& found,
 
 std::string
 ScanMatcher::lossOfAgreement(const IcpTarget& target,
-                             const Points& points,
-                             const Eigen::Isometry3d& before,
-                             const Eigen::Isometry3d& after) const
+                             const IcpModel& points,
+                             const MeasuredScan& measured,
+                             const Eigen::Isometry3d& from,
+                             const Eigen::Isometry3d& to,
+                             const Eigen::Vector3d& origin) const
 {
   const double distance = std::max(0.03, parameters_.voxel.value / 2.5);
-  const auto agreement = [&](const Eigen::Isometry3d& T) {
-    return agreementOf(target, points, T, distance, options_.num_threads);
+  const auto share = [&](const Eigen::Isometry3d& T) {
+    return agreementOf(target, points.points(), T, distance, options_.num_threads);
   };
-  const double at_start = agreement(before), at_end = agreement(after);
-  if (at_end >= at_start - kAgreementTolerance)
+  const auto loss = [](double at_start, double at_end, const char* of) {
+    std::ostringstream reason;
+    reason << of << " fell from " << at_start << " to " << at_end;
+    return reason.str();
+  };
+  const double at_start = share(from), at_end = share(to);
+  if (at_end < at_start - kAgreementTolerance)
+    return loss(at_start, at_end, "agreement");
+  if (at_end > at_start + kClearGain)
     return "";
-  std::ostringstream reason;
-  reason << "agreement fell from " << at_start << " to " << at_end;
-  return reason.str();
+  // Reduced points tell little of small shifts, and the target may lack the scan before.
+  Eigen::Isometry3d T_before_world = before_.T_world_scan.inverse();
+  T_before_world.translate(origin);
+  const auto pair = [&](const Eigen::Isometry3d& T) {
+    return agreementOf(*before_.measured,
+                       measured,
+                       T_before_world * T,
+                       distance,
+                       options_.num_threads);
+  };
+  const double pair_at_start = pair(from), pair_at_end = pair(to);
+  return pair_at_end < pair_at_start - kPairTolerance
+             ? loss(pair_at_start, pair_at_end, "agreement with the scan before")
+             : "";
 }
 
 IcpOptions

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "agreement.h"
 #include "initial_guess.h"
 #include "metascan.h"
 
@@ -22,18 +23,35 @@ public:
   IcpModel
   prepare(Points reduced) const;
 
-  /** \brief Takes in the first scan, which keeps its pose. */
+  /** \brief Takes in the first scan, which keeps its pose.
+   * \param[in] points, measured kept by reference, as by match() */
   void
-  fix(const IcpModel& points, ScanResult& scan);
+  fix(const IcpModel& points, const MeasuredScan& measured, ScanResult& scan);
 
   /** \brief Matches a scan from its predicted pose T_world_scan, and takes it in if the
    * match is believed.
    * \param[in] points kept by reference: must outlive the matcher
-   * \param[in] odometry_step length of the odometry's motion from the scan before [m] */
+   * \param[in] measured kept by reference until after the next scan
+   * \param[in] odometry the initial pose seen from that of the scan before */
   void
-  match(const IcpModel& points, double odometry_step, ScanResult& scan);
+  match(const IcpModel& points,
+        const MeasuredScan& measured,
+        const Eigen::Isometry3d& odometry,
+        ScanResult& scan);
 
 private:
+  /** The scan before, whatever became of it. */
+  struct Before {
+    const MeasuredScan* measured = nullptr;
+    Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
+  };
+
+  void
+  matchFrom(const StartingPose& start,
+            const IcpModel& points,
+            const MeasuredScan& measured,
+            const Eigen::Isometry3d& odometry,
+            ScanResult& scan);
   void
   place(const IcpModel& points, const Eigen::Isometry3d& T_world_scan);
   IcpOptions
@@ -41,19 +59,26 @@ private:
   IcpModel::Options
   modelOptions() const;
   std::string
-  doubt(const IcpResult& found, double correction, double odometry_step) const;
+  doubt(const IcpResult& found,
+        InitialGuess start,
+        double correction,
+        double odometry_step) const;
 
-  /** \return that fewer points meet than at the start, if so */
+  /** \return that fewer points meet the target, or the scan before, than did where the
+   * match started, if so. Poses are relative to origin. */
   std::string
   lossOfAgreement(const IcpTarget& target,
-                  const Points& points,
-                  const Eigen::Isometry3d& before,
-                  const Eigen::Isometry3d& after) const;
+                  const IcpModel& points,
+                  const MeasuredScan& measured,
+                  const Eigen::Isometry3d& from,
+                  const Eigen::Isometry3d& to,
+                  const Eigen::Vector3d& origin) const;
 
   const Slam6DOptions& options_;
   const Slam6DParameters& parameters_;
   Metascan metascan_;
   std::vector<BelievedScan> placed_; ///< first scan, and those whose match is believed
+  Before before_;
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero(); ///< position of the first scan [m]
 };
 

@@ -28,30 +28,46 @@ namespace {
 std::string
 derivedLimits(const Slam6DParameters& p)
 {
-  std::string names = p.min_range.given ? "" : "min_range";
+  if (!p.max_range.given && p.max_range.value < p.min_range.value)
+    return ", which is all that voxels of " + std::to_string(p.voxel.value) +
+           " m can number (see voxel)";
+  std::string names = p.min_range.given ? "" : "min range";
   if (!p.max_range.given)
-    names += names.empty() ? "max_range" : " and max_range";
+    names += names.empty() ? "max range" : " and max range";
   return names.empty() ? "" : " (derived; see " + names + ")";
 }
 } // namespace
 
 Points
-prepareScan(const Points& points, const std::string& name, const Slam6DParameters& p)
+gateScan(const Points& points, const std::string& name, const Slam6DParameters& p)
 {
-  const Points kept = gateByRange(points, p.min_range.value, p.max_range.value);
+  Points kept = gateByRange(points, p.min_range.value, p.max_range.value);
   if (kept.size() < 3) {
     std::ostringstream gate;
     gate << "within the range gate of " << p.min_range.value << " to "
          << p.max_range.value << " m" << derivedLimits(p);
     throw ComputeFailed(tooFewPoints(name, kept.size(), gate.str()));
   }
+  return kept;
+}
+
+Points
+reduceScan(const Points& gated, const std::string& name, const Slam6DParameters& p)
+{
   ReductionOptions reduction;
   reduction.voxel = p.voxel.value;
   try {
-    return reducePoints(kept, reduction);
+    return reducePoints(gated, reduction);
   } catch (const BadArgument& e) {
     throw ComputeFailed(name + ": " + e.what() + " (see voxel" +
-                        (p.voxel.given ? "" : ", derived,") + " and max_range)");
+                        (p.voxel.given ? "" : ", derived,") + " and max range)");
   }
 }
+
+Points
+prepareScan(const Points& points, const std::string& name, const Slam6DParameters& p)
+{
+  return reduceScan(gateScan(points, name, p), name, p);
+}
+
 } // namespace pcl6d

@@ -120,8 +120,10 @@ private:
     }
     for (; !unreduced_.empty(); unreduced_.pop_front()) {
       const std::size_t place = reduced_.size();
-      reduced_.push_back(matcher_->prepare(
-          prepareScan(unreduced_.front(), names_[place], result_.parameters)));
+      const Slam6DParameters& p = result_.parameters;
+      Points gated = gateScan(unreduced_.front(), names_[place], p);
+      reduced_.push_back(matcher_->prepare(reduceScan(gated, names_[place], p)));
+      measured_.emplace_back(std::move(gated));
       result_.scans[place].reduced = reduced_.back().points().size();
     }
   }
@@ -132,24 +134,18 @@ private:
     ScanResult& scan = result_.scans[i];
     predict(i);
     if (i == 0)
-      matcher_->fix(reduced_[i], scan);
-    else
-      matcher_->match(reduced_[i], odometryStep(i), scan);
-  }
-
-  /** \return the length of the odometry's motion from the scan before [m] */
-  double
-  odometryStep(std::size_t i) const
-  {
-    return distanceBetween(result_.scans[i - 1].initial_pose,
-                           result_.scans[i].initial_pose)
-        .translation;
+      return matcher_->fix(reduced_[i], measured_[i], scan);
+    const Eigen::Isometry3d odometry =
+        result_.scans[i - 1].initial_pose.inverse() * scan.initial_pose;
+    matcher_->match(reduced_[i], measured_[i], odometry, scan);
+    measured_[i - 1] = MeasuredScan(); // needed no more
   }
 
   Slam6DOptions options_;
   std::vector<std::string> names_;
-  std::deque<Points> unreduced_; ///< scans that wait for the parameters
-  std::deque<IcpModel> reduced_; ///< a deque: the matcher refers to its elements
+  std::deque<Points> unreduced_;      ///< scans that wait for the parameters
+  std::deque<IcpModel> reduced_;      ///< a deque: the matcher refers to its elements
+  std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next
   std::optional<ScanMatcher> matcher_;
   std::size_t next_ = 0; ///< first scan that is not registered
 };

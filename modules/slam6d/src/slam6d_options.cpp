@@ -63,6 +63,11 @@ Slam6DOptions::validate() const
           "max_distance_start",
           max_distance_start.value_or(0),
           "finite and >= 0");
+  require(!max_distance_start || *max_distance_start == 0 || !max_distance ||
+              *max_distance_start >= *max_distance,
+          "max_distance_start",
+          max_distance_start.value_or(0),
+          "0 or at least max_distance");
   require(metascan >= 0, "metascan", metascan, ">= 0");
   require(minimiser != nullptr, "minimiser", "none", "a function");
   require(plane_minimiser != nullptr, "plane_minimiser", "none", "a function");

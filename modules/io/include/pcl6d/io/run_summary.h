@@ -37,6 +37,7 @@ struct RunSummary {
     std::optional<Eigen::Matrix<double, 6, 6>> covariance;
     std::string state;  ///< "fixed", "matched", ...
     std::string status; ///< of ICP
+    std::string start;  ///< where ICP started from: "odometry", "overlap", "features"
     std::size_t points = 0;
     std::size_t dropped = 0; ///< points left out because they were not finite
     std::size_t reduced = 0;

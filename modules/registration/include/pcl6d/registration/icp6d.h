@@ -16,7 +16,8 @@ namespace pcl6d {
  * here hasConverged() is true only if the motion fell below both thresholds and the
  * surfaces leave no motion open; result() says why not, and how well each is fixed. Runs
  * in parallel with the same bits for any number of threads; all sums are in double, about
- * a place near the target, so that UTM-sized coordinates lose nothing.
+ * a place near the target, so that UTM-sized coordinates lose nothing; but
+ * getFinalTransformation() of Scalar float does, so take result() there.
  *
  * Minimises the distance of points, of points to planes, or of planes (setMetric()).
  * Normals are those of the point type if it has them and they are filled in, else they
@@ -29,8 +30,9 @@ namespace pcl6d {
  * also PCL's), setCorrespondenceEstimation, addCorrespondenceRejector,
  * setSearchMethodTarget. The target's tree is built once; FLANN never, unless it is given
  * as search method. Without effect: setEuclideanFitnessEpsilon, the RANSAC settings,
- * visualisation callbacks (see setObserver()). align() never throws on data; not
- * converged, getFinalTransformation() is the last good estimate or the guess.
+ * visualisation callbacks (see setObserver()). align() never throws on data, be they empty or
+ * NaN; not converged, getFinalTransformation() is the last good estimate or the guess. What a
+ * plugged class throws passes through.
  * \code
  * pcl6d::ICP6D<pcl::PointXYZ, pcl::PointXYZ> icp;
  * icp.setInputSource(data);
@@ -53,6 +55,36 @@ public:
   using ConstPtr = pcl::shared_ptr<const ICP6D<PointSource, PointTarget, Scalar>>;
 
   ICP6D();
+
+  /** \brief Unlike PCL, takes an empty cloud, too: align() then says kTooFewPairs.
+   * \throws BadArgument the cloud is null, or has no point of a given index */
+  void
+  setInputSource(const typename Base::PointCloudSourceConstPtr& cloud) override;
+
+  /** \brief The same; whatever was made of the last target is made anew.
+   * \throws BadArgument the cloud is null */
+  void
+  setInputTarget(const typename Base::PointCloudTargetConstPtr& cloud) override;
+
+  using Base::setIndices;
+  /** \brief The points of the source that count. \throws BadArgument null, or a source is
+   * set and has no such point */
+  void
+  setIndices(const pcl::IndicesPtr& indices) override;
+  void
+  setIndices(const pcl::IndicesConstPtr& indices) override;
+  void
+  setIndices(const typename Base::PointIndicesConstPtr& indices) override;
+
+  /** \brief PCL's setters, which refuse null. \throws BadArgument it is null */
+  void
+  setSearchMethodTarget(const typename Base::KdTreePtr& tree,
+                        bool force_no_recompute = false);
+  void
+  setTransformationEstimation(
+      const typename Base::TransformationEstimationPtr& estimation);
+  void
+  addCorrespondenceRejector(const typename Base::CorrespondenceRejectorPtr& rejector);
 
   /** \brief What is minimised; points to points unless set. */
   void
@@ -128,14 +160,19 @@ protected:
   std::size_t normal_neighbours_ = 20;
 
 private:
+  struct Target;
   struct Sides;
 
   IcpOptions
   effectiveOptions() const;
+  void
+  makeTarget(const IcpOptions& options);
+  void
+  makeNormals(const IcpOptions& options);
   Sides
   sides(const IcpOptions& options);
   IcpHooks
-  hooks(const Sides& sides);
+  hooks(const Sides& sides, const IcpOptions& options);
   void
   store(const IcpResult& found,
         const Eigen::Vector3d& origin,
@@ -143,6 +180,7 @@ private:
 
   bool reciprocal_ = false;
   IcpObserver observer_;
+  std::shared_ptr<Target> made_; ///< of the target; null: to be made
   IcpResult result_;
 };
 
@@ -173,6 +211,7 @@ public:
 
 } // namespace pcl6d
 #include <pcl6d/registration/impl/icp6d.hpp>
+#include <pcl6d/registration/impl/icp6d_setters.hpp>
 namespace pcl6d {
 PCL6D_DECLARE_PAIR_INSTANCES(ICP6D)
 PCL6D_DECLARE_PAIR_INSTANCES(GICP6D)

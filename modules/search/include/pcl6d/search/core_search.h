@@ -15,10 +15,10 @@
 
 namespace pcl6d {
 
-/** \brief Where coordinates of some points are best counted from: zero, unless the points
- * lie farther than 8 km from it; then a place near them in whole kilobinary metres (1024
- * m), which float subtracts without rounding. So distances to points in UTM coordinates
- * keep the digits that a query of double has. */
+/** \brief Where coordinates of some points are best counted from: zero, unless nearly all
+ * points lie farther than 8 km from it and within 8 km of each other; then a place near them (their
+ * median) in whole kilobinary metres (1024 m), which float subtracts without rounding. So
+ * distances to points in UTM coordinates keep the digits that a query of double has. */
 Eigen::Vector3f
 localOrigin(const Points& points);
 
@@ -40,7 +40,7 @@ public:
   using PointCloudConstPtr = typename pcl::PointCloud<PointT>::ConstPtr;
 
   /** \brief Builds the structure. \param[in] indices the points to search; null: all
-   * \throws BadArgument the cloud is null */
+   * \throws BadArgument the cloud is null, or an index is not that of a point */
   void
   setInputCloud(const PointCloudConstPtr& cloud,
                 const pcl::IndicesConstPtr& indices = nullptr) override;
@@ -130,12 +130,13 @@ protected:
   std::shared_ptr<const Core> core_ = std::make_shared<Core>(); ///< at first empty
 };
 
-/** \return the square of a distance [m] for the cores; infinite if float ends before */
+/** \return the square of a distance [m] for the cores; infinite if float ends before; 0, within
+ * which nothing lies, for a distance that is negative or NaN */
 inline float
 squaredLimit(double distance)
 {
   constexpr float kMost = std::numeric_limits<float>::max();
-  const double sq = distance * distance;
+  const double sq = distance > 0 ? distance * distance : 0;
   return sq > kMost ? std::numeric_limits<float>::infinity() : static_cast<float>(sq);
 }
 

@@ -15,6 +15,20 @@ countFinite(const Points& points);
 std::string
 tooFewPoints(const std::string& scan, std::size_t count, const std::string& where);
 
+/** \brief The points of a scan within the range gate. \param[in] name for messages
+ * \throws ComputeFailed fewer than 3 points are left */
+Points
+gateScan(const Points& points,
+         const std::string& name,
+         const Slam6DParameters& parameters);
+
+/** \brief The reduction of a gated scan.
+ * \throws ComputeFailed the scan is too large for the grid */
+Points
+reduceScan(const Points& gated,
+           const std::string& name,
+           const Slam6DParameters& parameters);
+
 /** \brief Range gate and reduction of one scan. \param[in] name for messages
  * \throws ComputeFailed fewer than 3 points are left, or the scan is too large for the grid */
 Points

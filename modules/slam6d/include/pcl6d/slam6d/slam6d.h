@@ -43,7 +43,8 @@ public:
   Slam6D&
   operator=(Slam6D&&) noexcept;
 
-  /** \brief Adds a scan. Only its reduced points are kept.
+  /** \brief Adds a scan. Its points are kept until it and the next one are registered,
+   * then only the reduced ones.
    * \param[in] points in the scan's own frame, right-handed [m]; NaN points are dropped
    * \param[in] initial_pose rough T_world_scan, e.g. odometry
    * \param[in] name for messages, e.g. its file; empty: "scan 7"

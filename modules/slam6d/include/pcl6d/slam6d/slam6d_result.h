@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/status.h>
 #include <pcl6d/registration/pose_information.h>
+#include <pcl6d/slam6d/slam6d_options.h>
 
 #include <Eigen/Geometry>
 
@@ -54,7 +55,10 @@ struct ScanResult {
   double rms = 0;                       ///< [m] of these pairs
   double overlap = 0;                   ///< pairs / reduced points
   int iterations = 0;
-  double correction = 0; ///< [m] from the predicted to the matched position
+  InitialGuess start = InitialGuess::kOdometry; ///< where ICP started from: kOdometry
+                                                ///< also where kOverlap found nothing
+  double correction = 0; ///< [m] from the predicted to the matched position; with
+                         ///< kFeatures, from the one by features
   std::string reason;    ///< why a match is not believed; else empty
   std::optional<PoseCovariance> covariance; ///< x y z roll pitch yaw [m, rad]; zero for
                                             ///< the fixed scan, none if not known

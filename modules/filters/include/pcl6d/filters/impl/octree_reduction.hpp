@@ -3,7 +3,7 @@
 
 #include <pcl6d/filters/impl/average_fields.hpp>
 #include <pcl6d/filters/octree_reduction.h>
-#include <pcl6d/filters/require_indices.h>
+#include <pcl6d/common/require_indices.h>
 
 namespace pcl6d {
 

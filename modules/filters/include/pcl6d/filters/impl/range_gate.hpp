@@ -3,7 +3,7 @@
 
 #include <pcl6d/filters/range_gate.h>
 #include <pcl6d/filters/range_statistics.h>
-#include <pcl6d/filters/require_indices.h>
+#include <pcl6d/common/require_indices.h>
 
 namespace pcl6d {
 

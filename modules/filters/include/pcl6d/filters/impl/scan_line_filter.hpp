@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/filters/require_indices.h>
+#include <pcl6d/common/require_indices.h>
 #include <pcl6d/filters/scan_line_filter.h>
 
 namespace pcl6d {

@@ -15,15 +15,27 @@
 
 namespace pcl6d {
 
-/** The two clouds as the core takes them. The target's coordinates are relative to origin;
- * so are poses. */
+/** The target as the core takes it; its coordinates are relative to origin, and so are
+ * poses. Made once for many sources. */
 template <typename PointSource, typename PointTarget, typename Scalar>
-struct ICP6D<PointSource, PointTarget, Scalar>::Sides {
+struct ICP6D<PointSource, PointTarget, Scalar>::Target {
+  typename Base::KdTreePtr made_from;
+  pcl::IndicesConstPtr searched;                    ///< of the tree; null: all
+  pcl::Indices indices;                             ///< the same, spelt out
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< [m]
-  Points source, target;
-  Normals source_normals, target_normals;
+  Points points;
   std::shared_ptr<const PointTree> tree;
   std::function<Neighbour(const Eigen::Vector3f&, float)> search;
+  Normals normals; ///< if a metric needed them
+  std::size_t normal_neighbours = 0;
+};
+
+/** What one run takes of both clouds. */
+template <typename PointSource, typename PointTarget, typename Scalar>
+struct ICP6D<PointSource, PointTarget, Scalar>::Sides {
+  std::shared_ptr<const Target> target;
+  Points source;
+  Normals source_normals;
 };
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -34,33 +46,6 @@ ICP6D<PointSource, PointTarget, Scalar>::ICP6D()
   this->tree_.reset(new KdTree<PointTarget>);
   this->transformation_estimation_.reset(
       new TransformationEstimationQuaternion<PointSource, PointTarget, Scalar>);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setMotionEpsilon(double translation,
-                                                          double rotation)
-{
-  options_.translation_epsilon = translation;
-  options_.rotation_epsilon = rotation;
-  this->transformation_epsilon_ = 0; // the last setter wins
-  this->transformation_rotation_epsilon_ = 0;
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setNumberOfThreads(unsigned int num_threads)
-{
-  options_.num_threads = num_threads;
-  if (const auto tree = std::dynamic_pointer_cast<KdTree<PointTarget>>(this->tree_))
-    tree->setNumberOfThreads(num_threads);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setObserver(IcpObserver observer)
-{
-  observer_ = std::move(observer);
 }
 
 /** PCL's setters are not virtual and write members of the base; they are read here. */
@@ -95,39 +80,65 @@ ICP6D<PointSource, PointTarget, Scalar>::effectiveOptions() const
   return options;
 }
 
+/** Makes the target for the core, unless it is made. */
 template <typename PointSource, typename PointTarget, typename Scalar>
-typename ICP6D<PointSource, PointTarget, Scalar>::Sides
-ICP6D<PointSource, PointTarget, Scalar>::sides(const IcpOptions& options)
+void
+ICP6D<PointSource, PointTarget, Scalar>::makeTarget(const IcpOptions& options)
 {
   if (!this->tree_->getInputCloud()) // given by setSearchMethodTarget() without a cloud
     this->tree_->setInputCloud(this->target_);
   if (this->tree_->getInputCloud() != this->target_)
     throw BadArgument("ICP6D: the search method of the target was built from another "
                       "cloud than the target");
-  Sides sides;
   const auto ours = std::dynamic_pointer_cast<KdTree<PointTarget>>(this->tree_);
   const pcl::IndicesConstPtr searched = this->tree_->getIndices();
+  if (made_ && made_->made_from == this->tree_ && made_->searched == searched &&
+      (!ours || made_->tree == ours->tree()))
+    return;
+  made_ = std::make_shared<Target>();
+  made_->made_from = this->tree_;
+  made_->searched = searched;
+  made_->indices = searched ? *searched : plugs::allOf(*this->target_);
   if (ours)
-    sides.origin = ours->origin().template cast<double>();
-  const pcl::Indices all = searched ? *searched : plugs::allOf(*this->target_);
-  sides.target = toPoints(*this->target_, all);
-  for (auto& p : sides.target)
-    p -= sides.origin.template cast<float>();
+    made_->origin = ours->origin().template cast<double>();
+  made_->points = toPoints(*this->target_, made_->indices);
+  for (auto& p : made_->points)
+    p -= made_->origin.template cast<float>();
   if (ours) {
-    sides.tree = ours->tree();
+    made_->tree = ours->tree();
   }
   else { // a tree of ours all the same, which judges how well the surfaces fix the pose
-    sides.search = plugs::searchOf<PointTarget>(this->tree_);
-    sides.tree = std::make_shared<PointTree>(sides.target, options.num_threads);
+    made_->search = plugs::searchOf<PointTarget>(this->tree_);
+    made_->tree = std::make_shared<PointTree>(made_->points, options.num_threads);
   }
-  sides.source = toPoints(*this->input_, *this->indices_);
+}
+
+/** Adds the normals of the target, unless they are there. */
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::makeNormals(const IcpOptions& options)
+{
+  if (made_->normal_neighbours == normal_neighbours_)
+    return;
+  made_->normals = plugs::normalsOf(*this->target_,
+                                    made_->indices,
+                                    made_->points,
+                                    made_->tree.get(),
+                                    normal_neighbours_,
+                                    options);
+  made_->normal_neighbours = normal_neighbours_;
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+typename ICP6D<PointSource, PointTarget, Scalar>::Sides
+ICP6D<PointSource, PointTarget, Scalar>::sides(const IcpOptions& options)
+{
+  makeTarget(options);
   if (options.metric != Metric::kPoint)
-    sides.target_normals = plugs::normalsOf(*this->target_,
-                                            all,
-                                            sides.target,
-                                            sides.tree.get(),
-                                            normal_neighbours_,
-                                            options);
+    makeNormals(options);
+  Sides sides;
+  sides.target = made_;
+  sides.source = toPoints(*this->input_, *this->indices_);
   if (options.metric == Metric::kGicp)
     sides.source_normals = plugs::normalsOf(*this->input_,
                                             *this->indices_,
@@ -140,23 +151,25 @@ ICP6D<PointSource, PointTarget, Scalar>::sides(const IcpOptions& options)
 
 template <typename PointSource, typename PointTarget, typename Scalar>
 IcpHooks
-ICP6D<PointSource, PointTarget, Scalar>::hooks(const Sides& sides)
+ICP6D<PointSource, PointTarget, Scalar>::hooks(const Sides& sides,
+                                               const IcpOptions& options)
 {
   using Plugs = plugs::PclPlugs<PointSource, PointTarget, Scalar>;
   IcpHooks hooks;
   if (observer_)
     hooks.observer = [this, &sides](const IcpIteration& centred) {
       IcpIteration seen = centred;
-      seen.T_target_source.pretranslate(sides.origin);
+      seen.T_target_source.pretranslate(sides.target->origin);
       return observer_(seen);
     };
   const auto plugged = std::make_shared<Plugs>(
-      this->input_, this->indices_, this->target_, this->tree_, sides.origin);
+      this->input_, this->indices_, this->target_, this->tree_, sides.target->origin);
   if (this->correspondence_estimation_)
     hooks.find = plugged->finder(this->correspondence_estimation_, reciprocal_);
   std::vector<plugs::Rejector> rejectors;
   if (reciprocal_ && !this->correspondence_estimation_)
-    rejectors.push_back(plugs::reciprocal(sides.source, sides.target));
+    rejectors.push_back(
+        plugs::reciprocal(sides.source, sides.target->points, options.num_threads));
   for (const auto& rejector : this->correspondence_rejectors_)
     rejectors.push_back(plugged->rejector(rejector));
   if (!rejectors.empty())
@@ -172,20 +185,34 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource& output,
                                                                const Matrix4& guess)
 {
+  result_ = IcpResult();
+  plugs::requireGiven(this->transformation_estimation_,
+                      "the transformation estimation");
+  for (const auto& rejector : this->correspondence_rejectors_)
+    plugs::requireGiven(rejector, "a correspondence rejector");
   const IcpOptions options = effectiveOptions();
+  options.validate();
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  start.matrix() = guess.template cast<double>();
+  if (this->input_->empty() || this->target_->empty()) {
+    IcpResult nothing;
+    nothing.T_target_source = start;
+    return store(nothing, Eigen::Vector3d::Zero(), output);
+  }
   const Sides sides = this->sides(options);
+  const Target& target = *sides.target;
   IcpTargetPart part;
-  part.tree = sides.tree.get();
-  part.points = &sides.target;
-  part.normals = options.metric == Metric::kPoint ? nullptr : &sides.target_normals;
-  part.search = sides.search;
+  part.tree = target.tree.get();
+  part.points = &target.points;
+  part.normals = options.metric == Metric::kPoint ? nullptr : &target.normals;
+  part.search = target.search;
   IcpSource source{&sides.source, nullptr};
   if (options.metric == Metric::kGicp)
     source.normals = &sides.source_normals;
-  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
-  start.matrix() = guess.template cast<double>();
-  start.pretranslate(-sides.origin);
-  store(icp({part}, source, start, options, hooks(sides)), sides.origin, output);
+  start.pretranslate(-target.origin);
+  store(icp({part}, source, start, options, hooks(sides, options)),
+        target.origin,
+        output);
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>

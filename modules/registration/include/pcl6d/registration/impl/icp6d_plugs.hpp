@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/registration/icp.h>
 #include <pcl6d/registration/sums_estimation.h>
 #include <pcl6d/search/core_search.h>
@@ -12,8 +13,10 @@
 #include <pcl/registration/registration.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <utility>
 
 /** \file
@@ -28,9 +31,19 @@ using Rejector =
 Rejector
 inTurn(std::vector<Rejector> rejectors);
 
-/** \return a rejector that leaves pairs which are each other's closest */
+/** \return a rejector that leaves pairs which are each other's closest
+ * \param[in] target is kept by reference */
 Rejector
-reciprocal(const Points& source, const Points& target);
+reciprocal(const Points& source, const Points& target, unsigned int num_threads);
+
+/** \throws BadArgument the pointer is null */
+template <typename Pointer>
+void
+requireGiven(const Pointer& pointer, const std::string& name)
+{
+  if (!pointer)
+    throw BadArgument("ICP6D: " + name + " is null");
+}
 
 /** \return given normals, or those estimated if none is of any length
  * \param[in] tree over the points; null: made here */
@@ -92,19 +105,19 @@ std::function<Neighbour(const Eigen::Vector3f&, float)>
 searchOf(const typename pcl::search::KdTree<PointT>::Ptr& tree)
 {
   const auto place = placesIn(tree->getIndices(), tree->getInputCloud()->size());
-  return [tree, place](const Eigen::Vector3f& query,
-                       float max_distance_sq) -> Neighbour {
-    if (!query.allFinite() || tree->getInputCloud()->empty())
-      return {};
-    PointT point;
-    point.getVector3fMap() = query;
-    pcl::Indices index(1, -1);
-    std::vector<float> distance_sq(1);
-    if (tree->nearestKSearch(point, 1, index, distance_sq) < 1 ||
-        !(distance_sq[0] < max_distance_sq))
-      return {};
-    return {place.empty() ? index[0] : place.at(index[0]), distance_sq[0]};
-  };
+  return
+      [tree, place](const Eigen::Vector3f& query, float max_distance_sq) -> Neighbour {
+        if (!query.allFinite() || tree->getInputCloud()->empty())
+          return {};
+        PointT point;
+        point.getVector3fMap() = query;
+        pcl::Indices index(1, -1);
+        std::vector<float> distance_sq(1);
+        if (tree->nearestKSearch(point, 1, index, distance_sq) < 1 ||
+            !(distance_sq[0] < max_distance_sq))
+          return {};
+        return {place.empty() ? index[0] : place.at(index[0]), distance_sq[0]};
+      };
 }
 
 /** \return whether icp() itself can do what an estimation does */
@@ -203,7 +216,9 @@ public:
     return [self = this->shared_from_this(),
             estimation](const Eigen::Isometry3d& T, const std::vector<IcpPair>& pairs) {
       self->moveTo(T);
-      typename Registration::Matrix4 motion = Registration::Matrix4::Identity();
+      // Some estimations of PCL print what they miss, and leave the motion as it was.
+      typename Registration::Matrix4 motion =
+          Registration::Matrix4::Constant(std::numeric_limits<Scalar>::quiet_NaN());
       estimation->estimateRigidTransformation(
           *self->moved_, *self->target_, self->toPcl(pairs), motion);
       RigidEstimate step{Status::kOk, Eigen::Isometry3d::Identity()};

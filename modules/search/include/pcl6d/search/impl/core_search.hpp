@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/require_indices.h>
 #include <pcl6d/search/core_search.h>
 
 namespace pcl6d {
@@ -12,6 +13,8 @@ CoreSearch<PointT, Core, Base>::setInputCloud(const PointCloudConstPtr& cloud,
 {
   if (!cloud)
     throw BadArgument(this->name_ + ": the input cloud is null");
+  if (indices)
+    requireIndices(*indices, cloud->size());
   Points points = indices ? toPoints(*cloud, *indices) : toPoints(*cloud);
   origin_ = localOrigin(points);
   for (auto& p : points)

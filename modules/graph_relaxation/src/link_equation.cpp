@@ -12,6 +12,9 @@
 namespace pcl6d {
 
 namespace {
+/** How much stronger a measurement holds the scale than it does the rest. */
+constexpr double kScaleHold = 1e6;
+
 /** A square root of B: motions in units of the way that they move the points. */
 template <int Size>
 struct Whitening {
@@ -107,7 +110,7 @@ withScale(const LinkEquation<6>& rigid)
     equation.K.topRightCorner<3, 3>() = rigid.K.topRightCorner<3, 3>();
     equation.K.bottomLeftCorner<3, 3>() = rigid.K.bottomLeftCorner<3, 3>();
     equation.K.bottomRightCorner<3, 3>() = rigid.K.bottomRightCorner<3, 3>();
-    equation.K(3, 3) = rigid.K.bottomRightCorner<3, 3>().trace() / 3;
+    equation.K(3, 3) = kScaleHold * rigid.K.trace();
     equation.g << rigid.g.head<3>(), 0, rigid.g.tail<3>();
     equation.D << rigid.D.head<3>(), 0, rigid.D.tail<3>();
     return equation;

@@ -36,8 +36,7 @@ equationOf(const LinkSums& sums, double least_variance);
 
 /** \brief The same of a measured relative pose at the current poses; K is the inverse of a
  * covariance. Minimises e^T information e, e the twist of the error pose (6.3), by steps of
- * Gauss and Newton. The measurement knows no change of scale: it is held, as strongly as a
- * turn. */
+ * Gauss and Newton. The measurement knows no change of scale: it is held at zero. */
 template <int Size>
 LinkEquation<Size>
 equationOf(const PoseLink& link,

@@ -17,7 +17,8 @@ struct LinkPairs {
   Points points_from;   ///< u [m], each in the frame of scan a
   Points points_to;     ///< v [m], its partner in the frame of scan b
   /** empty, or a symmetric N per pair in the axes of the world, so that a pair costs
-   * Z . N Z; its largest eigenvalue near 1, as planeToPlane() makes it */
+   * Z . N Z; its largest eigenvalue near 1, as planeToPlane() makes it. Counts as turning
+   * with the mean of its two scans, so that no torque acts on the map as a whole. */
   std::vector<Eigen::Matrix3d> norms;
   /** empty, or a weight per pair; pairs of weight 0 do not count */
   std::vector<double> weights;

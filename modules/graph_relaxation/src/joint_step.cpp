@@ -73,7 +73,7 @@ private:
       return equationOf<Size>(
           *link.measured, round.poses[link.from], round.poses[link.to]);
     else
-      return equationOf<Size>(link.sums, 0);
+      return equationOf<Size>(link.sums, round.least_variance);
   }
 
   static Terms
@@ -84,8 +84,9 @@ private:
       return originShift<Size>(round.poses[pose].translation(), equation.centre);
     };
     const Matrix Sa = shift(link.from), Sb = shift(link.to);
-    const Matrix K = link.factor * equation.K;
-    const Vector g = link.factor * equation.g;
+    const double factor = round.factorOf(link, equation.variance);
+    const Matrix K = factor * equation.K;
+    const Vector g = factor * equation.g;
     const Matrix KSa = K * Sa, KSb = K * Sb;
     return {Sa.transpose() * KSa,
             Sb.transpose() * KSb,

@@ -18,7 +18,7 @@ struct RoundLink {
   LinkSums sums;                      ///< of pairs
   const PoseLink* measured = nullptr; ///< or this
   LinkEquation<6> equation;
-  double factor = 1; ///< by which the equation counts
+  double factor = 1; ///< by which the equation counts, beside 1 / variance
 };
 
 /** \brief Which pose is which unknown. The first pose of each group of linked poses is
@@ -44,7 +44,16 @@ struct Round {
   std::vector<Eigen::Isometry3d> poses;
   std::vector<RoundLink> links;
   GraphLayout layout;
+  bool by_variance = false;  ///< equations count by 1 / variance
+  double least_variance = 0; ///< [m^2] guard of s^2
   unsigned int num_threads = 0;
+
+  /** \return by how much an equation of a link counts */
+  double
+  factorOf(const RoundLink& link, double variance) const
+  {
+    return by_variance ? link.factor / variance : link.factor;
+  }
 };
 
 /** \brief What a parameterisation adds to GraphSLAM: one linear solution, and what it makes

@@ -54,6 +54,8 @@ Relaxer::Relaxer(const GraphSlamOptions& options,
 , step_(makeRelaxationStep(options.relaxation))
 , switch_(options.switch_scale)
 {
+  round_.by_variance = options.weights == LinkWeights::kVariance;
+  round_.least_variance = options.least_deviation * options.least_deviation;
   round_.num_threads = options.num_threads;
 }
 
@@ -106,15 +108,15 @@ Relaxer::measure(const std::vector<LinkPairs>& pairs)
   }
   for (const PoseLink& link : measured_)
     round_.links.push_back({link.from, link.to, {}, &link, {}, 1});
-  const double least = options_.least_deviation * options_.least_deviation;
   parallelBlocks(
       round_.links.size(), 64, options_.num_threads, [&](const Block& block) {
         for (std::size_t l = block.begin; l < block.end; ++l) {
           RoundLink& link = round_.links[l];
-          link.equation = link.measured ? equationOf<6>(*link.measured,
-                                                        round_.poses[link.from],
-                                                        round_.poses[link.to])
-                                        : equationOf<6>(link.sums, least);
+          link.equation = link.measured
+                              ? equationOf<6>(*link.measured,
+                                              round_.poses[link.from],
+                                              round_.poses[link.to])
+                              : equationOf<6>(link.sums, round_.least_variance);
         }
       });
   round_.layout = GraphLayout(round_.poses.size(), round_.links);
@@ -150,12 +152,10 @@ Relaxer::weigh()
   }
   last_error_ = error_;
   error_ = weight > 0 ? std::max(0.0, squares) / weight : 0;
-  const double common = commonVariance();
+  const double common = round_.by_variance ? 1 : commonVariance();
   for (RoundLink& link : round_.links)
-    if (options_.weights == LinkWeights::kVariance)
-      link.factor /= link.equation.variance;
-    else if (link.measured)
-      link.factor *= common;
+    if (link.measured)
+      link.factor = common;
 }
 
 double
@@ -169,8 +169,7 @@ Relaxer::commonVariance() const
   }
   const double freedom =
       equations - 6 * static_cast<double>(round_.layout.num_unknowns);
-  return std::max(squares / std::max(1.0, freedom),
-                  options_.least_deviation * options_.least_deviation);
+  return std::max(squares / std::max(1.0, freedom), round_.least_variance);
 }
 
 bool
@@ -242,8 +241,7 @@ Relaxer::finish()
 void
 Relaxer::fillCovariances()
 {
-  const bool unit = options_.weights == LinkWeights::kUnit;
-  const double variance = unit ? commonVariance() : 1;
+  const double variance = round_.by_variance ? 1 : commonVariance();
   auto inverses = step_->inverses(round_, damping_);
   if (inverses.empty()) {
     damping_ = 1e3 * kDamping;

@@ -149,7 +149,8 @@ private:
     };
     for (std::size_t l = 0; l < terms.size(); ++l) {
       const RoundLink& link = round.links[l];
-      const double factor = link.factor, weight = factor * terms[l].weight;
+      const double factor = round.factorOf(link, link.equation.variance);
+      const double weight = factor * terms[l].weight;
       const std::size_t a = layout.unknown[link.from], b = layout.unknown[link.to];
       addTo(a, factor * terms[l].aa, weight, factor * terms[l].turn);
       addTo(b, factor * terms[l].bb, weight, -factor * terms[l].turn);
@@ -186,7 +187,8 @@ private:
       const Eigen::Vector3d gap = t.centre_b - t.centre_a +
                                   turned(link.to, t.centre_b) -
                                   turned(link.from, t.centre_a);
-      const Eigen::Vector3d pull = link.factor * t.weight * gap;
+      const double factor = round.factorOf(link, link.equation.variance);
+      const Eigen::Vector3d pull = factor * t.weight * gap;
       if (round.layout.unknown[link.from] != GraphLayout::kFixed)
         rhs[round.layout.unknown[link.from]] += pull;
       if (round.layout.unknown[link.to] != GraphLayout::kFixed)

@@ -26,9 +26,11 @@ fillReducingOrder(const Adjacency& graph)
 {
   const auto size = static_cast<int>(graph.size());
   std::vector<Eigen::Triplet<double, int>> entries;
-  for (int column = 0; column < size; ++column)
+  for (int column = 0; column < size; ++column) {
+    entries.emplace_back(column, column, 1.0); // else Eigen gives the identity
     for (const std::size_t row : graph[column])
       entries.emplace_back(static_cast<int>(row), column, 1.0);
+  }
   Eigen::SparseMatrix<double, Eigen::ColMajor, int> pattern(size, size);
   pattern.setFromTriplets(entries.begin(), entries.end());
   Eigen::AMDOrdering<int>::PermutationType order;

@@ -4,11 +4,14 @@
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/graph_relaxation/block_system.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace pcl6d {
 
 namespace {
+constexpr double kLargestTurn = 1; ///< [rad] of a pose in a round
+
 /** \brief The system of all unknowns at once (5.2.2): symmetric, a block per pose and per
  * pair of linked poses. \tparam Size of the motion of a pose */
 template <int Size>
@@ -27,7 +30,8 @@ public:
     damp(damping);
     if (!system_->factorize(0, round.num_threads))
       return false;
-    const std::vector<Vector> X = system_->solve(rhs_);
+    std::vector<Vector> X = system_->solve(rhs_);
+    limitTurns(X);
     for (std::size_t j = 0; j < round.poses.size(); ++j)
       if (round.layout.unknown[j] != GraphLayout::kFixed)
         round.poses[j] = move_(round.poses[j], X[round.layout.unknown[j]]);
@@ -136,6 +140,19 @@ private:
           system_->coupling(layout.coupling_of_link[l]) += terms[l].ab.transpose();
       }
     }
+  }
+
+  /** Beyond a radian, a linear solution says little of where to go: it is shortened as a
+   * whole. */
+  static void
+  limitTurns(std::vector<Vector>& X)
+  {
+    double largest = 0;
+    for (const Vector& x : X)
+      largest = std::max(largest, x.template tail<3>().norm());
+    if (largest > kLargestTurn)
+      for (Vector& x : X)
+        x *= kLargestTurn / largest;
   }
 
   /** Adds to the diagonal of each block a share of its mean: not of each entry, as an open

@@ -10,6 +10,7 @@ namespace pcl6d {
 
 namespace {
 constexpr double kGimbalCosine = 0.1;
+constexpr double kLargestChange = 0.5; ///< [rad] of the angles at once
 
 constexpr std::array<std::pair<Relaxation, const char*>, 5> kRelaxations{
     {{Relaxation::kHelix, "helix"},
@@ -75,6 +76,8 @@ moveByEuler(const Eigen::Isometry3d& pose, const Twist& X)
   if (std::abs(J.determinant()) < kGimbalCosine)
     return moveByHelix(pose, X);
   const Eigen::Vector3d change = J.inverse() * X.tail<3>();
+  if (change.norm() > kLargestChange)
+    return moveByHelix(pose, X);
   Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
   moved.linear() = rotationFromEuler(
       {angles.roll - change.x(), angles.pitch - change.y(), angles.yaw - change.z()});

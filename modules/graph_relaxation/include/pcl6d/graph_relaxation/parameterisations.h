@@ -45,7 +45,7 @@ Eigen::Isometry3d
 moveByHelix(const Eigen::Isometry3d& pose, const Twist& X);
 
 /** \brief The pose with roll, pitch and yaw changed by -J^-1 x; the helical motion where
- * |cos(pitch)| < 0.1. Book: 5.2.3. */
+ * |cos(pitch)| < 0.1 or the angles change by more than 0.5. Book: 5.2.3. */
 Eigen::Isometry3d
 moveByEuler(const Eigen::Isometry3d& pose, const Twist& X);
 

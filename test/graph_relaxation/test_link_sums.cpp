@@ -156,6 +156,12 @@ TEST_P(Sums, SkipPairsThatAreNotFiniteOrHaveNoWeight)
   add(std::numeric_limits<float>::infinity(), 1);
   add(1, 0);
   add(1, nan);
+  if (GetParam()) { // a norm that is none
+    add(1, 1);
+    scans.pairs.norms.back().setZero();
+    add(1, 1);
+    scans.pairs.norms.back().setConstant(nan);
+  }
   const LinkSums same = sumLink(scans.pairs, scans.T_a, scans.T_b);
   EXPECT_EQ(same.count, 50u);
   EXPECT_TRUE(sameBits(all.A, same.A));

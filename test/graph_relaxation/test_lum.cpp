@@ -147,4 +147,9 @@ TEST(Lum, RefusesWhatDoesNotExist)
   matches->emplace_back(100000, 0, 0);
   lum.setCorrespondences(0, 5, matches);
   EXPECT_THROW(lum.compute(), BadArgument);
+  lum.setCorrespondences(0, 5, pcl::make_shared<pcl::Correspondences>());
+  EXPECT_NO_THROW(lum.compute());
+  (*lum.getLoopGraph())[3].cloud_.reset();
+  EXPECT_THROW(lum.compute(), BadArgument);
+  EXPECT_THROW(lum.getConcatenatedCloud(), BadArgument);
 }

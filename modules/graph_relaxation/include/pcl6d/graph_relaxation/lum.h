@@ -136,7 +136,7 @@ public:
 
   /** \brief Moves all scans but the first; writes the graph's poses, and per edge C^-1 and
    * C^-1 D about the world's origin as PCL does. \throws BadArgument an option breaks its
-   * rule, or a correspondence's index is not in its cloud */
+   * rule, a vertex with pairs has no cloud, or an index is not in its cloud */
   void
   compute();
 

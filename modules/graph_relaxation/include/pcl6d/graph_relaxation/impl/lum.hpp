@@ -162,10 +162,12 @@ LUM<PointT>::pairsOf(const Edge& edge) const
   LinkPairs pairs;
   pairs.from = source(edge, *graph_);
   pairs.to = target(edge, *graph_);
-  const PointCloud& from = *(*graph_)[pairs.from].cloud_;
-  const PointCloud& to = *(*graph_)[pairs.to].cloud_;
   if ((*graph_)[edge].corrs_ == nullptr)
     return pairs;
+  for (const Vertex vertex : {pairs.from, pairs.to})
+    require((*graph_)[vertex].cloud_ != nullptr, "vertex", vertex, "with a cloud");
+  const PointCloud& from = *(*graph_)[pairs.from].cloud_;
+  const PointCloud& to = *(*graph_)[pairs.to].cloud_;
   for (const pcl::Correspondence& match : *(*graph_)[edge].corrs_) {
     require(match.index_query >= 0 &&
                 static_cast<std::size_t>(match.index_query) < from.size(),
@@ -218,8 +220,10 @@ template <typename PointT>
 typename LUM<PointT>::PointCloudPtr
 LUM<PointT>::getTransformedCloud(const Vertex& vertex) const
 {
+  const PointCloudPtr cloud = getPointCloud(vertex);
+  require(cloud != nullptr, "vertex", vertex, "with a cloud");
   PointCloudPtr out(new PointCloud);
-  pcl::transformPointCloud(*getPointCloud(vertex), *out, getTransformation(vertex));
+  pcl::transformPointCloud(*cloud, *out, getTransformation(vertex));
   return out;
 }
 

@@ -53,6 +53,23 @@ toString(RobustKernel kernel)
   return nameOf(kKernels, kernel);
 }
 
+double
+robustWeight(RobustKernel kernel, double residual)
+{
+  const auto square = [](double x) { return x * x; };
+  switch (kernel) {
+  case RobustKernel::kHuber: // constants: 95 % efficiency on normal residuals
+    return residual <= 1.345 ? 1 : 1.345 / residual;
+  case RobustKernel::kCauchy:
+    return 1 / (1 + square(residual / 2.385));
+  case RobustKernel::kGemanMcClure:
+    return 1 / square(1 + square(residual / 2));
+  case RobustKernel::kNone:
+    break;
+  }
+  return 1;
+}
+
 void
 IcpOptions::validate() const
 {

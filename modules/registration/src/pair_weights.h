@@ -13,8 +13,4 @@ weightPairs(const IcpOptions& options,
             const std::vector<float>& residuals,
             std::vector<Partner>& partners);
 
-/** \return the weight of a residual in units of the scale */
-double
-robustWeight(RobustKernel kernel, double residual);
-
 } // namespace pcl6d

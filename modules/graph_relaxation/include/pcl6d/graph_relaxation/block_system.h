@@ -16,7 +16,8 @@ namespace pcl6d {
  *
  * The order of elimination and the structure of the factor are found once; then the
  * numbers may change and be factorised again and again. The same bits for any number of
- * threads. \tparam Size of a block: 1, 3, 6 or 7 \ingroup graph_relaxation */
+ * threads. Multifrontal: the structure is cut into dense fronts, which are worked on by
+ * vector kernels, independent ones at the same time. \tparam Size of a block: 1, 3, 6 or 7 \ingroup graph_relaxation */
 template <int Size>
 class BlockSystem {
 public:
@@ -25,7 +26,7 @@ public:
   using Couplings = std::vector<std::pair<std::size_t, std::size_t>>;
 
   /** \param[in] couplings (a, b) with a != b, each pair of blocks once in either order
-   * \throws BadArgument a block that does not exist, or a pair given twice */
+   * \throws BadArgument a block that does not exist, a == b, or a pair given twice */
   BlockSystem(std::size_t num_blocks, const Couplings& couplings);
   ~BlockSystem();
   BlockSystem(BlockSystem&&) noexcept;
@@ -36,6 +37,7 @@ public:
   void
   setZero();
 
+  /** \return the i-th diagonal block, of which only the lower triangle counts */
   Block&
   diagonal(std::size_t i);
 
@@ -45,11 +47,13 @@ public:
 
   /** \param[in] damping is added to the diagonal, times the diagonal (Marquardt)
    * \param[in] num_threads 0: one per core
-   * \return false: not positive definite, or a value is not finite */
+   * \return false: not positive definite, or a value is not finite. What a pivot loses
+   * to rounding can hide a singular matrix: fix one pose of every component */
   bool
   factorize(double damping = 0, unsigned int num_threads = 0);
 
-  /** \return x of A x = b for the last factor \throws ComputeFailed there is none */
+  /** \return x of A x = b for the last factor \throws ComputeFailed there is none
+   * \throws BadArgument b has not one entry per block */
   std::vector<Vector>
   solve(const std::vector<Vector>& b) const;
 

@@ -44,6 +44,10 @@ robustKernelFromName(const std::string& name);
 const char*
 toString(RobustKernel kernel);
 
+/** \return the weight of a residual \param[in] residual >= 0, in units of the scale */
+double
+robustWeight(RobustKernel kernel, double residual);
+
 /** \brief Knobs of ICP. Defaults suit scans with 1 cm to 10 cm point spacing. */
 struct IcpOptions {
   Metric metric = Metric::kPoint;

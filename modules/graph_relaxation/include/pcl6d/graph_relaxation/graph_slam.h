@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/pose_graph.h>
+#include <pcl6d/common/status.h>
+#include <pcl6d/graph_relaxation/link_sums.h>
+#include <pcl6d/graph_relaxation/parameterisations.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief How much the links count against each other. */
+enum class LinkWeights {
+  kUnit,    ///< all pairs alike: the plain sum of squares is minimised
+  kVariance ///< by the inverse variance s^2 of each link's pairs (Lu and Milios)
+};
+
+/** \return unit, variance */
+std::vector<std::string>
+linkWeightsNames();
+/** \throws BadArgument no such name; the message lists all */
+LinkWeights
+linkWeightsFromName(const std::string& name);
+const char*
+toString(LinkWeights weights);
+
+/** \brief Knobs of GraphSlam. */
+struct GraphSlamOptions {
+  Relaxation relaxation = Relaxation::kHelix;
+  LinkWeights weights = LinkWeights::kVariance;
+  RobustKernel robust = RobustKernel::kNone; ///< of the pairs within their link
+  /** Links that contradict the others lose their weight (Geman-McClure, with graduated
+   * non-convexity), so that a false one does not bend the map. Needs a graph in which the
+   * true links confirm each other: in a single cycle no link is falser than another. */
+  bool switch_links = false;
+  double switch_scale =
+      0; ///< [m] a link that asks for so much more motion of its points
+         ///< counts a quarter; 0: from the links themselves, three
+         ///< times their robust standard deviation; >= 0
+  std::size_t min_pairs = 20;        ///< links with fewer are dropped; >= 3
+  double least_deviation = 1e-3;     ///< [m] guard of s of a link; > 0
+  int max_iterations = 50;           ///< > 0
+  double translation_epsilon = 1e-3; ///< [m] stop when no pose moved more ...
+  double rotation_epsilon = 1e-4;    ///< [rad] ... nor turned more; >= 0
+  double error_epsilon = 1e-6;  ///< stop, too, when the mean squared error of the pairs
+                                ///< changes by a smaller share; >= 0, 0: off
+  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief What became of a link of pairs. */
+struct LinkReport {
+  std::size_t from = 0;
+  std::size_t to = 0;
+  std::size_t pairs = 0;    ///< that are finite and have a weight
+  bool used = false;        ///< false: fewer than min_pairs
+  double rms = 0;           ///< [m] of the pairs at the final poses
+  double switch_weight = 1; ///< in [0, 1]; near 0: contradicts the other links
+  int open_directions =
+      0;               ///< motions that its pairs leave open (a corridor 1, one plane
+                       ///< with norms 3, a line 1): no information in these
+  double variance = 0; ///< s^2 of the pairs [m^2], with the guard
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [m] of its points, in the world
+  Twist correction = Twist::Zero(); ///< X_a - X_b that the pairs ask for, about centre
+  /** inverse covariance of correction, MM / s^2; zero in open directions */
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+/** \return the link as a measured relative pose, for a pose graph \param[in] poses those
+ * of the result */
+PoseLink
+poseLinkOf(const LinkReport& link, const std::vector<Eigen::Isometry3d>& poses);
+
+/** \brief What GraphSlam came to. */
+struct GraphSlamResult {
+  /** kOk; kRankDeficient: the graph falls apart or open directions are left, these stayed
+   * as they were; kTooFewPairs: no link is left, poses as given; kMaxIterations;
+   * kDiverged: the error grew tenfold or is not finite, poses as given */
+  Status status = Status::kTooFewPairs;
+  std::vector<Eigen::Isometry3d> poses; ///< T_world_scan
+  int iterations = 0;                   ///< rounds
+  bool converged = false;               ///< the stop rule was met, whatever the status
+  double rms_before = 0;                ///< [m] of all pairs of the first round
+  double rms = 0; ///< [m] of all pairs at the end, links by their switch weight
+  /** per pose; a group of linked poses has one number, that of its first pose, which
+   * stays fixed; poses of another group than pose 0 float */
+  std::vector<std::size_t> component;
+  std::vector<LinkReport> links;    ///< of the last round, in the order given
+  std::vector<bool> open_direction; ///< per pose: some motion of it is not determined
+  /** per pose: covariance of the twist about its position in the axes of the world,
+   * translation [m], then rotation [rad]; zero for fixed poses. See eulerCovariance().
+   * Pairs count as independent, which closest points are not: optimistic. */
+  std::vector<Eigen::Matrix<double, 6, 6>> covariances;
+
+  /** \return the poses that no chain of links joins to pose 0 */
+  std::vector<std::size_t>
+  floating() const;
+};
+
+/** \brief A round of GraphSlam, told to its observer. */
+struct GraphSlamRound {
+  int iteration = 0; ///< from 1
+  double rms = 0;    ///< [m] before the round
+  double moved = 0;  ///< [m] longest motion of a pose
+  double turned = 0; ///< [rad] largest turn of a pose
+};
+
+/** \brief Moves all scans at once so that the points matched between them meet (book 5.2,
+ * 5.3): globally consistent scan matching after Lu and Milios in six degrees of freedom.
+ *
+ * A round sums up each link's pairs at the current poses, solves one sparse linear system
+ * for small motions of all scans but the first, and moves them. \code
+ * GraphSlam slam;
+ * const auto result = slam.relax(poses, [&](const auto& current) {
+ *   return pairsOfAllLinks(scans, current); // searched anew each round
+ * });
+ * \endcode
+ * Links between the same two scans, in either direction, add up. \note Source: F. Lu, E.
+ * Milios, "Globally consistent range scan alignment for environment mapping", Autonomous
+ * Robots 4, 1997; D. Borrmann, J. Elseberg, K. Lingemann, A. Nuechter, J. Hertzberg, RAS
+ * 56, 2008. Switching: H. Yang, P. Antonante, V. Tzoumas, L. Carlone, "Graduated
+ * non-convexity for robust spatial perception", RA-L 5(2), 2020. \ingroup
+ * graph_relaxation */
+class GraphSlam {
+public:
+  using Poses = std::vector<Eigen::Isometry3d>;
+  /** \brief Finds the links and their pairs at the given poses. */
+  using PairSearch = std::function<std::vector<LinkPairs>(const Poses&)>;
+  using Observer = std::function<bool(const GraphSlamRound&)>;
+
+  /** \throws BadArgument an option breaks its rule */
+  explicit GraphSlam(const GraphSlamOptions& options = {});
+
+  /** \brief Relative poses measured otherwise, such as by odometry, which count beside the
+   * pairs (6.3). With LinkWeights::kUnit they are weighed against the common variance of
+   * all pairs. */
+  void
+  setMeasuredLinks(const std::vector<PoseLink>& links)
+  {
+    measured_ = links;
+  }
+
+  /** \brief Called after every round; return false to stop. */
+  void
+  setObserver(const Observer& observer)
+  {
+    observer_ = observer;
+  }
+
+  /** \brief Relaxes with fixed pairs. \param[in] poses T_world_scan, the start
+   * \throws BadArgument a pose is not rigid; a link of a scan to itself or to a scan that
+   * does not exist; vectors of a link that differ in size; information that is not finite */
+  GraphSlamResult
+  relax(const Poses& poses, const std::vector<LinkPairs>& links) const;
+
+  /** \brief Relaxes with pairs that are searched anew each round. */
+  GraphSlamResult
+  relax(const Poses& poses, const PairSearch& search) const;
+
+private:
+  GraphSlamOptions options_;
+  std::vector<PoseLink> measured_;
+  Observer observer_;
+};
+
+} // namespace pcl6d

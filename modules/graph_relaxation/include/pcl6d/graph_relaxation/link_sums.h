@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+#include <pcl6d/registration/icp_options.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief Matched points of two scans: what GraphSLAM knows of a link.
+ * \ingroup graph_relaxation */
+struct LinkPairs {
+  std::size_t from = 0; ///< scan a
+  std::size_t to = 0;   ///< scan b
+  Points points_from;   ///< u [m], each in the frame of scan a
+  Points points_to;     ///< v [m], its partner in the frame of scan b
+  /** empty, or a symmetric N per pair in the axes of the world, so that a pair costs
+   * Z . N Z; its largest eigenvalue near 1, as planeToPlane() makes it. Counts as turning
+   * with the mean of its two scans, so that no torque acts on the map as a whole. */
+  std::vector<Eigen::Matrix3d> norms;
+  /** empty, or a weight per pair; pairs of weight 0 do not count */
+  std::vector<double> weights;
+  bool trusted = false; ///< never switched off, such as between successive scans
+};
+
+/** \brief The sums over the pairs of a link at the current poses (book 5.2.2, 5.3.1,
+ * 5.3.3), about the mean of its points, so that maps far from the origin lose no digits.
+ *
+ * Pair k: pa = T_a u, pb = T_b v, both in the world; c = (pa + pb) / 2, Z = pa - pb; w:
+ * the pair's weight (of a pair with a norm N: times the size of N, tr N^2 / tr N). The
+ * unknown is a small motion v(p) = xb + s (p - centre) + x x (p - centre) with a change
+ * of scale s: M = [I | c' | -[c']x]. Rows and columns are in the order xb, s, x; without
+ * row and column 3 they are the 6 of the rigid motion. \ingroup graph_relaxation */
+struct LinkSums {
+  using Matrix = Eigen::Matrix<double, 7, 7>;
+  using Vector = Eigen::Matrix<double, 7, 1>;
+
+  std::size_t count = 0; ///< pairs that are finite and have a weight
+  double weight = 0;     ///< sum w
+  /** how many scalar equations the pairs are worth, (sum tr W)^2 / sum tr W^2 with W = w
+   * I or w N: 3 m for m pairs of equal weight, m for planes */
+  double equations = 0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< weighted mean of c [m]
+  Eigen::Vector3d mean_z = Eigen::Vector3d::Zero();  ///< weighted mean of Z [m]
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero(); ///< sum w c' c'^T [m^2]
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();   ///< sum w c' Z'^T [m^2]
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  ///< sum w Z' Z'^T [m^2]
+  Matrix A = Matrix::Zero();                         ///< sum M^T W M
+  Vector b = Vector::Zero();                         ///< sum M^T W Z
+  double residual_sq = 0;                            ///< sum Z . W Z [m^2]
+
+  /** \return sqrt(sum Z . W Z / sum w) [m] */
+  double
+  rms() const;
+};
+
+/** \brief Sums of one link. Takes them in blocks of fixed size and merges these in a
+ * fixed order; pairs with a coordinate that is not finite are skipped.
+ * \param[in] T_world_from, T_world_to poses of the two scans \param[in] kernel weighs
+ * each pair by its residual over the scale (MAD) of the link's residuals
+ * \throws BadArgument the sizes of the vectors differ */
+LinkSums
+sumLink(const LinkPairs& pairs,
+        const Eigen::Isometry3d& T_world_from,
+        const Eigen::Isometry3d& T_world_to,
+        RobustKernel kernel = RobustKernel::kNone);
+
+/** \brief Sums of many links at once; link and block are summed by whichever thread is
+ * free, with the bits of sumLink(). \param[in] poses T_world_scan of all scans
+ * \param[in] num_threads 0: one per core */
+std::vector<LinkSums>
+sumLinks(const std::vector<LinkPairs>& links,
+         const std::vector<Eigen::Isometry3d>& poses,
+         RobustKernel kernel = RobustKernel::kNone,
+         unsigned int num_threads = 0);
+
+} // namespace pcl6d

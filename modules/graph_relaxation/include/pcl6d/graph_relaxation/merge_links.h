@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/pose_graph.h>
+
+namespace pcl6d {
+
+/** \brief Puts several links between the same two poses, in either direction, into one:
+ * the motion that fits them best, weighted by their information, with their information
+ * added up. The merged link has the direction and place of the first. A graph keeps its
+ * optimum up to second order in the contradictions between the links.
+ * \throws BadArgument see checkPoseGraph() (link_error.h); a link from a pose to itself
+ * among them \ingroup graph_relaxation */
+std::vector<PoseLink>
+mergeLinks(const PoseGraph& graph);
+
+/** \return the same measurement, of the pose `from` seen from the pose `to` */
+PoseLink
+reversed(const PoseLink& link);
+
+} // namespace pcl6d

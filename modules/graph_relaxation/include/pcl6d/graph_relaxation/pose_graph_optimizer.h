@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/status.h>
+#include <pcl6d/graph_relaxation/link_error.h>
+#include <pcl6d/registration/icp_options.h>
+
+#include <memory>
+#include <string>
+
+namespace pcl6d {
+
+/** \brief How steps are found. */
+enum class GraphMethod {
+  kGaussNewton,       ///< full steps; damped only while they fail
+  kLevenbergMarquardt ///< damped from the start
+};
+
+/** \return gauss-newton, levenberg-marquardt */
+std::vector<std::string>
+graphMethodNames();
+/** \throws BadArgument no such name; the message lists all */
+GraphMethod
+graphMethodFromName(const std::string& name);
+const char*
+toString(GraphMethod method);
+
+/** \brief Knobs of PoseGraphOptimizer. */
+struct PoseGraphOptions {
+  GraphMethod method = GraphMethod::kGaussNewton;
+  /** How much a link counts by its error r = sqrt(e^T information e). */
+  RobustKernel robust = RobustKernel::kNone;
+  /** The r at which a kernel sets in, > 0. A measurement that keeps its covariance is
+   * above 4.1 in 1 of 100 cases (chi2 distribution of 6 degrees of freedom). */
+  double robust_width = 4.1;
+  /** Graduated non-convexity with the kernel of Geman and McClure, whatever `robust`:
+   * starts so wide that every link counts and narrows to robust_width, which switches
+   * wrong links off wherever the start is. */
+  bool graduated = false;
+  /** Links between neighbours i and i + 1 (odometry) always count fully. */
+  bool trust_chain = false;
+  int max_iterations = 100;   ///< tried steps of a component; > 0
+  double chi2_epsilon = 1e-8; ///< stop when a step lowers the cost by no larger share;
+                              ///< in [0, 1)
+  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief A connected part of a graph. */
+struct GraphComponent {
+  std::size_t fixed_pose = 0; ///< its first pose, which keeps its place
+  std::size_t num_poses = 0;
+  std::size_t num_links = 0; ///< that carry information
+  double chi2_before = 0;
+  double chi2_after = 0;
+  int iterations = 0; ///< tried steps
+  Status status = Status::kOk;
+};
+
+/** \brief What came out. */
+struct PoseGraphResult {
+  /** The worst of the components: kOk converged; kMaxIterations; kRankDeficient: the links
+   * leave some motion free, which stays as it was; kDiverged: not finite, and the
+   * component's poses are those of the input. */
+  Status status = Status::kOk;
+  std::vector<Eigen::Isometry3d> poses; ///< T_world_vertex [m]
+  double chi2_before = 0;               ///< e^T information e over all links
+  double chi2_after = 0;
+  int iterations = 0;                     ///< the most of any component
+  std::vector<std::size_t> component;     ///< of each pose
+  std::vector<GraphComponent> components; ///< in the order of their first poses
+  std::vector<double> weights; ///< of each link: 1, or what the kernel leaves of it
+};
+
+/** \brief The poses that fit the links of a graph best.
+ *
+ * Minimises the sum over all links of rho(e^T information e) with e = (t, 2 vec(q)) of
+ * T_from_to^-1 T_a^-1 T_b and a robust kernel rho. Each connected component is a problem
+ * of its own, in which the first pose is fixed; links without any information join
+ * nothing. Several links may join the same poses. The same bits for any number of threads.
+ *
+ * \code
+ * pcl6d::PoseGraphOptimizer optimizer(pcl6d::readPoseGraph("garage.g2o"));
+ * const pcl6d::PoseGraphResult& result = optimizer.optimize();
+ * \endcode
+ *
+ * \note Sources: G. Grisetti, R. Kuemmerle, C. Stachniss, W. Burgard, "A tutorial on
+ * graph-based SLAM", IEEE ITS Magazine 2(4), 2010; H. Yang, P. Antonante, V. Tzoumas, L.
+ * Carlone, "Graduated non-convexity for robust spatial perception", RA-L 5(2), 2020.
+ * \ingroup graph_relaxation */
+class PoseGraphOptimizer {
+public:
+  /** \throws BadArgument the graph (see checkPoseGraph()) or an option breaks a rule */
+  explicit PoseGraphOptimizer(PoseGraph graph, const PoseGraphOptions& options = {});
+  ~PoseGraphOptimizer();
+  PoseGraphOptimizer(PoseGraphOptimizer&&) noexcept;
+  PoseGraphOptimizer&
+  operator=(PoseGraphOptimizer&&) noexcept;
+
+  /** \brief Optimises from the poses of the last result, at first those of the graph. */
+  const PoseGraphResult&
+  optimize();
+
+  /** \return the result; before optimize() the poses of the graph */
+  const PoseGraphResult&
+  result() const;
+
+  /** \return the covariance of each pose relative to the fixed pose of its component, for
+   * small motions (translation [m], rotation [rad]) in its own axes; zero for fixed poses
+   * \throws ComputeFailed the links leave some motion free */
+  std::vector<Matrix6>
+  marginalCovariances() const;
+
+  /** \return the covariance of the relative pose T_a^-1 T_b, for small motions in the axes
+   * of b \throws BadArgument no such pose, or a and b are not connected
+   * \throws ComputeFailed the links leave some motion free */
+  Matrix6
+  relativeCovariance(std::size_t a, std::size_t b) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace pcl6d

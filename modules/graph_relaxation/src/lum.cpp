@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "link_equation.h"
+
+#include <pcl6d/graph_relaxation/lum.h>
+
+namespace pcl6d {
+
+PCL6D_DEFINE_INSTANCES(LUM)
+
+Eigen::Matrix<float, 6, 1>
+lumPose(const Eigen::Isometry3d& pose)
+{
+  const EulerAngles angles = eulerFromRotation(pose.linear());
+  Twist vector;
+  vector << pose.translation(), angles.roll, angles.pitch, angles.yaw;
+  return vector.cast<float>();
+}
+
+void
+lumEdge(const LinkReport& link,
+        Eigen::Matrix<float, 6, 6>& information,
+        Eigen::Matrix<float, 6, 1>& moment)
+{
+  const Eigen::Matrix<double, 6, 6> S =
+      originShift<6>(Eigen::Vector3d::Zero(), link.centre);
+  const Eigen::Matrix<double, 6, 6> SK = S.transpose() * link.information;
+  information = (SK * S).cast<float>();
+  moment = (SK * link.correction).cast<float>();
+}
+
+} // namespace pcl6d

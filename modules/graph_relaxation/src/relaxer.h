@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "link_switch.h"
+#include "relaxation_step.h"
+
+#include <pcl6d/graph_relaxation/graph_slam.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief One run of GraphSLAM: statistics, rounds, stop rules, covariances; the same for
+ * all parameterisations. */
+class Relaxer {
+public:
+  /** \brief The pairs at some poses, kept by the caller for one round. */
+  using Pairs = std::function<const std::vector<LinkPairs>&(const GraphSlam::Poses&)>;
+
+  Relaxer(const GraphSlamOptions& options,
+          const std::vector<PoseLink>& measured,
+          const GraphSlam::Observer& observer);
+
+  GraphSlamResult
+  run(const GraphSlam::Poses& start, const Pairs& pairs_at);
+
+private:
+  /** Sums up the pairs at the poses of the round and sets up its links. */
+  void
+  measure(const std::vector<LinkPairs>& pairs);
+  void
+  weigh();
+  /** One solution. \return whether the poses stay where they are */
+  bool
+  advance(int iteration);
+  bool
+  hasDiverged();
+  bool
+  atRest(const GraphSlam::Poses& before, int iteration);
+  Status
+  finish();
+  void
+  fillCovariances();
+  double
+  commonVariance() const;
+
+  const GraphSlamOptions& options_;
+  const std::vector<PoseLink>& measured_;
+  const GraphSlam::Observer& observer_;
+  std::unique_ptr<RelaxationStep> step_;
+  LinkSwitch switch_;
+  bool switch_moves_ = true; ///< false: the weights of the last round stay
+  std::vector<bool> trusted_;
+  Round round_;
+  GraphSlamResult result_;
+  std::vector<std::size_t> report_of_link_; ///< of each link of the round with pairs
+  double error_ = 0;                        ///< [m^2] mean square of this round
+  double last_error_ = 0;                   ///< of the round before
+  double best_error_ = std::numeric_limits<double>::infinity();
+  double damping_ = 0; ///< 0: all directions are held
+  bool stopped_ = false, failed_ = false;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/pose_graph.h>
+
+#include <filesystem>
+
+namespace pcl6d {
+
+/** \brief Reads a pose graph; the first word of each line tells the format:
+ *
+ * - g2o: `VERTEX_SE3:QUAT id x y z qx qy qz qw`, `EDGE_SE3:QUAT from to` + the same 7
+ *   numbers + the upper triangle of the information matrix (21), whose rotation is the
+ *   vector part of the quaternion; `FIX id ...`, which only chooses the frame, is checked
+ *   and otherwise ignored.
+ * - TORO: `VERTEX3 id x y z roll pitch yaw`, `EDGE3 from to x y z roll pitch yaw` + 21,
+ *   whose rotation is in radians.
+ *
+ * Information becomes that of PoseLink: with e = (t, 2 vec(q)), q.w >= 0, of the error
+ * pose, chi2 = e^T information e is that of the file. Ids may be any whole numbers; the
+ * poses have the order of the file, and the ids are kept unless they are 0, 1, ... . Empty
+ * lines and lines that start with # are skipped.
+ *
+ * A file without vertices gets poses in the order of the ids: along the links i -> i+1
+ * from the identity if all of them are there, else along a tree of links from the first
+ * pose of each component, at the identity.
+ *
+ * \throws IoFailed naming file, line, value and rule: unreadable, no pose, an unknown
+ * word, wrong number of numbers, text where a number belongs, not finite, a quaternion
+ * that is none, an id given twice, a link to a vertex that does not exist or to itself,
+ * information that is not positive semidefinite \ingroup io */
+PoseGraph
+readPoseGraph(const std::filesystem::path& path);
+
+/** \brief Writes g2o rows with 17 digits, atomically. Positions and information come back
+ * to the last bit, rotations within a few ulp.
+ * \throws BadArgument a link to no pose, not one id per pose, a value that is not finite */
+void
+writePoseGraphG2o(const std::filesystem::path& path, const PoseGraph& graph);
+
+/** \brief Writes TORO rows in the same way. */
+void
+writePoseGraphToro(const std::filesystem::path& path, const PoseGraph& graph);
+
+} // namespace pcl6d

@@ -11,6 +11,7 @@ needs=(
   "ninja-build ninja"
   "ccache ccache"
   "xvfb Xvfb"
+  "libceres-dev /usr/include/ceres/ceres.h"
   "libboost-all-dev /usr/include/boost/process.hpp"
   "libeigen3-dev /usr/include/eigen3/Eigen/Core"
   "libembree-dev /usr/include/embree3/rtcore.h"

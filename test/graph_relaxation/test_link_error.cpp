@@ -17,8 +17,8 @@ using pcl6d::test::randomPose;
 
 namespace {
 constexpr double kStep = 1e-5;
-// Central differences: kStep^2 of curvature and 1e-16 / kStep of rounding, for errors of
-// some metres.
+// Central differences: kStep^2 of curvature and 1e-16 / kStep of rounding, for errors
+// of some metres.
 constexpr double kDerivativeTolerance = 1e-8;
 
 /** T [R(dr), dt] */

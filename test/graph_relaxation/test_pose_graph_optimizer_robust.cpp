@@ -73,7 +73,8 @@ TEST(RobustPoseGraph, GraduatedNonConvexitySwitchesWrongLinksOff)
     options.trust_chain = trust_chain;
     const auto result = PoseGraphOptimizer(loops.graph, options).optimize();
     EXPECT_EQ(result.status, Status::kOk);
-    // Right links lose some weight to the kernel, so the noise moves the poses a bit more.
+    // Right links lose some weight to the kernel, so the noise moves the poses a bit
+    // more.
     EXPECT_LT(largestDifference(result.poses, loops.truth),
               1.5 * largestDifference(expected, loops.truth));
     for (const std::size_t k : loops.wrong)

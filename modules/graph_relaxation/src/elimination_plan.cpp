@@ -39,8 +39,8 @@ fundamentalSupernodes(const Adjacency& rows, const std::vector<std::size_t>& par
   return drafts;
 }
 
-/** \return whether a supernode is worth the share of zeros in it: the smaller it is, the
- * more its handling costs beside its arithmetic */
+/** \return whether a supernode is worth the share of zeros in it: the smaller it is,
+ * the more its handling costs beside its arithmetic */
 bool
 isWorthwhile(double columns, double zeros, double blocks)
 {

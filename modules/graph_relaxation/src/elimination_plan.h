@@ -49,8 +49,8 @@ struct EliminationPlan {
  * \note Sources: P. R. Amestoy, T. A. Davis, I. S. Duff, "An approximate minimum degree
  * ordering algorithm", SIAM J. Matrix Anal. 17(4), 1996 (Eigen's implementation); J. W.
  * H. Liu, "The role of elimination trees in sparse factorization", SIAM J. Matrix Anal.
- * 11(1), 1990; C. Ashcraft, R. Grimes, "The influence of relaxed supernode partitions on
- * the multifrontal method", ACM TOMS 15(4), 1989. */
+ * 11(1), 1990; C. Ashcraft, R. Grimes, "The influence of relaxed supernode partitions
+ * on the multifrontal method", ACM TOMS 15(4), 1989. */
 EliminationPlan
 planElimination(std::size_t num_blocks,
                 const std::vector<std::pair<std::size_t, std::size_t>>& couplings);

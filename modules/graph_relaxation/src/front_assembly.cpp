@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands in a front before its elimination: the matrix and what the children pass up.
+// What stands in a front before its elimination: the matrix and what the children pass
+// up.
 #include "supernodal_cholesky.h"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 
 namespace pcl6d {
 
-/** \brief The poses and links of a connected part of a graph, ascending. Internal to the
- * module graph_relaxation. */
+/** \brief The poses and links of a connected part of a graph, ascending. Internal to
+ * the module graph_relaxation. */
 struct GraphPart {
   std::vector<std::size_t> poses;
   std::vector<std::size_t> links; ///< without those that carry no information

@@ -8,7 +8,8 @@
 namespace pcl6d {
 
 namespace {
-constexpr double kFirstDamping = 1e-4;
+constexpr double kFirstDamping =
+    1e-8; ///< small, as Marquardt's scaling is already cautious
 constexpr double kLargestDamping = 1e12;
 constexpr double kNegligibleDamping =
     1e-9; ///< below it a step tells how near the end is

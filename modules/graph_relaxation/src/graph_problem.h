@@ -48,7 +48,8 @@ public:
   void
   linearize(const Poses& poses, const std::vector<double>& weights);
 
-  /** \brief Adds to the diagonal a share of its mean, where links leave a motion free. */
+  /** \brief Adds to the diagonal a share of its mean, where links leave a motion free.
+   */
   void
   addRidge();
 

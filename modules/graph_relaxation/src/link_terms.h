@@ -32,7 +32,8 @@ struct LinkMeasurement {
   Matrix6 information;
 };
 
-/** \brief The second-order model of a link's share of the cost, e^T information e / 2. */
+/** \brief The second-order model of a link's share of the cost, e^T information e / 2.
+ */
 struct LinkTerms {
   Matrix6 H_from;    ///< J_from^T information J_from
   Matrix6 H_to;      ///< J_to^T information J_to

@@ -71,7 +71,8 @@ struct PoseGraphOptimizer::Impl {
     component.chi2_after = descent.chi2_after;
     component.iterations = descent.iterations;
     component.status = descent.status;
-    for (std::size_t i = 1; i < part.poses.size(); ++i)
+    const bool keeps = descent.status == Status::kDiverged;
+    for (std::size_t i = 1; i < part.poses.size() && !keeps; ++i)
       result.poses[part.poses[i]] = descent.poses[i].isometry();
     for (std::size_t k = 0; k < part.links.size(); ++k)
       result.weights[part.links[k]] = descent.weights[k];

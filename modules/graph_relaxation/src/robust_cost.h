@@ -8,8 +8,8 @@
 
 namespace pcl6d {
 
-/** \brief rho(s) of a link's squared error s, and its slope, the link's weight. Internal
- * to the module graph_relaxation. */
+/** \brief rho(s) of a link's squared error s, and its slope, the link's weight.
+ * Internal to the module graph_relaxation. */
 struct RobustCost {
   RobustKernel kernel = RobustKernel::kNone;
   double width_sq = 1; ///< of the s at which the kernel sets in

@@ -7,8 +7,8 @@
 
 /** \file
  * Dense kernels of the factorisation. A matrix is kept in slabs of eight rows: slab s
- * holds rows 8 s .. 8 s + 7, column after column, so that entry (i, j) of a matrix with n
- * columns stands at (i / 8 * n + j) * 8 + i % 8. Rows that fill up the last slab are
+ * holds rows 8 s .. 8 s + 7, column after column, so that entry (i, j) of a matrix with
+ * n columns stands at (i / 8 * n + j) * 8 + i % 8. Rows that fill up the last slab are
  * zero. Each entry is summed in an order that depends on nothing but its place, so that
  * slabs may be handed to threads at will. Internal to the module graph_relaxation. */
 namespace pcl6d::slabs {

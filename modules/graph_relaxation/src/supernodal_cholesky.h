@@ -10,8 +10,8 @@ namespace pcl6d {
  * multifrontal method: each supernode is a dense front, into which its own blocks and
  * what its children pass up are summed. Internal to the module graph_relaxation.
  *
- * \note Source: J. W. H. Liu, "The multifrontal method for sparse matrix solution: theory
- * and practice", SIAM Review 34(1), 1992. */
+ * \note Source: J. W. H. Liu, "The multifrontal method for sparse matrix solution:
+ * theory and practice", SIAM Review 34(1), 1992. */
 class SupernodalCholesky {
 public:
   using Couplings = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -21,10 +21,9 @@ public:
                      const Couplings& couplings,
                      std::size_t block_size);
 
-  /** \param[in] diagonal the diagonal blocks one after the other, each column by column;
-   * only their lower triangles count
-   * \param[in] coupling the off-diagonal blocks
-   * \return false: a pivot is not positive or not finite */
+  /** \param[in] diagonal the diagonal blocks one after the other, each column by
+   * column; only their lower triangles count \param[in] coupling the off-diagonal
+   * blocks \return false: a pivot is not positive or not finite */
   bool
   factorize(const double* diagonal,
             const double* coupling,

@@ -10,14 +10,15 @@
 
 namespace pcl6d {
 
-/** \brief A sparse symmetric positive definite system A x = b of dense blocks, such as the
- * normal equations of a graph of poses: one diagonal block per pose, one off-diagonal
- * block per pair of linked poses.
+/** \brief A sparse symmetric positive definite system A x = b of dense blocks, such as
+ * the normal equations of a graph of poses: one diagonal block per pose, one
+ * off-diagonal block per pair of linked poses.
  *
  * The order of elimination and the structure of the factor are found once; then the
  * numbers may change and be factorised again and again. The same bits for any number of
  * threads. Multifrontal: the structure is cut into dense fronts, which are worked on by
- * vector kernels, independent ones at the same time. \tparam Size of a block: 1, 3, 6 or 7 \ingroup graph_relaxation */
+ * vector kernels, independent ones at the same time. \tparam Size of a block: 1, 3, 6
+ * or 7 \ingroup graph_relaxation */
 template <int Size>
 class BlockSystem {
 public:

@@ -35,7 +35,8 @@ struct PoseGraphOptions {
   double robust_width = 4.1;
   /** Graduated non-convexity with the kernel of Geman and McClure, whatever `robust`:
    * starts so wide that every link counts and narrows to robust_width, which switches
-   * wrong links off wherever the start is. */
+   * wrong links off. No proof of the best choice: where few links speak against a wrong
+   * one, right links of the chain may go instead, unless trust_chain is set. */
   bool graduated = false;
   /** Links between neighbours i and i + 1 (odometry) always count fully. */
   bool trust_chain = false;
@@ -61,8 +62,8 @@ struct GraphComponent {
 
 /** \brief What came out. */
 struct PoseGraphResult {
-  /** The worst of the components: kOk converged; kMaxIterations; kRankDeficient: the links
-   * leave some motion free, which stays as it was; kDiverged: not finite, and the
+  /** The worst of the components: kOk converged; kMaxIterations; kRankDeficient: the
+   * links leave some motion free, which stays as it was; kDiverged: not finite, and the
    * component's poses are those of the input. */
   Status status = Status::kOk;
   std::vector<Eigen::Isometry3d> poses; ///< T_world_vertex [m]
@@ -77,9 +78,10 @@ struct PoseGraphResult {
 /** \brief The poses that fit the links of a graph best.
  *
  * Minimises the sum over all links of rho(e^T information e) with e = (t, 2 vec(q)) of
- * T_from_to^-1 T_a^-1 T_b and a robust kernel rho. Each connected component is a problem
- * of its own, in which the first pose is fixed; links without any information join
- * nothing. Several links may join the same poses. The same bits for any number of threads.
+ * T_from_to^-1 T_a^-1 T_b and a robust kernel rho. Each connected component is a
+ * problem of its own, in which the first pose is fixed; links without any information
+ * join nothing. Several links may join the same poses. The same bits for any number of
+ * threads.
  *
  * \code
  * pcl6d::PoseGraphOptimizer optimizer(pcl6d::readPoseGraph("garage.g2o"));
@@ -87,8 +89,8 @@ struct PoseGraphResult {
  * \endcode
  *
  * \note Sources: G. Grisetti, R. Kuemmerle, C. Stachniss, W. Burgard, "A tutorial on
- * graph-based SLAM", IEEE ITS Magazine 2(4), 2010; H. Yang, P. Antonante, V. Tzoumas, L.
- * Carlone, "Graduated non-convexity for robust spatial perception", RA-L 5(2), 2020.
+ * graph-based SLAM", IEEE ITS Magazine 2(4), 2010; H. Yang, P. Antonante, V. Tzoumas,
+ * L. Carlone, "Graduated non-convexity for robust spatial perception", RA-L 5(2), 2020.
  * \ingroup graph_relaxation */
 class PoseGraphOptimizer {
 public:
@@ -99,7 +101,8 @@ public:
   PoseGraphOptimizer&
   operator=(PoseGraphOptimizer&&) noexcept;
 
-  /** \brief Optimises from the poses of the last result, at first those of the graph. */
+  /** \brief Optimises from the poses of the last result, at first those of the graph.
+   */
   const PoseGraphResult&
   optimize();
 
@@ -107,15 +110,15 @@ public:
   const PoseGraphResult&
   result() const;
 
-  /** \return the covariance of each pose relative to the fixed pose of its component, for
-   * small motions (translation [m], rotation [rad]) in its own axes; zero for fixed poses
-   * \throws ComputeFailed the links leave some motion free */
+  /** \return the covariance of each pose relative to the fixed pose of its component,
+   * for small motions (translation [m], rotation [rad]) in its own axes; zero for fixed
+   * poses \throws ComputeFailed the links leave some motion free */
   std::vector<Matrix6>
   marginalCovariances() const;
 
-  /** \return the covariance of the relative pose T_a^-1 T_b, for small motions in the axes
-   * of b \throws BadArgument no such pose, or a and b are not connected
-   * \throws ComputeFailed the links leave some motion free */
+  /** \return the covariance of the relative pose T_a^-1 T_b, for small motions in the
+   * axes of b \throws BadArgument no such pose, or a and b are not connected \throws
+   * ComputeFailed the links leave some motion free */
   Matrix6
   relativeCovariance(std::size_t a, std::size_t b) const;
 

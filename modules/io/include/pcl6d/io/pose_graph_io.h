@@ -11,15 +11,15 @@ namespace pcl6d {
  *
  * - g2o: `VERTEX_SE3:QUAT id x y z qx qy qz qw`, `EDGE_SE3:QUAT from to` + the same 7
  *   numbers + the upper triangle of the information matrix (21), whose rotation is the
- *   vector part of the quaternion; `FIX id ...`, which only chooses the frame, is checked
- *   and otherwise ignored.
+ *   vector part of the quaternion; `FIX id ...`, which only chooses the frame, is
+ *   checked and otherwise ignored.
  * - TORO: `VERTEX3 id x y z roll pitch yaw`, `EDGE3 from to x y z roll pitch yaw` + 21,
  *   whose rotation is in radians.
  *
  * Information becomes that of PoseLink: with e = (t, 2 vec(q)), q.w >= 0, of the error
  * pose, chi2 = e^T information e is that of the file. Ids may be any whole numbers; the
- * poses have the order of the file, and the ids are kept unless they are 0, 1, ... . Empty
- * lines and lines that start with # are skipped.
+ * poses have the order of the file, and the ids are kept unless they are 0, 1, ... .
+ * Empty lines and lines that start with # are skipped.
  *
  * A file without vertices gets poses in the order of the ids: along the links i -> i+1
  * from the identity if all of them are there, else along a tree of links from the first
@@ -32,9 +32,9 @@ namespace pcl6d {
 PoseGraph
 readPoseGraph(const std::filesystem::path& path);
 
-/** \brief Writes g2o rows with 17 digits, atomically. Positions and information come back
- * to the last bit, rotations within a few ulp.
- * \throws BadArgument a link to no pose, not one id per pose, a value that is not finite */
+/** \brief Writes g2o rows with 17 digits, atomically. Positions and information come
+ * back to the last bit, rotations within a few ulp. \throws BadArgument a link to no
+ * pose, not one id per pose, a value that is not finite */
 void
 writePoseGraphG2o(const std::filesystem::path& path, const PoseGraph& graph);
 

@@ -139,6 +139,13 @@ TEST(ElchWeights, StayInRangeWhereRoundingSwallowsCosts)
   }
 }
 
+TEST(ElchWeights, OfABranchAreThoseOfItsRootEvenIfRoundingSwallowsTheWayThere)
+{
+  // 2 lies between 0 and 1, all without cost; 3 hangs on 2 by a cost of 1e12.
+  expectWeights(elchWeights(5, {{0, 2, 0}, {2, 1, 0}, {2, 3, 1e12}, {3, 4, 1}}, 0, 1),
+                {0, 1, 0.5, 0.5, 0.5});
+}
+
 TEST(ElchWeights, CountTheCheapestOfSeveralEdgesBetweenTwoVertices)
 {
   expectWeights(elchWeights(3, {{0, 1, 9}, {0, 1, 1}, {1, 2, 3}, {2, 1, 7}}, 0, 2),

@@ -87,6 +87,16 @@ TEST(SimultaneousMatching, NeverMovesTheMaster)
   }
 }
 
+TEST(SimultaneousMatching, NeedsOneMatchForOneScanBesideTheMaster)
+{
+  const Ring ring(2);
+  const auto result =
+      SimultaneousMatching(fineOptions()).align(ring.scans, ring.poses, {1});
+  EXPECT_EQ(result.status, Status::kOk);
+  EXPECT_EQ(result.pops, 1u); // it moved, but the master need not be woken
+  EXPECT_FALSE(sameBits(result.poses[1], ring.poses[1]));
+}
+
 TEST(SimultaneousMatching, StopsAtTheLimit)
 {
   const Ring ring;

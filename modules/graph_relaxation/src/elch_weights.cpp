@@ -42,7 +42,8 @@ positiveCosts(std::vector<WeightedEdge> edges)
  * then is, for the best edge between regions of different terminals: from its ends back to
  * both (K. Mehlhorn, "A faster approximation algorithm for the Steiner problem in graphs",
  * 1988). When the path has got its weights, its vertices are terminals too, and distances
- * only shrink. To delete its edges is not necessary: both ends have weights. */
+ * only shrink. To delete its edges is not necessary: both ends have weights, so that
+ * across them there is nothing left to weigh. */
 class ElchGraph {
 public:
   ElchGraph(std::size_t num_vertices, const std::vector<WeightedEdge>& edges)
@@ -106,8 +107,8 @@ private:
     frontier_.emplace(0, v);
   }
 
-  /** The length of the path between terminals across an edge; infinite if it joins a region
-   * with itself, or has no path left because both ends are terminals. */
+  /** The length of the path between terminals across an edge, which may be the edge alone;
+   * infinite if it joins a region with itself. */
   double
   lengthAcross(std::size_t e) const
   {

@@ -120,7 +120,11 @@ private:
   match()
   {
     const app::StageTimer timer("matching", log_.stages);
-    slam_.setProgressCallback([&](const Progress& progress) { bar_.show(progress); });
+    slam_.setProgressCallback([&](const Progress& progress) {
+      bar_.show(progress);
+      if (interrupt_.requested())
+        slam_.cancel();
+    });
     slam_.setObserver([&](std::size_t i, const ScanResult& scan) {
       if (i == 0)
         printParameters();

@@ -57,6 +57,52 @@ CommandLine::readConfig(const std::string& file)
   }
 }
 
+po::options_description
+CommandLine::allOptions() const
+{
+  po::options_description all;
+  for (const auto& group : groups_)
+    all.add(group);
+  all.add(hidden_);
+  return all;
+}
+
+void
+CommandLine::readArguments(const std::vector<std::string>& arguments)
+{
+  using Style = po::command_line_style::style_t;
+  const po::options_description all = allOptions();
+  try {
+    po::store(po::command_line_parser(arguments)
+                  .options(all)
+                  .positional(positions_)
+                  .style(po::command_line_style::unix_style ^ Style::allow_guessing)
+                  .run(),
+              values_);
+  } catch (const po::too_many_positional_options_error&) {
+    std::string wanted;
+    for (const auto& name : positional_names_)
+      wanted += " " + name;
+    throw UsageError("too many arguments; expected" + wanted +
+                     ", and everything else with the name of its option");
+  }
+}
+
+/** Prints the help or the version if asked to. \return whether it was */
+bool
+CommandLine::answerQuestions() const
+{
+  if (values_.count("help")) {
+    printHelp();
+    return true;
+  }
+  if (values_.count("version")) {
+    std::cout << "pcl6d " << PCL6D_VERSION << '\n';
+    return true;
+  }
+  return false;
+}
+
 bool
 CommandLine::parse(const std::vector<std::string>& arguments)
 {
@@ -68,34 +114,9 @@ CommandLine::parse(const std::vector<std::string>& arguments)
        "read options from FILE, lines `name = value`; the command line wins") //
       ("help,h", "print this text and exit")                                  //
       ("version", "print the version and exit");
-  po::options_description all;
-  for (const auto& group : groups_)
-    all.add(group);
-  all.add(hidden_);
-  using Style = po::command_line_style::style_t;
-  const int style = po::command_line_style::unix_style ^ Style::allow_guessing;
-  try {
-    po::store(po::command_line_parser(arguments)
-                  .options(all)
-                  .positional(positions_)
-                  .style(style)
-                  .run(),
-              values_);
-  } catch (const po::too_many_positional_options_error&) {
-    std::string wanted;
-    for (const auto& name : positional_names_)
-      wanted += " " + name;
-    throw UsageError("too many arguments; expected" + wanted +
-                     ", and everything else with the name of its option");
-  }
-  if (values_.count("help")) {
-    printHelp();
+  readArguments(arguments);
+  if (answerQuestions())
     return false;
-  }
-  if (values_.count("version")) {
-    std::cout << "pcl6d " << PCL6D_VERSION << '\n';
-    return false;
-  }
   if (values_.count("config"))
     readConfig(values_["config"].as<std::string>());
   for (const auto& name : positional_names_)
@@ -109,6 +130,17 @@ bool
 CommandLine::given(const std::string& option) const
 {
   return values_.count(option) && !values_[option].defaulted();
+}
+
+std::string
+CommandLine::withoutEffect(const std::vector<ConditionalOption>& options) const
+{
+  std::string text;
+  for (const auto& option : options)
+    if (!option.used && given(option.name))
+      text += (text.empty() ? "no effect in this run: --" : ", --") + option.name +
+              " (" + option.condition + ")";
+  return text;
 }
 
 std::istream&

@@ -9,6 +9,13 @@
 
 namespace pcl6d::app {
 
+/** \brief An option that counts only in some runs. */
+struct ConditionalOption {
+  std::string name;      ///< without dashes
+  bool used;             ///< whether it counts in this run
+  std::string condition; ///< when it counts, such as "of the metric point"
+};
+
 /** \brief A program's options in groups, read from the command line and, with
  * `--config FILE`, from a file of `name = value` lines; the command line wins. */
 class CommandLine {
@@ -35,7 +42,18 @@ public:
   bool
   given(const std::string& option) const;
 
+  /** \return one sentence about the options that the user gave though they are not used
+   * in this run; empty if there are none */
+  std::string
+  withoutEffect(const std::vector<ConditionalOption>& options) const;
+
 private:
+  boost::program_options::options_description
+  allOptions() const;
+  void
+  readArguments(const std::vector<std::string>& arguments);
+  bool
+  answerQuestions() const;
   void
   readConfig(const std::string& file);
   void

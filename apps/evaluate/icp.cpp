@@ -33,6 +33,7 @@ readPoints(const std::string& file, ScanFormat format)
 struct InitialPose {
   Eigen::Isometry3d T_world_scan;
   std::string source;
+  bool found; ///< false: the identity, for want of a pose
 };
 
 /** \return the pose of a file among the scans of its folder */
@@ -41,7 +42,7 @@ initialPoseOf(const fs::path& file, const ScanFolder& folder)
 {
   for (std::size_t i = 0; i < folder.size(); ++i)
     if (fs::equivalent(folder.file(i), file))
-      return {folder.initialPose(i), folder.poseSource()};
+      return {folder.initialPose(i), folder.poseSource(), folder.hasPoses()};
   throw IoFailed(file.string() + ": no scan of its folder; give --guess");
 }
 
@@ -50,7 +51,7 @@ InitialPose
 startOf(const IcpSettings& s)
 {
   if (s.guess)
-    return {*s.guess, "--guess"};
+    return {*s.guess, "--guess", true};
   ScanFolderOptions options;
   options.format = s.format;
   const auto folderOf = [](const std::string& file) {
@@ -65,7 +66,7 @@ startOf(const IcpSettings& s)
   if (a.source != b.source)
     throw IoFailed("the poses of the scans are not of a kind: " + a.source + " for " +
                    s.scan_a + ", " + b.source + " for " + s.scan_b + "; give --guess");
-  return {a.T_world_scan.inverse() * b.T_world_scan, a.source};
+  return {a.T_world_scan.inverse() * b.T_world_scan, a.source, a.found};
 }
 
 /** The options of the runs, what is auto derived from the scans. */
@@ -97,6 +98,7 @@ evaluate(const IcpSettings& s, ProgressBar& bar, const Interrupt& interrupt)
   const InitialPose start = startOf(s);
   IcpEvaluation e;
   e.pose_source = start.source;
+  e.has_poses = start.found;
   e.guess = start.T_world_scan;
   e.parameters = deriveParameters(s.slam, {a, b});
   const Points target = prepareScan(a, s.scan_a, e.parameters);
@@ -116,19 +118,49 @@ evaluate(const IcpSettings& s, ProgressBar& bar, const Interrupt& interrupt)
   return e;
 }
 
-/** \return whether all metrics could be measured */
+/** \return whether all of it is to be trusted */
 bool
-warnOfDoubts(const IcpSettings& s, const IcpBasin& basin, ProgressBar& bar)
+warnOfDoubts(const IcpSettings& s, const IcpEvaluation& e, ProgressBar& bar)
 {
-  bool trusted = true;
-  for (const IcpBestPose& best : basin.best)
-    if (!best.doubt.empty()) {
-      trusted = false;
+  for (const IcpBestPose& best : e.basin.best)
+    if (!best.doubt.empty())
       bar.warn(std::string("metric ") + toString(best.metric) + ": " + s.scan_b +
                " cannot be matched onto " + s.scan_a +
                " even from the unperturbed start: " + best.doubt);
-    }
-  return trusted;
+  for (const IcpDisagreement& d : e.basin.disagreements) {
+    char distance[64];
+    std::snprintf(distance,
+                  sizeof distance,
+                  "%.3f m and %.2f deg",
+                  d.distance.translation,
+                  180 / M_PI * d.distance.rotation);
+    bar.warn(std::string("the best poses of ") + toString(d.a) + " and " +
+             toString(d.b) + " are " + distance +
+             " apart, far more than their sigma: one at least is wrong, and its runs "
+             "are judged by it");
+  }
+  if (!e.has_poses)
+    bar.warn("no poses were found: ICP starts from the identity; give --guess if B was "
+             "not recorded near A");
+  return e.basin.disagreements.empty() &&
+         std::all_of(e.basin.best.begin(), e.basin.best.end(), [](const auto& best) {
+           return best.doubt.empty();
+         });
+}
+
+void
+writeFiles(OutputFolder& out,
+           const IcpSettings& s,
+           const IcpEvaluation& e,
+           ProgressBar& bar)
+{
+  writeIcpFiles(out, s, e);
+  drawIcpBasins(out, s, e, bar);
+  const auto written = out.publish();
+  if (s.quiet)
+    return;
+  for (const auto& path : written)
+    std::printf("  %s\n", path.c_str());
 }
 } // namespace
 
@@ -140,20 +172,18 @@ runIcp(const std::vector<std::string>& arguments)
     return kDone;
   const Interrupt interrupt;
   ProgressBar bar(s.quiet);
+  if (!s.without_effect.empty())
+    bar.warn(s.without_effect);
   std::optional<OutputFolder> out;
   if (!s.out.empty())
     out.emplace(icpFolderRules(s));
   const IcpEvaluation e = evaluate(s, bar, interrupt);
   printIcpTable(s, e);
-  if (out) {
-    writeIcpFiles(*out, s, e);
-    drawIcpBasins(*out, s, e, bar);
-    for (const auto& path : out->publish())
-      std::printf("  %s\n", path.c_str());
-  }
+  if (out)
+    writeFiles(*out, s, e, bar);
   if (std::fflush(stdout) != 0)
     throw IoFailed("cannot write to the standard output");
-  const bool trusted = warnOfDoubts(s, e.basin, bar);
+  const bool trusted = warnOfDoubts(s, e, bar);
   if (!e.basin.complete) {
     bar.warn("interrupted; the table holds the methods that were finished");
     return kInterrupted;

@@ -135,7 +135,7 @@ describeRun(CommandLine& line, IcpSettings& s, Raw& raw)
       ("force",
        po::bool_switch(&s.force),
        "write into a folder that holds other files") //
-      ("quiet", po::bool_switch(&s.quiet), "no progress, only table and errors");
+      ("quiet", po::bool_switch(&s.quiet), "print the table, warnings and errors only");
 }
 } // namespace
 
@@ -161,7 +161,11 @@ icpUsage()
          "are means of the correct runs; reach is how far every start is correct, "
          "shifted\n"
          "without a turn and turned without a shift.\n"
-         "Exit code 3: from the unperturbed start the scans cannot be matched.\n";
+         "Exit code 3: a best pose is in doubt, because ICP fails from the unperturbed "
+         "start\n"
+         "or does not stay at the pose found (the metric then has no rows), or because "
+         "the\n"
+         "best poses of two metrics are far apart.\n";
 }
 
 void

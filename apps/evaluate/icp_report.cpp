@@ -225,6 +225,11 @@ toJson(const IcpSettings& settings, const IcpEvaluation& e)
                                   {"why", parameter.why}});
   for (const IcpBestPose& best : e.basin.best)
     json["best"].push_back(toJson(best));
+  json["disagreements"] = Json::array();
+  for (const IcpDisagreement& d : e.basin.disagreements)
+    json["disagreements"].push_back({{"metrics", {toString(d.a), toString(d.b)}},
+                                     {"position", d.distance.translation},
+                                     {"orientation", d.distance.rotation}});
   return json;
 }
 } // namespace
@@ -245,10 +250,13 @@ icpFolderRules(const IcpSettings& settings)
 void
 printIcpTable(const IcpSettings& settings, const IcpEvaluation& evaluation)
 {
-  printHeader(settings, evaluation);
+  if (!settings.quiet)
+    printHeader(settings, evaluation);
   if (evaluation.basin.rows.empty())
     return;
-  std::printf("\n%-7s%-18s%-12s%9s%11s%12s%9s%12s%9s%9s%11s\n",
+  if (!settings.quiet)
+    std::printf("\n");
+  std::printf("%-7s%-18s%-12s%9s%11s%12s%9s%12s%9s%9s%11s\n",
               "metric",
               "minimiser",
               "search",

@@ -14,6 +14,7 @@ namespace pcl6d::app {
 /** \brief What was measured, and with what. */
 struct IcpEvaluation {
   std::string pose_source;
+  bool has_poses = false; ///< false: ICP starts from the identity for want of poses
   Eigen::Isometry3d guess = Eigen::Isometry3d::Identity(); ///< T_a_b
   Slam6DParameters parameters;
   std::size_t points_a = 0; ///< after the reduction
@@ -26,7 +27,7 @@ struct IcpEvaluation {
 OutputRules
 icpFolderRules(const IcpSettings& settings);
 
-/** \brief Prints the table to stdout. */
+/** \brief Prints parameters and best poses, unless quiet, and the table to stdout. */
 void
 printIcpTable(const IcpSettings& settings, const IcpEvaluation& evaluation);
 

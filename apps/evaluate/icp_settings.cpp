@@ -130,6 +130,20 @@ interpret(const CommandLine& line, const Raw& raw, IcpSettings& s)
       },
       {{"max_iterations", "iterations"}});
 }
+
+std::string
+withoutEffect(const CommandLine& line, const IcpSettings& s)
+{
+  const auto& metrics = s.methods.metrics;
+  const auto points = std::count(metrics.begin(), metrics.end(), Metric::kPoint);
+  const bool planes = points < static_cast<std::ptrdiff_t>(metrics.size());
+  return line.withoutEffect(
+      {{"minimiser", points > 0, "of the metric point"},
+       {"plane-minimiser", planes, "of the metrics plane and gicp"},
+       {"offset-xy", s.basin.steps_xy > 1, "with --steps-xy 3 or more"},
+       {"offset-yaw", s.basin.steps_yaw > 1, "with --steps-yaw 3 or more"},
+       {"force", !s.out.empty(), "with --output"}});
+}
 } // namespace
 
 bool
@@ -143,6 +157,7 @@ parseIcpSettings(const std::vector<std::string>& arguments, IcpSettings& setting
   if (!line.parse(arguments))
     return false;
   interpret(line, raw, settings);
+  settings.without_effect = withoutEffect(line, settings);
   return true;
 }
 

@@ -26,6 +26,7 @@ struct IcpSettings {
   std::string out;                  ///< or empty
   bool force = false;
   bool quiet = false;
+  std::string without_effect; ///< about options given in vain; empty if there are none
 };
 
 /** \brief Fills the settings from the command line and the config file.

@@ -253,6 +253,8 @@ RunWriter::describe(bool complete, const RunLog& log)
             : "no initial poses were found: each scan starts where the one before is, "
               "which only fits scans taken close together; give poses with --poses or "
               "odometry.txt");
+  if (!settings_.without_effect.empty())
+    summary_.warnings.push_back(settings_.without_effect);
   if (settings_.slam.initial_guess == InitialGuess::kOverlap)
     warnOfOdometry();
 }

@@ -264,6 +264,10 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
     return false;
   interpret(line, raw, settings);
   settings.words = wordsOf(line, raw, settings);
+  const bool planes = settings.slam.metric != Metric::kPoint;
+  settings.without_effect =
+      line.withoutEffect({{"minimiser", !planes, "of the metric point"},
+                          {"plane-minimiser", planes, "of the metrics plane and gicp"}});
   return true;
 }
 

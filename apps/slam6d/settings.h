@@ -30,6 +30,7 @@ struct Settings {
     bool given;
   };
   std::vector<Word> words;
+  std::string without_effect; ///< words that were given for nothing; else empty
 
   /** Decides what --initial-guess auto means for a folder. */
   void

@@ -1,35 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shows: two scans without any guess. alignByFeatures() says where the second one stood,
-// and whether that can be believed; ICP6D makes it exact.
+// Shows: where to start ICP. alignByFeatures() says without any guess where the second scan
+// stood, searchByOverlap() mends a guess that is off by metres; both say whether that can
+// be believed. ICP6D makes it exact.
 #include "synthetic.h"
 
 #include <pcl6d/registration/feature_alignment.h>
 #include <pcl6d/registration/icp6d.h>
+#include <pcl6d/registration/overlap_search.h>
 
 #include <cstdio>
 
 using Point = pcl::PointXYZ;
+using Cloud = pcl::PointCloud<Point>::ConstPtr;
 
-int
-main()
+bool
+isGood(const char* name,
+       const pcl6d::CoarseEstimate& coarse,
+       const Eigen::Isometry3d& truth)
 {
-  const Eigen::Isometry3d truth = // far beyond what ICP could bridge
-      pcl6d::poseFromEuler({0.9, -0.5, 0.1}, {0.02, -0.03, 1.2});
-  const auto target = scanRoom(Eigen::Isometry3d::Identity());
-  const auto source = scanRoom(truth);
-
-  const pcl6d::CoarseEstimate coarse =
-      pcl6d::alignByFeatures(pcl6d::toPoints(*target), pcl6d::toPoints(*source));
-  const pcl6d::MotionSize off = pcl6d::distanceBetween(truth, coarse.T_target_source);
-  std::printf("features: %s, score %.2f, second %.2f, error %.3f m %.4f rad\n",
+  const pcl6d::MotionSize error = pcl6d::distanceBetween(truth, coarse.T_target_source);
+  std::printf("%s: %s, score %.2f, second %.2f, error %.3f m %.4f rad\n",
+              name,
               pcl6d::toString(coarse.status),
               coarse.score,
               coarse.second_score,
-              off.translation,
-              off.rotation);
-  if (coarse.status != pcl6d::Status::kOk)
-    return 1;
+              error.translation,
+              error.rotation);
+  return coarse.status == pcl6d::Status::kOk;
+}
 
+bool
+refine(const Cloud& target,
+       const Cloud& source,
+       const pcl6d::CoarseEstimate& coarse,
+       const Eigen::Isometry3d& truth)
+{
   pcl6d::ICP6D<Point, Point> icp;
   icp.setMetric(pcl6d::Metric::kGicp);
   icp.setInputSource(source);
@@ -43,5 +48,25 @@ main()
               pcl6d::toString(icp.result().status),
               error.translation,
               error.rotation);
-  return icp.hasConverged() && error.translation < 0.02 && error.rotation < 0.005 ? 0 : 1;
+  return icp.hasConverged() && error.translation < 0.02 && error.rotation < 0.005;
+}
+
+int
+main()
+{
+  const Eigen::Isometry3d truth = // far beyond what ICP could bridge
+      pcl6d::poseFromEuler({0.9, -0.5, 0.1}, {0.02, -0.03, 1.2});
+  const auto target = scanRoom(Eigen::Isometry3d::Identity());
+  const auto source = scanRoom(truth);
+  const pcl6d::Points a = pcl6d::toPoints(*target), b = pcl6d::toPoints(*source);
+
+  const pcl6d::CoarseEstimate features = pcl6d::alignByFeatures(a, b);
+  if (!isGood("features", features, truth) || !refine(target, source, features, truth))
+    return 1;
+
+  const Eigen::Isometry3d guess = truth * pcl6d::planarPose(0.8, -0.6, 0.2); // 1 m off
+  const pcl6d::CoarseEstimate overlap = pcl6d::searchByOverlap(a, b, guess);
+  return isGood("overlap", overlap, truth) && refine(target, source, overlap, truth)
+             ? 0
+             : 1;
 }

@@ -49,7 +49,6 @@ struct RoomPair : TempFolder {
   {
     std::vector<std::string> all = {*this / "a.xyz",
                                     *this / "b.xyz",
-                                    "--quiet",
                                     "--voxel",
                                     "0.2",
                                     "--offset-xy",

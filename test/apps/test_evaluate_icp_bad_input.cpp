@@ -40,6 +40,60 @@ TEST(EvaluateIcp, SaysThatScansCannotBeMatched)
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1) << "names of columns only";
 }
 
+TEST(EvaluateIcp, SaysThatMetricsDisagree)
+{
+  const RoomPair pair;
+  const auto outcome = evaluateIcp(pair.arguments({"--metric=plane",
+                                                   "--metric=gicp",
+                                                   "--sigma-position=1e-4",
+                                                   "--sigma-orientation=0.01",
+                                                   "-o",
+                                                   pair / "out"}));
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: the best poses of plane and gicp are 0.0"),
+            std::string::npos)
+      << outcome.err;
+  const auto json = nlohmann::json::parse(readText(pair / "out/icp.json"));
+  ASSERT_EQ(json["disagreements"].size(), 1u);
+  EXPECT_GT(json["disagreements"][0]["position"], 0);
+}
+
+TEST(EvaluateIcp, SaysThatThereAreNoPoses)
+{
+  const RoomPair pair;
+  fs::remove(pair / "odometry.txt");
+  const auto warned = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"--metric=plane", "--quiet"};
+    all.insert(all.end(), more.begin(), more.end());
+    return evaluateIcp(pair.arguments(all)).err.find("no poses were found") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(warned({}));
+  EXPECT_FALSE(warned({"--guess", "0.4 -0.2 0.05 1.1 -0.6 11.5"}));
+}
+
+TEST(EvaluateIcp, SaysWhichOptionsHaveNoEffect)
+{
+  const RoomPair pair;
+  const std::string a = pair / "a.xyz", b = pair / "b.xyz";
+  const auto errorsOf = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {a, b, "--voxel=0.2", "--steps-xy=1", "--quiet"});
+    words.emplace_back("--steps-yaw=1");
+    return evaluateIcp(words).err;
+  };
+  EXPECT_EQ(errorsOf({"--metric=plane", "--minimiser=svd"}),
+            "warning: no effect in this run: --minimiser (of the metric point)\n");
+  EXPECT_EQ(errorsOf({"--metric=plane"}), "") << "defaults are not given in vain";
+  EXPECT_EQ(errorsOf({"--metric=all", "--minimiser=svd", "--plane-minimiser=linear"}),
+            "");
+  const std::string two =
+      errorsOf({"--metric=point", "--plane-minimiser=linear", "--offset-yaw=2"});
+  EXPECT_EQ(
+      two,
+      "warning: no effect in this run: --plane-minimiser (of the metrics plane and "
+      "gicp), --offset-yaw (with --steps-yaw 3 or more)\n");
+}
+
 TEST(EvaluateIcp, RefusesAWrongCommandLine)
 {
   const RoomPair pair;

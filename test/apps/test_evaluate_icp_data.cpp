@@ -19,7 +19,6 @@ TEST(EvaluateIcpData, MeasuresTheRecordedCorridor)
                                                {"icp",
                                                 data / "scan000.3d",
                                                 data / "scan001.3d",
-                                                "--quiet",
                                                 "--steps-xy=3",
                                                 "--steps-yaw=1",
                                                 "--offset-xy=0.2",
@@ -36,4 +35,26 @@ TEST(EvaluateIcpData, MeasuresTheRecordedCorridor)
     EXPECT_GT(std::stod(row.at("success")), 0.99)
         << row.at("metric") << ' ' << row.at("minimiser");
   EXPECT_EQ(without({rows[0], rows[1]}, {"search", "seconds"}).size(), 1u);
+}
+
+TEST(EvaluateIcpData, DoubtsWhatPointsFindWithoutPoses)
+{
+  PCL6D_DATA_OR_SKIP(data, "rooms");
+  const auto outcome = pcl6d::test::runProgram("pcl_slam6d_evaluate",
+                                               {"icp",
+                                                data / "room_scan1.pcd",
+                                                data / "room_scan2.pcd",
+                                                "--quiet",
+                                                "--voxel=0.2",
+                                                "--steps-xy=1",
+                                                "--steps-yaw=1"});
+  // The identity is 2 m off: points come to rest 1.4 m from where planes do, in a pose
+  // that ICP leaves when it starts there with the wide search of its first iterations.
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  for (const char* const word : {"metric point: ",
+                                 "ICP started in the pose found leaves it by",
+                                 "no poses were found"})
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << outcome.err;
+  EXPECT_EQ(outcome.out.find("\npoint "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\nplane "), std::string::npos) << outcome.out;
 }

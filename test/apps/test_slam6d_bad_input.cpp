@@ -1,84 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a user may get wrong: one line that says what and where, and nothing half-written.
-#include "support/run_program.h"
-
-#include <gtest/gtest.h>
-
-#include <functional>
+#include "bad_input.h"
 
 namespace {
 namespace fs = std::filesystem;
-using pcl6d::test::contentOf;
-using pcl6d::test::readText;
-using pcl6d::test::TempFolder;
+using pcl6d::test::BadInput;
+using pcl6d::test::grid;
+using pcl6d::test::kIdentityRow;
+using pcl6d::test::kName;
+using pcl6d::test::pcd;
 using pcl6d::test::writeText;
-
-constexpr const char* kName = "pcl_slam6d";
-
-/** A scan with a pose, from which matching starts. */
-std::string
-pcd(const std::string& fields, int count, const std::string& body)
-{
-  std::string sizes, types, counts;
-  for (std::size_t i = 0; i < (fields.size() + 1) / 2; ++i) {
-    sizes += " 4";
-    types += " F";
-    counts += " 1";
-  }
-  const std::string n = std::to_string(count);
-  return "VERSION 0.7\nFIELDS " + fields + "\nSIZE" + sizes + "\nTYPE" + types +
-         "\nCOUNT" + counts + "\nWIDTH " + n +
-         "\nHEIGHT 1\nVIEWPOINT 1 0 0 1 0 0 0\nPOINTS " + n + "\nDATA ascii\n" + body;
-}
-
-std::string
-grid()
-{
-  std::string body;
-  for (int i = 0; i < 64; ++i)
-    body += std::to_string(i % 4) + " " + std::to_string(i / 4 % 4) + " " +
-            std::to_string(i / 16) + "\n";
-  return pcd("x y z", 64, body);
-}
-
-constexpr const char* kIdentityRow = "1 0 0 0 0 1 0 0 0 0 1 0\n";
-
-/** Three good scans in a folder "in", which each test then spoils. */
-class BadInput : public testing::Test {
-protected:
-  void
-  SetUp() override
-  {
-    fs::create_directory(in);
-    for (const char* name : {"scan000.pcd", "scan001.pcd", "scan002.pcd"})
-      writeText(in / name, grid());
-  }
-
-  /** Runs on "in" and expects an error with the words; nothing else may change. */
-  void
-  expectRefused(const std::vector<std::string>& words)
-  {
-    const auto before = contentOf(in);
-    const auto outcome =
-        pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()});
-    pcl6d::test::expectError(outcome, kName, 1, words);
-    EXPECT_FALSE(fs::exists(out));
-    EXPECT_EQ(contentOf(in), before);
-  }
-
-  void
-  expectUsageError(std::vector<std::string> arguments,
-                   const std::vector<std::string>& words)
-  {
-    const auto outcome = pcl6d::test::runProgram(kName, arguments);
-    pcl6d::test::expectError(outcome, kName, 2, words);
-    EXPECT_FALSE(fs::exists(out));
-  }
-
-  TempFolder folder;
-  const fs::path in = folder / "in";
-  const fs::path out = folder / "out";
-};
 } // namespace
 
 TEST_F(BadInput, TheGoodFolderIsNotRefused)
@@ -188,113 +119,6 @@ TEST_F(BadInput, FolderInTheFilesPlace) // unreadable, also for root
   expectRefused({"scan001.pcd"});
 }
 
-TEST_F(BadInput, OutputBelowAFile)
-{
-  writeText(folder / "file", "content");
-  const auto outcome = pcl6d::test::runProgram(
-      kName, {in.string(), "-o", (folder / "file" / "out").string()});
-  pcl6d::test::expectError(outcome, kName, 1, {"file"});
-  EXPECT_EQ(readText(folder / "file"), "content");
-}
-
-TEST_F(BadInput, OutputIsTheInput)
-{
-  const auto before = contentOf(in);
-  const auto outcome =
-      pcl6d::test::runProgram(kName, {in.string(), "-o", in.string() + "/", "--force"});
-  pcl6d::test::expectError(outcome, kName, 1, {"input"});
-  EXPECT_EQ(contentOf(in), before);
-}
-
-TEST_F(BadInput, InputInsideTheOutput) // whose old results would be removed
-{
-  const auto before = contentOf(folder.path());
-  const auto outcome = pcl6d::test::runProgram(
-      kName, {in.string(), "-o", folder.path().string(), "--force"});
-  pcl6d::test::expectError(outcome, kName, 1, {in.string(), "inside"});
-  EXPECT_EQ(contentOf(folder.path()), before);
-}
-
-TEST_F(BadInput, ForceKeepsForeignFilesOfTheSameName)
-{
-  fs::create_directories(out / "scans");
-  writeText(out / "scans" / "raw.pcd", "a year of measurements");
-  const auto outcome =
-      pcl6d::test::runProgram(kName, {in.string(), "-o", out.string(), "--force"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(readText(out / "scans" / "raw.pcd"), "a year of measurements");
-}
-
-TEST_F(BadInput, OutputHoldsForeignFiles)
-{
-  fs::create_directory(out);
-  writeText(out / "thesis.tex", "years of work");
-  const auto outcome =
-      pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()});
-  pcl6d::test::expectError(outcome, kName, 1, {out.string(), "--force"});
-  EXPECT_EQ(contentOf(out).size(), 1u);
-}
-
-TEST_F(BadInput, LinkInTheOutputThatLeadsToTheInput)
-{
-  fs::create_directory(out);
-  fs::create_directory_symlink(in, out / "scans");
-  const auto before = contentOf(in);
-  const auto outcome =
-      pcl6d::test::runProgram(kName, {in.string(), "-o", out.string(), "--force"});
-  pcl6d::test::expectError(outcome, kName, 1, {"link", "scans"});
-  EXPECT_EQ(contentOf(in), before);
-}
-
-TEST_F(BadInput, PosesInsideTheOutput)
-{
-  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
-            0);
-  const auto before = contentOf(out);
-  const std::string poses = out / "trajectory.kitti";
-  const auto outcome = pcl6d::test::runProgram(
-      kName, {in.string(), "-o", out.string(), "--poses", poses});
-  pcl6d::test::expectError(outcome, kName, 1, {poses, "inside"});
-  EXPECT_EQ(contentOf(out), before);
-}
-
-TEST_F(BadInput, SomebodyElsesSummaryIsNoLicence)
-{
-  fs::create_directories(out / "scans");
-  writeText(out / "summary.json", "{\"mine\": 1}");
-  writeText(out / "scans" / "mydata.txt", "mine too");
-  const auto before = contentOf(out);
-  const auto outcome =
-      pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()});
-  pcl6d::test::expectError(outcome, kName, 1, {"--force"});
-  EXPECT_EQ(contentOf(out), before);
-}
-
-TEST_F(BadInput, EarlierRunKeepsWhatIsNotOurs)
-{
-  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
-            0);
-  writeText(out / "scans" / "notes.txt", "mine");
-  fs::remove(in / "scan002.pcd");
-  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
-            0);
-  EXPECT_EQ(readText(out / "scans" / "notes.txt"), "mine");
-  EXPECT_FALSE(fs::exists(out / "scans" / "scan002.pcd"));
-}
-
-TEST_F(BadInput, LateFailureKeepsAnEarlierRun)
-{
-  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
-            0);
-  fs::remove(out / "map.pcd");
-  fs::create_directory(out / "map.pcd"); // found only when all is computed
-  const auto before = contentOf(out);
-  const auto outcome =
-      pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()});
-  pcl6d::test::expectError(outcome, kName, 1, {"map.pcd"});
-  EXPECT_EQ(contentOf(out), before);
-}
-
 TEST_F(BadInput, UnknownOption)
 {
   expectUsageError({in.string(), "-o", out.string(), "--voxle", "1"}, {"voxle"});
@@ -376,16 +200,4 @@ TEST_F(BadInput, BrokenConfig)
   writeText(config, "voxle = 1\n");
   expectUsageError({in.string(), "-o", out.string(), "--config", config},
                    {"run.cfg", "voxle"});
-}
-
-TEST_F(BadInput, FailureKeepsAnEarlierRun)
-{
-  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
-            0);
-  const auto before = contentOf(out);
-  writeText(in / "scan001.pcd", "broken");
-  const auto outcome =
-      pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()});
-  pcl6d::test::expectError(outcome, kName, 1, {"scan001.pcd"});
-  EXPECT_EQ(contentOf(out), before);
 }

@@ -71,6 +71,40 @@ TEST(IcpBasin, DoubtsPairsAsFarApartAsThoseOfUnrelatedPoints)
   EXPECT_NE(basin.best.at(0).doubt.find("unrelated points"), std::string::npos);
 }
 
+TEST(IcpBasin, DoubtsABestPoseThatIcpLeaves)
+{
+  const RoomPair& pair = room(); // from there points come to rest beside the truth
+  const Isometry3d guess = pair.truth * pcl6d::planarPose(3, 1, 0.5);
+  const std::string doubt = doubtOf(pair.target, pair.source, guess);
+  EXPECT_EQ(doubt.rfind("ICP started in the pose found leaves it by 1.", 0), 0u)
+      << doubt;
+}
+
+TEST(IcpBasin, SaysWhichBestPosesAreNotTheSame)
+{
+  const std::vector<IcpVariant> variants = {
+      {Metric::kPoint, "quaternion", SearchMethod::kCached},
+      {Metric::kPlane, "helix", SearchMethod::kCached}};
+  IcpBasinOptions o = nearStarts();
+  EXPECT_TRUE(evaluateRoom(variants, o).disagreements.empty());
+
+  o.disagreement_sigmas = 1e-3;
+  const IcpBasin basin = evaluateRoom(variants, o);
+  ASSERT_EQ(basin.disagreements.size(), 1u);
+  const auto& found = basin.disagreements[0];
+  EXPECT_EQ(found.a, Metric::kPoint);
+  EXPECT_EQ(found.b, Metric::kPlane);
+  const auto distance = pcl6d::distanceBetween(basin.best[0].result.T_target_source,
+                                               basin.best[1].result.T_target_source);
+  EXPECT_EQ(found.distance.translation, distance.translation);
+  EXPECT_EQ(found.distance.rotation, distance.rotation);
+  EXPECT_EQ(basin.rows.size(), 2u) << "which of them is right cannot be known here";
+
+  o.icp.max_iterations = 8; // too few for points: no pose to compare
+  o.icp.max_distance_start = 0.5;
+  EXPECT_TRUE(evaluateRoom(variants, o).disagreements.empty());
+}
+
 TEST(IcpBasin, MeasuresTheOtherMetricsIfOneFails)
 {
   IcpBasinOptions o = nearStarts();
@@ -133,6 +167,7 @@ TEST(IcpBasin, RefusesBadOptions)
        {"steps_yaw = -1", [](auto& o) { o.steps_yaw = -1; }},
        {"steps_xy = 1001", [](auto& o) { o.steps_xy = 1001; }},
        {"sigmas = 0", [](auto& o) { o.sigmas = 0; }},
+       {"disagreement_sigmas = 0", [](auto& o) { o.disagreement_sigmas = 0; }},
        {"min_sigma_position = 0", [](auto& o) { o.min_sigma_position = 0; }},
        {"min_sigma_orientation = 0", [](auto& o) { o.min_sigma_orientation = 0; }},
        {"sigma_position = -1", [](auto& o) { o.sigma_position = -1; }},

@@ -9,6 +9,6 @@ run(COMMAND ${work}/examples_build/planes_drop_in PRINTS "points +ok" "plane +ok
 run(COMMAND ${work}/examples_build/minimisers_drop_in PRINTS "all minimisers found the motion")
 run(COMMAND ${work}/examples_build/search_classes PRINTS "all of them agree")
 run(COMMAND ${work}/examples_build/filters_drop_in PRINTS "the mixed pixel at .* went to")
-run(COMMAND ${work}/examples_build/coarse_start PRINTS "features: ok" "ICP: ok")
+run(COMMAND ${work}/examples_build/coarse_start PRINTS "features: ok" "overlap: ok" "ICP: ok")
 run(COMMAND ${work}/examples_build/slam_in_memory PRINTS "7 of 7 scans matched")
 run(COMMAND ${work}/examples_build/loop_closing_drop_in PRINTS "with pcl6d::ELCH .ok.")

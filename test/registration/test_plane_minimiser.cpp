@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/pairs.h"
+#include "plane_pairs.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/parallel.h>
 #include <pcl6d/registration/plane_minimiser.h>
 
 #include <Eigen/QR>
@@ -16,76 +15,14 @@ using pcl6d::PlaneSums;
 using pcl6d::Random;
 using pcl6d::Status;
 using pcl6d::Twist;
+using pcl6d::test::kHalf;
+using pcl6d::test::kPairs;
+using pcl6d::test::makePlanes;
+using pcl6d::test::Planes;
 using pcl6d::test::randomPose;
+using pcl6d::test::roomPlanes;
 
 namespace {
-constexpr std::size_t kPairs = 300;
-constexpr double kHalf = 10; // [m] half side of the cube that holds the points
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-/** Rounding of a sum of kPairs terms up to (2 kHalf)^2, grown like the root of their
- * number (bounded by 32). */
-constexpr double kSumTol = 32 * kEpsilon * kPairs * 4 * kHalf * kHalf;
-
-/** Points and the planes that they belong to. */
-struct Planes {
-  std::vector<Eigen::Vector3d> source, target, normal;
-
-  PlaneSums
-  sums(std::size_t begin, std::size_t end) const
-  {
-    PlaneAccumulator accumulator;
-    for (std::size_t i = begin; i < end; ++i)
-      accumulator.add(source[i], target[i], normal[i]);
-    return accumulator.sums();
-  }
-  PlaneSums
-  sums() const
-  {
-    return sums(0, source.size());
-  }
-
-  Planes
-  moved(const Eigen::Isometry3d& T) const
-  {
-    Planes result = *this;
-    for (auto& d : result.source)
-      d = T * d;
-    return result;
-  }
-};
-
-/** Pairs whose source was moved by truth^-1 and then slid along the planes, which the
- * distance to a plane does not feel; noise along the normals.
- * \param[in] normal_of gives the normal of a point */
-template <typename NormalOf>
-Planes
-makePlanes(Random& random,
-           const Eigen::Isometry3d& truth,
-           double sigma,
-           NormalOf normal_of,
-           const Eigen::Vector3d& centre = Eigen::Vector3d::Zero())
-{
-  Planes planes;
-  for (std::size_t i = 0; i < kPairs; ++i) {
-    const Eigen::Vector3d m = centre + pcl6d::test::randomVector(random, kHalf);
-    const Eigen::Vector3d n = normal_of(m).normalized();
-    const Eigen::Vector3d slide = n.cross(pcl6d::test::randomVector(random, 0.5));
-    planes.target.push_back(m);
-    planes.normal.push_back(n);
-    planes.source.push_back(truth.inverse() *
-                            (m + slide + sigma * random.normal() * n));
-  }
-  return planes;
-}
-
-Planes
-roomPlanes(Random& random, const Eigen::Isometry3d& truth, double sigma = 0)
-{
-  return makePlanes(random, truth, sigma, [&](const Eigen::Vector3d&) {
-    return pcl6d::test::randomVector(random, 1);
-  });
-}
-
 /** The definition: all rows, and QR. */
 Twist
 denseSolution(const Planes& planes, const Eigen::Vector3d& centroid)
@@ -113,109 +50,7 @@ iterate(const PlaneMinimiser& step, const Planes& planes, int steps = 20)
   return T;
 }
 
-void
-expectNear(const PlaneSums& found, const PlaneSums& expected, double scale = 1)
-{
-  EXPECT_EQ(found.count, expected.count);
-  EXPECT_EQ(found.weight, expected.weight);
-  EXPECT_LT((found.mean_source - expected.mean_source).norm(), kSumTol * scale);
-  EXPECT_LT((found.A - expected.A).norm(), kSumTol * scale);
-  EXPECT_LT((found.b - expected.b).norm(), kSumTol * scale);
-  EXPECT_NEAR(found.residual_sq, expected.residual_sq, kSumTol * scale);
-  EXPECT_LT((found.scatter - expected.scatter).norm(), kSumTol * scale);
-}
 } // namespace
-
-TEST(PlaneSums, EqualTheirDefinitions)
-{
-  Random random(1);
-  const Planes planes = roomPlanes(random, randomPose(random, 1, 0.1), 0.05);
-  const PlaneSums sums = planes.sums();
-  PlaneSums expected;
-  expected.count = kPairs;
-  expected.weight = kPairs;
-  for (const auto& d : planes.source)
-    expected.mean_source += d / kPairs;
-  for (std::size_t i = 0; i < kPairs; ++i) {
-    const Eigen::Vector3d& n = planes.normal[i];
-    const Eigen::Vector3d d = planes.source[i] - expected.mean_source;
-    const double r = n.dot(planes.target[i] - planes.source[i]);
-    Twist a;
-    a << n, d.cross(n);
-    expected.A += a * a.transpose();
-    expected.b += a * r;
-    expected.residual_sq += r * r;
-    expected.scatter += d * d.transpose();
-  }
-  expectNear(sums, expected);
-}
-
-TEST(PlaneSums, MergeToTheSumsOfTheWholeForEverySplit)
-{
-  Random random(2);
-  const Planes planes = roomPlanes(random, randomPose(random, 1, 0.1), 0.05);
-  for (int trial = 0; trial < 20; ++trial) {
-    std::vector<PlaneSums> parts{PlaneSums()}; // nothing changes nothing
-    for (std::size_t begin = 0; begin < kPairs;) {
-      const std::size_t end =
-          std::min(kPairs, begin + 1 + static_cast<std::size_t>(random.uniform() * 60));
-      parts.push_back(planes.sums(begin, end));
-      begin = end;
-    }
-    expectNear(pcl6d::mergeTree(parts, &PlaneSums::merge), planes.sums());
-  }
-}
-
-TEST(PlaneSums, LoseNoDigitsFarFromTheOrigin)
-{
-  Random near_random(3), far_random(3);
-  const auto normal = [](const Eigen::Vector3d& m) {
-    return Eigen::Vector3d(std::sin(m.x()), std::cos(m.y()), std::sin(m.z() * m.x()));
-  };
-  const Planes near =
-      makePlanes(near_random, Eigen::Isometry3d::Identity(), 0.05, normal);
-  Planes far = near;
-  const Eigen::Vector3d away(1048576, -1048576, 1048576); // 2^20 m
-  for (std::size_t i = 0; i < kPairs; ++i) {
-    far.source[i] += away;
-    far.target[i] += away;
-  }
-  // Coordinates are rounded to 1.2e-10 m there; times a lever of 20 m and kPairs.
-  const double rounding = 1.2e-10 * 2 * kHalf * kPairs;
-  EXPECT_LT((far.sums().A - near.sums().A).norm(), 2 * kHalf * rounding);
-  EXPECT_LT((far.sums().b - near.sums().b).norm(), 2 * kHalf * rounding);
-}
-
-TEST(PlaneSums, SkipWhatIsNotFiniteAndNormalsOfNoLength)
-{
-  Random random(4);
-  const Planes planes = roomPlanes(random, Eigen::Isometry3d::Identity(), 0.1);
-  PlaneAccumulator accumulator;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::Vector3d bad(nan, 0, 1), good(1, 2, 3), zero(0, 0, 0);
-  accumulator.add(bad, good, good); // also as the first, about which the sums are taken
-  for (std::size_t i = 0; i < kPairs; ++i) {
-    accumulator.add(planes.source[i], planes.target[i], planes.normal[i]);
-    accumulator.add(good, bad, good);
-    accumulator.add(good, good, bad);
-    accumulator.add(good, good, zero);
-    accumulator.add(good, good, {std::numeric_limits<double>::infinity(), 0, 0});
-  }
-  const PlaneSums expected = planes.sums();
-  EXPECT_EQ(accumulator.sums().count, kPairs);
-  EXPECT_EQ(accumulator.sums().A, expected.A);
-  EXPECT_EQ(accumulator.sums().b, expected.b);
-}
-
-TEST(PlaneSums, TakeTheDirectionOfANormalAlone)
-{
-  Random random(5);
-  Planes planes = roomPlanes(random, Eigen::Isometry3d::Identity(), 0.1);
-  const PlaneSums expected = planes.sums();
-  for (auto& n : planes.normal)
-    n *= 7;
-  expectNear(planes.sums(), expected);
-}
 
 class PlaneSteps : public testing::TestWithParam<std::string> {
 protected:
@@ -377,15 +212,3 @@ INSTANTIATE_TEST_SUITE_P(All,
                          PlaneSteps,
                          testing::ValuesIn(pcl6d::planeMinimiserNames()),
                          [](const auto& tested) { return tested.param; });
-
-TEST(PlaneMinimiserFromName, NamesAllWhenThereIsNoSuchOne)
-{
-  EXPECT_EQ(pcl6d::planeMinimiserNames(),
-            (std::vector<std::string>{"linear", "helix"}));
-  try {
-    pcl6d::planeMinimiserFromName("lls");
-    ADD_FAILURE() << "no exception";
-  } catch (const pcl6d::BadArgument& e) {
-    EXPECT_STREQ(e.what(), "plane minimiser = lls, but must be linear|helix");
-  }
-}

@@ -1,30 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "estimations.h"
 #include "support/bits.h"
 #include "support/points.h"
 #include "support/poses.h"
 
 #include <pcl6d/registration/icp6d.h>
-#include <pcl6d/registration/transformation_estimation_dual_quaternion.h>
-#include <pcl6d/registration/transformation_estimation_euler.h>
-#include <pcl6d/registration/transformation_estimation_helix.h>
-#include <pcl6d/registration/transformation_estimation_orthonormal.h>
-#include <pcl6d/registration/transformation_estimation_plane_helix.h>
-#include <pcl6d/registration/transformation_estimation_plane_linear.h>
-#include <pcl6d/registration/transformation_estimation_quaternion.h>
-#include <pcl6d/registration/transformation_estimation_quaternion_linear.h>
-#include <pcl6d/registration/transformation_estimation_quaternion_unconstrained.h>
-#include <pcl6d/registration/transformation_estimation_scale_quaternion.h>
-#include <pcl6d/registration/transformation_estimation_small_angle.h>
-#include <pcl6d/registration/transformation_estimation_svd.h>
 
 #include <pcl/registration/icp.h>
 
-using pcl6d::Random;
+using namespace pcl6d;
+using namespace pcl6d::test;
 
 namespace {
-using Point = pcl::PointNormal;
-using Cloud = pcl::PointCloud<Point>;
-using Estimation = pcl::registration::TransformationEstimation<Point, Point, double>;
+using Point = NormalPoint;
+using Cloud = NormalCloud;
 constexpr std::size_t kPairs = 300;
 constexpr double kExtent = 10; // [m] side of the cube that holds the points
 constexpr double kFloat = std::numeric_limits<float>::epsilon();
@@ -62,28 +51,9 @@ moved(const Cloud& cloud, const Eigen::Isometry3d& motion)
 
 const Eigen::Isometry3d kSmall =
     pcl6d::poseFromEuler({0.05, -0.04, 0.03}, {0.004, -0.003, 0.01});
-
-struct Tested {
-  std::string name; ///< also printed when a test fails
-  std::function<Estimation::Ptr()> make;
-  bool to_planes = false;
-};
-
-template <template <typename, typename, typename> class T>
-Tested
-tested(const char* name, bool to_planes = false)
-{
-  return {name, [] { return pcl::make_shared<T<Point, Point, double>>(); }, to_planes};
-}
-
-void
-PrintTo(const Tested& t, std::ostream* out)
-{
-  *out << t.name;
-}
 } // namespace
 
-class Estimations : public testing::TestWithParam<Tested> {};
+class Estimations : public testing::TestWithParam<NamedEstimation> {};
 
 TEST_P(Estimations, GiveBackTheMotionThatMadeThePairs)
 {
@@ -97,7 +67,8 @@ TEST_P(Estimations, GiveBackTheMotionThatMadeThePairs)
         source, moved(source, truth), estimate);
     const auto error = pcl6d::distanceBetween(truth, Eigen::Isometry3d(estimate));
     // A plane holds one coordinate of three, so its average is over a third as many.
-    const double tolerance = GetParam().to_planes ? 3 * kAngleTol : kAngleTol;
+    const double tolerance =
+        GetParam().goal == Goal::kPlanes ? 3 * kAngleTol : kAngleTol;
     EXPECT_LT(error.rotation, tolerance);
     EXPECT_LT(error.translation, tolerance * kExtent);
   }
@@ -171,7 +142,7 @@ TEST_P(Estimations, SkipPairsWithNan)
   Cloud target = moved(source, kSmall);
   source[0].x = pcl6d::test::kNan;
   target[5].y = pcl6d::test::kNan;
-  if (GetParam().to_planes) {
+  if (GetParam().goal == Goal::kPlanes) {
     target[7].normal_x = pcl6d::test::kNan;
     target[8].getNormalVector3fMap().setZero();
   }
@@ -200,24 +171,10 @@ TEST_P(Estimations, ThrowWithoutTouchingTheMatrix)
   EXPECT_EQ(matrix, before);
 }
 
-using namespace pcl6d;
-INSTANTIATE_TEST_SUITE_P(
-    All,
-    Estimations,
-    testing::Values(
-        tested<TransformationEstimationSVD>("SVD"),
-        tested<TransformationEstimationQuaternion>("Quaternion"),
-        tested<TransformationEstimationOrthonormal>("Orthonormal"),
-        tested<TransformationEstimationDualQuaternion>("DualQuaternion"),
-        tested<TransformationEstimationScaleQuaternion>("ScaleQuaternion"),
-        tested<TransformationEstimationHelix>("Helix"),
-        tested<TransformationEstimationSmallAngle>("SmallAngle"),
-        tested<TransformationEstimationEuler>("Euler"),
-        tested<TransformationEstimationQuaternionLinear>("QuaternionLinear"),
-        tested<TransformationEstimationQuaternionUnconstrained>("Unconstrained"),
-        tested<TransformationEstimationPlaneLinear>("PlaneLinear", true),
-        tested<TransformationEstimationPlaneHelix>("PlaneHelix", true)),
-    [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(All,
+                         Estimations,
+                         testing::ValuesIn(allEstimations()),
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST(LinearEstimations, TakeOneStepInsideIcp6DAndAllForFixedPairs)
 {

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/bits.h"
-#include "support/drift.h"
+#include "registered_run.h"
 #include "support/points.h"
-
-#include <pcl6d/slam6d/slam6d.h>
-
-#include <pcl/point_types.h>
 
 using pcl6d::Points;
 using pcl6d::Random;
@@ -15,8 +10,9 @@ using pcl6d::Slam6DOptions;
 using pcl6d::Slam6DResult;
 using pcl6d::Status;
 using pcl6d::test::DriftingRun;
-using pcl6d::test::kNan;
+using pcl6d::test::expectSameBits;
 using pcl6d::test::makeDriftingRun;
+using pcl6d::test::registered;
 using pcl6d::test::sameBits;
 
 namespace {
@@ -27,16 +23,6 @@ const Eigen::Isometry3d kTilted = pcl6d::poseFromEuler({2, -3, 1}, {0.2, -0.3, 2
 // scans a quarter; pairwise it adds up on the way. The odometry drifts by 30 cm.
 constexpr double kShareOfUnion = 0.25, kSharePairwise = 0.5;
 constexpr double kLever = 2.5; // [m] from the scanner to the nearer walls
-
-Slam6DResult
-registered(const DriftingRun& run, const Slam6DOptions& options = {})
-{
-  Slam6D slam(options);
-  for (std::size_t i = 0; i < run.scans.size(); ++i)
-    slam.addScan(run.scans[i], run.odometry[i]);
-  EXPECT_TRUE(slam.optimize());
-  return slam.result();
-}
 
 void
 expectTruth(const Slam6DResult& result,
@@ -51,18 +37,6 @@ expectTruth(const Slam6DResult& result,
         pcl6d::distanceBetween(run.truth[i], result.scans[i].T_world_scan);
     EXPECT_LT(error.translation, tolerance);
     EXPECT_LT(error.rotation, tolerance / kLever);
-  }
-}
-
-void
-expectSameBits(const Slam6DResult& a, const Slam6DResult& b)
-{
-  ASSERT_EQ(a.scans.size(), b.scans.size());
-  for (std::size_t i = 0; i < a.scans.size(); ++i) {
-    EXPECT_TRUE(sameBits(a.scans[i].T_world_scan, b.scans[i].T_world_scan));
-    EXPECT_EQ(a.scans[i].rms, b.scans[i].rms);
-    EXPECT_EQ(a.scans[i].pairs, b.scans[i].pairs);
-    EXPECT_EQ(a.scans[i].state, b.scans[i].state);
   }
 }
 } // namespace
@@ -287,80 +261,6 @@ TEST(Slam6D, GivesTheSameFarFromTheOrigin)
     EXPECT_LT(error.translation, 1e-6);
     EXPECT_LT(error.rotation, 1e-6);
   }
-}
-
-TEST(Slam6D, RefusesScansWithoutThreePointsAndPosesThatAreNotRigid)
-{
-  const DriftingRun run = makeDriftingRun(1);
-  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
-  Slam6D slam;
-  EXPECT_THROW(slam.optimize(), pcl6d::BadArgument) << "no scan";
-  EXPECT_THROW(slam.addScan(Points(), identity), pcl6d::BadArgument);
-  EXPECT_THROW(slam.addScan(Points{{1, 0, 0}, {0, 1, 0}}, identity),
-               pcl6d::BadArgument);
-  EXPECT_THROW(slam.addScan(Points(100, {kNan, 0, 0}), identity), pcl6d::BadArgument);
-  for (const int entry : {0, 5, 10, 12}) { // diagonal, and a translation
-    Eigen::Isometry3d pose = identity;
-    pose.matrix()(entry) = kNan;
-    EXPECT_THROW(slam.addScan(run.scans[0], pose), pcl6d::BadArgument);
-    if (entry == 12)
-      continue;
-    pose.matrix()(entry) = -1; // mirrored
-    EXPECT_THROW(slam.addScan(run.scans[0], pose), pcl6d::BadArgument);
-    pose.matrix()(entry) = 1.1; // scaled
-    EXPECT_THROW(slam.addScan(run.scans[0], pose), pcl6d::BadArgument);
-  }
-  EXPECT_TRUE(slam.result().scans.empty());
-}
-
-TEST(Slam6D, TakesPointersToPclClouds)
-{
-  const DriftingRun run = makeDriftingRun(2);
-  Slam6D slam;
-  const pcl::PointCloud<pcl::PointXYZ>::Ptr first =
-      pcl6d::test::toCloud<pcl::PointXYZ>(run.scans[0]);
-  pcl::PointCloud<pcl::PointXYZ>::ConstPtr second =
-      pcl6d::test::toCloud<pcl::PointXYZ>(run.scans[1]);
-  slam.addScan(first, run.odometry[0]);
-  slam.addScan(second, run.odometry[1]);
-  EXPECT_TRUE(slam.optimize());
-  expectSameBits(slam.result(), registered(run));
-
-  second.reset();
-  EXPECT_EQ(pcl6d::test::badArgumentOf([&] { slam.addScan(second, run.odometry[1]); }),
-            "scan 2: the cloud is null");
-  EXPECT_EQ(pcl6d::test::badArgumentOf(
-                [&] { slam.addScan(second, run.odometry[1], "scan007.pcd"); }),
-            "scan007.pcd: the cloud is null");
-  EXPECT_EQ(slam.result().scans.size(), 2u);
-}
-
-TEST(Slam6D, IgnoresTheSensorPoseOfPclClouds)
-{
-  const DriftingRun run = makeDriftingRun(2);
-  Slam6D slam;
-  for (std::size_t i = 0; i < 2; ++i) {
-    auto cloud = pcl6d::test::toCloud<pcl::PointXYZ>(run.scans[i]);
-    cloud->sensor_origin_ << 3, -2, 1, 1;
-    cloud->sensor_orientation_ = Eigen::Quaternionf(0, 1, 0, 0);
-    slam.addScan(*cloud, run.odometry[i]);
-  }
-  EXPECT_TRUE(slam.optimize());
-  expectSameBits(slam.result(), registered(run));
-}
-
-TEST(Slam6D, TakesPclClouds)
-{
-  const DriftingRun run = makeDriftingRun(3);
-  Slam6D slam;
-  for (std::size_t i = 0; i < 3; ++i) {
-    auto cloud = pcl6d::test::toCloud<pcl::PointXYZI>(run.scans[i]);
-    cloud->push_back(pcl::PointXYZI(kNan, kNan, kNan, 0));
-    slam.addScan(*cloud, run.odometry[i]);
-  }
-  EXPECT_TRUE(slam.optimize());
-  expectSameBits(slam.result(), registered(run));
-  EXPECT_EQ(slam.result().scans[1].points, run.scans[1].size());
 }
 
 TEST(Slam6D, DoesNotBelieveAMatchThatDeniesTheOdometry)

@@ -291,26 +291,3 @@ TEST(TopView, RefusesAnEmptyMapAndMixedUpScans)
   options.colour = pcl6d::PointColour::kScan;
   EXPECT_THROW(TopView(options).draw(makeL()), BadArgument);
 }
-
-TEST(TopViewOptions, RefuseAbsurdValuesNamingTheField)
-{
-  const auto refuses = [](const std::string& field, auto change) {
-    TopViewOptions options;
-    change(options);
-    try {
-      TopView view(options);
-      ADD_FAILURE() << field << " accepted";
-    } catch (const BadArgument& e) {
-      EXPECT_EQ(std::string(e.what()).rfind(field + " = ", 0), 0u) << e.what();
-    }
-  };
-  refuses("width", [](auto& o) { o.width = 100; });
-  refuses("width", [](auto& o) { o.width = 100000; });
-  refuses("height", [](auto& o) { o.height = -1; });
-  refuses("margin", [](auto& o) { o.margin = -1; });
-  refuses("margin", [](auto& o) { o.margin = 800; });
-  refuses("point_size", [](auto& o) { o.point_size = 0; });
-  refuses("max_points", [](auto& o) { o.max_points = 0; });
-  refuses("max_height", [](auto& o) { o.max_height = std::nan(""); });
-  refuses("cut_above_trajectory", [](auto& o) { o.cut_above_trajectory = INFINITY; });
-}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/benchmarking/icp_basin.h>
+#include "icp_best_pose.h"
+
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
@@ -10,7 +11,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <sstream>
 
 namespace pcl6d {
 
@@ -84,38 +84,6 @@ summaryOf(const std::vector<IcpBasinRun>& runs)
   return s;
 }
 
-std::string
-doubtOf(const IcpResult& best, const IcpBasinOptions& options)
-{
-  const double largest_rms = options.max_rms_share * options.icp.max_distance;
-  std::ostringstream doubt;
-  if (best.status == Status::kRankDeficient)
-    doubt << "the pairs do not fix the pose (" << toString(best.status) << ")";
-  else if (best.status != Status::kOk)
-    doubt << "ICP stopped: " << toString(best.stop);
-  else if (best.overlap < options.min_overlap)
-    doubt << "overlap " << best.overlap << " is less than " << options.min_overlap;
-  else if (best.rms > largest_rms)
-    doubt << "rms " << best.rms << " m is that of unrelated points (more than "
-          << largest_rms << " m)";
-  return doubt.str();
-}
-
-/** \return given, or the root of the summed variances of three of the six, at least min */
-double
-sigmaOf(const std::optional<double>& given,
-        const std::optional<PoseCovariance>& covariance,
-        int first,
-        double min)
-{
-  if (given)
-    return *given;
-  if (!covariance)
-    return min;
-  const double variance = covariance->diagonal().segment<3>(first).sum();
-  return std::max(std::sqrt(variance), min);
-}
-
 class BasinMeasurement {
 public:
   BasinMeasurement(const Points& target,
@@ -140,6 +108,7 @@ public:
     for (const IcpVariant& variant : variants_)
       if (!findBest(variant.metric))
         basin_.best.push_back(bestPose(variant, guess));
+    basin_.disagreements = detail::disagreementsOf(basin_.best, o_);
     std::vector<IcpVariant> believed;
     for (const IcpVariant& variant : variants_)
       if (findBest(variant.metric)->doubt.empty())
@@ -198,15 +167,11 @@ private:
   bestPose(IcpVariant variant, const Eigen::Isometry3d& guess) const
   {
     variant.search = SearchMethod::kCached;
-    IcpBestPose best;
-    best.metric = variant.metric;
-    best.result = match(variant, guess, o_.num_threads);
-    best.doubt = doubtOf(best.result, o_);
-    const auto& covariance = best.result.covariance;
-    best.sigma_position =
-        sigmaOf(o_.sigma_position, covariance, 0, o_.min_sigma_position);
-    best.sigma_orientation =
-        sigmaOf(o_.sigma_orientation, covariance, 3, o_.min_sigma_orientation);
+    IcpBestPose best = detail::judgedBestPose(
+        variant.metric, match(variant, guess, o_.num_threads), o_);
+    if (best.doubt.empty())
+      best.doubt = detail::doubtOfReturn(
+          best, match(variant, best.result.T_target_source, o_.num_threads), o_);
     return best;
   }
 
@@ -252,8 +217,7 @@ private:
     const MotionSize error = distanceBetween(goal, run.T_target_source);
     run.position_error = error.translation;
     run.orientation_error = error.rotation;
-    run.correct = error.translation <= o_.sigmas * best.sigma_position &&
-                  error.rotation <= o_.sigmas * best.sigma_orientation;
+    run.correct = detail::isWithin(o_.sigmas, best, error);
     return run;
   }
 

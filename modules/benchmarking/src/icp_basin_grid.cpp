@@ -44,6 +44,7 @@ IcpBasinOptions::validate() const
   requireSteps("steps_yaw", steps_yaw);
   requireSmall(steps_xy, steps_yaw);
   requirePositive("sigmas", sigmas);
+  requirePositive("disagreement_sigmas", disagreement_sigmas);
   requirePositive("min_sigma_position", min_sigma_position);
   requirePositive("min_sigma_orientation", min_sigma_orientation);
   requirePositive("sigma_position", sigma_position.value_or(1));

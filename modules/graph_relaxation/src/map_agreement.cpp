@@ -14,7 +14,7 @@ constexpr double kLeastOverlap = 0.05;
 /** Partners are so many voxels apart at most. */
 constexpr double kPartnerVoxels = 2;
 /** So many points of a scan tell what it says of another. */
-constexpr std::size_t kSample = 1500;
+constexpr std::size_t kSample = 700;
 
 constexpr double kTotalTolerance = 0.005;
 constexpr double kScanTolerance = 0.05;
@@ -52,7 +52,7 @@ agreementOver(const std::vector<ScanPair>& pairs,
 } // namespace
 
 std::string
-StageAgreement::worse() const
+StageAgreement::worse(const std::vector<bool>& counted) const
 {
   std::ostringstream why;
   if (after.total < before.total - kTotalTolerance) {
@@ -60,7 +60,8 @@ StageAgreement::worse() const
     return why.str();
   }
   for (std::size_t i = 0; i < after.scans.size(); ++i)
-    if (after.scans[i] < before.scans[i] - kScanTolerance) {
+    if ((counted.empty() || counted[i]) &&
+        after.scans[i] < before.scans[i] - kScanTolerance) {
       why << "agreement of scan " << i << " fell from " << before.scans[i] << " to "
           << after.scans[i];
       return why.str();
@@ -79,7 +80,11 @@ judgeStage(const std::vector<NetworkScan>& scans,
   require(after.size() == scans.size(), "poses after", after.size(), "one per scan");
   const auto visible = [&](const Poses& poses) {
     return overlappingPairs(
-        scans, poses, kPartnerVoxels * voxel, kLeastOverlap, num_threads);
+        scans,
+        poses,
+        kPartnerVoxels * voxel,
+        [](const ScanPair&) { return kLeastOverlap; },
+        num_threads);
   };
   std::vector<ScanPair> pairs = visible(before), others = visible(after), all;
   std::set_union(pairs.begin(),

@@ -96,7 +96,7 @@ std::vector<ScanPair>
 overlappingPairs(const std::vector<NetworkScan>& scans,
                  const Poses& poses,
                  double distance,
-                 double min_overlap,
+                 const std::function<double(const ScanPair&)>& min_overlap,
                  unsigned int num_threads)
 {
   std::vector<std::vector<ScanPair>> found(scans.size()); // of each second scan
@@ -106,7 +106,7 @@ overlappingPairs(const std::vector<NetworkScan>& scans,
       const double apart = (poses[a] * scans[a].centre() - centre).norm();
       if (apart <= scans[a].radius() + scans[b].radius() + distance &&
           overlapOf(scans[a], scans[b], poses[a].inverse() * poses[b], distance) >=
-              min_overlap)
+              min_overlap({a, b}))
         found[b].emplace_back(a, b);
     }
   });

@@ -7,6 +7,7 @@
 #include <pcl/point_types.h>
 
 #include <algorithm>
+#include <array>
 
 namespace pcl6d {
 
@@ -48,10 +49,14 @@ findNeighbours(const FeatureScan& scan, double radius, unsigned int num_threads)
   });
   return all;
 }
-} // namespace
 
-std::vector<Fpfh>
-computeFpfh(const FeatureScan& scan, double radius, unsigned int num_threads)
+/** What the points alone say: a row per point and an array per angle. */
+using SimpleHistograms = std::array<Eigen::MatrixXf, 3>;
+
+SimpleHistograms
+simpleHistograms(const FeatureScan& scan,
+                 const std::vector<Neighbours>& near,
+                 unsigned int num_threads)
 {
   const std::size_t size = scan.points.size();
   pcl::PointCloud<pcl::PointXYZ> cloud;
@@ -61,9 +66,7 @@ computeFpfh(const FeatureScan& scan, double radius, unsigned int num_threads)
     cloud.emplace_back(p.x(), p.y(), p.z());
     normals.emplace_back(n.x(), n.y(), n.z());
   }
-  const auto near = findNeighbours(scan, radius, num_threads);
-
-  Eigen::MatrixXf simple[3]; // of each point alone; a row per point
+  SimpleHistograms simple;
   for (auto& histogram : simple)
     histogram.setZero(static_cast<Eigen::Index>(size), kBins);
   parallelBlocks(size, kBlockSize, num_threads, [&](const Block& block) {
@@ -79,9 +82,17 @@ computeFpfh(const FeatureScan& scan, double radius, unsigned int num_threads)
                                              simple[1],
                                              simple[2]);
   });
+  return simple;
+}
+} // namespace
 
-  std::vector<Fpfh> features(size, Fpfh{});
-  parallelBlocks(size, kBlockSize, num_threads, [&](const Block& block) {
+std::vector<Fpfh>
+computeFpfh(const FeatureScan& scan, double radius, unsigned int num_threads)
+{
+  const auto near = findNeighbours(scan, radius, num_threads);
+  const SimpleHistograms simple = simpleHistograms(scan, near, num_threads);
+  std::vector<Fpfh> features(scan.points.size(), Fpfh{});
+  parallelBlocks(features.size(), kBlockSize, num_threads, [&](const Block& block) {
     Estimation estimation;
     Eigen::VectorXf feature;
     for (std::size_t i = block.begin; i < block.end; ++i) {

@@ -46,15 +46,17 @@ ScanMatcher::ScanMatcher(const Slam6DOptions& options,
                          const Slam6DParameters& parameters)
 : options_(options)
 , parameters_(parameters)
-, metascan_(0.5 * parameters.voxel.value, options.metascan, modelOptions())
+, metascan_(0.5 * parameters.voxel.value,
+            options.metascan,
+            modelOptions(options.metric != Metric::kPoint))
 {}
 
 IcpModel::Options
-ScanMatcher::modelOptions() const
+ScanMatcher::modelOptions(bool normals) const
 {
   IcpModel::Options model;
   model.search = options_.search;
-  model.normals = options_.metric != Metric::kPoint;
+  model.normals = normals;
   model.neighbours = 10;
   model.normal_voxel = kNormalVoxels * parameters_.voxel.value;
   model.num_threads = options_.num_threads;
@@ -64,7 +66,7 @@ ScanMatcher::modelOptions() const
 IcpModel
 ScanMatcher::prepare(Points reduced) const
 {
-  return IcpModel(std::move(reduced), modelOptions());
+  return IcpModel(std::move(reduced), modelOptions(options_.metric != Metric::kPoint));
 }
 
 void
@@ -75,6 +77,18 @@ ScanMatcher::fix(const IcpModel& points, const MeasuredScan& measured, ScanResul
   scan.covariance = PoseCovariance(PoseCovariance::Zero());
   first_ = scan.T_world_scan.translation();
   place(points, scan.T_world_scan);
+  before_ = {&measured, scan.T_world_scan};
+}
+
+void
+ScanMatcher::takeIn(const IcpModel& points,
+                    const MeasuredScan& measured,
+                    const ScanResult& scan)
+{
+  if (placed_.empty())
+    first_ = scan.T_world_scan.translation();
+  if (scan.state != ScanState::kPredicted)
+    place(points, scan.T_world_scan);
   before_ = {&measured, scan.T_world_scan};
 }
 

@@ -39,6 +39,19 @@ public:
         const Eigen::Isometry3d& odometry,
         ScanResult& scan);
 
+  /** \brief Takes in a scan that is registered already, as it stands in its result.
+   * \param[in] points, measured kept by reference, as by match() */
+  void
+  takeIn(const IcpModel& points, const MeasuredScan& measured, const ScanResult& scan);
+
+  /** \return what models need; normals whatever the metric, if so */
+  IcpModel::Options
+  modelOptions(bool normals) const;
+
+  /** \return how a scan with so many points is matched */
+  IcpOptions
+  icpOptions(std::size_t num_points) const;
+
 private:
   /** The scan before, whatever became of it. */
   struct Before {
@@ -54,10 +67,6 @@ private:
             ScanResult& scan);
   void
   place(const IcpModel& points, const Eigen::Isometry3d& T_world_scan);
-  IcpOptions
-  icpOptions(std::size_t num_points) const;
-  IcpModel::Options
-  modelOptions() const;
   std::string
   doubt(const IcpResult& found,
         InitialGuess start,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "graph_stage.h"
 #include "scan_matcher.h"
 
 #include <pcl6d/common/error.h>
@@ -78,7 +79,7 @@ public:
     result_.matching_seconds += spent.count();
     for (std::size_t i = next_; i < total; ++i)
       predict(i);
-    return next_ == total;
+    return next_ == total && (improved_ == total || improve());
   }
 
   ProgressCallback progress;
@@ -141,13 +142,40 @@ private:
     measured_[i - 1] = MeasuredScan(); // needed no more
   }
 
+  /** Chapter 5, when all scans are matched. \return false if cancelled */
+  bool
+  improve()
+  {
+    GraphStage stage(options_,
+                     result_.parameters,
+                     matcher_->icpOptions(reduced_.front().points().size()),
+                     matcher_->modelOptions(true),
+                     reduced_);
+    const bool done = stage.run(result_, [&](int round) {
+      if (progress)
+        progress({"relaxing",
+                  static_cast<std::size_t>(round),
+                  static_cast<std::size_t>(options_.relaxation_rounds)});
+      return !cancelled_.exchange(false);
+    });
+    cancelled_ = false;
+    if (!done)
+      return false;
+    improved_ = result_.scans.size();
+    matcher_.emplace(options_, result_.parameters); // further scans meet the new poses
+    for (std::size_t i = 0; i < improved_; ++i)
+      matcher_->takeIn(reduced_[i], measured_[i], result_.scans[i]);
+    return true;
+  }
+
   Slam6DOptions options_;
   std::vector<std::string> names_;
   std::deque<Points> unreduced_;      ///< scans that wait for the parameters
   std::deque<IcpModel> reduced_;      ///< a deque: the matcher refers to its elements
   std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next
   std::optional<ScanMatcher> matcher_;
-  std::size_t next_ = 0; ///< first scan that is not registered
+  std::size_t next_ = 0;     ///< first scan that is not registered
+  std::size_t improved_ = 0; ///< so many scans went through the graph stage
 };
 
 Slam6D::Slam6D(const Slam6DOptions& options)

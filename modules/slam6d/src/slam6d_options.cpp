@@ -76,6 +76,7 @@ Slam6DOptions::validate() const
   require(rotation_epsilon >= 0, "rotation_epsilon", rotation_epsilon, ">= 0");
   require(
       min_overlap >= 0 && min_overlap <= 1, "min_overlap", min_overlap, "in [0, 1]");
+  require(relaxation_rounds > 0, "relaxation_rounds", relaxation_rounds, "> 0");
   require(max_correction >= 0, "max_correction", max_correction, ">= 0");
 }
 

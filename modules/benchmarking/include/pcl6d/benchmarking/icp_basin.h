@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/benchmarking/icp_variant.h>
+#include <pcl6d/common/pose.h>
 #include <pcl6d/common/progress.h>
 
 #include <functional>
@@ -30,6 +31,9 @@ struct IcpBasinOptions {
   /** ... or if the rms of its pairs is a larger share of max_distance, as that of
    * unrelated points is; > 0 */
   double max_rms_share = 0.6;
+  /** best poses of two metrics disagree if they are so many sigma of their difference
+   * apart: no scatter, but another basin; > 0 */
+  double disagreement_sigmas = 10;
   std::size_t normal_neighbours = 20; ///< points of a normal; in [3, 64]
   IcpOptions icp; ///< its metric and minimisers are those of the variant
   unsigned int num_threads =
@@ -61,7 +65,8 @@ Eigen::Isometry3d
 perturbed(const Eigen::Isometry3d& best, const IcpStart& start);
 
 /** \brief The pose that a metric's runs are judged by: where ICP comes to rest from the
- * unperturbed start, with the first minimiser of the metric and exact search. */
+ * unperturbed start, with the first minimiser of the metric and exact search. It is not
+ * believed if this run fails, or if ICP leaves the pose when started there. */
 struct IcpBestPose {
   Metric metric = Metric::kPoint;
   IcpResult result;
@@ -70,6 +75,14 @@ struct IcpBestPose {
   double sigma_position = 0;
   /** [rad] root of the summed variances of roll, pitch, yaw, or the lower bound */
   double sigma_orientation = 0;
+};
+
+/** \brief Two metrics whose best poses are believed, but are not the same pose: one at
+ * least is wrong, and what is said of its basin as well. */
+struct IcpDisagreement {
+  Metric a = Metric::kPoint;
+  Metric b = Metric::kPoint;
+  MotionSize distance; ///< between their best poses
 };
 
 /** \brief One ICP of the grid. */
@@ -111,6 +124,7 @@ struct IcpBasinRow {
 
 struct IcpBasin {
   std::vector<IcpBestPose> best; ///< one per metric, in the order of the variants
+  std::vector<IcpDisagreement> disagreements; ///< between the best poses; empty if good
   std::vector<IcpBasinRow> rows; ///< of the metrics whose best pose is believed
   bool complete = true;          ///< false if stopped: rows are then the finished ones
 };

@@ -19,10 +19,12 @@ struct StageAgreement {
   MapAgreement before, after;
   std::size_t pairs = 0; ///< of scans that see each other before or after
 
-  /** \return why the stage made the map worse: the total fell by more than 0.005, or
-   * that of a scan by more than 0.05 (its index is named); empty: it did not */
+  /** \param[in] counted per scan: false leaves its own share out, such as that of one
+   * whose pose is not to be trusted anyway; empty: all count
+   * \return why the stage made the map worse: the total fell by more than 0.005, or that
+   * of a scan by more than 0.05 (its index is named); empty: it did not */
   std::string
-  worse() const;
+  worse(const std::vector<bool>& counted = {}) const;
 };
 
 /** \brief Judges a stage by the poses before and after it: the share of points of each

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -84,15 +85,16 @@ overlapOf(const NetworkScan& a,
           const Eigen::Isometry3d& T_a_b,
           double distance);
 
-/** \return all pairs of scans that see common places: overlapOf() is at least
- * min_overlap at the poses. Candidates come from bounding spheres.
+/** \return all pairs of scans that see common places: overlapOf() at the poses is at
+ * least what a pair needs. Candidates come from bounding spheres.
  * \param[in] distance [m] within which points are partners
+ * \param[in] min_overlap of a pair; called from several threads
  * \param[in] num_threads 0: one per core; never changes the result */
 std::vector<ScanPair>
 overlappingPairs(const std::vector<NetworkScan>& scans,
                  const Poses& poses,
                  double distance,
-                 double min_overlap,
+                 const std::function<double(const ScanPair&)>& min_overlap,
                  unsigned int num_threads);
 
 } // namespace pcl6d

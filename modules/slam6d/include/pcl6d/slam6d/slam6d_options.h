@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/graph_relaxation/error_diffusion.h>
+#include <pcl6d/graph_relaxation/parameterisations.h>
+#include <pcl6d/graph_relaxation/scan_network.h>
 #include <pcl6d/registration/icp_model.h>
 
 #include <optional>
@@ -52,6 +55,13 @@ struct Slam6DOptions {
    * (and by more than 1.5 max_distance); >= 0, infinite: no limit. Not applied where the
    * odometry has no step, as without initial poses */
   double max_correction = 0.4;
+  LoopClosing loop_closing = LoopClosing::kElch; ///< of loops that are found (5.1)
+  std::optional<Relaxation> relaxation = Relaxation::kHelix; ///< none: off
+  LinkRule links = LinkRule::kOverlap; ///< between which scans, while relaxing (6.3)
+  int relaxation_rounds = 10;          ///< > 0
+  /** links that are always looked at, besides those found; each counts as far as the
+   * others confirm it */
+  std::vector<ScanPair> given_links;
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/pose_graph.h>
 #include <pcl6d/common/status.h>
+#include <pcl6d/graph_relaxation/scan_link.h>
 #include <pcl6d/registration/pose_information.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 
@@ -64,11 +66,27 @@ struct ScanResult {
                                             ///< the fixed scan, none if not known
 };
 
+/** \brief What a stage did to the poses, and how the map judged it (MapAgreement). */
+struct StageResult {
+  std::string name;            ///< "matching", "loop closing" or "relaxation"
+  bool undone = false;         ///< it made the map worse: its poses were not taken
+  std::string reason;          ///< why it was undone, or did nothing; else empty
+  double agreement_before = 0; ///< in [-1, 1]
+  double agreement_after = 0;
+  int rounds = 0; ///< of relaxation
+  double seconds = 0;
+};
+
 /** \brief The result of Slam6D. */
 struct Slam6DResult {
   std::vector<ScanResult> scans; ///< in the order in which they were added
   Slam6DParameters parameters;
   double matching_seconds = 0;
+  std::vector<StageResult> stages;
+  std::vector<ScanLink> links; ///< all links and loop candidates, with their verdicts
+  /** the links that count as measured relative poses, and the final poses */
+  PoseGraph graph;
+  std::vector<std::size_t> floating; ///< scans that no link joins to the first one
 
   /** \return the number of scans in a state */
   std::size_t

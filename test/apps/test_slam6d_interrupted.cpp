@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// pcl_slam6d when it cannot do all: interrupted, without a display, without poses.
+#include "corridor_run.h"
+
+#include <pcl6d/io/trajectory_io.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <set>
+#include <thread>
+
+namespace {
+namespace bp = boost::process;
+namespace fs = std::filesystem;
+using pcl6d::test::contentOf;
+using pcl6d::test::Outcome;
+using pcl6d::test::readText;
+using pcl6d::test::scans;
+using pcl6d::test::slam;
+using pcl6d::test::TempFolder;
+using pcl6d::test::writeText;
+} // namespace
+
+TEST(PclSlam6d, WithoutXvfbTheRunIsWholeAndSaysThatThePictureIsMissing)
+{
+  const TempFolder folder;
+  const std::string err = folder / "err";
+  const int code = bp::system(
+      PCL6D_BIN_DIR "/pcl_slam6d",
+      bp::args = {scans().string(), "-o", folder / "out", "--last", "1", "--quiet"},
+      bp::env["PATH"] = folder.path().string(),
+      bp::std_err > err);
+  EXPECT_EQ(code, 0);
+  EXPECT_NE(readText(err).find("xvfb"), std::string::npos) << readText(err);
+  const auto json = nlohmann::json::parse(readText(folder / "out" / "summary.json"));
+  ASSERT_EQ(json["warnings"].size(), 1u);
+  EXPECT_FALSE(fs::exists(folder / "out" / "top_view.png"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "map.pcd"));
+}
+
+TEST(PclSlam6d, WarnsWhenThereAreNoInitialPoses)
+{
+  const TempFolder folder;
+  fs::create_directory(folder / "in");
+  writeText(folder / "in" / "scan0.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
+  fs::copy(folder / "in" / "scan0.xyz", folder / "in" / "scan1.xyz");
+  const Outcome outcome = slam(folder / "in", folder / "out");
+  EXPECT_NE(outcome.err.find("warning: no initial poses"), std::string::npos)
+      << outcome.err;
+}
+
+TEST(PclSlam6d, InterruptedWhileWritingLeavesPosesAndNoScans)
+{
+  const TempFolder folder;
+  const fs::path out = folder / "out";
+  const std::string err = folder / "err";
+  bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
+                    bp::args = {scans().string(), "-o", out.string(), "--last", "17"},
+                    bp::std_out > bp::null,
+                    bp::std_err > err);
+  while (program.running() && readText(err).find("matching 18/18") == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ::kill(program.id(), SIGINT);
+  program.wait();
+  EXPECT_EQ(program.exit_code(), 130) << readText(err);
+  const auto json = nlohmann::json::parse(readText(out / "summary.json"));
+  EXPECT_FALSE(json["verdict"]["complete"]);
+  EXPECT_EQ(json["scans"][17]["state"], "matched");
+  EXPECT_FALSE(fs::exists(out / "scans"));
+  EXPECT_FALSE(fs::exists(out / "map.pcd"));
+}
+
+TEST(PclSlam6d, InterruptedWritesPosesSoFarAndMarksThemPartial)
+{
+  const TempFolder folder;
+  const fs::path out = folder / "out";
+  bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
+                    bp::args = {scans().string(), "-o", out.string(), "--threads", "1"},
+                    bp::std_out > bp::null,
+                    bp::std_err > (folder / "err").string());
+  // Wait until the first scans are matched.
+  for (int i = 0; i < 600 && program.running(); ++i) {
+    if (readText(folder / "err").find("matching") != std::string::npos)
+      break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  ::kill(program.id(), SIGINT);
+  program.wait();
+  EXPECT_EQ(program.exit_code(), 130) << readText(folder / "err");
+  const auto json = nlohmann::json::parse(readText(out / "summary.json"));
+  EXPECT_FALSE(json["verdict"]["complete"]);
+  EXPECT_EQ(json["scans"][39]["state"], "pending");
+  EXPECT_EQ(pcl6d::readTrajectory(out / "trajectory.kitti").poses.size(), 40u);
+  std::set<std::string> names;
+  for (const auto& [name, content] : contentOf(out))
+    if (name.find('/') == std::string::npos)
+      names.insert(name);
+  EXPECT_EQ(names,
+            (std::set<std::string>{
+                "frames", "summary.json", "trajectory.kitti", "trajectory.tum"}));
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/pairs.h"
+
+#include <pcl6d/registration/minimisers.h>
+
+#include <gtest/gtest.h>
+
+using pcl6d::Random;
+using pcl6d::Status;
+using pcl6d::test::movedPairs;
+using pcl6d::test::Pairs;
+using pcl6d::test::randomPoints;
+using pcl6d::test::randomPose;
+using pcl6d::test::umeyamaOracle;
+
+namespace {
+constexpr std::size_t kPairs = 50;
+constexpr double kHalf = 10;   // [m] half side of the cube that holds the points
+constexpr double kExtent = 20; // [m] largest component of a translation
+// As in test_minimisers.cpp.
+constexpr double kAngleTol = 6e-13;             // [rad]
+constexpr double kPositionTol = kAngleTol * 60; // [m] lever arm of |d| + |t|
+} // namespace
+
+TEST(Similarity, IsThatOfUmeyama)
+{
+  Random random(12);
+  for (const double scale : {0.3048, 1.0, 5.0}) {
+    Pairs pairs = movedPairs(
+        randomPoints(random, kPairs, kHalf), randomPose(random, kExtent, 2), random);
+    for (auto& m : pairs.target)
+      m = scale * m + pcl6d::test::normalVector(random, 0.05);
+    Eigen::Matrix3Xd d(3, kPairs), m(3, kPairs);
+    for (std::size_t i = 0; i < kPairs; ++i) {
+      d.col(i) = pairs.source[i];
+      m.col(i) = pairs.target[i];
+    }
+    const Eigen::Matrix4d expected = Eigen::umeyama(d, m, true);
+    const auto sums = pairs.sums();
+    const auto found = pcl6d::similarityByQuaternion(sums);
+    EXPECT_EQ(found.rigid.status, Status::kOk);
+    const double umeyama = std::cbrt(expected.topLeftCorner<3, 3>().determinant());
+    EXPECT_NEAR(found.scale, umeyama, 1e-12);
+    const auto error = pcl6d::distanceBetween( // dropped: as if it had not been asked
+        umeyamaOracle(pairs),
+        found.rigid.transform);
+    EXPECT_LT(error.translation, kPositionTol);
+    EXPECT_LT(error.rotation, kAngleTol);
+    const Eigen::Vector3d t = sums.mean_target - found.scale *
+                                                     found.rigid.transform.linear() * //
+                                                     sums.mean_source;
+    EXPECT_LT((t - expected.topRightCorner<3, 1>()).norm(), kPositionTol * scale);
+  }
+}
+
+TEST(RotationByOrthonormal, HoldsForThinSetsThatSquaringWouldLose)
+{
+  // Singular values 1, 1e-8, 0: in M^T M the second is lost in the rounding of the
+  // first. Rounding of S turns about the line by 1e-16 / 1e-8.
+  Random random(13);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Eigen::Matrix3d frame = pcl6d::test::randomRotation(random, 2);
+    const Eigen::Matrix3d truth = pcl6d::test::randomRotation(random, 1.5);
+    const Eigen::Matrix3d S = frame * Eigen::Vector3d(1, 1e-8, 0).asDiagonal() *
+                              frame.transpose() * truth.transpose();
+    EXPECT_LT((pcl6d::rotationByOrthonormal(S) - truth).norm(), 1e-6);
+    EXPECT_LT((pcl6d::rotationBySVD(S) - truth).norm(), 1e-6);
+  }
+}

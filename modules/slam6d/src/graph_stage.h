@@ -41,12 +41,15 @@ private:
   closeLoops(Slam6DResult& result);
   bool
   relax(Slam6DResult& result, const Observer& observer);
+  GraphSlamOptions
+  graphOptions() const;
   ScanNetwork
   makeNetwork(const Slam6DResult& result) const;
   std::vector<PoseLink>
   odometryLinks(const Slam6DResult& result) const;
   void
   take(const GraphSlamResult& relaxed,
+       bool undone,
        const ScanNetwork& network,
        Slam6DResult& result) const;
   StageResult

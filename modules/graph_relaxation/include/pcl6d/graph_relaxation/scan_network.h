@@ -35,7 +35,7 @@ struct ScanNetworkOptions {
   std::size_t min_pairs = 20;        ///< a link with fewer pairs is refused; > 0
   std::size_t points_per_link = 600; ///< so many points of a scan are paired; > 0
   Metric metric = Metric::kPoint;    ///< how the pairs are to be weighed
-  double gicp_epsilon = 0.1;        ///< as IcpOptions::gicp_epsilon; in (0, 1]
+  double gicp_epsilon = 0.1;         ///< as IcpOptions::gicp_epsilon; in (0, 1]
   unsigned int num_threads = 0;      ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void

@@ -91,7 +91,6 @@ ScanNetworkOptions::validate() const
   require(
       min_overlap >= 0 && min_overlap <= 1, "min_overlap", min_overlap, "in [0, 1]");
   require(link_distance > 0, "link_distance", link_distance, "> 0");
-  require(min_pairs > 0, "min_pairs", min_pairs, "> 0");
   require(points_per_link > 0, "points_per_link", points_per_link, "> 0");
   require(
       gicp_epsilon > 0 && gicp_epsilon <= 1, "gicp_epsilon", gicp_epsilon, "in (0, 1]");

@@ -32,7 +32,6 @@ struct ScanNetworkOptions {
   double max_distance = 0.25; ///< [m] largest distance of paired points; > 0
   double min_overlap = 0.6; ///< of kOverlap: share of points with a partner; in [0, 1]
   double link_distance = 7.5;        ///< [m] of kDistance: between the positions; > 0
-  std::size_t min_pairs = 20;        ///< a link with fewer pairs is refused; > 0
   std::size_t points_per_link = 600; ///< so many points of a scan are paired; > 0
   Metric metric = Metric::kPoint;    ///< how the pairs are to be weighed
   double gicp_epsilon = 0.1;         ///< as IcpOptions::gicp_epsilon; in (0, 1]

@@ -103,6 +103,12 @@ ScanNetwork::ScanNetwork(const std::vector<NetworkScan>& scans,
 {
   options_.validate();
   require(usable_.size() == scans_.size(), "usable", usable_.size(), "one per scan");
+  for (const NetworkScan& scan : scans_)
+    require(options_.metric == Metric::kPoint ||
+                scan.model().normals().size() == scan.model().points().size(),
+            "normals of a scan",
+            scan.model().normals().size(),
+            "one per point, for metrics of planes");
 }
 
 void

@@ -55,7 +55,8 @@ class ScanNetwork {
 public:
   /** \param[in] scans kept by reference
    * \param[in] usable per scan: false keeps it without links
-   * \throws BadArgument an option breaks its rule; not one flag per scan */
+   * \throws BadArgument an option breaks its rule; not one flag per scan; a scan without
+   * normals, where the metric needs them */
   ScanNetwork(const std::vector<NetworkScan>& scans,
               std::vector<bool> usable,
               const ScanNetworkOptions& options);

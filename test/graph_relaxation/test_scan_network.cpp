@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "network_scans.h"
+#include "support/bits.h"
+#include "support/points.h"
+
+#include <pcl6d/graph_relaxation/graph_slam.h>
+#include <pcl6d/graph_relaxation/scan_network.h>
+
+using pcl6d::IcpModel;
+using pcl6d::LinkKind;
+using pcl6d::LinkPairs;
+using pcl6d::LinkRule;
+using pcl6d::Metric;
+using pcl6d::NetworkScan;
+using pcl6d::Points;
+using pcl6d::Poses;
+using pcl6d::ScanLink;
+using pcl6d::ScanNetwork;
+using pcl6d::ScanNetworkOptions;
+using pcl6d::ScanPair;
+using pcl6d::test::badArgumentOf;
+using pcl6d::test::NetworkScans;
+
+namespace {
+Eigen::Isometry3d
+shifted(double x)
+{
+  return pcl6d::poseFromEuler({x, 0, 0}, {0, 0, 0});
+}
+
+/** Copies of a row of 100 points along x, a metre apart: shifted by k metres, two of them
+ * share 100 - k points. */
+class Rows {
+public:
+  explicit Rows(std::size_t count)
+  : model_(row(), {}), scans(count, NetworkScan(model_))
+  {}
+
+private:
+  static Points
+  row()
+  {
+    Points points;
+    for (int i = 0; i < 100; ++i)
+      points.emplace_back(static_cast<float>(i), 0.f, 0.f);
+    return points;
+  }
+  IcpModel model_;
+
+public:
+  std::vector<NetworkScan> scans;
+};
+
+ScanNetworkOptions
+by(LinkRule rule)
+{
+  ScanNetworkOptions options;
+  options.rule = rule;
+  return options;
+}
+
+std::vector<ScanPair>
+linksOf(ScanNetwork& network, const Poses& poses)
+{
+  std::vector<ScanPair> links;
+  for (const LinkPairs& link : network.pairs(poses))
+    links.emplace_back(link.from, link.to);
+  return links;
+}
+
+const std::vector<ScanPair> kNone, kBoth{{0, 1}};
+} // namespace
+
+TEST(LinkRule, HasNames)
+{
+  EXPECT_EQ(pcl6d::linkRuleNames(), (std::vector<std::string>{"overlap", "distance"}));
+  for (const auto& name : pcl6d::linkRuleNames())
+    EXPECT_EQ(toString(pcl6d::linkRuleFromName(name)), name);
+  EXPECT_NE(badArgumentOf([] { pcl6d::linkRuleFromName("near"); }).find("overlap|dist"),
+            std::string::npos);
+}
+
+TEST(ScanNetwork, LinksByOverlapAndKeepsALinkUntilATenthBelow)
+{
+  const Rows rows(2);
+  ScanNetwork network(rows.scans, {true, true}, by(LinkRule::kOverlap));
+  const auto linked = [&](double x) {
+    return linksOf(network, {shifted(0), shifted(x)}) == kBoth;
+  };
+  EXPECT_FALSE(linked(41)) << "overlap 0.59";
+  EXPECT_TRUE(linked(40)) << "0.60";
+  EXPECT_TRUE(linked(45)) << "0.55: stays";
+  EXPECT_FALSE(linked(47)) << "0.53";
+  EXPECT_FALSE(linked(45)) << "0.55: does not come back";
+  EXPECT_TRUE(linked(39));
+}
+
+TEST(ScanNetwork, LinksByDistanceAndKeepsALinkUntilATenthBeyond)
+{
+  const Rows rows(2);
+  ScanNetwork network(rows.scans, {true, true}, by(LinkRule::kDistance));
+  const auto linked = [&](double x) {
+    return linksOf(network, {shifted(0), shifted(x)}) == kBoth;
+  };
+  EXPECT_FALSE(linked(7.6));
+  EXPECT_TRUE(linked(7.4));
+  EXPECT_TRUE(linked(8.2));
+  EXPECT_FALSE(linked(8.3));
+  EXPECT_FALSE(linked(8.2));
+}
+
+TEST(ScanNetwork, PairsPointsThatAreNearAtThePoses)
+{
+  const Rows rows(2);
+  ScanNetworkOptions options;
+  ScanNetwork network(rows.scans, {true, true}, options);
+  const auto links = network.pairs({shifted(0), shifted(30.1)});
+  ASSERT_EQ(links.size(), 1u);
+  ASSERT_EQ(links[0].points_to.size(), 70u);
+  ASSERT_EQ(links[0].points_from.size(), 70u);
+  for (std::size_t k = 0; k < 70; ++k)
+    EXPECT_EQ(links[0].points_from[k].x() - links[0].points_to[k].x(), 30);
+  EXPECT_TRUE(links[0].norms.empty()) << "of the metric point";
+  EXPECT_FALSE(links[0].trusted);
+
+  options.points_per_link = 30;
+  ScanNetwork fewer(rows.scans, {true, true}, options);
+  EXPECT_EQ(fewer.pairs({shifted(0), shifted(0)})[0].points_to.size(), 25u);
+}
+
+TEST(ScanNetwork, LeavesOutScansThatAreNotUsable)
+{
+  const Rows rows(3);
+  ScanNetwork network(rows.scans, {true, false, true}, {});
+  EXPECT_EQ(linksOf(network, {shifted(0), shifted(1), shifted(2)}),
+            (std::vector<ScanPair>{{0, 2}}));
+}
+
+TEST(ScanNetwork, KeepsLinksThatAreGiven)
+{
+  const Rows rows(3);
+  ScanNetwork network(rows.scans, {true, true, true}, {});
+  network.keep(2, 0, LinkKind::kLoop, true);
+  network.keep(0, 2, LinkKind::kSequence, false); // the first word counts
+  const Poses poses{shifted(0), shifted(1), shifted(300)};
+  const auto links = network.pairs(poses);
+  ASSERT_EQ(links.size(), 2u);
+  EXPECT_EQ(links[1].from, 0u);
+  EXPECT_EQ(links[1].to, 2u);
+  EXPECT_TRUE(links[1].trusted);
+  EXPECT_TRUE(links[1].points_from.empty()) << "nothing is near";
+  const auto described = network.describe(poses);
+  ASSERT_EQ(described.size(), 2u);
+  EXPECT_EQ(described[0].kind, LinkKind::kNetwork);
+  EXPECT_EQ(described[1].kind, LinkKind::kLoop);
+  EXPECT_EQ(described[1].pairs, 0u);
+  EXPECT_EQ(described[1].overlap, 0);
+}
+
+TEST(ScanNetwork, DescribesItsLinks)
+{
+  const Rows rows(2);
+  ScanNetwork network(rows.scans, {true, true}, {});
+  const Poses poses{shifted(0), shifted(30.125)};
+  EXPECT_TRUE(network.describe(poses).empty()) << "none chosen yet";
+  network.pairs(poses);
+  const std::vector<ScanLink> links = network.describe(poses);
+  ASSERT_EQ(links.size(), 1u);
+  EXPECT_EQ(links[0].pairs, 70u);
+  EXPECT_DOUBLE_EQ(links[0].overlap, 0.7);
+  EXPECT_NEAR(links[0].rms, 0.125, 1e-6);
+  EXPECT_DOUBLE_EQ(links[0].distance, 30.125);
+  EXPECT_EQ(links[0].verdict, pcl6d::LinkVerdict::kUsed);
+}
+
+TEST(ScanNetwork, RefusesWhatCannotBe)
+{
+  const Rows rows(2);
+  EXPECT_NE(badArgumentOf([&] { ScanNetwork(rows.scans, {true}, {}); }).find("usable"),
+            std::string::npos);
+  ScanNetwork network(rows.scans, {true, true}, {});
+  for (const auto& [a, b] : {ScanPair{0, 2}, ScanPair{2, 0}, ScanPair{1, 1}})
+    EXPECT_NE(badArgumentOf(
+                  [&, a = a, b = b] { network.keep(a, b, LinkKind::kGiven, false); }),
+              "");
+  EXPECT_NE(badArgumentOf([&] { network.pairs({shifted(0)}); }).find("poses"),
+            std::string::npos);
+  ScanNetworkOptions plane;
+  plane.metric = Metric::kPlane;
+  EXPECT_NE(badArgumentOf([&] {
+              ScanNetwork(rows.scans, {true, true}, plane);
+            }).find("normals"),
+            std::string::npos);
+}
+
+TEST(ScanNetworkOptions, NamesTheFieldThatBreaksItsRule)
+{
+  const auto expectRefused = [](const std::string& name, const auto& change) {
+    ScanNetworkOptions options;
+    change(options);
+    EXPECT_NE(badArgumentOf([&] { options.validate(); }).find(name), std::string::npos)
+        << name;
+  };
+  EXPECT_NO_THROW(ScanNetworkOptions().validate());
+  expectRefused("max_distance", [](auto& o) { o.max_distance = 0; });
+  expectRefused("min_overlap", [](auto& o) { o.min_overlap = 1.1; });
+  expectRefused("min_overlap", [](auto& o) { o.min_overlap = -0.1; });
+  expectRefused("link_distance", [](auto& o) { o.link_distance = 0; });
+  expectRefused("points_per_link", [](auto& o) { o.points_per_link = 0; });
+  expectRefused("gicp_epsilon", [](auto& o) { o.gicp_epsilon = 0; });
+  expectRefused("gicp_epsilon", [](auto& o) { o.gicp_epsilon = 2; });
+}

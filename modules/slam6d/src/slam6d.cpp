@@ -151,7 +151,8 @@ private:
                      matcher_->icpOptions(reduced_.front().points().size()),
                      matcher_->modelOptions(true),
                      reduced_);
-    const bool done = stage.run(result_, [&](int round) {
+    Slam6DResult improved = result_; // taken as a whole or not at all
+    const bool done = stage.run(improved, [&](int round) {
       if (progress)
         progress({"relaxing",
                   static_cast<std::size_t>(round),
@@ -161,6 +162,7 @@ private:
     cancelled_ = false;
     if (!done)
       return false;
+    result_ = std::move(improved);
     improved_ = result_.scans.size();
     matcher_.emplace(options_, result_.parameters); // further scans meet the new poses
     for (std::size_t i = 0; i < improved_; ++i)

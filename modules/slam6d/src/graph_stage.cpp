@@ -97,6 +97,23 @@ hasCycle(const std::vector<LinkReport>& links, std::size_t num_scans)
   return false;
 }
 
+/** A closed loop is one link: candidates that the network knows are taken over into it. */
+void
+takeLoops(std::vector<ScanLink>& links, std::vector<ScanLink>& candidates)
+{
+  for (ScanLink& link : links) {
+    const auto loop = std::find_if(
+        candidates.begin(), candidates.end(), [&](const ScanLink& candidate) {
+          return candidate.from == link.from && candidate.to == link.to &&
+                 candidate.verdict == LinkVerdict::kUsed;
+        });
+    if (loop == candidates.end())
+      continue;
+    link.T_from_to = loop->T_from_to;
+    candidates.erase(loop);
+  }
+}
+
 /** \return why a relaxation is not taken that the agreement has nothing against */
 std::string
 whyNot(const GraphSlamResult& relaxed, const StageResult& stage)
@@ -284,6 +301,7 @@ GraphStage::take(const GraphSlamResult& relaxed,
   constexpr double kSwitchedOff = 0.5;
   const Poses poses = posesOf(result);
   std::vector<ScanLink> links = network.describe(poses);
+  takeLoops(links, result.links);
   for (const LinkReport& report : relaxed.links) {
     const auto link = std::find_if(links.begin(), links.end(), [&](const ScanLink& l) {
       return l.from == report.from && l.to == report.to;

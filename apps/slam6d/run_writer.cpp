@@ -198,7 +198,8 @@ RunWriter::write(bool complete, const RunLog& log)
   writeTrajectoryTum(out_ / "trajectory.tum", trajectory());
   writeHistory();
   if (complete) {
-    writeGraph();
+    if (!result_.stages.empty())
+      writeGraph();
     MapBuilder map(result_.parameters.voxel.value, summary_.world_offset);
     summary_.complete = writeScansAndMap(map);
     if (summary_.complete)

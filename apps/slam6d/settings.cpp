@@ -164,8 +164,12 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
   interpret(line, raw, settings);
   settings.words = wordsOf(line, raw, settings);
   const bool planes = settings.slam.metric != Metric::kPoint;
+  const bool relaxes = settings.slam.relaxation.has_value();
   settings.without_effect = line.withoutEffect(
-      {{"minimiser", !planes, "of the metric point"},
+      {{"links", relaxes, "of --relaxation"},
+       {"relaxation-rounds", relaxes, "of --relaxation"},
+       {"graph-in", relaxes, "of --relaxation"},
+       {"minimiser", !planes, "of the metric point"},
        {"plane-minimiser", planes, "of the metrics plane and gicp"}});
   return true;
 }

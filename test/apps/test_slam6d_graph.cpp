@@ -35,7 +35,7 @@ protected:
     folder_ = nullptr;
   }
 
-  static pcl6d::test::ProgramOutcome
+  static pcl6d::test::Outcome
   run(const std::string& name, std::vector<std::string> options)
   {
     options.insert(options.begin(),

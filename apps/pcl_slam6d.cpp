@@ -90,6 +90,10 @@ private:
   resolved(Settings settings, const ScanFolder& folder)
   {
     settings.resolveGuess(folder.hasPoses());
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < folder.size(); ++i)
+      indices.push_back(folder.index(i));
+    settings.readLinks(indices);
     return settings;
   }
 

@@ -198,6 +198,8 @@ RunWriter::write(bool complete, const RunLog& log)
   writeTrajectoryTum(out_ / "trajectory.tum", trajectory());
   writeHistory();
   if (complete) {
+    if (!result_.stages.empty())
+      writeGraph();
     MapBuilder map(result_.parameters.voxel.value, summary_.world_offset);
     summary_.complete = writeScansAndMap(map);
     if (summary_.complete)
@@ -205,7 +207,7 @@ RunWriter::write(bool complete, const RunLog& log)
     summary_.map_points = summary_.complete ? map.points().size() : 0;
   }
   summary_.trusted = summary_.complete && result_.trusted();
-  summary_.verdict = verdictOf(result_, summary_);
+  summary_.verdict = verdictOf(result_, summary_) + graphVerdict();
   writeRunSummary(out_ / "summary.json", summary_);
   return summary_;
 }
@@ -227,9 +229,16 @@ RunWriter::writeHistory() const
 {
   for (std::size_t i = 0; i < folder_.size(); ++i) {
     const ScanResult& scan = result_.scans[i];
-    writeFrames(out_ / ("frames/" + scanName(folder_.index(i)) + ".frames"),
-                {{scan.initial_pose, FrameKind::kInvalid},
-                 {scan.T_world_scan, kindOf(scan.state)}});
+    const bool moved =
+        !result_.stages.empty() && !scan.matched_pose.isApprox(scan.T_world_scan, 0);
+    std::vector<Frame> frames = {
+        {scan.initial_pose, FrameKind::kInvalid},
+        {moved ? scan.matched_pose : scan.T_world_scan, kindOf(scan.state)}};
+    if (moved)
+      frames.push_back(
+          {scan.T_world_scan,
+           result_.stages.back().undone ? FrameKind::kElch : FrameKind::kLum});
+    writeFrames(out_ / ("frames/" + scanName(folder_.index(i)) + ".frames"), frames);
   }
 }
 
@@ -245,6 +254,7 @@ RunWriter::describe(bool complete, const RunLog& log)
   for (std::size_t i = 0; i < folder_.size(); ++i)
     summary_.scans.push_back(
         entryOf(folder_.file(i).filename().string(), result_.scans[i], log.dropped[i]));
+  describeGraph();
   summary_.complete = complete;
   if (!folder_.hasPoses() && folder_.size() > 1)
     summary_.warnings.push_back(

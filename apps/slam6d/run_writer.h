@@ -72,6 +72,12 @@ private:
   describe(bool complete, const RunLog& log);
   void
   warnOfOdometry();
+  void
+  writeGraph() const;
+  void
+  describeGraph();
+  std::string
+  graphVerdict() const;
 
   const Settings& settings_;
   const ScanFolder& folder_;

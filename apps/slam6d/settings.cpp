@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/command_line.h"
-#include "slam6d/settings.h"
+#include "slam6d/option_words.h"
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/io/link_list_io.h>
 #include <pcl6d/registration/minimisers.h>
 
+#include <algorithm>
 #include <sstream>
-
-namespace po = boost::program_options;
 
 namespace pcl6d::app {
 
@@ -20,135 +21,6 @@ constexpr const char* kUsageText =
     "Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one "
     "map\n"
     "and writes poses, map, picture and summary. Distances are in metres.\n";
-
-/** Values that the command line knows in another form than the library. */
-struct Raw {
-  std::string format = "auto";
-  std::string metascan = "all";
-  std::string metric = toString(Slam6DOptions().metric);
-  std::string minimiser = "quaternion";
-  std::string plane_minimiser = "helix";
-  std::string search = toString(Slam6DOptions().search);
-  std::string robust = toString(Slam6DOptions().robust);
-  std::string initial_guess = "auto";
-  AutoDouble min_range, max_range, voxel, max_distance, max_distance_start;
-  int last = -1;
-  int threads = 0;
-};
-
-void
-describeInput(CommandLine& line, Settings& s, Raw& raw)
-{
-  line.group("Input").add_options()(
-      "first",
-      valueOf(s.folder.first),
-      "index of the first scan to take, in the order of the folder")(
-      "last",
-      po::value(&raw.last),
-      "index of the last scan to take (default: the end)")(
-      "every", valueOf(s.folder.every), "take each n-th scan")(
-      "poses",
-      po::value<std::string>()->value_name("FILE")->notifier(
-          [&s](const std::string& file) { s.folder.poses_file = file; }),
-      "initial poses, KITTI or TUM rows, one per scan of the folder (default: *.pose, "
-      "odometry.txt, poses.txt, PCD VIEWPOINT or identity, the first that is there)")(
-      "format", valueOf(raw.format), "auto|pcd|ply|uos|kitti|xyz");
-}
-
-std::string
-joined(const std::vector<std::string>& names)
-{
-  std::string text;
-  for (const auto& name : names)
-    text += (text.empty() ? "" : "|") + name;
-  return text;
-}
-
-void
-describeMetric(CommandLine& line, Raw& raw)
-{
-  line.group("Matching")
-      .add_options()("metric",
-                     valueOf(raw.metric),
-                     (joined(metricNames()) +
-                      ": distance between points, of points to planes, of planes")
-                         .c_str())(
-          "minimiser",
-          valueOf(raw.minimiser),
-          (joined(minimiserNames()) + ", of the metric point").c_str())(
-          "plane-minimiser",
-          valueOf(raw.plane_minimiser),
-          (joined(planeMinimiserNames()) + ", of the metrics plane and gicp").c_str())(
-          "search",
-          valueOf(raw.search),
-          (joined(searchMethodNames()) + ": how closest points are found; all but "
-                                         "approximate give the same result")
-              .c_str())(
-          "robust",
-          valueOf(raw.robust),
-          (joined(robustKernelNames()) + ": less weight for pairs that are far apart")
-              .c_str())(
-          "initial-guess",
-          valueOf(raw.initial_guess),
-          ("auto|" + joined(initialGuessNames()) +
-           ": where matching starts; auto: odometry, features if there are no poses")
-              .c_str());
-}
-
-void
-describeMatching(CommandLine& line, Settings& s, Raw& raw)
-{
-  line.group("Range gate and reduction")
-      .add_options()("min-range",
-                     valueOf(raw.min_range),
-                     "[m] or auto: nearer points are dropped")(
-          "max-range",
-          valueOf(raw.max_range),
-          "[m] or auto: farther points are dropped; auto drops no-return codes")(
-          "voxel",
-          valueOf(raw.voxel),
-          "[m] or auto: edge length of the octree reduction");
-  describeMetric(line, raw);
-  line.group("Limits of matching")
-      .add_options()("max-distance",
-                     valueOf(raw.max_distance),
-                     "[m] or auto: largest pair distance")(
-          "max-distance-start",
-          valueOf(raw.max_distance_start),
-          "[m] or auto: largest pair distance of the first iteration, which then "
-          "shrinks to "
-          "--max-distance")(
-          "metascan",
-          po::value(&raw.metascan)->value_name("N|all")->default_value("all"),
-          "match against the union of the last N scans; 1 is pairwise")(
-          "iterations",
-          valueOf(s.slam.max_iterations),
-          "most iterations of one ICP; a scan that needs more is not converged")(
-          "min-overlap",
-          valueOf(s.slam.min_overlap),
-          "share of points with a partner below which a match is not believed") //
-      ("max-correction",
-       valueOf(s.slam.max_correction),
-       "share of the odometry's step by which a match may move a scan; beyond, it is "
-       "not believed (inf: always). 1.5 x max-distance is always allowed; not applied "
-       "to "
-       "--initial-guess overlap and features");
-}
-
-void
-describeRun(CommandLine& line, Settings& s, Raw& raw)
-{
-  line.group("Run").add_options()("output,o",
-                                  po::value(&s.out)->value_name("OUT_DIR"),
-                                  "folder to write; made if missing")(
-      "threads",
-      po::value(&raw.threads)->default_value(0),
-      "0: one per core; never changes the result")(
-      "seed", valueOf(s.seed), "of random choices (those of --initial-guess features)")(
-      "force", po::bool_switch(&s.force), "write into a folder that holds other files")(
-      "quiet", po::bool_switch(&s.quiet), "print warnings and errors only")(
-      "verbose", po::bool_switch(&s.verbose), "print a line per scan");
-}
 
 std::optional<double>
 toOptional(const AutoDouble& value)
@@ -169,7 +41,7 @@ metascanFromText(const std::string& text)
 }
 
 void
-interpret(const CommandLine& line, const Raw& raw, Settings& s)
+interpret(const CommandLine& line, const OptionWords& raw, Settings& s)
 {
   if (s.out.empty())
     throw UsageError("-o OUT_DIR is missing");
@@ -194,6 +66,12 @@ interpret(const CommandLine& line, const Raw& raw, Settings& s)
         s.slam.plane_minimiser = planeMinimiserFromName(raw.plane_minimiser);
         s.slam.search = searchMethodFromName(raw.search);
         s.slam.robust = robustKernelFromName(raw.robust);
+        s.slam.loop_closing = loopClosingFromName(raw.loop_closing);
+        s.slam.relaxation =
+            raw.relaxation == "none"
+                ? std::nullopt
+                : std::make_optional(relaxationFromName(raw.relaxation));
+        s.slam.links = linkRuleFromName(raw.links);
         s.auto_guess = raw.initial_guess == "auto";
         if (!s.auto_guess)
           s.slam.initial_guess = initialGuessFromName(raw.initial_guess);
@@ -204,6 +82,8 @@ interpret(const CommandLine& line, const Raw& raw, Settings& s)
       },
       {{"max_iterations", "iterations"},
        {"plane minimiser", "plane-minimiser"},
+       {"relaxation_rounds", "relaxation-rounds"},
+       {"loop closing", "loop-closing"},
        {"initial guess", "initial-guess"}});
 }
 
@@ -218,7 +98,7 @@ word(const CommandLine& line, const std::string& name, const T& value)
 
 /** The words that go into the summary; lengths go there as parameters. */
 std::vector<Settings::Word>
-wordsOf(const CommandLine& line, const Raw& raw, const Settings& s)
+wordsOf(const CommandLine& line, const OptionWords& raw, const Settings& s)
 {
   return {word(line, "first", s.folder.first),
           word(line, "last", s.folder.last ? std::to_string(*s.folder.last) : "end"),
@@ -232,6 +112,11 @@ wordsOf(const CommandLine& line, const Raw& raw, const Settings& s)
           word(line, "robust", raw.robust),
           word(line, "initial-guess", raw.initial_guess),
           word(line, "metascan", raw.metascan),
+          word(line, "loop-closing", raw.loop_closing),
+          word(line, "relaxation", raw.relaxation),
+          word(line, "links", raw.links),
+          word(line, "relaxation-rounds", s.slam.relaxation_rounds),
+          word(line, "graph-in", s.graph_in),
           word(line, "iterations", s.slam.max_iterations),
           word(line, "min-overlap", s.slam.min_overlap),
           word(line, "max-correction", s.slam.max_correction),
@@ -251,23 +136,41 @@ Settings::resolveGuess(bool has_poses)
       word.value = toString(slam.initial_guess);
 }
 
+void
+Settings::readLinks(const std::vector<std::size_t>& indices)
+{
+  if (graph_in.empty())
+    return;
+  const auto place = [&](std::size_t index) {
+    const auto found = std::find(indices.begin(), indices.end(), index);
+    if (found == indices.end())
+      throw IoFailed(graph_in + ": links scan " + std::to_string(index) +
+                     ", which is not among the chosen scans");
+    return static_cast<std::size_t>(found - indices.begin());
+  };
+  for (const auto& [a, b] : readLinkList(graph_in))
+    slam.given_links.emplace_back(place(a), place(b));
+}
+
 bool
 parseSettings(const std::vector<std::string>& arguments, Settings& settings)
 {
   CommandLine line(kUsageText);
-  Raw raw;
+  OptionWords raw;
   line.positional("SCAN_DIR", &settings.input);
-  describeInput(line, settings, raw);
-  describeMatching(line, settings, raw);
-  describeRun(line, settings, raw);
+  describeOptions(line, settings, raw);
   if (!line.parse(arguments))
     return false;
   interpret(line, raw, settings);
   settings.words = wordsOf(line, raw, settings);
   const bool planes = settings.slam.metric != Metric::kPoint;
-  settings.without_effect =
-      line.withoutEffect({{"minimiser", !planes, "of the metric point"},
-                          {"plane-minimiser", planes, "of the metrics plane and gicp"}});
+  const bool relaxes = settings.slam.relaxation.has_value();
+  settings.without_effect = line.withoutEffect(
+      {{"links", relaxes, "of --relaxation"},
+       {"relaxation-rounds", relaxes, "of --relaxation"},
+       {"graph-in", relaxes, "of --relaxation"},
+       {"minimiser", !planes, "of the metric point"},
+       {"plane-minimiser", planes, "of the metrics plane and gicp"}});
   return true;
 }
 

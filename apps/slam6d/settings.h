@@ -18,7 +18,8 @@ struct Settings {
   std::string out;
   ScanFolderOptions folder;
   Slam6DOptions slam;
-  std::int64_t seed = 1; ///< signed, as boost takes -1 for a large unsigned number
+  std::int64_t seed = 1;  ///< signed, as boost takes -1 for a large unsigned number
+  std::string graph_in;   ///< file of given links; empty: none
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
   bool force = false;
   bool quiet = false;
@@ -35,6 +36,11 @@ struct Settings {
   /** Decides what --initial-guess auto means for a folder. */
   void
   resolveGuess(bool has_poses);
+
+  /** Reads the given links. \param[in] indices of the chosen scans in their folder
+   * \throws IoFailed the file is broken, or speaks of a scan that is not chosen */
+  void
+  readLinks(const std::vector<std::size_t>& indices);
 };
 
 /** \brief Fills the settings from the command line and the config file.

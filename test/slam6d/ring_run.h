@@ -90,6 +90,8 @@ pairwise()
 {
   Slam6DOptions options;
   options.metascan = 1;
+  options.loop_closing = LoopClosing::kElch;
+  options.relaxation = Relaxation::kHelix;
   return options;
 }
 

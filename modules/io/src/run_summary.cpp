@@ -64,6 +64,24 @@ toJson(const RunSummary::ScanEntry& scan)
 }
 
 Json
+graphOf(const RunSummary& summary)
+{
+  Json stages = Json::array();
+  for (const auto& stage : summary.graph_stages)
+    stages.push_back({{"name", stage.name},
+                      {"undone", stage.undone},
+                      {"reason", stage.reason},
+                      {"agreement_before", stage.agreement_before},
+                      {"agreement_after", stage.agreement_after},
+                      {"rounds", stage.rounds},
+                      {"seconds", stage.seconds}});
+  return {{"stages", stages},
+          {"links_used", summary.links_used},
+          {"links_refused", summary.links_refused},
+          {"floating", summary.floating}};
+}
+
+Json
 totalsOf(const RunSummary& summary)
 {
   double seconds = 0, memory = 0;
@@ -104,6 +122,7 @@ writeRunSummary(const std::filesystem::path& path, const RunSummary& summary)
     json["stages"].push_back({{"name", stage.name},
                               {"seconds", stage.seconds},
                               {"peak_memory_mb", stage.peak_memory_mb}});
+  json["graph"] = graphOf(summary);
   json["scans"] = Json::array();
   for (const auto& scan : summary.scans)
     json["scans"].push_back(toJson(scan));

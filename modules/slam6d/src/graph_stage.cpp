@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_stage.h"
+#include "loop_links.h"
+#include "relaxation_gain.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/graph_relaxation/map_agreement.h>
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
-#include <sstream>
 
 namespace pcl6d {
 
@@ -23,13 +23,7 @@ constexpr double kOdometryTurn = 0.03;                         // [rad]
 constexpr double kPlaneVoxels = 1.7;
 
 /** Relaxation rests when no scan moves by more than this share of the voxel. */
-constexpr double kRestShare = 0.02;
-
-/** So much must be gained, or the poses stay: what is less is the noise of closest points.
- * Gain: the share by which the rms of all links falls, and agreement rises. hku1 matched
- * against all scans: 0.2 %, and its poses are as good before; against the last ten: 0.7 %,
- * and the position rms falls from 39 to 33 mm; the demo: 0.6 %, 14 to 10 mm. */
-constexpr double kLeastGain = 0.004;
+constexpr double kRestShare = 0.03;
 
 using Clock = std::chrono::steady_clock;
 
@@ -68,61 +62,6 @@ setPoses(const Poses& poses, Slam6DResult& result)
 {
   for (std::size_t i = 0; i < poses.size(); ++i)
     result.scans[i].T_world_scan = poses[i];
-}
-
-double
-gainOf(const GraphSlamResult& relaxed, const StageResult& stage)
-{
-  const auto share = [](double from, double to) {
-    return from > 0 ? (to - from) / from : 0;
-  };
-  return share(stage.agreement_before, stage.agreement_after) -
-         share(relaxed.rms_before, relaxed.rms);
-}
-
-/** \return whether links close a cycle: a tree has nothing to spread */
-bool
-hasCycle(const std::vector<LinkReport>& links, std::size_t num_scans)
-{
-  std::vector<std::size_t> group(num_scans);
-  std::iota(group.begin(), group.end(), 0);
-  for (const LinkReport& link : links) {
-    if (!link.used)
-      continue;
-    const std::size_t a = group[link.from], b = group[link.to];
-    if (a == b)
-      return true;
-    std::replace(group.begin(), group.end(), b, a);
-  }
-  return false;
-}
-
-/** A closed loop is one link: candidates that the network knows are taken over into it. */
-void
-takeLoops(std::vector<ScanLink>& links, std::vector<ScanLink>& candidates)
-{
-  for (ScanLink& link : links) {
-    const auto loop = std::find_if(
-        candidates.begin(), candidates.end(), [&](const ScanLink& candidate) {
-          return candidate.from == link.from && candidate.to == link.to &&
-                 candidate.verdict == LinkVerdict::kUsed;
-        });
-    if (loop == candidates.end())
-      continue;
-    link.T_from_to = loop->T_from_to;
-    candidates.erase(loop);
-  }
-}
-
-/** \return why a relaxation is not taken that the agreement has nothing against */
-std::string
-whyNot(const GraphSlamResult& relaxed, const StageResult& stage)
-{
-  if (relaxed.status == Status::kDiverged || relaxed.status == Status::kTooFewPairs)
-    return std::string("relaxation: ") + toString(relaxed.status);
-  if (!hasCycle(relaxed.links, relaxed.poses.size()))
-    return "the links close no cycle";
-  return gainOf(relaxed, stage) < kLeastGain ? "the links agreed already" : "";
 }
 } // namespace
 
@@ -281,7 +220,7 @@ GraphStage::relax(Slam6DResult& result, const Observer& observer)
   StageResult stage = judged("relaxation", before, relaxed.poses, believedOf(result));
   stage.rounds = relaxed.iterations;
   if (stage.reason.empty())
-    stage.reason = whyNot(relaxed, stage);
+    stage.reason = whyNotTaken(relaxed, stage);
   stage.undone = !stage.reason.empty();
   if (!stage.undone)
     setPoses(relaxed.poses, result);
@@ -333,6 +272,8 @@ GraphStage::take(const GraphSlamResult& relaxed,
 bool
 GraphStage::run(Slam6DResult& result, const Observer& observer)
 {
+  for (ScanResult& scan : result.scans)
+    scan.matched_pose = scan.T_world_scan;
   result.stages.clear();
   result.links.clear();
   result.graph = PoseGraph();

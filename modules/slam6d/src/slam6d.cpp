@@ -146,6 +146,8 @@ private:
   bool
   improve()
   {
+    if (options_.loop_closing == LoopClosing::kNone && !options_.relaxation)
+      return true;
     GraphStage stage(options_,
                      result_.parameters,
                      matcher_->icpOptions(reduced_.front().points().size()),

@@ -49,6 +49,17 @@ struct RunSummary {
     std::string reason;    ///< why the match is not believed; else empty
   };
 
+  /** \brief A stage that changes poses, and how the agreement of the scans judged it. */
+  struct GraphStage {
+    std::string name;    ///< "matching", "loop closing", "relaxation"
+    bool undone = false; ///< its poses were not taken
+    std::string reason;  ///< why; else empty
+    double agreement_before = 0;
+    double agreement_after = 0;
+    int rounds = 0;
+    double seconds = 0;
+  };
+
   std::string generator; ///< the program's name
   std::string version;
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero(); ///< [m]
@@ -56,6 +67,10 @@ struct RunSummary {
   std::vector<Option> options;
   std::vector<Stage> stages;
   std::vector<ScanEntry> scans;
+  std::vector<GraphStage> graph_stages;
+  std::size_t links_used = 0;
+  std::size_t links_refused = 0;     ///< loop candidates included
+  std::vector<std::string> floating; ///< files that no link joins to the first scan
   std::size_t map_points = 0;
   bool complete = true; ///< false: interrupted, part of the scans is not registered
   bool trusted = true;  ///< every scan was matched

@@ -49,6 +49,8 @@ toString(ScanState state);
 struct ScanResult {
   Eigen::Isometry3d initial_pose = Eigen::Isometry3d::Identity(); ///< as given
   Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d matched_pose =
+      Eigen::Isometry3d::Identity(); ///< T_world_scan before loops and relaxation
   ScanState state = ScanState::kPending;
   Status status = Status::kTooFewPairs; ///< of ICP
   std::size_t points = 0;               ///< finite points of the scan

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief Reads which scans are linked: the edges of a `.g2o` file by the ids of its
+ * vertices, or lines `a b` with the indices of two scans of a folder. Empty lines and
+ * those that start with # are skipped; what follows two numbers in a line is, too.
+ * \return the pairs in the order of the file
+ * \throws IoFailed unreadable; a line that is none, or links a scan to itself; as
+ * readPoseGraph() \ingroup io */
+std::vector<std::pair<std::size_t, std::size_t>>
+readLinkList(const std::filesystem::path& path);
+
+} // namespace pcl6d

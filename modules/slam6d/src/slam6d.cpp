@@ -67,7 +67,9 @@ public:
     const auto start = std::chrono::steady_clock::now();
     const std::size_t total = result_.scans.size();
     while (next_ < total && !cancelled_.exchange(false)) {
-      registerScan(next_++);
+      registerScan(next_);
+      result_.scans[next_].matched_pose = result_.scans[next_].T_world_scan;
+      ++next_;
       if (observer)
         observer(next_ - 1, result_.scans[next_ - 1]);
       if (progress)

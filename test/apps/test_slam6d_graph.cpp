@@ -87,7 +87,7 @@ TEST_F(Graph, RelaxationBringsTheLoopTogether)
   EXPECT_EQ(summary["graph"]["stages"].back()["name"], "relaxation");
   EXPECT_FALSE(summary["graph"]["stages"].back()["undone"].get<bool>());
   EXPECT_TRUE(summary["graph"]["floating"].empty());
-  EXPECT_EQ(contentOf(out / "links.csv").substr(0, 26), "from,to,kind,verdict,reason");
+  EXPECT_EQ(contentOf(out / "links.csv").substr(0, 27), "from,to,kind,verdict,reason");
 }
 
 TEST_F(Graph, TheSameBytesForAnyNumberOfThreads)

@@ -233,5 +233,5 @@ TEST_F(InitialPoses, BrokenStampsAreRefused)
   expectMessage("1\n2\n2\n",
                 "line 3: the stamp 2 does not follow 2; stamps must increase");
   expectMessage("1\nnan\n3\n", "line 2: the stamp nan is not finite");
-  expectMessage("1\ntwo\n3\n", "line 2: expected a number, got 'two'");
+  expectMessage("1\ntwo\n3\n", "line 2: 'two' is not a number");
 }

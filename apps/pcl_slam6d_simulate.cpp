@@ -12,6 +12,7 @@
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/scanner/simulator.h>
 
 #include <pcl/conversions.h>
@@ -95,13 +96,9 @@ applySettings(Settings& s)
     require(s.seed >= 0, "seed", s.seed, ">= 0");
     require(s.threads >= 0, "threads", s.threads, ">= 0");
   });
-  if (s.scanner != "rotating" && s.scanner != "pitching")
-    throw app::UsageError("--scanner = " + s.scanner +
-                          ", but must be rotating or pitching");
   s.simulation.seed = static_cast<std::uint64_t>(s.seed);
   s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
-  s.simulation.scanner = std::make_shared<DrivenScanner>(
-      s.scanner == "pitching" ? pitchingScanner() : rotatingScanner());
+  app::checkOptions([&] { s.simulation.scanner = scannerByName(s.scanner).scanner; });
 }
 
 /** \return whether a folder holds scans */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/range_scan.h>
 #include <pcl6d/scanner/robot_path.h>
 #include <pcl6d/scanner/simulation_scene.h>

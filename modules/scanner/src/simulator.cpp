@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/simulator.h>
 
 #include <utility>

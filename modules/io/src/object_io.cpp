@@ -19,6 +19,7 @@ writeObjects(const std::filesystem::path& path, const std::vector<ObjectPose>& o
                     {"T_world_object", rowByRow(object.T_world_object.matrix())},
                     {"extent", rowByRow(Eigen::Vector3d(object.box.sizes()))},
                     {"centre", rowByRow(Eigen::Vector3d(object.box.center()))},
+                    {"moves", object.moves},
                     {"points", object.points}});
   const Json json = {{"schema_version", 1}, {"objects", list}};
   writeFileAtomically(path,

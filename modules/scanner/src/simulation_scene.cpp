@@ -37,10 +37,11 @@ entryOf(const std::string& name)
 }
 } // namespace
 
-std::uint32_t
-SimulationScene::addObject(const std::string& object_class,
-                           const TriangleScene& shape,
-                           const Eigen::Isometry3d& T_scene_object)
+namespace {
+ObjectPose
+objectPose(const std::string& object_class,
+           const TriangleScene& shape,
+           const Eigen::Isometry3d& T_scene_object)
 {
   ObjectPose object;
   object.object_class = object_class;
@@ -48,9 +49,31 @@ SimulationScene::addObject(const std::string& object_class,
   object.box.setEmpty();
   for (const auto& vertex : shape.vertices)
     object.box.extend(vertex);
-  objects.push_back(object);
+  return object;
+}
+} // namespace
+
+std::uint32_t
+SimulationScene::addObject(const std::string& object_class,
+                           const TriangleScene& shape,
+                           const Eigen::Isometry3d& T_scene_object)
+{
+  objects.push_back(objectPose(object_class, shape, T_scene_object));
   const auto id = static_cast<std::uint32_t>(objects.size());
   addModel(geometry, shape, T_scene_object, id);
+  return id;
+}
+
+std::uint32_t
+SimulationScene::addMoving(MovingBody body)
+{
+  body.validate();
+  objects.push_back(objectPose(body.name, body.shape, body.poseAt(0)));
+  objects.back().moves = true;
+  const auto id = static_cast<std::uint32_t>(objects.size());
+  for (auto& surface : body.shape.surfaces)
+    surface.object = id;
+  moving.push_back(std::move(body));
   return id;
 }
 

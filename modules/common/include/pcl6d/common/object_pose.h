@@ -14,7 +14,8 @@ struct ObjectPose {
   Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity();
   Eigen::AlignedBox3d box{Eigen::Vector3d::Zero(),
                           Eigen::Vector3d::Zero()}; ///< [m] in the object's frame
-  std::size_t points = 0;                           ///< points on it
+  bool moves = false;     ///< then its pose holds at the start
+  std::size_t points = 0; ///< points on it
 };
 
 } // namespace pcl6d

@@ -18,9 +18,9 @@ struct SimulationScene {
   std::vector<Eigen::Vector3d> waypoints; ///< see RobotPath
   /** The object with id i at place i - 1; poses in the scene's frame */
   std::vector<ObjectPose> objects;
-  std::vector<MovingBody> moving;
-  int num_scans = 40;    ///< that cover the way well
-  double max_range = 30; ///< [m] that suits its size
+  std::vector<MovingBody> moving; ///< what moves while the robot drives
+  int num_scans = 40;             ///< that cover the way well
+  double max_range = 30;          ///< [m] that suits its size
 
   /** \brief Adds an object of a class with a shape of its own.
    * \return its id, from 1 */
@@ -28,6 +28,12 @@ struct SimulationScene {
   addObject(const std::string& object_class,
             const TriangleScene& shape,
             const Eigen::Isometry3d& T_scene_object);
+
+  /** \brief Adds a body that moves, as an object of the class that its name is.
+   * \return its id, from 1; its pose among the objects is that at time 0
+   * \throws BadArgument see MovingBody::validate() */
+  std::uint32_t
+  addMoving(MovingBody body);
 };
 
 /** \return the objects in another frame

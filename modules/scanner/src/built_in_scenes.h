@@ -11,6 +11,12 @@ SimulationScene
 corridorScene(std::uint64_t seed);
 
 SimulationScene
+mineScene(std::uint64_t seed);
+
+SimulationScene
+multilevelScene(std::uint64_t seed);
+
+SimulationScene
 roomsScene(std::uint64_t seed);
 
 } // namespace pcl6d

@@ -15,10 +15,17 @@ struct Entry {
   const char* description;
   SimulationScene (*make)(std::uint64_t seed);
 };
-constexpr std::array<Entry, 2> kScenes = {
+constexpr std::array<Entry, 4> kScenes = {
     {{"corridor",
       "four furnished rooms, four corridors, two ramps; a loop of 55 m",
       corridorScene},
+     {"mine",
+      "a drift with rough rock, timber supports and boulders; a loop of 130 m that "
+      "climbs and falls",
+      mineScene},
+     {"multilevel",
+      "two storeys, joined by a ramp and by stairs; a loop of 120 m over both",
+      multilevelScene},
      {"rooms",
       "a flat: rooms with tables, chairs and shelves along a hall, doors open and "
       "closed; another seed is another flat",

@@ -8,6 +8,9 @@
 namespace pcl6d {
 
 SimulationScene
+campusScene(std::uint64_t seed);
+
+SimulationScene
 corridorScene(std::uint64_t seed);
 
 SimulationScene

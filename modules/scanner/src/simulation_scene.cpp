@@ -15,10 +15,14 @@ struct Entry {
   const char* description;
   SimulationScene (*make)(std::uint64_t seed);
 };
-constexpr std::array<Entry, 4> kScenes = {
+constexpr std::array<Entry, 5> kScenes = {
     {{"corridor",
       "four furnished rooms, four corridors, two ramps; a loop of 55 m",
       corridorScene},
+     {"campus",
+      "streets between houses on hilly ground, with trees, parked cars, people and "
+      "lamps; a way of 1 km with five loops",
+      campusScene},
      {"mine",
       "a drift with rough rock, timber supports and boulders; a loop of 130 m that "
       "climbs and falls",

@@ -23,6 +23,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <regex>
 
 namespace {
@@ -41,6 +42,9 @@ struct Settings {
   app::AutoDouble max_range;
   bool has_scanner = false; // given by the user
   bool has_scans = false;
+  std::string motion = "stop";
+  std::string odometry = "wheel";
+  app::AutoDouble speed;
   std::int64_t seed = 1; // signed, as boost takes -1 for a large unsigned number
   int threads = 0;
   bool force = false;
@@ -75,6 +79,17 @@ parse(const std::vector<std::string>& arguments, Settings& s)
       ("scanner",
        app::valueOf(s.scanner),
        "rotating (360 x 120 deg) or pitching (180 x 120 deg)") //
+      ("motion",
+       app::valueOf(s.motion),
+       "stop|continuous: stop for each scan, or drive on meanwhile; then points have "
+       "the field t, and times.txt has the stamps") //
+      ("speed",
+       app::valueOf(s.speed),
+       "[m/s] or auto: 1, slower if a scan takes longer than the way to the next") //
+      ("odometry",
+       app::valueOf(s.odometry),
+       "wheel|visual-inertial|exact: planar with drift, six degrees of freedom with "
+       "little drift, the truth") //
       ("noise",
        app::valueOf(range.noise),
        "[m] standard deviation of the ranges") //
@@ -122,6 +137,12 @@ applySettings(Settings& s)
   });
   s.simulation.seed = static_cast<std::uint64_t>(s.seed);
   s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
+  if (!s.speed.is_auto)
+    s.simulation.speed = s.speed.value;
+  app::checkOptions([&] {
+    s.simulation.motion = scanMotionFromName(s.motion);
+    s.simulation.odometry_kind = odometryKindFromName(s.odometry);
+  });
   app::checkOptions([&] { s.simulation.scanner = scannerByName(s.scanner).scanner; });
 }
 
@@ -137,6 +158,15 @@ applyScene(const SimulationScene& scene, Settings& s)
     s.simulation.range.max_range = scene.max_range;
   if (s.labels == "auto")
     s.labels = s.scene == "corridor" ? "no" : "yes"; // whose bytes never change
+}
+
+/** A speed at which scans would overlap in time is a mistake of the command line. */
+Simulator
+simulatorOf(SimulationScene scene, const SimulationOptions& options)
+{
+  std::optional<Simulator> simulator;
+  app::checkOptions([&] { simulator.emplace(std::move(scene), options); });
+  return *std::move(simulator);
 }
 
 /** \return whether a folder holds scans */
@@ -158,21 +188,25 @@ outputRules(const Settings& s)
   rules.program = kName;
   rules.marker = kMarker;
   rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
-                           "(planes|objects)_truth\\.json|scene\\.json");
+                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json");
   rules.force = s.force;
   return rules;
 }
 
 void
-writeSceneFile(const fs::path& path, const Settings& s)
+writeSceneFile(const fs::path& path, const Settings& s, const Simulator& simulator)
 {
-  const nlohmann::ordered_json json = {{"schema_version", 1},
-                                       {"generator", kName},
-                                       {"scene", s.scene},
-                                       {"seed", s.seed},
-                                       {"scans", s.simulation.num_scans},
-                                       {"scanner", s.scanner},
-                                       {"noise", s.simulation.range.noise}};
+  nlohmann::ordered_json json = {{"schema_version", 1},
+                                 {"generator", kName},
+                                 {"scene", s.scene},
+                                 {"seed", s.seed},
+                                 {"scans", s.simulation.num_scans},
+                                 {"scanner", s.scanner},
+                                 {"noise", s.simulation.range.noise}};
+  if (s.motion != Settings().motion)
+    json["motion"] = {{"kind", s.motion}, {"speed", simulator.speed()}};
+  if (s.odometry != Settings().odometry)
+    json["odometry"] = s.odometry;
   writeFileAtomically(path,
                       [&](std::ostream& stream) { stream << json.dump(2) << '\n'; });
 }
@@ -188,12 +222,15 @@ writeFiles(const app::OutputFolder& folder,
   const app::Interrupt interrupt;
   const TriangleScene& surfaces = simulator.scene().scene();
   TruthCounts counts;
+  const bool on_the_move = s.simulation.motion == ScanMotion::kContinuous;
   for (std::size_t i = 0; i < simulator.size(); ++i) {
     if (interrupt.requested())
       return false;
     pcl::PCLPointCloud2 cloud;
     const RangeScan scan = simulator.rangeScan(i);
     pcl::toPCLPointCloud2(toPointCloud(scan, simulator.scanner()), cloud);
+    if (on_the_move)
+      addTimeField(cloud, simulator.scanner());
     if (s.labels == "yes") {
       addTruthFields(cloud, scan, surfaces);
       counts.add(scan, surfaces);
@@ -205,9 +242,11 @@ writeFiles(const app::OutputFolder& folder,
   }
   writeTrajectoryKitti(folder / "odometry.txt", simulator.odometry());
   writeTrajectoryKitti(folder / "groundtruth.txt", simulator.truth());
+  if (on_the_move)
+    writeStamps(folder / "times.txt", simulator.truth().stamps);
   if (s.labels == "yes")
     app::writeTruthFiles(folder, scene, simulator, counts);
-  writeSceneFile(folder / kMarker, s);
+  writeSceneFile(folder / kMarker, s, simulator);
   return true;
 }
 
@@ -224,13 +263,14 @@ printSummary(const Settings& s, const Simulator& simulator)
     largest = std::max(largest, error);
   }
   std::printf("%s: %zu scans, seed %lld; odometry off by %.3f m rms, %.3f m at most\n"
-              "written to %s: scan*.pcd odometry.txt groundtruth.txt %s\n",
+              "written to %s: scan*.pcd odometry.txt groundtruth.txt %s%s\n",
               s.scene.c_str(),
               simulator.size(),
               static_cast<long long>(s.seed),
               std::sqrt(sum_sq / static_cast<double>(simulator.size())),
               largest,
               s.out.c_str(),
+              s.simulation.motion == ScanMotion::kContinuous ? "times.txt " : "",
               kMarker);
 }
 
@@ -249,7 +289,7 @@ run(const std::vector<std::string>& arguments)
         s.simulation.validate();
       },
       {{"num_scans", "scans"}});
-  const Simulator simulator(scene, s.simulation);
+  const Simulator simulator = simulatorOf(std::move(scene), s.simulation);
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))
     throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");

@@ -105,6 +105,7 @@ wordsOf(const CommandLine& line, const OptionWords& raw, const Settings& s)
           word(line, "every", s.folder.every),
           word(line, "poses", s.folder.poses_file.string()),
           word(line, "format", raw.format),
+          word(line, "deskew", s.deskew ? "yes" : "no"),
           word(line, "metric", raw.metric),
           word(line, "minimiser", raw.minimiser),
           word(line, "plane-minimiser", raw.plane_minimiser),

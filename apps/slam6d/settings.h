@@ -21,6 +21,7 @@ struct Settings {
   std::int64_t seed = 1;  ///< signed, as boost takes -1 for a large unsigned number
   std::string graph_in;   ///< file of given links; empty: none
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
+  bool deskew = false;    ///< undo the motion of the scanner during each scan
   bool force = false;
   bool quiet = false;
   bool verbose = false;

@@ -6,6 +6,7 @@
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "common/scan_name.h"
+#include "simulate/truth_files.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
@@ -37,6 +38,10 @@ struct Settings {
   std::string scene;
   std::string out;
   std::string scanner = "rotating";
+  std::string labels = "auto";
+  app::AutoDouble max_range;
+  bool has_scanner = false; // given by the user
+  bool has_scans = false;
   std::string motion = "stop";
   std::string odometry = "wheel";
   app::AutoDouble speed;
@@ -52,7 +57,7 @@ sceneList()
 {
   std::string list;
   for (const auto& name : builtInSceneNames())
-    list += (list.empty() ? "" : ", ") + name;
+    list += "\n  " + name + ": " + builtInSceneDescription(name);
   return list;
 }
 
@@ -69,8 +74,8 @@ parse(const std::vector<std::string>& arguments, Settings& s)
   line.group("Simulation")
       .add_options() //
       ("scans",
-       app::valueOf(s.simulation.num_scans),
-       "number of scans, evenly along the way") //
+       po::value(&s.simulation.num_scans),
+       "number of scans, evenly along the way; by default what suits the scene") //
       ("scanner",
        app::valueOf(s.scanner),
        "rotating (360 x 120 deg) or pitching (180 x 120 deg)") //
@@ -88,7 +93,19 @@ parse(const std::vector<std::string>& arguments, Settings& s)
       ("noise",
        app::valueOf(range.noise),
        "[m] standard deviation of the ranges") //
-      ("seed", app::valueOf(s.seed), "same seed, same bytes");
+      ("max-range",
+       app::valueOf(s.max_range),
+       "[m] farther things are not seen; auto: the scanner's if one is given, else "
+       "what "
+       "suits the scene") //
+      ("labels",
+       app::valueOf(s.labels),
+       "yes: points carry plane_id, object_id and label, and the files "
+       "planes_truth.json "
+       "and objects_truth.json are written; auto: yes, but not for corridor") //
+      ("seed",
+       app::valueOf(s.seed),
+       "same seed, same bytes; also of what is random in a scene");
   line.group("Run").add_options() //
       ("output,o",
        po::value(&s.out)->value_name("DIR")->required(),
@@ -100,7 +117,10 @@ parse(const std::vector<std::string>& arguments, Settings& s)
        app::valueOf(s.threads),
        "0: one per core; never changes results") //
       ("quiet", po::bool_switch(&s.quiet), "print errors only");
-  return line.parse(arguments);
+  const bool is_run = line.parse(arguments);
+  s.has_scans = is_run && line.given("scans");
+  s.has_scanner = is_run && line.given("scanner");
+  return is_run;
 }
 
 /** Moves what has no field of its own into the simulator's options. */
@@ -110,6 +130,10 @@ applySettings(Settings& s)
   app::checkOptions([&] {
     require(s.seed >= 0, "seed", s.seed, ">= 0");
     require(s.threads >= 0, "threads", s.threads, ">= 0");
+    require(s.labels == "auto" || s.labels == "yes" || s.labels == "no",
+            "labels",
+            s.labels,
+            "auto, yes or no");
   });
   s.simulation.seed = static_cast<std::uint64_t>(s.seed);
   s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
@@ -120,6 +144,20 @@ applySettings(Settings& s)
     s.simulation.odometry_kind = odometryKindFromName(s.odometry);
   });
   app::checkOptions([&] { s.simulation.scanner = scannerByName(s.scanner).scanner; });
+}
+
+/** Fills in what the user left to the scene. */
+void
+applyScene(const SimulationScene& scene, Settings& s)
+{
+  if (!s.has_scans)
+    s.simulation.num_scans = scene.num_scans;
+  if (!s.max_range.is_auto)
+    s.simulation.range.max_range = s.max_range.value;
+  else if (!s.has_scanner)
+    s.simulation.range.max_range = scene.max_range;
+  if (s.labels == "auto")
+    s.labels = s.scene == "corridor" ? "no" : "yes"; // whose bytes never change
 }
 
 /** A speed at which scans would overlap in time is a mistake of the command line. */
@@ -150,7 +188,7 @@ outputRules(const Settings& s)
   rules.program = kName;
   rules.marker = kMarker;
   rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
-                           "times\\.txt|scene\\.json");
+                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json");
   rules.force = s.force;
   return rules;
 }
@@ -177,18 +215,26 @@ writeSceneFile(const fs::path& path, const Settings& s, const Simulator& simulat
 bool
 writeFiles(const app::OutputFolder& folder,
            const Settings& s,
+           const SimulationScene& scene,
            const Simulator& simulator,
            app::ProgressBar& progress)
 {
   const app::Interrupt interrupt;
+  const TriangleScene& surfaces = simulator.scene().scene();
+  TruthCounts counts;
   const bool on_the_move = s.simulation.motion == ScanMotion::kContinuous;
   for (std::size_t i = 0; i < simulator.size(); ++i) {
     if (interrupt.requested())
       return false;
     pcl::PCLPointCloud2 cloud;
-    pcl::toPCLPointCloud2(simulator.scan(i), cloud);
+    const RangeScan scan = simulator.rangeScan(i);
+    pcl::toPCLPointCloud2(toPointCloud(scan, simulator.scanner()), cloud);
     if (on_the_move)
       addTimeField(cloud, simulator.scanner());
+    if (s.labels == "yes") {
+      addTruthFields(cloud, scan, surfaces);
+      counts.add(scan, surfaces);
+    }
     writePcd(folder / (app::scanName(static_cast<int>(i)) + ".pcd"),
              cloud,
              simulator.odometry().poses[i]);
@@ -198,6 +244,8 @@ writeFiles(const app::OutputFolder& folder,
   writeTrajectoryKitti(folder / "groundtruth.txt", simulator.truth());
   if (on_the_move)
     writeStamps(folder / "times.txt", simulator.truth().stamps);
+  if (s.labels == "yes")
+    app::writeTruthFiles(folder, scene, simulator, counts);
   writeSceneFile(folder / kMarker, s, simulator);
   return true;
 }
@@ -236,7 +284,8 @@ run(const std::vector<std::string>& arguments)
   SimulationScene scene;
   app::checkOptions(
       [&] {
-        scene = builtInScene(s.scene);
+        scene = builtInScene(s.scene, s.simulation.seed);
+        applyScene(scene, s);
         s.simulation.validate();
       },
       {{"num_scans", "scans"}});
@@ -245,7 +294,7 @@ run(const std::vector<std::string>& arguments)
   if (!out.holdsEarlierRun() && holdsScans(s.out))
     throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");
   app::ProgressBar progress(s.quiet);
-  if (!writeFiles(out, s, simulator, progress)) {
+  if (!writeFiles(out, s, scene, simulator, progress)) {
     progress.say("interrupted: nothing written");
     return app::kInterrupted;
   }

@@ -8,7 +8,16 @@
 namespace pcl6d {
 
 SimulationScene
+campusScene(std::uint64_t seed);
+
+SimulationScene
 corridorScene(std::uint64_t seed);
+
+SimulationScene
+mineScene(std::uint64_t seed);
+
+SimulationScene
+multilevelScene(std::uint64_t seed);
 
 SimulationScene
 roomsScene(std::uint64_t seed);

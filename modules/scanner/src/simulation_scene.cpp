@@ -15,10 +15,21 @@ struct Entry {
   const char* description;
   SimulationScene (*make)(std::uint64_t seed);
 };
-constexpr std::array<Entry, 2> kScenes = {
+constexpr std::array<Entry, 5> kScenes = {
     {{"corridor",
       "four furnished rooms, four corridors, two ramps; a loop of 55 m",
       corridorScene},
+     {"campus",
+      "streets between houses on hilly ground, with trees, parked cars, people and "
+      "lamps; a way of 1 km with five loops",
+      campusScene},
+     {"mine",
+      "a drift with rough rock, timber supports and boulders; a loop of 130 m that "
+      "climbs and falls",
+      mineScene},
+     {"multilevel",
+      "two storeys, joined by a ramp and by stairs; a loop of 120 m over both",
+      multilevelScene},
      {"rooms",
       "a flat: rooms with tables, chairs and shelves along a hall, doors open and "
       "closed; another seed is another flat",

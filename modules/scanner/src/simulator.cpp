@@ -2,6 +2,7 @@
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/driven_scanner.h>
+#include <pcl6d/scanner/path_check.h>
 #include <pcl6d/scanner/simulator.h>
 
 #include <algorithm>
@@ -82,6 +83,7 @@ Simulator::Simulator(SimulationScene scene, const SimulationOptions& options)
     options_.scanner = std::make_shared<DrivenScanner>();
   options_.range.seed = streamSeed(options.seed, kRangeStream);
   const RobotPath path(scene.waypoints, options.robot);
+  requireFreePath(caster(), path, options.num_scans);
   if (options.motion == ScanMotion::kStop)
     stopAndScan(path);
   else

@@ -72,8 +72,7 @@ RangeOptions::validate() const
           "beam.divergence",
           beam.divergence,
           "in [0, pi / 2]");
-  require(
-      beam.rays >= 1 && beam.rays <= 1000, "beam.rays", beam.rays, "in [1, 1000]");
+  require(beam.rays >= 1 && beam.rays <= 1000, "beam.rays", beam.rays, "in [1, 1000]");
   require(
       beam.echo_separation >= 0, "beam.echo_separation", beam.echo_separation, ">= 0");
 }
@@ -111,8 +110,8 @@ RangeErrorModel::sigma(double range, double intensity, double cos_incidence) con
   add(o.noise_per_range * range);
   add(o.noise_per_range_sq * range * range);
   if (o.incidence_noise > 0) // a beam along a surface: no measurement, see measure()
-    add(o.incidence_noise * std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence)) /
-        cos_incidence);
+    add(o.incidence_noise *
+        std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence)) / cos_incidence);
   if (o.signal_noise > 0)
     add(o.signal_noise / std::sqrt(intensity));
   return std::sqrt(variance);
@@ -126,8 +125,8 @@ RangeErrorModel::measure(std::vector<Echo>& echoes, Random& random) const
   const RangeSample no_return{kNaN, 0, 0};
   if (fails || echoes.empty())
     return no_return;
-  const Echo echo = echoes.size() == 1 && numRays() == 1 ? echoes.front()
-                                                         : strongestEcho(echoes);
+  const Echo echo =
+      echoes.size() == 1 && numRays() == 1 ? echoes.front() : strongestEcho(echoes);
   double range =
       echo.range + sigma(echo.range, echo.intensity, echo.cos_incidence) * error;
   // Negated, so that no number is no return as well.
@@ -135,8 +134,8 @@ RangeErrorModel::measure(std::vector<Echo>& echoes, Random& random) const
       range > options_.signal_range * std::sqrt(echo.intensity))
     return no_return;
   if (std::isfinite(options_.ambiguity_interval))
-    range -= std::floor(range / options_.ambiguity_interval) *
-             options_.ambiguity_interval;
+    range -=
+        std::floor(range / options_.ambiguity_interval) * options_.ambiguity_interval;
   if (options_.quantum > 0)
     range = std::round(range / options_.quantum) * options_.quantum;
   if (!(range >= options_.min_range && range <= options_.max_range))

@@ -9,14 +9,6 @@
 
 namespace pcl6d {
 
-void
-RangeOptions::validate() const
-{
-  require(noise >= 0 && std::isfinite(noise), "noise", noise, ">= 0 and finite");
-  require(min_range >= 0 && std::isfinite(min_range), "min_range", min_range, ">= 0");
-  require(max_range > min_range, "max_range", max_range, "> min_range");
-}
-
 RangeScan
 castScan(const RayCaster& caster,
          const ScannerModel& scanner,

@@ -30,10 +30,11 @@ struct RangeOptions {
 
   /// \name Further noise, independent of `noise` and of each other; all >= 0
   ///@{
-  double noise_per_range = 0;    ///< [m/m] times the range: time of flight over far ways
-  double noise_per_range_sq = 0; ///< [1/m] times its square: triangulation, 1 / (b f) px
-  double incidence_noise = 0;    ///< [m] times the tangent of the angle of incidence
-  double signal_noise = 0;       ///< [m] over the root of the intensity: dark surfaces
+  double noise_per_range = 0; ///< [m/m] times the range: time of flight over far ways
+  double noise_per_range_sq =
+      0;                      ///< [1/m] times its square: triangulation, 1 / (b f) px
+  double incidence_noise = 0; ///< [m] times the tangent of the angle of incidence
+  double signal_noise = 0;    ///< [m] over the root of the intensity: dark surfaces
   ///@}
 
   double quantum = 0; ///< [m] measured ranges are multiples of it, >= 0; 0: any number
@@ -68,8 +69,8 @@ struct Echo {
 
 /** \brief One sample: what the scanner says and what it looked at. */
 struct RangeSample {
-  double range = 0;     ///< [m] measured; NaN if there was no return
-  double intensity = 0; ///< reflectance times cosine of the incidence, in [0, 1]
+  double range = 0;           ///< [m] measured; NaN if there was no return
+  double intensity = 0;       ///< reflectance times cosine of the incidence, in [0, 1]
   std::uint32_t triangle = 0; ///< hit triangle of the scene; 0 if there was no return
 };
 

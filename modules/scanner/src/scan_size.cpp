@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scan_size.h"
+
+#include <pcl6d/common/require.h>
+#include <pcl6d/scanner/range_scan.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace pcl6d {
+
+void
+requireScanSize(double num_lines, double samples_per_line)
+{
+  constexpr double kMostSamples = 1e8;
+  constexpr double kBytes = sizeof(RangeSample) + sizeof(pcl::PointXYZI);
+  require(num_lines >= 1, "lines of a scan", num_lines, ">= 1");
+  require(samples_per_line >= 1, "samples of a line", samples_per_line, ">= 1");
+  const double samples = num_lines * samples_per_line;
+  if (samples <= kMostSamples)
+    return;
+  char size[128];
+  std::snprintf(size,
+                sizeof size,
+                "%.0f lines of %.0f samples, which take %.3g GB",
+                num_lines,
+                samples_per_line,
+                samples * kBytes * 1e-9);
+  require(false, "size of a scan", size, "at most 1e8 samples (5.6 GB)");
+}
+
+} // namespace pcl6d

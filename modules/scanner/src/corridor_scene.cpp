@@ -262,7 +262,7 @@ corridorWaypoints()
 SimulationScene
 corridorScene()
 {
-  SimulationScene scene{"corridor", {}, corridorWaypoints()};
+  SimulationScene scene{"corridor", {}, corridorWaypoints(), {}};
   TriangleScene& geometry = scene.geometry;
   addRoom(geometry, {-2.5, -3, 4, 2}, 0, 0, 0);
   addRoom(geometry, {12, -3, 18.5, 2}, 0, 16, 0);

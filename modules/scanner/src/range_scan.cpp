@@ -10,9 +10,8 @@
 namespace pcl6d {
 
 RangeScan
-castScan(const RayCaster& caster,
+castScan(const SceneView& view,
          const ScannerModel& scanner,
-         const Eigen::Isometry3d& T_scene_scan,
          const RangeOptions& options,
          std::uint64_t scan_index)
 {
@@ -28,21 +27,29 @@ castScan(const RayCaster& caster,
       RangeSample& sample = scan.samples[line * per_line + i];
       // Drawn with or without return, so that noise does not depend on the scene.
       const double error = options.noise * random.normal();
-      const Ray ray = scanner.ray(static_cast<int>(line), static_cast<int>(i));
-      const auto hit = caster.cast(
-          {T_scene_scan * ray.origin, T_scene_scan.linear() * ray.direction});
+      const auto row = static_cast<int>(line);
+      const auto column = static_cast<int>(i);
+      const auto hit = view.cast(scanner.ray(row, column), scanner.time(row, column));
       const double range = hit ? hit->range + error : options.max_range + 1;
       sample.range = std::numeric_limits<double>::quiet_NaN();
       if (!(range >= options.min_range && range <= options.max_range))
         continue;
-      const TriangleScene& scene = caster.scene();
-      const auto surface = scene.triangles[hit->triangle].surface;
       sample = {range,
-                scene.surfaces[surface].reflectance * hit->cos_incidence,
+                view.surface(hit->triangle).reflectance * hit->cos_incidence,
                 hit->triangle};
     }
   });
   return scan;
+}
+
+RangeScan
+castScan(const RayCaster& caster,
+         const ScannerModel& scanner,
+         const Eigen::Isometry3d& T_scene_scan,
+         const RangeOptions& options,
+         std::uint64_t scan_index)
+{
+  return castScan(StandingView(caster, T_scene_scan), scanner, options, scan_index);
 }
 
 pcl::PointCloud<pcl::PointXYZI>

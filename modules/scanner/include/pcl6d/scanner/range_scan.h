@@ -3,6 +3,7 @@
 
 #include <pcl6d/scanner/range_error_model.h>
 #include <pcl6d/scanner/scanner_model.h>
+#include <pcl6d/scanner/scene_view.h>
 
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
@@ -29,6 +30,15 @@ struct RangeScan {
                    static_cast<std::size_t>(sample)];
   }
 };
+
+/** \brief Scans what there is to see, each sample at its own time.
+ * \param[in] scan_index number of the scan: each has noise of its own
+ * \throws BadArgument see RangeOptions::validate() \ingroup scanner */
+RangeScan
+castScan(const SceneView& view,
+         const ScannerModel& scanner,
+         const RangeOptions& options = {},
+         std::uint64_t scan_index = 0);
 
 /** \brief Scans a scene from a place, standing still.
  * \param[in] T_scene_scan pose of the scanner

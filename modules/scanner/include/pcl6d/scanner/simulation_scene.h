@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/scanner/triangle_scene.h>
+#include <pcl6d/scanner/moving_body.h>
 
 #include <string>
 #include <vector>
@@ -13,6 +13,7 @@ struct SimulationScene {
   std::string name;
   TriangleScene geometry;                 ///< [m], z up
   std::vector<Eigen::Vector3d> waypoints; ///< see RobotPath
+  std::vector<MovingBody> moving;         ///< what moves while the robot drives
 };
 
 /** \return the names that builtInScene() knows */

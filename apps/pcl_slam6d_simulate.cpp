@@ -6,13 +6,13 @@
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "common/scan_name.h"
+#include "simulate/scanner_options.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/trajectory_io.h>
-#include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/scanner/simulator.h>
 
 #include <pcl/conversions.h>
@@ -35,7 +35,7 @@ constexpr const char* kMarker = "scene.json"; // only simulated folders have it
 struct Settings {
   std::string scene;
   std::string out;
-  std::string scanner = "rotating";
+  app::ScannerWords scanner;
   std::int64_t seed = 1; // signed, as boost takes -1 for a large unsigned number
   int threads = 0;
   bool force = false;
@@ -59,21 +59,15 @@ parse(const std::vector<std::string>& arguments, Settings& s)
       std::string("usage: ") + kName +
       " SCENE -o DIR [options]\nSimulates a robot that drives through "
       "a scene and scans it.\nScenes: " +
-      sceneList());
+      sceneList() + "\nScanners:" + app::scannerList() + "\n");
   line.positional("SCENE", &s.scene);
-  RangeOptions& range = s.simulation.range;
   line.group("Simulation")
       .add_options() //
       ("scans",
        app::valueOf(s.simulation.num_scans),
        "number of scans, evenly along the way") //
-      ("scanner",
-       app::valueOf(s.scanner),
-       "rotating (360 x 120 deg) or pitching (180 x 120 deg)") //
-      ("noise",
-       app::valueOf(range.noise),
-       "[m] standard deviation of the ranges") //
       ("seed", app::valueOf(s.seed), "same seed, same bytes");
+  app::describeScanner(line, s.scanner);
   line.group("Run").add_options() //
       ("output,o",
        po::value(&s.out)->value_name("DIR")->required(),
@@ -98,7 +92,7 @@ applySettings(Settings& s)
   });
   s.simulation.seed = static_cast<std::uint64_t>(s.seed);
   s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
-  app::checkOptions([&] { s.simulation.scanner = scannerByName(s.scanner).scanner; });
+  app::applyScanner(s.scanner, s.simulation);
 }
 
 /** \return whether a folder holds scans */
@@ -128,13 +122,17 @@ outputRules(const Settings& s)
 void
 writeSceneFile(const fs::path& path, const Settings& s)
 {
-  const nlohmann::ordered_json json = {{"schema_version", 1},
-                                       {"generator", kName},
-                                       {"scene", s.scene},
-                                       {"seed", s.seed},
-                                       {"scans", s.simulation.num_scans},
-                                       {"scanner", s.scanner},
-                                       {"noise", s.simulation.range.noise}};
+  nlohmann::ordered_json json = {{"schema_version", 1},
+                                 {"generator", kName},
+                                 {"scene", s.scene},
+                                 {"seed", s.seed},
+                                 {"scans", s.simulation.num_scans},
+                                 {"scanner", s.scanner.name},
+                                 {"noise", s.simulation.range.noise}};
+  if (!s.scanner.resolution.is_auto)
+    json["resolution"] = s.scanner.resolution.value;
+  if (s.scanner.exact)
+    json["exact"] = true;
   writeFileAtomically(path,
                       [&](std::ostream& stream) { stream << json.dump(2) << '\n'; });
 }

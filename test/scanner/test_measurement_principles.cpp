@@ -211,3 +211,21 @@ TEST(GrayCode, ChangesOneBitFromStripeToStripe)
   }
   EXPECT_EQ(stripeOfGrayCode(grayCode(0xffffffffu)), 0xffffffffu);
 }
+
+TEST(GrayCode, ShiftedPatternsRefineTheStripe)
+{
+  const double width = 8; // [px]
+  for (double column = 0.01; column < 1024; column += 0.37) {
+    const double phase = M_PI * column / width;
+    const auto stripe = static_cast<unsigned>(column / width);
+    ASSERT_NEAR(columnFromPatterns(stripe, width, phase), column, 1e-10);
+    // At the border of two stripes either may be read.
+    const double in_stripe = column - stripe * width;
+    if (in_stripe < 0.4 * width && stripe > 0) {
+      ASSERT_NEAR(columnFromPatterns(stripe - 1, width, phase), column, 1e-10);
+    }
+    if (in_stripe > 0.6 * width) {
+      ASSERT_NEAR(columnFromPatterns(stripe + 1, width, phase), column, 1e-10);
+    }
+  }
+}

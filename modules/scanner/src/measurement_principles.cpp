@@ -142,4 +142,13 @@ waveFromShiftedPatterns(const std::vector<double>& samples)
   return wave(sine, cosine, 2 / count, sum / count);
 }
 
+double
+columnFromPatterns(unsigned stripe, double stripe_width, double phase)
+{
+  const double period = 2 * stripe_width;
+  const double coarse = (stripe + 0.5) * stripe_width;
+  const double fine = wrapped(phase) / kTurn * period;
+  return fine + std::round((coarse - fine) / period) * period;
+}
+
 } // namespace pcl6d

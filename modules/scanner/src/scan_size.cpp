@@ -4,7 +4,6 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/range_scan.h>
 
-#include <cmath>
 #include <cstdio>
 
 namespace pcl6d {
@@ -19,14 +18,17 @@ requireScanSize(double num_lines, double samples_per_line)
   const double samples = num_lines * samples_per_line;
   if (samples <= kMostSamples)
     return;
-  char size[128];
-  std::snprintf(size,
-                sizeof size,
-                "%.0f lines of %.0f samples, which take %.3g GB",
+  char message[160];
+  std::snprintf(message,
+                sizeof message,
+                "a scan of %.9g lines of %.9g samples takes %.3g GB, but must be of at "
+                "most %g samples (%.3g GB)",
                 num_lines,
                 samples_per_line,
-                samples * kBytes * 1e-9);
-  require(false, "size of a scan", size, "at most 1e8 samples (5.6 GB)");
+                samples * kBytes * 1e-9,
+                kMostSamples,
+                kMostSamples * kBytes * 1e-9);
+  throw BadArgument(message);
 }
 
 } // namespace pcl6d

@@ -126,6 +126,15 @@ stripeOfGrayCode(unsigned code)
     code ^= code >> shift;
   return code;
 }
+
+/** \brief A projector's column from both kinds of patterns. The period of the shifted
+ * ones is two stripes of the Gray code, so that a stripe mistaken for its neighbour,
+ * which happens at their border, does no harm.
+ * \param[in] stripe as decoded \param[in] stripe_width [px] > 0
+ * \param[in] phase of the shifted patterns [rad], 0 where stripe 0 begins
+ * \return place from where stripe 0 begins [px] */
+double
+columnFromPatterns(unsigned stripe, double stripe_width, double phase);
 ///@}
 
 } // namespace pcl6d

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/scan_name.h"
 #include "slam6d/run_writer.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/frames_io.h>
+#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iomanip>
 #include <sstream>
 #include <sys/resource.h>
@@ -34,17 +35,18 @@ kindOf(ScanState state)
 }
 
 RunSummary::ScanEntry
-entryOf(const std::string& file, const ScanResult& scan, std::size_t dropped)
+entryOf(const std::string& file, int index, const ScanResult& scan)
 {
   RunSummary::ScanEntry entry;
   entry.file = file;
+  entry.index = index;
+  entry.initial_pose = scan.initial_pose;
   entry.T_world_scan = scan.T_world_scan;
   entry.covariance = scan.covariance;
   entry.state = toString(scan.state);
   entry.status = toString(scan.status);
   entry.start = toString(scan.start);
   entry.points = scan.points;
-  entry.dropped = dropped;
   entry.reduced = scan.reduced;
   entry.pairs = scan.pairs;
   entry.rms = scan.rms;
@@ -132,6 +134,14 @@ verdictOf(const Slam6DResult& result, const RunSummary& summary)
   return text.str();
 }
 
+/** \return the number in as few digits as tell it from all others */
+std::string
+shortest(double value)
+{
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
 std::vector<RunSummary::Option>
 optionsOf(const Settings& settings, const Slam6DParameters& parameters)
 {
@@ -139,10 +149,10 @@ optionsOf(const Settings& settings, const Slam6DParameters& parameters)
   for (const auto& word : settings.words)
     options.push_back({word.name, word.value, word.given ? "given" : "default", ""});
   for (const auto& [name, parameter] : named(parameters)) {
-    std::ostringstream value;
-    value << parameter.value;
-    options.push_back(
-        {name, value.str(), parameter.given ? "given" : "derived", parameter.why});
+    options.push_back({name,
+                       shortest(parameter.value),
+                       parameter.given ? "given" : "derived",
+                       parameter.why});
   }
   return options;
 }
@@ -251,9 +261,11 @@ RunWriter::describe(bool complete, const RunLog& log)
   summary_.world_offset = worldOffset(result_.scans.front().T_world_scan);
   summary_.options = optionsOf(settings_, result_.parameters);
   summary_.stages = log.stages;
-  for (std::size_t i = 0; i < folder_.size(); ++i)
+  for (std::size_t i = 0; i < folder_.size(); ++i) {
     summary_.scans.push_back(
-        entryOf(folder_.file(i).filename().string(), result_.scans[i], log.dropped[i]));
+        entryOf(folder_.name(i), folder_.index(i), result_.scans[i]));
+    summary_.scans.back().dropped = log.dropped[i];
+  }
   describeGraph();
   summary_.complete = complete;
   if (!folder_.hasPoses() && folder_.size() > 1)
@@ -281,7 +293,7 @@ RunWriter::warnOfOdometry()
         scan.state == ScanState::kPredicted)
       continue;
     if (++count <= 5)
-      names += (names.empty() ? "" : ", ") + folder_.file(i).filename().string();
+      names += (names.empty() ? "" : ", ") + folder_.name(i);
   }
   if (count > 0)
     summary_.warnings.push_back("the overlap search was not sure of " +

@@ -60,7 +60,7 @@ RunWriter::describeGraph()
     ++(link.verdict == LinkVerdict::kUsed ? summary_.links_used
                                           : summary_.links_refused);
   for (const std::size_t i : result_.floating)
-    summary_.floating.push_back(folder_.file(i).filename().string());
+    summary_.floating.push_back(folder_.name(i));
 }
 
 /** \return a line on each stage after matching */

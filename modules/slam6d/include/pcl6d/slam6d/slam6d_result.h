@@ -45,6 +45,10 @@ enum class ScanState {
 const char*
 toString(ScanState state);
 
+/** \throws BadArgument no state has that name */
+ScanState
+scanStateFromName(const std::string& name);
+
 /** \brief One scan of the result. */
 struct ScanResult {
   Eigen::Isometry3d initial_pose = Eigen::Isometry3d::Identity(); ///< as given

@@ -107,7 +107,8 @@ readPcd(const std::filesystem::path& path)
 {
   std::ifstream stream = text::open(path);
   const PcdHeader header = readPcdHeader(stream, path);
-  return decodePcdBody(path, header, text::readRest(stream, path));
+  text::Input input(std::move(stream), path, header.num_lines);
+  return decodePcdBody(input, header);
 }
 
 } // namespace pcl6d

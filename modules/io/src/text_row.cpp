@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "point_field.h"
+#include "text_row.h"
+
+#include <cstring>
+
+namespace pcl6d::text {
+
+bool
+takeRow(std::string_view line, const std::vector<Column>& columns, std::uint8_t* point)
+{
+  const char* place = line.data();
+  const char* const end = place + line.size();
+  for (const auto& column : columns) {
+    const bool taken = withTypeOf(column.datatype, [&](auto value) {
+      if (!takeNumber(place, end, value, Blank()))
+        return false;
+      std::memcpy(point + column.offset, &value, sizeof value);
+      return true;
+    });
+    if (!taken)
+      return false;
+  }
+  while (place != end && Blank()(*place))
+    ++place;
+  return place == end;
+}
+
+} // namespace pcl6d::text

@@ -58,18 +58,6 @@ countTokens(text::Tokens tokens)
   return count;
 }
 
-/** \return the columns of a text, padding included */
-std::vector<text::Column>
-columnsOf(const PcdHeader& header)
-{
-  std::vector<text::Column> columns;
-  for (const auto& field : header.fields)
-    for (std::size_t i = 0; i < field.count; ++i)
-      columns.push_back(
-          {field.datatype, field.offset + i * sizeOfType(field.datatype)});
-  return columns;
-}
-
 /** Reads a row again that text::takeRow() refused. */
 void
 parseRow(const text::Input& input,
@@ -91,7 +79,8 @@ parseRow(const text::Input& input,
 Bytes
 decodeAscii(text::Input& input, const PcdHeader& header)
 {
-  const std::vector<text::Column> columns = columnsOf(header);
+  const std::vector<text::Column> columns =
+      text::columnsOf(header.fields); // padding, too
   const std::string expected = "expected " + text::counted(header.numPoints(), "point");
   Bytes data;
   // A number takes at least two characters, and at most eight bytes.
@@ -192,51 +181,6 @@ isDense(const pcl::PCLPointCloud2& cloud)
   return std::all_of(cloud.fields.begin(), cloud.fields.end(), isFinite);
 }
 
-std::string
-encodeAscii(const PcdHeader& header, const Bytes& points)
-{
-  std::string body;
-  for (std::size_t start = 0; start < points.size(); start += header.point_size) {
-    for (const auto& field : header.fields)
-      withTypeOf(field.datatype, [&](auto value) {
-        for (std::size_t i = 0; i < field.count; ++i) {
-          std::memcpy(
-              &value, &points[start + field.offset + i * sizeof value], sizeof value);
-          text::appendNumber(body, value);
-          body += ' ';
-        }
-      });
-    body.back() = '\n';
-  }
-  return body;
-}
-
-std::string
-encodeCompressed(const std::filesystem::path& path,
-                 const PcdHeader& header,
-                 const Bytes& points)
-{
-  // LZF makes incompressible data longer, by one byte in 32.
-  const std::size_t room = points.size() + points.size() / 16 + 64;
-  if (room > std::numeric_limits<std::uint32_t>::max())
-    text::fail(path, "too many points for a compressed file; write it as binary");
-  Bytes values;
-  values.reserve(points.size());
-  for (const auto& field : header.fields)
-    for (std::size_t start = 0; start < points.size(); start += header.point_size) {
-      const auto first = points.begin() + (start + field.offset);
-      values.insert(values.end(), first, first + sizeOf(field));
-    }
-  std::string body(kSizes + room, '\0');
-  std::uint32_t sizes[2] = {0, static_cast<std::uint32_t>(values.size())};
-  if (!values.empty())
-    sizes[0] = pcl::lzfCompress(
-        values.data(), sizes[1], &body[kSizes], static_cast<std::uint32_t>(room));
-  std::memcpy(body.data(), sizes, kSizes);
-  body.resize(kSizes + sizes[0]);
-  return body;
-}
-
 } // namespace
 
 pcl::PCLPointCloud2
@@ -259,18 +203,6 @@ decodePcdBody(text::Input& input, const PcdHeader& header)
                [](const auto& field) { return !isPadding(field); });
   cloud.is_dense = isDense(cloud);
   return cloud;
-}
-
-std::string
-encodePcdBody(const std::filesystem::path& path,
-              const PcdHeader& header,
-              const std::vector<std::uint8_t>& points)
-{
-  if (header.encoding == PcdEncoding::kAscii)
-    return encodeAscii(header, points);
-  if (header.encoding == PcdEncoding::kBinary)
-    return {points.begin(), points.end()};
-  return encodeCompressed(path, header, points);
 }
 
 } // namespace pcl6d

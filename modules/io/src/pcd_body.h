@@ -14,12 +14,4 @@ namespace pcl6d {
 pcl::PCLPointCloud2
 decodePcdBody(text::Input& input, const PcdHeader& header);
 
-/** \return what follows the header in a file \param[in] cloud with point_step bytes per
- * point, in the layout of header.fields without gaps \throws IoFailed the points take
- * more than the 4 GiB that a compressed body can hold */
-std::string
-encodePcdBody(const std::filesystem::path& path,
-              const PcdHeader& header,
-              const std::vector<std::uint8_t>& points);
-
 } // namespace pcl6d

@@ -34,7 +34,7 @@ Input::fill()
   stream_.read(buffer_.data() + end_,
                static_cast<std::streamsize>(buffer_.size() - end_));
   if (stream_.bad())
-    fail(path_, errno ? std::strerror(errno) : "cannot be read");
+    fail(path_, systemReason("cannot be read"));
   end_ += static_cast<std::size_t>(stream_.gcount());
   return stream_.gcount() > 0;
 }
@@ -82,7 +82,7 @@ Input::read(std::uint8_t* target, std::size_t size)
   stream_.read(reinterpret_cast<char*>(target + buffered),
                static_cast<std::streamsize>(size - buffered));
   if (stream_.bad())
-    fail(path_, errno ? std::strerror(errno) : "cannot be read");
+    fail(path_, systemReason("cannot be read"));
   return buffered + static_cast<std::size_t>(stream_.gcount());
 }
 

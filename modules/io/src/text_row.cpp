@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "pcd_header.h"
 #include "point_field.h"
 #include "text_row.h"
 
 #include <cstring>
 
 namespace pcl6d::text {
+
+std::vector<Column>
+columnsOf(const std::vector<pcl::PCLPointField>& fields)
+{
+  std::vector<Column> columns;
+  for (const auto& field : fields)
+    for (std::size_t i = 0; i < field.count; ++i)
+      columns.push_back(
+          {field.datatype, field.offset + i * sizeOfType(field.datatype)});
+  return columns;
+}
 
 bool
 takeRow(std::string_view line, const std::vector<Column>& columns, std::uint8_t* point)

@@ -3,6 +3,8 @@
 
 #include "text.h"
 
+#include <pcl/PCLPointField.h>
+
 #include <cstdint>
 
 /** \file Rows of numbers, fast. What is unusual is left to text::Tokens and
@@ -40,6 +42,10 @@ struct Column {
   std::uint8_t datatype = 0; ///< of PCLPointField
   std::size_t offset = 0;    ///< [byte] in the point
 };
+
+/** \return one column for each number of the fields */
+std::vector<Column>
+columnsOf(const std::vector<pcl::PCLPointField>& fields);
 
 /** \brief Takes a row of exactly these columns, separated by blanks or tabs.
  * \return false, with the point undefined, if the row is unusual or broken */

@@ -32,9 +32,8 @@ TEST(ScanWriter, PcdKeepsAllAndPlyAllThatItHasTypesFor)
   pcl6d::test::expectSameFields(cloud, pcl6d::readPcd(folder / "a.pcd"));
   for (const auto encoding : {PcdEncoding::kAscii, PcdEncoding::kBinary}) {
     EXPECT_EQ(writeScan(folder / "a.ply", cloud, pose, {ScanFormat::kAuto, encoding}),
-              (Strings{"that the 3 values of field 'moments' are one field, now "
-                       "moments_0, ...",
-                       "the pose"}));
+              (Strings{"split field 'moments' of 3 values into moments_0, ...",
+                       "dropped the pose"}));
     const auto read = readScanCloud(folder / "a.ply").cloud;
     ASSERT_EQ(read.width, 9u); // one z is nan
     for (std::size_t i = 0; i < read.width; ++i) {
@@ -58,7 +57,7 @@ TEST(ScanWriter, PcdKeepsAllAndPlyAllThatItHasTypesFor)
   cloud.fields[3].datatype = pcl::PCLPointField::UINT32;
   cloud.fields[4].name = "normal_x";
   EXPECT_EQ(writeScan(folder / "a.ply", cloud).front(),
-            "field 'label', a 64-bit integer");
+            "dropped field 'label', a 64-bit integer");
   const auto read = readScanCloud(folder / "a.ply").cloud;
   EXPECT_EQ(valueOf<std::uint32_t>(read, 0, "rgba"), 0xff902030u);
   EXPECT_EQ(valueOf<float>(read, 0, "normal_x"), 1);
@@ -71,14 +70,14 @@ TEST(ScanWriter, TellsWhatTheFormatsOfFloatsDoNotHold)
   cloud.width = 2;
   cloud.height = 3;
   EXPECT_EQ(writeScan(folder / "a.xyz", cloud),
-            (Strings{"field 'rgb'",
-                     "field 'intensity'",
-                     "field 'label'",
-                     "field 'moments'",
-                     "field 'time'",
-                     "field 'ring'",
-                     "field 'tilt'",
-                     "the order in 3 rows of 2 points"}));
+            (Strings{"dropped field 'rgb'",
+                     "dropped field 'intensity'",
+                     "dropped field 'label'",
+                     "dropped field 'moments'",
+                     "dropped field 'time'",
+                     "dropped field 'ring'",
+                     "dropped field 'tilt'",
+                     "dropped the order in 3 rows of 2 points"}));
   EXPECT_EQ(writeScan(folder / "a.bin", cloud).size(), 7u);
   cloud.fields[4].name = "reflectance"; // is the intensity of KITTI and uosr
   EXPECT_EQ(writeScan(folder / "a.bin", cloud).size(), 7u);
@@ -87,7 +86,7 @@ TEST(ScanWriter, TellsWhatTheFormatsOfFloatsDoNotHold)
   for (const auto format : {ScanFormat::kKitti, ScanFormat::kUosr}) {
     EXPECT_EQ(
         writeScan(folder / "a", cloud, Eigen::Isometry3d::Identity(), {format}).front(),
-        "that there is no field 'intensity': it is written as 0");
+        "wrote 0 for the missing field 'intensity'");
     EXPECT_EQ(valueOf<float>(readScanCloud(folder / "a", format).cloud, 2, "intensity"),
               0);
   }
@@ -99,8 +98,7 @@ TEST(ScanWriter, DoublesKeepTheirDigitsInTextAndBecomeFloatInKitti)
   auto cloud = makeRichCloud(1);
   cloud.fields[0].datatype = pcl::PCLPointField::FLOAT64;
   cloud.fields[0].offset = 40; // time
-  EXPECT_EQ(writeScan(folder / "a.bin", cloud).back(),
-            "digits of field 'x' beyond float32");
+  EXPECT_EQ(writeScan(folder / "a.bin", cloud).back(), "rounded field 'x' to float32");
   writeScan(folder / "a.xyz", cloud);
   EXPECT_EQ(readText(folder / "a.xyz"), "1317384506.40528 -0 0\n");
   writeScan(folder / "a.3d", cloud);

@@ -60,7 +60,7 @@ public:
     for (const auto& field : shape.fields)
       if (!isPadding(field) && field.name != intensity_.name &&
           !findField({fields_.begin(), fields_.end()}, field.name))
-        losses_.push_back("field '" + field.name + "'");
+        losses_.push_back("dropped field '" + field.name + "'");
     for (auto& loss : lossesOfShape(shape))
       losses_.push_back(std::move(loss));
   }
@@ -83,10 +83,10 @@ private:
       if (const PCLPointField* const field = findField(shape.fields, name)) {
         intensity_ = *field;
         if (!fitsFloat(field->datatype))
-          losses_.push_back("digits of field '" + field->name + "' beyond float32");
+          losses_.push_back("rounded field '" + field->name + "' to float32");
         return;
       }
-    losses_.emplace_back("that there is no field 'intensity': it is written as 0");
+    losses_.emplace_back("wrote 0 for the missing field 'intensity'");
   }
 
   PCLPointField intensity_; ///< without a name if there is none
@@ -99,7 +99,7 @@ public:
   {
     for (const auto& field : fields_)
       if (!fitsFloat(field.datatype))
-        losses_.push_back("digits of field '" + field.name + "' beyond float32");
+        losses_.push_back("rounded field '" + field.name + "' to float32");
   }
 
   void

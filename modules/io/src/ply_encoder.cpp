@@ -107,7 +107,7 @@ private:
   addField(const PCLPointField& field)
   {
     if (!typeName(field.datatype)) {
-      losses_.push_back("field '" + field.name + "', a 64-bit integer");
+      losses_.push_back("dropped field '" + field.name + "', a 64-bit integer");
       return;
     }
     const std::size_t count = std::max<std::size_t>(field.count, 1);
@@ -117,8 +117,8 @@ private:
                   field.datatype,
                   field.offset + i * sizeOfType(field.datatype));
     if (count > 1)
-      losses_.push_back("that the " + std::to_string(count) + " values of field '" +
-                        field.name + "' are one field, now " + field.name + "_0, ...");
+      losses_.push_back("split field '" + field.name + "' of " + std::to_string(count) +
+                        " values into " + field.name + "_0, ...");
   }
 
   bool ascii_;

@@ -42,10 +42,10 @@ lossesOfShape(const ScanShape& shape)
 {
   std::vector<std::string> losses;
   if (shape.height > 1)
-    losses.push_back("the order in " + text::counted(shape.height, "row") + " of " +
-                     text::counted(shape.width, "point"));
+    losses.push_back("dropped the order in " + text::counted(shape.height, "row") +
+                     " of " + text::counted(shape.width, "point"));
   if (!(shape.T_world_scan.matrix() == Eigen::Matrix4d::Identity()))
-    losses.emplace_back("the pose");
+    losses.emplace_back("dropped the pose");
   return losses;
 }
 

@@ -180,4 +180,16 @@ ScanFolder::read(std::size_t i) const
   return readScan(file(i), format_);
 }
 
+ScanCloud
+ScanFolder::readCloud(std::size_t i) const
+{
+  return readScanCloud(file(i), format_);
+}
+
+ScanFormat
+ScanFolder::format() const
+{
+  return format_;
+}
+
 } // namespace pcl6d

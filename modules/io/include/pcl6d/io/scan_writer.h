@@ -32,8 +32,8 @@ struct ScanShape {
  * intensity as float32; uos, xyz x y z. Points that are not finite are written as they
  * are.
  *
- * \return what of the scan the file does not hold, or only changed, in words, such as
- * "field 'ring'"; empty if nothing is lost
+ * \return what of the scan the file does not hold, or not as it was, in words, such as
+ * "dropped field 'ring'"; empty if nothing is lost
  * \throws IoFailed the file cannot be written
  * \throws BadArgument the cloud has no x, y, z of floating point; its fields and data do
  * not fit together; no format has the extension \ingroup io */

@@ -66,7 +66,7 @@ commonFormat(const fs::path& folder, const std::vector<fs::path>& files)
       text::fail(folder,
                  "holds scans of several formats, " + extensionOf(first) + " (" +
                      files.front().filename().string() + ") and " + extensionOf(other) +
-                     " (" + file.filename().string() + "); choose one with --format");
+                     " (" + file.filename().string() + "); choose one of them");
   }
   return first;
 }

@@ -161,12 +161,14 @@ TEST(RunSummary, BrokenFilesAreNamedWithWhatIsWrong)
   const auto expect = [](const std::string& error, const std::string& part) {
     EXPECT_NE(error.find(part), std::string::npos) << error;
   };
-  expect(errorOf("\"schema_version\": 1", "\"schema_version\": 2"), "schema_version 2");
+  expect(errorOf("\"schema_version\": 1", "\"schema_version\": 2"),
+         "schema_version = 2, but must be 1");
   expect(errorOf("{", "["), "no summary of a run");
-  expect(errorOf("\"T_world_scan\"", "\"pose\""), "T_world_scan");
+  expect(errorOf("\"T_world_scan\"", "\"pose\""), "'T_world_scan' not found");
+  expect(errorOf("\"version\":", "\"version\""), "line 4, column");
   expect(errorOf("\"T_world_scan\": [", "\"T_world_scan\": [1,"),
-         "expected 16 numbers");
-  expect(errorOf("\"points\": 100", "\"points\": \"x\""), "must be number");
+         "T_world_scan: expected 16 numbers, got 17");
+  expect(errorOf("\"points\": 100", "\"points\": \"x\""), "type must be number");
   expect(messageOf<IoFailed>([&] { readRunSummary(folder / "none.json"); }), "No such");
 }
 

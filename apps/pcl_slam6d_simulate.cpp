@@ -289,7 +289,7 @@ run(const std::vector<std::string>& arguments)
         s.simulation.validate();
       },
       {{"num_scans", "scans"}});
-  const Simulator simulator = simulatorOf(std::move(scene), s.simulation);
+  const Simulator simulator = simulatorOf(scene, s.simulation);
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))
     throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");

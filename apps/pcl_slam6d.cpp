@@ -38,12 +38,21 @@ openFolder(const Settings& settings)
   return *std::move(folder);
 }
 
+app::ScanSource
+openScans(const ScanFolder& folder, const Settings& settings)
+{
+  app::ScanSource scans(folder);
+  if (settings.deskew)
+    scans.deskew(settings.interpolation);
+  return scans;
+}
+
 /** The main job: reading, matching, writing. */
 class Job {
 public:
   explicit Job(const Settings& settings)
   : folder_(openFolder(settings))
-  , scans_(folder_, settings.deskew)
+  , scans_(openScans(folder_, settings))
   , settings_(resolved(settings, folder_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings))

@@ -28,7 +28,10 @@ describeInput(CommandLine& line, Settings& s, OptionWords& raw)
       "deskew",
       po::bool_switch(&s.deskew),
       "scans were taken while moving: correct each point by its time (field t or time) "
-      "along the initial poses; needs their time stamps (times.txt, or TUM rows)");
+      "along the initial poses; needs their time stamps (times.txt, or TUM rows)")(
+      "interpolation",
+      valueOf(raw.interpolation),
+      "linear|cubic: how --deskew moves between two poses; cubic follows bends better");
 }
 
 std::string

@@ -29,24 +29,24 @@ withName(const std::string& name, Call&& call)
 }
 } // namespace
 
-ScanSource::ScanSource(const ScanFolder& folder, bool deskew) : folder_(folder)
+void
+ScanSource::deskew(MotionInterpolation interpolation)
 {
-  if (!deskew)
-    return;
-  const std::string name = folder.file(0).parent_path().string();
-  if (!folder.hasPoses())
+  const std::string name = folder_.file(0).parent_path().string();
+  if (!folder_.hasPoses())
     throw IoFailed(name + ": --deskew needs the motion of the scanner, but no poses "
                           "were found");
-  if (folder.stamps().empty())
+  if (folder_.stamps().empty())
     throw IoFailed(name +
                    ": --deskew needs the time stamps of the scans, but there is "
                    "no times.txt, and the poses (" +
-                   folder.poseSource() + ") are no TUM rows");
-  correction_ = withName(name, [&] { return MotionCorrection(folder.odometry()); });
-  const Scan first = folder.read(0);
+                   folder_.poseSource() + ") are no TUM rows");
+  correction_ = withName(
+      name, [&] { return MotionCorrection(folder_.odometry(), interpolation); });
+  const Scan first = folder_.read(0);
   const FieldValues times = timesOf(first, 0);
-  format_ = withName(folder.file(0).string(), [&] {
-    return correction_->timeFormat(times, folder.stamps()[0]);
+  format_ = withName(folder_.file(0).string(), [&] {
+    return correction_->timeFormat(times, folder_.stamps()[0]);
   });
   description_ = "motion during a scan is corrected: field " + times.name + ", " +
                  toString(format_);

@@ -13,10 +13,13 @@ namespace pcl6d::app {
  * the motion of the scanner during each of them undone (--deskew). */
 class ScanSource {
 public:
-  /** Keeps a reference to the folder; with deskew reads its first scan, which tells how
-   * times are stored. \throws IoFailed deskew, but poses, stamps or times are missing or
-   * broken */
-  ScanSource(const ScanFolder& folder, bool deskew);
+  /** Keeps a reference to the folder. */
+  explicit ScanSource(const ScanFolder& folder) : folder_(folder) {}
+
+  /** \brief From now on the motion is undone. Reads the first scan, which tells how times
+   * are stored. \throws IoFailed poses, stamps or times are missing or broken */
+  void
+  deskew(MotionInterpolation interpolation);
 
   const ScanFolder&
   folder() const

@@ -18,6 +18,7 @@ needs=(
   "libflann-dev /usr/include/flann/flann.hpp"
   "libgtest-dev /usr/include/gtest/gtest.h"
   "libbenchmark-dev /usr/include/benchmark/benchmark.h"
+  "libopencv-dev /usr/include/opencv4/opencv2/calib3d.hpp"
   "libpcl-dev /usr/include/pcl-*/pcl/point_cloud.h"
   "libvtk9-dev /usr/include/vtk-9*/vtkVersion.h"
   "libx11-dev /usr/include/X11/Xlib.h"

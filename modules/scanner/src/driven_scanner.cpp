@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "scan_size.h"
+
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
@@ -80,6 +82,7 @@ DrivenScannerOptions::validate() const
 {
   validateAngles(beam, "beam");
   validateAngles(theta, "theta");
+  requireScanSize(theta.count, beam.count);
   Eigen::Isometry3d mount = Eigen::Isometry3d::Identity();
   mount.linear() = mounting;
   require(isRigid(mount, 1e-9), "mounting", mounting, "a rotation");
@@ -132,6 +135,7 @@ DrivenScanner::DrivenScanner(const DrivenScannerOptions& options,
 {
   options.validate();
   require(!theta.empty(), "drive angles", theta.size(), "one per line, at least 1");
+  requireScanSize(static_cast<double>(theta.size()), options.beam.count);
   sample_period_ = samplePeriod(options);
   for (std::size_t i = 0; i < theta.size(); ++i) {
     require(std::abs(theta[i]) <= kLargestDriveAngle,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/scanner/range_error_model.h>
 #include <pcl6d/scanner/scanner_model.h>
 #include <pcl6d/scanner/scene_view.h>
 
@@ -15,25 +16,6 @@
 #include <vector>
 
 namespace pcl6d {
-
-/** \brief How a scanner measures ranges. */
-struct RangeOptions {
-  double noise = 0.01;      ///< [m] standard deviation of a range, >= 0
-  double min_range = 0.2;   ///< [m] shorter ranges are no return; >= 0
-  double max_range = 30;    ///< [m] longer ranges are no return; > min_range
-  std::uint64_t seed = 1;   ///< same seed, same noise
-  unsigned num_threads = 0; ///< 0: one per core; never changes results
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void
-  validate() const;
-};
-
-/** \brief One sample: what the scanner says and what it looked at. */
-struct RangeSample {
-  double range = 0;           ///< [m] measured; NaN if there was no return
-  double intensity = 0;       ///< reflectance times cosine of the incidence, in [0, 1]
-  std::uint32_t triangle = 0; ///< hit triangle of the scene; 0 if there was no return
-};
 
 /** \brief The samples of a scan in double, line by line. */
 struct RangeScan {

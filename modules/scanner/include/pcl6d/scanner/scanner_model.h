@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/scanner/light_source.h>
 #include <pcl6d/scanner/ray_caster.h>
 
 namespace pcl6d {
@@ -27,6 +28,13 @@ public:
    * on without a pause; > 0 */
   virtual double
   duration() const = 0;
+  /** \return where the light comes from if not from where the scanner looks, which
+   * casts shadows: in a triangulating scanner; null: there is no such place */
+  virtual const LightSource*
+  lightSource() const
+  {
+    return nullptr;
+  }
 };
 
 /** \brief Equally spaced angles, both ends included. */

@@ -4,6 +4,7 @@
 #include <pcl6d/scanner/range_scan.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,17 @@ struct ScannerPreset {
 std::vector<std::string>
 scannerNames();
 
-/** \throws BadArgument the name is not known, with those that are \ingroup scanner */
+/** \return ScannerPreset::description \throws BadArgument the name is not known */
+std::string
+scannerDescription(const std::string& name);
+
+/** \param[in] resolution [rad] in (0, pi / 2]: angle between neighbouring samples and
+ * lines, of a spinning lidar between its columns, of a camera between pixels at the
+ * centre of its image; none: that of the device
+ * \throws BadArgument the name is not known (the message lists those that are), the
+ * resolution breaks its rule, or the scan would take too much memory (the message says
+ * how much) \ingroup scanner */
 ScannerPreset
-scannerByName(const std::string& name);
+scannerByName(const std::string& name, std::optional<double> resolution = {});
 
 } // namespace pcl6d

@@ -26,7 +26,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <optional>
 #include <regex>
 
 namespace {
@@ -112,15 +111,6 @@ sceneOf(Settings& s)
   return scene;
 }
 
-/** A speed at which scans would overlap in time is a mistake of the command line. */
-Simulator
-simulatorOf(SimulationScene scene, const SimulationOptions& options)
-{
-  std::optional<Simulator> simulator;
-  app::checkOptions([&] { simulator.emplace(std::move(scene), options); });
-  return *std::move(simulator);
-}
-
 /** \return whether a folder holds scans */
 bool
 holdsScans(const fs::path& folder)
@@ -158,14 +148,11 @@ writeSceneFile(const fs::path& path,
                                  {"scans", s.simulation.num_scans},
                                  {"scanner", s.scanner.name},
                                  {"noise", s.simulation.range.noise}};
+  json.update(app::describedDrive(s.drive, simulator));
   if (!s.scanner.resolution.is_auto)
     json["resolution"] = s.scanner.resolution.value;
   if (s.scanner.exact)
     json["exact"] = true;
-  if (s.drive.motion != app::DriveWords().motion)
-    json["motion"] = {{"kind", s.drive.motion}, {"speed", simulator.speed()}};
-  if (s.drive.odometry != app::DriveWords().odometry)
-    json["odometry"] = s.drive.odometry;
   if (s.simulation.range.max_range != RangeOptions().max_range)
     json["max_range"] = s.simulation.range.max_range;
   app::describeScene(s.scene, scene, json);
@@ -246,7 +233,7 @@ run(const std::vector<std::string>& arguments)
     return app::kDone;
   applySettings(s);
   const SimulationScene scene = sceneOf(s);
-  const Simulator simulator = simulatorOf(scene, s.simulation);
+  const Simulator simulator = app::startDrive(scene, s.simulation);
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))
     throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");

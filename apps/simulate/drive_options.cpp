@@ -2,6 +2,11 @@
 #include "common/app.h"
 #include "simulate/drive_options.h"
 
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <utility>
+
 namespace pcl6d::app {
 
 void
@@ -24,12 +29,31 @@ describeDrive(CommandLine& line, DriveWords& words)
 void
 applyDrive(const DriveWords& words, SimulationOptions& options)
 {
-  if (!words.speed.is_auto)
-    options.speed = words.speed.value;
   checkOptions([&] {
     options.motion = scanMotionFromName(words.motion);
     options.odometry_kind = odometryKindFromName(words.odometry);
   });
+  if (!words.speed.is_auto)
+    options.speed = words.speed.value;
+}
+
+Simulator
+startDrive(const SimulationScene& scene, const SimulationOptions& options)
+{
+  std::optional<Simulator> simulator;
+  checkOptions([&] { simulator.emplace(scene, options); });
+  return *std::move(simulator);
+}
+
+nlohmann::ordered_json
+describedDrive(const DriveWords& words, const Simulator& simulator)
+{
+  auto json = nlohmann::ordered_json::object();
+  if (words.motion != DriveWords().motion)
+    json["motion"] = {{"kind", words.motion}, {"speed", simulator.speed()}};
+  if (words.odometry != DriveWords().odometry)
+    json["odometry"] = words.odometry;
+  return json;
 }
 
 } // namespace pcl6d::app

@@ -172,7 +172,7 @@ TEST(Simulate, NamesWhatIsWrongWithTheCommandLine)
   expectUsage({"corridor", "--noise", "-0.1"}, "-0.1");
   expectUsage({"corridor", "--noise", "nan"}, "nan");
   expectUsage({"corridor", "--scanner", "sonar"}, "sonar");
-  expectUsage({"corridor", "--speed", "3"}, "--speed");
+  expectUsage({"corridor", "--velocity", "3"}, "--velocity");
   expectOneErrorLine(simulate({"corridor"}), 2, "output");
 }
 

@@ -6,6 +6,7 @@
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "slam6d/run_writer.h"
+#include "slam6d/scan_source.h"
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/error.h>
@@ -37,11 +38,21 @@ openFolder(const Settings& settings)
   return *std::move(folder);
 }
 
+app::ScanSource
+openScans(const ScanFolder& folder, const Settings& settings)
+{
+  app::ScanSource scans(folder);
+  if (settings.deskew)
+    scans.deskew(settings.interpolation);
+  return scans;
+}
+
 /** The main job: reading, matching, writing. */
 class Job {
 public:
   explicit Job(const Settings& settings)
   : folder_(openFolder(settings))
+  , scans_(openScans(folder_, settings))
   , settings_(resolved(settings, folder_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings))
@@ -54,12 +65,14 @@ public:
     const auto display = startDisplay();
     bar_.say(std::to_string(folder_.size()) + " scans, initial poses from " +
              folder_.poseSource());
+    if (!scans_.description().empty())
+      bar_.say(scans_.description());
     if (!readScans()) {
       bar_.say("interrupted while reading; nothing is written");
       return app::kInterrupted;
     }
     const bool complete = match();
-    app::RunWriter writer(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
+    app::RunWriter writer(settings_, scans_, slam_.result(), out_, bar_, interrupt_);
     const RunSummary& summary = writer.write(complete, log_);
     const auto written = out_.publish();
     for (const auto& warning : summary.warnings)
@@ -105,7 +118,7 @@ private:
     for (std::size_t i = 0; i < folder_.size(); ++i) {
       if (interrupt_.requested())
         return false;
-      const Scan scan = folder_.read(i);
+      const Scan scan = scans_.read(i);
       const std::string file = folder_.file(i).string();
       if (scan.points.size() < 3)
         throw IoFailed(file + ": " + std::to_string(scan.points.size()) +
@@ -174,6 +187,7 @@ private:
   }
 
   const ScanFolder folder_;
+  const app::ScanSource scans_;
   const Settings settings_;
   const app::Interrupt interrupt_;
   app::ProgressBar bar_;

@@ -7,6 +7,7 @@
 #include "common/progress_bar.h"
 #include "common/scan_name.h"
 #include "simulate/scanner_options.h"
+#include "simulate/truth_files.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
@@ -22,6 +23,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <regex>
 
 namespace {
@@ -36,6 +38,13 @@ struct Settings {
   std::string scene;
   std::string out;
   app::ScannerWords scanner;
+  std::string labels = "auto";
+  app::AutoDouble max_range;
+  bool has_scanner = false; // given by the user
+  bool has_scans = false;
+  std::string motion = "stop";
+  std::string odometry = "wheel";
+  app::AutoDouble speed;
   std::int64_t seed = 1; // signed, as boost takes -1 for a large unsigned number
   int threads = 0;
   bool force = false;
@@ -48,7 +57,7 @@ sceneList()
 {
   std::string list;
   for (const auto& name : builtInSceneNames())
-    list += (list.empty() ? "" : ", ") + name;
+    list += "\n  " + name + ": " + builtInSceneDescription(name);
   return list;
 }
 
@@ -64,9 +73,32 @@ parse(const std::vector<std::string>& arguments, Settings& s)
   line.group("Simulation")
       .add_options() //
       ("scans",
-       app::valueOf(s.simulation.num_scans),
-       "number of scans, evenly along the way") //
-      ("seed", app::valueOf(s.seed), "same seed, same bytes");
+       po::value(&s.simulation.num_scans),
+       "number of scans, evenly along the way; by default what suits the scene") //
+      ("motion",
+       app::valueOf(s.motion),
+       "stop|continuous: stop for each scan, or drive on meanwhile; then points have "
+       "the field t, and times.txt has the stamps") //
+      ("speed",
+       app::valueOf(s.speed),
+       "[m/s] or auto: 1, slower if a scan takes longer than the way to the next") //
+      ("odometry",
+       app::valueOf(s.odometry),
+       "wheel|visual-inertial|exact: planar with drift, six degrees of freedom with "
+       "little drift, the truth") //
+      ("max-range",
+       app::valueOf(s.max_range),
+       "[m] farther things are not seen; auto: the scanner's if one is given, else "
+       "what "
+       "suits the scene") //
+      ("labels",
+       app::valueOf(s.labels),
+       "yes: points carry plane_id, object_id and label, and the files "
+       "planes_truth.json "
+       "and objects_truth.json are written; auto: yes, but not for corridor") //
+      ("seed",
+       app::valueOf(s.seed),
+       "same seed, same bytes; also of what is random in a scene");
   app::describeScanner(line, s.scanner);
   line.group("Run").add_options() //
       ("output,o",
@@ -79,7 +111,10 @@ parse(const std::vector<std::string>& arguments, Settings& s)
        app::valueOf(s.threads),
        "0: one per core; never changes results") //
       ("quiet", po::bool_switch(&s.quiet), "print errors only");
-  return line.parse(arguments);
+  const bool is_run = line.parse(arguments);
+  s.has_scans = is_run && line.given("scans");
+  s.has_scanner = is_run && line.given("scanner");
+  return is_run;
 }
 
 /** Moves what has no field of its own into the simulator's options. */
@@ -89,10 +124,43 @@ applySettings(Settings& s)
   app::checkOptions([&] {
     require(s.seed >= 0, "seed", s.seed, ">= 0");
     require(s.threads >= 0, "threads", s.threads, ">= 0");
+    require(s.labels == "auto" || s.labels == "yes" || s.labels == "no",
+            "labels",
+            s.labels,
+            "auto, yes or no");
   });
   s.simulation.seed = static_cast<std::uint64_t>(s.seed);
   s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
+  if (!s.speed.is_auto)
+    s.simulation.speed = s.speed.value;
+  app::checkOptions([&] {
+    s.simulation.motion = scanMotionFromName(s.motion);
+    s.simulation.odometry_kind = odometryKindFromName(s.odometry);
+  });
   app::applyScanner(s.scanner, s.simulation);
+}
+
+/** Fills in what the user left to the scene. */
+void
+applyScene(const SimulationScene& scene, Settings& s)
+{
+  if (!s.has_scans)
+    s.simulation.num_scans = scene.num_scans;
+  if (!s.max_range.is_auto)
+    s.simulation.range.max_range = s.max_range.value;
+  else if (!s.has_scanner)
+    s.simulation.range.max_range = scene.max_range;
+  if (s.labels == "auto")
+    s.labels = s.scene == "corridor" ? "no" : "yes"; // whose bytes never change
+}
+
+/** A speed at which scans would overlap in time is a mistake of the command line. */
+Simulator
+simulatorOf(SimulationScene scene, const SimulationOptions& options)
+{
+  std::optional<Simulator> simulator;
+  app::checkOptions([&] { simulator.emplace(std::move(scene), options); });
+  return *std::move(simulator);
 }
 
 /** \return whether a folder holds scans */
@@ -114,13 +182,13 @@ outputRules(const Settings& s)
   rules.program = kName;
   rules.marker = kMarker;
   rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
-                           "scene\\.json");
+                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json");
   rules.force = s.force;
   return rules;
 }
 
 void
-writeSceneFile(const fs::path& path, const Settings& s)
+writeSceneFile(const fs::path& path, const Settings& s, const Simulator& simulator)
 {
   nlohmann::ordered_json json = {{"schema_version", 1},
                                  {"generator", kName},
@@ -133,6 +201,10 @@ writeSceneFile(const fs::path& path, const Settings& s)
     json["resolution"] = s.scanner.resolution.value;
   if (s.scanner.exact)
     json["exact"] = true;
+  if (s.motion != Settings().motion)
+    json["motion"] = {{"kind", s.motion}, {"speed", simulator.speed()}};
+  if (s.odometry != Settings().odometry)
+    json["odometry"] = s.odometry;
   writeFileAtomically(path,
                       [&](std::ostream& stream) { stream << json.dump(2) << '\n'; });
 }
@@ -141,15 +213,26 @@ writeSceneFile(const fs::path& path, const Settings& s)
 bool
 writeFiles(const app::OutputFolder& folder,
            const Settings& s,
+           const SimulationScene& scene,
            const Simulator& simulator,
            app::ProgressBar& progress)
 {
   const app::Interrupt interrupt;
+  const TriangleScene& surfaces = simulator.scene().scene();
+  TruthCounts counts;
+  const bool on_the_move = s.simulation.motion == ScanMotion::kContinuous;
   for (std::size_t i = 0; i < simulator.size(); ++i) {
     if (interrupt.requested())
       return false;
     pcl::PCLPointCloud2 cloud;
-    pcl::toPCLPointCloud2(simulator.scan(i), cloud);
+    const RangeScan scan = simulator.rangeScan(i);
+    pcl::toPCLPointCloud2(toPointCloud(scan, simulator.scanner()), cloud);
+    if (on_the_move)
+      addTimeField(cloud, simulator.scanner());
+    if (s.labels == "yes") {
+      addTruthFields(cloud, scan, surfaces);
+      counts.add(scan, surfaces);
+    }
     writePcd(folder / (app::scanName(static_cast<int>(i)) + ".pcd"),
              cloud,
              simulator.odometry().poses[i]);
@@ -157,7 +240,11 @@ writeFiles(const app::OutputFolder& folder,
   }
   writeTrajectoryKitti(folder / "odometry.txt", simulator.odometry());
   writeTrajectoryKitti(folder / "groundtruth.txt", simulator.truth());
-  writeSceneFile(folder / kMarker, s);
+  if (on_the_move)
+    writeStamps(folder / "times.txt", simulator.truth().stamps);
+  if (s.labels == "yes")
+    app::writeTruthFiles(folder, scene, simulator, counts);
+  writeSceneFile(folder / kMarker, s, simulator);
   return true;
 }
 
@@ -174,13 +261,14 @@ printSummary(const Settings& s, const Simulator& simulator)
     largest = std::max(largest, error);
   }
   std::printf("%s: %zu scans, seed %lld; odometry off by %.3f m rms, %.3f m at most\n"
-              "written to %s: scan*.pcd odometry.txt groundtruth.txt %s\n",
+              "written to %s: scan*.pcd odometry.txt groundtruth.txt %s%s\n",
               s.scene.c_str(),
               simulator.size(),
               static_cast<long long>(s.seed),
               std::sqrt(sum_sq / static_cast<double>(simulator.size())),
               largest,
               s.out.c_str(),
+              s.simulation.motion == ScanMotion::kContinuous ? "times.txt " : "",
               kMarker);
 }
 
@@ -194,16 +282,17 @@ run(const std::vector<std::string>& arguments)
   SimulationScene scene;
   app::checkOptions(
       [&] {
-        scene = builtInScene(s.scene);
+        scene = builtInScene(s.scene, s.simulation.seed);
+        applyScene(scene, s);
         s.simulation.validate();
       },
       {{"num_scans", "scans"}});
-  const Simulator simulator(scene, s.simulation);
+  const Simulator simulator = simulatorOf(std::move(scene), s.simulation);
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))
     throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");
   app::ProgressBar progress(s.quiet);
-  if (!writeFiles(out, s, simulator, progress)) {
+  if (!writeFiles(out, s, scene, simulator, progress)) {
     progress.say("interrupted: nothing written");
     return app::kInterrupted;
   }

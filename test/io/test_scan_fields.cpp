@@ -47,6 +47,26 @@ TEST(ScanFields, CoordinatesAreReplacedAndNothingElse)
   }
 }
 
+TEST(ScanFields, AFieldIsAppendedToEveryPoint)
+{
+  auto cloud = makeRichCloud(3);
+  pcl6d::addField(cloud, "t", pcl::PCLPointField::FLOAT32, {0, 0.1, 0.25});
+  EXPECT_EQ(cloud.point_step, 60u);
+  EXPECT_EQ(cloud.row_step, 180u);
+  EXPECT_EQ(cloud.data.size(), 180u);
+  EXPECT_EQ(valueOf<float>(cloud, 1, "t"), 0.1f);
+  EXPECT_EQ(fieldValues(cloud, "t")->values, (std::vector<double>{0, 0.1f, 0.25}));
+  auto expected = makeRichCloud(3);
+  cloud.fields.pop_back();
+  pcl6d::test::expectSameFields(cloud, expected);
+  const auto add = [&](const std::string& name, std::size_t count) {
+    pcl6d::addField(
+        expected, name, pcl::PCLPointField::FLOAT32, std::vector<double>(count, 0));
+  };
+  EXPECT_THROW(add("time", 3), BadArgument);
+  EXPECT_THROW(add("t", 2), BadArgument);
+}
+
 TEST(ScanFields, RefusesCloudsThatDoNotFit)
 {
   auto cloud = makeRichCloud(3);

@@ -13,6 +13,7 @@ namespace {
 using pcl6d::BadArgument;
 using pcl6d::FieldValues;
 using pcl6d::MotionCorrection;
+using pcl6d::MotionInterpolation;
 using pcl6d::Points;
 using pcl6d::TimeFormat;
 using pcl6d::Trajectory;
@@ -86,6 +87,63 @@ TEST(MotionCorrection, PassesThroughThePosesAndEvenlyBetweenThem)
     }
 }
 
+TEST(MotionCorrection, CubicHasOneVelocityAtEachPose)
+{
+  const Trajectory drive = randomDrive(6);
+  const MotionCorrection correction(drive, MotionInterpolation::kCubic);
+  constexpr double h = 1e-5; // [s]
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double time = drive.stamps[i];
+    const Eigen::Isometry3d pose = correction.poseAt(time);
+    expectSamePose(pose, drive.poses[i]);
+    const Eigen::Isometry3d before = correction.poseAt(time - h);
+    const Eigen::Isometry3d after = correction.poseAt(time + h);
+    const Eigen::Vector3d jump =
+        (after.translation() - 2 * pose.translation() + before.translation()) / h;
+    EXPECT_LT(jump.norm(), 1e-3) << "pose " << i; // [m/s], of about 1
+    const Eigen::Vector3d turn_jump =
+        (pcl6d::rotationVector(after.linear() * pose.linear().transpose()) -
+         pcl6d::rotationVector(pose.linear() * before.linear().transpose())) /
+        h;
+    EXPECT_LT(turn_jump.norm(), 1e-3) << "pose " << i; // [rad/s], of about 0.6
+  }
+}
+
+// A bend of 2 m radius with a pose every 1.3 m: the chord leaves the arc by 0.1 m.
+TEST(MotionCorrection, CubicFollowsABend)
+{
+  constexpr double kRadius = 2;
+  constexpr double kSpeed = 1;
+  const auto bend = [&](double time) {
+    const double angle = kSpeed * time / kRadius;
+    return pcl6d::planarPose(
+        kRadius * std::sin(angle), kRadius * (1 - std::cos(angle)), angle);
+  };
+  Trajectory drive;
+  for (int i = 0; i < 6; ++i) {
+    drive.stamps.push_back(1.3 * i);
+    drive.poses.push_back(bend(1.3 * i));
+  }
+  const auto largestError = [&](MotionInterpolation interpolation) {
+    const MotionCorrection correction(drive, interpolation);
+    double largest = 0;
+    for (double time = 1.3; time < 5.2; time += 0.01) // inner segments
+      largest = std::max(
+          largest,
+          pcl6d::distanceBetween(correction.poseAt(time), bend(time)).translation);
+    return largest;
+  };
+  EXPECT_NEAR(largestError(MotionInterpolation::kLinear), 1.3 * 1.3 / 16, 0.01);
+  EXPECT_LT(largestError(MotionInterpolation::kCubic), 0.01);
+}
+
+TEST(MotionCorrection, InterpolationsHaveNames)
+{
+  EXPECT_EQ(pcl6d::motionInterpolationFromName("linear"), MotionInterpolation::kLinear);
+  EXPECT_EQ(pcl6d::motionInterpolationFromName("cubic"), MotionInterpolation::kCubic);
+  EXPECT_THROW(pcl6d::motionInterpolationFromName("spline"), BadArgument);
+}
+
 TEST(MotionCorrection, GoesOnBeforeTheFirstAndAfterTheLastPose)
 {
   Trajectory drive;
@@ -94,11 +152,13 @@ TEST(MotionCorrection, GoesOnBeforeTheFirstAndAfterTheLastPose)
     drive.stamps.push_back(i);
   }
   drive.poses[2] = pcl6d::planarPose(2, 3, 0.2);
-  const MotionCorrection correction(drive);
-  expectSamePose(correction.poseAt(-0.5), pcl6d::planarPose(-1, 0, 0));
-  expectSamePose(correction.poseAt(2.5), pcl6d::planarPose(2, 4.5, 0.3));
-  EXPECT_EQ(correction.period(0), 1);
-  EXPECT_EQ(correction.period(2), 1);
+  for (const auto kind : {MotionInterpolation::kLinear, MotionInterpolation::kCubic}) {
+    const MotionCorrection correction(drive, kind);
+    expectSamePose(correction.poseAt(-0.5), pcl6d::planarPose(-1, 0, 0));
+    expectSamePose(correction.poseAt(2.5), pcl6d::planarPose(2, 4.5, 0.3));
+    EXPECT_EQ(correction.period(0), 1);
+    EXPECT_EQ(correction.period(2), 1);
+  }
 }
 
 TEST(MotionCorrection, PutsThePointsOfAMovingScannerInTheirPlaces)

@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace pcl6d {
 namespace {
@@ -61,6 +62,38 @@ fieldValues(const pcl::PCLPointCloud2& cloud, const std::string& name)
     }
   });
   return result;
+}
+
+void
+addField(pcl::PCLPointCloud2& cloud,
+         const std::string& name,
+         std::uint8_t datatype,
+         const std::vector<double>& values)
+{
+  require(!find(cloud, name), "field", name, "not in the cloud yet");
+  require(values.size() == sizeOf(cloud),
+          "number of values",
+          values.size(),
+          "one per point, " + std::to_string(sizeOf(cloud)));
+  pcl::PCLPointField field;
+  field.name = name;
+  field.offset = cloud.point_step;
+  field.datatype = datatype;
+  field.count = 1;
+  withTypeOf(datatype, [&](auto value) {
+    const std::size_t before = cloud.point_step;
+    const std::size_t step = before + sizeof value;
+    std::vector<std::uint8_t> data(values.size() * step);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      value = static_cast<decltype(value)>(values[i]);
+      std::memcpy(&data[i * step], cloud.data.data() + i * before, before);
+      std::memcpy(&data[i * step + before], &value, sizeof value);
+    }
+    cloud.data = std::move(data);
+    cloud.point_step = static_cast<pcl::uindex_t>(step);
+  });
+  cloud.fields.push_back(field);
+  cloud.row_step = cloud.width * cloud.point_step;
 }
 
 void

@@ -36,6 +36,25 @@ farthest(const FieldValues& times, const TimeFormat& format, double stamp)
   return largest;
 }
 
+// The cubic from 0 (s = 0) to `end` (s = 1) with these derivatives at both ends.
+Eigen::Vector3d
+hermite(double s,
+        const Eigen::Vector3d& end,
+        const Eigen::Vector3d& rate_0,
+        const Eigen::Vector3d& rate_1)
+{
+  return s * (1 - s) * (1 - s) * rate_0 + s * s * (3 - 2 * s) * end +
+         s * s * (s - 1) * rate_1;
+}
+
+// How a rotation vector w changes while the body turns at a velocity [rad/s] in the
+// world: the inverse of the left Jacobian, to the third order in |w|.
+Eigen::Vector3d
+rotationVectorRate(const Eigen::Vector3d& w, const Eigen::Vector3d& velocity)
+{
+  return velocity - w.cross(velocity) / 2 + w.cross(w.cross(velocity)) / 12;
+}
+
 void
 requireFinite(const FieldValues& times)
 {
@@ -66,7 +85,17 @@ timeField(const pcl::PCLPointCloud2& cloud)
   return field ? field : fieldValues(cloud, "time");
 }
 
-MotionCorrection::MotionCorrection(const Trajectory& odometry) : odometry_(odometry)
+MotionInterpolation
+motionInterpolationFromName(const std::string& name)
+{
+  const bool is_cubic = name == "cubic";
+  require(is_cubic || name == "linear", "interpolation", name, "linear or cubic");
+  return is_cubic ? MotionInterpolation::kCubic : MotionInterpolation::kLinear;
+}
+
+MotionCorrection::MotionCorrection(const Trajectory& odometry,
+                                   MotionInterpolation interpolation)
+: odometry_(odometry), interpolation_(interpolation)
 {
   const auto& [poses, stamps] = odometry_;
   require(poses.size() >= 2, "number of poses", poses.size(), ">= 2");
@@ -83,6 +112,33 @@ MotionCorrection::MotionCorrection(const Trajectory& odometry) : odometry_(odome
       turns_.push_back(
           rotationVector(poses[i].linear() * poses[i - 1].linear().transpose()));
   }
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    velocities_.push_back(velocityAt(i));
+}
+
+MotionCorrection::Velocity
+MotionCorrection::meanVelocity(std::size_t segment) const
+{
+  const auto& [poses, stamps] = odometry_;
+  const double time = stamps[segment + 1] - stamps[segment];
+  return {(poses[segment + 1].translation() - poses[segment].translation()) / time,
+          turns_[segment] / time};
+}
+
+MotionCorrection::Velocity
+MotionCorrection::velocityAt(std::size_t pose) const
+{
+  const auto& stamps = odometry_.stamps;
+  if (pose == 0)
+    return meanVelocity(0);
+  const Velocity before = meanVelocity(pose - 1);
+  if (pose + 1 == stamps.size())
+    return before;
+  const Velocity after = meanVelocity(pose);
+  const double s =
+      (stamps[pose] - stamps[pose - 1]) / (stamps[pose + 1] - stamps[pose - 1]);
+  return {(1 - s) * before.linear + s * after.linear,
+          (1 - s) * before.angular + s * after.angular};
 }
 
 std::size_t
@@ -98,12 +154,26 @@ MotionCorrection::poseAt(double time) const
 {
   const std::size_t i = segmentAt(time);
   const Eigen::Isometry3d& from = odometry_.poses[i];
-  const Eigen::Isometry3d& to = odometry_.poses[i + 1];
-  const double s =
-      (time - odometry_.stamps[i]) / (odometry_.stamps[i + 1] - odometry_.stamps[i]);
+  const double duration = odometry_.stamps[i + 1] - odometry_.stamps[i];
+  const double s = (time - odometry_.stamps[i]) / duration;
+  Eigen::Vector3d step = odometry_.poses[i + 1].translation() - from.translation();
+  Eigen::Vector3d turn = turns_[i]; // both in this segment
+  if (interpolation_ == MotionInterpolation::kLinear || s < 0 || s > 1) {
+    step *= s;
+    turn *= s; // slerp
+  }
+  else {
+    const Velocity& v0 = velocities_[i];
+    const Velocity& v1 = velocities_[i + 1];
+    step = hermite(s, step, duration * v0.linear, duration * v1.linear);
+    turn = hermite(s,
+                   turn,
+                   duration * v0.angular,
+                   duration * rotationVectorRate(turn, v1.angular));
+  }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = rotationFromVector(s * turns_[i]) * from.linear(); // slerp
-  pose.translation() = from.translation() + s * (to.translation() - from.translation());
+  pose.linear() = rotationFromVector(turn) * from.linear();
+  pose.translation() = from.translation() + step;
   return pose;
 }
 

@@ -2,6 +2,7 @@
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/io/scan_fields.h>
 #include <pcl6d/scanner/range_scan.h>
 
 #include <cmath>
@@ -120,6 +121,16 @@ toPointCloud(const RangeScan& scan, const ScannerModel& scanner)
       cloud.is_dense = cloud.is_dense && std::isfinite(sample.range);
     }
   return cloud;
+}
+
+void
+addTimeField(pcl::PCLPointCloud2& cloud, const ScannerModel& scanner)
+{
+  std::vector<double> times;
+  for (int line = 0; line < scanner.numLines(); ++line)
+    for (int sample = 0; sample < scanner.samplesPerLine(); ++sample)
+      times.push_back(scanner.time(line, sample));
+  addField(cloud, "t", pcl::PCLPointField::FLOAT32, times);
 }
 
 } // namespace pcl6d

@@ -2,6 +2,7 @@
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/driven_scanner.h>
+#include <pcl6d/scanner/path_check.h>
 #include <pcl6d/scanner/simulator.h>
 
 #include <algorithm>
@@ -82,6 +83,7 @@ Simulator::Simulator(SimulationScene scene, const SimulationOptions& options)
     options_.scanner = std::make_shared<DrivenScanner>();
   options_.range.seed = streamSeed(options.seed, kRangeStream);
   const RobotPath path(scene.waypoints, options.robot);
+  requireFreePath(caster(), path, options.num_scans);
   if (options.motion == ScanMotion::kStop)
     stopAndScan(path);
   else
@@ -126,26 +128,22 @@ Simulator::scanOnTheMove(const RobotPath& path)
 }
 
 Eigen::Isometry3d
-Simulator::scenePose(std::size_t i, double time) const
-{
-  return motion_ ? motion_->poseAt(truth_.stamps[i] + time)
-                 : T_scene_world_ * truth_.poses[i];
-}
-
-Eigen::Isometry3d
 Simulator::scanPose(std::size_t i, double time) const
 {
   require(i < size(), "scan", i, "below the number of scans");
-  return motion_ ? T_scene_world_.inverse() * scenePose(i, time) : truth_.poses[i];
+  return motion_ ? T_scene_world_.inverse() * motion_->poseAt(truth_.stamps[i] + time)
+                 : truth_.poses[i];
 }
 
 RangeScan
 Simulator::rangeScan(std::size_t i) const
 {
   require(i < size(), "scan", i, "below the number of scans");
-  const double stamp = truth_.stamps[i];
-  const MovingView view(
-      scene_, [&](double time) { return scenePose(i, time - stamp); }, stamp);
+  const Eigen::Isometry3d standing = T_scene_world_ * truth_.poses[i];
+  const auto pose_at = [&](double time) {
+    return motion_ ? motion_->poseAt(time) : standing;
+  };
+  const MovingView view(scene_, pose_at, truth_.stamps[i]);
   return castScan(view, scanner(), options_.range, i);
 }
 

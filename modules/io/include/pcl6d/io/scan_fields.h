@@ -5,6 +5,7 @@
 
 #include <pcl/PCLPointCloud2.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,15 @@ struct FieldValues {
  * \ingroup io */
 std::optional<FieldValues>
 fieldValues(const pcl::PCLPointCloud2& cloud, const std::string& name);
+
+/** \brief Appends a field to every point of a cloud.
+ * \param[in] datatype of pcl::PCLPointField; values are converted to it
+ * \throws BadArgument there is such a field already, or not one value per point */
+void
+addField(pcl::PCLPointCloud2& cloud,
+         const std::string& name,
+         std::uint8_t datatype,
+         const std::vector<double>& values);
 
 /** \brief Writes points into a cloud's fields x, y and z, leaving all others.
  * \throws BadArgument no such fields of type float32 or float64, or another number of

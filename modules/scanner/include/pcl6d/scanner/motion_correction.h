@@ -26,13 +26,27 @@ toString(const TimeFormat& format);
 std::optional<FieldValues>
 timeField(const pcl::PCLPointCloud2& cloud);
 
+/** \brief How a pose between two poses of the odometry is found. */
+enum class MotionInterpolation {
+  kLinear, ///< position linear, rotation by slerp (book A.1): a path with corners
+  kCubic   ///< Hermite splines: velocities, too, are continuous. Follows bends better
+};
+
+/** \return the interpolation called "linear" or "cubic" \throws BadArgument another name
+ */
+MotionInterpolation
+motionInterpolationFromName(const std::string& name);
+
 /** \brief Undoes the motion of the scanner during a scan ("deskewing").
  *
  * A point that was measured at time t is moved into the frame that the scanner had at
- * its scan's stamp t0: p' = T(t0)^-1 T(t) p. Between two poses of the odometry the
- * position is interpolated linearly and the rotation by slerp (book A.1); before the
- * first and after the last one the motion goes on as it was. What counts is the motion
- * within one scan, so drift does no harm.
+ * its scan's stamp t0: p' = T(t0)^-1 T(t) p. Between two poses of the odometry the pose
+ * is interpolated; before the first and after the last one the motion goes on as it
+ * was. What counts is the motion within one scan, so drift does no harm.
+ *
+ * With kCubic the velocity at a pose is the mean of those before and after it, weighted
+ * as a parabola through the three poses has it; the spline of the rotation runs in the
+ * rotation vectors about the pose that it starts from.
  * \code
  * const pcl6d::MotionCorrection correction(folder.odometry());
  * const auto times = pcl6d::timeField(scan.cloud); // nothing: nothing to correct
@@ -43,7 +57,9 @@ class MotionCorrection {
 public:
   /** \param[in] odometry T_world_scan and stamps [s], at least 2
    * \throws BadArgument there are no stamps, not one per pose, or they do not increase */
-  explicit MotionCorrection(const Trajectory& odometry);
+  explicit MotionCorrection(
+      const Trajectory& odometry,
+      MotionInterpolation interpolation = MotionInterpolation::kLinear);
 
   /** \return T_world_scan at any time [s] */
   Eigen::Isometry3d
@@ -82,8 +98,20 @@ private:
   std::size_t
   segmentAt(double time) const;
 
+  /// in the world, per second
+  struct Velocity {
+    Eigen::Vector3d linear;  // [m/s]
+    Eigen::Vector3d angular; // [rad/s]
+  };
+  Velocity
+  meanVelocity(std::size_t segment) const;
+  Velocity
+  velocityAt(std::size_t pose) const;
+
   Trajectory odometry_;
+  MotionInterpolation interpolation_;
   std::vector<Eigen::Vector3d> turns_; // [rad] axis times angle from pose i to i + 1
+  std::vector<Velocity> velocities_;   // of kCubic, at each pose
 };
 
 } // namespace pcl6d

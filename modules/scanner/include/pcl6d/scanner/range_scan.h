@@ -5,6 +5,7 @@
 #include <pcl6d/scanner/scanner_model.h>
 #include <pcl6d/scanner/scene_view.h>
 
+#include <pcl/PCLPointCloud2.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
@@ -55,5 +56,11 @@ castScan(const RayCaster& caster,
  * return is NaN, never zero. \throws BadArgument scan and scanner differ in size */
 pcl::PointCloud<pcl::PointXYZI>
 toPointCloud(const RangeScan& scan, const ScannerModel& scanner);
+
+/** \brief Appends the field `t` (float32, [s]): when each point was measured, from the
+ * start of the scan. \param[in] cloud one row per line, as of toPointCloud()
+ * \throws BadArgument cloud and scanner differ in size */
+void
+addTimeField(pcl::PCLPointCloud2& cloud, const ScannerModel& scanner);
 
 } // namespace pcl6d

@@ -148,8 +148,6 @@ private:
   stopAndScan(const RobotPath& path);
   void
   scanOnTheMove(const RobotPath& path);
-  Eigen::Isometry3d
-  scenePose(std::size_t i, double time) const;
 
   MovingScene scene_;
   SimulationOptions options_;

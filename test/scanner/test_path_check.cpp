@@ -69,6 +69,16 @@ TEST(RequireFreePath, NamesAScanInsideABody)
   EXPECT_NE(message.find("the sensor is inside 'rock'"), std::string::npos) << message;
 }
 
+TEST(RequireFreePath, NamesTheScanWhereTheFloorEnds)
+{
+  pcl6d::TriangleScene scene;
+  pcl6d::addBox(scene, {-10, -10, -0.2}, {10, 2, 0}, {"floor", 0.4});
+  const std::string message = messageFor(scene);
+  EXPECT_EQ(message.rfind("scan 4 or the path after it: no floor below the path at", 0),
+            0u)
+      << message;
+}
+
 TEST(RequireFreePath, DoesNotTakeAMeshForSolid)
 {
   pcl6d::TriangleScene scene = floorScene();

@@ -5,7 +5,6 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
-#include "common/scan_name.h"
 #include "simulate/drive_options.h"
 #include "simulate/scanner_options.h"
 #include "simulate/scene_options.h"
@@ -15,6 +14,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/scanner/simulator.h>
@@ -185,7 +185,7 @@ writeFiles(const app::OutputFolder& folder,
       addTruthFields(cloud, scan, surfaces);
       counts.add(scan, surfaces);
     }
-    writePcd(folder / (app::scanName(static_cast<int>(i)) + ".pcd"),
+    writePcd(folder / (scanName(static_cast<int>(i)) + ".pcd"),
              cloud,
              simulator.odometry().poses[i]);
     progress.show({"simulating", i + 1, simulator.size()});

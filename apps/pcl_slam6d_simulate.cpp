@@ -5,7 +5,7 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
-#include "common/scan_name.h"
+#include "simulate/drive_options.h"
 #include "simulate/scanner_options.h"
 #include "simulate/truth_files.h"
 
@@ -13,6 +13,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/scanner/simulator.h>
 
@@ -23,7 +24,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <optional>
 #include <regex>
 
 namespace {
@@ -37,14 +37,12 @@ constexpr const char* kMarker = "scene.json"; // only simulated folders have it
 struct Settings {
   std::string scene;
   std::string out;
-  app::ScannerWords scanner;
   std::string labels = "auto";
   app::AutoDouble max_range;
   bool has_scanner = false; // given by the user
   bool has_scans = false;
-  std::string motion = "stop";
-  std::string odometry = "wheel";
-  app::AutoDouble speed;
+  app::DriveWords drive;
+  app::ScannerWords scanner;
   std::int64_t seed = 1; // signed, as boost takes -1 for a large unsigned number
   int threads = 0;
   bool force = false;
@@ -75,30 +73,19 @@ parse(const std::vector<std::string>& arguments, Settings& s)
       ("scans",
        po::value(&s.simulation.num_scans),
        "number of scans, evenly along the way; by default what suits the scene") //
-      ("motion",
-       app::valueOf(s.motion),
-       "stop|continuous: stop for each scan, or drive on meanwhile; then points have "
-       "the field t, and times.txt has the stamps") //
-      ("speed",
-       app::valueOf(s.speed),
-       "[m/s] or auto: 1, slower if a scan takes longer than the way to the next") //
-      ("odometry",
-       app::valueOf(s.odometry),
-       "wheel|visual-inertial|exact: planar with drift, six degrees of freedom with "
-       "little drift, the truth") //
       ("max-range",
        app::valueOf(s.max_range),
        "[m] farther things are not seen; auto: the scanner's if one is given, else "
-       "what "
-       "suits the scene") //
+       "what suits the scene") //
       ("labels",
        app::valueOf(s.labels),
        "yes: points carry plane_id, object_id and label, and the files "
-       "planes_truth.json "
-       "and objects_truth.json are written; auto: yes, but not for corridor") //
+       "planes_truth.json and objects_truth.json are written; auto: yes, but not for "
+       "corridor") //
       ("seed",
        app::valueOf(s.seed),
        "same seed, same bytes; also of what is random in a scene");
+  app::describeDrive(line, s.drive);
   app::describeScanner(line, s.scanner);
   line.group("Run").add_options() //
       ("output,o",
@@ -131,13 +118,8 @@ applySettings(Settings& s)
   });
   s.simulation.seed = static_cast<std::uint64_t>(s.seed);
   s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
-  if (!s.speed.is_auto)
-    s.simulation.speed = s.speed.value;
-  app::checkOptions([&] {
-    s.simulation.motion = scanMotionFromName(s.motion);
-    s.simulation.odometry_kind = odometryKindFromName(s.odometry);
-  });
   app::applyScanner(s.scanner, s.simulation);
+  app::applyDrive(s.drive, s.simulation);
 }
 
 /** Fills in what the user left to the scene. */
@@ -152,15 +134,6 @@ applyScene(const SimulationScene& scene, Settings& s)
     s.simulation.range.max_range = scene.max_range;
   if (s.labels == "auto")
     s.labels = s.scene == "corridor" ? "no" : "yes"; // whose bytes never change
-}
-
-/** A speed at which scans would overlap in time is a mistake of the command line. */
-Simulator
-simulatorOf(SimulationScene scene, const SimulationOptions& options)
-{
-  std::optional<Simulator> simulator;
-  app::checkOptions([&] { simulator.emplace(std::move(scene), options); });
-  return *std::move(simulator);
 }
 
 /** \return whether a folder holds scans */
@@ -197,14 +170,11 @@ writeSceneFile(const fs::path& path, const Settings& s, const Simulator& simulat
                                  {"scans", s.simulation.num_scans},
                                  {"scanner", s.scanner.name},
                                  {"noise", s.simulation.range.noise}};
+  json.update(app::describedDrive(s.drive, simulator));
   if (!s.scanner.resolution.is_auto)
     json["resolution"] = s.scanner.resolution.value;
   if (s.scanner.exact)
     json["exact"] = true;
-  if (s.motion != Settings().motion)
-    json["motion"] = {{"kind", s.motion}, {"speed", simulator.speed()}};
-  if (s.odometry != Settings().odometry)
-    json["odometry"] = s.odometry;
   writeFileAtomically(path,
                       [&](std::ostream& stream) { stream << json.dump(2) << '\n'; });
 }
@@ -233,7 +203,7 @@ writeFiles(const app::OutputFolder& folder,
       addTruthFields(cloud, scan, surfaces);
       counts.add(scan, surfaces);
     }
-    writePcd(folder / (app::scanName(static_cast<int>(i)) + ".pcd"),
+    writePcd(folder / (scanName(static_cast<int>(i)) + ".pcd"),
              cloud,
              simulator.odometry().poses[i]);
     progress.show({"simulating", i + 1, simulator.size()});
@@ -287,7 +257,7 @@ run(const std::vector<std::string>& arguments)
         s.simulation.validate();
       },
       {{"num_scans", "scans"}});
-  const Simulator simulator = simulatorOf(std::move(scene), s.simulation);
+  const Simulator simulator = app::startDrive(scene, s.simulation);
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))
     throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");

@@ -31,7 +31,12 @@ describeInput(CommandLine& line, Settings& s, OptionWords& raw)
       "along the initial poses; needs their time stamps (times.txt, or TUM rows)")(
       "interpolation",
       valueOf(raw.interpolation),
-      "linear|cubic: how --deskew moves between two poses; cubic follows bends better");
+      "linear|cubic: how --deskew moves between two poses; cubic follows bends better")(
+      "continue",
+      po::value(&s.continued)->value_name("RUN_DIR"),
+      "goes on with a finished run: its scans keep their place and its options count "
+      "unless given anew; taken are the files of SCAN_DIR whose names it lacks; -o is "
+      "RUN_DIR by default");
 }
 
 std::string

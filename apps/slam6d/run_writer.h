@@ -4,7 +4,7 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
-#include "slam6d/scan_source.h"
+#include "slam6d/run_scans.h"
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/trajectory.h>
@@ -48,7 +48,7 @@ class RunWriter {
 public:
   /** Keeps references to all of them. */
   RunWriter(const Settings& settings,
-            const ScanSource& scans,
+            const RunScans& scans,
             const Slam6DResult& result,
             const OutputFolder& out,
             ProgressBar& bar,
@@ -76,11 +76,9 @@ private:
   writeGraph() const;
   void
   describeGraph();
-  std::string
-  graphVerdict() const;
 
   const Settings& settings_;
-  const ScanSource& scans_;
+  const RunScans& scans_;
   const ScanFolder& folder_;
   const Slam6DResult& result_;
   const OutputFolder& out_;

@@ -175,7 +175,7 @@ TEST(Simulate, NamesWhatIsWrongWithTheCommandLine)
   expectUsage({"corridor", "--resolution", "0"}, "= 0");
   expectUsage({"corridor", "--resolution", "nan"}, "nan");
   expectUsage({"corridor", "--resolution", "1e-6"}, "GB");
-  expectUsage({"corridor", "--speed", "3"}, "--speed");
+  expectUsage({"corridor", "--velocity", "3"}, "--velocity");
   expectOneErrorLine(simulate({"corridor"}), 2, "output");
 }
 

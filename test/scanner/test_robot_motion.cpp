@@ -167,23 +167,6 @@ TEST(RobotMotion, GoesRoundAndRound)
   EXPECT_LT(step.rotation, 1e-5);
 }
 
-TEST(RobotMotion, SaysWhereTheWayIsBlocked)
-{
-  pcl6d::TriangleScene scene;
-  pcl6d::addBox(scene, {-10, -10, -1}, {10, 10, 0}, {"floor", 0.5});
-  pcl6d::addBox(scene, {1, -1, 0.5}, {1.2, 1, 2}, {"screen", 0.5}); // wheels pass below
-  const RayCaster caster(scene);
-  const RobotPath path({{-4, 0, 0}, {4, 0, 0}, {4, 5, 0}, {-4, 5, 0}}, {});
-  try {
-    RobotMotion(path, caster, kSpeed);
-    FAIL() << "drove through a screen";
-  } catch (const pcl6d::ComputeFailed& e) {
-    const std::string message = e.what();
-    EXPECT_NE(message.find("screen"), std::string::npos) << message;
-    EXPECT_NE(message.find("x = 0.9"), std::string::npos) << message;
-  }
-}
-
 TEST(RobotMotion, RefusesAbsurdSpeeds)
 {
   const auto caster = stair();

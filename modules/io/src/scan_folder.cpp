@@ -7,8 +7,11 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>
+#include <set>
 
 namespace pcl6d {
 
@@ -29,7 +32,7 @@ isScan(const fs::directory_entry& entry)
   // it is read: left out in silence it would shift all poses.
   return entry.path().filename().string().front() != '.' &&
          !isGroundtruth(entry.path()) &&
-         formatOfExtension(entry.path()) != ScanFormat::kAuto;
+         scanFormatOfExtension(entry.path()) != ScanFormat::kAuto;
 }
 
 /** \return the files with the extension of any format, in natural order */
@@ -59,15 +62,14 @@ scanFiles(const fs::path& folder)
 ScanFormat
 commonFormat(const fs::path& folder, const std::vector<fs::path>& files)
 {
-  const ScanFormat first = formatOfExtension(files.front());
+  const ScanFormat first = scanFormatOfExtension(files.front());
   for (const auto& file : files) {
-    const ScanFormat other = formatOfExtension(file);
+    const ScanFormat other = scanFormatOfExtension(file);
     if (other != first)
       text::fail(folder,
-                 "holds scans of several formats, " + std::string(extensionOf(first)) +
-                     " (" + files.front().filename().string() + ") and " +
-                     std::string(extensionOf(other)) + " (" + file.filename().string() +
-                     "); choose one with --format");
+                 "holds scans of several formats, " + extensionOf(first) + " (" +
+                     files.front().filename().string() + ") and " + extensionOf(other) +
+                     " (" + file.filename().string() + "); choose one of them");
   }
   return first;
 }
@@ -81,18 +83,35 @@ findScans(const fs::path& folder, ScanFormat format)
     files.erase(std::remove_if(files.begin(),
                                files.end(),
                                [format](const fs::path& file) {
-                                 return formatOfExtension(file) != format;
+                                 return extensionOf(scanFormatOfExtension(file)) !=
+                                        extensionOf(format);
                                }),
                 files.end());
   if (files.empty())
-    text::fail(folder,
-               "no scans found (looked for " +
-                   (format == ScanFormat::kAuto ? allExtensions()
-                                                : std::string(extensionOf(format))) +
-                   ")");
+    text::fail(
+        folder,
+        "no scans found (looked for " +
+            (format == ScanFormat::kAuto ? allExtensions() : extensionOf(format)) +
+            ")");
   if (format == ScanFormat::kAuto)
     scans.format = commonFormat(folder, files);
   return scans;
+}
+
+/** \return the stamps of a run's scans, or nothing where indices stand for them */
+std::vector<double>
+stampsOf(const fs::path& run, const RunSummary& summary)
+{
+  const fs::path file = run / "trajectory.tum";
+  std::vector<double> stamps = readTrajectory(file).stamps;
+  if (stamps.size() != summary.scans.size())
+    text::fail(file,
+               "holds " + text::counted(stamps.size(), "pose") + " for " +
+                   text::counted(summary.scans.size(), "scan"));
+  for (std::size_t i = 0; i < stamps.size(); ++i)
+    if (stamps[i] != summary.scans[i].index)
+      return stamps;
+  return {};
 }
 
 } // namespace
@@ -122,15 +141,53 @@ ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
                    : count;
   InitialPoses poses =
       findInitialPoses(folder, scans.files, scans.format, options.poses_file);
-  format_ = scans.format;
   pose_source_ = poses.source;
   for (std::size_t i = first; i < end; i += static_cast<std::size_t>(options.every)) {
-    entries_.push_back(
-        {scans.files[i], static_cast<int>(i), poses.trajectory.poses[i]});
+    entries_.push_back({scans.files[i],
+                        scans.files[i].filename().string(),
+                        static_cast<int>(i),
+                        poses.trajectory.poses[i],
+                        scans.format});
     if (!poses.trajectory.stamps.empty())
       stamps_.push_back(poses.trajectory.stamps[i]);
   }
   odometry_ = std::move(poses.trajectory);
+}
+
+void
+ScanFolder::continueRun(const fs::path& run, const RunSummary& summary)
+{
+  std::vector<Entry> entries;
+  std::set<std::string> known;
+  int next = 0;
+  for (const auto& scan : summary.scans) {
+    const fs::path file = run / "scans" / (scanName(scan.index) + ".pcd");
+    if (!fs::exists(file))
+      text::fail(file,
+                 "is missing, though " + (run / "summary.json").string() +
+                     " tells of it");
+    entries.push_back(
+        {file, scan.file, scan.index, scan.initial_pose, ScanFormat::kPcd});
+    known.insert(scan.file);
+    next = std::max(next, scan.index + 1);
+  }
+  std::vector<double> stamps = stampsOf(run, summary);
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    if (known.count(entries_[i].name) == 0) {
+      entries.push_back(entries_[i]);
+      entries.back().index = next++;
+      if (!stamps.empty() && !stamps_.empty())
+        stamps.push_back(stamps_[i]);
+    }
+  num_registered_ = summary.scans.size();
+  if (entries.size() == num_registered_)
+    text::fail(run,
+               "holds all " + text::counted(entries_.size(), "scan") +
+                   " of the folder already (scans are told apart by their file names)");
+  if (stamps_.empty())
+    stamps.clear();
+  stamps_ = std::move(stamps);
+  entries_ = std::move(entries);
 }
 
 std::size_t
@@ -143,6 +200,12 @@ const fs::path&
 ScanFolder::file(std::size_t i) const
 {
   return entries_.at(i).file;
+}
+
+const std::string&
+ScanFolder::name(std::size_t i) const
+{
+  return entries_.at(i).name;
 }
 
 int
@@ -184,7 +247,19 @@ ScanFolder::hasPoses() const
 Scan
 ScanFolder::read(std::size_t i) const
 {
-  return readScan(file(i), format_);
+  return readScan(file(i), entries_[i].format);
+}
+
+ScanCloud
+ScanFolder::readCloud(std::size_t i) const
+{
+  return readScanCloud(file(i), format_);
+}
+
+ScanFormat
+ScanFolder::format() const
+{
+  return format_;
 }
 
 } // namespace pcl6d

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/robot_motion.h>
 
 #include <array>
 #include <cmath>
-#include <string>
 
 namespace pcl6d {
 namespace {
@@ -23,22 +21,6 @@ cubicWeights(double u)
           (3 * v * v * v - 6 * v * v + 4) / 6,
           u * u * u / 6};
 }
-
-void
-requireFreeWay(const RayCaster& caster,
-               const Eigen::Vector3d& from,
-               const Eigen::Vector3d& to)
-{
-  const double way = (to - from).norm();
-  const auto hit = way > 0 ? caster.cast({from, (to - from) / way}, way) : std::nullopt;
-  if (!hit)
-    return;
-  const TriangleScene& scene = caster.scene();
-  throw ComputeFailed("the path leads through a surface (" +
-                      scene.surfaces[scene.triangles[hit->triangle].surface].name +
-                      ") at x = " + std::to_string(from.x()) +
-                      ", y = " + std::to_string(from.y()));
-}
 } // namespace
 
 RobotMotion::RobotMotion(const RobotPath& path, const RayCaster& caster, double speed)
@@ -53,12 +35,9 @@ RobotMotion::RobotMotion(const RobotPath& path, const RayCaster& caster, double 
     Eigen::Quaterniond q(pose.linear());
     if (i > 0 && q.dot(rotations_.back()) < 0)
       q.coeffs() *= -1;
-    if (i > 0)
-      requireFreeWay(caster, positions_.back(), pose.translation());
     positions_.push_back(pose.translation());
     rotations_.push_back(q);
   }
-  requireFreeWay(caster, positions_.back(), positions_.front());
 }
 
 Eigen::Isometry3d

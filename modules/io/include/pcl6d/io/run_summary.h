@@ -30,7 +30,9 @@ struct RunSummary {
   };
 
   struct ScanEntry {
-    std::string file;
+    std::string file; ///< its name in the folder that it came from
+    int index = 0;    ///< NNN of the run's files that belong to it
+    Eigen::Isometry3d initial_pose = Eigen::Isometry3d::Identity(); ///< as given
     Eigen::Isometry3d T_world_scan =
         Eigen::Isometry3d::Identity(); ///< full coordinates
     /** of x y z roll pitch yaw [m, rad]; none if not known */
@@ -82,5 +84,11 @@ struct RunSummary {
  * \throws IoFailed the file cannot be written \ingroup io */
 void
 writeRunSummary(const std::filesystem::path& path, const RunSummary& summary);
+
+/** \brief Inverse of writeRunSummary(). \throws IoFailed naming the file and what is
+ * missing or wrong in it: no JSON, another schema_version, a field of another kind
+ * \ingroup io */
+RunSummary
+readRunSummary(const std::filesystem::path& path);
 
 } // namespace pcl6d

@@ -42,4 +42,9 @@ writeStamps(const std::filesystem::path& path, const std::vector<double>& stamps
 Eigen::Isometry3d
 readUosPose(const std::filesystem::path& path);
 
+/** \brief Writes a pose for 3DTK, the inverse of readUosPose(), with 17 digits,
+ * atomically. \throws IoFailed the file cannot be written */
+void
+writeUosPose(const std::filesystem::path& path, const Eigen::Isometry3d& T_world_scan);
+
 } // namespace pcl6d

@@ -20,7 +20,7 @@ class RobotMotion {
 public:
   /** \param[in] speed [m/s] in plan, in (0, 50]
    * \throws BadArgument speed breaks its rule \throws ComputeFailed there is no floor
-   * below the path, or it leads through a surface */
+   * below the path */
   RobotMotion(const RobotPath& path, const RayCaster& caster, double speed);
 
   /** \param[in] time [s] any; the drive goes round and round

@@ -72,7 +72,7 @@ class Simulator {
 public:
   /** \throws BadArgument scene or options break a rule, or the speed is too high for a
    * scan to end before the next one starts \throws ComputeFailed the path leaves the
-   * floor, or (continuous motion) leads through a surface */
+   * floor or leads through a surface */
   explicit Simulator(SimulationScene scene, const SimulationOptions& options = {});
 
   std::size_t

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam6d/scan_source.h"
+#include "slam6d/run_scans.h"
 
 #include <pcl6d/common/error.h>
 
@@ -30,9 +30,11 @@ withName(const std::string& name, Call&& call)
 } // namespace
 
 void
-ScanSource::deskew(MotionInterpolation interpolation)
+RunScans::deskew(MotionInterpolation interpolation)
 {
-  const std::string name = folder_.file(0).parent_path().string();
+  const std::size_t first = folder_.numRegistered();
+  const std::string file = folder_.file(first).string();
+  const std::string name = folder_.file(first).parent_path().string();
   if (!folder_.hasPoses())
     throw IoFailed(name + ": --deskew needs the motion of the scanner, but no poses "
                           "were found");
@@ -43,17 +45,15 @@ ScanSource::deskew(MotionInterpolation interpolation)
                    folder_.poseSource() + ") are no TUM rows");
   correction_ = withName(
       name, [&] { return MotionCorrection(folder_.odometry(), interpolation); });
-  const Scan first = folder_.read(0);
-  const FieldValues times = timesOf(first, 0);
-  format_ = withName(folder_.file(0).string(), [&] {
-    return correction_->timeFormat(times, folder_.stamps()[0]);
-  });
+  const FieldValues times = timesOf(folder_.read(first), first);
+  format_ = withName(
+      file, [&] { return correction_->timeFormat(times, folder_.stamps()[first]); });
   description_ = "motion during a scan is corrected: field " + times.name + ", " +
                  toString(format_);
 }
 
 FieldValues
-ScanSource::timesOf(const Scan& scan, std::size_t i) const
+RunScans::timesOf(const Scan& scan, std::size_t i) const
 {
   const std::string file = folder_.file(i).string();
   auto times = withName(file, [&] { return timeField(scan.cloud); });
@@ -64,10 +64,10 @@ ScanSource::timesOf(const Scan& scan, std::size_t i) const
 }
 
 Scan
-ScanSource::read(std::size_t i) const
+RunScans::read(std::size_t i) const
 {
   Scan scan = folder_.read(i);
-  if (!correction_)
+  if (!correction_ || i < folder_.numRegistered())
     return scan;
   withName(folder_.file(i).string(), [&] {
     const double stamp = folder_.stamps()[i];

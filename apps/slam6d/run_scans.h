@@ -10,13 +10,15 @@
 namespace pcl6d::app {
 
 /** \brief The scans of a folder as they are registered: as they were measured, or with
- * the motion of the scanner during each of them undone (--deskew). */
-class ScanSource {
+ * the motion of the scanner during each of them undone (--deskew). Those of a finished
+ * run that goes on are as that run wrote them. */
+class RunScans {
 public:
   /** Keeps a reference to the folder. */
-  explicit ScanSource(const ScanFolder& folder) : folder_(folder) {}
+  explicit RunScans(const ScanFolder& folder) : folder_(folder) {}
 
-  /** \brief From now on the motion is undone. Reads the first scan, which tells how times
+  /** \brief From now on the motion is undone. Reads the first scan to be
+   * registered, which tells how times
    * are stored. \throws IoFailed poses, stamps or times are missing or broken */
   void
   deskew(MotionInterpolation interpolation);

@@ -172,10 +172,10 @@ TEST(Simulate, NamesWhatIsWrongWithTheCommandLine)
   expectUsage({"corridor", "--noise", "-0.1"}, "-0.1");
   expectUsage({"corridor", "--noise", "nan"}, "nan");
   expectUsage({"corridor", "--scanner", "sonar"}, "sonar");
+  expectUsage({"corridor", "--velocity", "3"}, "--velocity");
   expectUsage({"corridor", "--resolution", "0"}, "= 0");
   expectUsage({"corridor", "--resolution", "nan"}, "nan");
   expectUsage({"corridor", "--resolution", "1e-6"}, "GB");
-  expectUsage({"corridor", "--velocity", "3"}, "--velocity");
   expectOneErrorLine(simulate({"corridor"}), 2, "output");
 }
 

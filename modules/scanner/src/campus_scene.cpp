@@ -20,8 +20,8 @@ namespace {
 //   G --- H --- I
 //   |     |     |          The robot drives on the right:
 //   |     |     |          E B C F E, D A B E, H I F K J C F E, D G H E.
-//   D --- E --- F --- K    1 km in all. The streets make five loops; C F, F E, E D,
-//   |     |     |     |    E B and E H are driven twice.
+//   D --- E --- F --- K    1 km in all. The streets make five loops; they close at E, B,
+//   |     |     |     |    F, C and H. C F, F E, E D, E B and E H are driven twice.
 //   |     |     |     |
 //   A --- B --- C --- J
 constexpr double kBlock = 50;    // [m] between crossings
@@ -256,7 +256,7 @@ campusScene(std::uint64_t seed)
   SimulationScene scene;
   scene.name = "campus";
   scene.num_scans = 320;
-  scene.max_range = 60;
+  scene.max_range = 80;
   const Terrain terrain = campusTerrain(seed);
   terrain.addTo(scene.geometry, kGround);
   addHouses(scene.geometry, terrain, random);

@@ -7,6 +7,7 @@
 #include "common/progress_bar.h"
 #include "simulate/drive_options.h"
 #include "simulate/scanner_options.h"
+#include "simulate/scene_options.h"
 #include "simulate/truth_files.h"
 
 #include <pcl6d/common/error.h>
@@ -15,6 +16,7 @@
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/scanner/simulator.h>
 
 #include <pcl/conversions.h>
@@ -35,29 +37,17 @@ constexpr const char* kName = "pcl_slam6d_simulate";
 constexpr const char* kMarker = "scene.json"; // only simulated folders have it
 
 struct Settings {
-  std::string scene;
-  std::string out;
-  std::string labels = "auto";
-  app::AutoDouble max_range;
-  bool has_scanner = false; // given by the user
-  bool has_scans = false;
-  app::DriveWords drive;
+  app::SceneWords scene;
   app::ScannerWords scanner;
-  std::int64_t seed = 1; // signed, as boost takes -1 for a large unsigned number
+  app::DriveWords drive;
+  std::string out;
+  bool has_scans = false; // given by the user
+  std::int64_t seed = 1;  // signed, as boost takes -1 for a large unsigned number
   int threads = 0;
   bool force = false;
   bool quiet = false;
   SimulationOptions simulation;
 };
-
-std::string
-sceneList()
-{
-  std::string list;
-  for (const auto& name : builtInSceneNames())
-    list += "\n  " + name + ": " + builtInSceneDescription(name);
-  return list;
-}
 
 bool
 parse(const std::vector<std::string>& arguments, Settings& s)
@@ -65,28 +55,21 @@ parse(const std::vector<std::string>& arguments, Settings& s)
   app::CommandLine line(
       std::string("usage: ") + kName +
       " SCENE -o DIR [options]\nSimulates a robot that drives through "
-      "a scene and scans it.\nScenes: " +
-      sceneList() + "\nScanners:" + app::scannerList() + "\n");
-  line.positional("SCENE", &s.scene);
+      "a scene and scans it.\nSCENE is a scene description FILE.json, "
+      "a mesh FILE.ply|obj|stl with --path, or one of:" +
+      app::sceneList() + "\nScanners:" + app::scannerList());
+  line.positional("SCENE", &s.scene.name);
   line.group("Simulation")
       .add_options() //
       ("scans",
        po::value(&s.simulation.num_scans),
        "number of scans, evenly along the way; by default what suits the scene") //
-      ("max-range",
-       app::valueOf(s.max_range),
-       "[m] farther things are not seen; auto: the scanner's if one is given, else "
-       "what suits the scene") //
-      ("labels",
-       app::valueOf(s.labels),
-       "yes: points carry plane_id, object_id and label, and the files "
-       "planes_truth.json and objects_truth.json are written; auto: yes, but not for "
-       "corridor") //
       ("seed",
        app::valueOf(s.seed),
        "same seed, same bytes; also of what is random in a scene");
-  app::describeDrive(line, s.drive);
+  app::describeScene(line, s.scene);
   app::describeScanner(line, s.scanner);
+  app::describeDrive(line, s.drive);
   line.group("Run").add_options() //
       ("output,o",
        po::value(&s.out)->value_name("DIR")->required(),
@@ -100,7 +83,6 @@ parse(const std::vector<std::string>& arguments, Settings& s)
       ("quiet", po::bool_switch(&s.quiet), "print errors only");
   const bool is_run = line.parse(arguments);
   s.has_scans = is_run && line.given("scans");
-  s.has_scanner = is_run && line.given("scanner");
   return is_run;
 }
 
@@ -111,29 +93,22 @@ applySettings(Settings& s)
   app::checkOptions([&] {
     require(s.seed >= 0, "seed", s.seed, ">= 0");
     require(s.threads >= 0, "threads", s.threads, ">= 0");
-    require(s.labels == "auto" || s.labels == "yes" || s.labels == "no",
-            "labels",
-            s.labels,
-            "auto, yes or no");
   });
   s.simulation.seed = static_cast<std::uint64_t>(s.seed);
   s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
-  app::applyScanner(s.scanner, s.simulation);
   app::applyDrive(s.drive, s.simulation);
 }
 
-/** Fills in what the user left to the scene. */
-void
-applyScene(const SimulationScene& scene, Settings& s)
+/** Reads the scene and fills in what the user left to it. */
+SimulationScene
+sceneOf(Settings& s)
 {
+  SimulationScene scene = app::loadScene(s.scene, s.simulation.seed);
   if (!s.has_scans)
     s.simulation.num_scans = scene.num_scans;
-  if (!s.max_range.is_auto)
-    s.simulation.range.max_range = s.max_range.value;
-  else if (!s.has_scanner)
-    s.simulation.range.max_range = scene.max_range;
-  if (s.labels == "auto")
-    s.labels = s.scene == "corridor" ? "no" : "yes"; // whose bytes never change
+  app::applyScanner(s.scanner, scene.max_range, s.simulation);
+  app::checkOptions([&] { s.simulation.validate(); }, {{"num_scans", "scans"}});
+  return scene;
 }
 
 /** \return whether a folder holds scans */
@@ -161,11 +136,14 @@ outputRules(const Settings& s)
 }
 
 void
-writeSceneFile(const fs::path& path, const Settings& s, const Simulator& simulator)
+writeSceneFile(const fs::path& path,
+               const Settings& s,
+               const SimulationScene& scene,
+               const Simulator& simulator)
 {
   nlohmann::ordered_json json = {{"schema_version", 1},
                                  {"generator", kName},
-                                 {"scene", s.scene},
+                                 {"scene", s.scene.name},
                                  {"seed", s.seed},
                                  {"scans", s.simulation.num_scans},
                                  {"scanner", s.scanner.name},
@@ -175,6 +153,9 @@ writeSceneFile(const fs::path& path, const Settings& s, const Simulator& simulat
     json["resolution"] = s.scanner.resolution.value;
   if (s.scanner.exact)
     json["exact"] = true;
+  if (s.simulation.range.max_range != RangeOptions().max_range)
+    json["max_range"] = s.simulation.range.max_range;
+  app::describeScene(s.scene, scene, json);
   writeFileAtomically(path,
                       [&](std::ostream& stream) { stream << json.dump(2) << '\n'; });
 }
@@ -189,6 +170,7 @@ writeFiles(const app::OutputFolder& folder,
 {
   const app::Interrupt interrupt;
   const TriangleScene& surfaces = simulator.scene().scene();
+  const bool has_labels = app::wantsLabels(s.scene);
   TruthCounts counts;
   const bool on_the_move = s.simulation.motion == ScanMotion::kContinuous;
   for (std::size_t i = 0; i < simulator.size(); ++i) {
@@ -199,7 +181,7 @@ writeFiles(const app::OutputFolder& folder,
     pcl::toPCLPointCloud2(toPointCloud(scan, simulator.scanner()), cloud);
     if (on_the_move)
       addTimeField(cloud, simulator.scanner());
-    if (s.labels == "yes") {
+    if (has_labels) {
       addTruthFields(cloud, scan, surfaces);
       counts.add(scan, surfaces);
     }
@@ -212,9 +194,9 @@ writeFiles(const app::OutputFolder& folder,
   writeTrajectoryKitti(folder / "groundtruth.txt", simulator.truth());
   if (on_the_move)
     writeStamps(folder / "times.txt", simulator.truth().stamps);
-  if (s.labels == "yes")
+  if (has_labels)
     app::writeTruthFiles(folder, scene, simulator, counts);
-  writeSceneFile(folder / kMarker, s, simulator);
+  writeSceneFile(folder / kMarker, s, scene, simulator);
   return true;
 }
 
@@ -231,14 +213,15 @@ printSummary(const Settings& s, const Simulator& simulator)
     largest = std::max(largest, error);
   }
   std::printf("%s: %zu scans, seed %lld; odometry off by %.3f m rms, %.3f m at most\n"
-              "written to %s: scan*.pcd odometry.txt groundtruth.txt %s%s\n",
-              s.scene.c_str(),
+              "written to %s: scan*.pcd odometry.txt groundtruth.txt %s%s%s\n",
+              s.scene.name.c_str(),
               simulator.size(),
               static_cast<long long>(s.seed),
               std::sqrt(sum_sq / static_cast<double>(simulator.size())),
               largest,
               s.out.c_str(),
               s.simulation.motion == ScanMotion::kContinuous ? "times.txt " : "",
+              app::wantsLabels(s.scene) ? "planes_truth.json objects_truth.json " : "",
               kMarker);
 }
 
@@ -249,14 +232,7 @@ run(const std::vector<std::string>& arguments)
   if (!parse(arguments, s))
     return app::kDone;
   applySettings(s);
-  SimulationScene scene;
-  app::checkOptions(
-      [&] {
-        scene = builtInScene(s.scene, s.simulation.seed);
-        applyScene(scene, s);
-        s.simulation.validate();
-      },
-      {{"num_scans", "scans"}});
+  const SimulationScene scene = sceneOf(s);
   const Simulator simulator = app::startDrive(scene, s.simulation);
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))

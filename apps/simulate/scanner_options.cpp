@@ -28,17 +28,19 @@ describeScanner(CommandLine& line, ScannerWords& words)
       ("noise",
        valueOf(words.noise),
        "[m] standard deviation of the ranges, apart from what grows with range or "
-       "angle; "
-       "auto: the scanner's") //
+       "angle; auto: the scanner's") //
+      ("max-range",
+       valueOf(words.max_range),
+       "[m] farther things are not seen; auto: what suits the scene for rotating, the "
+       "scanner's for all others") //
       ("exact",
        po::bool_switch(&words.exact),
        "one ideal ray per sample and true ranges; with --noise: that noise and no "
-       "other "
-       "error");
+       "other error");
 }
 
 void
-applyScanner(const ScannerWords& words, SimulationOptions& options)
+applyScanner(const ScannerWords& words, double scene_range, SimulationOptions& options)
 {
   checkOptions([&] {
     std::optional<double> resolution;
@@ -52,6 +54,10 @@ applyScanner(const ScannerWords& words, SimulationOptions& options)
   });
   if (!words.noise.is_auto)
     options.range.noise = words.noise.value;
+  if (!words.max_range.is_auto)
+    options.range.max_range = words.max_range.value;
+  else if (words.name == ScannerWords().name)
+    options.range.max_range = scene_range;
 }
 
 } // namespace pcl6d::app

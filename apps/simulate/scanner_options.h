@@ -14,6 +14,7 @@ struct ScannerWords {
   std::string name = "rotating";
   AutoDouble resolution; ///< [deg]
   AutoDouble noise;      ///< [m]
+  AutoDouble max_range;  ///< [m]
   bool exact = false;
 };
 
@@ -25,8 +26,9 @@ void
 describeScanner(CommandLine& line, ScannerWords& words);
 
 /** \brief Sets the scanner and how it measures.
+ * \param[in] scene_range [m] that suits the scene
  * \throws UsageError naming the option that breaks its rule */
 void
-applyScanner(const ScannerWords& words, SimulationOptions& options);
+applyScanner(const ScannerWords& words, double scene_range, SimulationOptions& options);
 
 } // namespace pcl6d::app

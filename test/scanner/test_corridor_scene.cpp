@@ -136,7 +136,9 @@ TEST(BuiltInScene, UnknownNameListsTheKnownOnes)
     pcl6d::builtInScene("cathedral");
     FAIL() << "nothing thrown";
   } catch (const pcl6d::BadArgument& e) {
-    EXPECT_STREQ(e.what(), "no scene 'cathedral'; known: corridor");
+    EXPECT_STREQ(
+        e.what(),
+        "no scene 'cathedral'; known: corridor, campus, mine, multilevel, rooms");
   }
   for (const auto& name : pcl6d::builtInSceneNames())
     EXPECT_EQ(pcl6d::builtInScene(name).name, name);

@@ -74,6 +74,7 @@ orientPlane(Plane& plane)
     plane.offset = -plane.offset;
     std::reverse(plane.hull.begin(), plane.hull.end());
   }
+  plane.normal.array() += 0.0; // no -0
   plane.offset = std::abs(plane.offset);
 }
 

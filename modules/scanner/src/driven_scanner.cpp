@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan_size.h"
 
+#include <pcl6d/common/median.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
@@ -58,22 +59,51 @@ driveAngles(const DrivenScannerOptions& options)
   return angles;
 }
 
-// How far the drive turns during line i: up to the next one.
+// From value i to the next one; the last one goes on like the one before it.
 double
-turnOfLine(const std::vector<double>& theta, std::size_t i)
+stepFrom(const std::vector<double>& values, std::size_t i)
 {
-  if (theta.size() == 1)
-    return 0;
-  const std::size_t from = std::min(i, theta.size() - 2);
-  return theta[from + 1] - theta[from];
+  const std::size_t from = std::min(i, values.size() - 2);
+  return values[from + 1] - values[from];
+}
+
+std::vector<double>
+startTimes(const DrivenScannerOptions& options,
+           const std::vector<double>& theta,
+           const std::vector<double>& times)
+{
+  std::vector<double> starts;
+  if (times.empty())
+    for (std::size_t i = 0; i < theta.size(); ++i)
+      starts.push_back(static_cast<double>(i) * options.line_period);
+  for (const double time : times) {
+    const double start = time - times.front();
+    require(std::isfinite(start) && (starts.empty() || start > starts.back()),
+            "times",
+            time,
+            "finite and increasing");
+    starts.push_back(start);
+  }
+  require(starts.size() == theta.size(), "times", starts.size(), "one per drive angle");
+  return starts;
+}
+
+// [s] A usual line's, as measured times jitter.
+double
+linePeriod(const DrivenScannerOptions& options, const std::vector<double>& starts)
+{
+  std::vector<double> periods;
+  for (std::size_t i = 0; i + 1 < starts.size(); ++i)
+    periods.push_back(starts[i + 1] - starts[i]);
+  return periods.empty() ? options.line_period : upperMedian(std::move(periods));
 }
 
 double
-samplePeriod(const DrivenScannerOptions& options)
+samplePeriod(const DrivenScannerOptions& options, double line_period)
 {
   const double share = std::min(std::abs(options.beam.step()) / (2 * M_PI),
                                 1.0 / options.beam.count); // of the mirror's turn
-  return options.sample_period.value_or(share * options.line_period);
+  return options.sample_period.value_or(share * line_period);
 }
 } // namespace
 
@@ -127,30 +157,42 @@ DrivenScanner::DrivenScanner(const DrivenScannerOptions& options)
 {}
 
 DrivenScanner::DrivenScanner(const DrivenScannerOptions& options,
-                             const std::vector<double>& theta)
+                             const std::vector<double>& theta,
+                             const std::vector<double>& times)
 : drive_(options.drive)
 , lever_arm_(options.lever_arm)
 , axis_position_(options.axis_position)
-, line_period_(options.line_period)
 {
   options.validate();
   require(!theta.empty(), "drive angles", theta.size(), "one per line, at least 1");
   requireScanSize(static_cast<double>(theta.size()), options.beam.count);
-  sample_period_ = samplePeriod(options);
+  const std::vector<double> starts = startTimes(options, theta, times);
+  sample_period_ = samplePeriod(options, linePeriod(options, starts));
+  addLines(options, theta, starts);
+  for (int sample = 0; sample < options.beam.count; ++sample) {
+    const SinCos mirror = portableSinCos(options.beam.angle(sample));
+    mirrored_.emplace_back(options.mounting *
+                           Eigen::Vector3d(mirror.cos, mirror.sin, 0));
+  }
+}
+
+void
+DrivenScanner::addLines(const DrivenScannerOptions& options,
+                        const std::vector<double>& theta,
+                        const std::vector<double>& starts)
+{
+  const bool is_single = theta.size() == 1;
+  const bool turns_on = options.motion == DriveMotion::kContinuous && !is_single;
   for (std::size_t i = 0; i < theta.size(); ++i) {
     require(std::abs(theta[i]) <= kLargestDriveAngle,
             ("drive angle " + std::to_string(i)).c_str(),
             theta[i],
             "finite and within 100 full turns");
-    lines_.push_back({theta[i], 0, driveRotation(drive_, theta[i])});
-  }
-  if (options.motion == DriveMotion::kContinuous)
-    for (std::size_t i = 0; i < theta.size(); ++i)
-      lines_[i].turn = turnOfLine(theta, i);
-  for (int sample = 0; sample < options.beam.count; ++sample) {
-    const SinCos mirror = portableSinCos(options.beam.angle(sample));
-    mirrored_.emplace_back(options.mounting *
-                           Eigen::Vector3d(mirror.cos, mirror.sin, 0));
+    lines_.push_back({theta[i],
+                      turns_on ? stepFrom(theta, i) : 0,
+                      starts[i],
+                      is_single ? options.line_period : stepFrom(starts, i),
+                      driveRotation(drive_, theta[i])});
   }
 }
 
@@ -173,7 +215,7 @@ DrivenScanner::ray(int line, int sample) const
   const Eigen::Vector3d& beam = mirrored_[static_cast<std::size_t>(sample)];
   if (at.turn == 0)
     return {axis_position_ + at.R_drive * lever_arm_, at.R_drive * beam};
-  const double passed = sample * sample_period_ / line_period_; // share of the line
+  const double passed = sample * sample_period_ / at.period; // share of the line
   const Eigen::Matrix3d R = driveRotation(drive_, at.theta + passed * at.turn);
   return {axis_position_ + R * lever_arm_, R * beam};
 }
@@ -181,13 +223,14 @@ DrivenScanner::ray(int line, int sample) const
 double
 DrivenScanner::time(int line, int sample) const
 {
-  return line * line_period_ + sample * sample_period_;
+  return lines_[static_cast<std::size_t>(line)].start + sample * sample_period_;
 }
 
 double
 DrivenScanner::duration() const
 {
-  return numLines() * line_period_;
+  return lines_.back().start +
+         std::max(lines_.back().period, samplesPerLine() * sample_period_);
 }
 
 } // namespace pcl6d

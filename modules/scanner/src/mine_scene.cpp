@@ -193,10 +193,13 @@ mineScene(std::uint64_t seed)
     scene.addObject("cart",
                     cartModel(),
                     poseAt(2 * M_PI * (i + random.uniform(0.3, 0.6)) / 3, 1.1));
-  for (int i = 0; i < 16; ++i)
-    scene.addObject("boulder",
-                    boulderModel(random.uniform(0.4, 0.8), rock_seed + i),
-                    poseAt(2 * M_PI * (i + random.uniform(0, 0.5)) / 16, -1.5));
+  constexpr int kBoulders = 16;
+  for (int i = 0; i < kBoulders; ++i) {
+    const double size = random.uniform(0.4, 0.8);
+    const double turn = 2 * M_PI * (i + random.uniform(0, 0.5)) / kBoulders;
+    const auto shape_seed = rock_seed + static_cast<std::uint64_t>(i);
+    scene.addObject("boulder", boulderModel(size, shape_seed), poseAt(turn, -1.5));
+  }
   constexpr int kWaypoints = 72;
   for (int i = 0; i < kWaypoints; ++i)
     scene.waypoints.push_back(

@@ -181,52 +181,42 @@ furnish(SimulationScene& scene)
   put("person", personModel(1.68), {8.2, 4, kUpper}, 2);
 }
 
+using Plan = std::vector<Eigen::Vector2d>;
+
+const Plan kUpperRound = {{23.3, 1.2},  {24.5, 1.3},  {24.5, 2.6}, {24.3, 4.6},
+                          {23, 5.35},   {21, 5.35},   {19, 5.6},   {16, 5.5},
+                          {14, 5.35},   {12, 5.2},    {8, 5.0},    {6.5, 7},
+                          {7.5, 9.4},   {11, 9.9},    {15, 9.9},   {19, 10},
+                          {21.5, 10.2}, {21.8, 12.2}, {20, 12.8},  {18.4, 12.8}};
+const Plan kLowerRound = {{12.2, 12.8},
+                          {10.5, 12.7},
+                          {9, 11.5},
+                          {10.5, 9.5},
+                          {15, 9.3},
+                          {20, 9.8},
+                          {22.8, 8},
+                          {21.8, 5.3},
+                          {18, 6.9},
+                          {12, 7.5},
+                          {8, 7.2},
+                          {4, 7.4},
+                          {1.7, 6.6}};
+
 std::vector<Eigen::Vector3d>
 multilevelWaypoints()
 {
-  std::vector<Eigen::Vector3d> way = {{1.5, 4.6, 0}, {1.5, 2.6, 0}, {1.5, 1.4, 0}};
+  std::vector<Eigen::Vector3d> way = {
+      {1.5, 4.6, 0}, {1.5, 2.6, 0}, {1.5, 1.4, 0}, {2.6, 1.2, 0}};
   const double rise = kUpper / (kRampTo - kRampFrom);
-  way.push_back({2.6, 1.2, 0});
   for (double x = 4; x < kRampTo; x += 2)
     way.push_back({x, x < 12 ? 1.15 : 1.4, rise * (x - kRampFrom)});
-  for (const auto& [x, y] : {std::pair{23.3, 1.2},
-                             {24.5, 1.3},
-                             {24.5, 2.6},
-                             {24.3, 4.6},
-                             {23, 5.35},
-                             {21, 5.35},
-                             {19, 5.6},
-                             {16, 5.5},
-                             {14, 5.35},
-                             {12, 5.2},
-                             {8, 5.0},
-                             {6.5, 7},
-                             {7.5, 9.4},
-                             {11, 9.9},
-                             {15, 9.9},
-                             {19, 10},
-                             {21.5, 10.2},
-                             {21.8, 12.2},
-                             {20, 12.8}})
-    way.push_back({x, y, kUpper});
+  for (const auto& place : kUpperRound)
+    way.push_back({place.x(), place.y(), kUpper});
   const double foot = kStairsFrom + 0.3;
-  way.push_back({18.4, 12.8, kUpper});
   for (double x = 17; x > foot; x -= 1)
     way.push_back({x, 12.8, kUpper * (x - foot) / (kStairsTo - foot) + 0.1});
-  for (const auto& [x, y] : {std::pair{12.2, 12.8},
-                             {10.5, 12.7},
-                             {9, 11.5},
-                             {10.5, 9.5},
-                             {15, 9.3},
-                             {20, 9.8},
-                             {22.8, 8},
-                             {21.8, 5.3},
-                             {18, 6.9},
-                             {12, 7.5},
-                             {8, 7.2},
-                             {4, 7.4},
-                             {1.7, 6.6}})
-    way.push_back({x, y, 0});
+  for (const auto& place : kLowerRound)
+    way.push_back({place.x(), place.y(), 0});
   return way;
 }
 } // namespace

@@ -30,6 +30,17 @@ fail(int scan, const char* what, const Surface& surface, const Eigen::Vector3d& 
                       surface.name + "' at " + text + " of the scene");
 }
 
+Eigen::Isometry3d
+poseAt(const RayCaster& caster, const RobotPath& path, double way, int scan)
+{
+  try {
+    return path.sensorPose(caster, way);
+  } catch (const ComputeFailed& e) { // no floor
+    throw ComputeFailed("scan " + std::to_string(scan) +
+                        " or the path after it: " + e.what());
+  }
+}
+
 // A closed body is left through the back of a face and in no other way.
 void
 requireOutside(const RayCaster& caster, const Eigen::Vector3d& place, int scan)
@@ -63,17 +74,16 @@ void
 requireFreePath(const RayCaster& caster, const RobotPath& path, int num_scans)
 {
   const double half = -path.sensorHeight() / 2;
-  for (int scan = 0; scan < num_scans; ++scan)
-    requireOutside(
-        caster,
-        path.sensorPose(caster, path.length() * scan / num_scans).translation(),
-        scan);
+  for (int scan = 0; scan < num_scans; ++scan) {
+    const double way = path.length() * scan / num_scans;
+    requireOutside(caster, poseAt(caster, path, way, scan).translation(), scan);
+  }
   const int steps = static_cast<int>(std::ceil(path.length() / kStep));
-  Eigen::Isometry3d before = path.sensorPose(caster, 0);
+  Eigen::Isometry3d before = poseAt(caster, path, 0, 0);
   for (int i = 1; i <= steps; ++i) {
-    const double way = path.length() * i / steps;
-    const Eigen::Isometry3d pose = path.sensorPose(caster, way);
     const int scan = static_cast<int>(std::floor(num_scans * ((i - 1.0) / steps)));
+    const Eigen::Isometry3d pose =
+        poseAt(caster, path, path.length() * i / steps, scan);
     for (const double height : {0.0, half}) {
       const Eigen::Vector3d mast(0, 0, height);
       requireFree(caster, before * mast, pose * mast, scan);

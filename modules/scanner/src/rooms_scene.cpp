@@ -183,13 +183,14 @@ addTableWithChairs(SimulationScene& scene,
   scene.addObject("table", tableModel(length, kWidth, 0.74), side.pose(u, v, kToHall));
   const int chairs = length > 1.4 ? 2 : 1;
   for (int i = 0; i < chairs; ++i) {
-    const double aside = (i + 0.5) / chairs - 0.5;
+    // One draw per statement: the order of arguments is the compiler's choice.
+    const double aside =
+        ((i + 0.5) / chairs - 0.5) * length + random.uniform(-0.05, 0.05);
+    const double gap = random.uniform(0.05, 0.12);
+    const double turn = random.uniform(-0.3, 0.3);
     scene.addObject("chair",
                     chairModel(),
-                    side.pose(u + aside * length + random.uniform(-0.05, 0.05),
-                              v - kWidth / 2 - random.uniform(0.05, 0.12),
-                              kFromHall,
-                              random.uniform(-0.3, 0.3)));
+                    side.pose(u + aside, v - kWidth / 2 - gap, kFromHall, turn));
   }
 }
 

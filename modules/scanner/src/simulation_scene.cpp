@@ -71,7 +71,11 @@ SimulationScene::addObject(const std::string& object_class,
 {
   objects.push_back(objectPose(object_class, shape, T_scene_object));
   const auto id = static_cast<std::uint32_t>(objects.size());
+  const std::size_t first = geometry.surfaces.size();
   addModel(geometry, shape, T_scene_object, id);
+  for (std::size_t i = first; i < geometry.surfaces.size(); ++i)
+    if (geometry.surfaces[i].name == Surface().name) // errors name what is in the way
+      geometry.surfaces[i].name = object_class;
   return id;
 }
 

@@ -29,9 +29,7 @@ bool
 isFlying(const RangeScan& scan, int row, int col, double max_jump)
 {
   return isApart(scan, row, col, 0, 1, max_jump) ||
-         isApart(scan, row, col, 1, 0, max_jump) ||
-         isApart(scan, row, col, 1, 1, max_jump) ||
-         isApart(scan, row, col, 1, -1, max_jump);
+         isApart(scan, row, col, 1, 0, max_jump);
 }
 } // namespace
 

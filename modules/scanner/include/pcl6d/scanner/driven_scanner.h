@@ -58,11 +58,15 @@ public:
   /** \throws BadArgument see DrivenScannerOptions::validate() */
   explicit DrivenScanner(const DrivenScannerOptions& options = rotatingScanner());
 
-  /** \brief A drive whose angles were measured. \param[in] theta drive angle at the
-   * start of each line [rad], in place of options.theta; a continuous drive goes on
-   * after the last line as it did before it
-   * \throws BadArgument no angle, or one that is not finite */
-  DrivenScanner(const DrivenScannerOptions& options, const std::vector<double>& theta);
+  /** \brief A drive whose angles were measured.
+   * \param[in] theta drive angle at the start of each line [rad], in place of
+   * options.theta; a continuous drive goes on after the last line as it did before it
+   * \param[in] times of these starts [s], increasing; empty: options.line_period apart
+   * \throws BadArgument no angle, one that is not finite, or not one time per angle,
+   * or times that do not increase */
+  DrivenScanner(const DrivenScannerOptions& options,
+                const std::vector<double>& theta,
+                const std::vector<double>& times = {});
 
   int
   numLines() const override;
@@ -79,11 +83,18 @@ private:
   struct Line {
     double theta = 0;        // [rad] at its start
     double turn = 0;         // [rad] until the next one; 0 of a stepped drive
+    double start = 0;        // [s]
+    double period = 0;       // [s] until the next one
     Eigen::Matrix3d R_drive; // at its start
   };
+  void
+  addLines(const DrivenScannerOptions& options,
+           const std::vector<double>& theta,
+           const std::vector<double>& starts);
+
   Drive drive_;
   Eigen::Vector3d lever_arm_, axis_position_;
-  double line_period_, sample_period_;
+  double sample_period_; // [s]
   std::vector<Line> lines_;
   std::vector<Eigen::Vector3d> mirrored_; // R_m (cos alpha, sin alpha, 0) per sample
 };

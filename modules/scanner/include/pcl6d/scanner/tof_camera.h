@@ -46,9 +46,9 @@ private:
 };
 
 /** \brief Drops pixels whose spot lay on two surfaces, so that they float between them:
- * those that are farther than max_jump from both neighbours on opposite sides, in a row,
- * a column or a diagonal. The last pixel of a surface stays, as it has a neighbour on
- * it; a thing one pixel wide does not. \param[in] max_jump [m] of the range, > 0
+ * those that are farther than max_jump from both neighbours in their row, or in their
+ * column. The last pixel of a surface stays, as it has a neighbour on it; a thing one
+ * pixel wide does not. \param[in] max_jump [m] of the range, > 0
  * \return the number of dropped pixels */
 std::size_t
 dropFlyingPixels(RangeScan& scan, double max_jump);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_relaxation/error_diffusion_cases.h"
+#include "support/points.h"
 
 namespace pcl6d::test {
 

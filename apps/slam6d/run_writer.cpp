@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam6d/run_writer.h"
+#include "slam6d/verdict.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/version.h>
@@ -9,8 +10,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iomanip>
-#include <sstream>
 #include <sys/resource.h>
 
 namespace pcl6d::app {
@@ -55,83 +54,6 @@ entryOf(const std::string& file, int index, const ScanResult& scan)
   entry.correction = scan.correction;
   entry.reason = scan.reason;
   return entry;
-}
-
-/** \return ": a.pcd, b.pcd and 3 more" for the scans in a state */
-std::string
-filesIn(const std::string& state, const RunSummary& summary)
-{
-  constexpr int kMost = 8;
-  std::string text;
-  int count = 0;
-  for (const auto& scan : summary.scans)
-    if (scan.state == state && ++count <= kMost)
-      text += (count == 1 ? ": " : ", ") + scan.file;
-  return count > kMost ? text + " and " + std::to_string(count - kMost) + " more"
-                       : text;
-}
-
-/** The worst numbers of the matched scans, so that a bad match shows without --verbose. */
-void
-describeQuality(const RunSummary& summary, std::ostream& text)
-{
-  using Entry = RunSummary::ScanEntry;
-  std::vector<const Entry*> matched;
-  for (const auto& scan : summary.scans)
-    if (scan.state == "matched")
-      matched.push_back(&scan);
-  if (matched.empty())
-    return;
-  const auto largest = [&](double Entry::*member, double sign) {
-    return *std::max_element(
-        matched.begin(), matched.end(), [&](const Entry* a, const Entry* b) {
-          return sign * a->*member < sign * b->*member;
-        });
-  };
-  const Entry* overlap = largest(&Entry::overlap, -1);
-  const Entry* correction = largest(&Entry::correction, 1);
-  const Entry* rms = largest(&Entry::rms, 1);
-  text << std::fixed << std::setprecision(2) << "\nleast overlap " << overlap->overlap
-       << " (" << overlap->file << "), largest correction " << correction->correction
-       << " m (" << correction->file << "), largest rms " << std::setprecision(3)
-       << rms->rms << " m (" << rms->file << ")";
-}
-
-std::string
-counted(std::size_t count, const std::string& thing)
-{
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
-std::string
-verdictOf(const Slam6DResult& result, const RunSummary& summary)
-{
-  const std::string all = counted(result.scans.size(), "scan");
-  const std::size_t pending = result.count(ScanState::kPending);
-  std::ostringstream text;
-  if (pending > 0)
-    text << "PARTIAL: interrupted; " << pending << " of " << all
-         << " not registered, at predicted poses";
-  else if (!summary.complete)
-    text << "PARTIAL: interrupted; the poses are complete, but scans, map and picture "
-            "are missing";
-  else if (result.trusted())
-    text << (result.scans.size() == 1
-                 ? "1 scan, nothing to match"
-                 : "all " + all + " registered, every match converged");
-  else
-    text << result.count(ScanState::kMatched) + 1 << " of " << all << " registered";
-  if (const auto failed = result.count(ScanState::kPredicted))
-    text << "\nNOT TO BE TRUSTED: " << counted(failed, "scan")
-         << " could not be matched, predicted pose kept"
-         << filesIn("predicted", summary);
-  if (const auto limit = result.count(ScanState::kUnconverged))
-    text
-        << "\nNOT TO BE TRUSTED: " << counted(limit, "scan")
-        << " did not converge (bad initial pose, little overlap, --metascan too small?)"
-        << filesIn("unconverged", summary);
-  describeQuality(summary, text);
-  return text.str();
 }
 
 /** \return the number in as few digits as tell it from all others */
@@ -217,7 +139,7 @@ RunWriter::write(bool complete, const RunLog& log)
     summary_.map_points = summary_.complete ? map.points().size() : 0;
   }
   summary_.trusted = summary_.complete && result_.trusted();
-  summary_.verdict = verdictOf(result_, summary_) + graphVerdict();
+  summary_.verdict = verdictOf(result_, summary_);
   writeRunSummary(out_ / "summary.json", summary_);
   return summary_;
 }
@@ -239,15 +161,16 @@ RunWriter::writeHistory() const
 {
   for (std::size_t i = 0; i < folder_.size(); ++i) {
     const ScanResult& scan = result_.scans[i];
-    const bool moved =
-        !result_.stages.empty() && !scan.matched_pose.isApprox(scan.T_world_scan, 0);
     std::vector<Frame> frames = {
         {scan.initial_pose, FrameKind::kInvalid},
-        {moved ? scan.matched_pose : scan.T_world_scan, kindOf(scan.state)}};
-    if (moved)
-      frames.push_back(
-          {scan.T_world_scan,
-           result_.stages.back().undone ? FrameKind::kElch : FrameKind::kLum});
+        {result_.stages.empty() ? scan.T_world_scan : scan.matched_pose,
+         kindOf(scan.state)}};
+    for (const StageResult& stage : result_.stages)
+      if (stage.name != "matching")
+        for (const auto& poses : stage.history)
+          frames.push_back(
+              {poses[i],
+               stage.name == "relaxation" ? FrameKind::kLum : FrameKind::kElch});
     writeFrames(out_ / ("frames/" + scanName(folder_.index(i)) + ".frames"), frames);
   }
 }

@@ -10,18 +10,17 @@ namespace pcl6d {
 namespace {
 using Json = nlohmann::ordered_json;
 
-/** Numbers row by row into a matrix of fixed size. */
+/** Takes the numbers row by row. \param[in] name for messages */
 template <typename Matrix>
 void
-fill(const Json& numbers, Matrix& matrix)
+fill(const Json& json, const std::string& name, Matrix& matrix)
 {
-  const auto values = numbers.get<std::vector<double>>();
+  const auto values = json.get<std::vector<double>>();
   if (values.size() != static_cast<std::size_t>(matrix.size()))
-    throw Json::other_error::create(
-        501, "expected " + std::to_string(matrix.size()) + " numbers", &numbers);
-  for (Eigen::Index row = 0, i = 0; row < matrix.rows(); ++row)
-    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
-      matrix(row, column) = values[static_cast<std::size_t>(i++)];
+    throw std::invalid_argument(name + ": expected " + std::to_string(matrix.size()) +
+                                " numbers, got " + std::to_string(values.size()));
+  for (Eigen::Index i = 0; i < matrix.size(); ++i)
+    matrix(i / matrix.cols(), i % matrix.cols()) = values[static_cast<std::size_t>(i)];
 }
 
 /** A number that is not finite is null in JSON. */
@@ -37,14 +36,14 @@ scanOf(const Json& json)
   RunSummary::ScanEntry scan;
   json.at("file").get_to(scan.file);
   json.at("index").get_to(scan.index);
-  fill(json.at("initial_pose"), scan.initial_pose.matrix());
-  fill(json.at("T_world_scan"), scan.T_world_scan.matrix());
+  fill(json.at("initial_pose"), "initial_pose", scan.initial_pose.matrix());
+  fill(json.at("T_world_scan"), "T_world_scan", scan.T_world_scan.matrix());
   if (const Json& rows = json.at("covariance"); !rows.is_null()) {
     Json numbers = Json::array();
     for (const Json& row : rows)
       numbers.insert(numbers.end(), row.begin(), row.end());
     scan.covariance.emplace();
-    fill(numbers, *scan.covariance);
+    fill(numbers, "covariance", *scan.covariance);
   }
   json.at("state").get_to(scan.state);
   json.at("status").get_to(scan.status);
@@ -81,9 +80,14 @@ RunSummary
 summaryOf(const Json& json)
 {
   RunSummary summary;
+  if (const int schema = json.at("schema_version");
+      schema != RunSummary::kSchemaVersion)
+    throw std::invalid_argument("schema_version = " + std::to_string(schema) +
+                                ", but must be " +
+                                std::to_string(RunSummary::kSchemaVersion));
   json.at("generator").get_to(summary.generator);
   json.at("version").get_to(summary.version);
-  fill(json.at("world_offset"), summary.world_offset);
+  fill(json.at("world_offset"), "world_offset", summary.world_offset);
   json.at("pose_source").get_to(summary.pose_source);
   json.at("verdict").at("trusted").get_to(summary.trusted);
   json.at("verdict").at("complete").get_to(summary.complete);
@@ -101,6 +105,15 @@ summaryOf(const Json& json)
     summary.scans.push_back(scanOf(scan));
   return summary;
 }
+
+/** \return the message of the JSON library without its number in brackets */
+std::string
+reasonOf(const Json::exception& error)
+{
+  const std::string message = error.what();
+  const std::size_t end = message.find("] ");
+  return end == std::string::npos ? message : message.substr(end + 2);
+}
 } // namespace
 
 RunSummary
@@ -108,15 +121,11 @@ readRunSummary(const std::filesystem::path& path)
 {
   const std::string content = text::readFile(path);
   try {
-    const Json json = Json::parse(content);
-    if (const int version = json.at("schema_version");
-        version != RunSummary::kSchemaVersion)
-      text::fail(path,
-                 "has schema_version " + std::to_string(version) + ", but only " +
-                     std::to_string(RunSummary::kSchemaVersion) + " is known");
-    return summaryOf(json);
-  } catch (const Json::exception& e) {
-    text::fail(path, std::string("is no summary of a run: ") + e.what());
+    return summaryOf(Json::parse(content));
+  } catch (const Json::exception& error) {
+    text::fail(path, "is no summary of a run: " + reasonOf(error));
+  } catch (const std::invalid_argument& error) {
+    text::fail(path, error.what());
   }
 }
 

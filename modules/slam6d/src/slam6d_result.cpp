@@ -48,7 +48,8 @@ Slam6DResult::count(ScanState state) const
 bool
 Slam6DResult::trusted() const
 {
-  return count(ScanState::kFixed) + count(ScanState::kMatched) == scans.size();
+  return floating.empty() &&
+         count(ScanState::kFixed) + count(ScanState::kMatched) == scans.size();
 }
 
 } // namespace pcl6d

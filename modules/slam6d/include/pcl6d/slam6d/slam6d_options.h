@@ -57,7 +57,7 @@ struct Slam6DOptions {
   double max_correction = 0.4;
   LoopClosing loop_closing = LoopClosing::kElch; ///< of loops that are found (5.1)
   std::optional<Relaxation> relaxation =
-      Relaxation::kHelix; ///< of all scans at once (5.2); none: off
+      Relaxation::kHelix;              ///< of all scans at once (5.2); none: off
   LinkRule links = LinkRule::kOverlap; ///< between which scans, while relaxing (6.3)
   int relaxation_rounds = 10;          ///< > 0
   /** links that are always looked at, besides those found; each counts as far as the

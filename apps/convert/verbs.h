@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+constexpr const char* kConvert = "pcl_slam6d_convert"; ///< the program's name
+
+/** \brief `scans IN -o OUT`: a scan or a folder of scans in another format.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runScans(const std::vector<std::string>& arguments);
+
+/** \brief `trajectory IN -o OUT`: poses in another format.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runTrajectory(const std::vector<std::string>& arguments);
+
+} // namespace pcl6d::app

@@ -253,13 +253,13 @@ ScanFolder::read(std::size_t i) const
 ScanCloud
 ScanFolder::readCloud(std::size_t i) const
 {
-  return readScanCloud(file(i), format_);
+  return readScanCloud(file(i), entries_[i].format);
 }
 
 ScanFormat
 ScanFolder::format() const
 {
-  return format_;
+  return entries_.front().format;
 }
 
 } // namespace pcl6d

@@ -103,7 +103,7 @@ public:
   ScanCloud
   readCloud(std::size_t i) const;
 
-  /** \return the format of the scans, not kAuto */
+  /** \return the format of the first scan, not kAuto */
   ScanFormat
   format() const;
 

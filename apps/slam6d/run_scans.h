@@ -17,9 +17,8 @@ public:
   /** Keeps a reference to the folder. */
   explicit RunScans(const ScanFolder& folder) : folder_(folder) {}
 
-  /** \brief From now on the motion is undone. Reads the first scan to be
-   * registered, which tells how times
-   * are stored. \throws IoFailed poses, stamps or times are missing or broken */
+  /** \brief From now on the motion is undone. Reads the first scan to be registered, which
+   * tells how times are stored. \throws IoFailed poses, stamps or times are missing or broken */
   void
   deskew(MotionInterpolation interpolation);
 

@@ -4,6 +4,8 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/scanner/motion_correction.h>
 
+#include <pcl/point_types.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -201,6 +203,27 @@ TEST(MotionCorrection, HasTheSameBitsForEveryThreadCount)
     correction.correct(points, times, drive.stamps[1], threads);
     EXPECT_EQ(points, expected);
   }
+}
+
+TEST(MotionCorrection, TakesPclClouds)
+{
+  const Trajectory drive = randomDrive(3);
+  const MotionCorrection correction(drive);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float x : {1.f, nan, -2.f}) {
+    pcl::PointXYZI point;
+    point.getVector3fMap() = Eigen::Vector3f(x, 2, 3);
+    point.intensity = 7;
+    cloud.push_back(point);
+  }
+  Points expected = pcl6d::toPoints(cloud);
+  correction.correct(expected, {0.1, 0.2, 0.3}, drive.stamps[1]);
+  correction.correct(cloud, {0.1, 0.2, 0.3}, drive.stamps[1]);
+  EXPECT_EQ(cloud[0].getVector3fMap(), expected[0]);
+  EXPECT_TRUE(std::isnan(cloud[1].x));
+  EXPECT_EQ(cloud[2].getVector3fMap(), expected[2]);
+  EXPECT_EQ(cloud[2].intensity, 7);
 }
 
 TEST(MotionCorrection, FindsTheUnitByTypeAndRange)

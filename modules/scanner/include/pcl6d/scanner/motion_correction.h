@@ -94,6 +94,20 @@ public:
           double stamp,
           unsigned num_threads = 0) const;
 
+  /** \brief The same for a PCL cloud; points that are NaN stay so. */
+  template <typename PointT>
+  void
+  correct(pcl::PointCloud<PointT>& cloud,
+          const std::vector<double>& times,
+          double stamp,
+          unsigned num_threads = 0) const
+  {
+    Points points = toPoints(cloud);
+    correct(points, times, stamp, num_threads);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      cloud[i].getVector3fMap() = points[i];
+  }
+
 private:
   std::size_t
   segmentAt(double time) const;

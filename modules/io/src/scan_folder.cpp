@@ -246,13 +246,13 @@ ScanFolder::read(std::size_t i) const
 ScanCloud
 ScanFolder::readCloud(std::size_t i) const
 {
-  return readScanCloud(file(i), format_);
+  return readScanCloud(file(i), entries_[i].format);
 }
 
 ScanFormat
-ScanFolder::format() const
+ScanFolder::format(std::size_t i) const
 {
-  return format_;
+  return entries_.at(i).format;
 }
 
 } // namespace pcl6d

@@ -98,9 +98,9 @@ public:
   ScanCloud
   readCloud(std::size_t i) const;
 
-  /** \return the format of the scans, not kAuto */
+  /** \return the format of the i-th selected scan, not kAuto */
   ScanFormat
-  format() const;
+  format(std::size_t i) const;
 
 private:
   struct Entry {

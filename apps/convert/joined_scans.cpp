@@ -112,14 +112,13 @@ private:
       Eigen::Isometry3d pose = source_.pose(i);
       pose.translation() -= source_.worldOffset();
       const auto kept = surfacesOf(scan.cloud);
-      const auto index = static_cast<std::uint32_t>(source_.folder().index(i));
       for (std::size_t begin = 0; begin < kept.size(); begin += kBlock)
         sink(layout_.joined(scan.cloud,
                             kept,
                             begin,
                             std::min(kept.size(), begin + kBlock),
                             pose,
-                            index));
+                            source_.index(i)));
       advance("writing", i);
     }
   }
@@ -130,7 +129,7 @@ private:
     const Eigen::Vector3d offset = source_.worldOffset();
     std::cout << counted(source_.folder().size(), "scan") << ", "
               << counted(points_, "point") << ": "
-              << toString(source_.folder().format()) << " to "
+              << toString(source_.folder().format(0)) << " to "
               << toString(settings_.writer.format) << '\n'
               << "poses from " << source_.poseSource() << '\n'
               << "world_offset " << std::to_string(std::llround(offset.x())) << ' '

@@ -66,7 +66,7 @@ public:
     out_.publish();
     std::cout << counted(source_.folder().size(), "scan") << ", "
               << counted(points_, "point") << ": "
-              << toString(source_.folder().format()) << " to "
+              << toString(source_.folder().format(0)) << " to "
               << toString(settings_.writer.format) << '\n';
     describePoses();
     losses_.print();
@@ -152,7 +152,9 @@ int
 convertFile(const ScanSettings& settings)
 {
   const ScanCloud scan = readScanCloud(settings.input, settings.folder.format);
-  const auto pose = findScanPose(settings.input, settings.folder.format);
+  const auto pose = fs::is_regular_file(settings.input) // a pipe cannot be read again
+                        ? findScanPose(settings.input, settings.folder.format)
+                        : std::nullopt;
   const ScanFormat format = settings.writer.format;
   LossTally losses;
   losses.addScan(scan,

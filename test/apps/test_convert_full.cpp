@@ -66,11 +66,13 @@ struct RunFolder : TempFolder {
                        0,
                        0,
                        0,
-                       1}); // farther than max-range
-      const std::string file = "scan00" + std::to_string(i) + ".pcd";
+                       1});    // farther than max-range
+      const int index = 3 * i; // of a run with --every 3
+      const std::string file = "scan00" + std::to_string(index) + ".pcd";
       pcl6d::writePcd(folder / "scans" / file, cloudOf(kNames, scans.back()), poses[i]);
       summary.scans.emplace_back();
-      summary.scans.back().file = file;
+      summary.scans.back().file = "raw" + file;
+      summary.scans.back().index = index;
       summary.scans.back().T_world_scan = poses[i];
       summary.scans.back().T_world_scan.translation() += kOffset;
     }
@@ -109,7 +111,7 @@ expectMap(const RunFolder& run, const pcl::PCLPointCloud2& map, bool all_fields)
     const float index = floatOf(map, i, "scan"); // its bits are a uint32
     std::uint32_t bits = 0;
     std::memcpy(&bits, &index, sizeof bits);
-    EXPECT_EQ(bits, scan);
+    EXPECT_EQ(bits, 3 * scan);
   }
 }
 } // namespace
@@ -197,6 +199,8 @@ TEST(ConvertFull, RunsThatHoldNoScansAreNamed)
   pcl6d::test::writeText(run.folder / "summary.json", "{}");
   expectConvertError(full(), 1, {"summary.json", "schema_version"});
   pcl6d::test::writeText(run.folder / "summary.json", summary);
+  fs::copy(run.folder / "scans/scan000.pcd", run.folder / "scans/scan001.pcd");
+  expectConvertError(full(), 1, {"scan001.pcd", "does not tell of this scan"});
   fs::remove_all(run.folder / "scans");
   expectConvertError(full(), 1, {"a run", "interrupted", "no scans"});
   EXPECT_FALSE(fs::exists(map));

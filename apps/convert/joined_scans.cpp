@@ -129,7 +129,7 @@ private:
     const Eigen::Vector3d offset = source_.worldOffset();
     std::cout << counted(source_.folder().size(), "scan") << ", "
               << counted(points_, "point") << ": "
-              << toString(source_.folder().format(0)) << " to "
+              << toString(source_.folder().format()) << " to "
               << toString(settings_.writer.format) << '\n'
               << "poses from " << source_.poseSource() << '\n'
               << "world_offset " << std::to_string(std::llround(offset.x())) << ' '

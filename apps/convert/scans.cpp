@@ -66,7 +66,7 @@ public:
     out_.publish();
     std::cout << counted(source_.folder().size(), "scan") << ", "
               << counted(points_, "point") << ": "
-              << toString(source_.folder().format(0)) << " to "
+              << toString(source_.folder().format()) << " to "
               << toString(settings_.writer.format) << '\n';
     describePoses();
     losses_.print();

@@ -250,9 +250,9 @@ ScanFolder::readCloud(std::size_t i) const
 }
 
 ScanFormat
-ScanFolder::format(std::size_t i) const
+ScanFolder::format() const
 {
-  return entries_.at(i).format;
+  return entries_.front().format;
 }
 
 } // namespace pcl6d

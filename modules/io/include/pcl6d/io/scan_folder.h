@@ -98,9 +98,9 @@ public:
   ScanCloud
   readCloud(std::size_t i) const;
 
-  /** \return the format of the i-th selected scan, not kAuto */
+  /** \return the format of the first scan, not kAuto */
   ScanFormat
-  format(std::size_t i) const;
+  format() const;
 
 private:
   struct Entry {

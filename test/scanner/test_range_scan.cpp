@@ -177,6 +177,8 @@ TEST(CastScan, HasMixedPixelsWhereTheSpotCrossesAnEdge)
   const double spot = pcl6d::footprintDiameter(edge, 0.01, 4e-3);
   const double expected = 2 * spot / edge / fan.beam.step(); // two edges
   EXPECT_GT(expected, 100);
+  RecordProperty("mixed", mixed);
+  RecordProperty("expected", std::to_string(expected));
   EXPECT_NEAR(mixed, expected, 0.04 * expected); // no ray lies on the rim of the spot
   // With a separable echo there are none.
   options.beam.echo_separation = 0.2;

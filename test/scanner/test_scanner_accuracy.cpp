@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <sstream>
 
 namespace {
 using namespace pcl6d;
@@ -125,6 +126,15 @@ class Accuracy : public testing::TestWithParam<std::string> {
 protected:
   ScannerPreset preset_ = scannerByName(GetParam());
 
+  // For --gtest_output=json.
+  static void
+  record(const char* name, double value)
+  {
+    std::ostringstream text;
+    text << value;
+    RecordProperty(name, text.str());
+  }
+
   RangeScan
   exactScan(const RayCaster& caster, const Eigen::Isometry3d& pose) const
   {
@@ -164,20 +174,25 @@ TEST_P(Accuracy, FitsACornerWithoutNoise)
   Eigen::Matrix3d normals;
   Eigen::Vector3d offsets;
   int planes = 0;
+  double worst = 0;
   for (const auto& face : faces) {
     const PlaneFit fit = fitPlane(face.second);
     if (face.second.size() < 20 || fit.spread < 0.05)
       continue;
     EXPECT_LT(fit.worst, kFit);
+    worst = std::max(worst, fit.worst);
     if (fit.centre.x() > 3.9 || fit.centre.y() > 2.9 || fit.centre.z() > 1.9) {
       ASSERT_LT(planes, 3);
       normals.row(planes) = fit.normal.transpose();
       offsets(planes++) = fit.normal.dot(fit.centre);
     }
   }
+  record("plane_error", worst);
   ASSERT_EQ(planes, 3) << "all three faces of the corner are seen";
   const Eigen::Vector3d corner = normals.colPivHouseholderQr().solve(offsets);
-  EXPECT_LT((corner - Eigen::Vector3d(4, 3, 2)).norm(), kFit);
+  const double error = (corner - Eigen::Vector3d(4, 3, 2)).norm();
+  EXPECT_LT(error, kFit);
+  record("corner_error", error);
 }
 
 TEST_P(Accuracy, PutsPointsOnTheMeshOfASphere)
@@ -188,10 +203,13 @@ TEST_P(Accuracy, PutsPointsOnTheMeshOfASphere)
   const auto points = pointsOf(scan, *preset_.scanner, pose);
   const auto count = static_cast<std::uint32_t>(caster.scene().triangles.size());
   int hits = 0;
+  double worst = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::isnan(scan.samples[i].range))
       continue;
-    ASSERT_LT(distanceTo(caster.scene(), scan.samples[i].triangle, points[i]), kFit);
+    const double off = distanceTo(caster.scene(), scan.samples[i].triangle, points[i]);
+    ASSERT_LT(off, kFit);
+    worst = std::max(worst, off);
     if (hits++ % 97 != 0)
       continue;
     double nearest = HUGE_VAL; // by hand, whatever triangle the scan names
@@ -200,6 +218,7 @@ TEST_P(Accuracy, PutsPointsOnTheMeshOfASphere)
     ASSERT_LT(nearest, kFit);
   }
   EXPECT_GE(hits, preset_.scanner->numLines() == 1 ? 1 : 100);
+  record("mesh_error", worst);
 }
 
 TEST_P(Accuracy, HasTheNoiseOfItsModel)
@@ -234,9 +253,8 @@ TEST_P(Accuracy, HasTheNoiseOfItsModel)
   // Five standard errors of the mean and of the standard deviation.
   EXPECT_NEAR(sum / count, 0, 5 / std::sqrt(count));
   EXPECT_NEAR(std::sqrt(sum_sq / count), 1, 5 / std::sqrt(2.0 * count));
-  RecordProperty("mean", std::to_string(sum / count));
-  RecordProperty("sigma", std::to_string(std::sqrt(sum_sq / count)));
-  RecordProperty("count", count);
+  record("mean", sum / count);
+  record("sigma", std::sqrt(sum_sq / count));
 }
 
 TEST_P(Accuracy, HasTheSameBytesForEveryThreadCount)

@@ -22,6 +22,8 @@ constexpr const char* kStagingPrefix = ".pcl6d-writing-";
 bool
 isMarkerOf(const fs::path& file, const std::string& program)
 {
+  if (!file.has_filename()) // the program leaves none
+    return false;
   std::ifstream stream(file);
   const auto json = nlohmann::json::parse(stream, nullptr, false);
   return json.is_object() && json.value("generator", nlohmann::json()) == program;
@@ -52,6 +54,8 @@ refuseForeignFolder(const fs::path& folder, const OutputRules& rules)
   if (rules.force || fs::is_empty(folder) ||
       isMarkerOf(folder / rules.marker, rules.program))
     return;
+  if (rules.marker.empty())
+    throw IoFailed(rules.folder.string() + ": folder is not empty; use a new one");
   throw IoFailed(rules.folder.string() +
                  ": folder is not empty and holds no earlier run of " + rules.program +
                  " (no " + rules.marker + " of it); use another folder or --force");

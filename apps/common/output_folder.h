@@ -14,9 +14,11 @@ struct OutputRules {
   std::vector<std::filesystem::path>
       inputs;          ///< files and folders; may hold empty paths
   std::string program; ///< its name, which its marker holds as "generator"
-  std::string marker;  ///< the JSON file that every run of the program leaves
-  std::regex files;    ///< relative paths of all files that a run may leave
-  bool force = false;  ///< accept a folder that holds other things
+  /** the JSON file that every run of the program leaves; empty if it leaves none, and
+   * then every folder that is not empty is foreign */
+  std::string marker;
+  std::regex files;   ///< relative paths of all files that a run may leave
+  bool force = false; ///< accept a folder that holds other things
 };
 
 /** \brief The folder that a program writes: whole or not at all.

@@ -1,26 +1,197 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/interrupt.h"
+#include "common/output_folder.h"
+#include "common/progress_bar.h"
+#include "convert/loss_tally.h"
+#include "convert/scan_jobs.h"
+#include "convert/scan_source.h"
 #include "convert/verbs.h"
 
-#include <pcl6d/io/pcd_io.h>
-#include <pcl6d/io/scan_reader.h>
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/trajectory_io.h>
+
+#include <iostream>
+#include <set>
 
 namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+
+bool
+isUos(ScanFormat format)
+{
+  return format == ScanFormat::kUos || format == ScanFormat::kUosr;
+}
+
+/** Writes 3DTK's pose of a scan beside it, unless it is there as an input. */
+void
+writePoseBeside(const fs::path& scan,
+                const Eigen::Isometry3d& pose,
+                const fs::path& input)
+{
+  fs::path file = scan, input_file = input;
+  file.replace_extension(".pose");
+  input_file.replace_extension(".pose");
+  std::error_code missing;
+  if (!fs::equivalent(file, input_file, missing))
+    writeUosPose(file, pose);
+}
+
+/** \brief Writes the scans of a folder, and their poses where they belong. */
+class FolderConversion {
+public:
+  explicit FolderConversion(const ScanSettings& settings)
+  : settings_(settings)
+  , source_(settings)
+  , out_(rules(settings))
+  , bar_(settings.quiet)
+  , uos_(isUos(settings.writer.format))
+  , pcd_(settings.writer.format == ScanFormat::kPcd)
+  {}
+
+  int
+  run()
+  {
+    if (!settings_.without_effect.empty())
+      bar_.warn(settings_.without_effect);
+    for (std::size_t i = 0; i < source_.folder().size(); ++i) {
+      if (interrupt_.requested())
+        return kInterrupted;
+      convert(i);
+      bar_.show({"converting", i + 1, source_.folder().size()});
+    }
+    writePoses();
+    out_.publish();
+    std::cout << counted(source_.folder().size(), "scan") << ", "
+              << counted(points_, "point") << ": "
+              << toString(source_.folder().format()) << " to "
+              << toString(settings_.writer.format) << '\n';
+    describePoses();
+    losses_.print();
+    return kDone;
+  }
+
+private:
+  static OutputRules
+  rules(const ScanSettings& settings)
+  {
+    OutputRules rules;
+    rules.folder = settings.output;
+    rules.inputs = {settings.input, settings.folder.poses_file};
+    rules.program = kConvert;
+    return rules;
+  }
+
+  void
+  convert(std::size_t i)
+  {
+    const ScanFolder& folder = source_.folder();
+    const std::string name =
+        folder.file(i).stem().string() + extensionOf(settings_.writer.format);
+    if (!names_.insert(name).second)
+      throw IoFailed(folder.file(i).string() +
+                     ": another scan has the same name but for the extension");
+    const ScanCloud scan = folder.readCloud(i);
+    points_ += std::size_t{scan.cloud.width} * scan.cloud.height;
+    losses_.addScan(scan,
+                    writeScan(out_ / name,
+                              scan.cloud,
+                              pcd_ ? source_.pose(i) : Eigen::Isometry3d::Identity(),
+                              settings_.writer));
+    if (uos_ && folder.hasPoses())
+      writeUosPose((out_ / name).replace_extension(".pose"), source_.pose(i));
+  }
+
+  /** poses.txt also for PCD if there are stamps, which VIEWPOINT does not hold. */
+  void
+  writePoses()
+  {
+    const ScanFolder& folder = source_.folder();
+    const bool has_stamps = !folder.stamps().empty();
+    if (uos_ && has_stamps)
+      losses_.add("dropped the stamps of the poses");
+    if (uos_ || !folder.hasPoses() || (pcd_ && !has_stamps))
+      return;
+    Trajectory trajectory;
+    for (std::size_t i = 0; i < folder.size(); ++i)
+      trajectory.poses.push_back(source_.pose(i));
+    trajectory.stamps = folder.stamps();
+    has_stamps ? writeTrajectoryTum(out_ / "poses.txt", trajectory)
+               : writeTrajectoryKitti(out_ / "poses.txt", trajectory);
+  }
+
+  void
+  describePoses() const
+  {
+    const char* const place = uos_   ? "the .pose files"
+                              : pcd_ ? "VIEWPOINT"
+                                     : "poses.txt";
+    if (source_.folder().hasPoses())
+      std::cout << "poses from " << source_.poseSource() << ", now in " << place
+                << '\n';
+    else
+      std::cout << "no poses found, none written\n";
+  }
+
+  const ScanSettings& settings_;
+  const ScanSource source_;
+  OutputFolder out_;
+  const Interrupt interrupt_;
+  ProgressBar bar_;
+  bool uos_;
+  bool pcd_;
+  std::set<std::string> names_;
+  std::size_t points_ = 0;
+  LossTally losses_;
+};
+} // namespace
+
+int
+convertFile(const ScanSettings& settings)
+{
+  const ScanCloud scan = readScanCloud(settings.input, settings.folder.format);
+  const auto pose = findScanPose(settings.input, settings.folder.format);
+  const ScanFormat format = settings.writer.format;
+  LossTally losses;
+  losses.addScan(scan,
+                 writeScan(settings.output,
+                           scan.cloud,
+                           format == ScanFormat::kPcd && pose
+                               ? *pose
+                               : Eigen::Isometry3d::Identity(),
+                           settings.writer));
+  if (pose && isUos(format))
+    writePoseBeside(settings.output, *pose, settings.input);
+  else if (pose && format != ScanFormat::kPcd)
+    losses.add("dropped the pose");
+  if (!settings.without_effect.empty())
+    ProgressBar(settings.quiet).warn(settings.without_effect);
+  std::cout << counted(std::size_t{scan.cloud.width} * scan.cloud.height, "point")
+            << " to " << toString(format) << '\n';
+  losses.print();
+  return kDone;
+}
+
+int
+convertFolder(const ScanSettings& settings)
+{
+  return FolderConversion(settings).run();
+}
 
 int
 runScans(const std::vector<std::string>& arguments)
 {
-  namespace po = boost::program_options;
-  std::string input, output;
-  CommandLine line(std::string("usage: ") + kConvert +
-                   " scans IN -o OUT.pcd\nWrites a scan as PCD.\n");
-  line.positional("IN", &input);
-  line.group("Output").add_options()(
-      "output,o", po::value(&output)->value_name("OUT")->required(), "PCD file");
-  if (line.parse(arguments))
-    writePcd(output, readScan(input).cloud);
-  return kDone;
+  ScanSettings settings;
+  if (!parseScanSettings(arguments, settings))
+    return kDone;
+  const int code = settings.full                      ? joinScans(settings)
+                   : fs::is_directory(settings.input) ? convertFolder(settings)
+                                                      : convertFile(settings);
+  if (!std::cout.flush())
+    throw IoFailed("cannot write to the standard output");
+  return code;
 }
 
 } // namespace pcl6d::app

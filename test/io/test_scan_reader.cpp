@@ -18,11 +18,12 @@ TEST(ScanReader, FormatsHaveNames)
   EXPECT_EQ(pcl6d::scanFormatFromName("pcd"), ScanFormat::kPcd);
   EXPECT_EQ(pcl6d::scanFormatFromName("ply"), ScanFormat::kPly);
   EXPECT_EQ(pcl6d::scanFormatFromName("uos"), ScanFormat::kUos);
+  EXPECT_EQ(pcl6d::scanFormatFromName("uosr"), ScanFormat::kUosr);
   EXPECT_EQ(pcl6d::scanFormatFromName("kitti"), ScanFormat::kKitti);
   EXPECT_EQ(pcl6d::scanFormatFromName("xyz"), ScanFormat::kXyz);
   EXPECT_EQ(pcl6d::test::messageOf<pcl6d::BadArgument>(
                 [] { pcl6d::scanFormatFromName("las"); }),
-            "format = 'las', but must be auto, pcd, ply, uos, kitti or xyz");
+            "format = 'las', but must be auto, pcd, ply, uos, uosr, kitti or xyz");
 }
 
 TEST(ScanReader, TheFormatComesFromTheExtensionUnlessItIsGiven)
@@ -97,7 +98,10 @@ TEST(ScanReader, AScanWithoutPointsIsEmpty)
   writeText(folder / "a.xyz", "# nothing\n");
   writeText(folder / "a.bin", "");
   pcl6d::writePcd(folder / "a.pcd", pcl6d::test::makeRichCloud(0));
-  for (const char* const name : {"a.xyz", "a.bin", "a.pcd"}) {
+  writeText(folder / "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
+            "property float y\nproperty float z\nend_header\n");
+  for (const char* const name : {"a.xyz", "a.bin", "a.pcd", "a.ply"}) {
     const auto scan = readScan(folder / name);
     EXPECT_TRUE(scan.points.empty());
     EXPECT_EQ(scan.dropped, 0u);

@@ -20,6 +20,62 @@ TEST(Uos, LeftHandedCentimetresBecomeRightHandedMetres)
   EXPECT_EQ(pcl6d::test::valueOf<float>(scan.cloud, 1, "x"), 250.5f / 100.f);
 }
 
+TEST(Uos, CentimetresAreDividedBeforeTheyAreRounded)
+{
+  const TempFolder folder;
+  // In float, 72 of the 200 quotients miss the nearest float.
+  std::string content;
+  Points expected;
+  for (int i = 0; i < 200; ++i) {
+    content += "0 0 " + std::to_string(i) + ".37\n";
+    expected.push_back({static_cast<float>((i + 0.37) / 100), 0, 0});
+  }
+  writeText(folder / "scan000.3d", content);
+  EXPECT_EQ(readScan(folder / "scan000.3d").points, expected);
+}
+
+TEST(Uosr, TheFourthColumnIsTheIntensity)
+{
+  const TempFolder folder;
+  writeText(folder / "scan000.3d", "points 2\n1 2 3 0.5\n4 5 6 +7e1\n");
+  const auto scan = readScan(folder / "scan000.3d", pcl6d::ScanFormat::kUosr);
+  ASSERT_EQ(scan.points.size(), 2u);
+  EXPECT_EQ(scan.points[0], Eigen::Vector3f(3 / 100.f, -1 / 100.f, 2 / 100.f));
+  EXPECT_EQ(pcl6d::test::valueOf<float>(scan.cloud, 0, "intensity"), 0.5f);
+  EXPECT_EQ(pcl6d::test::valueOf<float>(scan.cloud, 1, "intensity"), 70);
+  EXPECT_TRUE(scan.left_out.empty());
+  writeText(folder / "scan000.3d", "1 2 3 4\n1 2 3\n");
+  expectIoFailed(folder / "scan000.3d",
+                 "line 2: expected at least 4 numbers, got 3",
+                 [&] { readScan(folder / "scan000.3d", pcl6d::ScanFormat::kUosr); });
+}
+
+TEST(TextFormats, ColumnsThatAreNotReadAreTold)
+{
+  const TempFolder folder;
+  writeText(folder / "scan.xyz", "1 2 3 \t\n4;5;6;\n1,2,3,4\n1 2 3 4\n");
+  EXPECT_EQ(readScan(folder / "scan.xyz").left_out,
+            (std::vector<std::string>{"columns behind the first 3 (line 3)"}));
+  writeText(folder / "scan.xyz", "1 2 3 \t\n4;5;6;\n");
+  EXPECT_TRUE(readScan(folder / "scan.xyz").left_out.empty());
+}
+
+TEST(TextFormats, FilesOfAnySizeAreReadBlockByBlock)
+{
+  const TempFolder folder;
+  std::string content;
+  for (int i = 0; i < 100000; ++i) // lines of all lengths about the ends of blocks
+    content += std::to_string(i) + ".5 0 " + std::string(i % 5, ' ') + "-1e0\r\n";
+  content += std::string(1 << 19, ' ') + "7 8 9"; // longer than a block, without end
+  writeText(folder / "scan.xyz", content);
+  const auto points = readScan(folder / "scan.xyz").points;
+  ASSERT_EQ(points.size(), 100001u);
+  for (int i = 0; i < 100000; ++i)
+    ASSERT_EQ(points[static_cast<std::size_t>(i)],
+              Eigen::Vector3f(static_cast<float>(i) + 0.5f, 0, -1));
+  EXPECT_EQ(points.back(), Eigen::Vector3f(7, 8, 9));
+}
+
 TEST(Uos, OnlyTheFirstLineMayBeAHeading)
 {
   const TempFolder folder;

@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <unistd.h>
 
@@ -59,12 +58,6 @@ private:
   bool renamed_ = false;
 };
 
-std::string
-systemReason()
-{
-  return errno ? std::strerror(errno) : "cannot be written";
-}
-
 /** Fails if no file can have this name, before the work that makes the content. */
 void
 checkTarget(const fs::path& path)
@@ -86,12 +79,12 @@ writeFileAtomically(const fs::path& path,
     errno = 0;
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream)
-      text::fail(path, systemReason());
+      text::fail(path, text::systemReason("cannot be written"));
     errno = 0;
     write(stream);
     stream.close();
     if (!stream)
-      text::fail(path, systemReason());
+      text::fail(path, text::systemReason("cannot be written"));
   });
 }
 

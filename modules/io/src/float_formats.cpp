@@ -1,40 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "formats.h"
 #include "left_handed.h"
-#include "text.h"
+#include "text_input.h"
+#include "text_row.h"
 
-#include <cstring>
+#include <algorithm>
+#include <array>
 
 namespace pcl6d {
 
 namespace {
 
 constexpr std::size_t kKittiPoint = 4 * sizeof(float); // x y z intensity
-constexpr std::size_t kTextColumns = 3;                // of a point; more are ignored
+constexpr std::size_t kSample = 1000;                  // points that tell their length
+constexpr const char* kIntensity = "intensity";
 
-/** Reads x, y, z from the start of a line. \return false for an empty line */
-bool
-readPoint(const std::filesystem::path& path,
-          std::size_t line,
-          text::Tokens tokens,
-          Eigen::Vector3f& point)
+/** \brief Adds float32 fields to a cloud without points. */
+void
+addFloatFields(const std::vector<std::string>& names, pcl::PCLPointCloud2& cloud)
 {
-  for (std::size_t i = 0; i < kTextColumns; ++i) {
-    const auto token = tokens.next();
-    if (token.empty() && i == 0)
-      return false;
-    if (token.empty())
-      text::failAt(path, line, "expected at least 3 numbers, got " + std::to_string(i));
-    if (!text::parseNumber(token, point[static_cast<Eigen::Index>(i)]))
-      text::failAt(path, line, text::quoted(token) + " is not a number");
+  for (const auto& name : names) {
+    pcl::PCLPointField field;
+    field.name = name;
+    field.offset = cloud.point_step;
+    field.datatype = pcl::PCLPointField::FLOAT32;
+    field.count = 1;
+    cloud.fields.push_back(field);
+    cloud.point_step += sizeof(float);
   }
-  return true;
 }
 
+/** Makes one row of the points that the data hold. */
 void
-append(const Eigen::Vector3f& point, std::vector<float>& values)
+setWidth(pcl::PCLPointCloud2& cloud)
 {
-  values.insert(values.end(), point.data(), point.data() + 3);
+  cloud.height = 1;
+  cloud.width = static_cast<pcl::uindex_t>(cloud.data.size() / cloud.point_step);
+  cloud.row_step = cloud.width * cloud.point_step;
 }
 
 /** \return whether the first token is text: the line is a heading */
@@ -46,75 +48,167 @@ isHeading(text::Tokens tokens)
   return !token.empty() && !text::parseNumber(token, value);
 }
 
+/** \brief 3DTK's text: x right, y up, z forward [cm], then perhaps the reflectance. */
+struct UosText {
+  static constexpr const char* kSeparators = "";
+  /** [cm], divided in double: in float, some coordinates would have no text that gives
+   * them back. */
+  using Number = double;
+
+  bool
+  operator()(char c) const // separates two numbers
+  {
+    return text::Blank()(c);
+  }
+  static bool
+  skips(const text::Input& input)
+  {
+    // Some files start with their number of points and the like.
+    return input.number() == 1 && isHeading(text::Tokens(input.line()));
+  }
+  static std::array<float, 4>
+  pointOf(const std::array<double, 4>& row)
+  {
+    const Eigen::Vector3f p =
+        fromLeftHanded(Eigen::Vector3d(row[0], row[1], row[2])).cast<float>();
+    return {p.x(), p.y(), p.z(), static_cast<float>(row[3])};
+  }
+};
+
+/** \brief x, y, z [m]; commas and semicolons may stand between them. */
+struct XyzText {
+  static constexpr const char* kSeparators = ",;";
+  using Number = float;
+
+  bool
+  operator()(char c) const
+  {
+    return text::Blank()(c) || c == ',' || c == ';';
+  }
+  static bool
+  skips(const text::Input& input)
+  {
+    const auto first = text::Tokens(input.line(), kSeparators).next();
+    return !first.empty() && first.front() == '#';
+  }
+  static std::array<float, 4>
+  pointOf(const std::array<float, 4>& row)
+  {
+    return row;
+  }
+};
+
+/** \brief Reads the points of a text, one at the start of each line. */
+template <typename Format>
+class TextReader {
+public:
+  TextReader(const std::filesystem::path& path, const std::vector<std::string>& names)
+  : input_(path), columns_(names.size())
+  {
+    addFloatFields(names, scan_.cloud);
+  }
+
+  ScanCloud
+  read()
+  {
+    const std::size_t size = input_.sizeAhead().value_or(0);
+    std::size_t sampled = 0; // [byte]
+    while (input_.next()) {
+      if (!takeLine())
+        continue;
+      auto& data = scan_.cloud.data;
+      const auto point = Format::pointOf(row_);
+      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(point.data());
+      data.insert(data.end(), bytes, bytes + scan_.cloud.point_step);
+      sampled += input_.line().size() + 1;
+      if (data.size() == kSample * scan_.cloud.point_step)
+        data.reserve(size / (sampled / kSample) * scan_.cloud.point_step);
+    }
+    setWidth(scan_.cloud);
+    if (further_line_ > 0)
+      scan_.left_out.push_back("columns behind the first " + std::to_string(columns_) +
+                               " (line " + std::to_string(further_line_) + ")");
+    return std::move(scan_);
+  }
+
+private:
+  /** \return whether the line holds a point */
+  bool
+  takeLine()
+  {
+    const char* place = input_.line().data();
+    const char* const end = place + input_.line().size();
+    for (std::size_t i = 0; i < columns_; ++i)
+      if (!text::takeNumber(place, end, row_[i], Format()))
+        return takeUnusualLine();
+    if (further_line_ == 0 && !std::all_of(place, end, Format()))
+      further_line_ = input_.number();
+    return true;
+  }
+
+  bool
+  takeUnusualLine()
+  {
+    if (Format::skips(input_))
+      return false;
+    text::Tokens tokens(input_.line(), Format::kSeparators);
+    for (std::size_t i = 0; i < columns_; ++i) {
+      const auto token = tokens.next();
+      if (token.empty() && i == 0)
+        return false;
+      if (token.empty())
+        text::failAt(input_.path(),
+                     input_.number(),
+                     "expected at least " + std::to_string(columns_) +
+                         " numbers, got " + std::to_string(i));
+      if (!text::parseNumber(token, row_[i]))
+        text::failAt(
+            input_.path(), input_.number(), text::quoted(token) + " is not a number");
+    }
+    if (further_line_ == 0 && !tokens.next().empty())
+      further_line_ = input_.number();
+    return true;
+  }
+
+  text::Input input_;
+  std::size_t columns_;
+  std::array<typename Format::Number, 4> row_{};
+  std::size_t further_line_ = 0; ///< the first with more than a point; 0 if none
+  ScanCloud scan_;
+};
+
 } // namespace
 
-pcl::PCLPointCloud2
-floatCloud(const std::vector<float>& values, const std::vector<std::string>& names)
-{
-  pcl::PCLPointCloud2 cloud;
-  for (const auto& name : names) {
-    pcl::PCLPointField field;
-    field.name = name;
-    field.offset = cloud.point_step;
-    field.datatype = pcl::PCLPointField::FLOAT32;
-    field.count = 1;
-    cloud.fields.push_back(field);
-    cloud.point_step += sizeof(float);
-  }
-  cloud.height = 1;
-  cloud.width = static_cast<pcl::uindex_t>(values.size() / names.size());
-  cloud.row_step = cloud.width * cloud.point_step;
-  cloud.data.resize(values.size() * sizeof(float));
-  if (!values.empty())
-    std::memcpy(cloud.data.data(), values.data(), cloud.data.size());
-  return cloud;
-}
-
-pcl::PCLPointCloud2
+ScanCloud
 readUos(const std::filesystem::path& path)
 {
-  const std::string content = text::readFile(path);
-  std::vector<float> values;
-  Eigen::Vector3f point;
-  for (text::Lines lines(content); lines.next();) {
-    const text::Tokens tokens(lines.line());
-    if (lines.number() == 1 && isHeading(tokens))
-      continue; // some files start with their number of points and the like
-    if (readPoint(path, lines.number(), tokens, point))
-      append(fromLeftHanded(point), values);
-  }
-  return floatCloud(values, {"x", "y", "z"});
+  return TextReader<UosText>(path, {"x", "y", "z"}).read();
 }
 
-pcl::PCLPointCloud2
+ScanCloud
+readUosr(const std::filesystem::path& path)
+{
+  return TextReader<UosText>(path, {"x", "y", "z", kIntensity}).read();
+}
+
+ScanCloud
 readXyz(const std::filesystem::path& path)
 {
-  const std::string content = text::readFile(path);
-  std::vector<float> values;
-  Eigen::Vector3f point;
-  for (text::Lines lines(content); lines.next();) {
-    const text::Tokens tokens(lines.line(), ",;");
-    const auto first = text::Tokens(tokens).next();
-    if (first.empty() || first.front() == '#')
-      continue;
-    if (readPoint(path, lines.number(), tokens, point))
-      append(point, values);
-  }
-  return floatCloud(values, {"x", "y", "z"});
+  return TextReader<XyzText>(path, {"x", "y", "z"}).read();
 }
 
-pcl::PCLPointCloud2
+ScanCloud
 readKitti(const std::filesystem::path& path)
 {
-  const std::string content = text::readFile(path);
-  if (content.size() % kKittiPoint != 0)
+  ScanCloud scan;
+  addFloatFields({"x", "y", "z", kIntensity}, scan.cloud);
+  text::Input(path).appendRest(scan.cloud.data);
+  if (scan.cloud.data.size() % kKittiPoint != 0)
     text::fail(path,
-               "its size of " + text::counted(content.size(), "byte") +
+               "its size of " + text::counted(scan.cloud.data.size(), "byte") +
                    " is not a multiple of 16 (float32 x y z intensity)");
-  std::vector<float> values(content.size() / sizeof(float));
-  if (!values.empty())
-    std::memcpy(values.data(), content.data(), content.size());
-  return floatCloud(values, {"x", "y", "z", "intensity"});
+  setWidth(scan.cloud);
+  return scan;
 }
 
 } // namespace pcl6d

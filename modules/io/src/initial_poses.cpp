@@ -4,6 +4,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>
@@ -82,6 +83,18 @@ isGroundtruth(const fs::path& path)
       name.begin(), name.end(), kStart.begin(), kStart.end(), [](char a, char b) {
         return std::tolower(static_cast<unsigned char>(a)) == b;
       });
+}
+
+std::optional<Eigen::Isometry3d>
+findScanPose(const fs::path& scan, ScanFormat format)
+{
+  if (fs::exists(posePath(scan)))
+    return readUosPose(posePath(scan));
+  if ((format == ScanFormat::kAuto ? scanFormatOfExtension(scan) : format) !=
+      ScanFormat::kPcd)
+    return std::nullopt;
+  const Eigen::Isometry3d viewpoint = readPcdViewpoint(scan);
+  return isIdentity(viewpoint) ? std::nullopt : std::optional(viewpoint);
 }
 
 InitialPoses

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcd_body.h"
 #include "point_field.h"
-#include "text.h"
+#include "text_row.h"
 
 #include <pcl/io/lzf.h>
 
@@ -58,89 +58,96 @@ countTokens(text::Tokens tokens)
   return count;
 }
 
-Bytes
-decodeAscii(const std::filesystem::path& path,
-            const PcdHeader& header,
-            std::string_view body)
+/** Reads a row again that text::takeRow() refused. */
+void
+parseRow(const text::Input& input,
+         const PcdHeader& header,
+         std::size_t columns,
+         std::uint8_t* point)
 {
-  std::size_t columns = 0;
+  const std::size_t count = countTokens(text::Tokens(input.line()));
+  if (count != columns)
+    text::failAt(input.path(),
+                 input.number(),
+                 "expected " + text::counted(columns, "number") + ", got " +
+                     std::to_string(count));
+  text::Tokens tokens(input.line());
   for (const auto& field : header.fields)
-    columns += field.count;
+    parseField(input.path(), input.number(), field, tokens, point);
+}
+
+Bytes
+decodeAscii(text::Input& input, const PcdHeader& header)
+{
+  const std::vector<text::Column> columns =
+      text::columnsOf(header.fields); // padding, too
   const std::string expected = "expected " + text::counted(header.numPoints(), "point");
   Bytes data;
+  // A number takes at least two characters, and at most eight bytes.
+  data.reserve(std::min(header.numPoints() * header.point_size,
+                        4 * input.sizeAhead().value_or(0)));
   std::size_t points = 0;
-  for (text::Lines lines(body, header.num_lines + 1); lines.next();) {
-    const std::size_t count = countTokens(text::Tokens(lines.line()));
-    if (count == 0)
+  while (input.next()) {
+    if (text::isBlank(input.line()))
       continue;
     if (points == header.numPoints())
-      text::failAt(path, lines.number(), expected + ", got more");
-    if (count != columns)
-      text::failAt(path,
-                   lines.number(),
-                   "expected " + text::counted(columns, "number") + ", got " +
-                       std::to_string(count));
+      text::failAt(input.path(), input.number(), expected + ", got more");
     data.resize(data.size() + header.point_size);
-    text::Tokens tokens(lines.line());
-    for (const auto& field : header.fields)
-      parseField(
-          path, lines.number(), field, tokens, &data[points * header.point_size]);
+    std::uint8_t* const point = &data[points * header.point_size];
+    if (!text::takeRow(input.line(), columns, point))
+      parseRow(input, header, columns.size(), point);
     ++points;
   }
   if (points != header.numPoints())
-    text::fail(path, expected + ", got " + std::to_string(points));
+    text::fail(input.path(), expected + ", got " + std::to_string(points));
   return data;
 }
 
 Bytes
-decodeBinary(const std::filesystem::path& path,
-             const PcdHeader& header,
-             std::string_view body)
+decodeBinary(text::Input& input, const PcdHeader& header)
 {
-  if (body.size() / header.point_size < header.numPoints())
-    text::fail(path,
+  Bytes data;
+  if (!input.append(header.numPoints() * header.point_size, data))
+    text::fail(input.path(),
                "expected " + text::counted(header.numPoints(), "point") + " of " +
                    text::counted(header.point_size, "byte") + ", got " +
-                   text::counted(body.size(), "byte"));
-  return {body.begin(), body.begin() + header.numPoints() * header.point_size};
+                   text::counted(data.size(), "byte"));
+  return data;
 }
 
 /** \return the values of a compressed body, field by field \param[in] size [byte] */
 Bytes
-decompress(const std::filesystem::path& path, std::string_view body, std::size_t size)
+decompress(text::Input& input, std::size_t size)
 {
   std::uint32_t sizes[2] = {}; // compressed, uncompressed
-  if (body.size() < kSizes)
-    text::fail(path, "the sizes ahead of the compressed points are missing");
-  std::memcpy(sizes, body.data(), kSizes);
-  body.remove_prefix(kSizes);
+  if (input.read(reinterpret_cast<std::uint8_t*>(sizes), kSizes) < kSizes)
+    text::fail(input.path(), "the sizes ahead of the compressed points are missing");
   if (sizes[1] != size)
-    text::fail(path,
+    text::fail(input.path(),
                "expected " + text::counted(size, "byte") +
                    " of points before compression, got " + std::to_string(sizes[1]));
-  if (body.size() < sizes[0])
-    text::fail(path,
+  Bytes compressed;
+  if (!input.append(sizes[0], compressed))
+    text::fail(input.path(),
                "expected " + text::counted(sizes[0], "byte") +
-                   " of compressed points, got " + std::to_string(body.size()));
+                   " of compressed points, got " + std::to_string(compressed.size()));
   Bytes values;
   if (size / kMaxExpansion <= sizes[0]) // else do not even ask for the memory
     values.resize(size);
   if (values.size() != size ||
-      pcl::lzfDecompress(body.data(), sizes[0], values.data(), sizes[1]) != size)
-    text::fail(path, "the compressed points are corrupt");
+      pcl::lzfDecompress(compressed.data(), sizes[0], values.data(), sizes[1]) != size)
+    text::fail(input.path(), "the compressed points are corrupt");
   return values;
 }
 
 Bytes
-decodeCompressed(const std::filesystem::path& path,
-                 const PcdHeader& header,
-                 std::string_view body)
+decodeCompressed(text::Input& input, const PcdHeader& header)
 {
   std::size_t packed_size = 0; // padding is not stored
   for (const auto& field : header.fields)
     packed_size += isPadding(field) ? 0 : sizeOf(field);
   const std::size_t points = header.numPoints();
-  const Bytes values = decompress(path, body, points * packed_size);
+  const Bytes values = decompress(input, points * packed_size);
   Bytes data(points * header.point_size);
   const std::uint8_t* value = values.data();
   for (const auto& field : header.fields) {
@@ -155,83 +162,37 @@ decodeCompressed(const std::filesystem::path& path,
 bool
 isDense(const pcl::PCLPointCloud2& cloud)
 {
-  for (std::size_t start = 0; start < cloud.data.size(); start += cloud.point_step)
-    for (const auto& field : cloud.fields) {
-      const bool finite = withTypeOf(field.datatype, [&](auto value) {
-        for (std::size_t i = 0; i < field.count; ++i) {
-          std::memcpy(&value,
-                      &cloud.data[start + field.offset + i * sizeof value],
-                      sizeof value);
-          if (!std::isfinite(static_cast<double>(value)))
-            return false;
-        }
-        return true;
-      });
-      if (!finite)
-        return false;
-    }
-  return true;
-}
-
-std::string
-encodeAscii(const PcdHeader& header, const Bytes& points)
-{
-  std::string body;
-  for (std::size_t start = 0; start < points.size(); start += header.point_size) {
-    for (const auto& field : header.fields)
-      withTypeOf(field.datatype, [&](auto value) {
-        for (std::size_t i = 0; i < field.count; ++i) {
-          std::memcpy(
-              &value, &points[start + field.offset + i * sizeof value], sizeof value);
-          text::appendNumber(body, value);
-          body += ' ';
-        }
-      });
-    body.back() = '\n';
-  }
-  return body;
-}
-
-std::string
-encodeCompressed(const std::filesystem::path& path,
-                 const PcdHeader& header,
-                 const Bytes& points)
-{
-  // LZF makes incompressible data longer, by one byte in 32.
-  const std::size_t room = points.size() + points.size() / 16 + 64;
-  if (room > std::numeric_limits<std::uint32_t>::max())
-    text::fail(path, "too many points for a compressed file; write it as binary");
-  Bytes values;
-  values.reserve(points.size());
-  for (const auto& field : header.fields)
-    for (std::size_t start = 0; start < points.size(); start += header.point_size) {
-      const auto first = points.begin() + (start + field.offset);
-      values.insert(values.end(), first, first + sizeOf(field));
-    }
-  std::string body(kSizes + room, '\0');
-  std::uint32_t sizes[2] = {0, static_cast<std::uint32_t>(values.size())};
-  if (!values.empty())
-    sizes[0] = pcl::lzfCompress(
-        values.data(), sizes[1], &body[kSizes], static_cast<std::uint32_t>(room));
-  std::memcpy(body.data(), sizes, kSizes);
-  body.resize(kSizes + sizes[0]);
-  return body;
+  const std::size_t points = std::size_t{cloud.width} * cloud.height;
+  const auto isFinite = [&](const PCLPointField& field) {
+    return withTypeOf(field.datatype, [&](auto value) {
+      if constexpr (std::is_floating_point_v<decltype(value)>)
+        for (std::size_t i = 0; i < points; ++i)
+          for (std::size_t k = 0; k < field.count; ++k) {
+            std::memcpy(
+                &value,
+                &cloud.data[i * cloud.point_step + field.offset + k * sizeof value],
+                sizeof value);
+            if (!std::isfinite(value))
+              return false;
+          }
+      return true;
+    });
+  };
+  return std::all_of(cloud.fields.begin(), cloud.fields.end(), isFinite);
 }
 
 } // namespace
 
 pcl::PCLPointCloud2
-decodePcdBody(const std::filesystem::path& path,
-              const PcdHeader& header,
-              std::string_view body)
+decodePcdBody(text::Input& input, const PcdHeader& header)
 {
   pcl::PCLPointCloud2 cloud;
   if (header.encoding == PcdEncoding::kAscii)
-    cloud.data = decodeAscii(path, header, body);
+    cloud.data = decodeAscii(input, header);
   else if (header.numPoints() > 0)
     cloud.data = header.encoding == PcdEncoding::kBinary
-                     ? decodeBinary(path, header, body)
-                     : decodeCompressed(path, header, body);
+                     ? decodeBinary(input, header)
+                     : decodeCompressed(input, header);
   cloud.width = static_cast<pcl::uindex_t>(header.width);
   cloud.height = static_cast<pcl::uindex_t>(header.height);
   cloud.point_step = static_cast<pcl::uindex_t>(header.point_size);
@@ -242,18 +203,6 @@ decodePcdBody(const std::filesystem::path& path,
                [](const auto& field) { return !isPadding(field); });
   cloud.is_dense = isDense(cloud);
   return cloud;
-}
-
-std::string
-encodePcdBody(const std::filesystem::path& path,
-              const PcdHeader& header,
-              const std::vector<std::uint8_t>& points)
-{
-  if (header.encoding == PcdEncoding::kAscii)
-    return encodeAscii(header, points);
-  if (header.encoding == PcdEncoding::kBinary)
-    return {points.begin(), points.end()};
-  return encodeCompressed(path, header, points);
 }
 
 } // namespace pcl6d

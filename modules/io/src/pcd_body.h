@@ -2,26 +2,16 @@
 #pragma once
 
 #include "pcd_header.h"
-
-#include <string_view>
+#include "text_input.h"
 
 /** \file The points of a PCD file. Internal to the module io. */
 namespace pcl6d {
 
-/** \return the points, laid out as in the header; padding is no field any more
+/** \param[in] input stands behind the header
+ * \return the points, laid out as in the header; padding is no field any more
  * \throws IoFailed naming place, value and rule: too short, text that is no number,
  * broken compression */
 pcl::PCLPointCloud2
-decodePcdBody(const std::filesystem::path& path,
-              const PcdHeader& header,
-              std::string_view body);
-
-/** \return what follows the header in a file \param[in] cloud with point_step bytes per
- * point, in the layout of header.fields without gaps \throws IoFailed the points take
- * more than the 4 GiB that a compressed body can hold */
-std::string
-encodePcdBody(const std::filesystem::path& path,
-              const PcdHeader& header,
-              const std::vector<std::uint8_t>& points);
+decodePcdBody(text::Input& input, const PcdHeader& header);
 
 } // namespace pcl6d

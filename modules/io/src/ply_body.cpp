@@ -18,44 +18,30 @@ sizeOf(std::uint8_t datatype)
 /** \brief One line per element. */
 class TextBody : public PlyBody {
 public:
-  TextBody(const std::filesystem::path& path, std::string_view body, std::size_t line)
-  : PlyBody(path), lines_(body, line), tokens_({})
-  {}
-
-  void
-  read(std::uint8_t datatype, const PlyProperty& property, std::uint8_t* value) override
-  {
-    const auto token = tokens_.next();
-    if (token.empty())
-      text::failAt(path_, lines_.number(), place() + " has no " + property.name);
-    withTypeOf(datatype, [&](auto number) {
-      if (!text::parseNumber(token, number))
-        text::failAt(path_,
-                     lines_.number(),
-                     text::quoted(token) + " is not a number that property " +
-                         text::quoted(property.name) + " can hold");
-      std::memcpy(value, &number, sizeof number);
-    });
-  }
+  explicit TextBody(text::Input& input) : PlyBody(input), tokens_({}) {}
 
   void
   finish() override
   {
     endRow();
-    while (lines_.next())
-      if (!text::isBlank(lines_.line()))
-        text::failAt(path_, lines_.number(), "more elements than the header declares");
+    while (input_.next())
+      if (!text::isBlank(input_.line()))
+        fail("more elements than the header declares");
   }
 
 private:
+  [[noreturn]] void
+  fail(const std::string& message) const
+  {
+    text::failAt(input_.path(), input_.number(), message);
+  }
+
   void
   endRow()
   {
     const auto token = tokens_.next();
     if (!token.empty())
-      text::failAt(path_,
-                   lines_.number(),
-                   text::quoted(token) + " is more than the element's properties");
+      fail(text::quoted(token) + " is more than the element's properties");
   }
 
   void
@@ -63,10 +49,33 @@ private:
   {
     endRow();
     do {
-      if (!lines_.next())
-        text::fail(path_, "the file ends ahead of " + place());
-    } while (text::isBlank(lines_.line()));
-    tokens_ = text::Tokens(lines_.line());
+      if (!input_.next())
+        text::fail(input_.path(), "the file ends ahead of " + place());
+    } while (text::isBlank(input_.line()));
+    tokens_ = text::Tokens(input_.line());
+  }
+
+  bool
+  takeRow(std::uint8_t* target) override
+  {
+    if (!text::takeRow(input_.line(), columns_, target))
+      return false;
+    tokens_ = text::Tokens({});
+    return true;
+  }
+
+  void
+  read(std::uint8_t datatype, const PlyProperty& property, std::uint8_t* value) override
+  {
+    const auto token = tokens_.next();
+    if (token.empty())
+      fail(place() + " has no " + property.name);
+    withTypeOf(datatype, [&](auto number) {
+      if (!text::parseNumber(token, number))
+        fail(text::quoted(token) + " is not a number that property " +
+             text::quoted(property.name) + " can hold");
+      std::memcpy(value, &number, sizeof number);
+    });
   }
 
   void
@@ -77,64 +86,105 @@ private:
       read(property.datatype, property, ignored);
   }
 
-  text::Lines lines_;
   text::Tokens tokens_;
 };
 
 class BinaryBody : public PlyBody {
 public:
-  BinaryBody(const std::filesystem::path& path, std::string_view body, bool big_endian)
-  : PlyBody(path), rest_(body), big_endian_(big_endian)
+  BinaryBody(text::Input& input, bool big_endian)
+  : PlyBody(input), big_endian_(big_endian)
   {}
-
-  void
-  read(std::uint8_t datatype, const PlyProperty&, std::uint8_t* value) override
-  {
-    const std::size_t size = sizeOf(datatype);
-    const std::string_view bytes = take(size);
-    std::copy(bytes.begin(), bytes.end(), value);
-    if (big_endian_) // the machine is little-endian, as PCL's PCD files are
-      std::reverse(value, value + size);
-  }
 
   void
   finish() override
   {} // some writers end the file with a line end
 
 private:
-  std::string_view
-  take(std::size_t size)
-  {
-    if (size > rest_.size())
-      text::fail(path_, "the file ends inside " + place());
-    const std::string_view bytes = rest_.substr(0, size);
-    rest_.remove_prefix(size);
-    return bytes;
-  }
-
   void
   nextRow() override
   {}
 
+  bool
+  takeRow(std::uint8_t* target) override
+  {
+    std::size_t size = 0;
+    for (const auto& column : columns_)
+      size += sizeOf(column.datatype);
+    row_.resize(size);
+    take(row_.data(), size);
+    const std::uint8_t* value = row_.data();
+    for (const auto& column : columns_)
+      value = put(value, sizeOf(column.datatype), target + column.offset);
+    return true;
+  }
+
+  void
+  read(std::uint8_t datatype, const PlyProperty&, std::uint8_t* value) override
+  {
+    std::uint8_t bytes[sizeof(double)];
+    take(bytes, sizeOf(datatype));
+    put(bytes, sizeOf(datatype), value);
+  }
+
   void
   skip(const PlyProperty& property, std::size_t count) override
   {
-    const std::size_t size = sizeOf(property.datatype);
-    take(count > rest_.size() ? count : count * size); // without overflow
+    std::uint8_t ignored[sizeof(double)];
+    for (std::size_t i = 0; i < count; ++i)
+      take(ignored, sizeOf(property.datatype));
   }
 
-  std::string_view rest_;
+  void
+  take(std::uint8_t* target, std::size_t size)
+  {
+    if (input_.read(target, size) < size)
+      text::fail(input_.path(), "the file ends inside " + place());
+  }
+
+  /** \return what follows the value. The machine is little-endian, as PCL's PCD files
+   * are. */
+  const std::uint8_t*
+  put(const std::uint8_t* value, std::size_t size, std::uint8_t* target) const
+  {
+    if (big_endian_)
+      std::reverse_copy(value, value + size, target);
+    else
+      std::memcpy(target, value, size);
+    return value + size;
+  }
+
   bool big_endian_;
+  std::vector<std::uint8_t> row_;
 };
 
 } // namespace
 
 void
-PlyBody::next(const PlyElement& element, std::size_t index)
+PlyBody::start(const PlyElement& element, const std::vector<std::size_t>& offsets)
 {
   element_ = &element;
-  index_ = index;
+  offsets_ = offsets;
+  count_ = 0;
+  has_list_ = false;
+  columns_.clear();
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    has_list_ |= element.properties[i].is_list;
+    columns_.push_back({element.properties[i].datatype, offsets[i]});
+  }
+}
+
+void
+PlyBody::next(std::uint8_t* target)
+{
+  ++count_;
   nextRow();
+  if (!has_list_ && takeRow(target))
+    return;
+  for (std::size_t i = 0; i < offsets_.size(); ++i) {
+    const auto& property = element_->properties[i];
+    property.is_list ? skipList(property)
+                     : read(property.datatype, property, target + offsets_[i]);
+  }
 }
 
 void
@@ -147,7 +197,7 @@ PlyBody::skipList(const PlyProperty& property)
     return static_cast<std::int64_t>(number);
   });
   if (length < 0)
-    text::fail(path_,
+    text::fail(input_.path(),
                place() + ": list " + text::quoted(property.name) + " has length " +
                    std::to_string(length));
   skip(property, static_cast<std::size_t>(length));
@@ -156,20 +206,17 @@ PlyBody::skipList(const PlyProperty& property)
 std::string
 PlyBody::place() const
 {
-  return element_->name + ' ' + std::to_string(index_ + 1) + " of " +
+  return element_->name + ' ' + std::to_string(count_) + " of " +
          std::to_string(element_->count);
 }
 
 std::unique_ptr<PlyBody>
-openPlyBody(const std::filesystem::path& path,
-            const PlyHeader& header,
-            std::string_view content)
+openPlyBody(text::Input& input, const PlyHeader& header)
 {
-  content.remove_prefix(header.size);
   if (header.encoding == PlyEncoding::kAscii)
-    return std::make_unique<TextBody>(path, content, header.num_lines + 1);
-  return std::make_unique<BinaryBody>(
-      path, content, header.encoding == PlyEncoding::kBigEndian);
+    return std::make_unique<TextBody>(input);
+  return std::make_unique<BinaryBody>(input,
+                                      header.encoding == PlyEncoding::kBigEndian);
 }
 
 } // namespace pcl6d

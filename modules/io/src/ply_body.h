@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ply_header.h"
+#include "text_row.h"
 
 #include <memory>
 
@@ -13,46 +14,52 @@ class PlyBody {
 public:
   virtual ~PlyBody() = default;
 
-  /** \brief Goes to the next element. \param[in] place for messages: "vertex 3 of 8" */
+  /** \brief Goes to the next kind of element. \param[in] element is kept by reference
+   * \param[in] offsets [byte] where each property goes; lists are skipped */
   void
-  next(const PlyElement& element, std::size_t index);
+  start(const PlyElement& element, const std::vector<std::size_t>& offsets);
 
-  /** \brief Reads one number in the machine's byte order.
-   * \param[out] value of the property's datatype */
-  virtual void
-  read(std::uint8_t datatype, const PlyProperty& property, std::uint8_t* value) = 0;
-
-  /** \brief Skips a list. */
+  /** \brief Reads an element, numbers in the machine's byte order.
+   * \throws IoFailed naming file, place, value and rule */
   void
-  skipList(const PlyProperty& property);
+  next(std::uint8_t* target);
 
   /** \throws IoFailed something follows that the header does not tell of */
   virtual void
   finish() = 0;
 
 protected:
-  explicit PlyBody(const std::filesystem::path& path) : path_(path) {}
+  explicit PlyBody(text::Input& input) : input_(input) {}
 
   /** \return "vertex 3 of 8" */
   std::string
   place() const;
 
-  const std::filesystem::path& path_;
+  text::Input& input_;
+  std::vector<text::Column> columns_; ///< of the element, if it has no list
 
 private:
   virtual void
   nextRow() = 0;
   virtual void
+  read(std::uint8_t datatype, const PlyProperty& property, std::uint8_t* value) = 0;
+  virtual void
   skip(const PlyProperty& property, std::size_t count) = 0;
+  /** Reads an element of columns_ at once. \return false if it has to be read property
+   * by property */
+  virtual bool
+  takeRow(std::uint8_t* target) = 0;
+  void
+  skipList(const PlyProperty& property);
 
   const PlyElement* element_ = nullptr;
-  std::size_t index_ = 0;
+  std::vector<std::size_t> offsets_;
+  bool has_list_ = false;
+  std::size_t count_ = 0; ///< elements read, with the one at hand
 };
 
-/** \param[in] path, header, content are kept by reference */
+/** \param[in] input stands at the body; it is kept by reference */
 std::unique_ptr<PlyBody>
-openPlyBody(const std::filesystem::path& path,
-            const PlyHeader& header,
-            std::string_view content);
+openPlyBody(text::Input& input, const PlyHeader& header);
 
 } // namespace pcl6d

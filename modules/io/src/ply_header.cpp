@@ -41,7 +41,7 @@ public:
 
   /** \return false after the last line of the header */
   bool
-  take(const text::Lines& lines)
+  take(const text::Input& lines)
   {
     line_ = lines.number();
     text::Tokens tokens(lines.line());
@@ -143,19 +143,13 @@ private:
 } // namespace
 
 PlyHeader
-readPlyHeader(const std::filesystem::path& path, std::string_view content)
+readPlyHeader(text::Input& input)
 {
-  Parser parser(path);
-  text::Lines lines(content);
-  while (lines.next()) {
-    if (parser.take(lines))
-      continue;
-    PlyHeader header = parser.finish();
-    header.num_lines = lines.number();
-    header.size = content.size() - lines.rest().size();
-    return header;
-  }
-  text::fail(path, "the header ends without end_header");
+  Parser parser(input.path());
+  while (input.next())
+    if (!parser.take(input))
+      return parser.finish();
+  text::fail(input.path(), "the header ends without end_header");
 }
 
 } // namespace pcl6d

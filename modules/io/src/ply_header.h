@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "text.h"
+#include "text_input.h"
 
 #include <cstdint>
 
@@ -27,13 +27,11 @@ struct PlyElement {
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
   std::vector<PlyElement> elements;
-  std::size_t num_lines = 0; ///< lines of the header
-  std::size_t size = 0;      ///< [byte] the body follows
 };
 
-/** \return the checked header at the start of a file's content
+/** \brief Reads the lines of the header; the input then stands at the body.
  * \throws IoFailed naming line, value and rule */
 PlyHeader
-readPlyHeader(const std::filesystem::path& path, std::string_view content);
+readPlyHeader(text::Input& input);
 
 } // namespace pcl6d

@@ -84,35 +84,30 @@ layoutOf(const PlyElement& vertex)
   return layout;
 }
 
+/** Elements without properties have no place in the file. */
 void
-readElement(PlyBody& body, const PlyElement& element)
+skipElement(PlyBody& body, const PlyElement& element)
 {
   std::uint8_t ignored[sizeof(double)];
-  for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
-    body.next(element, i);
-    for (const auto& property : element.properties)
-      property.is_list ? body.skipList(property)
-                       : body.read(property.datatype, property, ignored);
-  }
+  body.start(element, std::vector<std::size_t>(element.properties.size(), 0));
+  for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i)
+    body.next(ignored);
 }
 
 pcl::PCLPointCloud2
-readVertices(const std::filesystem::path& path, PlyBody& body, const PlyElement& vertex)
+readVertices(text::Input& input, PlyBody& body, const PlyElement& vertex)
 {
   Layout layout = layoutOf(vertex);
   pcl::PCLPointCloud2& cloud = layout.cloud;
   if (cloud.point_step == 0)
-    text::fail(path, "vertices without properties");
+    text::fail(input.path(), "vertices without properties");
+  body.start(vertex, layout.offsets);
+  // A number takes at least one byte, and at most eight.
+  cloud.data.reserve(
+      std::min(vertex.count * cloud.point_step, 8 * input.sizeAhead().value_or(0)));
   for (std::size_t i = 0; i < vertex.count; ++i) {
-    body.next(vertex, i);
     cloud.data.resize(cloud.data.size() + cloud.point_step);
-    std::uint8_t* const point = &cloud.data[i * cloud.point_step];
-    for (std::size_t k = 0; k < vertex.properties.size(); ++k) {
-      const auto& property = vertex.properties[k];
-      property.is_list
-          ? body.skipList(property)
-          : body.read(property.datatype, property, point + layout.offsets[k]);
-    }
+    body.next(&cloud.data[i * cloud.point_step]);
   }
   cloud.height = 1;
   cloud.width = static_cast<pcl::uindex_t>(vertex.count);
@@ -120,36 +115,51 @@ readVertices(const std::filesystem::path& path, PlyBody& body, const PlyElement&
   return std::move(cloud);
 }
 
+/** \return what no field of a point can hold */
+std::vector<std::string>
+leftOut(const PlyHeader& header)
+{
+  std::vector<std::string> things;
+  for (const auto& element : header.elements)
+    if (element.name != "vertex")
+      things.push_back(text::counted(element.count, "element") + " '" + element.name +
+                       "'");
+    else
+      for (const auto& property : element.properties)
+        if (property.is_list)
+          things.push_back("list '" + property.name + "'");
+  return things;
+}
+
 } // namespace
 
 // Not by pcl::PLYReader, which takes 'abc' for nan and, where the locale has a decimal
 // comma, every broken number too.
-pcl::PCLPointCloud2
+ScanCloud
 readPly(const std::filesystem::path& path)
 {
-  const std::string content = text::readFile(path);
-  const PlyHeader header = readPlyHeader(path, content);
+  text::Input input(path);
+  const PlyHeader header = readPlyHeader(input);
   const auto vertex =
       std::find_if(header.elements.begin(),
                    header.elements.end(),
                    [](const auto& element) { return element.name == "vertex"; });
   if (vertex == header.elements.end())
     text::fail(path, "PLY file without an element 'vertex'");
-  if (vertex->count == 0)
-    text::fail(path, "PLY mesh without vertices");
   if (vertex->count > std::numeric_limits<pcl::uindex_t>::max())
     text::fail(path,
                std::to_string(vertex->count) +
                    " vertices are more than a cloud can hold");
-  const auto body = openPlyBody(path, header, content);
-  pcl::PCLPointCloud2 cloud;
+  const auto body = openPlyBody(input, header);
+  ScanCloud scan;
   for (const auto& element : header.elements)
     if (element.name == "vertex")
-      cloud = readVertices(path, *body, element);
+      scan.cloud = readVertices(input, *body, element);
     else
-      readElement(*body, element);
+      skipElement(*body, element);
   body->finish();
-  return cloud;
+  scan.left_out = leftOut(header);
+  return scan;
 }
 
 } // namespace pcl6d

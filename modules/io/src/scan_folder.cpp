@@ -29,7 +29,7 @@ isScan(const fs::directory_entry& entry)
   // it is read: left out in silence it would shift all poses.
   return entry.path().filename().string().front() != '.' &&
          !isGroundtruth(entry.path()) &&
-         formatOfExtension(entry.path()) != ScanFormat::kAuto;
+         scanFormatOfExtension(entry.path()) != ScanFormat::kAuto;
 }
 
 /** \return the files with the extension of any format, in natural order */
@@ -59,15 +59,14 @@ scanFiles(const fs::path& folder)
 ScanFormat
 commonFormat(const fs::path& folder, const std::vector<fs::path>& files)
 {
-  const ScanFormat first = formatOfExtension(files.front());
+  const ScanFormat first = scanFormatOfExtension(files.front());
   for (const auto& file : files) {
-    const ScanFormat other = formatOfExtension(file);
+    const ScanFormat other = scanFormatOfExtension(file);
     if (other != first)
       text::fail(folder,
-                 "holds scans of several formats, " + std::string(extensionOf(first)) +
-                     " (" + files.front().filename().string() + ") and " +
-                     std::string(extensionOf(other)) + " (" + file.filename().string() +
-                     "); choose one with --format");
+                 "holds scans of several formats, " + extensionOf(first) + " (" +
+                     files.front().filename().string() + ") and " + extensionOf(other) +
+                     " (" + file.filename().string() + "); choose one with --format");
   }
   return first;
 }
@@ -81,15 +80,16 @@ findScans(const fs::path& folder, ScanFormat format)
     files.erase(std::remove_if(files.begin(),
                                files.end(),
                                [format](const fs::path& file) {
-                                 return formatOfExtension(file) != format;
+                                 return extensionOf(scanFormatOfExtension(file)) !=
+                                        extensionOf(format);
                                }),
                 files.end());
   if (files.empty())
-    text::fail(folder,
-               "no scans found (looked for " +
-                   (format == ScanFormat::kAuto ? allExtensions()
-                                                : std::string(extensionOf(format))) +
-                   ")");
+    text::fail(
+        folder,
+        "no scans found (looked for " +
+            (format == ScanFormat::kAuto ? allExtensions() : extensionOf(format)) +
+            ")");
   if (format == ScanFormat::kAuto)
     scans.format = commonFormat(folder, files);
   return scans;
@@ -178,6 +178,18 @@ Scan
 ScanFolder::read(std::size_t i) const
 {
   return readScan(file(i), format_);
+}
+
+ScanCloud
+ScanFolder::readCloud(std::size_t i) const
+{
+  return readScanCloud(file(i), format_);
+}
+
+ScanFormat
+ScanFolder::format() const
+{
+  return format_;
 }
 
 } // namespace pcl6d

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 
 namespace pcl6d {
@@ -21,22 +22,31 @@ struct FormatName {
   std::string_view name;
   std::string_view extension;
 };
-constexpr std::array<FormatName, 5> kFormats = {{{ScanFormat::kPcd, "pcd", ".pcd"},
+// Of two formats with one extension the first is that of the extension.
+constexpr std::array<FormatName, 6> kFormats = {{{ScanFormat::kPcd, "pcd", ".pcd"},
                                                  {ScanFormat::kPly, "ply", ".ply"},
                                                  {ScanFormat::kUos, "uos", ".3d"},
+                                                 {ScanFormat::kUosr, "uosr", ".3d"},
                                                  {ScanFormat::kKitti, "kitti", ".bin"},
                                                  {ScanFormat::kXyz, "xyz", ".xyz"}}};
 
-pcl::PCLPointCloud2
-readCloud(const std::filesystem::path& path, ScanFormat format)
+constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+
+ScanCloud
+readAllPoints(const std::filesystem::path& path, ScanFormat format)
 {
-  switch (format == ScanFormat::kAuto ? formatOfExtension(path) : format) {
-  case ScanFormat::kPcd:
-    return readPcd(path);
+  switch (format == ScanFormat::kAuto ? scanFormatOfExtension(path) : format) {
+  case ScanFormat::kPcd: {
+    ScanCloud scan;
+    scan.cloud = readPcd(path);
+    return scan;
+  }
   case ScanFormat::kPly:
     return readPly(path);
   case ScanFormat::kUos:
     return readUos(path);
+  case ScanFormat::kUosr:
+    return readUosr(path);
   case ScanFormat::kKitti:
     return readKitti(path);
   case ScanFormat::kXyz:
@@ -72,7 +82,7 @@ coordinates(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud)
   Points points(std::size_t{cloud.width} * cloud.height);
   for (int axis = 0; axis < 3; ++axis) {
     const auto& field =
-        coordinateField(path, cloud, std::string(1, static_cast<char>('x' + axis)));
+        coordinateField(path, cloud, kAxes[static_cast<std::size_t>(axis)]);
     withTypeOf(field.datatype, [&](auto value) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         std::memcpy(
@@ -84,23 +94,40 @@ coordinates(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud)
   return points;
 }
 
+/** \return per point whether x, y and z are finite as float */
+std::vector<bool>
+finitePoints(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud)
+{
+  std::vector<bool> finite(std::size_t{cloud.width} * cloud.height, true);
+  for (const char* const axis : kAxes) {
+    const auto& field = coordinateField(path, cloud, axis);
+    withTypeOf(field.datatype, [&](auto value) {
+      const std::uint8_t* place = cloud.data.data() + field.offset;
+      for (std::size_t i = 0; i < finite.size(); ++i, place += cloud.point_step) {
+        std::memcpy(&value, place, sizeof value);
+        if (!std::isfinite(static_cast<float>(value)))
+          finite[i] = false;
+      }
+    });
+  }
+  return finite;
+}
+
 /** Leaves the finite points in their order. */
 void
-dropInvalid(Scan& scan)
+dropInvalid(const std::filesystem::path& path, ScanCloud& scan)
 {
+  const std::vector<bool> finite = finitePoints(path, scan.cloud);
   const std::size_t step = scan.cloud.point_step;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (!scan.points[i].allFinite())
+  for (std::size_t i = 0; i < finite.size(); ++i) {
+    if (!finite[i])
       continue;
-    if (kept != i) {
-      scan.points[kept] = scan.points[i];
+    if (kept != i)
       std::memcpy(&scan.cloud.data[kept * step], &scan.cloud.data[i * step], step);
-    }
     ++kept;
   }
-  scan.dropped = scan.points.size() - kept;
-  scan.points.resize(kept);
+  scan.dropped = finite.size() - kept;
   scan.cloud.data.resize(kept * step);
   if (scan.dropped > 0 || kept == 0) {
     scan.cloud.width = static_cast<pcl::uindex_t>(kept);
@@ -113,7 +140,7 @@ dropInvalid(Scan& scan)
 } // namespace
 
 ScanFormat
-formatOfExtension(const std::filesystem::path& path)
+scanFormatOfExtension(const std::filesystem::path& path)
 {
   std::string extension = path.extension().string();
   for (char& c : extension)
@@ -124,13 +151,22 @@ formatOfExtension(const std::filesystem::path& path)
   return ScanFormat::kAuto;
 }
 
-std::string_view
+std::string
 extensionOf(ScanFormat format)
 {
   for (const auto& known : kFormats)
     if (known.format == format)
-      return known.extension;
+      return std::string(known.extension);
   return {};
+}
+
+std::string
+toString(ScanFormat format)
+{
+  for (const auto& known : kFormats)
+    if (known.format == format)
+      return std::string(known.name);
+  return "auto";
 }
 
 std::string
@@ -138,7 +174,8 @@ allExtensions()
 {
   std::string extensions;
   for (const auto& known : kFormats)
-    extensions += (extensions.empty() ? "" : " ") + std::string(known.extension);
+    if (extensions.find(known.extension) == std::string::npos)
+      extensions += (extensions.empty() ? "" : " ") + std::string(known.extension);
   return extensions;
 }
 
@@ -151,16 +188,23 @@ scanFormatFromName(const std::string& name)
     if (name == known.name)
       return known.format;
   throw BadArgument("format = " + text::quoted(name) +
-                    ", but must be auto, pcd, ply, uos, kitti or xyz");
+                    ", but must be auto, pcd, ply, uos, uosr, kitti or xyz");
+}
+
+ScanCloud
+readScanCloud(const std::filesystem::path& path, ScanFormat format)
+{
+  ScanCloud scan = readAllPoints(path, format);
+  dropInvalid(path, scan);
+  return scan;
 }
 
 Scan
 readScan(const std::filesystem::path& path, ScanFormat format)
 {
   Scan scan;
-  scan.cloud = readCloud(path, format);
+  static_cast<ScanCloud&>(scan) = readScanCloud(path, format);
   scan.points = coordinates(path, scan.cloud);
-  dropInvalid(scan);
   return scan;
 }
 

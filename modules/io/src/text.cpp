@@ -22,7 +22,7 @@ open(const std::filesystem::path& path)
   if (stream)
     stream.peek(); // a folder can be opened, but not read
   if (!stream && !stream.eof())
-    fail(path, errno ? std::strerror(errno) : "cannot be opened");
+    fail(path, systemReason("cannot be opened"));
   stream.clear();
   return stream;
 }
@@ -39,7 +39,7 @@ readRest(std::istream& stream, const std::filesystem::path& path)
     content.resize(size + static_cast<std::size_t>(stream.gcount()));
   }
   if (stream.bad())
-    fail(path, errno ? std::strerror(errno) : "cannot be read");
+    fail(path, systemReason("cannot be read"));
   return content;
 }
 
@@ -60,6 +60,12 @@ void
 failAt(const std::filesystem::path& path, std::size_t line, const std::string& message)
 {
   fail(path, "line " + std::to_string(line) + ": " + message);
+}
+
+std::string
+systemReason(const char* otherwise)
+{
+  return errno ? std::strerror(errno) : otherwise;
 }
 
 std::string

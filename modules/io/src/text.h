@@ -36,6 +36,10 @@ fail(const std::filesystem::path& path, const std::string& message);
 [[noreturn]] void
 failAt(const std::filesystem::path& path, std::size_t line, const std::string& message);
 
+/** \return what errno says, or the other text if it is 0 */
+std::string
+systemReason(const char* otherwise);
+
 /** \return the token in quotes, shortened and without control characters */
 std::string
 quoted(std::string_view token);

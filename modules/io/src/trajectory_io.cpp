@@ -168,4 +168,19 @@ readUosPose(const std::filesystem::path& path)
   return poseFromLeftHanded(R, Eigen::Vector3d(&values[0]));
 }
 
+void
+writeUosPose(const std::filesystem::path& path, const Eigen::Isometry3d& T_world_scan)
+{
+  const Eigen::Matrix4d T = poseToLeftHanded(T_world_scan);
+  const EulerAngles e =
+      eulerFromRotation(Eigen::Matrix3d(T.topLeftCorner<3, 3>().transpose()));
+  const Eigen::Vector3d angles =
+      Eigen::Vector3d(-e.roll, -e.pitch, -e.yaw) / kDegree; // see readUosPose()
+  const Eigen::Vector3d t = T.topRightCorner<3, 1>();
+  std::string text;
+  appendRow(text, t.data(), t.data() + 3);
+  appendRow(text, angles.data(), angles.data() + 3);
+  writeFileAtomically(path, [&](std::ostream& stream) { stream << text; });
+}
+
 } // namespace pcl6d

@@ -83,4 +83,11 @@ struct RunSummary {
 void
 writeRunSummary(const std::filesystem::path& path, const RunSummary& summary);
 
+/** \brief Reads of a summary.json what tells where the scans of a run are: generator,
+ * version, world_offset, options, files and poses of the scans, complete, trusted. The rest
+ * stays empty. \throws IoFailed naming file, place, value and rule: unreadable, no JSON, an
+ * entry that is missing or of another type, another schema_version */
+RunSummary
+readRunSummary(const std::filesystem::path& path);
+
 } // namespace pcl6d

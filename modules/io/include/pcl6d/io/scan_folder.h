@@ -73,6 +73,14 @@ public:
   Scan
   read(std::size_t i) const;
 
+  /** \brief The same without a second copy of x, y, z. */
+  ScanCloud
+  readCloud(std::size_t i) const;
+
+  /** \return the format of the scans, not kAuto */
+  ScanFormat
+  format() const;
+
 private:
   struct Entry {
     std::filesystem::path file;
@@ -84,5 +92,11 @@ private:
   std::string pose_source_;
   ScanFormat format_ = ScanFormat::kAuto;
 };
+
+/** \brief Looks for the pose of a scan that is not taken as part of a folder.
+ * \return the pose in the `.pose` file beside it, or that of its PCD VIEWPOINT, unless it
+ * is the identity \throws IoFailed they are broken \ingroup io */
+std::optional<Eigen::Isometry3d>
+findScanPose(const std::filesystem::path& scan, ScanFormat format = ScanFormat::kAuto);
 
 } // namespace pcl6d

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pcl6d {
 
@@ -15,21 +16,40 @@ namespace pcl6d {
  *
  * kPcd: PCD, all encodings and fields. kPly: PLY points or mesh vertices. kUos: 3DTK's
  * `.3d` text, left-handed centimetres, converted to our frame (x forward, y left, z up,
- * metres). kKitti: `.bin` of float32 x y z intensity. kXyz: text, x y z in metres at
- * the start of each line. kAuto: by file extension. */
-enum class ScanFormat { kAuto, kPcd, kPly, kUos, kKitti, kXyz };
+ * metres). kUosr: the same with the reflectance behind, our field `intensity`. kKitti:
+ * `.bin` of float32 x y z intensity. kXyz: text, x y z in metres at the start of each
+ * line. kAuto: by file extension; `.3d` is kUos. */
+enum class ScanFormat { kAuto, kPcd, kPly, kUos, kUosr, kKitti, kXyz };
 
-/** \return the format called "auto", "pcd", "ply", "uos", "kitti" or "xyz"
+/** \return the format called "auto", "pcd", "ply", "uos", "uosr", "kitti" or "xyz"
  * \throws BadArgument no format has that name */
 ScanFormat
 scanFormatFromName(const std::string& name);
 
-/** \brief One scan as it came from a file. */
-struct Scan {
+/** \return the name of the format */
+std::string
+toString(ScanFormat format);
+
+/** \return the format of files with this extension, whatever its case; kAuto if none */
+ScanFormat
+scanFormatOfExtension(const std::filesystem::path& path);
+
+/** \return the extension of the format's files with its dot; empty for kAuto */
+std::string
+extensionOf(ScanFormat format);
+
+/** \brief The points of a file. */
+struct ScanCloud {
   pcl::PCLPointCloud2
       cloud;               ///< all fields of the finite points, in the scan's frame [m]
-  Points points;           ///< their x, y, z, same order
   std::size_t dropped = 0; ///< points left out because x, y or z was not finite
+  /** what the file holds that is no field of a point, such as the faces of a mesh */
+  std::vector<std::string> left_out;
+};
+
+/** \brief One scan as it came from a file. */
+struct Scan : ScanCloud {
+  Points points; ///< x, y, z of the cloud, same order
 };
 
 /** \brief Reads one scan, right-handed and in metres whatever the format.
@@ -39,5 +59,9 @@ struct Scan {
  * where a number belongs \ingroup io */
 Scan
 readScan(const std::filesystem::path& path, ScanFormat format = ScanFormat::kAuto);
+
+/** \brief The same without a second copy of x, y, z. */
+ScanCloud
+readScanCloud(const std::filesystem::path& path, ScanFormat format = ScanFormat::kAuto);
 
 } // namespace pcl6d

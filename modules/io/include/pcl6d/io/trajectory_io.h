@@ -30,4 +30,9 @@ writeTrajectoryTum(const std::filesystem::path& path, const Trajectory& trajecto
 Eigen::Isometry3d
 readUosPose(const std::filesystem::path& path);
 
+/** \brief Writes a pose for 3DTK, the inverse of readUosPose(), with 17 digits,
+ * atomically. \throws IoFailed the file cannot be written */
+void
+writeUosPose(const std::filesystem::path& path, const Eigen::Isometry3d& T_world_scan);
+
 } // namespace pcl6d

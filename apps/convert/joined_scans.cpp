@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/interrupt.h"
+#include "common/progress_bar.h"
+#include "convert/joined_layout.h"
+#include "convert/loss_tally.h"
+#include "convert/scan_jobs.h"
+#include "convert/scan_source.h"
+#include "convert/vector_field.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/filters/range_statistics.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+
+struct Stopped {}; ///< thrown after a signal
+
+/** \brief Joins the scans of a folder; only one of them is in memory at a time. */
+class JoinedScans {
+public:
+  explicit JoinedScans(const ScanSettings& settings)
+  : settings_(settings), source_(settings), bar_(settings.quiet)
+  {
+    for (std::size_t i = 0; i < source_.folder().size(); ++i)
+      refuseAsOutput(source_.folder().file(i));
+    refuseAsOutput(settings.folder.poses_file);
+  }
+
+  int
+  run()
+  try {
+    if (!settings_.without_effect.empty())
+      bar_.warn(settings_.without_effect);
+    survey();
+    ScanShape shape;
+    shape.fields = layout_.fields();
+    shape.point_step = layout_.pointStep();
+    shape.width = points_;
+    const auto losses = writeScanBlocks(settings_.output,
+                                        shape,
+                                        settings_.writer,
+                                        [&](const ScanSink& sink) { handOver(sink); });
+    describe(losses);
+    return kDone;
+  } catch (const Stopped&) {
+    return kInterrupted;
+  }
+
+private:
+  void
+  refuseAsOutput(const fs::path& input) const
+  {
+    std::error_code missing;
+    if (fs::equivalent(settings_.output, input, missing))
+      throw UsageError("--output = " + settings_.output.string() +
+                       ", but that is an input");
+  }
+
+  void
+  advance(const char* stage, std::size_t i)
+  {
+    bar_.show({stage, i + 1, source_.folder().size()});
+    if (interrupt_.requested())
+      throw Stopped();
+  }
+
+  /** \return per point whether the run took it for one of a surface */
+  std::vector<bool>
+  surfacesOf(const pcl::PCLPointCloud2& scan) const
+  {
+    const VectorField place(scan.fields, {"x", "y", "z"});
+    std::vector<bool> kept(std::size_t{scan.width} * scan.height);
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      kept[i] = isWithinRange(place.read(&scan.data[i * scan.point_step]).cast<float>(),
+                              source_.minRange(),
+                              source_.maxRange());
+    return kept;
+  }
+
+  /** The first pass: what the header of the file needs. */
+  void
+  survey()
+  {
+    for (std::size_t i = 0; i < source_.folder().size(); ++i) {
+      const ScanCloud scan = source_.folder().readCloud(i);
+      const auto kept = surfacesOf(scan.cloud);
+      const auto count =
+          static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
+      points_ += count;
+      out_of_range_ += kept.size() - count;
+      layout_.addScan(scan.cloud.fields);
+      losses_.addScan(scan, {});
+      advance("counting", i);
+    }
+    layout_.finish();
+  }
+
+  /** The second pass. */
+  void
+  handOver(const ScanSink& sink)
+  {
+    for (std::size_t i = 0; i < source_.folder().size(); ++i) {
+      const ScanCloud scan = source_.folder().readCloud(i);
+      Eigen::Isometry3d pose = source_.pose(i);
+      pose.translation() -= source_.worldOffset();
+      sink(layout_.joined(scan.cloud,
+                          surfacesOf(scan.cloud),
+                          pose,
+                          static_cast<std::uint32_t>(source_.folder().index(i))));
+      advance("writing", i);
+    }
+  }
+
+  void
+  describe(const std::vector<std::string>& losses)
+  {
+    const Eigen::Vector3d offset = source_.worldOffset();
+    std::cout << counted(source_.folder().size(), "scan") << ", "
+              << counted(points_, "point") << ": "
+              << toString(source_.folder().format()) << " to "
+              << toString(settings_.writer.format) << '\n'
+              << "poses from " << source_.poseSource() << '\n'
+              << "world_offset " << std::to_string(std::llround(offset.x())) << ' '
+              << std::llround(offset.y()) << ' ' << std::llround(offset.z())
+              << ": subtracted from all points [m]\n";
+    if (out_of_range_ > 0)
+      std::cout << "dropped " << counted(out_of_range_, "point")
+                << " outside the ranges of the run, " << source_.minRange() << " to "
+                << source_.maxRange() << " m\n";
+    for (const auto& loss : layout_.losses())
+      losses_.add(loss);
+    for (const auto& loss : losses)
+      losses_.add(loss);
+    losses_.print();
+  }
+
+  const ScanSettings& settings_;
+  const ScanSource source_;
+  const Interrupt interrupt_;
+  ProgressBar bar_;
+  JoinedLayout layout_;
+  LossTally losses_;
+  std::size_t points_ = 0;
+  std::size_t out_of_range_ = 0;
+};
+} // namespace
+
+int
+joinScans(const ScanSettings& settings)
+{
+  return JoinedScans(settings).run();
+}
+
+} // namespace pcl6d::app

@@ -21,6 +21,7 @@ struct Verb {
 
 const std::vector<Verb> kVerbs = {
     {"scans", "IN -o OUT", "scans in another format", app::runScans},
+    {"stereo", "LEFT RIGHT CALIB -o OUT", "two pictures to a scan", app::runStereo},
     {"trajectory", "IN -o OUT", "poses in another format", app::runTrajectory},
 };
 

@@ -13,6 +13,11 @@ constexpr const char* kConvert = "pcl_slam6d_convert"; ///< the program's name
 int
 runScans(const std::vector<std::string>& arguments);
 
+/** \brief `stereo LEFT RIGHT CALIB -o OUT`: a scan from the pictures of two cameras.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runStereo(const std::vector<std::string>& arguments);
+
 /** \brief `trajectory IN -o OUT`: poses in another format.
  * \param[in] arguments after the verb \return the exit code */
 int

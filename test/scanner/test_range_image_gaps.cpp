@@ -53,6 +53,22 @@ TEST(FillGaps, InterpolatesAlongRows)
   EXPECT_EQ(image.pointsIn({{0, 0}, {0, 9}}).size(), 4u);
 }
 
+TEST(FillGaps, ReachesPixelsBetweenSparseRowsAndColumns)
+{
+  auto image = imageOf(3,
+                       {1,
+                        kHole,
+                        2, //
+                        kHole,
+                        kHole,
+                        kHole,
+                        2,
+                        kHole,
+                        3});
+  EXPECT_EQ(fillGaps(image, {1, 2}), 5u);
+  EXPECT_EQ(text(image.ranges()), "1.00 1.50 2.00 1.50 2.00 2.50 2.00 2.50 3.00 ");
+}
+
 TEST(FillGaps, LeavesEdgesAndBordersOpen)
 {
   auto image = imageOf(1, {kHole, 1, kHole, 3, kHole});

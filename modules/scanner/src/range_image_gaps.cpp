@@ -111,7 +111,10 @@ std::size_t
 fillGaps(RangeImage& image, const GapOptions& options)
 {
   options.validate();
-  return GapFiller(image, options).fill();
+  std::size_t filled = 0;
+  while (const std::size_t more = GapFiller(image, options).fill())
+    filled += more;
+  return filled;
 }
 
 } // namespace pcl6d

@@ -166,9 +166,10 @@ struct GapOptions {
 };
 
 /** \brief Interpolates empty pixels linearly between the two pixels that end the gap in
- * their row or column, along the shorter of the two gaps. Edges stay open: a gap whose
- * ends differ by more than max_jump stays, and nothing is filled at the border. The
- * new pixels have no points. \return how many pixels were filled
+ * their row or column, along the shorter of the two gaps; again, until nothing changes,
+ * as between sparse rows and columns a pixel's neighbours are filled first. Edges stay
+ * open: a gap whose ends differ by more than max_jump stays, and nothing is filled at the
+ * border. The new pixels have no points. \return how many pixels were filled
  * \throws BadArgument see GapOptions::validate() \ingroup scanner */
 std::size_t
 fillGaps(RangeImage& image, const GapOptions& options = {});

@@ -11,6 +11,9 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <cmath>
+#include <cstdlib>
+
 namespace {
 using pcl6d::test::calibrationText;
 using pcl6d::test::intrinsicsText;
@@ -83,7 +86,7 @@ TEST(ConvertStereo, TriangulatesAWall)
   ASSERT_EQ(fields.size(), 5u);
   EXPECT_EQ(fields[4].name, "depth_error");
   const auto cloud = read(files.name("cloud.pcd"));
-  EXPECT_GT(cloud.size(), 40000u);
+  EXPECT_GT(cloud.size(), 60000u);
   EXPECT_EQ(cloud.height, 1u);
   std::size_t near = 0;
   for (const auto& p : cloud) {
@@ -120,6 +123,18 @@ TEST(ConvertStereo, TakesTwoCalibrationFilesUnitsAndMatchers)
   EXPECT_EQ(cloud.width, 320u);
   EXPECT_EQ(cloud.height, 240u);
   EXPECT_NEAR(cloud.at(200, 120).x, 3, 0.3);
+}
+
+TEST(ConvertStereo, GivesTheSameFileOnAnyCpu)
+{
+  const Files files;
+  EXPECT_EQ(files.run({"-o", files.name("a.pcd")}).exit_code, 0);
+  ::setenv("OPENCV_CPU_DISABLE", "AVX,AVX2,FMA3,FP16", 1);
+  const auto outcome = files.run({"-o", files.name("b.pcd")});
+  ::unsetenv("OPENCV_CPU_DISABLE");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(pcl6d::test::readText(files / "a.pcd"),
+            pcl6d::test::readText(files / "b.pcd"));
 }
 
 TEST(ConvertStereo, SaysWhatAnotherFormatDrops)

@@ -154,6 +154,19 @@ TEST(RangeImage, TakesPointsInTheOrderOfTheScanner)
   expectRefused([&] { RangeImage::inOrder(points, view); }, "points = 1199");
 }
 
+TEST(RangeImage, TakesTheIntensitiesOfAPclCloud)
+{
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  cloud.emplace_back(3.0f, 0.0f, 0.0f, 0.7f);
+  EXPECT_EQ(pcl6d::reflectancesOf(cloud), std::vector<float>{0.7f});
+  EXPECT_TRUE(pcl6d::reflectancesOf(pcl::PointCloud<pcl::PointXYZ>(2, 1)).empty());
+  const auto image = RangeImage::project(
+      pcl6d::toPoints(cloud), smallView(), {}, pcl6d::reflectancesOf(cloud));
+  EXPECT_EQ(image.reflectance(*image.pixelOf(0)), 0.7f);
+  const auto back = toPointCloud(image);
+  EXPECT_EQ(back.at(image.pixelOf(0)->col, image.pixelOf(0)->row).intensity, 0.7f);
+}
+
 TEST(RangeImage, RefusesSenselessInput)
 {
   const Points points(4, Eigen::Vector3f::Ones());

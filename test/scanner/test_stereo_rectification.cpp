@@ -126,6 +126,27 @@ TEST(StereoRectification, LeavesAnIdealPairAlone)
   EXPECT_EQ(cv::norm(rectification.rectifyRight(image), image, cv::NORM_INF), 0);
 }
 
+TEST(StereoRectification, KnowsWhatBothCamerasSee)
+{
+  const StereoRectification ideal(idealRig());
+  EXPECT_TRUE(ideal.isSeen(0, 50, 50));
+  EXPECT_FALSE(ideal.isSeen(0, 50, 51)) << "left of the right image";
+  EXPECT_FALSE(ideal.isSeen(0, 319, -1)) << "right of it";
+  // A white picture is black exactly where the camera does not see, but for its border.
+  const StereoRectification rectification(realRig());
+  const cv::Mat white(240, 320, CV_8UC1, cv::Scalar(255));
+  const cv::Mat left = rectification.rectifyLeft(white);
+  int black = 0;
+  for (int row = 0; row < 240; ++row)
+    for (int col = 0; col < 320; ++col)
+      if (left.at<std::uint8_t>(row, col) == 0) {
+        ++black;
+        EXPECT_FALSE(rectification.isSeen(row, col, 1)) << row << ' ' << col;
+      }
+  EXPECT_GT(black, 100);
+  EXPECT_TRUE(rectification.isSeen(120, 160, 1));
+}
+
 TEST(StereoRectification, RefusesASenselessRig)
 {
   const auto refused = [](auto spoil, const std::string& words) {

@@ -65,7 +65,7 @@ stereoCloud(const cv::Mat& disparity,
       result.cloud[i].intensity =
           static_cast<float>(gray.at<std::uint8_t>(row, col)) / 255;
       const float d = disparity.at<float>(row, col);
-      if (!(d > 0) || !rectification.isSeen(row, col))
+      if (!(d > 0) || !rectification.isSeen(row, col, double{d}))
         continue;
       const Eigen::Vector3d point = rectification.triangulate(col, row, double{d});
       if (!(point.z() <= options.max_depth))

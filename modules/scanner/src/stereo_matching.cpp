@@ -3,7 +3,9 @@
 #include <pcl6d/scanner/stereo_matching.h>
 
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace pcl6d {
@@ -52,6 +54,23 @@ requirePair(const cv::Mat& left,
           size(left),
           "wider than the disparities (" + std::to_string(widest) +
               ") and larger than a block (" + std::to_string(options.block_size) + ")");
+}
+
+/** \return disparities in pixels, NaN where there is none or where it leads out of the
+ * right image */
+cv::Mat
+disparityOf(const cv::Mat& sixteenths, const StereoMatchingOptions& options)
+{
+  constexpr int kScale = cv::StereoMatcher::DISP_SCALE;
+  cv::Mat disparity(sixteenths.size(), CV_32FC1);
+  for (int row = 0; row < disparity.rows; ++row)
+    for (int col = 0; col < disparity.cols; ++col) {
+      const int d = sixteenths.at<short>(row, col);
+      const bool valid = d >= kScale * options.min_disparity && d <= kScale * col;
+      disparity.at<float>(row, col) = valid ? static_cast<float>(d) / kScale
+                                            : std::numeric_limits<float>::quiet_NaN();
+    }
+  return disparity;
 }
 } // namespace
 
@@ -108,13 +127,17 @@ matchStereo(const cv::Mat& left,
   matcher->setDisp12MaxDiff(options.max_left_right);
   matcher->setSpeckleWindowSize(options.speckle_size);
   matcher->setSpeckleRange(options.speckle_step);
+  // OpenCV leaves out the columns from which the largest disparity would lead out of the
+  // right image. Black columns at the left give them to us.
+  const int margin = std::max(0, options.min_disparity + options.num_disparities);
+  const auto padded = [margin](const cv::Mat& image) {
+    cv::Mat wide;
+    cv::copyMakeBorder(image, wide, 0, 0, margin, 0, cv::BORDER_CONSTANT, 0);
+    return wide;
+  };
   cv::Mat sixteenths;
-  matcher->compute(left, right, sixteenths);
-  cv::Mat disparity;
-  sixteenths.convertTo(disparity, CV_32F, 1.0 / cv::StereoMatcher::DISP_SCALE);
-  disparity.setTo(std::numeric_limits<float>::quiet_NaN(),
-                  sixteenths < options.min_disparity * cv::StereoMatcher::DISP_SCALE);
-  return disparity;
+  matcher->compute(padded(left), padded(right), sixteenths);
+  return disparityOf(sixteenths.colRange(margin, margin + left.cols), options);
 }
 
 } // namespace pcl6d

@@ -123,9 +123,11 @@ StereoRectification::rectifyRight(const cv::Mat& image) const
 }
 
 bool
-StereoRectification::isSeen(int row, int col) const
+StereoRectification::isSeen(int row, int col, double disparity) const
 {
-  return maps_->to_left.isSeen(row, col);
+  const int other = static_cast<int>(std::round(col - disparity));
+  return maps_->to_left.isSeen(row, col) && other >= 0 && other < intrinsics_.width &&
+         maps_->to_right.isSeen(row, other);
 }
 
 Eigen::Vector3d

@@ -36,10 +36,12 @@ struct PixelBox {
  *
  * Every finite point between the range limits lands in at most one pixel. A pixel shows
  * the nearest of its points (the first of equals) and knows all of them. A pixel without
- * points is empty: its range is NaN, until fillGaps() interpolates it.
+ * points is empty: its range is NaN, until fillGaps() interpolates it. Pixels are given
+ * within the image.
  * \code
  * const auto view = std::make_shared<pcl6d::SphericalProjection>();
- * const auto image = pcl6d::RangeImage::project(pcl6d::toPoints(cloud), view);
+ * const auto image = pcl6d::RangeImage::project(
+ *     pcl6d::toPoints(cloud), view, {}, pcl6d::reflectancesOf(cloud));
  * cut(cloud, image.pointsIn({{10, 20}, {60, 90}})); // the points behind a window
  * \endcode \ingroup scanner */
 class RangeImage {
@@ -155,6 +157,18 @@ private:
   std::vector<std::uint32_t> points_;      // by pixel, then range, then index
   std::vector<std::int32_t> pixel_of_;     // per point, -1: left out
 };
+
+/** \return the intensities of a cloud, for RangeImage; empty if its points have none */
+template <typename PointT>
+std::vector<float>
+reflectancesOf(const pcl::PointCloud<PointT>& cloud)
+{
+  std::vector<float> values;
+  if constexpr (pcl::traits::has_intensity<PointT>::value)
+    for (const auto& p : cloud)
+      values.push_back(p.intensity);
+  return values;
+}
 
 /** \brief How wide a hole fillGaps() closes. */
 struct GapOptions {

@@ -71,9 +71,10 @@ public:
   cv::Mat
   rectifyRight(const cv::Mat& image) const;
 
-  /** \return whether the left camera sees a pixel of the rectified image */
+  /** \return whether the left camera sees a pixel of its rectified image, and the right
+   * camera the one in the same row, `disparity` [px] farther left */
   bool
-  isSeen(int row, int col) const;
+  isSeen(int row, int col, double disparity) const;
 
   /** \return the point that a pixel of the left rectified image shows, in the rectified
    * frame [m] \param[in] disparity [px] > 0 */

@@ -5,6 +5,7 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
+#include "slam6d/earlier_run.h"
 #include "slam6d/run_writer.h"
 #include "slam6d/settings.h"
 
@@ -29,11 +30,13 @@ constexpr const char* kName = "pcl_slam6d";
 
 /** A selection that holds no scan is a mistake of the command line. */
 ScanFolder
-openFolder(const Settings& settings)
+openFolder(const Settings& settings, const std::optional<app::EarlierRun>& earlier)
 {
   std::optional<ScanFolder> folder;
   app::checkOptions([&] { folder.emplace(settings.input, settings.folder); },
                     {{"poses_file", "poses"}});
+  if (earlier)
+    earlier->putBefore(*folder);
   return *std::move(folder);
 }
 
@@ -41,7 +44,10 @@ openFolder(const Settings& settings)
 class Job {
 public:
   explicit Job(const Settings& settings)
-  : folder_(openFolder(settings))
+  : earlier_(settings.continued.empty()
+                 ? std::nullopt
+                 : std::make_optional<app::EarlierRun>(settings.continued))
+  , folder_(openFolder(settings, earlier_))
   , settings_(resolved(settings, folder_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings))
@@ -52,8 +58,11 @@ public:
   run()
   {
     const auto display = startDisplay();
-    bar_.say(std::to_string(folder_.size()) + " scans, initial poses from " +
-             folder_.poseSource());
+    bar_.say(std::to_string(folder_.size()) + " scans" +
+             (earlier_ ? ", " + std::to_string(folder_.numRegistered()) +
+                             " of them registered in " + settings_.continued
+                       : "") +
+             ", initial poses from " + folder_.poseSource());
     if (!readScans()) {
       bar_.say("interrupted while reading; nothing is written");
       return app::kInterrupted;
@@ -112,8 +121,14 @@ private:
                        " points with finite coordinates (" +
                        std::to_string(scan.dropped) +
                        " without), but at least 3 are needed");
-      log_.dropped.push_back(scan.dropped);
-      slam_.addScan(scan.points, folder_.initialPose(i), file);
+      if (i < folder_.numRegistered()) {
+        log_.dropped.push_back(earlier_->dropped(i));
+        slam_.addRegistered(scan.points, earlier_->scan(i), file);
+      }
+      else {
+        log_.dropped.push_back(scan.dropped);
+        slam_.addScan(scan.points, folder_.initialPose(i), file);
+      }
       bar_.show({"reading", i + 1, folder_.size()});
     }
     return true;
@@ -130,7 +145,7 @@ private:
         slam_.cancel();
     });
     slam_.setObserver([&](std::size_t i, const ScanResult& scan) {
-      if (i == 0)
+      if (i == folder_.numRegistered()) // the first one that is matched
         printParameters();
       if (settings_.verbose)
         printScan(i, scan);
@@ -165,7 +180,7 @@ private:
   printScan(std::size_t i, const ScanResult& scan)
   {
     std::ostringstream line;
-    line << folder_.file(i).filename().string() << ": " << toString(scan.state) << " ("
+    line << folder_.name(i) << ": " << toString(scan.state) << " ("
          << toString(scan.status) << "), " << scan.iterations << " iterations, "
          << scan.pairs << " pairs, rms " << scan.rms << " m, overlap " << scan.overlap
          << ", correction " << scan.correction << " m"
@@ -173,6 +188,7 @@ private:
     bar_.say(line.str());
   }
 
+  const std::optional<app::EarlierRun> earlier_;
   const ScanFolder folder_;
   const Settings settings_;
   const app::Interrupt interrupt_;

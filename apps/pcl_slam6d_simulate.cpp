@@ -5,12 +5,12 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
-#include "common/scan_name.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/scanner/simulator.h>
 
@@ -155,7 +155,7 @@ writeFiles(const app::OutputFolder& folder,
       return false;
     pcl::PCLPointCloud2 cloud;
     pcl::toPCLPointCloud2(simulator.scan(i), cloud);
-    writePcd(folder / (app::scanName(static_cast<int>(i)) + ".pcd"),
+    writePcd(folder / (scanName(static_cast<int>(i)) + ".pcd"),
              cloud,
              simulator.odometry().poses[i]);
     progress.show({"simulating", i + 1, simulator.size()});

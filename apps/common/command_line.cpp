@@ -46,15 +46,29 @@ CommandLine::readConfig(const std::string& file)
   std::ifstream stream(file);
   if (!stream || std::filesystem::is_directory(file))
     throw UsageError(file + ": cannot read config file");
+  readLines(stream, file);
+}
+
+void
+CommandLine::readLines(std::istream& lines, const std::string& source)
+{
   po::options_description all;
   for (const auto& group : groups_)
     if (group.options().front()->long_name() != "config") // these have no sense in it
       all.add(group);
   try {
-    po::store(po::parse_config_file(stream, all), values_);
+    po::store(po::parse_config_file(lines, all), values_);
   } catch (const po::error& e) {
-    throw UsageError(file + ": " + e.what());
+    throw UsageError(source + ": " + e.what());
   }
+}
+
+void
+CommandLine::bringOptions(const std::string& option,
+                          std::function<std::string(const std::string&)> lines)
+{
+  bringing_option_ = option;
+  brought_lines_ = std::move(lines);
 }
 
 po::options_description
@@ -119,6 +133,11 @@ CommandLine::parse(const std::vector<std::string>& arguments)
     return false;
   if (values_.count("config"))
     readConfig(values_["config"].as<std::string>());
+  if (!bringing_option_.empty() && values_.count(bringing_option_)) {
+    const auto value = values_[bringing_option_].as<std::string>();
+    std::istringstream lines(brought_lines_(value));
+    readLines(lines, "--" + bringing_option_ + " " + value);
+  }
   for (const auto& name : positional_names_)
     if (!values_.count(name))
       throw UsageError(name + " is missing");

@@ -3,6 +3,7 @@
 
 #include <boost/program_options.hpp>
 
+#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -32,6 +33,14 @@ public:
   void
   positional(const std::string& name, std::string* value);
 
+  /** \brief Lets the value of an option bring others, which count where neither the
+   * command line nor the config file gives them.
+   * \param[in] lines `name = value` lines for a value of the option; what they throw goes
+   * through parse() */
+  void
+  bringOptions(const std::string& option,
+               std::function<std::string(const std::string& value)> lines);
+
   /** \brief Parses; on --help or --version prints it to stdout.
    * \return false when the program has nothing more to do
    * \throws UsageError, boost::program_options::error the arguments break a rule */
@@ -59,11 +68,16 @@ private:
   void
   printHelp() const;
 
+  void
+  readLines(std::istream& lines, const std::string& source);
+
   std::string usage_;
   std::vector<boost::program_options::options_description> groups_;
   boost::program_options::options_description hidden_;
   boost::program_options::positional_options_description positions_;
   std::vector<std::string> positional_names_;
+  std::string bringing_option_; ///< see bringOptions()
+  std::function<std::string(const std::string&)> brought_lines_;
   boost::program_options::variables_map values_;
 };
 

@@ -2,7 +2,6 @@
 #include "common/app.h"
 #include "common/command_line.h"
 #include "common/output_folder.h"
-#include "common/scan_name.h"
 #include "convert/loss_tally.h"
 #include "convert/verbs.h"
 
@@ -10,6 +9,7 @@
 #include <pcl6d/common/pose_graph.h>
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/pose_graph_io.h>
+#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_formats.h>
 #include <pcl6d/io/trajectory_io.h>
 

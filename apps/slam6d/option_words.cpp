@@ -24,7 +24,12 @@ describeInput(CommandLine& line, Settings& s, OptionWords& raw)
           [&s](const std::string& file) { s.folder.poses_file = file; }),
       "initial poses, KITTI or TUM rows, one per scan of the folder (default: *.pose, "
       "odometry.txt, poses.txt, PCD VIEWPOINT or identity, the first that is there)")(
-      "format", valueOf(raw.format), "auto|pcd|ply|uos|kitti|xyz");
+      "format", valueOf(raw.format), "auto|pcd|ply|uos|kitti|xyz")(
+      "continue",
+      po::value(&s.continued)->value_name("RUN_DIR"),
+      "goes on with a finished run: its scans keep their place and its options count "
+      "unless given anew; taken are the files of SCAN_DIR whose names it lacks; -o is "
+      "RUN_DIR by default");
 }
 
 std::string

@@ -19,7 +19,7 @@ struct OptionWords {
   std::string robust = toString(Slam6DOptions().robust);
   std::string initial_guess = "auto";
   std::string loop_closing = toString(Slam6DOptions().loop_closing);
-  std::string relaxation = "none";
+  std::string relaxation = toString(*Slam6DOptions().relaxation);
   std::string links = toString(Slam6DOptions().links);
   AutoDouble min_range, max_range, voxel, max_distance, max_distance_start;
   int last = -1;

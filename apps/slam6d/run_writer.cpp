@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/scan_name.h"
 #include "slam6d/run_writer.h"
+#include "slam6d/verdict.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/frames_io.h>
+#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
+#include <charconv>
 #include <sys/resource.h>
 
 namespace pcl6d::app {
@@ -34,17 +34,18 @@ kindOf(ScanState state)
 }
 
 RunSummary::ScanEntry
-entryOf(const std::string& file, const ScanResult& scan, std::size_t dropped)
+entryOf(const std::string& file, int index, const ScanResult& scan)
 {
   RunSummary::ScanEntry entry;
   entry.file = file;
+  entry.index = index;
+  entry.initial_pose = scan.initial_pose;
   entry.T_world_scan = scan.T_world_scan;
   entry.covariance = scan.covariance;
   entry.state = toString(scan.state);
   entry.status = toString(scan.status);
   entry.start = toString(scan.start);
   entry.points = scan.points;
-  entry.dropped = dropped;
   entry.reduced = scan.reduced;
   entry.pairs = scan.pairs;
   entry.rms = scan.rms;
@@ -55,81 +56,12 @@ entryOf(const std::string& file, const ScanResult& scan, std::size_t dropped)
   return entry;
 }
 
-/** \return ": a.pcd, b.pcd and 3 more" for the scans in a state */
+/** \return the number in as few digits as tell it from all others */
 std::string
-filesIn(const std::string& state, const RunSummary& summary)
+shortest(double value)
 {
-  constexpr int kMost = 8;
-  std::string text;
-  int count = 0;
-  for (const auto& scan : summary.scans)
-    if (scan.state == state && ++count <= kMost)
-      text += (count == 1 ? ": " : ", ") + scan.file;
-  return count > kMost ? text + " and " + std::to_string(count - kMost) + " more"
-                       : text;
-}
-
-/** The worst numbers of the matched scans, so that a bad match shows without --verbose. */
-void
-describeQuality(const RunSummary& summary, std::ostream& text)
-{
-  using Entry = RunSummary::ScanEntry;
-  std::vector<const Entry*> matched;
-  for (const auto& scan : summary.scans)
-    if (scan.state == "matched")
-      matched.push_back(&scan);
-  if (matched.empty())
-    return;
-  const auto largest = [&](double Entry::*member, double sign) {
-    return *std::max_element(
-        matched.begin(), matched.end(), [&](const Entry* a, const Entry* b) {
-          return sign * a->*member < sign * b->*member;
-        });
-  };
-  const Entry* overlap = largest(&Entry::overlap, -1);
-  const Entry* correction = largest(&Entry::correction, 1);
-  const Entry* rms = largest(&Entry::rms, 1);
-  text << std::fixed << std::setprecision(2) << "\nleast overlap " << overlap->overlap
-       << " (" << overlap->file << "), largest correction " << correction->correction
-       << " m (" << correction->file << "), largest rms " << std::setprecision(3)
-       << rms->rms << " m (" << rms->file << ")";
-}
-
-std::string
-counted(std::size_t count, const std::string& thing)
-{
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
-std::string
-verdictOf(const Slam6DResult& result, const RunSummary& summary)
-{
-  const std::string all = counted(result.scans.size(), "scan");
-  const std::size_t pending = result.count(ScanState::kPending);
-  std::ostringstream text;
-  if (pending > 0)
-    text << "PARTIAL: interrupted; " << pending << " of " << all
-         << " not registered, at predicted poses";
-  else if (!summary.complete)
-    text << "PARTIAL: interrupted; the poses are complete, but scans, map and picture "
-            "are missing";
-  else if (result.trusted())
-    text << (result.scans.size() == 1
-                 ? "1 scan, nothing to match"
-                 : "all " + all + " registered, every match converged");
-  else
-    text << result.count(ScanState::kMatched) + 1 << " of " << all << " registered";
-  if (const auto failed = result.count(ScanState::kPredicted))
-    text << "\nNOT TO BE TRUSTED: " << counted(failed, "scan")
-         << " could not be matched, predicted pose kept"
-         << filesIn("predicted", summary);
-  if (const auto limit = result.count(ScanState::kUnconverged))
-    text
-        << "\nNOT TO BE TRUSTED: " << counted(limit, "scan")
-        << " did not converge (bad initial pose, little overlap, --metascan too small?)"
-        << filesIn("unconverged", summary);
-  describeQuality(summary, text);
-  return text.str();
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
 std::vector<RunSummary::Option>
@@ -139,10 +71,10 @@ optionsOf(const Settings& settings, const Slam6DParameters& parameters)
   for (const auto& word : settings.words)
     options.push_back({word.name, word.value, word.given ? "given" : "default", ""});
   for (const auto& [name, parameter] : named(parameters)) {
-    std::ostringstream value;
-    value << parameter.value;
-    options.push_back(
-        {name, value.str(), parameter.given ? "given" : "derived", parameter.why});
+    options.push_back({name,
+                       shortest(parameter.value),
+                       parameter.given ? "given" : "derived",
+                       parameter.why});
   }
   return options;
 }
@@ -207,7 +139,7 @@ RunWriter::write(bool complete, const RunLog& log)
     summary_.map_points = summary_.complete ? map.points().size() : 0;
   }
   summary_.trusted = summary_.complete && result_.trusted();
-  summary_.verdict = verdictOf(result_, summary_) + graphVerdict();
+  summary_.verdict = verdictOf(result_, summary_);
   writeRunSummary(out_ / "summary.json", summary_);
   return summary_;
 }
@@ -229,15 +161,16 @@ RunWriter::writeHistory() const
 {
   for (std::size_t i = 0; i < folder_.size(); ++i) {
     const ScanResult& scan = result_.scans[i];
-    const bool moved =
-        !result_.stages.empty() && !scan.matched_pose.isApprox(scan.T_world_scan, 0);
     std::vector<Frame> frames = {
         {scan.initial_pose, FrameKind::kInvalid},
-        {moved ? scan.matched_pose : scan.T_world_scan, kindOf(scan.state)}};
-    if (moved)
-      frames.push_back(
-          {scan.T_world_scan,
-           result_.stages.back().undone ? FrameKind::kElch : FrameKind::kLum});
+        {result_.stages.empty() ? scan.T_world_scan : scan.matched_pose,
+         kindOf(scan.state)}};
+    for (const StageResult& stage : result_.stages)
+      if (stage.name != "matching")
+        for (const auto& poses : stage.history)
+          frames.push_back(
+              {poses[i],
+               stage.name == "relaxation" ? FrameKind::kLum : FrameKind::kElch});
     writeFrames(out_ / ("frames/" + scanName(folder_.index(i)) + ".frames"), frames);
   }
 }
@@ -251,9 +184,11 @@ RunWriter::describe(bool complete, const RunLog& log)
   summary_.world_offset = worldOffset(result_.scans.front().T_world_scan);
   summary_.options = optionsOf(settings_, result_.parameters);
   summary_.stages = log.stages;
-  for (std::size_t i = 0; i < folder_.size(); ++i)
+  for (std::size_t i = 0; i < folder_.size(); ++i) {
     summary_.scans.push_back(
-        entryOf(folder_.file(i).filename().string(), result_.scans[i], log.dropped[i]));
+        entryOf(folder_.name(i), folder_.index(i), result_.scans[i]));
+    summary_.scans.back().dropped = log.dropped[i];
+  }
   describeGraph();
   summary_.complete = complete;
   if (!folder_.hasPoses() && folder_.size() > 1)
@@ -281,7 +216,7 @@ RunWriter::warnOfOdometry()
         scan.state == ScanState::kPredicted)
       continue;
     if (++count <= 5)
-      names += (names.empty() ? "" : ", ") + folder_.file(i).filename().string();
+      names += (names.empty() ? "" : ", ") + folder_.name(i);
   }
   if (count > 0)
     summary_.warnings.push_back("the overlap search was not sure of " +

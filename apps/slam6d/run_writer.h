@@ -76,8 +76,6 @@ private:
   writeGraph() const;
   void
   describeGraph();
-  std::string
-  graphVerdict() const;
 
   const Settings& settings_;
   const ScanFolder& folder_;

@@ -60,31 +60,7 @@ RunWriter::describeGraph()
     ++(link.verdict == LinkVerdict::kUsed ? summary_.links_used
                                           : summary_.links_refused);
   for (const std::size_t i : result_.floating)
-    summary_.floating.push_back(folder_.file(i).filename().string());
-}
-
-/** \return a line on each stage after matching */
-std::string
-RunWriter::graphVerdict() const
-{
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(3);
-  for (const auto& stage : summary_.graph_stages) {
-    if (stage.name == "matching")
-      continue;
-    text << '\n' << stage.name << (stage.undone ? " not taken: " : ": ");
-    if (stage.undone)
-      text << stage.reason;
-    else
-      text << "agreement " << stage.agreement_before << " to " << stage.agreement_after;
-    if (stage.rounds > 0)
-      text << " (" << stage.rounds << (stage.rounds == 1 ? " round" : " rounds") << ")";
-  }
-  if (!summary_.floating.empty())
-    text << "\nno link joins " << summary_.floating.size()
-         << " scans to the first one: " << summary_.floating.front()
-         << (summary_.floating.size() > 1 ? ", ..." : "");
-  return text.str();
+    summary_.floating.push_back(folder_.name(i));
 }
 
 } // namespace pcl6d::app

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of RunWriter that needs the scans again: scans/, map.pcd and the picture.
-#include "common/scan_name.h"
 #include "slam6d/run_writer.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_name.h>
 #include <pcl6d/visualization/top_view.h>
 
 #include <algorithm>

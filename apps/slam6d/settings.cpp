@@ -6,12 +6,17 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/link_list_io.h>
+#include <pcl6d/io/run_summary.h>
 #include <pcl6d/registration/minimisers.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace pcl6d::app {
+
+namespace fs = std::filesystem;
 
 namespace {
 constexpr int kMostThreads = 1024;
@@ -43,6 +48,8 @@ metascanFromText(const std::string& text)
 void
 interpret(const CommandLine& line, const OptionWords& raw, Settings& s)
 {
+  if (s.out.empty())
+    s.out = s.continued;
   if (s.out.empty())
     throw UsageError("-o OUT_DIR is missing");
   if (line.given("last"))
@@ -87,6 +94,20 @@ interpret(const CommandLine& line, const OptionWords& raw, Settings& s)
        {"initial guess", "initial-guess"}});
 }
 
+/** \return the options that were given to a run, but for those that say what it reads,
+ * as lines of a config file */
+std::string
+optionsOfRun(const std::string& run)
+{
+  const std::set<std::string> of_input = {
+      "first", "last", "every", "poses", "format", "graph-in", "continue", "threads"};
+  std::string lines;
+  for (const auto& option : readRunSummary(fs::path(run) / "summary.json").options)
+    if (option.source == "given" && of_input.count(option.name) == 0)
+      lines += option.name + " = " + option.value + '\n';
+  return lines;
+}
+
 template <typename T>
 Settings::Word
 word(const CommandLine& line, const std::string& name, const T& value)
@@ -117,6 +138,7 @@ wordsOf(const CommandLine& line, const OptionWords& raw, const Settings& s)
           word(line, "links", raw.links),
           word(line, "relaxation-rounds", s.slam.relaxation_rounds),
           word(line, "graph-in", s.graph_in),
+          word(line, "continue", s.continued),
           word(line, "iterations", s.slam.max_iterations),
           word(line, "min-overlap", s.slam.min_overlap),
           word(line, "max-correction", s.slam.max_correction),
@@ -159,6 +181,7 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
   OptionWords raw;
   line.positional("SCAN_DIR", &settings.input);
   describeOptions(line, settings, raw);
+  line.bringOptions("continue", optionsOfRun);
   if (!line.parse(arguments))
     return false;
   interpret(line, raw, settings);

@@ -19,6 +19,7 @@ struct Settings {
   ScanFolderOptions folder;
   Slam6DOptions slam;
   std::int64_t seed = 1;  ///< signed, as boost takes -1 for a large unsigned number
+  std::string continued;  ///< folder of a run that goes on; empty: none
   std::string graph_in;   ///< file of given links; empty: none
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
   bool force = false;

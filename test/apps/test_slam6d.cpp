@@ -77,14 +77,14 @@ TEST(PclSlam6d, WritesTheSamePosesEverywhere)
         pcl6d::readPcdViewpoint(out / "scans" / (std::string(name) + ".pcd"));
     const auto frames =
         pcl6d::readFrames(out / "frames" / (std::string(name) + ".frames"));
-    ASSERT_EQ(frames.size(), 2u); // as given, and after matching
+    ASSERT_GE(frames.size(), 2u); // as given, and after each stage
     Eigen::Isometry3d from_json;
     const auto& numbers = json["scans"][i]["T_world_scan"];
     for (int k = 0; k < 16; ++k)
       from_json.matrix()(k / 4, k % 4) = numbers[k];
     EXPECT_EQ(tum.stamps[i], i);
     for (const auto& pose :
-         {tum.poses[i], viewpoint, frames[1].T_world_scan, from_json}) {
+         {tum.poses[i], viewpoint, frames.back().T_world_scan, from_json}) {
       const auto error = pcl6d::distanceBetween(kitti.poses[i], pose);
       EXPECT_LT(error.translation, 1e-12); // 17 digits, coordinates of some 10 m
       EXPECT_LT(error.rotation, 1e-12);

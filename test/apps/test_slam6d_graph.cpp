@@ -70,9 +70,9 @@ contentOf(const fs::path& file)
 
 TEST_F(Graph, RelaxationBringsTheLoopTogether)
 {
-  ASSERT_EQ(run("matched", {}).exit_code, 0);
-  const auto outcome =
-      run("relaxed", {"--loop-closing", "elch", "--relaxation", "helix"});
+  ASSERT_EQ(
+      run("matched", {"--loop-closing", "none", "--relaxation", "none"}).exit_code, 0);
+  const auto outcome = run("relaxed", {});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("relaxation: agreement"), std::string::npos)
       << outcome.out;
@@ -94,14 +94,7 @@ TEST_F(Graph, TheSameBytesForAnyNumberOfThreads)
 {
   std::string first;
   for (const char* threads : {"1", "2", "8"}) {
-    const auto outcome = run("threads",
-                             {"--force",
-                              "--loop-closing",
-                              "elch",
-                              "--relaxation",
-                              "helix",
-                              "--threads",
-                              threads});
+    const auto outcome = run("threads", {"--force", "--threads", threads});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string poses = contentOf(*folder_ / "threads" / "trajectory.kitti") +
                               contentOf(*folder_ / "threads" / "links.csv");
@@ -114,10 +107,8 @@ TEST_F(Graph, TheSameBytesForAnyNumberOfThreads)
 TEST_F(Graph, AWrongGivenLinkMovesNothing)
 {
   std::ofstream(*folder_ / "wrong.txt") << "# opposite sides\n0 20\n";
-  ASSERT_EQ(run("plain", {"--relaxation", "helix"}).exit_code, 0);
-  const auto outcome =
-      run("wrong",
-          {"--relaxation", "helix", "--graph-in", (*folder_ / "wrong.txt").string()});
+  ASSERT_EQ(run("plain", {}).exit_code, 0);
+  const auto outcome = run("wrong", {"--graph-in", (*folder_ / "wrong.txt").string()});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NEAR(positionRms("wrong"), positionRms("plain"), 0.01);
   EXPECT_NE(contentOf(*folder_ / "wrong" / "links.csv").find("0,20,given,refused"),
@@ -129,8 +120,7 @@ TEST_F(Graph, BrokenLinkListsAreRefusedWithTheirLine)
   const auto errorOf = [&](const std::string& text) {
     std::ofstream(*folder_ / "links.txt") << text;
     const auto outcome =
-        run("broken",
-            {"--relaxation", "helix", "--graph-in", (*folder_ / "links.txt").string()});
+        run("broken", {"--graph-in", (*folder_ / "links.txt").string()});
     EXPECT_EQ(outcome.exit_code, 1) << text;
     return outcome.err;
   };
@@ -143,6 +133,5 @@ TEST_F(Graph, WordsThatAreNoneAreRefused)
 {
   for (const char* option : {"--loop-closing", "--relaxation", "--links"})
     EXPECT_EQ(run("no", {option, "foo"}).exit_code, 2) << option;
-  EXPECT_EQ(run("no", {"--relaxation", "helix", "--relaxation-rounds", "0"}).exit_code,
-            2);
+  EXPECT_EQ(run("no", {"--relaxation-rounds", "0"}).exit_code, 2);
 }

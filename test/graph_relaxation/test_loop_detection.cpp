@@ -98,6 +98,39 @@ TEST(DetectLoops, LeavesOutScansThatAreNotUsable)
   EXPECT_TRUE(loopsOf(driftedRing(), std::vector<bool>(kScans, false)).empty());
 }
 
+TEST(DetectLoops, LooksOnlyAsFarAsThePositionsAreUncertain)
+{
+  const Poses poses = driftedRing();
+  const std::vector<bool> usable(kScans, true);
+  const auto loops = loopsOf(poses);
+  ASSERT_FALSE(loops.empty());
+  LoopDetectionOptions options = optionsOf(kGap);
+  options.position_covariances.assign(kScans, 100 * Eigen::Matrix3d::Identity());
+  EXPECT_EQ(detectLoops(ring().scans, poses, usable, options).size(), loops.size());
+  // Just below and above the distance of a single candidate, both ends alike.
+  const double way_sq = loops[0].distance * loops[0].distance;
+  for (const double factor : {1.01, 0.99}) {
+    const double variance = factor * way_sq / 11.3 / 2;
+    options.position_covariances.assign(kScans, variance * Eigen::Matrix3d::Identity());
+    const auto found = detectLoops(ring().scans, poses, usable, options);
+    EXPECT_EQ(std::count_if(found.begin(),
+                            found.end(),
+                            [&](const ScanLink& loop) {
+                              return loop.from == loops[0].from &&
+                                     loop.to == loops[0].to;
+                            }),
+              factor > 1 ? 1 : 0);
+  }
+  options.position_covariances.pop_back();
+  EXPECT_NE(badArgumentOf([&] {
+              detectLoops(ring().scans, poses, usable, options);
+            }).find("position_covariances"),
+            std::string::npos);
+  options.position_covariances.assign(kScans, -Eigen::Matrix3d::Identity());
+  EXPECT_NE(badArgumentOf([&] { options.validate(); }).find("positive definite"),
+            std::string::npos);
+}
+
 TEST(DetectLoops, LooksOnlyAtScansWithinReach)
 {
   Poses poses = driftedRing();

@@ -173,6 +173,22 @@ TEST(ScanNetwork, DescribesItsLinks)
   EXPECT_EQ(links[0].verdict, pcl6d::LinkVerdict::kUsed);
 }
 
+TEST(ScanNetwork, KeepsNoLinkOfAScanThatIsNotUsable)
+{
+  const Rows rows(3);
+  ScanNetwork network(rows.scans, {true, false, true}, {});
+  network.keep(0, 1, LinkKind::kGiven, true);
+  const pcl6d::Poses poses(3, shifted(0));
+  for (const auto& link : network.pairs(poses))
+    EXPECT_TRUE(link.from != 1 && link.to != 1);
+  const auto links = network.describe(poses);
+  ASSERT_FALSE(links.empty());
+  EXPECT_EQ(links[0].from, 0u);
+  EXPECT_EQ(links[0].to, 1u);
+  EXPECT_EQ(links[0].verdict, pcl6d::LinkVerdict::kRefused);
+  EXPECT_EQ(links[0].reason, "one of its scans could not be matched");
+}
+
 TEST(ScanNetwork, RefusesWhatCannotBe)
 {
   const Rows rows(2);

@@ -199,3 +199,24 @@ TEST_F(InitialPoses, StampsAreThoseOfTheSelectedScans)
   EXPECT_EQ(scans.stamps(), (std::vector<double>{100.5, 102.5}));
   EXPECT_EQ(scans.initialPose(1).translation().x(), 32);
 }
+
+TEST(FindScanPose, TakesThePoseFileThenTheViewpoint)
+{
+  const TempFolder folder;
+  const auto cloud = pcl6d::test::makeRichCloud(1);
+  const Eigen::Isometry3d pose(Eigen::Translation3d(1, 2, 3));
+  pcl6d::writePcd(folder / "a.pcd", cloud);
+  writeText(folder / "a.xyz", "1 2 3\n");
+  EXPECT_FALSE(pcl6d::findScanPose(folder / "a.pcd"));
+  EXPECT_FALSE(pcl6d::findScanPose(folder / "a.xyz"));
+  pcl6d::writePcd(folder / "a.pcd", cloud, pose);
+  ASSERT_TRUE(pcl6d::findScanPose(folder / "a.pcd"));
+  EXPECT_EQ(pcl6d::findScanPose(folder / "a.pcd")->matrix(), pose.matrix());
+  EXPECT_FALSE(pcl6d::findScanPose(folder / "a.xyz"));
+  writeText(folder / "a.pose", "0 0 100\n0 0 0\n");
+  for (const char* const name : {"a.pcd", "a.xyz"}) {
+    ASSERT_TRUE(pcl6d::findScanPose(folder / name));
+    EXPECT_EQ(pcl6d::findScanPose(folder / name)->translation(),
+              Eigen::Vector3d(1, 0, 0));
+  }
+}

@@ -151,7 +151,7 @@ TEST_F(ScanFolderTest, SeveralFormatsNeedAChoice)
 {
   add({"scan0.xyz", "scan1.xyz", "scan1.3d"});
   expectMessage("holds scans of several formats, .xyz (scan0.xyz) and .3d (scan1.3d); "
-                "choose one with --format");
+                "choose one of them");
   ScanFolderOptions options;
   options.format = ScanFormat::kXyz;
   EXPECT_EQ(names(options), "scan0.xyz scan1.xyz ");

@@ -9,6 +9,7 @@
 using pcl6d::ScanResult;
 using pcl6d::ScanState;
 using pcl6d::Slam6D;
+using pcl6d::Slam6DOptions;
 using pcl6d::Slam6DResult;
 using pcl6d::test::DriftingRun;
 using pcl6d::test::sameBits;
@@ -19,6 +20,16 @@ sampleRun()
 {
   static const DriftingRun run = pcl6d::test::makeDriftingRun(6);
   return run;
+}
+
+/** Scan by scan: what is later moved at once is another test's. */
+Slam6DOptions
+matchingAlone()
+{
+  Slam6DOptions options;
+  options.loop_closing = pcl6d::LoopClosing::kNone;
+  options.relaxation.reset();
+  return options;
 }
 
 void
@@ -33,7 +44,7 @@ const Slam6DResult&
 whole()
 {
   static const Slam6DResult result = [] {
-    Slam6D slam;
+    Slam6D slam(matchingAlone());
     add(slam, 0, 6);
     slam.optimize();
     return slam.result();
@@ -54,7 +65,7 @@ expectWhole(const Slam6DResult& result, std::size_t count = 6)
 
 TEST(Slam6DCancel, StopsAfterTheScanAndLeavesTheRestPredicted)
 {
-  Slam6D slam;
+  Slam6D slam(matchingAlone());
   add(slam, 0, 6);
   slam.setObserver([&](std::size_t place, const ScanResult&) {
     if (place == 2)
@@ -81,7 +92,7 @@ TEST(Slam6DCancel, StopsAfterTheScanAndLeavesTheRestPredicted)
 TEST(Slam6DCancel, OfTheLastScanDoesNotStopTheNextRun)
 {
   // A request that comes with the last scan is fulfilled when the run ends.
-  Slam6D slam;
+  Slam6D slam(matchingAlone());
   add(slam, 0, 3);
   slam.setObserver([&](std::size_t place, const ScanResult&) {
     if (place == 2)
@@ -95,8 +106,9 @@ TEST(Slam6DCancel, OfTheLastScanDoesNotStopTheNextRun)
 
 TEST(Slam6D, TakesScansOneAfterTheOther)
 {
-  Slam6D slam;
-  pcl6d::Slam6DOptions options; // those of the whole run: derived ones differ
+  Slam6D slam(matchingAlone());
+  Slam6DOptions options =
+      matchingAlone(); // those of the whole run: derived ones differ
   const auto& p = whole().parameters;
   options.min_range = p.min_range.value;
   options.max_range = p.max_range.value;
@@ -115,7 +127,7 @@ TEST(Slam6D, TakesScansOneAfterTheOther)
 
 TEST(Slam6DProgress, CountsEveryScan)
 {
-  Slam6D slam;
+  Slam6D slam(matchingAlone());
   add(slam, 0, 6);
   std::vector<pcl6d::Progress> seen;
   slam.setProgressCallback([&](const pcl6d::Progress& p) { seen.push_back(p); });
@@ -130,7 +142,7 @@ TEST(Slam6DProgress, CountsEveryScan)
 
 TEST(Slam6DObserver, SeesEachScanAsItIsInTheResult)
 {
-  Slam6D slam;
+  Slam6D slam(matchingAlone());
   add(slam, 0, 4);
   std::vector<ScanResult> seen;
   slam.setObserver([&](std::size_t place, const ScanResult& scan) {
@@ -147,7 +159,7 @@ TEST(Slam6DObserver, SeesEachScanAsItIsInTheResult)
 
 TEST(Slam6DObserver, MayThrowAndTheRunGoesOnLater)
 {
-  Slam6D slam;
+  Slam6D slam(matchingAlone());
   add(slam, 0, 6);
   slam.setObserver([](std::size_t place, const ScanResult&) {
     if (place == 2)

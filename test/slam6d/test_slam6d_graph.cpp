@@ -186,7 +186,20 @@ TEST(Slam6DGraph, JoinsAScanThatCannotBeMatchedByOdometry)
       (result.scans[6].T_world_scan.translation() - run.truth[6].translation()).norm(),
       0.2 * step + 0.05);
   for (const ScanLink& link : result.links)
-    EXPECT_TRUE(link.from != 6 && link.to != 6) << "no pairs of points count";
+    if (link.from == 6 || link.to == 6) {
+      EXPECT_EQ(link.verdict, LinkVerdict::kOdometry) << link.from << " " << link.to;
+      EXPECT_EQ(link.to, link.from + 1);
+    }
+  ASSERT_NE(linkOf(result, 5, 6), nullptr);
+  ASSERT_NE(linkOf(result, 6, 7), nullptr);
+  const auto& saved = result.graph.links;
+  EXPECT_EQ(std::count_if(saved.begin(),
+                          saved.end(),
+                          [](const pcl6d::PoseLink& link) {
+                            return link.from == 6 || link.to == 6;
+                          }),
+            2)
+      << "the saved graph holds together";
   EXPECT_LT(positionRms(result, run), positionRms(matched(), run));
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
 #include <pcl6d/common/status.h>
 
 const char*
@@ -17,4 +18,17 @@ pcl6d::toString(Status status)
     return "diverged";
   }
   return "unknown";
+}
+
+pcl6d::Status
+pcl6d::statusFromName(const std::string& name)
+{
+  for (const Status status : {Status::kOk,
+                              Status::kRankDeficient,
+                              Status::kTooFewPairs,
+                              Status::kMaxIterations,
+                              Status::kDiverged})
+    if (name == toString(status))
+      return status;
+  throw BadArgument("no status is called '" + name + "'");
 }

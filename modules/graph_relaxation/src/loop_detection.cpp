@@ -5,6 +5,8 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/graph_relaxation/loop_detection.h>
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -12,6 +14,9 @@
 namespace pcl6d {
 
 namespace {
+/** Of a difference of positions, squared: 99 % of a chi-square of 3 degrees (5.1.2). */
+constexpr double kMahalanobisGate = 11.3;
+
 /** Of the scans near a later one, so many are tried: the nearest ones. */
 constexpr std::size_t kTriedPerScan = 2;
 
@@ -19,6 +24,24 @@ constexpr std::size_t kTriedPerScan = 2;
  * within so many max_distance, and an angle which moves points as much. */
 constexpr double kAgreeingDistances = 2;
 constexpr double kAgreeingAngle = 0.05; // [rad]
+
+/** \return whether two positions may be the same place, as far as they are known */
+bool
+mayMeet(std::size_t j,
+        std::size_t n,
+        const Poses& poses,
+        const LoopDetectionOptions& options)
+{
+  const auto& covariances = options.position_covariances;
+  const Eigen::Vector3d way = poses[n].translation() - poses[j].translation();
+  if (way.head<2>().norm() >= options.max_distance ||
+      std::abs(way.z()) >= options.max_height)
+    return false;
+  if (covariances.empty())
+    return true;
+  const Eigen::LDLT<Eigen::Matrix3d> of_both(covariances[j] + covariances[n]);
+  return way.dot(of_both.solve(way)) < kMahalanobisGate;
+}
 
 /** \return the scans that may close a loop with scan n, the nearest first */
 std::vector<std::size_t>
@@ -29,10 +52,8 @@ candidatesOf(std::size_t n,
 {
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t j = 0; j + options.min_gap <= n; ++j) {
-    const Eigen::Vector3d way = poses[n].translation() - poses[j].translation();
-    if (usable[j] && way.head<2>().norm() < options.max_distance &&
-        std::abs(way.z()) < options.max_height)
-      near.emplace_back(way.norm(), j);
+    if (usable[j] && mayMeet(j, n, poses, options))
+      near.emplace_back((poses[n].translation() - poses[j].translation()).norm(), j);
   }
   std::sort(near.begin(), near.end());
   std::vector<std::size_t> candidates;
@@ -111,6 +132,12 @@ LoopDetectionOptions::validate() const
           "min_consistency",
           min_consistency,
           "in [0, 1]");
+  for (const Eigen::Matrix3d& covariance : position_covariances)
+    require(covariance.allFinite() && covariance.isApprox(covariance.transpose()) &&
+                covariance.llt().info() == Eigen::Success,
+            "a position covariance with the trace",
+            covariance.trace(),
+            "symmetric and positive definite");
   icp.validate();
 }
 
@@ -123,6 +150,11 @@ detectLoops(const std::vector<NetworkScan>& scans,
   options.validate();
   require(poses.size() == scans.size(), "poses", poses.size(), "one per scan");
   require(usable.size() == scans.size(), "usable", usable.size(), "one per scan");
+  const std::size_t covariances = options.position_covariances.size();
+  require(covariances == 0 || covariances == scans.size(),
+          "position_covariances",
+          covariances,
+          "one per scan, or none");
   std::vector<ScanLink> loops;
   for (std::size_t n = 0; n < scans.size(); ++n) {
     if (!usable[n])

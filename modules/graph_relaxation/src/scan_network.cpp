@@ -177,7 +177,8 @@ ScanNetwork::choose(const Poses& poses)
     if (usable_[link.first] && usable_[link.second])
       chosen.insert(link);
   for (const auto& [link, kept] : kept_)
-    chosen.insert(link);
+    if (usable_[link.first] && usable_[link.second])
+      chosen.insert(link);
   chosen_ = std::move(chosen);
 }
 
@@ -235,6 +236,11 @@ ScanNetwork::describeLink(const ScanPair& pair, const Poses& poses) const
   const auto kept = kept_.find(pair);
   link.kind = kept != kept_.end() ? kept->second.kind : LinkKind::kNetwork;
   link.distance = (poses[a].translation() - poses[b].translation()).norm();
+  if (!usable_[a] || !usable_[b]) {
+    link.verdict = LinkVerdict::kRefused;
+    link.reason = "one of its scans could not be matched";
+    return link;
+  }
   const IcpModel &from = scans_[a].model(), &to = scans_[b].model();
   const Eigen::Isometry3d T_a_b = poses[a].inverse() * poses[b];
   const PartnerSearch partnerOf(scans_[a], scans_[b], T_a_b, options_.max_distance);
@@ -265,7 +271,10 @@ ScanNetwork::describeLink(const ScanPair& pair, const Poses& poses) const
 std::vector<ScanLink>
 ScanNetwork::describe(const Poses& poses) const
 {
-  const std::vector<ScanPair> links(chosen_.begin(), chosen_.end());
+  std::set<ScanPair> all = chosen_;
+  for (const auto& [link, kept] : kept_)
+    all.insert(link);
+  const std::vector<ScanPair> links(all.begin(), all.end());
   std::vector<ScanLink> described(links.size());
   parallelFor(links.size(), options_.num_threads, [&](std::size_t k) {
     described[k] = describeLink(links[k], poses);

@@ -47,6 +47,8 @@ Json
 toJson(const RunSummary::ScanEntry& scan)
 {
   return {{"file", scan.file},
+          {"index", scan.index},
+          {"initial_pose", rowByRow(scan.initial_pose.matrix())},
           {"T_world_scan", rowByRow(scan.T_world_scan.matrix())},
           {"covariance", covarianceOf(scan)},
           {"state", scan.state},

@@ -7,8 +7,11 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>
+#include <set>
 
 namespace pcl6d {
 
@@ -66,7 +69,7 @@ commonFormat(const fs::path& folder, const std::vector<fs::path>& files)
       text::fail(folder,
                  "holds scans of several formats, " + extensionOf(first) + " (" +
                      files.front().filename().string() + ") and " + extensionOf(other) +
-                     " (" + file.filename().string() + "); choose one with --format");
+                     " (" + file.filename().string() + "); choose one of them");
   }
   return first;
 }
@@ -93,6 +96,22 @@ findScans(const fs::path& folder, ScanFormat format)
   if (format == ScanFormat::kAuto)
     scans.format = commonFormat(folder, files);
   return scans;
+}
+
+/** \return the stamps of a run's scans, or nothing where indices stand for them */
+std::vector<double>
+stampsOf(const fs::path& run, const RunSummary& summary)
+{
+  const fs::path file = run / "trajectory.tum";
+  std::vector<double> stamps = readTrajectory(file).stamps;
+  if (stamps.size() != summary.scans.size())
+    text::fail(file,
+               "holds " + text::counted(stamps.size(), "pose") + " for " +
+                   text::counted(summary.scans.size(), "scan"));
+  for (std::size_t i = 0; i < stamps.size(); ++i)
+    if (stamps[i] != summary.scans[i].index)
+      return stamps;
+  return {};
 }
 
 } // namespace
@@ -122,14 +141,52 @@ ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
                    : count;
   const InitialPoses poses =
       findInitialPoses(folder, scans.files, scans.format, options.poses_file);
-  format_ = scans.format;
   pose_source_ = poses.source;
   for (std::size_t i = first; i < end; i += static_cast<std::size_t>(options.every)) {
-    entries_.push_back(
-        {scans.files[i], static_cast<int>(i), poses.trajectory.poses[i]});
+    entries_.push_back({scans.files[i],
+                        scans.files[i].filename().string(),
+                        static_cast<int>(i),
+                        poses.trajectory.poses[i],
+                        scans.format});
     if (!poses.trajectory.stamps.empty())
       stamps_.push_back(poses.trajectory.stamps[i]);
   }
+}
+
+void
+ScanFolder::continueRun(const fs::path& run, const RunSummary& summary)
+{
+  std::vector<Entry> entries;
+  std::set<std::string> known;
+  int next = 0;
+  for (const auto& scan : summary.scans) {
+    const fs::path file = run / "scans" / (scanName(scan.index) + ".pcd");
+    if (!fs::exists(file))
+      text::fail(file,
+                 "is missing, though " + (run / "summary.json").string() +
+                     " tells of it");
+    entries.push_back(
+        {file, scan.file, scan.index, scan.initial_pose, ScanFormat::kPcd});
+    known.insert(scan.file);
+    next = std::max(next, scan.index + 1);
+  }
+  std::vector<double> stamps = stampsOf(run, summary);
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    if (known.count(entries_[i].name) == 0) {
+      entries.push_back(entries_[i]);
+      entries.back().index = next++;
+      if (!stamps.empty() && !stamps_.empty())
+        stamps.push_back(stamps_[i]);
+    }
+  num_registered_ = summary.scans.size();
+  if (entries.size() == num_registered_)
+    text::fail(run,
+               "holds all " + text::counted(entries_.size(), "scan") +
+                   " of the folder already (scans are told apart by their file names)");
+  if (stamps_.empty())
+    stamps.clear();
+  stamps_ = std::move(stamps);
+  entries_ = std::move(entries);
 }
 
 std::size_t
@@ -142,6 +199,12 @@ const fs::path&
 ScanFolder::file(std::size_t i) const
 {
   return entries_.at(i).file;
+}
+
+const std::string&
+ScanFolder::name(std::size_t i) const
+{
+  return entries_.at(i).name;
 }
 
 int
@@ -177,19 +240,19 @@ ScanFolder::hasPoses() const
 Scan
 ScanFolder::read(std::size_t i) const
 {
-  return readScan(file(i), format_);
+  return readScan(file(i), entries_[i].format);
 }
 
 ScanCloud
 ScanFolder::readCloud(std::size_t i) const
 {
-  return readScanCloud(file(i), format_);
+  return readScanCloud(file(i), entries_[i].format);
 }
 
 ScanFormat
 ScanFolder::format() const
 {
-  return format_;
+  return entries_.front().format;
 }
 
 } // namespace pcl6d

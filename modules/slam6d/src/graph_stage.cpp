@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_stage.h"
-#include "loop_links.h"
 #include "relaxation_gain.h"
 
 #include <pcl6d/common/pose.h>
@@ -11,16 +10,29 @@
 
 namespace pcl6d {
 
+Poses
+posesOf(const Slam6DResult& result)
+{
+  Poses poses;
+  for (const ScanResult& scan : result.scans)
+    poses.push_back(scan.T_world_scan);
+  return poses;
+}
+
+std::vector<bool>
+believedOf(const Slam6DResult& result)
+{
+  std::vector<bool> believed;
+  for (const ScanResult& scan : result.scans)
+    believed.push_back(scan.state != ScanState::kPredicted &&
+                       scan.state != ScanState::kPending);
+  return believed;
+}
+
 namespace {
-/** A loop whose ends are off by less than this share of max_distance is closed already. */
-constexpr double kClosed = 0.5;
-
-/** How far odometry is off in a step: the part of its length, and what is always there. */
-constexpr double kOdometryShare = 0.05, kOdometryLeast = 0.05; // [m]
-constexpr double kOdometryTurn = 0.03;                         // [rad]
-
-/** Pairs weighed by planes are no more voxels apart than those of matching by planes. */
-constexpr double kPlaneVoxels = 1.7;
+/** A loop whose ends are off by less than this share of max_distance, and turned by less
+ * than this angle, is closed already. */
+constexpr double kClosed = 0.5, kClosedTurn = 0.02; // [rad]
 
 /** Relaxation rests when no scan moves by more than this share of the voxel. */
 constexpr double kRestShare = 0.03;
@@ -31,30 +43,6 @@ double
 secondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-bool
-isBelieved(const ScanResult& scan)
-{
-  return scan.state != ScanState::kPredicted && scan.state != ScanState::kPending;
-}
-
-std::vector<bool>
-believedOf(const Slam6DResult& result)
-{
-  std::vector<bool> believed;
-  for (const ScanResult& scan : result.scans)
-    believed.push_back(isBelieved(scan));
-  return believed;
-}
-
-Poses
-posesOf(const Slam6DResult& result)
-{
-  Poses poses;
-  for (const ScanResult& scan : result.scans)
-    poses.push_back(scan.T_world_scan);
-  return poses;
 }
 
 void
@@ -105,6 +93,7 @@ GraphStage::judgeMatching(Slam6DResult& result) const
   StageResult stage = judged("matching", odometry, posesOf(result), believedOf(result));
   stage.seconds = result.matching_seconds;
   stage.undone = false; // each scan was judged when it was matched
+  stage.history = {posesOf(result)};
   result.stages.push_back(stage);
 }
 
@@ -117,15 +106,7 @@ GraphStage::closeLoops(Slam6DResult& result)
   const Poses before = posesOf(result);
   const std::vector<ScanLink> found =
       detectLoops(scans_, before, believedOf(result), detection);
-  std::vector<Loop> loops;
-  for (const ScanLink& link : found)
-    if (link.verdict == LinkVerdict::kUsed) {
-      const Eigen::Isometry3d corrected = before[link.from] * *link.T_from_to;
-      const double off =
-          (corrected.translation() - before[link.to].translation()).norm();
-      if (off > kClosed * icp_.max_distance)
-        loops.push_back({link.from, link.to, corrected});
-    }
+  const std::vector<Loop> loops = openLoops(found, before);
   result.links.insert(result.links.end(), found.begin(), found.end());
   if (loops.empty())
     return;
@@ -137,54 +118,31 @@ GraphStage::closeLoops(Slam6DResult& result)
   const ErrorDiffusionResult closed =
       pcl6d::closeLoops(before, edges, loops, {options_.loop_closing, false});
   StageResult stage = judged("loop closing", before, closed.poses, believedOf(result));
+  if (closed.status != Status::kOk && stage.reason.empty())
+    stage.reason = std::string("loop closing: ") + toString(closed.status);
+  stage.undone = !stage.reason.empty();
   stage.seconds = secondsSince(start);
-  if (!stage.undone)
+  if (!stage.undone) {
     setPoses(closed.poses, result);
+    stage.history = {closed.poses};
+  }
   result.stages.push_back(stage);
 }
 
-ScanNetwork
-GraphStage::makeNetwork(const Slam6DResult& result) const
+/** \return the loops whose ends do not meet yet */
+std::vector<Loop>
+GraphStage::openLoops(const std::vector<ScanLink>& found, const Poses& poses) const
 {
-  ScanNetworkOptions network;
-  network.rule = options_.links;
-  network.max_distance =
-      std::min(icp_.max_distance, kPlaneVoxels * parameters_.voxel.value);
-  network.metric = options_.metric == Metric::kPlane ? Metric::kPlane : Metric::kGicp;
-  network.num_threads = options_.num_threads;
-  ScanNetwork links(scans_, believedOf(result), network);
-  for (const ScanLink& link : result.links)
-    if (link.kind == LinkKind::kLoop && link.verdict == LinkVerdict::kUsed)
-      links.keep(link.from, link.to, LinkKind::kLoop, false);
-  for (const auto& [a, b] : options_.given_links)
-    links.keep(a, b, LinkKind::kGiven, false);
-  for (std::size_t i = 1; i < result.scans.size(); ++i)
-    if (isBelieved(result.scans[i]) && isBelieved(result.scans[i - 1]))
-      links.keep(i - 1, i, LinkKind::kSequence, false);
-  return links;
-}
-
-/** The odometry on both sides of scans that could not be matched. */
-std::vector<PoseLink>
-GraphStage::odometryLinks(const Slam6DResult& result) const
-{
-  std::vector<PoseLink> links;
-  for (std::size_t i = 1; i < result.scans.size(); ++i) {
-    const ScanResult &before = result.scans[i - 1], &scan = result.scans[i];
-    if (isBelieved(before) && isBelieved(scan))
+  std::vector<Loop> loops;
+  for (const ScanLink& link : found) {
+    if (link.verdict != LinkVerdict::kUsed)
       continue;
-    PoseLink link;
-    link.from = i - 1;
-    link.to = i;
-    link.T_from_to = before.initial_pose.inverse() * scan.initial_pose;
-    const double sigma =
-        kOdometryLeast + kOdometryShare * link.T_from_to.translation().norm();
-    link.information.diagonal().head<3>().setConstant(1 / (sigma * sigma));
-    link.information.diagonal().tail<3>().setConstant(1 /
-                                                      (kOdometryTurn * kOdometryTurn));
-    links.push_back(link);
+    const Eigen::Isometry3d corrected = poses[link.from] * *link.T_from_to;
+    const MotionSize off = distanceBetween(corrected, poses[link.to]);
+    if (off.translation > kClosed * icp_.max_distance || off.rotation > kClosedTurn)
+      loops.push_back({link.from, link.to, corrected});
   }
-  return links;
+  return loops;
 }
 
 GraphSlamOptions
@@ -206,15 +164,19 @@ GraphStage::relax(Slam6DResult& result, const Observer& observer)
   const auto start = Clock::now();
   ScanNetwork network = makeNetwork(result);
   GraphSlam slam(graphOptions());
-  slam.setMeasuredLinks(odometryLinks(result));
+  const std::vector<ScanLink> odometry = odometryLinks(network, result);
+  slam.setMeasuredLinks(measuredLinks(odometry, result));
   bool stopped = false;
   slam.setObserver([&](const GraphSlamRound& round) {
     stopped = stopped || !observer(round.iteration);
     return !stopped;
   });
   const Poses before = posesOf(result);
-  const GraphSlamResult relaxed =
-      slam.relax(before, [&](const Poses& now) { return network.pairs(now); });
+  std::vector<Poses> history;
+  const GraphSlamResult relaxed = slam.relax(before, [&](const Poses& now) {
+    history.push_back(now);
+    return network.pairs(now);
+  });
   if (stopped)
     return false;
   StageResult stage = judged("relaxation", before, relaxed.poses, believedOf(result));
@@ -222,51 +184,15 @@ GraphStage::relax(Slam6DResult& result, const Observer& observer)
   if (stage.reason.empty())
     stage.reason = whyNotTaken(relaxed, stage);
   stage.undone = !stage.reason.empty();
-  if (!stage.undone)
+  if (!stage.undone) {
     setPoses(relaxed.poses, result);
-  take(relaxed, stage.undone, network, result);
+    history.push_back(relaxed.poses);
+    stage.history.assign(history.begin() + 1, history.end());
+  }
+  take(relaxed, stage.undone, network.describe(posesOf(result)), odometry, result);
   stage.seconds = secondsSince(start);
   result.stages.push_back(stage);
   return true;
-}
-
-/** Takes over links, covariances, graph and components. */
-void
-GraphStage::take(const GraphSlamResult& relaxed,
-                 bool undone,
-                 const ScanNetwork& network,
-                 Slam6DResult& result) const
-{
-  constexpr double kSwitchedOff = 0.5;
-  const Poses poses = posesOf(result);
-  std::vector<ScanLink> links = network.describe(poses);
-  takeLoops(links, result.links);
-  for (const LinkReport& report : relaxed.links) {
-    const auto link = std::find_if(links.begin(), links.end(), [&](const ScanLink& l) {
-      return l.from == report.from && l.to == report.to;
-    });
-    if (link == links.end())
-      continue;
-    link->weight = report.used ? report.switch_weight : 0;
-    if (!report.used) {
-      link->verdict = LinkVerdict::kRefused;
-      link->reason = std::to_string(report.pairs) + " pairs are too few";
-    }
-    else if (report.switch_weight < kSwitchedOff) {
-      link->verdict = LinkVerdict::kRefused;
-      link->reason = "contradicts the other links";
-    }
-    else
-      result.graph.links.push_back(poseLinkOf(report, relaxed.poses));
-  }
-  for (std::size_t i = 1; i < poses.size() && !undone; ++i) {
-    const PoseCovariance covariance = eulerCovariance(poses[i], relaxed.covariances[i]);
-    if (covariance.allFinite() && !relaxed.open_direction[i])
-      result.scans[i].covariance = covariance;
-  }
-  result.graph.poses = poses;
-  result.links.insert(result.links.end(), links.begin(), links.end());
-  result.floating = relaxed.floating();
 }
 
 bool

@@ -12,11 +12,20 @@
 
 namespace pcl6d {
 
+/** \return T_world_scan of all scans */
+Poses
+posesOf(const Slam6DResult& result);
+
+/** \return per scan whether it was matched, or is the first one */
+std::vector<bool>
+believedOf(const Slam6DResult& result);
+
 /** \brief Chapter 5 on scans that were matched one by one: closes the loops that are found,
  * then relaxes the network of all scans. A stage that makes the map worse is undone. */
 class GraphStage {
 public:
-  /** Called before each round of relaxation with its number. \return false to stop */
+  /** Called after each round of relaxation with its number, from 1. \return false to stop
+   */
   using Observer = std::function<bool(int)>;
 
   /** Options, parameters and models are kept by reference.
@@ -30,7 +39,8 @@ public:
              const std::deque<IcpModel>& models);
 
   /** \brief Changes poses, covariances, links, stages, graph and floating of the result.
-   * \return false if the observer stopped it: the poses are then those before */
+   * \return false if the observer stopped it: the result is then half changed, and is to be
+   * thrown away */
   bool
   run(Slam6DResult& result, const Observer& observer);
 
@@ -45,12 +55,17 @@ private:
   graphOptions() const;
   ScanNetwork
   makeNetwork(const Slam6DResult& result) const;
-  std::vector<PoseLink>
-  odometryLinks(const Slam6DResult& result) const;
+  std::vector<Loop>
+  openLoops(const std::vector<ScanLink>& found, const Poses& poses) const;
+  std::vector<ScanLink>
+  odometryLinks(ScanNetwork& network, const Slam6DResult& result) const;
+  static std::vector<PoseLink>
+  measuredLinks(const std::vector<ScanLink>& odometry, const Slam6DResult& result);
   void
   take(const GraphSlamResult& relaxed,
        bool undone,
-       const ScanNetwork& network,
+       std::vector<ScanLink> links,
+       const std::vector<ScanLink>& odometry,
        Slam6DResult& result) const;
   StageResult
   judged(const std::string& name,

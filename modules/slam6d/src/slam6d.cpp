@@ -29,24 +29,21 @@ public:
     options_.validate();
   }
 
+  /** \param[in] scan with the initial pose, and all else if it is registered */
   void
-  addScan(const Points& points,
-          const Eigen::Isometry3d& initial_pose,
-          const std::string& given_name)
+  addScan(const Points& points, ScanResult scan, const std::string& given_name)
   {
     const std::size_t place = result_.scans.size();
-    const std::string name =
-        given_name.empty() ? "scan " + std::to_string(place) : given_name;
+    const std::string name = nameOf(given_name);
     const std::size_t finite = countFinite(points);
     if (finite < 3)
       throw BadArgument(tooFewPoints(name, finite, "with finite coordinates"));
-    if (!isRigid(initial_pose))
+    if (!isRigid(scan.initial_pose) || !isRigid(scan.T_world_scan))
       throw BadArgument(name + ": the initial pose is not a rigid motion");
-    ScanResult scan;
-    scan.initial_pose = initial_pose;
     scan.points = finite;
     result_.scans.push_back(scan);
-    predict(place);
+    if (scan.state == ScanState::kPending)
+      predict(place);
     unreduced_.push_back(points);
     names_.push_back(name);
     try {
@@ -58,6 +55,18 @@ public:
     }
   }
 
+  void
+  addRegistered(const Points& points, ScanResult earlier, const std::string& name)
+  {
+    if (earlier.state == ScanState::kPending)
+      throw BadArgument(nameOf(name) + ": is not registered, but pending");
+    if (result_.scans.size() > num_registered_)
+      throw BadArgument(nameOf(name) + ": is registered, but one before it is not");
+    earlier.matched_pose = earlier.T_world_scan;
+    addScan(points, earlier, name);
+    ++num_registered_;
+  }
+
   bool
   optimize()
   {
@@ -66,6 +75,7 @@ public:
     reducePending();
     const auto start = std::chrono::steady_clock::now();
     const std::size_t total = result_.scans.size();
+    takeInRegistered();
     while (next_ < total && !cancelled_.exchange(false)) {
       registerScan(next_);
       result_.scans[next_].matched_pose = result_.scans[next_].T_world_scan;
@@ -90,6 +100,23 @@ public:
   Slam6DResult result_;
 
 private:
+  /** \return the name of a scan that is about to be added */
+  std::string
+  nameOf(const std::string& given) const
+  {
+    return given.empty() ? "scan " + std::to_string(result_.scans.size()) : given;
+  }
+
+  void
+  takeInRegistered()
+  {
+    for (; next_ < num_registered_; ++next_) {
+      matcher_->takeIn(reduced_[next_], measured_[next_], result_.scans[next_]);
+      if (next_ > 0)
+        measured_[next_ - 1] = MeasuredScan(); // needed no more
+    }
+  }
+
   /** Carries the odometry's motion over from the scan before. */
   void
   predict(std::size_t i)
@@ -180,6 +207,8 @@ private:
   std::deque<IcpModel> reduced_;      ///< a deque: the matcher refers to its elements
   std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next
   std::optional<ScanMatcher> matcher_;
+  std::size_t num_registered_ =
+      0;                     ///< so many first scans an earlier run has registered
   std::size_t next_ = 0;     ///< first scan that is not registered
   std::size_t improved_ = 0; ///< so many scans went through the graph stage
 };
@@ -198,7 +227,18 @@ Slam6D::addScan(const Points& points,
                 const Eigen::Isometry3d& initial_pose,
                 const std::string& name)
 {
-  implementation_->addScan(points, initial_pose, name);
+  ScanResult scan;
+  scan.initial_pose = initial_pose;
+  scan.T_world_scan = initial_pose;
+  implementation_->addScan(points, scan, name);
+}
+
+void
+Slam6D::addRegistered(const Points& points,
+                      const ScanResult& earlier,
+                      const std::string& name)
+{
+  implementation_->addRegistered(points, earlier, name);
 }
 
 bool

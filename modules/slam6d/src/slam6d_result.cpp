@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <algorithm>
@@ -23,6 +24,19 @@ toString(ScanState state)
   return "unknown";
 }
 
+ScanState
+scanStateFromName(const std::string& name)
+{
+  for (const ScanState state : {ScanState::kPending,
+                                ScanState::kFixed,
+                                ScanState::kMatched,
+                                ScanState::kUnconverged,
+                                ScanState::kPredicted})
+    if (name == toString(state))
+      return state;
+  throw BadArgument("no state of a scan is called '" + name + "'");
+}
+
 std::size_t
 Slam6DResult::count(ScanState state) const
 {
@@ -34,7 +48,8 @@ Slam6DResult::count(ScanState state) const
 bool
 Slam6DResult::trusted() const
 {
-  return count(ScanState::kFixed) + count(ScanState::kMatched) == scans.size();
+  return floating.empty() &&
+         count(ScanState::kFixed) + count(ScanState::kMatched) == scans.size();
 }
 
 } // namespace pcl6d

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include <string>
+
 namespace pcl6d {
 
 /** \brief What an estimator says of its own result, so that "identity, because nothing
@@ -18,6 +20,10 @@ enum class Status {
 /** \return "ok", "rank-deficient", "too-few-pairs", "max-iterations" or "diverged" */
 const char*
 toString(Status status);
+
+/** \throws BadArgument no status has that name */
+Status
+statusFromName(const std::string& name);
 
 /** \brief A rigid motion and how far it can be believed. \ingroup common */
 struct RigidEstimate {

@@ -11,7 +11,11 @@ namespace pcl6d {
 struct LoopDetectionOptions {
   double max_distance = 5; ///< [m] between the positions, horizontally; > 0
   double max_height = 10; ///< [m] between the positions, vertically: heights drift; > 0
-  std::size_t min_gap = 20;    ///< scans between both ends, and between two loops; > 0
+  /** per scan, of its position [m^2]: a candidate's positions must be so near that the
+   * Mahalanobis distance of their difference is below 11.3 (99 % of a chi-square with three
+   * degrees of freedom; both count as independent); empty: no such gate */
+  std::vector<Eigen::Matrix3d> position_covariances;
+  std::size_t min_gap = 20;    ///< scans between both ends; > 0
   std::size_t min_pairs = 250; ///< of points; > 0
   double min_overlap = 0.3;    ///< share of the points with a partner; in [0, 1]
   double max_rms_share = 0.66; ///< of icp.max_distance; > 0

@@ -54,7 +54,7 @@ struct ScanNetworkOptions {
 class ScanNetwork {
 public:
   /** \param[in] scans kept by reference
-   * \param[in] usable per scan: false keeps it without links
+   * \param[in] usable per scan: false keeps it without links, also kept ones
    * \throws BadArgument an option breaks its rule; not one flag per scan; a scan without
    * normals, where the metric needs them */
   ScanNetwork(const std::vector<NetworkScan>& scans,
@@ -71,7 +71,8 @@ public:
   std::vector<LinkPairs>
   pairs(const Poses& poses);
 
-  /** \return the links of the last pairs(), with pairs, rms, overlap and condition */
+  /** \return the links of the last pairs(), with pairs, rms, overlap and condition, and
+   * the kept ones of scans that are not usable, refused; in the order of their scans */
   std::vector<ScanLink>
   describe(const Poses& poses) const;
 

@@ -30,7 +30,9 @@ struct RunSummary {
   };
 
   struct ScanEntry {
-    std::string file;
+    std::string file; ///< its name in the folder that it came from
+    int index = 0;    ///< NNN of the run's files that belong to it
+    Eigen::Isometry3d initial_pose = Eigen::Isometry3d::Identity(); ///< as given
     Eigen::Isometry3d T_world_scan =
         Eigen::Isometry3d::Identity(); ///< full coordinates
     /** of x y z roll pitch yaw [m, rad]; none if not known */
@@ -83,10 +85,9 @@ struct RunSummary {
 void
 writeRunSummary(const std::filesystem::path& path, const RunSummary& summary);
 
-/** \brief Reads of a summary.json what tells where the scans of a run are: generator,
- * version, world_offset, options, files and poses of the scans, complete, trusted. The rest
- * stays empty. \throws IoFailed naming file, place, value and rule: unreadable, no JSON, an
- * entry that is missing or of another type, another schema_version */
+/** \brief Inverse of writeRunSummary(). \throws IoFailed naming the file and what is
+ * missing or wrong in it: no JSON, another schema_version, a field of another kind
+ * \ingroup io */
 RunSummary
 readRunSummary(const std::filesystem::path& path);
 

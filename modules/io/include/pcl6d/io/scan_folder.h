@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/trajectory.h>
+#include <pcl6d/io/run_summary.h>
 #include <pcl6d/io/scan_reader.h>
 
 #include <filesystem>
@@ -40,6 +41,22 @@ public:
   explicit ScanFolder(const std::filesystem::path& folder,
                       const ScanFolderOptions& options = {});
 
+  /** \brief Puts the scans of a finished run before those of the folder, and leaves out
+   * those of the folder that the run holds, which it knows by the name of their file.
+   * Indices go on behind the run's last one. Time stamps stay only if both have them.
+   * \param[in] run its folder (share/doc/run_folder.md)
+   * \param[in] summary of the run
+   * \throws IoFailed a scan of the run is missing, or the folder holds no further one */
+  void
+  continueRun(const std::filesystem::path& run, const RunSummary& summary);
+
+  /** \return how many scans, the first ones, a finished run has registered; else 0 */
+  std::size_t
+  numRegistered() const
+  {
+    return num_registered_;
+  }
+
   /** \return the number of selected scans, >= 1 */
   std::size_t
   size() const;
@@ -47,6 +64,10 @@ public:
   /** \return the file of the i-th selected scan */
   const std::filesystem::path&
   file(std::size_t i) const;
+
+  /** \return the name of the file in the folder that the i-th scan was recorded in */
+  const std::string&
+  name(std::size_t i) const;
 
   /** \return the place of the i-th selected scan among all scans of the folder */
   int
@@ -77,20 +98,22 @@ public:
   ScanCloud
   readCloud(std::size_t i) const;
 
-  /** \return the format of the scans, not kAuto */
+  /** \return the format of the first scan, not kAuto */
   ScanFormat
   format() const;
 
 private:
   struct Entry {
     std::filesystem::path file;
+    std::string name;
     int index = 0;
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    ScanFormat format = ScanFormat::kAuto;
   };
   std::vector<Entry> entries_;
   std::vector<double> stamps_;
   std::string pose_source_;
-  ScanFormat format_ = ScanFormat::kAuto;
+  std::size_t num_registered_ = 0;
 };
 
 /** \brief Looks for the pose of a scan that is not taken as part of a folder.

@@ -55,6 +55,16 @@ public:
           const Eigen::Isometry3d& initial_pose,
           const std::string& name = "");
 
+  /** \brief Adds a scan that an earlier run has registered: its result stands, and the
+   * scans that follow are matched against it. The relaxation may move it.
+   * \param[in] earlier its initial pose, T_world_scan and all else that was found
+   * \throws BadArgument as addScan(); it is pending, or a scan before it was not added
+   * so \throws ComputeFailed as optimize() */
+  void
+  addRegistered(const Points& points,
+                const ScanResult& earlier,
+                const std::string& name = "");
+
   /** \brief The same for a PCL cloud. Its sensor_origin_ and sensor_orientation_ are
    * ignored: the points are taken to be in the scan's frame, and initial_pose alone says
    * where that is. */

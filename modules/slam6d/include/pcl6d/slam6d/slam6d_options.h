@@ -55,8 +55,9 @@ struct Slam6DOptions {
    * (and by more than 1.5 max_distance); >= 0, infinite: no limit. Not applied where the
    * odometry has no step, as without initial poses */
   double max_correction = 0.4;
-  LoopClosing loop_closing = LoopClosing::kNone; ///< of loops that are found (5.1)
-  std::optional<Relaxation> relaxation; ///< of all scans at once (5.2); none: off
+  LoopClosing loop_closing = LoopClosing::kElch; ///< of loops that are found (5.1)
+  std::optional<Relaxation> relaxation =
+      Relaxation::kHelix;              ///< of all scans at once (5.2); none: off
   LinkRule links = LinkRule::kOverlap; ///< between which scans, while relaxing (6.3)
   int relaxation_rounds = 10;          ///< > 0
   /** links that are always looked at, besides those found; each counts as far as the

@@ -45,6 +45,10 @@ enum class ScanState {
 const char*
 toString(ScanState state);
 
+/** \throws BadArgument no state has that name */
+ScanState
+scanStateFromName(const std::string& name);
+
 /** \brief One scan of the result. */
 struct ScanResult {
   Eigen::Isometry3d initial_pose = Eigen::Isometry3d::Identity(); ///< as given
@@ -76,6 +80,9 @@ struct StageResult {
   double agreement_before = 0; ///< in [-1, 1]
   double agreement_after = 0;
   int rounds = 0; ///< of relaxation
+  /** T_world_scan of all scans after each round, the last as it was taken; empty if it was
+   * undone */
+  std::vector<std::vector<Eigen::Isometry3d>> history;
   double seconds = 0;
 };
 
@@ -94,7 +101,7 @@ struct Slam6DResult {
   std::size_t
   count(ScanState state) const;
 
-  /** \return whether every scan is fixed or matched */
+  /** \return whether every scan is fixed or matched, and joined to the first one */
   bool
   trusted() const;
 };

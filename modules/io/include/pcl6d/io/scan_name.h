@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-namespace pcl6d::app {
+namespace pcl6d {
 
 /** \return "scan007" for 7: the stem of the files that belong to a scan */
 inline std::string
@@ -15,4 +15,4 @@ scanName(int index)
   return name;
 }
 
-} // namespace pcl6d::app
+} // namespace pcl6d

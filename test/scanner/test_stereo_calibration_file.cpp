@@ -120,6 +120,44 @@ TEST(StereoCalibrationFile, NamesWhatIsMissing)
       "has no entry R, T");
 }
 
+TEST(StereoCalibrationFile, TakesOrRefusesABrokenText)
+{
+  const TempFolder folder;
+  const auto file = folder / "calib.yml";
+  const std::string good = calibrationText(realRig());
+  pcl6d::Random random(1);
+  const auto place = [&](const std::string& text) {
+    return static_cast<std::size_t>(
+        random.uniform(0, static_cast<double>(text.size())));
+  };
+  std::size_t taken = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string text = good;
+    switch (i % 4) {
+    case 0:
+      text[place(text)] = static_cast<char>(random.uniform(32, 127));
+      break;
+    case 1:
+      text.erase(place(text), 10);
+      break;
+    case 2:
+      text.insert(place(text), text.substr(place(text), 10));
+      break;
+    default:
+      text.resize(place(text) + 1);
+    }
+    writeText(file, text);
+    try {
+      readStereoCalibration({file, {}, 1}, 320, 240);
+      ++taken;
+    } catch (const IoFailed& e) {
+      EXPECT_NE(std::string(e.what()).find("calib.yml: "), std::string::npos);
+    } // anything else ends the test
+  }
+  EXPECT_GT(taken, 0u);
+  EXPECT_LT(taken, 150u);
+}
+
 TEST(StereoCalibrationFile, NamesWhatIsWrong)
 {
   const TempFolder folder;

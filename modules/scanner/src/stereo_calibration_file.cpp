@@ -21,10 +21,10 @@ public:
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     try {
       storage_.open(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-    } catch (const cv::Exception&) {
-      storage_.release();
+    } catch (const std::exception&) { // not only OpenCV's: some texts trip its parser
+      fail("is no YAML, XML or JSON of OpenCV");
     }
-    if (!storage_.isOpened())
+    if (!storage_.isOpened() || !(storage_.root().isMap() || storage_.root().empty()))
       fail("is no YAML, XML or JSON of OpenCV");
   }
 

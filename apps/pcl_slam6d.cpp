@@ -6,6 +6,7 @@
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "slam6d/earlier_run.h"
+#include "slam6d/run_scans.h"
 #include "slam6d/run_writer.h"
 #include "slam6d/settings.h"
 
@@ -40,6 +41,15 @@ openFolder(const Settings& settings, const std::optional<app::EarlierRun>& earli
   return *std::move(folder);
 }
 
+app::RunScans
+openScans(const ScanFolder& folder, const Settings& settings)
+{
+  app::RunScans scans(folder);
+  if (settings.deskew)
+    scans.deskew(settings.interpolation);
+  return scans;
+}
+
 /** The main job: reading, matching, writing. */
 class Job {
 public:
@@ -48,6 +58,7 @@ public:
                  ? std::nullopt
                  : std::make_optional<app::EarlierRun>(settings.continued))
   , folder_(openFolder(settings, earlier_))
+  , scans_(openScans(folder_, settings))
   , settings_(resolved(settings, folder_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings))
@@ -63,12 +74,14 @@ public:
                              " of them registered in " + settings_.continued
                        : "") +
              ", initial poses from " + folder_.poseSource());
+    if (!scans_.description().empty())
+      bar_.say(scans_.description());
     if (!readScans()) {
       bar_.say("interrupted while reading; nothing is written");
       return app::kInterrupted;
     }
     const bool complete = match();
-    app::RunWriter writer(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
+    app::RunWriter writer(settings_, scans_, slam_.result(), out_, bar_, interrupt_);
     const RunSummary& summary = writer.write(complete, log_);
     const auto written = out_.publish();
     for (const auto& warning : summary.warnings)
@@ -114,7 +127,7 @@ private:
     for (std::size_t i = 0; i < folder_.size(); ++i) {
       if (interrupt_.requested())
         return false;
-      const Scan scan = folder_.read(i);
+      const Scan scan = scans_.read(i);
       const std::string file = folder_.file(i).string();
       if (scan.points.size() < 3)
         throw IoFailed(file + ": " + std::to_string(scan.points.size()) +
@@ -190,6 +203,7 @@ private:
 
   const std::optional<app::EarlierRun> earlier_;
   const ScanFolder folder_;
+  const app::RunScans scans_;
   const Settings settings_;
   const app::Interrupt interrupt_;
   app::ProgressBar bar_;

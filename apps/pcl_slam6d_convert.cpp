@@ -20,6 +20,10 @@ struct Verb {
 };
 
 const std::vector<Verb> kVerbs = {
+    {"lines",
+     "LINES.csv -o OUT.pcd",
+     "2D lines on a drive as a 3D scan",
+     app::runLines},
     {"scans", "IN -o OUT", "scans in another format", app::runScans},
     {"stereo", "LEFT RIGHT CALIB -o OUT", "two pictures to a scan", app::runStereo},
     {"trajectory", "IN -o OUT", "poses in another format", app::runTrajectory},

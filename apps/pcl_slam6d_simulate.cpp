@@ -5,6 +5,10 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
+#include "simulate/drive_options.h"
+#include "simulate/scanner_options.h"
+#include "simulate/scene_options.h"
+#include "simulate/truth_files.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
@@ -12,6 +16,7 @@
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/scanner/simulator.h>
 
 #include <pcl/conversions.h>
@@ -32,24 +37,17 @@ constexpr const char* kName = "pcl_slam6d_simulate";
 constexpr const char* kMarker = "scene.json"; // only simulated folders have it
 
 struct Settings {
-  std::string scene;
+  app::SceneWords scene;
+  app::ScannerWords scanner;
+  app::DriveWords drive;
   std::string out;
-  std::string scanner = "rotating";
-  std::int64_t seed = 1; // signed, as boost takes -1 for a large unsigned number
+  bool has_scans = false; // given by the user
+  std::int64_t seed = 1;  // signed, as boost takes -1 for a large unsigned number
   int threads = 0;
   bool force = false;
   bool quiet = false;
   SimulationOptions simulation;
 };
-
-std::string
-sceneList()
-{
-  std::string list;
-  for (const auto& name : builtInSceneNames())
-    list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
 
 bool
 parse(const std::vector<std::string>& arguments, Settings& s)
@@ -57,22 +55,21 @@ parse(const std::vector<std::string>& arguments, Settings& s)
   app::CommandLine line(
       std::string("usage: ") + kName +
       " SCENE -o DIR [options]\nSimulates a robot that drives through "
-      "a scene and scans it.\nScenes: " +
-      sceneList());
-  line.positional("SCENE", &s.scene);
-  RangeOptions& range = s.simulation.range;
+      "a scene and scans it.\nSCENE is a scene description FILE.json, "
+      "a mesh FILE.ply|obj|stl with --path, or one of:" +
+      app::sceneList() + "\nScanners:" + app::scannerList());
+  line.positional("SCENE", &s.scene.name);
   line.group("Simulation")
       .add_options() //
       ("scans",
-       app::valueOf(s.simulation.num_scans),
-       "number of scans, evenly along the way") //
-      ("scanner",
-       app::valueOf(s.scanner),
-       "rotating (360 x 120 deg) or pitching (180 x 120 deg)") //
-      ("noise",
-       app::valueOf(range.noise),
-       "[m] standard deviation of the ranges") //
-      ("seed", app::valueOf(s.seed), "same seed, same bytes");
+       po::value(&s.simulation.num_scans),
+       "number of scans, evenly along the way; by default what suits the scene") //
+      ("seed",
+       app::valueOf(s.seed),
+       "same seed, same bytes; also of what is random in a scene");
+  app::describeScene(line, s.scene);
+  app::describeScanner(line, s.scanner);
+  app::describeDrive(line, s.drive);
   line.group("Run").add_options() //
       ("output,o",
        po::value(&s.out)->value_name("DIR")->required(),
@@ -84,7 +81,9 @@ parse(const std::vector<std::string>& arguments, Settings& s)
        app::valueOf(s.threads),
        "0: one per core; never changes results") //
       ("quiet", po::bool_switch(&s.quiet), "print errors only");
-  return line.parse(arguments);
+  const bool is_run = line.parse(arguments);
+  s.has_scans = is_run && line.given("scans");
+  return is_run;
 }
 
 /** Moves what has no field of its own into the simulator's options. */
@@ -95,13 +94,21 @@ applySettings(Settings& s)
     require(s.seed >= 0, "seed", s.seed, ">= 0");
     require(s.threads >= 0, "threads", s.threads, ">= 0");
   });
-  if (s.scanner != "rotating" && s.scanner != "pitching")
-    throw app::UsageError("--scanner = " + s.scanner +
-                          ", but must be rotating or pitching");
   s.simulation.seed = static_cast<std::uint64_t>(s.seed);
   s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
-  s.simulation.scanner = std::make_shared<DrivenScanner>(
-      s.scanner == "pitching" ? pitchingScanner() : rotatingScanner());
+  app::applyDrive(s.drive, s.simulation);
+}
+
+/** Reads the scene and fills in what the user left to it. */
+SimulationScene
+sceneOf(Settings& s)
+{
+  SimulationScene scene = app::loadScene(s.scene, s.simulation.seed);
+  if (!s.has_scans)
+    s.simulation.num_scans = scene.num_scans;
+  app::applyScanner(s.scanner, scene.max_range, s.simulation);
+  app::checkOptions([&] { s.simulation.validate(); }, {{"num_scans", "scans"}});
+  return scene;
 }
 
 /** \return whether a folder holds scans */
@@ -123,21 +130,32 @@ outputRules(const Settings& s)
   rules.program = kName;
   rules.marker = kMarker;
   rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
-                           "scene\\.json");
+                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json");
   rules.force = s.force;
   return rules;
 }
 
 void
-writeSceneFile(const fs::path& path, const Settings& s)
+writeSceneFile(const fs::path& path,
+               const Settings& s,
+               const SimulationScene& scene,
+               const Simulator& simulator)
 {
-  const nlohmann::ordered_json json = {{"schema_version", 1},
-                                       {"generator", kName},
-                                       {"scene", s.scene},
-                                       {"seed", s.seed},
-                                       {"scans", s.simulation.num_scans},
-                                       {"scanner", s.scanner},
-                                       {"noise", s.simulation.range.noise}};
+  nlohmann::ordered_json json = {{"schema_version", 1},
+                                 {"generator", kName},
+                                 {"scene", s.scene.name},
+                                 {"seed", s.seed},
+                                 {"scans", s.simulation.num_scans},
+                                 {"scanner", s.scanner.name},
+                                 {"noise", s.simulation.range.noise}};
+  json.update(app::describedDrive(s.drive, simulator));
+  if (!s.scanner.resolution.is_auto)
+    json["resolution"] = s.scanner.resolution.value;
+  if (s.scanner.exact)
+    json["exact"] = true;
+  if (s.simulation.range.max_range != RangeOptions().max_range)
+    json["max_range"] = s.simulation.range.max_range;
+  app::describeScene(s.scene, scene, json);
   writeFileAtomically(path,
                       [&](std::ostream& stream) { stream << json.dump(2) << '\n'; });
 }
@@ -146,15 +164,27 @@ writeSceneFile(const fs::path& path, const Settings& s)
 bool
 writeFiles(const app::OutputFolder& folder,
            const Settings& s,
+           const SimulationScene& scene,
            const Simulator& simulator,
            app::ProgressBar& progress)
 {
   const app::Interrupt interrupt;
+  const TriangleScene& surfaces = simulator.scene().scene();
+  const bool has_labels = app::wantsLabels(s.scene);
+  TruthCounts counts;
+  const bool on_the_move = s.simulation.motion == ScanMotion::kContinuous;
   for (std::size_t i = 0; i < simulator.size(); ++i) {
     if (interrupt.requested())
       return false;
     pcl::PCLPointCloud2 cloud;
-    pcl::toPCLPointCloud2(simulator.scan(i), cloud);
+    const RangeScan scan = simulator.rangeScan(i);
+    pcl::toPCLPointCloud2(toPointCloud(scan, simulator.scanner()), cloud);
+    if (on_the_move)
+      addTimeField(cloud, simulator.scanner());
+    if (has_labels) {
+      addTruthFields(cloud, scan, surfaces);
+      counts.add(scan, surfaces);
+    }
     writePcd(folder / (scanName(static_cast<int>(i)) + ".pcd"),
              cloud,
              simulator.odometry().poses[i]);
@@ -162,7 +192,11 @@ writeFiles(const app::OutputFolder& folder,
   }
   writeTrajectoryKitti(folder / "odometry.txt", simulator.odometry());
   writeTrajectoryKitti(folder / "groundtruth.txt", simulator.truth());
-  writeSceneFile(folder / kMarker, s);
+  if (on_the_move)
+    writeStamps(folder / "times.txt", simulator.truth().stamps);
+  if (has_labels)
+    app::writeTruthFiles(folder, scene, simulator, counts);
+  writeSceneFile(folder / kMarker, s, scene, simulator);
   return true;
 }
 
@@ -179,13 +213,15 @@ printSummary(const Settings& s, const Simulator& simulator)
     largest = std::max(largest, error);
   }
   std::printf("%s: %zu scans, seed %lld; odometry off by %.3f m rms, %.3f m at most\n"
-              "written to %s: scan*.pcd odometry.txt groundtruth.txt %s\n",
-              s.scene.c_str(),
+              "written to %s: scan*.pcd odometry.txt groundtruth.txt %s%s%s\n",
+              s.scene.name.c_str(),
               simulator.size(),
               static_cast<long long>(s.seed),
               std::sqrt(sum_sq / static_cast<double>(simulator.size())),
               largest,
               s.out.c_str(),
+              s.simulation.motion == ScanMotion::kContinuous ? "times.txt " : "",
+              app::wantsLabels(s.scene) ? "planes_truth.json objects_truth.json " : "",
               kMarker);
 }
 
@@ -196,19 +232,13 @@ run(const std::vector<std::string>& arguments)
   if (!parse(arguments, s))
     return app::kDone;
   applySettings(s);
-  SimulationScene scene;
-  app::checkOptions(
-      [&] {
-        scene = builtInScene(s.scene);
-        s.simulation.validate();
-      },
-      {{"num_scans", "scans"}});
-  const Simulator simulator(scene, s.simulation);
+  const SimulationScene scene = sceneOf(s);
+  const Simulator simulator = app::startDrive(scene, s.simulation);
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))
     throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");
   app::ProgressBar progress(s.quiet);
-  if (!writeFiles(out, s, simulator, progress)) {
+  if (!writeFiles(out, s, scene, simulator, progress)) {
     progress.say("interrupted: nothing written");
     return app::kInterrupted;
   }

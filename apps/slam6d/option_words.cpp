@@ -25,6 +25,13 @@ describeInput(CommandLine& line, Settings& s, OptionWords& raw)
       "initial poses, KITTI or TUM rows, one per scan of the folder (default: *.pose, "
       "odometry.txt, poses.txt, PCD VIEWPOINT or identity, the first that is there)")(
       "format", valueOf(raw.format), "auto|pcd|ply|uos|kitti|xyz")(
+      "deskew",
+      po::bool_switch(&s.deskew),
+      "scans were taken while moving: correct each point by its time (field t or time) "
+      "along the initial poses; needs their time stamps (times.txt, or TUM rows)")(
+      "interpolation",
+      valueOf(raw.interpolation),
+      "linear|cubic: how --deskew moves between two poses; cubic follows bends better")(
       "continue",
       po::value(&s.continued)->value_name("RUN_DIR"),
       "goes on with a finished run: its scans keep their place and its options count "

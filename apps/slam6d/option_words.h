@@ -11,6 +11,7 @@ namespace pcl6d::app {
 /** Values that the command line knows in another form than the library. */
 struct OptionWords {
   std::string format = "auto";
+  std::string interpolation = "linear";
   std::string metascan = "all";
   std::string metric = toString(Slam6DOptions().metric);
   std::string minimiser = "quaternion";

@@ -109,13 +109,14 @@ runFolderRules(const Settings& settings)
 }
 
 RunWriter::RunWriter(const Settings& settings,
-                     const ScanFolder& folder,
+                     const RunScans& scans,
                      const Slam6DResult& result,
                      const OutputFolder& out,
                      ProgressBar& bar,
                      const Interrupt& interrupt)
 : settings_(settings)
-, folder_(folder)
+, scans_(scans)
+, folder_(scans.folder())
 , result_(result)
 , out_(out)
 , bar_(bar)

@@ -4,11 +4,11 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
+#include "slam6d/run_scans.h"
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/trajectory.h>
 #include <pcl6d/io/run_summary.h>
-#include <pcl6d/io/scan_folder.h>
 #include <pcl6d/slam6d/map_builder.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
@@ -48,7 +48,7 @@ class RunWriter {
 public:
   /** Keeps references to all of them. */
   RunWriter(const Settings& settings,
-            const ScanFolder& folder,
+            const RunScans& scans,
             const Slam6DResult& result,
             const OutputFolder& out,
             ProgressBar& bar,
@@ -78,6 +78,7 @@ private:
   describeGraph();
 
   const Settings& settings_;
+  const RunScans& scans_;
   const ScanFolder& folder_;
   const Slam6DResult& result_;
   const OutputFolder& out_;

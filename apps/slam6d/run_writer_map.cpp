@@ -95,7 +95,7 @@ RunWriter::writeScansAndMap(MapBuilder& map)
     const std::size_t count = std::min(kBatch, folder_.size() - begin);
     parallelFor(count, settings_.slam.num_threads, [&](std::size_t k) {
       const std::size_t i = begin + k;
-      batch[k] = folder_.read(i);
+      batch[k] = scans_.read(i);
       writePcd(out_ / ("scans/" + scanName(folder_.index(i)) + ".pcd"),
                batch[k].cloud,
                relativeTo(summary_.world_offset, result_.scans[i].T_world_scan));

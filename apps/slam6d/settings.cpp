@@ -68,6 +68,7 @@ interpret(const CommandLine& line, const OptionWords& raw, Settings& s)
                 raw.threads,
                 "in [0, " + std::to_string(kMostThreads) + "]");
         require(s.seed >= 0, "seed", s.seed, ">= 0");
+        s.interpolation = motionInterpolationFromName(raw.interpolation);
         s.slam.metric = metricFromName(raw.metric);
         s.slam.minimiser = minimiserFromName(raw.minimiser);
         s.slam.plane_minimiser = planeMinimiserFromName(raw.plane_minimiser);
@@ -126,6 +127,8 @@ wordsOf(const CommandLine& line, const OptionWords& raw, const Settings& s)
           word(line, "every", s.folder.every),
           word(line, "poses", s.folder.poses_file.string()),
           word(line, "format", raw.format),
+          word(line, "deskew", s.deskew ? "yes" : "no"),
+          word(line, "interpolation", raw.interpolation),
           word(line, "metric", raw.metric),
           word(line, "minimiser", raw.minimiser),
           word(line, "plane-minimiser", raw.plane_minimiser),
@@ -189,7 +192,8 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
   const bool planes = settings.slam.metric != Metric::kPoint;
   const bool relaxes = settings.slam.relaxation.has_value();
   settings.without_effect = line.withoutEffect(
-      {{"links", relaxes, "of --relaxation"},
+      {{"interpolation", settings.deskew, "of --deskew"},
+       {"links", relaxes, "of --relaxation"},
        {"relaxation-rounds", relaxes, "of --relaxation"},
        {"graph-in", relaxes, "of --relaxation"},
        {"minimiser", !planes, "of the metric point"},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/scanner/motion_correction.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
@@ -22,6 +23,8 @@ struct Settings {
   std::string continued;  ///< folder of a run that goes on; empty: none
   std::string graph_in;   ///< file of given links; empty: none
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
+  bool deskew = false;    ///< undo the motion of the scanner during each scan
+  MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
   bool force = false;
   bool quiet = false;
   bool verbose = false;

@@ -172,8 +172,37 @@ TEST(Simulate, NamesWhatIsWrongWithTheCommandLine)
   expectUsage({"corridor", "--noise", "-0.1"}, "-0.1");
   expectUsage({"corridor", "--noise", "nan"}, "nan");
   expectUsage({"corridor", "--scanner", "sonar"}, "sonar");
-  expectUsage({"corridor", "--speed", "3"}, "--speed");
+  expectUsage({"corridor", "--velocity", "3"}, "--velocity");
+  expectUsage({"corridor", "--resolution", "0"}, "= 0");
+  expectUsage({"corridor", "--resolution", "nan"}, "nan");
+  expectUsage({"corridor", "--resolution", "1e-6"}, "GB");
   expectOneErrorLine(simulate({"corridor"}), 2, "output");
+}
+
+TEST(Simulate, ScansWithTheScannerOfTheGivenName)
+{
+  const TempFolder folder;
+  const std::string out = folder.path().string();
+  const auto scan = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"corridor", "-o", out, "--scans", "1"});
+    const Outcome outcome = simulate(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return pcl6d::readPcd(folder / "scan000.pcd");
+  };
+  const auto lidar = scan({"--scanner", "vlp16"});
+  EXPECT_EQ(lidar.height, 16u);
+  EXPECT_EQ(lidar.width, 1800u);
+  const auto coarse = scan({"--scanner", "vlp16", "--resolution", "1"});
+  EXPECT_EQ(coarse.width, 360u);
+  // Without errors the seed has no say.
+  const auto exact = scan({"--scanner", "tof", "--exact", "--seed", "1"});
+  EXPECT_TRUE(scan({"--scanner", "tof", "--exact", "--seed", "2"}).data == exact.data);
+  EXPECT_FALSE(scan({"--scanner", "tof", "--seed", "2"}).data == exact.data);
+  EXPECT_NE(readText(folder / "scene.json").find("\"scanner\": \"tof\""),
+            std::string::npos);
+  const std::string help = simulate({"--help"}).out;
+  for (const char* name : {"pitching", "rotating", "scandrive", "sick", "vlp16"})
+    EXPECT_NE(help.find(name), std::string::npos) << name;
 }
 
 TEST(Simulate, NamesAnOutputThatCannotBe)

@@ -200,6 +200,42 @@ TEST_F(InitialPoses, StampsAreThoseOfTheSelectedScans)
   EXPECT_EQ(scans.initialPose(1).translation().x(), 32);
 }
 
+TEST_F(InitialPoses, StampsComeWithThePosesOrFromTheirOwnFile)
+{
+  addRows("odometry.txt", 30);
+  EXPECT_TRUE(open().stamps().empty());
+  writeText(folder_ / "times.txt", "# seconds\n0.5\n1.25\n\n3\n");
+  EXPECT_EQ(open().stamps(), (std::vector<double>{0.5, 1.25, 3}));
+  ScanFolderOptions second;
+  second.first = 1;
+  second.every = 2;
+  const ScanFolder selected(folder_.path(), second);
+  EXPECT_EQ(selected.stamps(), (std::vector<double>{1.25}));
+  EXPECT_EQ(selected.odometry().stamps, (std::vector<double>{0.5, 1.25, 3}));
+  ASSERT_EQ(selected.odometry().poses.size(), 3u);
+  EXPECT_EQ(selected.odometry().poses[2].translation().x(), 32);
+  const fs::path tum = folder_ / "given.tum";
+  writeText(tum, "7 1 0 0 0 0 0 1\n8 2 0 0 0 0 0 1\n9 3 0 0 0 0 0 1\n");
+  EXPECT_EQ(open(tum).stamps(), (std::vector<double>{7, 8, 9}));
+}
+
+TEST_F(InitialPoses, BrokenStampsAreRefused)
+{
+  const auto path = folder_ / "times.txt";
+  const auto expectMessage = [&](const std::string& content,
+                                 const std::string& message) {
+    writeText(path, content);
+    expectIoFailed(path, message, [&] { open(); });
+  };
+  expectMessage("1\n2\n", "2 time stamps, but the folder holds 3 scans");
+  expectMessage("\n", "holds no time stamp");
+  expectMessage("1\n2 3\n4\n", "line 2: expected 1 number (a time stamp), got 2");
+  expectMessage("1\n2\n2\n",
+                "line 3: the stamp 2 does not follow 2; stamps must increase");
+  expectMessage("1\nnan\n3\n", "line 2: the stamp nan is not finite");
+  expectMessage("1\ntwo\n3\n", "line 2: 'two' is not a number");
+}
+
 TEST(FindScanPose, TakesThePoseFileThenTheViewpoint)
 {
   const TempFolder folder;

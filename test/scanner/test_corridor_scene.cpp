@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/range_scan.h>
 #include <pcl6d/scanner/robot_path.h>
 #include <pcl6d/scanner/simulation_scene.h>
@@ -135,7 +136,9 @@ TEST(BuiltInScene, UnknownNameListsTheKnownOnes)
     pcl6d::builtInScene("cathedral");
     FAIL() << "nothing thrown";
   } catch (const pcl6d::BadArgument& e) {
-    EXPECT_STREQ(e.what(), "no scene 'cathedral'; known: corridor");
+    EXPECT_STREQ(
+        e.what(),
+        "no scene 'cathedral'; known: corridor, campus, mine, multilevel, rooms");
   }
   for (const auto& name : pcl6d::builtInSceneNames())
     EXPECT_EQ(pcl6d::builtInScene(name).name, name);

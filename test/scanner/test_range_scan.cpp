@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/scanner/driven_scanner.h>
+#include <pcl6d/scanner/measurement_principles.h>
 #include <pcl6d/scanner/range_scan.h>
 #include <pcl6d/scanner/scene_builder.h>
 
@@ -148,6 +150,41 @@ TEST(CastScan, GivesReflectanceTimesCosineAsIntensity)
   const RangeScan scan = castScan(caster, scanner, kIdentity);
   EXPECT_NEAR(scan.at(120, 90).intensity, 0.5, 1e-12);
   EXPECT_NEAR(scan.at(120, 110).intensity, 0.5 * std::cos(20 * M_PI / 180), 1e-12);
+}
+
+// A plate before a wall, passed by a fan with a wide spot: the share of samples whose
+// spot lies on both is that of its diameter.
+TEST(CastScan, HasMixedPixelsWhereTheSpotCrossesAnEdge)
+{
+  constexpr double kAside = 1e-4; // [m] more than a slanted surface bends a spot
+  pcl6d::TriangleScene scene;
+  pcl6d::addBox(scene, {5, -1, -1}, {5.01, 1, 1}, {"plate", 0.6});
+  pcl6d::addBox(scene, {5.4, -9, -9}, {5.5, 9, 9}, {"wall", 0.6});
+  const pcl6d::RayCaster caster(scene);
+  pcl6d::DrivenScannerOptions fan;
+  fan.beam = {-15 * M_PI / 180, 15 * M_PI / 180, 6001};
+  const pcl6d::DrivenScanner scanner(fan);
+  RangeOptions options;
+  options = options.withoutErrors();
+  options.beam = {0.01, 4e-3, 200, HUGE_VAL};
+  const RangeScan scan = castScan(caster, scanner, kIdentity, options);
+  int mixed = 0;
+  for (int i = 0; i < scan.samples_per_line; ++i) {
+    const double depth = scan.at(0, i).range * scanner.ray(0, i).direction.x();
+    mixed += depth > 5 + kAside && depth < 5.4 - kAside;
+  }
+  const double edge = std::hypot(5.0, 1.0); // [m] to it
+  const double spot = pcl6d::footprintDiameter(edge, 0.01, 4e-3);
+  const double expected = 2 * spot / edge / fan.beam.step(); // two edges
+  EXPECT_GT(expected, 100);
+  EXPECT_NEAR(mixed, expected, 0.04 * expected); // no ray lies on the rim of the spot
+  // With a separable echo there are none.
+  options.beam.echo_separation = 0.2;
+  const RangeScan separate = castScan(caster, scanner, kIdentity, options);
+  for (int i = 0; i < scan.samples_per_line; ++i) {
+    const double depth = separate.at(0, i).range * scanner.ray(0, i).direction.x();
+    ASSERT_TRUE(depth < 5 + kAside || depth > 5.4 - kAside) << depth;
+  }
 }
 
 TEST(ToPointCloud, PutsPointsAtTheirRange)

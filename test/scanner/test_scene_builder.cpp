@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "closed_body.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/scanner/scene_builder.h>
 
@@ -11,30 +13,8 @@
 namespace {
 using pcl6d::TriangleScene;
 
-// Volume inside surfaces whose normals point outwards (divergence theorem).
-double
-volume(const TriangleScene& scene)
-{
-  double sum = 0;
-  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
-    sum += scene.corner(i, 0).dot(scene.corner(i, 1).cross(scene.corner(i, 2))) / 6;
-  return sum;
-}
-
-// In a closed surface each edge is used as often one way as the other.
-void
-expectClosed(const TriangleScene& scene)
-{
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (const auto& triangle : scene.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto a = triangle.vertices[i];
-      const auto b = triangle.vertices[(i + 1) % 3];
-      balance[std::minmax(a, b)] += a < b ? 1 : -1;
-    }
-  for (const auto& [edge, count] : balance)
-    EXPECT_EQ(count, 0) << "edge " << edge.first << " - " << edge.second;
-}
+using pcl6d::test::expectClosed;
+using pcl6d::test::volume;
 
 void
 expectFlatSurfaces(const TriangleScene& scene)

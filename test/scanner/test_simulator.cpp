@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/simulator.h>
 
 #include <gtest/gtest.h>

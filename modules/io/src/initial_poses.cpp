@@ -97,11 +97,12 @@ findScanPose(const fs::path& scan, ScanFormat format)
   return isIdentity(viewpoint) ? std::nullopt : std::optional(viewpoint);
 }
 
+namespace {
 InitialPoses
-findInitialPoses(const fs::path& folder,
-                 const Paths& scans,
-                 ScanFormat format,
-                 const fs::path& poses_file)
+findPoses(const fs::path& folder,
+          const Paths& scans,
+          ScanFormat format,
+          const fs::path& poses_file)
 {
   if (isGroundtruth(poses_file))
     throw BadArgument("poses_file = " + poses_file.string() +
@@ -123,6 +124,31 @@ findInitialPoses(const fs::path& folder,
   Trajectory identity;
   identity.poses.assign(scans.size(), Eigen::Isometry3d::Identity());
   return {std::move(identity), kNoPoses};
+}
+
+/** \return one stamp per scan */
+std::vector<double>
+readScanStamps(const fs::path& file, const Paths& scans)
+{
+  std::vector<double> stamps = readStamps(file);
+  if (stamps.size() != scans.size())
+    text::fail(file,
+               text::counted(stamps.size(), "time stamp") + ", but the folder holds " +
+                   text::counted(scans.size(), "scan"));
+  return stamps;
+}
+} // namespace
+
+InitialPoses
+findInitialPoses(const fs::path& folder,
+                 const Paths& scans,
+                 ScanFormat format,
+                 const fs::path& poses_file)
+{
+  InitialPoses poses = findPoses(folder, scans, format, poses_file);
+  if (poses.trajectory.stamps.empty() && fs::exists(folder / kStampsFile))
+    poses.trajectory.stamps = readScanStamps(folder / kStampsFile, scans);
+  return poses;
 }
 
 } // namespace pcl6d

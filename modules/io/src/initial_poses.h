@@ -14,6 +14,9 @@ namespace pcl6d {
 /** The pose source of a folder without poses. */
 constexpr const char* kNoPoses = "identity";
 
+/** Time stamps of the scans where the poses have none. */
+constexpr const char* kStampsFile = "times.txt";
+
 /** \brief One pose per scan of the folder. */
 struct InitialPoses {
   Trajectory trajectory;
@@ -27,7 +30,7 @@ isGroundtruth(const std::filesystem::path& path);
 /** \brief Looks through the sources in the order that ScanFolder documents.
  * \param[in] scans all of the folder, in order, at least one
  * \param[in] poses_file given by the user, or empty
- * \throws IoFailed the poses are incomplete or broken
+ * \throws IoFailed the poses or stamps are incomplete or broken
  * \throws BadArgument poses_file is a ground truth */
 InitialPoses
 findInitialPoses(const std::filesystem::path& folder,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "json_numbers.h"
+
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/run_summary.h>
-
-#include <nlohmann/json.hpp>
 
 #include <ostream>
 
@@ -10,17 +10,6 @@ namespace pcl6d {
 
 namespace {
 using Json = nlohmann::ordered_json;
-
-template <typename Matrix>
-Json
-rowByRow(const Matrix& matrix)
-{
-  Json numbers = Json::array();
-  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
-    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
-      numbers.push_back(matrix(row, column));
-  return numbers;
-}
 
 /** Six rows of six numbers, or null. */
 Json

@@ -139,7 +139,7 @@ ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
   const std::size_t end =
       options.last ? std::min(count, static_cast<std::size_t>(*options.last) + 1)
                    : count;
-  const InitialPoses poses =
+  InitialPoses poses =
       findInitialPoses(folder, scans.files, scans.format, options.poses_file);
   pose_source_ = poses.source;
   for (std::size_t i = first; i < end; i += static_cast<std::size_t>(options.every)) {
@@ -151,6 +151,7 @@ ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
     if (!poses.trajectory.stamps.empty())
       stamps_.push_back(poses.trajectory.stamps[i]);
   }
+  odometry_ = std::move(poses.trajectory);
 }
 
 void
@@ -223,6 +224,12 @@ const std::vector<double>&
 ScanFolder::stamps() const
 {
   return stamps_;
+}
+
+const Trajectory&
+ScanFolder::odometry() const
+{
+  return odometry_;
 }
 
 const std::string&

@@ -142,6 +142,38 @@ writeTrajectoryTum(const std::filesystem::path& path, const Trajectory& trajecto
   writeFileAtomically(path, [&](std::ostream& stream) { stream << text; });
 }
 
+std::vector<double>
+readStamps(const std::filesystem::path& path)
+{
+  const std::string content = text::readFile(path);
+  std::vector<double> stamps;
+  std::vector<double> row;
+  for (text::Lines lines(content); lines.next();) {
+    const auto first = text::Tokens(lines.line()).next();
+    if (first.empty() || first.front() == '#')
+      continue;
+    text::readRow(path, lines, row);
+    if (row.size() != 1)
+      text::failAt(path,
+                   lines.number(),
+                   "expected 1 number (a time stamp), got " +
+                       std::to_string(row.size()));
+    addStamp(path, lines.number(), row[0], stamps);
+  }
+  if (stamps.empty())
+    text::fail(path, "holds no time stamp");
+  return stamps;
+}
+
+void
+writeStamps(const std::filesystem::path& path, const std::vector<double>& stamps)
+{
+  std::string text;
+  for (const double stamp : stamps)
+    appendRow(text, &stamp, &stamp + 1);
+  writeFileAtomically(path, [&](std::ostream& stream) { stream << text; });
+}
+
 Eigen::Isometry3d
 readUosPose(const std::filesystem::path& path)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "corridor_scene.h"
+#include "built_in_scenes.h"
 
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/scanner/scene_builder.h>
@@ -25,11 +25,11 @@ constexpr double kWallTop = kUpper + kRoomHeight + kThick;
 constexpr double kDoorHeight = 2.1;
 constexpr double kSill = 0.1; // [m] by which doorways reach into the slab below
 
-const Surface kPlaster{"wall", 0.8};
-const Surface kFloor{"floor", 0.4};
-const Surface kCeiling{"ceiling", 0.9};
+const Surface kPlaster{"wall", 0.8, PlaneLabel::kWall};
+const Surface kFloor{"floor", 0.4, PlaneLabel::kFloor};
+const Surface kCeiling{"ceiling", 0.9, PlaneLabel::kCeiling};
 const Surface kRampFloor{"ramp", 0.35};
-const Surface kDoor{"door", 0.5};
+const Surface kDoor{"door", 0.5, PlaneLabel::kDoor};
 const Surface kWood{"furniture", 0.45};
 const Surface kSteel{"cabinet", 0.65};
 const Surface kConcrete{"pillar", 0.7};
@@ -260,9 +260,11 @@ corridorWaypoints()
 } // namespace
 
 SimulationScene
-corridorScene()
+corridorScene(std::uint64_t)
 {
-  SimulationScene scene{"corridor", {}, corridorWaypoints()};
+  SimulationScene scene;
+  scene.name = "corridor";
+  scene.waypoints = corridorWaypoints();
   TriangleScene& geometry = scene.geometry;
   addRoom(geometry, {-2.5, -3, 4, 2}, 0, 0, 0);
   addRoom(geometry, {12, -3, 18.5, 2}, 0, 16, 0);

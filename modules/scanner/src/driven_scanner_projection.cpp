@@ -40,7 +40,7 @@ turned(const Eigen::Vector3d& v, const Eigen::Vector3d& axis, double angle)
 std::optional<int>
 nearestIndex(const AngleRange& range, double angle)
 {
-  const double step = (range.last - range.first) / (range.count - 1);
+  const double step = range.step();
   const double middle = (range.first + range.last) / 2;
   const double near_middle = middle + std::remainder(angle - middle, 2 * M_PI);
   const double index = std::round((near_middle - range.first) / step);
@@ -62,6 +62,11 @@ DrivenScannerProjection::DrivenScannerProjection(const DrivenScannerOptions& opt
   };
   requireFan(options.theta, "theta.count");
   requireFan(options.beam, "beam.count");
+  turn_.assign(static_cast<std::size_t>(cols()), 0);
+  if (options.motion == DriveMotion::kContinuous)
+    for (int i = 0; i < cols(); ++i)
+      turn_[static_cast<std::size_t>(i)] =
+          options.theta.step() * scanner_.time(0, i) / scanner_.time(1, 0);
 }
 
 int
@@ -76,12 +81,10 @@ DrivenScannerProjection::cols() const
   return options_.beam.count;
 }
 
+/** \return sample and range at a drive angle, in row 0 */
 std::optional<PixelRange>
-DrivenScannerProjection::seenAt(double theta, const Eigen::Vector3d& from_axis) const
+DrivenScannerProjection::seenInFan(double theta, const Eigen::Vector3d& from_axis) const
 {
-  const auto line = nearestIndex(options_.theta, theta);
-  if (!line)
-    return std::nullopt;
   const Eigen::Vector3d in_fan =
       options_.mounting.transpose() *
       (turned(from_axis, axis_, -theta) - options_.lever_arm);
@@ -90,7 +93,21 @@ DrivenScannerProjection::seenAt(double theta, const Eigen::Vector3d& from_axis) 
       nearestIndex(options_.beam, portableAtan2(in_fan.y(), in_fan.x()));
   if (!sample || !(range > 0))
     return std::nullopt;
-  return PixelRange{{*line, *sample}, range};
+  return PixelRange{{0, *sample}, range};
+}
+
+std::optional<PixelRange>
+DrivenScannerProjection::seenAt(double theta, const Eigen::Vector3d& from_axis) const
+{
+  auto seen = seenInFan(theta, from_axis);
+  if (!seen)
+    return std::nullopt;
+  const double turn = turn_[static_cast<std::size_t>(seen->pixel.col)];
+  const auto line = nearestIndex(options_.theta, theta - turn);
+  if (!line)
+    return std::nullopt;
+  seen->pixel.row = *line;
+  return seen;
 }
 
 std::optional<PixelRange>
@@ -107,7 +124,7 @@ DrivenScannerProjection::project(const Eigen::Vector3d& point) const
   const double d = n.dot(options_.lever_arm - along);
   const double h = std::sqrt(a * a + b * b);
   if (h <= kOnAxis * v.norm() && std::abs(d) <= kOnAxis * v.norm())
-    return seenAt(options_.theta.first, v);
+    return seenInFan(options_.theta.first, v); // by every line
   if (!(std::abs(d) <= h))
     return std::nullopt; // nearer to the axis than the fan ever comes
   const double middle = portableAtan2(b, a);

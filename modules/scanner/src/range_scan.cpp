@@ -2,19 +2,89 @@
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/io/scan_fields.h>
 #include <pcl6d/scanner/range_scan.h>
 
 #include <cmath>
-#include <limits>
 
 namespace pcl6d {
+namespace {
+// Takes one sample after the other.
+class Sampler {
+public:
+  Sampler(const SceneView& view,
+          const ScannerModel& scanner,
+          const RangeErrorModel& model)
+  : view_(view), scanner_(scanner), model_(model)
+  {}
 
-void
-RangeOptions::validate() const
+  RangeSample
+  measure(int line, int sample, Random& random)
+  {
+    const Ray axis = scanner_.ray(line, sample);
+    const double time = scanner_.time(line, sample);
+    echoes_.clear();
+    for (int i = 0; i < model_.numRays(); ++i)
+      castRay(model_.ray(axis, i), time);
+    return model_.measure(echoes_, random);
+  }
+
+private:
+  void
+  castRay(const Ray& ray, double time)
+  {
+    const auto hit = view_.cast(ray, time);
+    if (!hit || !isLit(ray.origin + hit->range * ray.direction, time))
+      return;
+    const double reflectance = view_.surface(hit->triangle).reflectance;
+    echoes_.push_back({hit->range,
+                       reflectance * hit->cos_incidence,
+                       hit->cos_incidence,
+                       hit->triangle});
+  }
+
+  bool
+  isLit(const Eigen::Vector3d& point, double time) const
+  {
+    constexpr double kSameSurface = 1e-6; // [m]
+    const LightSource* const source = scanner_.lightSource();
+    if (source == nullptr)
+      return true;
+    if (!source->lights(point))
+      return false;
+    const Eigen::Vector3d position = source->position();
+    const double way = (point - position).norm();
+    const auto first = view_.cast({position, (point - position) / way}, time);
+    return !first || first->range > way - kSameSurface;
+  }
+
+  const SceneView& view_;
+  const ScannerModel& scanner_;
+  const RangeErrorModel& model_;
+  std::vector<Echo> echoes_;
+};
+} // namespace
+
+RangeScan
+castScan(const SceneView& view,
+         const ScannerModel& scanner,
+         const RangeOptions& options,
+         std::uint64_t scan_index)
 {
-  require(noise >= 0 && std::isfinite(noise), "noise", noise, ">= 0 and finite");
-  require(min_range >= 0 && std::isfinite(min_range), "min_range", min_range, ">= 0");
-  require(max_range > min_range, "max_range", max_range, "> min_range");
+  const RangeErrorModel model(options);
+  RangeScan scan{scanner.numLines(), scanner.samplesPerLine(), {}};
+  const auto num_lines = static_cast<std::size_t>(scan.num_lines);
+  const auto per_line = static_cast<std::size_t>(scan.samples_per_line);
+  scan.samples.resize(num_lines * per_line);
+  const std::uint64_t scan_key = mixBits(mixBits(options.seed) ^ scan_index);
+  parallelFor(num_lines, options.num_threads, [&](std::size_t line) {
+    Random random(mixBits(scan_key ^ line)); // its own numbers, whoever does the line
+    Sampler sampler(view, scanner, model);
+    for (std::size_t i = 0; i < per_line; ++i)
+      scan.samples[line * per_line + i] =
+          sampler.measure(static_cast<int>(line), static_cast<int>(i), random);
+  });
+  return scan;
 }
 
 RangeScan
@@ -24,33 +94,7 @@ castScan(const RayCaster& caster,
          const RangeOptions& options,
          std::uint64_t scan_index)
 {
-  options.validate();
-  RangeScan scan{scanner.numLines(), scanner.samplesPerLine(), {}};
-  const auto num_lines = static_cast<std::size_t>(scan.num_lines);
-  const auto per_line = static_cast<std::size_t>(scan.samples_per_line);
-  scan.samples.resize(num_lines * per_line);
-  const std::uint64_t scan_key = mixBits(mixBits(options.seed) ^ scan_index);
-  parallelFor(num_lines, options.num_threads, [&](std::size_t line) {
-    Random random(mixBits(scan_key ^ line)); // its own numbers, whoever does the line
-    for (std::size_t i = 0; i < per_line; ++i) {
-      RangeSample& sample = scan.samples[line * per_line + i];
-      // Drawn with or without return, so that noise does not depend on the scene.
-      const double error = options.noise * random.normal();
-      const Ray ray = scanner.ray(static_cast<int>(line), static_cast<int>(i));
-      const auto hit = caster.cast(
-          {T_scene_scan * ray.origin, T_scene_scan.linear() * ray.direction});
-      const double range = hit ? hit->range + error : options.max_range + 1;
-      sample.range = std::numeric_limits<double>::quiet_NaN();
-      if (!(range >= options.min_range && range <= options.max_range))
-        continue;
-      const TriangleScene& scene = caster.scene();
-      const auto surface = scene.triangles[hit->triangle].surface;
-      sample = {range,
-                scene.surfaces[surface].reflectance * hit->cos_incidence,
-                hit->triangle};
-    }
-  });
-  return scan;
+  return castScan(StandingView(caster, T_scene_scan), scanner, options, scan_index);
 }
 
 pcl::PointCloud<pcl::PointXYZI>
@@ -77,6 +121,16 @@ toPointCloud(const RangeScan& scan, const ScannerModel& scanner)
       cloud.is_dense = cloud.is_dense && std::isfinite(sample.range);
     }
   return cloud;
+}
+
+void
+addTimeField(pcl::PCLPointCloud2& cloud, const ScannerModel& scanner)
+{
+  std::vector<double> times;
+  for (int line = 0; line < scanner.numLines(); ++line)
+    for (int sample = 0; sample < scanner.samplesPerLine(); ++sample)
+      times.push_back(scanner.time(line, sample));
+  addField(cloud, "t", pcl::PCLPointField::FLOAT32, times);
 }
 
 } // namespace pcl6d

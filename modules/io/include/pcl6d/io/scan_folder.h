@@ -31,8 +31,9 @@ struct ScanFolderOptions {
  * The initial poses come from the first of: the given file; one `scanNNN.pose` per scan
  * (3DTK); `odometry.txt`; `poses.txt` (KITTI rows T_world_scan, one per scan of the
  * folder); PCD VIEWPOINT if at least one differs from identity; identity. Files named
- * `groundtruth*` are never read. All scans of the folder count for the number of rows,
- * also those that first, last and every leave out. \ingroup io */
+ * `groundtruth*` are never read. Time stamps come with TUM poses, else from `times.txt`
+ * (KITTI: one per line). All scans of the folder count for the number of rows, also those
+ * that first, last and every leave out. \ingroup io */
 class ScanFolder {
 public:
   /** \throws IoFailed the folder is missing or unreadable, holds no scan, holds scans
@@ -77,9 +78,13 @@ public:
   const Eigen::Isometry3d&
   initialPose(std::size_t i) const;
 
-  /** \return time stamps [s] of the selected scans, or empty if the poses have none */
+  /** \return time stamps [s] of the selected scans, or empty if the folder has none */
   const std::vector<double>&
   stamps() const;
+
+  /** \return initial poses and stamps of all scans of the folder, selected or not */
+  const Trajectory&
+  odometry() const;
 
   /** \return where the poses come from, for people: "odometry.txt", "PCD VIEWPOINT",
    * "scan poses (*.pose)", "identity", or the name of the given file */
@@ -112,6 +117,7 @@ private:
   };
   std::vector<Entry> entries_;
   std::vector<double> stamps_;
+  Trajectory odometry_;
   std::string pose_source_;
   std::size_t num_registered_ = 0;
 };

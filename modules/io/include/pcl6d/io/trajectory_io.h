@@ -4,6 +4,7 @@
 #include <pcl6d/common/trajectory.h>
 
 #include <filesystem>
+#include <vector>
 
 namespace pcl6d {
 
@@ -23,6 +24,17 @@ writeTrajectoryKitti(const std::filesystem::path& path, const Trajectory& trajec
 /** \brief Writes TUM rows with 17 digits, atomically. \throws BadArgument no stamps */
 void
 writeTrajectoryTum(const std::filesystem::path& path, const Trajectory& trajectory);
+
+/** \brief Reads time stamps [s], one per line, as in KITTI's `times.txt`. Empty lines and
+ * lines that start with # are skipped. \throws IoFailed naming file, line, value and
+ * rule: unreadable, no stamp, not one finite number on a line, stamps that do not
+ * increase */
+std::vector<double>
+readStamps(const std::filesystem::path& path);
+
+/** \brief Writes one stamp per line with up to 17 digits, atomically. */
+void
+writeStamps(const std::filesystem::path& path, const std::vector<double>& stamps);
 
 /** \brief Reads a pose of 3DTK (`scanNNN.pose`: position [cm], then three Euler angles
  * [deg], left-handed) into our frame (metres, right-handed). \throws IoFailed as above

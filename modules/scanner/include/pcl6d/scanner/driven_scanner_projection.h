@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/range_projection.h>
-#include <pcl6d/scanner/scanner_model.h>
+
+#include <vector>
 
 namespace pcl6d {
 
@@ -34,10 +36,13 @@ public:
 private:
   std::optional<PixelRange>
   seenAt(double theta, const Eigen::Vector3d& from_axis) const;
+  std::optional<PixelRange>
+  seenInFan(double theta, const Eigen::Vector3d& from_axis) const;
 
   DrivenScannerOptions options_;
   DrivenScanner scanner_;
   Eigen::Vector3d axis_;
+  std::vector<double> turn_; // [rad] of the drive from the line's start, per sample
 };
 
 } // namespace pcl6d

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/scanner/range_error_model.h>
 #include <pcl6d/scanner/scanner_model.h>
+#include <pcl6d/scanner/scene_view.h>
 
+#include <pcl/PCLPointCloud2.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
@@ -13,25 +16,6 @@
 #include <vector>
 
 namespace pcl6d {
-
-/** \brief How a scanner measures ranges. */
-struct RangeOptions {
-  double noise = 0.01;      ///< [m] standard deviation of a range, >= 0
-  double min_range = 0.2;   ///< [m] shorter ranges are no return; >= 0
-  double max_range = 30;    ///< [m] longer ranges are no return; > min_range
-  std::uint64_t seed = 1;   ///< same seed, same noise
-  unsigned num_threads = 0; ///< 0: one per core; never changes results
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void
-  validate() const;
-};
-
-/** \brief One sample: what the scanner says and what it looked at. */
-struct RangeSample {
-  double range = 0;           ///< [m] measured; NaN if there was no return
-  double intensity = 0;       ///< reflectance times cosine of the incidence, in [0, 1]
-  std::uint32_t triangle = 0; ///< hit triangle of the scene; 0 if there was no return
-};
 
 /** \brief The samples of a scan in double, line by line. */
 struct RangeScan {
@@ -48,6 +32,15 @@ struct RangeScan {
   }
 };
 
+/** \brief Scans what there is to see, each sample at its own time.
+ * \param[in] scan_index number of the scan: each has noise of its own
+ * \throws BadArgument see RangeOptions::validate() \ingroup scanner */
+RangeScan
+castScan(const SceneView& view,
+         const ScannerModel& scanner,
+         const RangeOptions& options = {},
+         std::uint64_t scan_index = 0);
+
 /** \brief Scans a scene from a place, standing still.
  * \param[in] T_scene_scan pose of the scanner
  * \param[in] scan_index number of the scan: each has noise of its own
@@ -63,5 +56,11 @@ castScan(const RayCaster& caster,
  * return is NaN, never zero. \throws BadArgument scan and scanner differ in size */
 pcl::PointCloud<pcl::PointXYZI>
 toPointCloud(const RangeScan& scan, const ScannerModel& scanner);
+
+/** \brief Appends the field `t` (float32, [s]): when each point was measured, from the
+ * start of the scan. \param[in] cloud one row per line, as of toPointCloud()
+ * \throws BadArgument cloud and scanner differ in size */
+void
+addTimeField(pcl::PCLPointCloud2& cloud, const ScannerModel& scanner);
 
 } // namespace pcl6d

@@ -37,6 +37,13 @@ public:
   double
   length() const;
 
+  /** \return the height of the scanner above the contact plane [m] */
+  double
+  sensorHeight() const
+  {
+    return options_.sensor_height;
+  }
+
   /** \param[in] s way in plan [m], any number; wraps after each round
    * \return T_scene_sensor: x ahead, z square to the contact plane
    * \throws ComputeFailed there is no floor below the path */

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/scanner/light_source.h>
 #include <pcl6d/scanner/ray_caster.h>
-
-#include <Eigen/Core>
-
-#include <vector>
 
 namespace pcl6d {
 
-/** \brief What all laser scanners have in common: the way from (line, sample) to a ray
- * in the scanner's frame (x forward, y left, z up). An organized scan has one row per
- * line. \ingroup scanner */
+/** \brief What all scanners have in common: the way from (line, sample) to a ray in the
+ * scanner's frame (x forward, y left, z up) and to the time of its measurement. An
+ * organized scan has one row per line. \ingroup scanner */
 class ScannerModel {
 public:
   virtual ~ScannerModel() = default;
@@ -22,6 +19,22 @@ public:
   /** \return the beam of a sample; its range counts from the ray's origin */
   virtual Ray
   ray(int line, int sample) const = 0;
+  /** \return when the sample is measured [s], from the start of the scan; in
+   * [0, duration()). Not always in the order of the samples: a spinning lidar fires its
+   * lines in turns */
+  virtual double
+  time(int line, int sample) const = 0;
+  /** \return [s] from the start of a scan to that of the next one, if the scanner goes
+   * on without a pause; > 0 */
+  virtual double
+  duration() const = 0;
+  /** \return where the light comes from if not from where the scanner looks, which
+   * casts shadows: in a triangulating scanner; null: there is no such place */
+  virtual const LightSource*
+  lightSource() const
+  {
+    return nullptr;
+  }
 };
 
 /** \brief Equally spaced angles, both ends included. */
@@ -35,55 +48,12 @@ struct AngleRange {
   {
     return count > 1 ? first + (last - first) * i / (count - 1) : first;
   }
-};
-
-/** \brief The axis about which a 2D scanner is driven. */
-enum class Drive {
-  kPitching, ///< y: theta > 0 looks up
-  kRolling,  ///< x: positive towards the left side up
-  kYawing    ///< z: counter-clockwise seen from above
-};
-
-/** \brief A 2D scanner on a drive. */
-struct DrivenScannerOptions {
-  Drive drive = Drive::kYawing;
-  AngleRange beam;  ///< mirror angle alpha, one per sample
-  AngleRange theta; ///< drive angle, one per line
-  Eigen::Matrix3d mounting = Eigen::Matrix3d::Identity(); ///< R_m, a rotation
-  Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();    ///< o, axis to optical centre
-  Eigen::Vector3d axis_position = Eigen::Vector3d::Zero(); ///< c, in the scanner frame
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
-  void
-  validate() const;
-};
-
-/** \return full turns about the vertical of a fan that stands upright: 360 lines of
- * 121 samples, 1 deg apart, from 60 deg below the horizon to 60 deg above */
-DrivenScannerOptions
-rotatingScanner();
-
-/** \return Kurt3D's scanner: 241 lines of 181 samples, 120 deg high, 180 deg wide */
-DrivenScannerOptions
-pitchingScanner();
-
-/** \brief 3D scanner made of a 2D scanner and a drive (book 2.2):
- * p = c + R_drive(theta) (o + R_m r (cos alpha, sin alpha, 0)). \ingroup scanner */
-class DrivenScanner : public ScannerModel {
-public:
-  /** \throws BadArgument see DrivenScannerOptions::validate() */
-  explicit DrivenScanner(const DrivenScannerOptions& options = rotatingScanner());
-
-  int
-  numLines() const override;
-  int
-  samplesPerLine() const override;
-  Ray
-  ray(int line, int sample) const override;
-
-private:
-  Eigen::Vector3d lever_arm_, axis_position_;
-  std::vector<Eigen::Matrix3d> drive_;    // R_drive per line
-  std::vector<Eigen::Vector3d> mirrored_; // R_m (cos alpha, sin alpha, 0) per sample
+  /** \return from one angle to the next [rad]; 0 of a single angle */
+  double
+  step() const
+  {
+    return count > 1 ? (last - first) / (count - 1) : 0;
+  }
 };
 
 } // namespace pcl6d

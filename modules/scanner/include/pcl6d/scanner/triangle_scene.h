@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/plane.h>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -15,6 +17,11 @@ namespace pcl6d {
 struct Surface {
   std::string name = "surface";
   double reflectance = 0.6; ///< share of the light sent back, in [0, 1]
+  PlaneLabel label =
+      PlaneLabel::kNone;    ///< kept where a face is fit, see numberPlanes()
+  std::uint32_t object = 0; ///< id of the object that it belongs to; 0: none
+  std::uint32_t plane = 0;  ///< id of its plane; 0: none
+  bool is_solid = true;     ///< whoever sees it from behind is inside a body
 };
 
 /** \brief Three corners and the surface that they belong to, as indices. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
+#include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/range_scan.h>
 #include <pcl6d/scanner/scene_builder.h>
 
@@ -155,10 +156,74 @@ TEST(DrivenScanner, RefusesBrokenOptions)
     EXPECT_THROW(DrivenScanner{options}, pcl6d::BadArgument);
   };
   refused([](auto& o) { o.beam.count = 0; });
+  refused([](auto& o) { o.line_period = 0; });
+  refused([](auto& o) { o.line_period = std::nan(""); });
+  refused([](auto& o) { o.sample_period = -1e-6; });
+  refused([](auto& o) { o.sample_period = o.line_period / o.beam.count * 1.01; });
   refused([](auto& o) { o.theta.count = 1000000; });
   refused([](auto& o) { o.theta.last = 7; });
   refused([](auto& o) { o.beam.first = std::nan(""); });
   refused([](auto& o) { o.mounting *= 1.01; });
   refused([](auto& o) { o.lever_arm.z() = std::nan(""); });
   refused([](auto& o) { o.axis_position.x() = HUGE_VAL; });
+}
+
+TEST(DrivenScanner, TellsWhenASampleIsMeasured)
+{
+  DrivenScannerOptions options = pcl6d::pitchingScanner();
+  const DrivenScanner scanner(options);
+  // 75 lines a second; the mirror turns on at constant speed through its blind half.
+  EXPECT_EQ(scanner.time(0, 0), 0);
+  EXPECT_NEAR(scanner.time(75, 0), 1, 1e-12);
+  EXPECT_NEAR(scanner.time(75, 90) - scanner.time(75, 0), 1 / 75.0 / 4, 1e-12);
+  EXPECT_NEAR(scanner.duration(), 241 / 75.0, 1e-12);
+  options.sample_period = 1e-5;
+  EXPECT_NEAR(DrivenScanner(options).time(2, 3), 2 / 75.0 + 3e-5, 1e-12);
+}
+
+TEST(DrivenScanner, TurnsOnDuringALineOfAContinuousDrive)
+{
+  DrivenScannerOptions options = pcl6d::rotatingScanner();
+  const DrivenScanner stepped(options);
+  options.motion = pcl6d::DriveMotion::kContinuous;
+  options.lever_arm = {0.1, 0.02, 0.05};
+  const DrivenScanner scanner(options);
+  const double speed = options.theta.step() / options.line_period; // [rad/s]
+  for (int line = 0; line < scanner.numLines(); line += 17)
+    for (int i = 0; i < scanner.samplesPerLine(); i += 7) {
+      const double theta = options.theta.first + speed * scanner.time(line, i);
+      const double a = options.beam.angle(i);
+      const Eigen::Matrix3d R = pcl6d::rotationFromEuler({0, 0, theta});
+      const Eigen::Vector3d beam(std::cos(a), 0, std::sin(a));
+      EXPECT_LT((scanner.ray(line, i).direction - R * beam).norm(), 1e-13);
+      EXPECT_LT((scanner.ray(line, i).origin - R * options.lever_arm).norm(), 1e-13);
+    }
+  EXPECT_GT((scanner.ray(0, 120).direction - stepped.ray(0, 120).direction).norm(),
+            1e-3);
+}
+
+TEST(DrivenScanner, TakesMeasuredDriveAngles)
+{
+  DrivenScannerOptions options = pcl6d::pitchingScanner();
+  const std::vector<double> theta = {0.1, 0.3, 0.2};
+  const DrivenScanner stepped(options, theta);
+  ASSERT_EQ(stepped.numLines(), 3);
+  const auto pitched = [](double angle) {
+    return Eigen::Vector3d(std::cos(angle), 0, std::sin(angle));
+  };
+  for (int line = 0; line < 3; ++line)
+    EXPECT_LT((stepped.ray(line, 90).direction - pitched(theta[line])).norm(),
+              kTolerance);
+  // A quarter of the mirror's turn after the line's start; the last line goes on as the
+  // one before it.
+  options.motion = pcl6d::DriveMotion::kContinuous;
+  const DrivenScanner continuous(options, theta);
+  const double expected[] = {0.1 + 0.2 / 4, 0.3 - 0.1 / 4, 0.2 - 0.1 / 4};
+  for (int line = 0; line < 3; ++line)
+    EXPECT_LT((continuous.ray(line, 90).direction - pitched(expected[line])).norm(),
+              kTolerance);
+  EXPECT_THROW(DrivenScanner(options, {}), pcl6d::BadArgument);
+  EXPECT_THROW(DrivenScanner(options, {0, std::nan("")}), pcl6d::BadArgument);
+  EXPECT_THROW(DrivenScanner(options, {1e9}), pcl6d::BadArgument);
+  EXPECT_EQ(DrivenScanner(options, {0.5}).numLines(), 1);
 }

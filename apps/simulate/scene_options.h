@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/command_line.h"
+
+#include <pcl6d/scanner/simulator.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace pcl6d::app {
+
+/** \brief Which scene, as given on the command line. */
+struct SceneWords {
+  std::string name; ///< of a built-in scene, or a file .json, .ply, .obj, .stl
+  std::string path; ///< file with waypoints; for meshes
+  double scale = 1; ///< [m] per unit of a mesh
+  std::string up = "z";
+  std::string labels = "auto";
+};
+
+/** \return the known scenes, a line each, for --help */
+std::string
+sceneList();
+
+void
+describeScene(CommandLine& line, SceneWords& words);
+
+/** \brief Makes or reads the scene. \param[in] seed of what is random in it
+ * \throws UsageError the scene is not known, or options do not fit it
+ * \throws IoFailed a file is wrong */
+SimulationScene
+loadScene(const SceneWords& words, std::uint64_t seed);
+
+/** \return whether points get labels and truth files are written */
+bool
+wantsLabels(const SceneWords& words);
+
+/** \brief Adds to scene.json what the scene was made from. */
+void
+describeScene(const SceneWords& words,
+              const SimulationScene& scene,
+              nlohmann::ordered_json& json);
+
+} // namespace pcl6d::app

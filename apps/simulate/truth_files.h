@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/output_folder.h"
+
+#include <pcl6d/scanner/simulator.h>
+#include <pcl6d/scanner/truth_fields.h>
+
+namespace pcl6d::app {
+
+/** \brief Writes planes_truth.json and objects_truth.json in the world of the scans.
+ * \param[in] scene the one that was simulated
+ * \param[in] counts points of all scans */
+void
+writeTruthFiles(const OutputFolder& folder,
+                const SimulationScene& scene,
+                const Simulator& simulator,
+                const TruthCounts& counts);
+
+} // namespace pcl6d::app

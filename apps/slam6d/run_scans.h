@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/scanner/motion_correction.h>
+
+#include <optional>
+#include <string>
+
+namespace pcl6d::app {
+
+/** \brief The scans of a folder as they are registered: as they were measured, or with
+ * the motion of the scanner during each of them undone (--deskew). Those of a finished
+ * run that goes on are as that run wrote them. */
+class RunScans {
+public:
+  /** Keeps a reference to the folder. */
+  explicit RunScans(const ScanFolder& folder) : folder_(folder) {}
+
+  /** \brief From now on the motion is undone. Reads the first scan to be
+   * registered, which tells how times
+   * are stored. \throws IoFailed poses, stamps or times are missing or broken */
+  void
+  deskew(MotionInterpolation interpolation);
+
+  const ScanFolder&
+  folder() const
+  {
+    return folder_;
+  }
+
+  /** \brief Reads the i-th selected scan. Thread-safe.
+   * \throws IoFailed as ScanFolder::read(), or its times are missing or broken */
+  Scan
+  read(std::size_t i) const;
+
+  /** \return what is done about motion, for people; empty if nothing */
+  const std::string&
+  description() const
+  {
+    return description_;
+  }
+
+private:
+  FieldValues
+  timesOf(const Scan& scan, std::size_t i) const;
+
+  const ScanFolder& folder_;
+  std::optional<MotionCorrection> correction_;
+  TimeFormat format_;
+  std::string description_;
+};
+
+} // namespace pcl6d::app

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <string>
+
+namespace pcl6d {
+
+/** \brief An object of a known class and where it is (book 7.2). \ingroup common */
+struct ObjectPose {
+  std::string object_class; ///< "chair"
+  Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity();
+  Eigen::AlignedBox3d box{Eigen::Vector3d::Zero(),
+                          Eigen::Vector3d::Zero()}; ///< [m] in the object's frame
+  bool moves = false;     ///< then its pose holds at the start
+  std::size_t points = 0; ///< points on it
+};
+
+} // namespace pcl6d

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief What a plane is to a person (book 7.1.2). As a number it is the field `label`
+ * of a point. \ingroup common */
+enum class PlaneLabel { kNone = 0, kFloor = 1, kCeiling = 2, kWall = 3, kDoor = 4 };
+
+/** \return "none", "floor", "ceiling", "wall" or "door" */
+const char*
+toString(PlaneLabel label);
+
+/** \brief A bounded part of the plane `normal . p = offset` (book 7.1.1). */
+struct Plane {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit length
+  double offset = 0;                                 ///< [m] >= 0
+  PlaneLabel label = PlaneLabel::kNone;
+  std::vector<Eigen::Vector3d> hull; ///< [m] convex, counter-clockwise against normal
+  double area = 0;                   ///< [m^2]
+  std::size_t inliers = 0;           ///< points on it
+};
+
+/** \brief Turns a plane's normal around, if need be, so that offset >= 0; where the
+ * plane runs through the origin (|offset| <= 1e-12 m), the first component of the
+ * normal other than 0 becomes positive. The hull is turned with it. */
+void
+orientPlane(Plane& plane);
+
+/** \return the convex hull of points on a plane, counter-clockwise as seen from where
+ * the normal points to; corners on an edge are left out
+ * \param[in] normal unit normal of the plane
+ * \note Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two
+ * dimensions", Information Processing Letters 9(5), 1979. */
+std::vector<Eigen::Vector3d>
+convexHull(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& normal);
+
+} // namespace pcl6d

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A surface made of triangles. \ingroup common */
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;               ///< [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices of vertices
+};
+
+} // namespace pcl6d

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/triangle_mesh.h>
+
+#include <filesystem>
+
+namespace pcl6d {
+
+/** \brief The axis of a mesh file that points up. */
+enum class UpAxis { kY, kZ };
+
+/** \brief How the numbers of a mesh file become metres in our frame. */
+struct MeshOptions {
+  double scale = 1;       ///< [m] per unit of the file, > 0
+  UpAxis up = UpAxis::kZ; ///< y: (x, y, z) becomes (x, -z, y)
+};
+
+/** \brief Reads a mesh from a file .ply, .obj or .stl (text or binary), whatever the case
+ * of the extension. Polygons are cut into triangles from their first corner; STL's
+ * equal corners become one vertex. Colours, normals and textures are left out.
+ * \throws IoFailed naming file, place, value and rule: coordinates are finite, indices
+ * in range, no triangle has zero area, and there is at least one
+ * \throws BadArgument scale <= 0 \ingroup io */
+TriangleMesh
+readMesh(const std::filesystem::path& path, const MeshOptions& options = {});
+
+} // namespace pcl6d

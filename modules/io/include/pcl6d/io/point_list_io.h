@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <filesystem>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief Reads a text file of lines `x y z`, such as the waypoints of a robot [m] in
+ * double; empty lines and those that begin with # are left out.
+ * \throws IoFailed naming file, line, value and rule \ingroup io */
+std::vector<Eigen::Vector3d>
+readPointList(const std::filesystem::path& path);
+
+} // namespace pcl6d

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+namespace pcl6d {
+
+/** \brief Where the light of a scanner comes from that looks from another place: the
+ * projector of a triangulating scanner. A surface in its shadow gives no return.
+ * \ingroup scanner */
+class LightSource {
+public:
+  virtual ~LightSource() = default;
+  /** \return in the scanner's frame [m] */
+  virtual Eigen::Vector3d
+  position() const = 0;
+  /** \return whether its light reaches a point of the scanner's frame if nothing stands
+   * between */
+  virtual bool
+  lights(const Eigen::Vector3d& point) const = 0;
+};
+
+} // namespace pcl6d

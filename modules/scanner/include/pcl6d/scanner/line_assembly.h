@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/range_lines.h>
+#include <pcl6d/scanner/driven_scanner.h>
+#include <pcl6d/scanner/range_scan.h>
+
+#include <limits>
+
+namespace pcl6d {
+
+/** \brief How the 2D scanner sits on its drive. */
+struct LineAssemblyOptions {
+  /// theta is not used: the angles were measured; beam.count is that of the lines
+  DrivenScannerOptions scanner;
+  double min_range = 0; ///< [m] shorter ranges are no return; >= 0
+  double max_range = std::numeric_limits<double>::infinity(); ///< [m] > min_range
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief A 3D scan from raw 2D lines and the drive's angles (book 2.2.3), one row per
+ * line in the order in which they were measured.
+ * \code
+ * pcl6d::LineAssemblyOptions options;
+ * options.scanner.drive = pcl6d::Drive::kPitching;
+ * options.scanner.beam = {-M_PI / 2, M_PI / 2, 181};
+ * const pcl6d::LineAssembly assembly(pcl6d::readRangeLines("lines.csv"), options);
+ * pcl::io::savePCDFile("scan.pcd", assembly.cloud());
+ * \endcode \ingroup scanner */
+class LineAssembly {
+public:
+  /** \throws BadArgument an option breaks its rule, the lines hold another number of
+   * samples than the beam has angles, or not one angle (and time) per line */
+  LineAssembly(const RangeLines& lines, const LineAssemblyOptions& options);
+
+  const DrivenScanner&
+  scanner() const
+  {
+    return scanner_;
+  }
+
+  const RangeScan&
+  scan() const
+  {
+    return scan_;
+  }
+
+  /** \return organized cloud in the scanner's frame [m], computed in double; NaN where
+   * nothing came back */
+  pcl::PointCloud<pcl::PointXYZ>
+  cloud() const;
+
+private:
+  DrivenScanner scanner_;
+  RangeScan scan_;
+};
+
+} // namespace pcl6d

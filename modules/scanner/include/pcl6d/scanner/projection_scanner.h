@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/scanner/camera_scanner.h>
+#include <pcl6d/scanner/light_source.h>
+#include <pcl6d/scanner/scanner_model.h>
+
+#include <Eigen/Geometry>
+
+namespace pcl6d {
+
+/** \brief A projector of stripes beside the camera. */
+struct StripeProjectorOptions {
+  double baseline = 0.2;     ///< [m] from the camera, to its right; not 0
+  double vergence = 0;       ///< [rad] towards the camera's axis, within 45 deg
+  int columns = 1024;        ///< > 0
+  double focal_length = 900; ///< [px] > 0
+  double height = 0.6;       ///< of the picture over its distance, > 0
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief Projects stripes: each column is a plane of light. A column is a place across
+ * the picture, in pixels, not only a whole number; that of the middle is
+ * (columns - 1) / 2. \ingroup scanner */
+class StripeProjector : public LightSource {
+public:
+  /** \throws BadArgument see StripeProjectorOptions::validate() */
+  explicit StripeProjector(const StripeProjectorOptions& options = {});
+
+  Eigen::Vector3d
+  position() const override;
+  bool
+  lights(const Eigen::Vector3d& point) const override;
+
+  /** \return the column that lights a point of the scanner's frame; may lie outside of
+   * the picture; NaN if the point is not before the projector */
+  double
+  column(const Eigen::Vector3d& point) const;
+
+  /** \return the plane n.X = rho of a column, in the scanner's frame */
+  Eigen::Hyperplane<double, 3>
+  lightPlane(double column) const;
+
+private:
+  StripeProjectorOptions options_;
+  Eigen::Isometry3d T_scanner_projector_; // projector: as a camera, z ahead, x right
+};
+
+/** \brief Structured light (book 2.2.4): a camera that looks at the stripes of a
+ * projector and intersects its rays with their planes. \ingroup scanner */
+class ProjectionScanner : public CameraScanner {
+public:
+  /** \param[in] num_patterns pictures that make one scan, > 0
+   * \param[in] picture_period [s] from picture to picture, > 0
+   * \throws BadArgument an option breaks its rule */
+  ProjectionScanner(const CameraIntrinsics& camera,
+                    const StripeProjectorOptions& projector,
+                    int num_patterns,
+                    double picture_period);
+
+  const StripeProjector*
+  lightSource() const override;
+
+  /** \return the range [m] along a pixel's ray of the light of a column; NaN if they do
+   * not meet in front of the camera */
+  double
+  range(int line, int sample, double column) const;
+
+private:
+  StripeProjector projector_;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/scanner/range_scan.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A scanner ready to use. */
+struct ScannerPreset {
+  std::string name;
+  std::string description; ///< one line: device, field of view, size, time
+  std::shared_ptr<const ScannerModel> scanner;
+  RangeOptions range; ///< how such a device measures
+};
+
+/** \return the names that scannerByName() knows */
+std::vector<std::string>
+scannerNames();
+
+/** \return ScannerPreset::description \throws BadArgument the name is not known */
+std::string
+scannerDescription(const std::string& name);
+
+/** \param[in] resolution [rad] in (0, pi / 2]: angle between neighbouring samples and
+ * lines, of a spinning lidar between its columns, of a camera between pixels at the
+ * centre of its image; none: that of the device
+ * \throws BadArgument the name is not known (the message lists those that are), the
+ * resolution breaks its rule, or the scan would take too much memory (the message says
+ * how much) \ingroup scanner */
+ScannerPreset
+scannerByName(const std::string& name, std::optional<double> resolution = {});
+
+} // namespace pcl6d

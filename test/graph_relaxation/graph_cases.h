@@ -59,6 +59,22 @@ ringGraph(std::size_t size, double noise, std::uint64_t seed)
   return graph;
 }
 
+/** Two rings and a pose alone; the second ring starts at pose 10. */
+inline PoseGraph
+twoRings(double noise)
+{
+  PoseGraph graph = ringGraph(10, noise, 1);
+  const PoseGraph second = ringGraph(12, noise, 2);
+  graph.poses.insert(graph.poses.end(), second.poses.begin(), second.poses.end());
+  for (auto link : second.links) {
+    link.from += 10;
+    link.to += 10;
+    graph.links.push_back(link);
+  }
+  graph.poses.push_back(second.poses[3]);
+  return graph;
+}
+
 /** The poses as odometry gives them: along the links i -> i + 1. */
 inline void
 startFromChain(PoseGraph& graph)

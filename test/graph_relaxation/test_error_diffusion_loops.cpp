@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_relaxation/error_diffusion_cases.h"
+#include "support/points.h"
 
 namespace pcl6d::test {
 
@@ -63,6 +64,69 @@ TEST(ErrorDiffusion, ClosesTheOtherLoopsIfOneIsRefused)
   const auto none = closeLoops(round.poses, round.edges, {});
   EXPECT_EQ(none.status, Status::kOk);
   expectSameBits(none.poses, round.poses);
+}
+
+TEST(ErrorDiffusion, RefusesBadInputBeforeAnyLoop)
+{
+  const Round round;
+  auto poses = round.poses;
+  poses[2].translation().x() = kNan;
+  EXPECT_EQ(badArgumentOf([&] { closeLoops(poses, round.edges, {}); }),
+            "pose = 2, but must be finite and rigid");
+  EXPECT_EQ(badArgumentOf([&] {
+              closeLoops(round.poses, {{0, 99}}, {});
+            }),
+            "end of an edge = 99, but must be less than the 13 poses");
+  Loop broken = round.loop;
+  broken.corrected_last(0, 3) = kNan;
+  EXPECT_EQ(badArgumentOf([&] {
+              closeLoops(round.poses, round.edges, {round.loop, broken});
+            }),
+            "corrected pose of scan = 11, but must be finite and rigid");
+}
+
+TEST(ErrorDiffusion, WeighsPathsOfAnyLength)
+{
+  const auto at = [](double x, double y) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() << x, y, 0;
+    return pose;
+  };
+  const std::vector<Eigen::Isometry3d> poses{at(0, 0), at(3, 0), at(3, 4), at(0, 4)};
+  const auto expected = pathWeights(poses, 0, 3);
+  EXPECT_EQ(expected, (std::vector<double>{0, 0.3, 0.7, 1}));
+  for (const double size : {1e-300, 1e-170, 1e200, 4e307}) {
+    auto sized = poses;
+    for (auto& pose : sized)
+      pose.translation() *= size;
+    const auto weights = pathWeights(sized, 0, 3);
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(weights[i], expected[i], 1e-12) << size;
+  }
+}
+
+TEST(ErrorDiffusion, RefusesALoopWhoseShiftOverflows)
+{
+  std::vector<Eigen::Isometry3d> poses(3, Eigen::Isometry3d::Identity());
+  poses[2].translation().x() = -1.5e308;
+  Loop loop;
+  loop.last = 2;
+  loop.corrected_last.translation().x() = 1.5e308;
+  const auto one = closeLoop(poses, {}, loop, {LoopClosing::kUniform});
+  EXPECT_EQ(one.status, Status::kDiverged);
+  expectSameBits(one.poses, poses);
+  const auto several = closeLoops(poses, {}, {loop}, {LoopClosing::kUniform});
+  EXPECT_EQ(several.status, Status::kDiverged);
+  expectSameBits(several.poses, poses);
+}
+
+TEST(ErrorDiffusion, MakesTheCorrectedRotationExact)
+{
+  Round round;
+  round.loop.corrected_last.linear() *= 1.0004; // as of a file with 4 digits
+  for (const LoopClosing method : kMethods)
+    for (const auto& pose : round.closed(method).poses)
+      EXPECT_TRUE(isRigid(pose, 1e-12)) << toString(method);
 }
 
 } // namespace pcl6d::test

@@ -87,6 +87,13 @@ TEST(GraphSlamInput, RefusesPosesAndMeasurementsThatAreNone)
   link.information(2, 2) = std::nan("");
   refused(link);
   link = measured;
+  link.information(0, 1) = 0.9; // not symmetric
+  refused(link);
+  link.information(0, 1) = link.information(1, 0) = 5; // indefinite
+  refused(link);
+  link.information = -measured.information;
+  refused(link);
+  link = measured;
   link.T_from_to.translation().x() = std::nan("");
   refused(link);
 }
@@ -145,6 +152,10 @@ TEST(GraphSlamInput, FixesThePoseOfEachGroup)
     EXPECT_EQ(result.floating(), (std::vector<std::size_t>{5, 6, 7, 8, 9}));
     for (const std::size_t fixed : {0, 5, 9})
       EXPECT_TRUE(sameBits(result.poses[fixed], graph.start[fixed]));
+    for (std::size_t j = 0; j < 10; ++j) { // beyond pose 4 nothing is known
+      EXPECT_EQ(result.open_direction[j], j >= 5) << j;
+      EXPECT_EQ(result.covariances[j].isZero(0), j == 0 || j >= 5) << j;
+    }
     const Eigen::Isometry3d found = result.poses[5].inverse() * result.poses[7];
     const Eigen::Isometry3d truth = graph.truth[5].inverse() * graph.truth[7];
     EXPECT_LT(distanceBetween(found, truth).translation, 0.1);
@@ -179,4 +190,17 @@ TEST(GraphSlamInput, StopsAtTheLimit)
   EXPECT_EQ(result.status, Status::kMaxIterations);
   EXPECT_EQ(result.iterations, 2);
   EXPECT_LT(result.rms, result.rms_before);
+}
+
+TEST(GraphSlamInput, SaysTheLimitBeforeWhatFloats)
+{
+  GraphRecipe recipe;
+  recipe.edges = chainEdges(9); // pose 9 floats
+  const GraphCase graph = makeGraph(recipe);
+  GraphSlamOptions options = exactOptions(Relaxation::kHelix);
+  options.max_iterations = 1;
+  const auto result = GraphSlam(options).relax(graph.start, graph.links);
+  EXPECT_EQ(result.status, Status::kMaxIterations);
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.floating(), std::vector<std::size_t>{9});
 }

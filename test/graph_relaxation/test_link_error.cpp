@@ -126,9 +126,15 @@ TEST(PoseGraphCheck, NamesWhatBreaksARule)
   EXPECT_EQ(messageOf([](PoseGraph& g) { g.links[3].T_from_to.linear() *= 2; }),
             "link 3 measures no rigid motion");
   EXPECT_EQ(messageOf([](PoseGraph& g) { g.links[3].information(0, 1) += 1; }),
-            "link 3 has information that is not finite or not symmetric");
+            "link 3 has information that is not symmetric");
   EXPECT_EQ(messageOf([](PoseGraph& g) { g.links[3].information(2, 2) = INFINITY; }),
-            "link 3 has information that is not finite or not symmetric");
+            "link 3 has information that is not finite");
   EXPECT_EQ(messageOf([](PoseGraph& g) { g.links[3].information(2, 2) = -1; }),
-            "link 3 has negative information");
+            "link 3 has information that is not positive semidefinite");
+  const auto couple = [](PoseGraph& g) { // the diagonal alone would do
+    g.links[3].information.setIdentity();
+    g.links[3].information(0, 1) = g.links[3].information(1, 0) = 5;
+  };
+  EXPECT_EQ(messageOf(couple),
+            "link 3 has information that is not positive semidefinite");
 }

@@ -41,24 +41,31 @@ risingWeights(std::size_t num_poses, std::size_t first, std::size_t last, Step s
   return weights;
 }
 
-void
-requirePoses(const std::vector<Eigen::Isometry3d>& poses, const Loop& loop)
+/** \return the motion without what digits lost in a file have stretched */
+Eigen::Isometry3d
+trulyRigid(const Eigen::Isometry3d& pose)
 {
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    require(isRigid(poses[i]), "pose", i, "finite and rigid");
-  require(isRigid(loop.corrected_last),
-          "corrected pose of scan",
-          loop.last,
-          "finite and rigid");
+  constexpr double kRounding = 1e-12;
+  Eigen::Isometry3d rigid = pose;
+  if (!isRigid(pose, kRounding))
+    rigid.linear() = nearestRotation(pose.linear());
+  return rigid;
 }
 
-void
-requireCost(const PerDimension& cost)
+/** \return a power of two that brings all positions near one, so that neither the
+ * squares of their distances overflow nor their sum */
+double
+scaleOf(const std::vector<Eigen::Isometry3d>& poses)
 {
-  require(cost.allFinite() && (cost.array() >= 0).all(),
-          "cost of an edge",
-          cost.transpose(),
-          "finite and >= 0");
+  constexpr int kLargestExponent = 1000;
+  double largest = 0;
+  for (const auto& pose : poses)
+    largest = std::max(largest, pose.translation().cwiseAbs().maxCoeff());
+  if (largest == 0)
+    return 1;
+  const int exponent =
+      std::clamp(std::ilogb(largest), -kLargestExponent, kLargestExponent);
+  return std::ldexp(1.0, -exponent);
 }
 
 std::vector<PerDimension>
@@ -126,23 +133,31 @@ findWeights(const std::vector<Eigen::Isometry3d>& poses,
   result.weights = inAllDimensions(uniformWeights(n, loop.first, loop.last));
 }
 
-/** Moves each pose by its share of the motion of the last. */
-void
+/** Moves each pose by its share of the motion of the last.
+ * \return false: the numbers were too large, and no pose has moved */
+bool
 applyWeights(const Loop& loop,
              const Eigen::Vector3d& closing_rotation,
              ErrorDiffusionResult& result)
 {
+  std::vector<Eigen::Isometry3d> poses = result.poses;
   const Eigen::Vector3d shift =
-      loop.corrected_last.translation() - result.poses[loop.last].translation();
-  for (std::size_t i = 0; i < result.poses.size(); ++i) {
+      loop.corrected_last.translation() - poses[loop.last].translation();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
     const PerDimension& w = result.weights[i];
-    Eigen::Isometry3d& pose = result.poses[i];
+    Eigen::Isometry3d& pose = poses[i];
     if (!w.head<3>().isZero(0)) // else even the sign of a zero stays
       pose.translation() += w.head<3>().cwiseProduct(shift);
     if (w[3] != 0)
       pose.linear() = rotationFromVector(w[3] * closing_rotation) * pose.linear();
   }
-  result.poses[loop.last] = loop.corrected_last;
+  poses[loop.last] = trulyRigid(loop.corrected_last);
+  const bool finite = std::all_of(poses.begin(), poses.end(), [](const auto& pose) {
+    return pose.matrix().allFinite();
+  });
+  if (finite)
+    result.poses = std::move(poses);
+  return finite;
 }
 } // namespace
 
@@ -200,8 +215,10 @@ pathWeights(const std::vector<Eigen::Isometry3d>& poses,
             std::size_t first,
             std::size_t last)
 {
-  return risingWeights(poses.size(), first, last, [&poses](std::size_t i) {
-    return (poses[i + 1].translation() - poses[i].translation()).norm();
+  requirePoses(poses);
+  const double scale = scaleOf(poses);
+  return risingWeights(poses.size(), first, last, [&](std::size_t i) {
+    return (scale * poses[i + 1].translation() - scale * poses[i].translation()).norm();
   });
 }
 
@@ -211,12 +228,7 @@ closeLoop(const std::vector<Eigen::Isometry3d>& poses,
           const Loop& loop,
           const ErrorDiffusionOptions& options)
 {
-  requireLoop(poses.size(), loop.first, loop.last);
-  requirePoses(poses, loop);
-  for (const auto& edge : edges) {
-    requireEnds(poses.size(), edge.a, edge.b);
-    requireCost(edge.cost);
-  }
+  requireInput(poses, edges, {loop});
   ErrorDiffusionResult result;
   result.poses = poses;
   findWeights(poses, edges, loop, options, result);
@@ -226,9 +238,7 @@ closeLoop(const std::vector<Eigen::Isometry3d>& poses,
     return result;
   const Eigen::Vector3d rotation =
       rotationVector(loop.corrected_last.linear() * last.linear().transpose());
-  if (rotation.norm() < kHalfTurn)
-    applyWeights(loop, rotation, result);
-  else
+  if (!(rotation.norm() < kHalfTurn) || !applyWeights(loop, rotation, result))
     result.status = Status::kDiverged;
   return result;
 }
@@ -239,16 +249,19 @@ closeLoops(const std::vector<Eigen::Isometry3d>& poses,
            const std::vector<Loop>& loops,
            const ErrorDiffusionOptions& options)
 {
+  requireInput(poses, edges, loops);
   ErrorDiffusionResult result;
   result.poses = poses;
   result.weights.assign(poses.size(), PerDimension::Zero());
   for (const auto& given : loops) {
-    requireLoop(poses.size(), given.first, given.last);
-    requireCost(given.cost);
     Loop loop = given;
     if (result.poses[loop.first].matrix() != poses[loop.first].matrix())
       loop.corrected_last =
           result.poses[loop.first] * poses[loop.first].inverse() * given.corrected_last;
+    if (!loop.corrected_last.matrix().allFinite()) {
+      result.status = Status::kDiverged;
+      continue;
+    }
     const Status before = result.status;
     result = closeLoop(result.poses, edges, loop, options);
     if (result.status != Status::kDiverged)

@@ -15,6 +15,8 @@ constexpr double kNegligibleDamping =
     1e-9; ///< below it a step tells how near the end is
 constexpr double kRounding =
     1e-20; ///< a squared error of a link that is rounding alone
+constexpr double kRoundingShare =
+    1e-6; ///< of the cost: steps that promise more should lower it
 constexpr double kDampingFactor = 10;
 constexpr double kNarrowing =
     1.4; ///< of the squared width per stage (Yang et al. 2020)
@@ -82,7 +84,8 @@ private:
   bool
   minimise()
   {
-    while (result_.iterations < options_.max_iterations)
+    is_stuck_ = false;
+    while (result_.iterations < options_.max_iterations && !is_stuck_)
       if (step())
         return true;
     return false;
@@ -97,10 +100,12 @@ private:
     const double before = problem_.cost(result_.squared_errors, robust_);
     if (before <= kRounding * static_cast<double>(result_.squared_errors.size()))
       return true;
+    double promised = 0; ///< by the least damped step, the longest
     while (result_.iterations < options_.max_iterations) {
       ++result_.iterations;
       double expected = 0;
       const bool is_lower = tryStep(before, expected);
+      promised = std::max(promised, expected);
       const bool is_last =
           damping_ <= kNegligibleDamping && expected <= options_.chi2_epsilon * before;
       if (is_lower)
@@ -108,8 +113,11 @@ private:
       if (is_lower || is_last)
         return is_last;
       growDamping();
-      if (damping_ > kLargestDamping)
-        return true; // not even the smallest step lowers the cost
+      if (damping_ > kLargestDamping) {
+        // Not even the smallest step lowers the cost: rounding, or no way to the minimum.
+        is_stuck_ = promised > kRoundingShare * before;
+        return !is_stuck_;
+      }
     }
     return false;
   }
@@ -189,6 +197,7 @@ private:
   double damping_ = 0;
   double growth_ = kDampingFactor; ///< of the damping at the next failure
   bool is_singular_ = false;
+  bool is_stuck_ = false; ///< steps promise to lower the cost, and do not
 };
 } // namespace
 

@@ -1,31 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "relaxation_step.h"
 
+#include <pcl6d/common/components.h>
+
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace pcl6d {
 
 namespace {
-/** \return per pose the lowest pose that links join it to (union-find) */
+/** \return per pose the lowest pose that links join it to */
 std::vector<std::size_t>
 componentsOf(std::size_t num_poses, const std::vector<RoundLink>& links)
 {
-  std::vector<std::size_t> parent(num_poses);
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i)
-      i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const RoundLink& link : links) {
-    const std::size_t a = root(link.from), b = root(link.to);
-    parent[std::max(a, b)] = std::min(a, b);
-  }
-  for (std::size_t i = 0; i < num_poses; ++i)
-    parent[i] = root(i);
-  return parent;
+  Components components(num_poses);
+  for (const RoundLink& link : links)
+    components.join(link.from, link.to);
+  return components.firsts();
 }
 } // namespace
 

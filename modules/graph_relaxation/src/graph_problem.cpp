@@ -29,9 +29,12 @@ GraphProblem::GraphProblem(const PoseGraph& graph,
     const auto place = std::lower_bound(part.poses.begin(), part.poses.end(), pose);
     return static_cast<std::size_t>(place - part.poses.begin());
   };
+  const auto idOf = [&](std::size_t pose) {
+    return graph.ids.empty() ? pose : graph.ids[pose];
+  };
   for (const std::size_t k : part.links) {
     const PoseLink& link = graph.links[k];
-    const auto [low, high] = ordered(link.from, link.to);
+    const auto [low, high] = ordered(idOf(link.from), idOf(link.to));
     measurements_.emplace_back(link);
     links_.push_back(
         {localOf(link.from), localOf(link.to), options.trust_chain && high == low + 1});

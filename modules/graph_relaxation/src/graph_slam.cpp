@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "relaxer.h"
 
+#include <pcl6d/common/information.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 
@@ -38,18 +39,22 @@ requirePoses(const GraphSlam::Poses& poses)
             "finite and rigid (a rotation and a translation)");
 }
 
-void
-requireMeasured(const std::vector<PoseLink>& links, std::size_t num_poses)
+/** \return the links as they may enter a sum of squares */
+std::vector<PoseLink>
+checkedLinks(std::vector<PoseLink> links, std::size_t num_poses)
 {
-  for (const PoseLink& link : links) {
+  for (PoseLink& link : links) {
     requireLink(link.from, link.to, num_poses);
     require(
         isRigid(link.T_from_to), "measured link.from", link.from, "of a rigid motion");
-    require(link.information.allFinite(),
+    const std::string fault = informationFault(link.information);
+    require(fault.empty(),
             "measured link.from",
             link.from,
-            "with a finite information");
+            "with an information matrix, but it is " + fault);
+    link.information = semidefinite(link.information);
   }
+  return links;
 }
 } // namespace
 
@@ -141,13 +146,13 @@ GraphSlamResult
 GraphSlam::relax(const Poses& poses, const std::vector<LinkPairs>& links) const
 {
   requirePoses(poses);
-  requireMeasured(measured_, poses.size());
+  const std::vector<PoseLink> measured = checkedLinks(measured_, poses.size());
   for (const LinkPairs& link : links)
     requireLink(link.from, link.to, poses.size());
   const auto same = [&](const Poses&) -> const std::vector<LinkPairs>& {
     return links;
   };
-  return Relaxer(options_, measured_, observer_).run(poses, same);
+  return Relaxer(options_, measured, observer_).run(poses, same);
 }
 
 GraphSlamResult
@@ -155,7 +160,7 @@ GraphSlam::relax(const Poses& poses, const PairSearch& search) const
 {
   require(search != nullptr, "search", "none", "a function");
   requirePoses(poses);
-  requireMeasured(measured_, poses.size());
+  const std::vector<PoseLink> measured = checkedLinks(measured_, poses.size());
   std::vector<LinkPairs> links;
   const auto searched = [&](const Poses& current) -> const std::vector<LinkPairs>& {
     links = search(current);
@@ -163,7 +168,7 @@ GraphSlam::relax(const Poses& poses, const PairSearch& search) const
       requireLink(link.from, link.to, poses.size());
     return links;
   };
-  return Relaxer(options_, measured_, observer_).run(poses, searched);
+  return Relaxer(options_, measured, observer_).run(poses, searched);
 }
 
 } // namespace pcl6d

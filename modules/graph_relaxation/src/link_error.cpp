@@ -2,6 +2,7 @@
 #include "link_terms.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/information.h>
 #include <pcl6d/common/pose.h>
 
 #include <algorithm>
@@ -56,6 +57,10 @@ adjointOf(const Eigen::Isometry3d& X)
 void
 checkPoseGraph(const PoseGraph& graph)
 {
+  if (!graph.ids.empty() && graph.ids.size() != graph.poses.size())
+    throw BadArgument("a pose graph needs one id per pose, but there are " +
+                      std::to_string(graph.ids.size()) + " ids of " +
+                      std::to_string(graph.poses.size()) + " poses");
   for (std::size_t i = 0; i < graph.poses.size(); ++i)
     if (!isRigid(graph.poses[i]))
       throw BadArgument("pose " + std::to_string(i) + " is no rigid motion");
@@ -71,12 +76,9 @@ checkPoseGraph(const PoseGraph& graph)
                         " with itself");
     if (!isRigid(link.T_from_to))
       throw BadArgument(name + " measures no rigid motion");
-    const Matrix6& information = link.information;
-    const double asymmetry = (information - information.transpose()).norm();
-    if (!information.allFinite() || !(asymmetry <= 1e-9 * information.norm()))
-      throw BadArgument(name + " has information that is not finite or not symmetric");
-    if (!(information.diagonal().minCoeff() >= 0))
-      throw BadArgument(name + " has negative information");
+    const std::string fault = informationFault(link.information);
+    if (!fault.empty())
+      throw BadArgument(name + " has information that is " + fault);
   }
 }
 

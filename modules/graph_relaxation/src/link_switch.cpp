@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "link_switch.h"
 
+#include <pcl6d/common/median.h>
+
 #include <algorithm>
 #include <cstddef>
 
@@ -9,21 +11,50 @@ namespace pcl6d {
 namespace {
 constexpr double kLeastScale = 1e-3; // [m] links that agree better are all true
 
+// Three times the robust standard deviation (of normal residuals: 1.4826 medians).
+constexpr double kScale = 3 * 1.4826;
+
+/** Share of the scale up to which a link does not contradict the others at all: three
+ * medians, which noise hardly ever exceeds. */
+constexpr double kFree = 3 / kScale;
+
+constexpr double kSteady = 0.8; ///< the scale's square counts as steady from here
+
 double
-scaleOf(std::vector<double> residuals)
+gemanMcClure(double residual_sq, double width_sq)
 {
-  const auto middle =
-      residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return std::max(3 * 1.4826 * *middle, kLeastScale);
+  const double root = width_sq / (residual_sq + width_sq);
+  return root * root;
 }
 } // namespace
+
+void
+LinkSwitch::narrow(double wanted)
+{
+  const auto arrivesBy = [&](double step) {
+    double width_sq = width_sq_;
+    for (int round = 0; round < rounds_left_ && width_sq > wanted; ++round)
+      width_sq *= step;
+    return width_sq <= wanted;
+  };
+  double step = 0.5;
+  rounds_left_ = std::max(1, rounds_left_);
+  while (!arrivesBy(step))
+    step *= 0.5;
+  --rounds_left_;
+  width_sq_ = std::max(wanted, step * width_sq_);
+  // The scale falls, too, while scans find together or a false link loses its weight.
+  const bool falls = wanted < kSteady * last_wanted_;
+  settled_ = width_sq_ <= wanted && (!falls || rounds_left_ <= 0);
+  last_wanted_ = wanted;
+}
 
 std::vector<double>
 LinkSwitch::weights(const std::vector<double>& residuals,
                     const std::vector<bool>& trusted)
 {
   std::vector<double> weights(residuals.size(), 1);
+  agreement_ = weights;
   if (residuals.empty()) {
     settled_ = true;
     return weights;
@@ -32,17 +63,22 @@ LinkSwitch::weights(const std::vector<double>& residuals,
     started_ = true;
     return weights;
   }
-  const double scale = scale_ > 0 ? scale_ : scaleOf(residuals);
+  const double scale =
+      scale_ > 0 ? scale_ : std::max(kScale * upperMedian(residuals), kLeastScale);
   if (width_sq_ == 0) {
     const double largest = *std::max_element(residuals.begin(), residuals.end());
     width_sq_ = 4 * largest * largest;
   }
-  width_sq_ = std::max(scale * scale, width_sq_ / 2);
-  settled_ = width_sq_ <= scale * scale;
+  if (settled_)
+    width_sq_ = scale * scale;
+  else
+    narrow(scale * scale);
+  const double free_sq = settled_ ? kFree * kFree * width_sq_ : 0;
   for (std::size_t l = 0; l < residuals.size(); ++l)
     if (!trusted[l]) {
-      const double root = width_sq_ / (residuals[l] * residuals[l] + width_sq_);
-      weights[l] = root * root;
+      const double r_sq = residuals[l] * residuals[l];
+      weights[l] = gemanMcClure(std::max(0.0, r_sq - free_sq), width_sq_ - free_sq);
+      agreement_[l] = gemanMcClure(r_sq, width_sq_);
     }
   return weights;
 }

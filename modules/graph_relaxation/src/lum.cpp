@@ -24,8 +24,11 @@ lumEdge(const LinkReport& link,
   const Eigen::Matrix<double, 6, 6> S =
       originShift<6>(Eigen::Vector3d::Zero(), link.centre);
   const Eigen::Matrix<double, 6, 6> SK = S.transpose() * link.information;
-  information = (SK * S).cast<float>();
-  moment = (SK * link.correction).cast<float>();
+  // PCL's class has the turns in the order x, z, y.
+  const Eigen::PermutationMatrix<6> order(
+      (Eigen::Matrix<int, 6, 1>() << 0, 1, 2, 3, 5, 4).finished());
+  information = (order * (SK * S) * order).cast<float>();
+  moment = (order * (SK * link.correction)).cast<float>();
 }
 
 } // namespace pcl6d

@@ -57,10 +57,11 @@ reversed(const PoseLink& link)
   return result;
 }
 
-std::vector<PoseLink>
-mergeLinks(const PoseGraph& graph)
+MergedLinks
+mergeLinksWithPlaces(const PoseGraph& graph)
 {
   checkPoseGraph(graph);
+  MergedLinks result;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> group_of;
   std::vector<std::vector<PoseLink>> groups;
   for (const auto& link : graph.links) {
@@ -71,11 +72,17 @@ mergeLinks(const PoseGraph& graph)
     auto& group = groups[entry->second];
     const bool turned = !group.empty() && group.front().from != link.from;
     group.push_back(turned ? reversed(link) : link);
+    result.place.push_back(entry->second);
   }
-  std::vector<PoseLink> links;
   for (const auto& group : groups)
-    links.push_back(merged(group));
-  return links;
+    result.links.push_back(merged(group));
+  return result;
+}
+
+std::vector<PoseLink>
+mergeLinks(const PoseGraph& graph)
+{
+  return mergeLinksWithPlaces(graph).links;
 }
 
 } // namespace pcl6d

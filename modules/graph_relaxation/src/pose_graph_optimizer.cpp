@@ -2,6 +2,8 @@
 #include "graph_descent.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/information.h>
+#include <pcl6d/graph_relaxation/merge_links.h>
 
 #include <algorithm>
 #include <optional>
@@ -35,18 +37,25 @@ struct PoseGraphOptimizer::Impl {
   {
     options.validate();
     checkPoseGraph(graph);
-    const std::vector<GraphPart> parts = connectedParts(graph);
+    for (PoseLink& link : graph.links)
+      link.information = semidefinite(link.information);
+    MergedLinks merged = mergeLinksWithPlaces(graph);
+    merged_place = std::move(merged.place);
+    merged_weights.assign(merged.links.size(), 1.0);
+    given_parts = connectedParts(graph);
+    const PoseGraph solved{graph.poses, std::move(merged.links), graph.ids};
+    const std::vector<GraphPart> parts = connectedParts(solved);
     result.poses = graph.poses;
     result.component.resize(graph.poses.size());
     result.weights.assign(graph.links.size(), 1.0);
     for (std::size_t c = 0; c < parts.size(); ++c) {
-      problems.emplace_back(graph, parts[c], options);
+      problems.emplace_back(solved, parts[c], options);
       for (const std::size_t pose : parts[c].poses)
         result.component[pose] = c;
       GraphComponent component;
       component.fixed_pose = parts[c].poses.front();
       component.num_poses = parts[c].poses.size();
-      component.num_links = parts[c].links.size();
+      component.num_links = given_parts[c].links.size();
       result.components.push_back(component);
     }
     sumUp();
@@ -65,17 +74,36 @@ struct PoseGraphOptimizer::Impl {
   optimize(std::size_t c)
   {
     const GraphPart& part = problems[c].part();
-    const GraphDescent descent = descend(problems[c], posesOf(c), options);
     GraphComponent& component = result.components[c];
-    component.chi2_before = descent.chi2_before;
-    component.chi2_after = descent.chi2_after;
+    const bool merges = part.links.size() < given_parts[c].links.size();
+    const double given_before = merges ? givenChi2(c) : 0;
+    const GraphDescent descent = descend(problems[c], posesOf(c), options);
     component.iterations = descent.iterations;
     component.status = descent.status;
     const bool keeps = descent.status == Status::kDiverged;
     for (std::size_t i = 1; i < part.poses.size() && !keeps; ++i)
       result.poses[part.poses[i]] = descent.poses[i].isometry();
+    component.chi2_before = merges ? given_before : descent.chi2_before;
+    component.chi2_after = merges ? givenChi2(c) : descent.chi2_after;
     for (std::size_t k = 0; k < part.links.size(); ++k)
-      result.weights[part.links[k]] = descent.weights[k];
+      merged_weights[part.links[k]] = descent.weights[k];
+    for (const std::size_t k : given_parts[c].links)
+      result.weights[k] = merged_weights[merged_place[k]];
+  }
+
+  /** \return e^T information e over the links as they were given, at the poses of the
+   * result */
+  double
+  givenChi2(std::size_t c) const
+  {
+    double sum = 0;
+    for (const std::size_t k : given_parts[c].links) {
+      const PoseLink& link = graph.links[k];
+      const Vector6 error =
+          linkError(link, result.poses[link.from], result.poses[link.to]);
+      sum += error.dot(link.information * error);
+    }
+    return sum;
   }
 
   void
@@ -99,7 +127,7 @@ struct PoseGraphOptimizer::Impl {
     GraphProblem& problem = problems[c];
     std::vector<double> weights;
     for (const std::size_t link : problem.part().links)
-      weights.push_back(result.weights[link]);
+      weights.push_back(merged_weights[link]);
     problem.linearize(posesOf(c), weights);
     if (!problem.system().factorize(0, options.num_threads))
       throw ComputeFailed("no covariance: the links leave some motion of the poses "
@@ -110,7 +138,10 @@ struct PoseGraphOptimizer::Impl {
 
   PoseGraph graph;
   PoseGraphOptions options;
-  std::vector<GraphProblem> problems; ///< one per component
+  std::vector<std::size_t> merged_place; ///< per given link: the one that stands for it
+  std::vector<double> merged_weights;
+  std::vector<GraphPart> given_parts; ///< per component, with the links as given
+  std::vector<GraphProblem> problems; ///< one per component, with merged links
   PoseGraphResult result;
 };
 

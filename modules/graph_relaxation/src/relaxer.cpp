@@ -10,7 +10,6 @@
 namespace pcl6d {
 
 namespace {
-constexpr double kDamping = 1e-12;    ///< where links leave directions open
 constexpr double kGrowth = 10;        ///< of the squared error, over the best so far
 constexpr double kLeastError = 1e-12; ///< [m^2] below, growth is rounding
 
@@ -32,17 +31,6 @@ reportOf(const LinkPairs& pairs, const LinkSums& sums)
   report.rms = sums.rms();
   return report;
 }
-
-void
-fillReport(const LinkEquation<6>& equation, LinkReport& report)
-{
-  report.used = true;
-  report.open_directions = equation.open_directions;
-  report.variance = equation.variance;
-  report.centre = equation.centre;
-  report.correction = equation.D;
-  report.information = equation.K / equation.variance;
-}
 } // namespace
 
 Relaxer::Relaxer(const GraphSlamOptions& options,
@@ -52,7 +40,7 @@ Relaxer::Relaxer(const GraphSlamOptions& options,
 , measured_(measured)
 , observer_(observer)
 , step_(makeRelaxationStep(options.relaxation))
-, switch_(options.switch_scale)
+, switch_(options.switch_scale, std::max(1, options.max_iterations / 2))
 {
   round_.by_variance = options.weights == LinkWeights::kVariance;
   round_.least_variance = options.least_deviation * options.least_deviation;
@@ -123,61 +111,13 @@ Relaxer::measure(const std::vector<LinkPairs>& pairs)
   weigh();
 }
 
-void
-Relaxer::weigh()
-{
-  const std::size_t num_pair_links = report_of_link_.size();
-  if (options_.switch_links && switch_moves_) {
-    std::vector<double> wants; // how far each link would move its points (rms) [m]
-    for (std::size_t l = 0; l < num_pair_links; ++l) {
-      const RoundLink& link = round_.links[l];
-      const double energy = link.equation.D.dot(link.equation.g);
-      wants.push_back(std::sqrt(std::max(0.0, energy) / link.sums.weight));
-    }
-    const std::vector<double> weights = switch_.weights(wants, trusted_);
-    for (std::size_t l = 0; l < num_pair_links; ++l)
-      result_.links[report_of_link_[l]].switch_weight = weights[l];
-  }
-  double squares = 0, weight = 0;
-  damping_ = 0;
-  for (std::size_t l = 0; l < num_pair_links; ++l) {
-    RoundLink& link = round_.links[l];
-    LinkReport& report = result_.links[report_of_link_[l]];
-    fillReport(link.equation, report);
-    link.factor = report.switch_weight;
-    squares += link.factor * link.sums.residual_sq;
-    weight += link.factor * link.sums.weight;
-    if (link.equation.open_directions > 0)
-      damping_ = kDamping;
-  }
-  last_error_ = error_;
-  error_ = weight > 0 ? std::max(0.0, squares) / weight : 0;
-  const double common = round_.by_variance ? 1 : commonVariance();
-  for (RoundLink& link : round_.links)
-    if (link.measured)
-      link.factor = common;
-}
-
-double
-Relaxer::commonVariance() const
-{
-  double squares = 0, equations = 0;
-  for (std::size_t l = 0; l < report_of_link_.size(); ++l) {
-    const double weight = result_.links[report_of_link_[l]].switch_weight;
-    squares += weight * round_.links[l].sums.residual_sq;
-    equations += weight * round_.links[l].sums.equations;
-  }
-  const double freedom =
-      equations - 6 * static_cast<double>(round_.layout.num_unknowns);
-  return std::max(squares / std::max(1.0, freedom), round_.least_variance);
-}
-
 bool
 Relaxer::hasDiverged()
 {
+  const double error = links_alike_ ? link_error_ : error_;
   failed_ =
-      !std::isfinite(error_) || error_ > kGrowth * std::max(best_error_, kLeastError);
-  best_error_ = std::min(best_error_, error_);
+      !std::isfinite(error) || error > kGrowth * std::max(best_error_, kLeastError);
+  best_error_ = std::min(best_error_, error);
   return failed_;
 }
 
@@ -186,7 +126,7 @@ Relaxer::advance(int iteration)
 {
   const GraphSlam::Poses before = round_.poses;
   if (!step_->advance(round_, damping_)) {
-    damping_ = 1e3 * kDamping; // the last resort
+    damping_ = 1e3 * kLeastDamping; // the last resort
     if (!step_->advance(round_, damping_))
       failed_ = true;
   }
@@ -228,14 +168,11 @@ Relaxer::finish()
   if (round_.links.empty())
     return Status::kTooFewPairs;
   fillCovariances();
-  const auto& open = result_.open_direction;
-  const auto& component = result_.component = round_.layout.component;
-  if (std::count(open.begin(), open.end(), true) > 0 ||
-      std::any_of(component.begin(), component.end(), [](std::size_t first) {
-        return first != 0;
-      }))
-    return Status::kRankDeficient;
-  return result_.converged ? Status::kOk : Status::kMaxIterations;
+  if (!result_.converged)
+    return Status::kMaxIterations;
+  const auto& open = result_.open_direction; // of all that float, too
+  const bool held = std::count(open.begin(), open.end(), true) == 0;
+  return held ? Status::kOk : Status::kRankDeficient;
 }
 
 void
@@ -244,16 +181,17 @@ Relaxer::fillCovariances()
   const double variance = round_.by_variance ? 1 : commonVariance();
   auto inverses = step_->inverses(round_, damping_);
   if (inverses.empty()) {
-    damping_ = 1e3 * kDamping;
+    damping_ = 1e3 * kLeastDamping;
     inverses = step_->inverses(round_, damping_);
   }
   // Only what the damping holds follows it.
   const auto damped = damping_ > 0 ? step_->inverses(round_, 10 * damping_) : inverses;
   for (std::size_t j = 0; j < round_.poses.size(); ++j) {
     const std::size_t i = round_.layout.unknown[j];
-    if (i == GraphLayout::kFixed)
+    const bool floats = round_.layout.component[j] != 0;
+    if (i == GraphLayout::kFixed && !floats)
       continue;
-    if (inverses.empty() || damped.empty()) {
+    if (floats || inverses.empty() || damped.empty()) {
       result_.open_direction[j] = true;
       continue;
     }

@@ -28,11 +28,25 @@ public:
   run(const GraphSlam::Poses& start, const Pairs& pairs_at);
 
 private:
+  static constexpr double kLeastDamping = 1e-12; ///< where links leave directions open
+
   /** Sums up the pairs at the poses of the round and sets up its links. */
   void
   measure(const std::vector<LinkPairs>& pairs);
   void
   weigh();
+  /** Lets the links that contradict the others lose their weight. */
+  void
+  switchLinks();
+  /** Sets by how much each link counts in the round. */
+  void
+  setFactors();
+  /** \return how much the pairs of a link hold its scans, as the round counts them */
+  double
+  strengthOf(const RoundLink& link) const;
+  /** Sums up what the pairs are off by. */
+  void
+  sumUpError();
   /** One solution. \return whether the poses stay where they are */
   bool
   advance(int iteration);
@@ -57,8 +71,10 @@ private:
   Round round_;
   GraphSlamResult result_;
   std::vector<std::size_t> report_of_link_; ///< of each link of the round with pairs
+  bool links_alike_ = false;                ///< strong and weak links count the same
   double error_ = 0;                        ///< [m^2] mean square of this round
   double last_error_ = 0;                   ///< of the round before
+  double link_error_ = 0;                   ///< [m^2] the same with links alike
   double best_error_ = std::numeric_limits<double>::infinity();
   double damping_ = 0; ///< 0: all directions are held
   bool stopped_ = false, failed_ = false;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph_row.h"
 #include "text.h"
 
 #include <pcl6d/io/link_list_io.h>
 #include <pcl6d/io/pose_graph_io.h>
 
-#include <sstream>
+#include <string_view>
 
 namespace pcl6d {
 
@@ -23,30 +24,41 @@ linksOfGraph(const std::filesystem::path& path)
     links.emplace_back(id(link.from), id(link.to));
   return links;
 }
+/** \return whether the first word of a file is that of a pose graph */
+bool
+isGraph(const std::string& content)
+{
+  for (text::Lines lines(content); lines.next();) {
+    const std::string_view word = text::Tokens(lines.line()).next();
+    if (!word.empty() && word.front() != '#')
+      return word == "FIX" || graphTag(word) != nullptr;
+  }
+  return false;
+}
 } // namespace
 
 std::vector<std::pair<std::size_t, std::size_t>>
 readLinkList(const std::filesystem::path& path)
 {
-  if (path.extension() == ".g2o")
+  const std::string content = text::readFile(path);
+  if (isGraph(content))
     return linksOfGraph(path);
-  std::ifstream file = text::open(path);
   Links links;
-  std::size_t number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    std::istringstream words(line);
-    std::string first;
-    if (!(words >> first) || first.front() == '#')
+  for (text::Lines lines(content); lines.next();) {
+    text::Tokens tokens(lines.line());
+    const std::string_view first = tokens.next(), second = tokens.next();
+    if (first.empty() || first.front() == '#')
       continue;
-    std::istringstream numbers(line);
-    long long a = -1, b = -1;
-    if (!(numbers >> a >> b) || a < 0 || b < 0)
-      text::failAt(
-          path, number, "expected the indices of two scans, got " + text::quoted(line));
+    std::size_t a = 0, b = 0;
+    if (!text::parseNumber(first, a) || !text::parseNumber(second, b))
+      text::failAt(path,
+                   lines.number(),
+                   "expected the indices of two scans, got " +
+                       text::quoted(lines.line()));
     if (a == b)
-      text::failAt(path, number, "scan " + std::to_string(a) + " is linked to itself");
-    links.emplace_back(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+      text::failAt(
+          path, lines.number(), "scan " + std::to_string(a) + " is linked to itself");
+    links.emplace_back(a, b);
   }
   return links;
 }

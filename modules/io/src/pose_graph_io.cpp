@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "pose_graph_check.h"
 #include "pose_graph_row.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pose_graph_io.h>
 
@@ -176,34 +176,12 @@ areDefaultIds(const std::vector<std::size_t>& ids)
 }
 
 void
-checkGraph(const PoseGraph& graph)
-{
-  if (!graph.ids.empty() && graph.ids.size() != graph.poses.size())
-    throw BadArgument("a pose graph needs one id per pose, but there are " +
-                      text::counted(graph.ids.size(), "id") + " and " +
-                      text::counted(graph.poses.size(), "pose"));
-  for (std::size_t i = 0; i < graph.poses.size(); ++i)
-    if (!graph.poses[i].matrix().allFinite())
-      throw BadArgument("pose " + std::to_string(i) + " is not finite");
-  for (std::size_t k = 0; k < graph.links.size(); ++k) {
-    const PoseLink& link = graph.links[k];
-    const std::string name = "link " + std::to_string(k);
-    if (std::max(link.from, link.to) >= graph.poses.size())
-      throw BadArgument(name + " joins poses " + std::to_string(link.from) + " and " +
-                        std::to_string(link.to) + ", but there are only " +
-                        text::counted(graph.poses.size(), "pose"));
-    if (!link.T_from_to.matrix().allFinite() || !link.information.allFinite())
-      throw BadArgument(name + " is not finite");
-  }
-}
-
-void
 writeGraph(const fs::path& path,
            const PoseGraph& graph,
            const GraphTag& vertex,
            const GraphTag& edge)
 {
-  checkGraph(graph);
+  checkGraphToWrite(graph);
   const auto idOf = [&](std::size_t i) {
     return std::to_string(graph.ids.empty() ? i : graph.ids[i]);
   };
@@ -248,6 +226,11 @@ readPoseGraph(const fs::path& path)
     graph.poses = posesAlongChain(rows.ids.size(), graph.links);
   if (graph.poses.empty())
     graph.poses = posesAlongTrees(rows.ids.size(), graph.links);
+  for (std::size_t i = 0; i < graph.poses.size(); ++i)
+    if (!graph.poses[i].matrix().allFinite())
+      text::fail(path,
+                 "the links to vertex " + std::to_string(rows.ids[i]) +
+                     " add up to a position that is not finite");
   if (!areDefaultIds(rows.ids))
     graph.ids = std::move(rows.ids);
   return graph;

@@ -2,10 +2,8 @@
 #include "pose_graph_row.h"
 #include "rigid_row.h"
 
+#include <pcl6d/common/information.h>
 #include <pcl6d/common/rotation.h>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace pcl6d {
 
@@ -17,8 +15,6 @@ constexpr GraphTag kTags[] = {{"VERTEX_SE3:QUAT", false, true, 1, 7},
                               {"EDGE_SE3:QUAT", true, true, 2, 7 + kTriangle},
                               {"VERTEX3", false, false, 1, 6},
                               {"EDGE3", true, false, 2, 6 + kTriangle}};
-// Eigenvalues that digits lost in a file may have turned negative, beside the largest.
-constexpr double kNegativeShare = 1e-6;
 
 /** From the rotation vector to the rotation of the file: g2o's is half of it. */
 double
@@ -34,16 +30,6 @@ scaledRotation(Matrix6 information, double scale)
   information.bottomLeftCorner<3, 3>() *= scale;
   information.bottomRightCorner<3, 3>() *= scale * scale;
   return information;
-}
-
-bool
-isPositiveSemidefinite(const Matrix6& information)
-{
-  if (information.llt().info() == Eigen::Success)
-    return true;
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(information,
-                                                      Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()(0) >= -kNegativeShare * solver.eigenvalues()(5);
 }
 } // namespace
 
@@ -114,11 +100,10 @@ informationOfRow(const std::filesystem::path& path, const GraphRow& row)
   for (int i = 0; i < 6; ++i)
     for (int j = i; j < 6; ++j)
       information(i, j) = information(j, i) = *entry++;
-  if (!information.allFinite())
-    text::failAt(path, row.line, "the information matrix is not finite");
-  if (!isPositiveSemidefinite(information))
-    text::failAt(path, row.line, "the information matrix is not positive semidefinite");
-  return scaledRotation(information, rotationScale(*row.tag));
+  const std::string fault = informationFault(information);
+  if (!fault.empty())
+    text::failAt(path, row.line, "the information matrix is " + fault);
+  return scaledRotation(semidefinite(information), rotationScale(*row.tag));
 }
 
 void

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "relaxation_gain.h"
 
-#include <algorithm>
-#include <numeric>
+#include <pcl6d/common/components.h>
+
 #include <vector>
 
 namespace pcl6d {
@@ -28,19 +28,12 @@ gainOf(const GraphSlamResult& relaxed, const StageResult& stage)
 bool
 hasCycle(const std::vector<LinkReport>& links, std::size_t num_scans)
 {
-  std::vector<std::size_t> group(num_scans);
-  std::iota(group.begin(), group.end(), 0);
-  for (const LinkReport& link : links) {
-    if (!link.used)
-      continue;
-    const std::size_t a = group[link.from], b = group[link.to];
-    if (a == b)
+  Components components(num_scans);
+  for (const LinkReport& link : links)
+    if (link.used && !components.join(link.from, link.to))
       return true;
-    std::replace(group.begin(), group.end(), b, a);
-  }
   return false;
 }
-
 } // namespace
 
 std::string

@@ -18,14 +18,22 @@ namespace pcl6d {
  *
  * compute() registers the end of the loop with its start, both with their neighbours, and
  * spreads the motion over the graph. Then each vertex holds a new, moved cloud and the
- * motion that moved it. The one difference: PCL moves the points in the caller's clouds;
- * here these stay as they are, unless setModifyInputClouds(true). Clouds are turned about
- * the place of their scanner, by default their centroid, so that the result does not
- * depend on the origin of the world; for PCL they turn about the origin.
+ * motion that moved it.
  *
- * Edges cost what setEdgeCovariance() says of some of them or, if it has said nothing of
- * any, their length; edges without a covariance among others with one count as the mean
- * of those.
+ * Differences:
+ * - the caller's clouds stay as they are, unless setModifyInputClouds(true) (PCL moves
+ *   their points);
+ * - clouds turn about the place of their scanner, by default their centroid, so that the
+ *   result does not depend on the origin of the world (PCL: about the origin);
+ * - edges cost what setEdgeCovariance() says of some of them or, if it has said nothing of
+ *   any, their length (PCL: 1 each); edges without a covariance among others with one
+ *   count as the mean of those;
+ * - a registration that fails closes nothing, see status() (PCL: closes the loop by
+ *   whatever came out);
+ * - calls without a meaning throw BadArgument (PCL: PCL_ERROR, or undefined), and the end
+ *   of the loop must be set;
+ * - LoopGraph has edges with a property, and so is another type than PCL's;
+ * - unless set, getReg() is an ICP6D, not a pcl::IterativeClosestPoint.
  * \code
  * pcl6d::ELCH<pcl::PointXYZ> elch;
  * for (const auto& cloud : clouds)

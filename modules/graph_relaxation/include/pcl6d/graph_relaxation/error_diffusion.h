@@ -73,7 +73,8 @@ struct ErrorDiffusionOptions {
 struct ErrorDiffusionResult {
   /** kOk: the loop is closed. kRankDeficient: so it is, but no edges join first and last,
    * and the weights are uniform. kDiverged: the loop is refused, because its closing
-   * rotation is half a turn (within 1e-3 rad), which is no drift: poses as given */
+   * rotation is half a turn (within 1e-3 rad), which is no drift, or a corrected pose
+   * would not be finite: poses as given */
   Status status = Status::kOk;
   std::vector<Eigen::Isometry3d> poses; ///< T_world_scan, corrected
   std::vector<PerDimension> weights;    ///< in [0, 1]; of closeLoops(): the last loop's
@@ -86,7 +87,8 @@ struct ErrorDiffusionResult {
  * of the world. So the result does not depend on where the origin of the world is. (To
  * split the motion T_last' T_last^-1 into translation and rotation instead moves scans
  * 500 m from the origin by metres.) The first pose and all of weight 0 keep their bits;
- * the last gets those of corrected_last; without motion nothing changes.
+ * the last gets those of corrected_last, whose rotation is made exact if digits are lost;
+ * without motion nothing changes.
  *
  * kUniform and kPath take poses in their order: those beyond the last move with it, those
  * before the first stay. A path of length 0 counts as uniform. kElch moves all poses that
@@ -111,7 +113,7 @@ closeLoop(const std::vector<Eigen::Isometry3d>& poses,
  * to what the rotation of a later one does: scans turn in place, not about each other.
  * \return the worst status: kDiverged if a loop was refused (the others are closed), then
  * kRankDeficient
- * \throws BadArgument as closeLoop() */
+ * \throws BadArgument as closeLoop(), before any loop is closed */
 ErrorDiffusionResult
 closeLoops(const std::vector<Eigen::Isometry3d>& poses,
            std::vector<LoopEdge> edges,

@@ -33,13 +33,16 @@ struct GraphSlamOptions {
   LinkWeights weights = LinkWeights::kVariance;
   RobustKernel robust = RobustKernel::kNone; ///< of the pairs within their link
   /** Links that contradict the others lose their weight (Geman-McClure, with graduated
-   * non-convexity), so that a false one does not bend the map. Needs a graph in which the
-   * true links confirm each other: in a single cycle no link is falser than another. */
+   * non-convexity), so that a false one does not bend the map, however many pairs it has:
+   * until it is known which are false, all links count the same. Needs a graph in which
+   * the true links confirm each other: in a single cycle no link is falser than
+   * another. */
   bool switch_links = false;
   double switch_scale =
       0; ///< [m] a link that asks for so much more motion of its points
-         ///< counts a quarter; 0: from the links themselves, three
-         ///< times their robust standard deviation; >= 0
+         ///< counts a quarter, and one up to 0.67 of it fully; 0: from
+         ///< the links themselves, three times their robust standard
+         ///< deviation; >= 0
   std::size_t min_pairs = 20;        ///< links with fewer are dropped; >= 3
   double least_deviation = 1e-3;     ///< [m] guard of s of a link; > 0
   int max_iterations = 50;           ///< > 0
@@ -78,23 +81,28 @@ poseLinkOf(const LinkReport& link, const std::vector<Eigen::Isometry3d>& poses);
 
 /** \brief What GraphSlam came to. */
 struct GraphSlamResult {
-  /** kOk; kRankDeficient: the graph falls apart or open directions are left, these stayed
-   * as they were; kTooFewPairs: no link is left, poses as given; kMaxIterations;
-   * kDiverged: the error grew tenfold or is not finite, poses as given */
+  /** The first that applies: kDiverged: the error grew tenfold or is not finite, poses as
+   * given; kTooFewPairs: no link is left, poses as given; kMaxIterations: the stop rule
+   * was not met; kRankDeficient: it was, but the graph falls apart or open directions are
+   * left, these stayed as they were; kOk. The same order as in PoseGraphResult. */
   Status status = Status::kTooFewPairs;
   std::vector<Eigen::Isometry3d> poses; ///< T_world_scan
   int iterations = 0;                   ///< rounds
   bool converged = false;               ///< the stop rule was met, whatever the status
   double rms_before = 0;                ///< [m] of all pairs of the first round
-  double rms = 0; ///< [m] of all pairs at the end, links by their switch weight
+  /** [m] of all pairs at the end; with switch_links, links by how well they agree with the
+   * others: a quarter at the scale, 1 where they want nothing */
+  double rms = 0;
   /** per pose; a group of linked poses has one number, that of its first pose, which
    * stays fixed; poses of another group than pose 0 float */
   std::vector<std::size_t> component;
   std::vector<LinkReport> links;    ///< of the last round, in the order given
-  std::vector<bool> open_direction; ///< per pose: some motion of it is not determined
+  std::vector<bool> open_direction; ///< per pose: some motion of it relative to pose 0
+                                    ///< is not determined
   /** per pose: covariance of the twist about its position in the axes of the world,
-   * translation [m], then rotation [rad]; zero for fixed poses. See eulerCovariance().
-   * Pairs count as independent, which closest points are not: optimistic. */
+   * translation [m], then rotation [rad]; zero for pose 0, which is fixed, and for all
+   * that floating() names: there it is not known, and open_direction says so. See
+   * eulerCovariance(). Pairs count as independent, which closest points are not: optimistic. */
   std::vector<Eigen::Matrix<double, 6, 6>> covariances;
 
   /** \return the poses that no chain of links joins to pose 0 */
@@ -154,7 +162,8 @@ public:
 
   /** \brief Relaxes with fixed pairs. \param[in] poses T_world_scan, the start
    * \throws BadArgument a pose is not rigid; a link of a scan to itself or to a scan that
-   * does not exist; vectors of a link that differ in size; information that is not finite */
+   * does not exist; vectors of a link that differ in size; information with a fault, see
+   * informationFault() */
   GraphSlamResult
   relax(const Poses& poses, const std::vector<LinkPairs>& links) const;
 

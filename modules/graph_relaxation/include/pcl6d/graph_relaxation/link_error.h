@@ -42,9 +42,9 @@ chi2Of(const PoseGraph& graph);
 Matrix6
 adjointOf(const Eigen::Isometry3d& X);
 
-/** \throws BadArgument a link to a pose that does not exist or from a pose to itself; a
+/** \throws BadArgument not one id per pose, if there are ids; a link to a pose that does not exist or from a pose to itself; a
  * value that is not finite; a pose that is not rigid; information that is not symmetric
- */
+ * or not positive semidefinite, see informationFault() */
 void
 checkPoseGraph(const PoseGraph& graph);
 

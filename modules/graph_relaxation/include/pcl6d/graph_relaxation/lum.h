@@ -14,11 +14,19 @@ namespace pcl6d {
  *
  * Where PCL's class diverges as soon as scans are turned (its derivative belongs to another
  * order of the angles) and solves a dense system in float, this one runs GraphSlam: right
- * for all headings, sparse, in double, and honest: see result(). Links weigh by the
- * variance of their pairs (PCL: by the sum of squares), those with fewer than 3 pairs are
- * left out. The poses in the graph stay PCL's float vectors (x, y, z, roll, pitch, yaw);
- * getPose3d() gives the same in double. compute() never throws on data: without an answer
- * the poses stay as they were.
+ * for all headings, sparse, in double, and honest: see result(). Calls that PCL answers
+ * with a PCL_ERROR do the same here; without an answer the poses stay as they were.
+ *
+ * Differences:
+ * - links weigh by the variance of their pairs (PCL: by their sum of squares, so that
+ *   cinv_ and cinvd_ of an edge are larger by the degrees of freedom);
+ * - poses that are not finite are left alone, and result() says kDiverged (PCL: NaN);
+ * - what PCL leaves undefined throws BadArgument: see compute(), setLoopGraph(),
+ *   getTransformedCloud();
+ * - computeEdge() and incidenceCorrection() are not there for derived classes.
+ *
+ * The poses in the graph stay PCL's float vectors (x, y, z, roll, pitch, yaw);
+ * getPose3d() gives the same in double.
  * \code
  * pcl6d::LUM<pcl::PointXYZ> lum;
  * lum.addPointCloud(cloud_0);
@@ -62,7 +70,7 @@ public:
   typename SLAMGraph::vertices_size_type
   getNumVertices() const;
 
-  /** \throws BadArgument by compute(), unless > 0 */
+  /** \brief 0 or fewer: compute() changes nothing, as PCL's. */
   void
   setMaxIterations(int max_iterations)
   {
@@ -97,12 +105,13 @@ public:
     return options_;
   }
 
-  /** \brief Adds a scan. The pose of the first one is fixed at zero.
-   * \throws BadArgument a null cloud */
+  /** \brief Adds a scan. The pose of the first one is fixed at zero. \param[in] cloud may
+   * be null until it is needed */
   Vertex
   addPointCloud(const PointCloudPtr& cloud, const Vector6f& pose = Vector6f::Zero());
 
-  /** \throws BadArgument no such vertex, here and below */
+  /** \brief Without such a vertex: PCL_ERROR, and nothing happens, here and below; getters
+   * return null, zero or the identity then, as PCL's. */
   void
   setPointCloud(const Vertex& vertex, const PointCloudPtr& cloud);
   PointCloudPtr
@@ -124,19 +133,20 @@ public:
   getTransformation(const Vertex& vertex) const;
 
   /** \brief Adds or replaces the pairs of an edge: query indices in the source's cloud,
-   * match indices in the target's. \throws BadArgument no such vertex, both the same */
+   * match indices in the target's. Both the same: PCL_ERROR, and nothing happens. */
   void
   setCorrespondences(const Vertex& source,
                      const Vertex& target,
                      const pcl::CorrespondencesPtr& correspondences);
 
-  /** \throws BadArgument no such edge */
+  /** \return null without such an edge, with a PCL_ERROR */
   pcl::CorrespondencesPtr
   getCorrespondences(const Vertex& source, const Vertex& target) const;
 
   /** \brief Moves all scans but the first; writes the graph's poses, and per edge C^-1 and
-   * C^-1 D about the world's origin as PCL does. \throws BadArgument an option breaks its
-   * rule, a vertex with pairs has no cloud, or an index is not in its cloud */
+   * C^-1 D about the world's origin in PCL's order x, y, z, turns about x, z, y. Fewer than
+   * 2 vertices: PCL_ERROR, and nothing happens. \throws BadArgument one of options()
+   * breaks its rule, a vertex with pairs has no cloud, or an index is not in its cloud */
   void
   compute();
 
@@ -147,6 +157,7 @@ public:
     return result_;
   }
 
+  /** \throws BadArgument there is no cloud, here and below */
   PointCloudPtr
   getTransformedCloud(const Vertex& vertex) const;
 
@@ -154,8 +165,8 @@ public:
   getConcatenatedCloud() const;
 
 private:
-  void
-  requireVertex(const Vertex& vertex) const;
+  bool
+  hasVertex(const Vertex& vertex, const char* caller) const;
   LinkPairs
   pairsOf(const Edge& edge) const;
   void
@@ -173,7 +184,8 @@ private:
 Eigen::Matrix<float, 6, 1>
 lumPose(const Eigen::Isometry3d& pose);
 
-/** \brief C^-1 and C^-1 D about the world's origin, as PCL's LUM keeps them per edge. */
+/** \brief C^-1 and C^-1 D about the world's origin, as PCL's LUM keeps them per edge: in
+ * the order x, y, z, turns about x, z, y. */
 void
 lumEdge(const LinkReport& link,
         Eigen::Matrix<float, 6, 6>& information,

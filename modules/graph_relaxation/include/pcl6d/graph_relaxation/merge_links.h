@@ -14,6 +14,16 @@ namespace pcl6d {
 std::vector<PoseLink>
 mergeLinks(const PoseGraph& graph);
 
+/** \brief Merged links, and where the given ones went. */
+struct MergedLinks {
+  std::vector<PoseLink> links;
+  std::vector<std::size_t> place; ///< of each given link: the one that stands for it
+};
+
+/** \brief mergeLinks(), with the place of each given link. */
+MergedLinks
+mergeLinksWithPlaces(const PoseGraph& graph);
+
 /** \return the same measurement, of the pose `from` seen from the pose `to` */
 PoseLink
 reversed(const PoseLink& link);

@@ -38,7 +38,8 @@ struct PoseGraphOptions {
    * wrong links off. No proof of the best choice: where few links speak against a wrong
    * one, right links of the chain may go instead, unless trust_chain is set. */
   bool graduated = false;
-  /** Links between neighbours i and i + 1 (odometry) always count fully. */
+  /** Links between neighbours (odometry) always count fully: poses with the ids i and
+   * i + 1, whatever their order in the graph. */
   bool trust_chain = false;
   int max_iterations = 100;   ///< tried steps of a component; > 0
   double chi2_epsilon = 1e-8; ///< stop when a step lowers the cost by no larger share;
@@ -62,9 +63,11 @@ struct GraphComponent {
 
 /** \brief What came out. */
 struct PoseGraphResult {
-  /** The worst of the components: kOk converged; kMaxIterations; kRankDeficient: the
-   * links leave some motion free, which stays as it was; kDiverged: not finite, and the
-   * component's poses are those of the input. */
+  /** The worst of the components. Of each, the first that applies: kDiverged: not
+   * finite, and its poses are those of the input; kMaxIterations: the minimum was not
+   * reached, because of the limit or because no step lowers the cost although the
+   * derivatives promise it; kRankDeficient: it was, but the links leave some motion
+   * free, which stays as it was; kOk. The same order as in GraphSlamResult. */
   Status status = Status::kOk;
   std::vector<Eigen::Isometry3d> poses; ///< T_world_vertex [m]
   double chi2_before = 0;               ///< e^T information e over all links
@@ -80,8 +83,10 @@ struct PoseGraphResult {
  * Minimises the sum over all links of rho(e^T information e) with e = (t, 2 vec(q)) of
  * T_from_to^-1 T_a^-1 T_b and a robust kernel rho. Each connected component is a
  * problem of its own, in which the first pose is fixed; links without any information
- * join nothing. Several links may join the same poses. The same bits for any number of
- * threads.
+ * join nothing. Several links between the same poses, in either direction, are merged
+ * before solving (mergeLinks()), so that a robust kernel sees one link; chi2 is that of
+ * the links as given. Information is made positive semidefinite to the last digit
+ * (semidefinite()). The same bits for any number of threads.
  *
  * \code
  * pcl6d::PoseGraphOptimizer optimizer(pcl6d::readPoseGraph("garage.g2o"));

@@ -28,13 +28,16 @@ namespace pcl6d {
  * \throws IoFailed naming file, line, value and rule: unreadable, no pose, an unknown
  * word, wrong number of numbers, text where a number belongs, not finite, a quaternion
  * that is none, an id given twice, a link to a vertex that does not exist or to itself,
- * information that is not positive semidefinite \ingroup io */
+ * information with a fault (see informationFault(); what its tolerances let
+ * pass is repaired), links that add up to a position that is not finite \ingroup io */
 PoseGraph
 readPoseGraph(const std::filesystem::path& path);
 
 /** \brief Writes g2o rows with 17 digits, atomically. Positions and information come
- * back to the last bit, rotations within a few ulp. \throws BadArgument a link to no
- * pose, not one id per pose, a value that is not finite */
+ * back to the last bit, rotations within a few ulp. \throws BadArgument what
+ * readPoseGraph() refuses: no pose, not one id per pose, an id given twice, a link to no
+ * pose or to itself, what is not finite or no rigid motion, information with a fault (see
+ * informationFault()); nothing is written then */
 void
 writePoseGraphG2o(const std::filesystem::path& path, const PoseGraph& graph);
 

@@ -33,20 +33,22 @@ LUM<PointT>::getNumVertices() const
 }
 
 template <typename PointT>
-void
-LUM<PointT>::requireVertex(const Vertex& vertex) const
+bool
+LUM<PointT>::hasVertex(const Vertex& vertex, const char* caller) const
 {
-  require(vertex < getNumVertices(),
-          "vertex",
-          vertex,
-          "< " + std::to_string(getNumVertices()) + ", the number of clouds");
+  const bool has = vertex < getNumVertices();
+  if (!has)
+    PCL_ERROR("[pcl6d::LUM::%s] there is no vertex %zu, but only %zu\n",
+              caller,
+              static_cast<std::size_t>(vertex),
+              static_cast<std::size_t>(getNumVertices()));
+  return has;
 }
 
 template <typename PointT>
 typename LUM<PointT>::Vertex
 LUM<PointT>::addPointCloud(const PointCloudPtr& cloud, const Vector6f& pose)
 {
-  require(cloud != nullptr, "cloud", "null", "a cloud");
   const Vertex vertex = add_vertex(*graph_);
   (*graph_)[vertex].cloud_ = cloud;
   (*graph_)[vertex].pose_ = vertex == 0 ? Vector6f::Zero() : pose;
@@ -60,26 +62,25 @@ template <typename PointT>
 void
 LUM<PointT>::setPointCloud(const Vertex& vertex, const PointCloudPtr& cloud)
 {
-  requireVertex(vertex);
-  require(cloud != nullptr, "cloud", "null", "a cloud");
-  (*graph_)[vertex].cloud_ = cloud;
+  if (hasVertex(vertex, "setPointCloud"))
+    (*graph_)[vertex].cloud_ = cloud;
 }
 
 template <typename PointT>
 typename LUM<PointT>::PointCloudPtr
 LUM<PointT>::getPointCloud(const Vertex& vertex) const
 {
-  requireVertex(vertex);
-  return (*graph_)[vertex].cloud_;
+  return hasVertex(vertex, "getPointCloud") ? (*graph_)[vertex].cloud_ : nullptr;
 }
 
 template <typename PointT>
 void
 LUM<PointT>::setPose(const Vertex& vertex, const Vector6f& pose)
 {
-  requireVertex(vertex);
+  if (!hasVertex(vertex, "setPose"))
+    return;
   if (vertex == 0)
-    PCL_WARN("[pcl6d::LUM::setPose] the pose of the first cloud is fixed\n");
+    PCL_ERROR("[pcl6d::LUM::setPose] the pose of the first cloud is fixed\n");
   else
     (*graph_)[vertex].pose_ = pose;
 }
@@ -88,7 +89,8 @@ template <typename PointT>
 typename LUM<PointT>::Vector6f
 LUM<PointT>::getPose(const Vertex& vertex) const
 {
-  requireVertex(vertex);
+  if (!hasVertex(vertex, "getPose"))
+    return Vector6f::Zero();
   return (*graph_)[vertex].pose_;
 }
 
@@ -97,7 +99,7 @@ void
 LUM<PointT>::setPose3d(const Vertex& vertex, const Eigen::Isometry3d& pose)
 {
   setPose(vertex, lumPose(pose));
-  if (vertex == 0)
+  if (vertex == 0 || vertex >= getNumVertices())
     return;
   poses_.resize(std::max<std::size_t>(poses_.size(), vertex + 1),
                 Eigen::Isometry3d::Identity());
@@ -128,10 +130,13 @@ LUM<PointT>::setCorrespondences(const Vertex& source,
                                 const Vertex& target,
                                 const pcl::CorrespondencesPtr& correspondences)
 {
-  requireVertex(source);
-  requireVertex(target);
-  require(source != target, "target", target, "another vertex than the source");
-  require(correspondences != nullptr, "correspondences", "null", "a list");
+  if (!hasVertex(source, "setCorrespondences") ||
+      !hasVertex(target, "setCorrespondences"))
+    return;
+  if (source == target) {
+    PCL_ERROR("[pcl6d::LUM::setCorrespondences] a vertex cannot be joined to itself\n");
+    return;
+  }
   const auto [present, found] = edge(source, target, *graph_);
   if (found) {
     (*graph_)[present].corrs_ = correspondences;
@@ -148,10 +153,14 @@ template <typename PointT>
 pcl::CorrespondencesPtr
 LUM<PointT>::getCorrespondences(const Vertex& source, const Vertex& target) const
 {
-  requireVertex(source);
-  requireVertex(target);
+  if (!hasVertex(source, "getCorrespondences") ||
+      !hasVertex(target, "getCorrespondences"))
+    return nullptr;
   const auto [e, found] = edge(source, target, *graph_);
-  require(found, "target", target, "joined to the source by correspondences");
+  if (!found) {
+    PCL_ERROR("[pcl6d::LUM::getCorrespondences] these vertices are not joined\n");
+    return nullptr;
+  }
   return (*graph_)[e].corrs_;
 }
 
@@ -190,15 +199,28 @@ void
 LUM<PointT>::compute()
 {
   constexpr float kFloatEnd = 1e-7f;
+  result_ = GraphSlamResult();
+  if (getNumVertices() < 2) {
+    PCL_ERROR("[pcl6d::LUM::compute] there must be at least 2 clouds\n");
+    return;
+  }
+  for (Vertex v = 0; v < getNumVertices(); ++v)
+    result_.poses.push_back(getPose3d(v));
+  const bool finite =
+      std::all_of(result_.poses.begin(), result_.poses.end(), [](const auto& pose) {
+        return pose.matrix().allFinite();
+      });
+  if (!finite || options_.max_iterations <= 0) {
+    result_.status = finite ? Status::kMaxIterations : Status::kDiverged;
+    return;
+  }
   options_.translation_epsilon = options_.rotation_epsilon =
       std::max(threshold_, kFloatEnd);
-  std::vector<Eigen::Isometry3d> start;
-  for (Vertex v = 0; v < getNumVertices(); ++v)
-    start.push_back(getPose3d(v));
   std::vector<LinkPairs> links;
   const auto all = edges(*graph_);
   for (auto e = all.first; e != all.second; ++e)
     links.push_back(pairsOf(*e));
+  const std::vector<Eigen::Isometry3d> start = result_.poses;
   result_ = GraphSlam(options_).relax(start, links);
   store();
 }

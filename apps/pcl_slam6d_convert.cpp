@@ -25,6 +25,7 @@ const std::vector<Verb> kVerbs = {
      "2D lines on a drive as a 3D scan",
      app::runLines},
     {"scans", "IN -o OUT", "scans in another format", app::runScans},
+    {"stereo", "LEFT RIGHT CALIB -o OUT", "two pictures to a scan", app::runStereo},
     {"trajectory", "IN -o OUT", "poses in another format", app::runTrajectory},
 };
 

@@ -18,6 +18,11 @@ runLines(const std::vector<std::string>& arguments);
 int
 runScans(const std::vector<std::string>& arguments);
 
+/** \brief `stereo LEFT RIGHT CALIB -o OUT`: a scan from the pictures of two cameras.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runStereo(const std::vector<std::string>& arguments);
+
 /** \brief `trajectory IN -o OUT`: poses in another format.
  * \param[in] arguments after the verb \return the exit code */
 int

@@ -153,6 +153,7 @@ TEST(PinholeCamera, NamesABadParameter)
   };
   expectRefused([](auto& lens) { lens.width = 0; }, "width = 0");
   expectRefused([](auto& lens) { lens.height = 1000000; }, "height = 1000000");
+  expectRefused([](auto& lens) { lens.width = lens.height = 60000; }, "57.6 GB");
   expectRefused([](auto& lens) { lens.fx = 0; }, "fx = 0");
   expectRefused([](auto& lens) { lens.fy = NAN; }, "fy = nan");
   expectRefused([](auto& lens) { lens.k[5] = INFINITY; }, "k6 = inf");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "image_size.h"
+
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/pinhole_camera.h>
 
@@ -27,6 +29,7 @@ CameraIntrinsics::validate() const
   const std::string side = "in [1, " + std::to_string(kMostPixels) + "]";
   require(width >= 1 && width <= kMostPixels, "width", width, side);
   require(height >= 1 && height <= kMostPixels, "height", height, side);
+  requireImageSize(height, width);
   require(fx > 0 && std::isfinite(fx), "fx", fx, "> 0 and finite");
   require(fy > 0 && std::isfinite(fy), "fy", fy, "> 0 and finite");
   require(std::isfinite(cx), "cx", cx, "finite");

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/scanner/pinhole_camera.h>
+
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <limits>
+
+namespace cv {
+class Mat;
+}
+
+namespace pcl6d {
+
+/** \brief What the values of a depth image mean. */
+enum class DepthKind {
+  kRadial,   ///< distance from the camera, as time-of-flight cameras measure it
+  kAlongAxis ///< z, as stereo and structured light give it
+};
+
+/** \brief Knobs of depthImageToCloud(). */
+struct DepthImageOptions {
+  DepthKind kind = DepthKind::kRadial;
+  double unit = 1e-3;       ///< [m] one step of the image, > 0
+  double min_depth = 0;     ///< [m] smaller values are dropped; >= 0
+  double max_depth = 65535; ///< [m] larger values are dropped; > min_depth
+  /** [m] a pixel that differs by more from one of its four neighbours is dropped: at an
+   * edge a camera mixes near and far ("flying pixels"); > 0 */
+  double max_jump = std::numeric_limits<double>::infinity();
+  double min_amplitude = 0; ///< weaker pixels are dropped, if amplitudes are given
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief Turns the depth image of a time-of-flight camera into points (book 2.4):
+ * p = d v / |v| (radial) or d v / v_z, v = K^-1 (u, v, 1) without distortion.
+ * \param[in] depth CV_16UC1 of the camera's size; 0: no measurement
+ * \param[in] amplitude CV_16UC1 or CV_8UC1 of that size; null: none
+ * \return organized cloud in the camera's place, x forward, y left, z up (the camera's
+ * z, -x and -y); NaN where nothing is; intensity is the amplitude, 0 if not given
+ * \throws BadArgument an option breaks its rule, or an image has another size or kind
+ * \ingroup scanner */
+pcl::PointCloud<pcl::PointXYZI>
+depthImageToCloud(const cv::Mat& depth,
+                  const PinholeCamera& camera,
+                  const DepthImageOptions& options = {},
+                  const cv::Mat* amplitude = nullptr);
+
+} // namespace pcl6d

@@ -86,10 +86,11 @@ JoinedLayout::losses() const
   return losses;
 }
 
-/** Copies the fields of the kept points. */
+/** Copies the fields of the kept points from begin on until the block is full. */
 void
 JoinedLayout::gather(const pcl::PCLPointCloud2& scan,
                      const std::vector<bool>& kept,
+                     std::size_t begin,
                      pcl::PCLPointCloud2& block) const
 {
   for (const auto& field : fields_) {
@@ -97,7 +98,8 @@ JoinedLayout::gather(const pcl::PCLPointCloud2& scan,
     if (!source)
       continue; // the index
     std::uint8_t* target = block.data.data() + field.offset;
-    for (std::size_t i = 0; i < kept.size(); ++i)
+    const std::uint8_t* const end = block.data.data() + block.data.size();
+    for (std::size_t i = begin; target < end; ++i)
       if (kept[i]) {
         std::memcpy(
             target, &scan.data[i * scan.point_step + source->offset], sizeOf(field));
@@ -109,17 +111,22 @@ JoinedLayout::gather(const pcl::PCLPointCloud2& scan,
 pcl::PCLPointCloud2
 JoinedLayout::joined(const pcl::PCLPointCloud2& scan,
                      const std::vector<bool>& kept,
+                     std::size_t begin,
+                     std::size_t end,
                      const Eigen::Isometry3d& T_world_scan,
                      std::uint32_t index) const
 {
   pcl::PCLPointCloud2 block;
   block.fields = fields_;
   block.height = 1;
-  block.width = static_cast<pcl::uindex_t>(std::count(kept.begin(), kept.end(), true));
+  block.width = static_cast<pcl::uindex_t>(
+      std::count(kept.begin() + static_cast<std::ptrdiff_t>(begin),
+                 kept.begin() + static_cast<std::ptrdiff_t>(end),
+                 true));
   block.point_step = static_cast<pcl::uindex_t>(point_step_);
   block.row_step = block.width * block.point_step;
   block.data.resize(std::size_t{block.width} * point_step_);
-  gather(scan, kept, block);
+  gather(scan, kept, begin, block);
   const VectorField place(fields_, {"x", "y", "z"});
   const VectorField normal(fields_, {"normal_x", "normal_y", "normal_z"});
   for (std::size_t i = 0; i < block.width; ++i) {

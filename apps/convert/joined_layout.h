@@ -40,12 +40,14 @@ public:
   std::vector<std::string>
   losses() const;
 
-  /** \brief Moves positions and normals of a scan into the world; computed in double,
-   * rounded once. \param[in] kept which points to take \param[in] T_world_scan relative to
+  /** \brief Moves positions and normals of the points [begin, end) of a scan into the
+   * world; computed in double, rounded once. \param[in] kept which points to take \param[in] T_world_scan relative to
    * the world offset \return their joined points */
   pcl::PCLPointCloud2
   joined(const pcl::PCLPointCloud2& scan,
          const std::vector<bool>& kept,
+         std::size_t begin,
+         std::size_t end,
          const Eigen::Isometry3d& T_world_scan,
          std::uint32_t index) const;
 
@@ -53,6 +55,7 @@ private:
   void
   gather(const pcl::PCLPointCloud2& scan,
          const std::vector<bool>& kept,
+         std::size_t begin,
          pcl::PCLPointCloud2& block) const;
 
   std::vector<pcl::PCLPointField> fields_;

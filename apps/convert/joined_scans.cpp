@@ -19,6 +19,8 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr std::size_t kBlock = 1 << 16; // points in memory as joined ones
+
 struct Stopped {}; ///< thrown after a signal
 
 /** \brief Joins the scans of a folder; only one of them is in memory at a time. */
@@ -109,10 +111,14 @@ private:
       const ScanCloud scan = source_.folder().readCloud(i);
       Eigen::Isometry3d pose = source_.pose(i);
       pose.translation() -= source_.worldOffset();
-      sink(layout_.joined(scan.cloud,
-                          surfacesOf(scan.cloud),
-                          pose,
-                          static_cast<std::uint32_t>(source_.folder().index(i))));
+      const auto kept = surfacesOf(scan.cloud);
+      for (std::size_t begin = 0; begin < kept.size(); begin += kBlock)
+        sink(layout_.joined(scan.cloud,
+                            kept,
+                            begin,
+                            std::min(kept.size(), begin + kBlock),
+                            pose,
+                            source_.index(i)));
       advance("writing", i);
     }
   }

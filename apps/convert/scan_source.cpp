@@ -5,6 +5,7 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/run_summary.h>
+#include <pcl6d/io/scan_name.h>
 
 #include <charconv>
 
@@ -48,6 +49,16 @@ lengthOf(const RunSummary& summary, const std::string& name, const fs::path& fil
   }
   throw IoFailed(file.string() + ": the options have no " + name);
 }
+
+/** \return the number of a scan that the run wrote */
+std::uint32_t
+indexOf(const fs::path& scan, const RunSummary& summary)
+{
+  for (const auto& entry : summary.scans)
+    if (scanName(entry.index) == scan.stem().string())
+      return static_cast<std::uint32_t>(entry.index);
+  throw IoFailed(scan.string() + ": the summary of the run does not tell of this scan");
+}
 } // namespace
 
 ScanSource::ScanSource(const ScanSettings& settings)
@@ -55,6 +66,8 @@ ScanSource::ScanSource(const ScanSettings& settings)
 , folder_(openFolder(settings, is_run_))
 , world_offset_(pcl6d::worldOffset(folder_.initialPose(0)))
 {
+  for (std::size_t i = 0; i < folder_.size(); ++i)
+    indices_.push_back(static_cast<std::uint32_t>(folder_.index(i)));
   if (is_run_)
     readRun(settings.input / kSummary);
 }
@@ -66,6 +79,8 @@ ScanSource::readRun(const fs::path& summary_file)
   world_offset_ = summary.world_offset;
   min_range_ = lengthOf(summary, "min-range", summary_file);
   max_range_ = lengthOf(summary, "max-range", summary_file);
+  for (std::size_t i = 0; i < folder_.size(); ++i)
+    indices_[i] = indexOf(folder_.file(i), summary);
 }
 
 Eigen::Isometry3d

@@ -3,8 +3,8 @@
 
 #include "convert/scan_settings.h"
 
+#include <cstdint>
 #include <limits>
-#include <optional>
 
 namespace pcl6d::app {
 
@@ -25,6 +25,14 @@ public:
   /** \return the pose of the i-th scan in full coordinates */
   Eigen::Isometry3d
   pose(std::size_t i) const;
+
+  /** \return the number NNN of the i-th scan in the files of the run; of raw scans the
+   * place in the folder */
+  std::uint32_t
+  index(std::size_t i) const
+  {
+    return indices_[i];
+  }
 
   /** \return what joined points are relative to [m]: the world offset of the run, or what
    * a run on these poses would take */
@@ -57,6 +65,7 @@ private:
   bool is_run_;
   ScanFolder folder_;
   Eigen::Vector3d world_offset_;
+  std::vector<std::uint32_t> indices_;
   double min_range_ = 0;
   double max_range_ = std::numeric_limits<double>::infinity();
 };

@@ -152,7 +152,9 @@ int
 convertFile(const ScanSettings& settings)
 {
   const ScanCloud scan = readScanCloud(settings.input, settings.folder.format);
-  const auto pose = findScanPose(settings.input, settings.folder.format);
+  const auto pose = fs::is_regular_file(settings.input) // a pipe cannot be read again
+                        ? findScanPose(settings.input, settings.folder.format)
+                        : std::nullopt;
   const ScanFormat format = settings.writer.format;
   LossTally losses;
   losses.addScan(scan,

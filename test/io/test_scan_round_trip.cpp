@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan_samples.h"
 
+#include <thread>
+
 using pcl6d::readScanCloud;
 using pcl6d::writeScan;
 using pcl6d::test::kWays;
@@ -67,4 +69,22 @@ TEST(ScanRoundTrip, EveryPairOfFormatsKeepsEveryBit)
         }
       }
     }
+}
+
+TEST(ScanRoundTrip, PipesAreReadLikeFiles)
+{
+  const TempFolder folder;
+  const auto cloud = randomCloud(30000, false); // more than a pipe holds at once
+  const auto file = folder / "file", pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const Way& way : kWays) {
+    SCOPED_TRACE(way.name);
+    writeScan(file, cloud, Eigen::Isometry3d::Identity(), {way.format, way.encoding});
+    std::thread writer(
+        [&] { pcl6d::test::writeText(pipe, pcl6d::test::readText(file)); });
+    const auto read = readScanCloud(pipe, way.format);
+    writer.join();
+    EXPECT_EQ(read.cloud.data, readScanCloud(file, way.format).cloud.data);
+    EXPECT_EQ(read.cloud.width, cloud.width);
+  }
 }

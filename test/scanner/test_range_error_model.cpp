@@ -105,8 +105,7 @@ TEST(RangeErrorModel, NoiseGrowsWithTheIncidence)
 {
   RangeOptions options = exact();
   options.incidence_noise = 0.01;
-  const RangeSample square_on = measureOnce(options, {echoAt(10)});
-  EXPECT_EQ(square_on.range, 10);
+  EXPECT_EQ(measureOnce(options, {echoAt(10)}).range, 10); // hit squarely
   for (const double incidence : {0.3, 0.8, 1.4})
     expectNoise(options, echoAt(10, 1, incidence), 0.01 * std::tan(incidence));
 }
@@ -169,8 +168,6 @@ TEST(RangeErrorModel, DropsTheGivenShare)
   const Statistics s = errorsOf(options, [](Random&) { return echoAt(5); });
   EXPECT_NEAR(
       1 - double(s.returns) / kCount, 0.07, 5 * std::sqrt(0.07 * 0.93 / kCount));
-  options.dropout = 1;
-  EXPECT_TRUE(std::isnan(measureOnce(options, {echoAt(5)}).range));
 }
 
 TEST(RangeErrorModel, SeesDarkSurfacesLessFar)

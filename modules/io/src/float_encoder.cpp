@@ -100,6 +100,16 @@ public:
     for (const auto& field : fields_)
       if (!fitsFloat(field.datatype))
         losses_.push_back("rounded field '" + field.name + "' to float32");
+    columns_ = text::columnsOf({fields_.begin(), fields_.end()});
+    if (intensity())
+      columns_.push_back({intensity()->datatype, intensity()->offset});
+    else
+      columns_.clear();
+    const auto is_float = [](const auto& c) {
+      return c.datatype == PCLPointField::FLOAT32;
+    };
+    if (!std::all_of(columns_.begin(), columns_.end(), is_float))
+      columns_.clear();
   }
 
   void
@@ -108,6 +118,8 @@ public:
          std::size_t end,
          std::string& content) override
   {
+    if (!columns_.empty())
+      return appendBytes(block, begin, end, columns_, content);
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint8_t* const point = &block.data[i * block.point_step];
       const float row[] = {floatAt(point, &fields_[0]),
@@ -117,6 +129,9 @@ public:
       content.append(reinterpret_cast<const char*>(row), sizeof row);
     }
   }
+
+private:
+  std::vector<text::Column> columns_; ///< if all four are float32 already
 };
 
 /** \brief x y z [m]. */

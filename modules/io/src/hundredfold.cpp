@@ -33,8 +33,9 @@ appendDecimal(std::string& text, std::string_view digits, int exponent)
     text.append(whole - digits.size(), '0');
 }
 
+/** \return how many decimal places the value's own text has; 0 if it is not finite */
 template <typename T>
-void
+int
 appendShifted(std::string& text, T value)
 {
   char buffer[32];
@@ -48,28 +49,35 @@ appendShifted(std::string& text, T value)
   const std::size_t e = shown.find('e');
   if (value == 0 || e == std::string_view::npos) { // 0, or not finite
     text += shown.substr(0, e);
-    return;
+    return 0;
   }
   char digits[32]; // without the point
   const char* const digits_end =
       std::remove_copy(shown.begin(), shown.begin() + e, digits, '.');
   int exponent = 0;
   std::from_chars(&shown[e + (shown[e + 1] == '+' ? 2 : 1)], end, exponent);
-  appendDecimal(
-      text, {digits, static_cast<std::size_t>(digits_end - digits)}, exponent + 2);
+  const auto count = static_cast<std::size_t>(digits_end - digits);
+  appendDecimal(text, {digits, count}, exponent + 2);
+  return static_cast<int>(count) - 1 - exponent;
 }
 } // namespace
 
+// A text of up to 9 digits with q decimal places is a multiple of 10^-q, and the middle
+// between two floats an odd multiple, below 2^25, of a power of 2. So the two differ by a
+// relative 2^-25 5^-q at least, or not at all: up to q = 11 by more than the two roundings
+// of double, 2^-52, which then cannot change the float.
 void
 appendHundredfold(std::string& text, float value)
 {
+  constexpr int kSafePlaces = 11;
   const std::size_t start = text.size();
-  appendShifted(text, value);
+  if (appendShifted(text, value) <= kSafePlaces)
+    return;
   double read = 0;
   std::from_chars(text.data() + start, text.data() + text.size(), read);
-  if (static_cast<float>(read / 100) == value || value != value)
+  if (static_cast<float>(read / 100) == value)
     return;
-  text.resize(start); // too close to the middle between two floats
+  text.resize(start);
   appendNumber(text, 100 * static_cast<double>(value)); // exact in double
 }
 

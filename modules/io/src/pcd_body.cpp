@@ -151,34 +151,49 @@ decodeCompressed(text::Input& input, const PcdHeader& header)
   Bytes data(points * header.point_size);
   const std::uint8_t* value = values.data();
   for (const auto& field : header.fields) {
-    const std::size_t size = isPadding(field) ? 0 : sizeOf(field);
-    for (std::size_t i = 0; i < points; ++i, value += size)
-      std::copy_n(value, size, &data[i * header.point_size + field.offset]);
+    if (isPadding(field))
+      continue;
+    const std::size_t size = sizeOf(field);
+    copyValues(
+        value, size, data.data() + field.offset, header.point_size, size, points);
+    value += points * size;
   }
   return data;
+}
+
+/** \return whether the floating-point values of the points [begin, end) are finite */
+bool
+isFinite(const pcl::PCLPointCloud2& cloud,
+         const PCLPointField& field,
+         std::size_t begin,
+         std::size_t end)
+{
+  return withTypeOf(field.datatype, [&](auto value) {
+    if constexpr (std::is_floating_point_v<decltype(value)>)
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t k = 0; k < field.count; ++k) {
+          std::memcpy(
+              &value,
+              &cloud.data[i * cloud.point_step + field.offset + k * sizeof value],
+              sizeof value);
+          if (!std::isfinite(value))
+            return false;
+        }
+    return true;
+  });
 }
 
 /** \return whether all floating-point values are finite: PCL's meaning of dense */
 bool
 isDense(const pcl::PCLPointCloud2& cloud)
 {
+  constexpr std::size_t kBlock = 1024; // points that stay in the cache
   const std::size_t points = std::size_t{cloud.width} * cloud.height;
-  const auto isFinite = [&](const PCLPointField& field) {
-    return withTypeOf(field.datatype, [&](auto value) {
-      if constexpr (std::is_floating_point_v<decltype(value)>)
-        for (std::size_t i = 0; i < points; ++i)
-          for (std::size_t k = 0; k < field.count; ++k) {
-            std::memcpy(
-                &value,
-                &cloud.data[i * cloud.point_step + field.offset + k * sizeof value],
-                sizeof value);
-            if (!std::isfinite(value))
-              return false;
-          }
-      return true;
-    });
-  };
-  return std::all_of(cloud.fields.begin(), cloud.fields.end(), isFinite);
+  for (std::size_t begin = 0; begin < points; begin += kBlock)
+    for (const auto& field : cloud.fields)
+      if (!isFinite(cloud, field, begin, std::min(points, begin + kBlock)))
+        return false;
+  return true;
 }
 
 } // namespace

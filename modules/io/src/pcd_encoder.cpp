@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcd_header.h"
+#include "point_field.h"
 #include "scan_encoder.h"
 
 #include <pcl/io/lzf.h>
@@ -94,9 +95,12 @@ public:
     std::size_t start = 0; // of the field's values
     for (const auto& field : header_.fields) {
       const std::size_t size = field.count * sizeOfType(field.datatype);
-      std::uint8_t* value = values_.data() + start + num_encoded_ * size;
-      for (std::size_t i = begin; i < end; ++i, value += size)
-        std::memcpy(value, &block.data[i * block.point_step + field.offset], size);
+      copyValues(block.data.data() + begin * block.point_step + field.offset,
+                 block.point_step,
+                 values_.data() + start + num_encoded_ * size,
+                 size,
+                 size,
+                 end - begin);
       start += header_.numPoints() * size;
     }
     num_encoded_ += end - begin;

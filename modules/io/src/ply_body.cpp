@@ -110,6 +110,10 @@ private:
     std::size_t size = 0;
     for (const auto& column : columns_)
       size += sizeOf(column.datatype);
+    if (in_order_ && !big_endian_) {
+      take(target, size);
+      return true;
+    }
     row_.resize(size);
     take(row_.data(), size);
     const std::uint8_t* value = row_.data();
@@ -167,9 +171,13 @@ PlyBody::start(const PlyElement& element, const std::vector<std::size_t>& offset
   count_ = 0;
   has_list_ = false;
   columns_.clear();
+  in_order_ = true;
+  std::size_t end = 0; // of the columns so far
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     has_list_ |= element.properties[i].is_list;
     columns_.push_back({element.properties[i].datatype, offsets[i]});
+    in_order_ &= offsets[i] == end;
+    end += sizeOf(element.properties[i].datatype);
   }
 }
 

@@ -37,6 +37,7 @@ protected:
 
   text::Input& input_;
   std::vector<text::Column> columns_; ///< of the element, if it has no list
+  bool in_order_ = false;             ///< the columns follow each other without gaps
 
 private:
   virtual void

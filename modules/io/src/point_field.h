@@ -3,9 +3,12 @@
 
 #include <pcl/PCLPointField.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
-/** \file The datatypes of fields. Internal to the module io. */
+/** \file The datatypes of fields, and their values in memory. Internal to the module io. */
 namespace pcl6d {
 
 /** \brief Calls f with a value-initialised number of the C++ type that a PCLPointField
@@ -37,6 +40,27 @@ withTypeOf(std::uint8_t datatype, F&& f)
   default:
     return f(float{});
   }
+}
+
+/** \brief Copies values of `size` bytes that stand `step` bytes apart. */
+inline void
+copyValues(const std::uint8_t* source,
+           std::size_t source_step,
+           std::uint8_t* target,
+           std::size_t target_step,
+           std::size_t size,
+           std::size_t count)
+{
+  const auto copy = [&](auto bytes) { // a size that the compiler knows
+    for (std::size_t i = 0; i < count; ++i)
+      std::memcpy(target + i * target_step, source + i * source_step, bytes);
+  };
+  if (size == 4)
+    copy(std::integral_constant<std::size_t, 4>());
+  else if (size == 8)
+    copy(std::integral_constant<std::size_t, 8>());
+  else
+    copy(size);
 }
 
 } // namespace pcl6d

@@ -84,11 +84,21 @@ appendBytes(const pcl::PCLPointCloud2& block,
             std::string& content)
 {
   const std::vector<Span> spans = spansOf(columns);
-  for (std::size_t i = begin; i < end; ++i)
-    for (const auto& span : spans)
-      content.append(reinterpret_cast<const char*>(
-                         &block.data[i * block.point_step + span.offset]),
-                     span.size);
+  std::size_t row = 0; // [byte]
+  for (const auto& span : spans)
+    row += span.size;
+  const std::size_t start = content.size();
+  content.resize(start + (end - begin) * row);
+  auto* target = reinterpret_cast<std::uint8_t*>(&content[start]);
+  for (const auto& span : spans) {
+    copyValues(block.data.data() + begin * block.point_step + span.offset,
+               block.point_step,
+               target,
+               row,
+               span.size,
+               end - begin);
+    target += span.size;
+  }
 }
 
 } // namespace pcl6d

@@ -113,27 +113,42 @@ finitePoints(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud
   return finite;
 }
 
-/** Leaves the finite points in their order. */
+/** Leaves the points that are to be kept, in their order, in one row. */
+void
+keepPoints(const std::vector<bool>& keep, ScanCloud& scan)
+{
+  pcl::PCLPointCloud2& cloud = scan.cloud;
+  const std::size_t step = cloud.point_step;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    if (!keep[i])
+      continue;
+    if (kept != i)
+      std::memcpy(&cloud.data[kept * step], &cloud.data[i * step], step);
+    ++kept;
+  }
+  scan.dropped = keep.size() - kept;
+  cloud.data.resize(kept * step);
+  cloud.width = static_cast<pcl::uindex_t>(kept);
+  cloud.height = 1;
+  cloud.row_step = cloud.width * cloud.point_step;
+}
+
 void
 dropInvalid(const std::filesystem::path& path, ScanCloud& scan)
 {
-  const std::vector<bool> finite = finitePoints(path, scan.cloud);
-  const std::size_t step = scan.cloud.point_step;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < finite.size(); ++i) {
-    if (!finite[i])
-      continue;
-    if (kept != i)
-      std::memcpy(&scan.cloud.data[kept * step], &scan.cloud.data[i * step], step);
-    ++kept;
+  const auto isFloat = [&](const char* axis) {
+    return coordinateField(path, scan.cloud, axis).datatype ==
+           pcl::PCLPointField::FLOAT32;
+  };
+  const bool floats = std::count_if(kAxes.begin(), kAxes.end(), isFloat) == 3;
+  if (!floats || !scan.cloud.is_dense) { // else readPcd() has looked at them
+    const std::vector<bool> finite = finitePoints(path, scan.cloud);
+    if (std::find(finite.begin(), finite.end(), false) != finite.end())
+      keepPoints(finite, scan);
   }
-  scan.dropped = finite.size() - kept;
-  scan.cloud.data.resize(kept * step);
-  if (scan.dropped > 0 || kept == 0) {
-    scan.cloud.width = static_cast<pcl::uindex_t>(kept);
-    scan.cloud.height = 1;
-    scan.cloud.row_step = scan.cloud.width * scan.cloud.point_step;
-  }
+  if (scan.cloud.data.empty())
+    keepPoints({}, scan);
   scan.cloud.is_dense = true;
 }
 

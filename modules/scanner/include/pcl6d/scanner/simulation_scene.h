@@ -19,7 +19,7 @@ struct SimulationScene {
   /** The object with id i at place i - 1; poses in the scene's frame */
   std::vector<ObjectPose> objects;
   std::vector<MovingBody> moving; ///< what moves while the robot drives
-  std::string description; ///< the JSON text that it was read from; may be empty
+  std::string description;        ///< the JSON text that it was read from; may be empty
   int num_scans = 40;             ///< that cover the way well
   double max_range = 30;          ///< [m] that suits its size
 

@@ -89,11 +89,10 @@ describe(LinesSettings& s, CommandLine& line)
        po::value(&s.mounting)->value_name("R,P,Y"),
        "[deg] roll, pitch, yaw of the 2D scanner on the drive; default 0,0,0, for a "
        "yawing drive 90,0,0: its fan stands upright") //
-      (
-          "lever-arm",
-          valueOf(s.lever_arm)->value_name("X,Y,Z"),
-          "[m] from the drive's axis to the 2D scanner's centre, turning with the "
-          "drive") //
+      ("lever-arm",
+       valueOf(s.lever_arm)->value_name("X,Y,Z"),
+       "[m] from the drive's axis to the 2D scanner's centre, turning with the "
+       "drive") //
       ("axis-position",
        valueOf(s.axis_position)->value_name("X,Y,Z"),
        "[m] of the axis in the frame of the scan")(

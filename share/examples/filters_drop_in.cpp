@@ -19,7 +19,8 @@ main()
   const std::size_t mixed = 20 * kTurns + 30; // a mixed pixel: far behind its wall
   (*scan)[mixed].getVector3fMap() *= 3;
 
-  Cloud::Ptr filtered(new Cloud), lines(new Cloud), gated(new Cloud), reduced(new Cloud);
+  Cloud::Ptr filtered(new Cloud), lines(new Cloud), gated(new Cloud),
+      reduced(new Cloud);
   pcl6d::ScanLineMedian<Point> median; // moves it to the wall; keeps all points
   median.setLineLength(kTurns);
   median.setInputCloud(scan);
@@ -37,7 +38,7 @@ main()
   gate.filter(*gated);
 
   pcl6d::OctreeReduction<Point> octree;
-  octree.options().voxel = 0.25; // [m]
+  octree.options().voxel = 0.25;                             // [m]
   octree.options().method = pcl6d::ReductionMethod::kRandom; // measured points
   octree.setInputCloud(gated);
   octree.filter(*reduced);

@@ -28,8 +28,8 @@ main()
   bool right = true;
   for (pcl6d::ICP6D<Point, Point>* icp :
        {&to_points, &to_planes, static_cast<pcl6d::ICP6D<Point, Point>*>(&planes)}) {
-    const auto rejector = pcl::make_shared<
-        pcl::registration::CorrespondenceRejectorMedianDistance>();
+    const auto rejector =
+        pcl::make_shared<pcl::registration::CorrespondenceRejectorMedianDistance>();
     rejector->setMedianFactor(9);
     icp->addCorrespondenceRejector(rejector);
     icp->setInputSource(source);

@@ -57,10 +57,9 @@ inline pcl::PointCloud<pcl::PointXYZ>::Ptr
 scanRoom(const Eigen::Isometry3d& T_room_scan)
 {
   const Box walls{Eigen::Vector3d(-5, -4, -1), Eigen::Vector3d(7, 4, 2)};
-  const Box pillars[] = {
-      {Eigen::Vector3d(-3, 1.5, -1), Eigen::Vector3d(-2.4, 2.3, 2)},
-      {Eigen::Vector3d(1, -3, -1), Eigen::Vector3d(1.5, -2, 0.7)},
-      {Eigen::Vector3d(4.5, 2, -1), Eigen::Vector3d(5.5, 2.6, 2)}};
+  const Box pillars[] = {{Eigen::Vector3d(-3, 1.5, -1), Eigen::Vector3d(-2.4, 2.3, 2)},
+                         {Eigen::Vector3d(1, -3, -1), Eigen::Vector3d(1.5, -2, 0.7)},
+                         {Eigen::Vector3d(4.5, 2, -1), Eigen::Vector3d(5.5, 2.6, 2)}};
   pcl::PointCloud<pcl::PointXYZ>::Ptr scan(new pcl::PointCloud<pcl::PointXYZ>);
   for (double up = -0.85; up < 0.85; up += 0.035)
     for (int i = 0; i < kTurns; ++i) {

@@ -30,26 +30,15 @@ graphFolder()
          "graphs";
 }
 
-/** A robot that drives through the streets of a campus of 250 m and measures from every
- * place its way to the next and to two places near by. The start is the chain. */
-PoseGraph
-campus(std::size_t num_poses, std::size_t num_links)
+/** Along the streets of a campus of 250 m, at crossings straight on or around a corner. */
+std::vector<Eigen::Isometry3d>
+driveThroughStreets(std::size_t num_poses, Random& random)
 {
-  Random random(5);
-  const auto noisy = [&](const Eigen::Isometry3d& motion) {
-    const auto draw = [&](double sigma) -> Eigen::Vector3d {
-      return Eigen::Vector3d::NullaryExpr([&] { return sigma * random.normal(); });
-    };
-    Eigen::Isometry3d error = Eigen::Isometry3d::Identity();
-    error.linear() = rotationFromVector(draw(0.0005));
-    error.translation() = draw(0.01);
-    return motion * error;
-  };
   constexpr double kStreet = 50; // [m]
   constexpr int kStreets = 5;
-  PoseGraph graph;
+  std::vector<Eigen::Isometry3d> poses;
   Eigen::Vector2i corner(0, 0), way(1, 0);
-  for (double along = 0; graph.poses.size() < num_poses; along += 1) {
+  for (double along = 0; poses.size() < num_poses; along += 1) {
     if (along >= kStreet) { // at a crossing, turn to where there is a street
       along = 0;
       corner += way;
@@ -65,16 +54,40 @@ campus(std::size_t num_poses, std::size_t num_links)
     }
     const Eigen::Vector2d place =
         kStreet * corner.cast<double>() + along * way.cast<double>();
-    graph.poses.push_back(
+    poses.push_back(
         poseFromEuler({place.x(), place.y(), 0.02 * place.x()},
                       {0, 0, std::atan2(double(way.y()), double(way.x()))}));
   }
+  return poses;
+}
+
+/** A measured motion. */
+Eigen::Isometry3d
+noisy(const Eigen::Isometry3d& motion, Random& random)
+{
+  const auto draw = [&](double sigma) -> Eigen::Vector3d {
+    return Eigen::Vector3d::NullaryExpr([&] { return sigma * random.normal(); });
+  };
+  Eigen::Isometry3d error = Eigen::Isometry3d::Identity();
+  error.linear() = rotationFromVector(draw(0.0005));
+  error.translation() = draw(0.01);
+  return motion * error;
+}
+
+/** A robot that measures from every place on a campus its way to the next and to two places
+ * near by. The start is the chain. */
+PoseGraph
+campus(std::size_t num_poses, std::size_t num_links)
+{
+  Random random(5);
+  PoseGraph graph;
+  graph.poses = driveThroughStreets(num_poses, random);
   PoseLink link;
   link.information.diagonal() << 1e4, 1e4, 1e4, 4e6, 4e6, 4e6;
   const auto add = [&](std::size_t a, std::size_t b) {
     link.from = a;
     link.to = b;
-    link.T_from_to = noisy(graph.poses[a].inverse() * graph.poses[b]);
+    link.T_from_to = noisy(graph.poses[a].inverse() * graph.poses[b], random);
     graph.links.push_back(link);
   };
   for (std::size_t i = 0; i + 1 < num_poses; ++i)

@@ -122,8 +122,9 @@ TEST(LocalOrigin, IsNearTheCloudInWholeKilobinaryMetres)
 TEST(LocalOrigin, IsSubtractedWithoutRounding)
 {
   Random random(3);
-  for (const Eigen::Vector3f& place :
-       {kUtm, Eigen::Vector3f(-4.2e6f, 1.2e4f, -9e3f), Eigen::Vector3f(1.5e7f, 0, 8.7e3f)})
+  for (const Eigen::Vector3f& place : {kUtm,
+                                       Eigen::Vector3f(-4.2e6f, 1.2e4f, -9e3f),
+                                       Eigen::Vector3f(1.5e7f, 0, 8.7e3f)})
     for (const double extent : {1.0, 60.0, 4000.0}) {
       const Points points = shifted(randomCube(random, 500, extent), place);
       const Eigen::Vector3f origin = localOrigin(points);
@@ -139,7 +140,8 @@ TEST(LocalOrigin, IsSubtractedWithoutRounding)
 TEST(FarSearches, FindTheSameAsNearTheOrigin)
 {
   Random random(4);
-  const Points points = gridPoints(random, 2000, 30), queries = gridPoints(random, 60, 34);
+  const Points points = gridPoints(random, 2000, 30),
+               queries = gridPoints(random, 60, 34);
   const auto near_cloud = toCloud<Point>(points);
   const auto far_cloud = toCloud<Point>(shifted(points, kUtm));
   for (const auto& search : allSearches()) {

@@ -25,7 +25,8 @@ public:
   {
     a = firstOf(a);
     b = firstOf(b);
-    parent_[std::max(a, b)] = std::min(a, b); // so the root is the first of its component
+    parent_[std::max(a, b)] =
+        std::min(a, b); // so the root is the first of its component
     return a != b;
   }
 

@@ -10,8 +10,8 @@ namespace pcl6d {
 
 /** \brief A measurement of one pose seen from another. \ingroup common */
 struct PoseLink {
-  std::size_t from = 0; ///< vertex a
-  std::size_t to = 0;   ///< vertex b
+  std::size_t from = 0;                                        ///< vertex a
+  std::size_t to = 0;                                          ///< vertex b
   Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity(); ///< maps b to a [m]
   /** Inverse covariance of the error pose T_from_to^-1 T_a^-1 T_b, in the order
    * translation [m], rotation [rad], both in the axes of the measured b. */

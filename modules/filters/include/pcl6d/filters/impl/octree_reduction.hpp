@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/require_indices.h>
 #include <pcl6d/filters/impl/average_fields.hpp>
 #include <pcl6d/filters/octree_reduction.h>
-#include <pcl6d/common/require_indices.h>
 
 namespace pcl6d {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/require_indices.h>
 #include <pcl6d/filters/range_gate.h>
 #include <pcl6d/filters/range_statistics.h>
-#include <pcl6d/common/require_indices.h>
 
 namespace pcl6d {
 

@@ -196,8 +196,9 @@ TEST(Icp6DMetrics, ReciprocalPairsAreEachOthersClosest)
     icp.setMetric(metric);
     icp.setUseReciprocalCorrespondences(true);
     alignFrom(icp);
-    if (metric != Metric::kPlane) // which swings between two sets of pairs
+    if (metric != Metric::kPlane) { // which swings between two sets of pairs
       EXPECT_TRUE(icp.hasConverged()) << toString(metric);
+    }
     // By the definition, at the final pose.
     const pcl6d::Points target = cornerPoints();
     const pcl6d::Points moved =

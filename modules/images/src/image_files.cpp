@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/images/image_files.h>
 #include <pcl6d/io/atomic_file.h>
-#include <pcl6d/scanner/image_files.h>
 
 #include <opencv2/imgcodecs.hpp>
 

@@ -120,13 +120,13 @@ TYPED_TEST(LumProgram, HandsOutItsCloudsAndPairs)
 
 TYPED_TEST(LumProgram, ReportsCallsWithoutAnAnswerAndReturns)
 {
-  using Cloud = typename TypeParam::PointCloud;
+  using Points = typename TypeParam::PointCloud;
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); // they are many
   TypeParam lum;
   lum.compute(); // of nothing
   const auto first = lum.addPointCloud(nullptr);
   EXPECT_EQ(lum.getPointCloud(first), nullptr);
-  const typename Cloud::Ptr cloud(new Cloud);
+  const typename Points::Ptr cloud(new Points);
   lum.setPointCloud(first, cloud);
   EXPECT_EQ(lum.getPointCloud(first), cloud);
   lum.addPointCloud(cloud);

@@ -104,7 +104,7 @@ TEST_P(Corridors, AreNotCalledMatched)
 INSTANTIATE_TEST_SUITE_P(AllMetrics,
                          Corridors,
                          testing::ValuesIn(pcl6d::metricNames()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& one) { return one.param; });
 
 TEST(Agreement, IsTheShareOfPointsThatHaveAPointNear)
 {

@@ -63,8 +63,8 @@ TEST(Convert, HelpsAndKnowsItsVerbs)
     EXPECT_EQ(convert({verb, "--help"}).exit_code, 0);
   }
   EXPECT_EQ(convert({"--version"}).exit_code, 0);
-  expectConvertError({}, 2, {"scans, trajectory"});
-  expectConvertError({"maps"}, 2, {"'maps'", "scans, trajectory"});
+  expectConvertError({}, 2, {"lines, scans, stereo, trajectory"});
+  expectConvertError({"maps"}, 2, {"'maps'", "lines, scans, stereo, trajectory"});
 }
 
 TEST_F(BadInput, WrongFormatsAndEncodings)

@@ -87,7 +87,7 @@ TEST_F(BadInput, MeshWithoutVertices)
             "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
             "property float y\nproperty float z\nelement face 0\n"
             "property list uchar int vertex_indices\nend_header\n");
-  expectRefused({"scan000.ply", "vert"});
+  expectRefused({"scan000.ply", "0 points"});
 }
 
 TEST_F(BadInput, TooFewPoses)

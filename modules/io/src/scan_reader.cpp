@@ -142,13 +142,13 @@ dropInvalid(const std::filesystem::path& path, ScanCloud& scan)
            pcl::PCLPointField::FLOAT32;
   };
   const bool floats = std::count_if(kAxes.begin(), kAxes.end(), isFloat) == 3;
-  if (!floats || !scan.cloud.is_dense) { // else readPcd() has looked at them
+  if (scan.cloud.data.empty())
+    keepPoints({}, scan);
+  else if (!floats || !scan.cloud.is_dense) { // else readPcd() has looked at them
     const std::vector<bool> finite = finitePoints(path, scan.cloud);
     if (std::find(finite.begin(), finite.end(), false) != finite.end())
       keepPoints(finite, scan);
   }
-  if (scan.cloud.data.empty())
-    keepPoints({}, scan);
   scan.cloud.is_dense = true;
 }
 

@@ -104,9 +104,21 @@ PairFinder::updateBlock(const Look& look, const Block& block)
     }
     partner.distance_sq =
         partner.index < 0 ? kInfinity : pcl6d::distanceSq(p, partner.point);
-    partner.weight = partner.usable && partner.distance_sq < limit_sq ? 1 : 0;
+    partner.weight =
+        partner.usable && partner.distance_sq < limit_sq && facesAlike(look, i) ? 1 : 0;
   }
   return searched;
+}
+
+/** \return false for the two faces of a wall: normals that point apart */
+bool
+PairFinder::facesAlike(const Look& look, std::size_t i) const
+{
+  if (!options_.facing_normals || !source_normals_)
+    return true;
+  const Eigen::Vector3d normal =
+      look.T_target_source.linear() * (*source_normals_)[i].cast<double>();
+  return normal.dot(partners_[i].normal.cast<double>()) >= 0;
 }
 
 /** Searches the parts, that of the last neighbour first, as its distance prunes the

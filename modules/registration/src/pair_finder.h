@@ -84,6 +84,8 @@ private:
   setPartner(std::size_t i, int part, int index);
   bool
   isUsable(std::size_t i) const;
+  bool
+  facesAlike(const Look& look, std::size_t i) const;
 
   const IcpTarget& target_;
   const Points& source_;

@@ -231,6 +231,7 @@ ScanMatcher::icpOptions(std::size_t num_points) const
   icp.plane_minimiser = options_.plane_minimiser;
   icp.robust = options_.robust;
   icp.gicp_epsilon = 0.01;
+  icp.facing_normals = true;
   icp.shrinking_stride = std::clamp<int>(num_points / kPointsToComeNear, 1, 5);
   icp.max_iterations = options_.max_iterations;
   icp.max_distance = parameters_.max_distance.value;

@@ -56,6 +56,9 @@ struct IcpOptions {
   double gicp_epsilon =
       1e-3; ///< variance across a plane over that along it, of kGicp; in
             ///< (0, 1]
+  /** of kGicp: pairs whose normals point apart do not count, such as those of the two
+   * faces of a wall; for normals that point to the scanner, as estimateNormals() makes */
+  bool facing_normals = false;
   int max_iterations = 100;      ///< > 0
   double max_distance = 0.25;    ///< [m] farther pairs are dropped; > 0
   double max_distance_start = 0; ///< [m] the limit at the start, which then shrinks to

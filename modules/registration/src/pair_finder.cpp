@@ -110,6 +110,10 @@ PairFinder::updateBlock(const Look& look, const Block& block)
   return searched;
 }
 
+/** Normals with a smaller cosine point apart: clearly, as pairs that come and go with the
+ * noise of a normal would keep ICP from coming to rest. */
+constexpr double kOpposite = -0.5;
+
 /** \return false for the two faces of a wall: normals that point apart */
 bool
 PairFinder::facesAlike(const Look& look, std::size_t i) const
@@ -118,7 +122,7 @@ PairFinder::facesAlike(const Look& look, std::size_t i) const
     return true;
   const Eigen::Vector3d normal =
       look.T_target_source.linear() * (*source_normals_)[i].cast<double>();
-  return normal.dot(partners_[i].normal.cast<double>()) >= 0;
+  return normal.dot(partners_[i].normal.cast<double>()) > kOpposite;
 }
 
 /** Searches the parts, that of the last neighbour first, as its distance prunes the

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "json_numbers.h"
 #include "text.h"
 
 #include <pcl6d/io/run_summary.h>
-
-#include <nlohmann/json.hpp>
 
 namespace pcl6d {
 
 namespace {
 using Json = nlohmann::ordered_json;
-
-/** Takes the numbers row by row. \param[in] name for messages */
-template <typename Matrix>
-void
-fill(const Json& json, const std::string& name, Matrix& matrix)
-{
-  const auto values = json.get<std::vector<double>>();
-  if (values.size() != static_cast<std::size_t>(matrix.size()))
-    throw std::invalid_argument(name + ": expected " + std::to_string(matrix.size()) +
-                                " numbers, got " + std::to_string(values.size()));
-  for (Eigen::Index i = 0; i < matrix.size(); ++i)
-    matrix(i / matrix.cols(), i % matrix.cols()) = values[static_cast<std::size_t>(i)];
-}
 
 /** A number that is not finite is null in JSON. */
 double
@@ -104,15 +90,6 @@ summaryOf(const Json& json)
   for (const Json& scan : json.at("scans"))
     summary.scans.push_back(scanOf(scan));
   return summary;
-}
-
-/** \return the message of the JSON library without its number in brackets */
-std::string
-reasonOf(const Json::exception& error)
-{
-  const std::string message = error.what();
-  const std::size_t end = message.find("] ");
-  return end == std::string::npos ? message : message.substr(end + 2);
 }
 } // namespace
 

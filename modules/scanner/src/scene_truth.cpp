@@ -167,7 +167,7 @@ scenePlanes(const TriangleScene& scene, const Eigen::Isometry3d& T_scene_world)
     if (area <= largest[k])
       continue;
     largest[k] = area;
-    planes[k].label = surface.label;
+    planes[k].label = toString(surface.label);
     planes[k].normal = T_world_scene.linear() * (vector / area);
     planes[k].offset = planes[k].normal.dot(corners[k].back());
   }

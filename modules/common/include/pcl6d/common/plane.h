@@ -4,12 +4,14 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace pcl6d {
 
-/** \brief What a plane is to a person (book 7.1.2). As a number it is the field `label`
- * of a point. \ingroup common */
+/** \brief What a surface is to a person (book 7.1.2): the labels of the book's network.
+ * As a number it is the field `label` of a point. Rules of a user's own may name more
+ * (Plane::label). \ingroup common */
 enum class PlaneLabel { kNone = 0, kFloor = 1, kCeiling = 2, kWall = 3, kDoor = 4 };
 
 /** \return "none", "floor", "ceiling", "wall" or "door" */
@@ -20,10 +22,11 @@ toString(PlaneLabel label);
 struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit length
   double offset = 0;                                 ///< [m] >= 0
-  PlaneLabel label = PlaneLabel::kNone;
+  std::string label = "none"; ///< what it is: toString(PlaneLabel) or a user's word
   std::vector<Eigen::Vector3d> hull; ///< [m] convex, counter-clockwise against normal
   double area = 0;                   ///< [m^2]
   std::size_t inliers = 0;           ///< points on it
+  double rms = 0;                    ///< [m] of their distances to the plane
 };
 
 /** \brief Turns a plane's normal around, if need be, so that offset >= 0; where the

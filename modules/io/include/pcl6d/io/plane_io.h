@@ -4,14 +4,24 @@
 #include <pcl6d/common/plane.h>
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace pcl6d {
 
 /** \brief Writes planes as JSON (fields: share/doc/run_folder.md), atomically; the id of
- * a plane is its place plus one. \throws IoFailed the file cannot be written
- * \ingroup io */
+ * a plane is its place plus one.
+ * \param[in] seconds spent on finding them; left out if not given
+ * \throws IoFailed the file cannot be written \ingroup io */
 void
-writePlanes(const std::filesystem::path& path, const std::vector<Plane>& planes);
+writePlanes(const std::filesystem::path& path,
+            const std::vector<Plane>& planes,
+            std::optional<double> seconds = {});
+
+/** \brief Reads what writePlanes() wrote; an `rms` that is not there is 0.
+ * \throws IoFailed the file cannot be read or is no such JSON; the message names the
+ * plane and the field */
+std::vector<Plane>
+readPlanes(const std::filesystem::path& path);
 
 } // namespace pcl6d

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/plane.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A plane found in a cloud: one connected surface and the points on it.
+ * \ingroup plane_segmentation */
+struct PlaneSegment {
+  Plane plane;                       ///< least-squares fit; hull: the convex one
+  std::vector<std::uint32_t> points; ///< places in the cloud, ascending
+
+  /** [m] The concave hull: rings of corners on the plane, the outer one first,
+   * counter-clockwise as seen from where the normal points to, then its holes,
+   * clockwise. Plane::area is the area inside. */
+  std::vector<std::vector<Eigen::Vector3d>> outline;
+};
+
+/** \brief What a segmentation finds in a cloud. */
+struct PlaneSegments {
+  std::vector<PlaneSegment> planes;      ///< largest area first
+  std::vector<std::uint32_t> unassigned; ///< points on no plane, ascending
+};
+
+} // namespace pcl6d

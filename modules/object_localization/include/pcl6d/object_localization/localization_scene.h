@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/object_localization/oriented_points.h>
+#include <pcl6d/scanner/range_image.h>
+#include <pcl6d/search/point_tree.h>
+
+#include <memory>
+
+namespace pcl6d {
+
+/** \brief A scan prepared for the search for objects: all points, and how far the scanner
+ * saw in each direction. The scanner is at the origin. \ingroup object_localization */
+class LocalizationScene {
+public:
+  /** \param[in] points [m] in the scan's frame; those that are not finite are left out
+   * \param[in] num_threads 0: one per core; never changes the result
+   * \throws BadArgument fewer than 10 finite points */
+  explicit LocalizationScene(const Points& points, unsigned int num_threads = 0);
+
+  const Points&
+  points() const
+  {
+    return points_;
+  }
+  const PointTree&
+  tree() const
+  {
+    return tree_;
+  }
+
+  /** \return the image of ranges, about two points of the scan wide a pixel */
+  const RangeImage&
+  ranges() const
+  {
+    return *ranges_;
+  }
+
+  /** \return median distance of a point and its nearest neighbour over its range [rad] */
+  double
+  angularSpacing() const
+  {
+    return angular_spacing_;
+  }
+
+private:
+  Points points_;
+  PointTree tree_;
+  double angular_spacing_;
+  std::unique_ptr<const RangeImage> ranges_;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/status.h>
+#include <pcl6d/object_localization/localization_scene.h>
+#include <pcl6d/object_localization/object_model.h>
+#include <pcl6d/object_localization/pair_features.h>
+#include <pcl6d/registration/pose_information.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief Knobs of ObjectLocalizer. */
+struct LocalizerOptions {
+  double resolution = 0.05;  ///< of the search, as a share of the model's diameter; in
+                             ///< [0.02, 0.2]
+  int max_candidates = 24;   ///< poses that are looked at closely; > 0
+  double min_visible = 0.25; ///< PoseCheck::visibleFraction() of an object
+  double min_facing = 0.3;   ///< of the surface that faces the scanner where most of it
+                             ///< does: an open shell is not believed from behind
+  double max_violation = 0.15;     ///< PoseCheck::freeSpaceViolation()
+  std::size_t min_support = 30;    ///< surface elements of the scan on the object; > 0
+  double max_shared_support = 0.3; ///< of the weaker one of two objects
+  unsigned int num_threads = 0;    ///< 0: one per core; never changes the result
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief An object found in a scan. */
+struct LocalizedObject {
+  std::string object_class;
+  /** kOk, or kRankDeficient: the surfaces leave a turn or shift open, as on a model that
+   * looks the same from all around */
+  Status status = Status::kOk;
+  Eigen::Isometry3d T_scene_object = Eigen::Isometry3d::Identity();
+  std::optional<PoseCovariance> covariance; ///< x y z roll pitch yaw [m, rad]
+  double score = 0;                  ///< visible fraction less free-space violation
+  double visible_fraction = 0;       ///< of the surface that faces the scanner
+  double rms = 0;                    ///< [m]
+  std::vector<std::uint32_t> points; ///< of the scene that lie on it, ascending
+};
+
+/** \brief Finds an object of known shape in a scan and its pose in six degrees of
+ * freedom, without a first guess (book 7.2.2).
+ *
+ * Pairs of points vote for poses (PairFeatureTable), the best ones are refined by ICP,
+ * judged by what the scan shows of the object and by where it saw through (PoseCheck),
+ * and of those that explain the same surface the best one stays. \code
+ * const pcl6d::ObjectLocalizer localizer(
+ *     pcl6d::ObjectModel::fromCloud("carton", model_points));
+ * for (const auto& carton : localizer.locate(pcl6d::LocalizationScene(scan_points)))
+ *   use(carton.T_scene_object);
+ * \endcode \ingroup object_localization */
+class ObjectLocalizer {
+public:
+  /** \throws BadArgument an option breaks its rule */
+  explicit ObjectLocalizer(ObjectModel model, const LocalizerOptions& options = {});
+
+  /** \return the objects, best score first; none is no error */
+  std::vector<LocalizedObject>
+  locate(const LocalizationScene& scene) const;
+
+  const ObjectModel&
+  model() const
+  {
+    return model_;
+  }
+
+private:
+  LocalizerOptions options_;
+  ObjectModel model_;
+  double voxel_;            ///< [m] of the search
+  OrientedPoints coarse_;   ///< the model for votes
+  OrientedPoints fine_;     ///< for refinement
+  std::size_t most_facing_; ///< points of fine_, from the best side
+  PairFeatureTable table_;
+};
+
+} // namespace pcl6d

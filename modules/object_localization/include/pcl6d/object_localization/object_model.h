@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/triangle_mesh.h>
+#include <pcl6d/object_localization/oriented_points.h>
+
+#include <Eigen/Geometry>
+
+#include <string>
+
+namespace pcl6d {
+
+/** \brief What an object looks like: its surface in its own frame, all around or as far as
+ * it was seen. \ingroup object_localization */
+class ObjectModel {
+public:
+  /** [m] A model that is larger was hardly given in metres. */
+  static constexpr double kLargestDiameter = 50;
+
+  /** \brief Takes a cloud. Without normals they are estimated and turned to the outside
+   * (orientNormals()).
+   * \param[in] object_class such as "chair"
+   * \param[in] points [m] in the object's frame; those that are not finite are left out
+   * \param[in] normals one per point, or empty
+   * \throws BadArgument fewer than 10 finite points, all on one line, normals neither one
+   * per point nor none, or larger than kLargestDiameter (is it in millimetres?) */
+  static ObjectModel
+  fromCloud(const std::string& object_class,
+            const Points& points,
+            const Normals& normals = {});
+
+  /** \brief Takes a mesh: its surface is sampled evenly, about 100 points along its
+   * diameter. Which way its triangles turn does not matter.
+   * \throws BadArgument it has no triangle or no area, or as fromCloud() */
+  static ObjectModel
+  fromMesh(const std::string& object_class, const TriangleMesh& mesh);
+
+  const std::string&
+  objectClass() const
+  {
+    return class_;
+  }
+
+  /** \return the surface with normals to the outside */
+  const OrientedPoints&
+  surface() const
+  {
+    return surface_;
+  }
+
+  /** \return [m] in the object's frame */
+  const Eigen::AlignedBox3d&
+  box() const
+  {
+    return box_;
+  }
+
+  /** \return the diagonal of the box [m] */
+  double
+  diameter() const
+  {
+    return box_.diagonal().norm();
+  }
+
+private:
+  ObjectModel(const std::string& object_class, OrientedPoints surface);
+
+  std::string class_;
+  OrientedPoints surface_;
+  Eigen::AlignedBox3d box_;
+};
+
+} // namespace pcl6d

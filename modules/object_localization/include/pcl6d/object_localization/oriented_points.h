@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+#include <pcl6d/filters/point_normals.h>
+
+namespace pcl6d {
+
+/** \brief Points of surfaces with unit normals that all point to the outside, or to the
+ * sensor. \ingroup object_localization */
+struct OrientedPoints {
+  Points points;   ///< [m]
+  Normals normals; ///< one per point
+
+  std::size_t
+  size() const
+  {
+    return points.size();
+  }
+};
+
+/** \return the mean point and normal of each occupied voxel; points without a normal are
+ * left out, and of the two faces of a thin sheet the one with more points stays
+ * \throws BadArgument not one normal per point, or voxel breaks its rule */
+OrientedPoints
+reduceOriented(const OrientedPoints& surface, double voxel);
+
+} // namespace pcl6d

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/object_localization/localization_scene.h>
+#include <pcl6d/object_localization/oriented_points.h>
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief What a scan says of an object at a pose: each point of the model's surface that
+ * faces the scanner and that the object itself does not hide is one of four. */
+struct PoseCheck {
+  std::size_t supported = 0; ///< the scan has a surface there
+  std::size_t refuted = 0;   ///< the scanner saw through
+  std::size_t occluded = 0;  ///< something is in front
+  std::size_t unseen = 0;    ///< no measurement in this direction
+  double rms = 0;            ///< [m] distance to the surface, of those supported
+  /** places of the scan's points that support it, ascending, each once */
+  std::vector<std::uint32_t> support;
+
+  /** \return the number of points that face the scanner */
+  std::size_t
+  facing() const
+  {
+    return supported + refuted + occluded + unseen;
+  }
+
+  /** \return the share of the facing surface that is seen */
+  double
+  visibleFraction() const
+  {
+    return facing() == 0
+               ? 0
+               : static_cast<double>(supported) / static_cast<double>(facing());
+  }
+
+  /** \return of what the scan speaks of, the share that speaks against the pose */
+  double
+  freeSpaceViolation() const
+  {
+    const std::size_t known = supported + refuted;
+    return known == 0 ? 1 : static_cast<double>(refuted) / static_cast<double>(known);
+  }
+};
+
+/** \brief Compares an object at a pose with a scan (book 7.2.2, step 4).
+ * \param[in] scene_surface of the scan around the object, with normals to the scanner
+ * \param[in] tree over its points
+ * \param[in] tolerance [m] between two surfaces that are the same
+ * \ingroup object_localization */
+PoseCheck
+checkPose(const LocalizationScene& scene,
+          const OrientedPoints& scene_surface,
+          const PointTree& tree,
+          const OrientedPoints& model,
+          const Eigen::Isometry3d& T_scene_model,
+          double tolerance);
+
+} // namespace pcl6d

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/object_localization/pose_votes.h>
+
+namespace pcl6d {
+
+/** \brief Joins poses that are near each other: each, those with more votes first, goes to
+ * the first group whose founder is near enough.
+ * \param[in] middle of the model [m], in its frame: where distances count
+ * \param[in] distance [m], angle [rad] within which poses are near
+ * \return per group the mean pose and the sum of the votes; most votes first
+ * \note Source: Drost et al. 2010, section 4.3. \ingroup object_localization */
+std::vector<VotedPose>
+clusterPoses(const std::vector<VotedPose>& poses,
+             const Eigen::Vector3d& middle,
+             double distance,
+             double angle);
+
+} // namespace pcl6d

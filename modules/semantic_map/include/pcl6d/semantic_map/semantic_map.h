@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/object_pose.h>
+#include <pcl6d/common/plane.h>
+#include <pcl6d/semantic_map/map_entity.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A scan of a semantic map. */
+struct MapScan {
+  std::size_t id = 0; ///< index in the run
+  std::string file;
+  Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity(); ///< [m]
+  /** of x y z roll pitch yaw [m, rad]; none if not known */
+  std::optional<Eigen::Matrix<double, 6, 6>> covariance;
+};
+
+/** \brief Two scans that were matched. */
+struct MapLink {
+  std::size_t from = 0; ///< id of a scan
+  std::size_t to = 0;   ///< id of a scan
+  std::string kind;     ///< "sequence", "loop", ...; empty: not known
+  std::size_t pairs = 0;
+  double rms = 0; ///< [m]
+  /** inverse covariance as of PoseLink; none if not known */
+  std::optional<Eigen::Matrix<double, 6, 6>> information;
+};
+
+/** \brief A labelled plane, as measured and, if it was, as refined (7.1.3). */
+struct MapPlane {
+  Plane measured;
+  std::optional<Plane> refined;
+  std::vector<std::size_t> scans; ///< ids of those that saw it, ascending
+
+  /** \return the refined plane, else the measured one */
+  const Plane&
+  best() const
+  {
+    return refined ? *refined : measured;
+  }
+};
+
+/** \brief An object and how well its pose is known. */
+struct MapObject {
+  ObjectPose pose;
+  double score = 0; ///< in [0, 1]
+  /** of x y z roll pitch yaw of T_world_object [m, rad]; none if not known */
+  std::optional<Eigen::Matrix<double, 6, 6>> covariance;
+  /** It looks the same after each turn by 2 pi / symmetry about its z axis; 1: only after
+   * a whole one; 0: after any turn, so that its heading means nothing. */
+  int symmetry = 1;
+  std::vector<std::size_t> scans; ///< ids of those that saw it, ascending
+};
+
+/** \brief All floors at one height. */
+struct MapStorey {
+  double floor = 0;              ///< [m] height along SemanticMap::up
+  std::optional<double> ceiling; ///< [m] height of its largest ceiling
+  double area = 0;               ///< [m^2] of its floor planes
+};
+
+/** \brief Floor area that walls enclose (findRooms()). */
+struct MapRoom {
+  std::size_t storey = 1;       ///< id
+  double area = 0;              ///< [m^2] inside the outline
+  std::optional<double> height; ///< [m] from floor to ceiling
+  std::vector<Eigen::Vector3d>
+      outline; ///< [m] on the floor, counter-clockwise from above
+};
+
+/** \brief `first predicate second`, such as object:3 on plane:1; predicates: see
+ * map_relations.h. */
+struct MapRelation {
+  Entity first;
+  std::string predicate;
+  Entity second;
+};
+
+/** \brief A map that names what it holds (book 7.3): scans with their poses and links,
+ * planes with labels, objects with classes and poses, rooms, and how all these lie to each
+ * other. Everything in the world frame of the run, in full coordinates.
+ * \ingroup semantic_map */
+struct SemanticMap {
+  static constexpr int kSchemaVersion = 1;
+
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ(); ///< unit
+  Eigen::Vector3d world_offset =
+      Eigen::Vector3d::Zero(); ///< [m] of the clouds of the run
+  std::vector<MapScan> scans;  ///< ids ascend
+  std::vector<MapLink> links;
+  std::vector<MapPlane> planes;
+  std::vector<MapObject> objects;
+  std::vector<MapStorey> storeys; ///< from the lowest up
+  std::vector<MapRoom> rooms;
+  std::vector<MapRelation> relations;
+
+  /** \return the place of a thing in its list; none if the map has no such thing */
+  std::optional<std::size_t>
+  placeOf(const Entity& entity) const;
+
+  /** \return names of the labels of points: those of PlaneLabel, then labels of a user's
+   * own, then the classes of objects, both in the order of the map. The place of a name
+   * is the value of the field `label`; 0 is "none". */
+  std::vector<std::string>
+  labelNames() const;
+};
+
+/** \return whether a point lies inside the outline of a room, seen along up */
+bool
+isInPlan(const MapRoom& room, const Eigen::Vector3d& up, const Eigen::Vector3d& point);
+
+/** \return the id of the storey whose floor is the highest not above a height along up
+ * [m]; 0 without storeys, the lowest one below all floors
+ * \param[in] tolerance [m] so far a floor may be above */
+std::size_t
+storeyAt(const SemanticMap& map, double height, double tolerance = 0.3);
+
+} // namespace pcl6d

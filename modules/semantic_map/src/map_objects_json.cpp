@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_objects_json.h"
+
+#include <pcl6d/semantic_map/semantic_map_io.h>
+
+namespace pcl6d {
+
+Json
+matrixOrNull(const std::optional<Eigen::Matrix<double, 6, 6>>& matrix)
+{
+  if (!matrix)
+    return nullptr;
+  Json rows = Json::array();
+  for (int row = 0; row < 6; ++row)
+    rows.push_back(rowByRow(matrix->row(row)));
+  return rows;
+}
+
+std::optional<Eigen::Matrix<double, 6, 6>>
+matrix6From(const JsonPlace& place, const std::string& key)
+{
+  if (const auto matrix = place.find(key))
+    return matrix->matrix6();
+  return {};
+}
+
+Json
+toJson(const MapObject& object, std::size_t id)
+{
+  const ObjectPose& pose = object.pose;
+  return {{"id", id},
+          {"class", pose.object_class},
+          {"T_world_object", rowByRow(pose.T_world_object.matrix())},
+          {"covariance", matrixOrNull(object.covariance)},
+          {"box_min", rowByRow(pose.box.min())},
+          {"box_max", rowByRow(pose.box.max())},
+          {"score", object.score},
+          {"symmetry", object.symmetry},
+          {"moves", pose.moves},
+          {"points", pose.points},
+          {"scans", object.scans}};
+}
+
+namespace {
+/** By its corners, which keep all bits, or by extent and centre. */
+Eigen::AlignedBox3d
+boxFrom(const JsonPlace& place)
+{
+  Eigen::AlignedBox3d box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  if (place.find("box_min")) {
+    box = {(place / "box_min").vector3(), (place / "box_max").vector3()};
+    (place / "box_max")
+        .require((box.min().array() <= box.max().array()).all(), ">= box_min");
+  }
+  else if (const auto sides = place.find("extent")) {
+    const Eigen::Vector3d half = sides->vector3() / 2;
+    sides->require((half.array() >= 0).all(), ">= 0");
+    const auto middle = place.find("centre");
+    const Eigen::Vector3d centre =
+        middle ? middle->vector3() : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    box = {centre - half, centre + half};
+  }
+  return box;
+}
+} // namespace
+
+MapObject
+objectFrom(const JsonPlace& place)
+{
+  MapObject object;
+  object.pose.object_class = (place / "class").text();
+  object.pose.T_world_object = (place / "T_world_object").pose();
+  object.pose.box = boxFrom(place);
+  object.covariance = matrix6From(place, "covariance");
+  if (const auto score = place.find("score"))
+    object.score = score->number();
+  if (const auto symmetry = place.find("symmetry")) {
+    object.symmetry = symmetry->integer();
+    symmetry->require(object.symmetry >= 0, ">= 0");
+  }
+  if (const auto moves = place.find("moves"))
+    object.pose.moves = moves->boolean();
+  if (const auto points = place.find("points"))
+    object.pose.points = points->count();
+  if (const auto scans = place.find("scans"))
+    object.scans = scans->counts();
+  return object;
+}
+
+std::vector<MapObject>
+readMapObjects(const std::filesystem::path& path)
+{
+  std::vector<MapObject> objects;
+  readJson(path.string(), [&](const JsonPlace& list) {
+    (list / "objects").forEach([&](const JsonPlace& place) {
+      objects.push_back(objectFrom(place));
+    });
+  });
+  return objects;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/semantic_map/semantic_map.h>
+
+#include <algorithm>
+
+namespace pcl6d {
+namespace {
+std::size_t
+sizeOf(const SemanticMap& map, EntityKind kind)
+{
+  switch (kind) {
+  case EntityKind::kPlane:
+    return map.planes.size();
+  case EntityKind::kObject:
+    return map.objects.size();
+  case EntityKind::kRoom:
+    return map.rooms.size();
+  case EntityKind::kStorey:
+    return map.storeys.size();
+  case EntityKind::kScan:
+    break;
+  }
+  return map.scans.size();
+}
+
+void
+addOnce(std::vector<std::string>& names, const std::string& name)
+{
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    names.push_back(name);
+}
+} // namespace
+
+std::optional<std::size_t>
+SemanticMap::placeOf(const Entity& entity) const
+{
+  if (entity.kind == EntityKind::kScan) {
+    const auto scan = std::lower_bound(
+        scans.begin(), scans.end(), entity.id, [](const MapScan& s, std::size_t id) {
+          return s.id < id;
+        });
+    if (scan == scans.end() || scan->id != entity.id)
+      return {};
+    return static_cast<std::size_t>(scan - scans.begin());
+  }
+  if (entity.id == 0 || entity.id > sizeOf(*this, entity.kind))
+    return {};
+  return entity.id - 1;
+}
+
+std::vector<std::string>
+SemanticMap::labelNames() const
+{
+  std::vector<std::string> names;
+  for (const auto label : {PlaneLabel::kNone,
+                           PlaneLabel::kFloor,
+                           PlaneLabel::kCeiling,
+                           PlaneLabel::kWall,
+                           PlaneLabel::kDoor})
+    names.emplace_back(toString(label));
+  for (const auto& plane : planes)
+    addOnce(names, plane.best().label);
+  for (const auto& object : objects)
+    addOnce(names, object.pose.object_class);
+  return names;
+}
+
+bool
+isInPlan(const MapRoom& room, const Eigen::Vector3d& up, const Eigen::Vector3d& point)
+{
+  const Eigen::Vector3d x = up.unitOrthogonal(), y = up.cross(x);
+  bool inside = false; // crossings of a ray along x, even or odd
+  for (std::size_t i = 0; i < room.outline.size(); ++i) {
+    const Eigen::Vector3d a = room.outline[i] - point;
+    const Eigen::Vector3d b = room.outline[(i + 1) % room.outline.size()] - point;
+    const double ay = y.dot(a), by = y.dot(b);
+    if ((ay > 0) == (by > 0))
+      continue;
+    if (x.dot(a) + ay / (ay - by) * (x.dot(b) - x.dot(a)) > 0)
+      inside = !inside;
+  }
+  return inside;
+}
+
+std::size_t
+storeyAt(const SemanticMap& map, double height, double tolerance)
+{
+  std::size_t storey = map.storeys.empty() ? 0 : 1;
+  while (storey < map.storeys.size() && map.storeys[storey].floor <= height + tolerance)
+    ++storey;
+  return storey;
+}
+
+} // namespace pcl6d

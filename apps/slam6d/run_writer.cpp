@@ -103,6 +103,7 @@ runFolderRules(const Settings& settings)
   rules.files = std::regex("trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
                            "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|links\\.csv|"
                            "(summary|planes|objects|semantic_map)\\.json|"
+                           "semantic_map\\.(pcd|ply)|"
                            "top_view\\.png|report\\.html");
   rules.force = settings.force;
   return rules;

@@ -219,7 +219,8 @@ private:
       add(objectEntity(i), "above", objectEntity(j));
     else if (of_i.box.volume() < of_j.box.volume() && isInside(of_i, of_j))
       add(objectEntity(i), "in", objectEntity(j));
-    else if (i < j && a.bottom < b.top && b.bottom < a.top &&
+    else if (i < j && !isOnTop(j, i) && !isInside(of_j, of_i) && a.bottom < b.top &&
+             b.bottom < a.top &&
              hullDistance(a.footprint, b.footprint) <= options_.next_to)
       add(objectEntity(i), "next_to", objectEntity(j));
   }

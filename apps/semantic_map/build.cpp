@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/command_line.h"
+#include "common/progress_bar.h"
+#include "semantic_map/labelled_clouds.h"
+#include "semantic_map/scene_parts.h"
+#include "semantic_map/verbs.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/semantic_map/find_rooms.h>
+#include <pcl6d/semantic_map/map_relations.h>
+#include <pcl6d/semantic_map/object_fusion.h>
+#include <pcl6d/semantic_map/semantic_map_io.h>
+
+#include <cstdio>
+
+namespace pcl6d::app {
+namespace {
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+
+struct BuildSettings {
+  std::string run;
+  std::string output;
+  std::string cloud;
+  std::string planes;
+  std::string objects;
+  std::string rules;
+  bool keep_observations = false;
+  bool quiet = false;
+  int threads = 0;
+};
+
+void
+describe(BuildSettings& s, CommandLine& line)
+{
+  line.group("Input").add_options() //
+      ("planes",
+       po::value(&s.planes)->value_name("FILE"),
+       "planes.json; by default that of the run, else planes are found in its map") //
+      ("objects",
+       po::value(&s.objects)->value_name("FILE"),
+       "objects.json; by default that of the run, else there are no objects") //
+      ("rules",
+       po::value(&s.rules)->value_name("FILE"),
+       "rules of labels (share/rules); by default the book's");
+  line.group("Output").add_options() //
+      ("output,o",
+       po::value(&s.output)->value_name("FILE"),
+       "by default semantic_map.json in RUN_DIR") //
+      ("cloud",
+       po::value(&s.cloud)->value_name("FILE"),
+       ".pcd or .ply: the points with label, plane_id, object_id; by default "
+       "semantic_map.pcd in RUN_DIR");
+  line.group("Run").add_options() //
+      ("keep-observations",
+       po::bool_switch(&s.keep_observations),
+       "do not make one object of what several scans saw at one place") //
+      ("threads",
+       valueOf(s.threads)->value_name("N"),
+       "0: one per core; never changes the result") //
+      ("quiet", po::bool_switch(&s.quiet), "print errors only");
+}
+
+bool
+parse(const std::vector<std::string>& arguments, BuildSettings& s)
+{
+  CommandLine line(std::string("usage: ") + kSemanticMap +
+                   " build RUN_DIR [options]\nMakes the semantic map of a finished run "
+                   "of pcl_slam6d: its scans and links, planes\nwith labels, objects, "
+                   "rooms, how they lie to each other, and what each point is.\n");
+  line.positional("RUN_DIR", &s.run);
+  describe(s, line);
+  if (!line.parse(arguments))
+    return false;
+  checkOptions([&] { require(s.threads >= 0, "threads", s.threads, ">= 0"); });
+  const fs::path folder = s.run;
+  if (s.output.empty())
+    s.output = (folder / kMapFile).string();
+  if (s.cloud.empty())
+    s.cloud = (folder / "semantic_map.pcd").string();
+  const ScanFormat format = scanFormatOfExtension(s.cloud);
+  if (format != ScanFormat::kPcd && format != ScanFormat::kPly)
+    throw UsageError("--cloud = " + s.cloud + ", but must end in .pcd or .ply");
+  std::error_code missing;
+  for (const auto& out : {s.output, s.cloud})
+    for (const auto& in : {(folder / "map.pcd").string(),
+                           (folder / "summary.json").string(),
+                           s.planes,
+                           s.objects,
+                           s.rules})
+      if (fs::equivalent(out, in, missing))
+        throw UsageError(out + " is an input");
+  return true;
+}
+
+/** \return the objects of a list, each once */
+std::vector<MapObject>
+fused(const std::vector<MapObject>& observations)
+{
+  std::vector<MapObject> objects;
+  for (const auto& found : fuseObjects(observations))
+    objects.push_back(found.object);
+  return objects;
+}
+
+/** \brief Makes sure that all scans that are named are of the run. \throws IoFailed an object was seen by one */
+void
+checkScans(const SemanticMap& map, const std::string& source)
+{
+  for (std::size_t i = 0; i < map.objects.size(); ++i)
+    for (const auto id : map.objects[i].scans)
+      if (!map.placeOf({EntityKind::kScan, id}))
+        throw IoFailed(source + ": object " + std::to_string(i + 1) + ": scan " +
+                       std::to_string(id) + ", but the run has no such scan");
+}
+
+void
+printResult(const SemanticMap& map, const BuildSettings& s)
+{
+  std::printf("scans %zu planes %zu objects %zu storeys %zu rooms %zu relations %zu\n",
+              map.scans.size(),
+              map.planes.size(),
+              map.objects.size(),
+              map.storeys.size(),
+              map.rooms.size(),
+              map.relations.size());
+  std::printf("written: %s %s\n", s.output.c_str(), s.cloud.c_str());
+  if (std::fflush(stdout) != 0)
+    throw IoFailed("cannot write to the standard output");
+}
+} // namespace
+
+int
+runMapBuild(const std::vector<std::string>& arguments)
+{
+  BuildSettings s;
+  if (!parse(arguments, s))
+    return kDone;
+  ProgressBar bar(s.quiet);
+  const auto threads = static_cast<unsigned int>(s.threads);
+  const ScenePartsOptions part_options{s.planes, s.objects, s.rules, threads};
+  const FinishedRun run(s.run);
+  SemanticMap map;
+  map.scans = run.scans();
+  map.links = run.readLinks();
+  map.world_offset = run.worldOffset();
+  const Scan cloud = run.readMap();
+  const auto objects = findObjects(run, part_options);
+  map.objects = objects.parts;
+  checkScans(map, objects.source);
+  if (!s.keep_observations)
+    map.objects = fused(map.objects);
+  const auto planes = findPlanes(run, cloud, part_options);
+  map.planes = planes.parts;
+  bar.say("planes: " + planes.source);
+  bar.say("objects: " + objects.source);
+
+  PointLabelOptions label_options;
+  label_options.num_threads = threads;
+  const PointLabeller labeller(map, label_options);
+  findScansOfParts(run, labeller, bar, map);
+  Eigen::Isometry3d T_world_map = Eigen::Isometry3d::Identity();
+  T_world_map.translation() = map.world_offset;
+  const PointLabels labels = labeller.label(cloud.points, T_world_map);
+  findRooms(map, floorPoints(cloud.points, labels));
+  map.relations = findRelations(map);
+
+  writeLabelledMap(s.cloud, cloud, labels);
+  writeSemanticMap(s.output, map);
+  if (!s.quiet)
+    printResult(map, s);
+  return kDone;
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/io/scan_reader.h>
+#include <pcl6d/semantic_map/semantic_map.h>
+
+#include <filesystem>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief A finished run of pcl_slam6d (share/doc/run_folder.md), as far as a semantic map
+ * needs it. */
+class FinishedRun {
+public:
+  /** \throws IoFailed the folder is no run, or was interrupted */
+  explicit FinishedRun(const std::filesystem::path& folder);
+
+  const std::filesystem::path&
+  folder() const
+  {
+    return folder_;
+  }
+
+  /** \return the scans in the order of their ids */
+  const std::vector<MapScan>&
+  scans() const
+  {
+    return scans_;
+  }
+
+  /** \return whole metres that are subtracted from the clouds of the run */
+  const Eigen::Vector3d&
+  worldOffset() const
+  {
+    return world_offset_;
+  }
+
+  /** \brief Reads links.csv and graph.g2o; without the former there are no links.
+   * \return the links that count \throws IoFailed they are broken */
+  std::vector<MapLink>
+  readLinks() const;
+
+  /** \return map.pcd; its points are relative to worldOffset() \throws IoFailed */
+  Scan
+  readMap() const;
+
+  /** \return a scan in its own frame \throws IoFailed */
+  Scan
+  readScan(std::size_t place) const;
+
+private:
+  std::filesystem::path folder_;
+  std::vector<MapScan> scans_;
+  Eigen::Vector3d world_offset_;
+};
+
+} // namespace pcl6d::app

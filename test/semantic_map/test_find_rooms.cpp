@@ -159,6 +159,10 @@ TEST(FindRooms, LeavesOutWhatTheHullCoversButNobodySaw)
   ASSERT_EQ(map.rooms.size(), 1u);
   EXPECT_NEAR(map.rooms[0].area, 20, 24 * kCell);
   EXPECT_EQ(map.rooms[0].outline.size(), 6u);
+  // 2 m x 6 m about (1, 3) and 4 m x 2 m about (4, 1)
+  const Eigen::Vector3d centre =
+      (12 * Eigen::Vector3d(1, 3, 0) + 8 * Eigen::Vector3d(4, 1, 0)) / 20;
+  EXPECT_LT((centreOf(map.rooms[0], map.up) - centre).norm(), kCell);
   EXPECT_EQ(test::numRelations(map, "belongs_to"), 3u) << "old ones are gone";
 }
 

@@ -171,14 +171,17 @@ TEST(SemanticMapIo, NamesFileAndPlaceOfWhatIsWrong)
        "/objects/1/covariance",
        "36 numbers, got 37"},
       {[](json& m) { m["rooms"][0]["storey"] = 2; }, "/rooms/0/storey", "in this map"},
-      {[](json& m) {
-         m["relations"][0] = {"plane:1", "on"};
-       },
+      {[](json& m) { m["relations"][0] = "plane:1 on"; }, "/relations/0", "second"},
+      {[](json& m) { m["relations"][0] = 1; }, "/relations/0", "text"},
+      {[](json& m) { m["relations"][0] = "plane:99 parallel plane:1"; },
        "/relations/0",
-       "second"},
-      {[](json& m) { m["relations"][0][0] = "plane:99"; }, "/relations/0", "things"},
-      {[](json& m) { m["relations"][0][0] = "plane"; }, "/relations/0", "things"},
-      {[](json& m) { m["relations"][0][1] = "likes"; }, "/relations/0", "predicate"}};
+       "things"},
+      {[](json& m) { m["relations"][0] = "plane parallel plane:1"; },
+       "/relations/0",
+       "things"},
+      {[](json& m) { m["relations"][0] = "plane:1 likes plane:2"; },
+       "/relations/0",
+       "predicate"}};
   for (const auto& wrong : cases) {
     const std::string message = faultOf(wrong.change);
     EXPECT_NE(message.find(wrong.place), std::string::npos) << message;

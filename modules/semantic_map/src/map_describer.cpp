@@ -221,7 +221,7 @@ MapDescriber::room(std::size_t place) const
   Properties properties{number("id", self.id, kInTable),
                         number("area", room.area, kInTable),
                         number("height", room.height.value_or(0), kInTable)};
-  addPosition(properties, meanOf(room.outline));
+  addPosition(properties, centreOf(room, map_.up));
   properties.push_back({"storey",
                         things(EntityKind::kStorey, {room.storey}),
                         EntityKind::kStorey,

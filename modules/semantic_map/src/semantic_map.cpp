@@ -82,6 +82,25 @@ isInPlan(const MapRoom& room, const Eigen::Vector3d& up, const Eigen::Vector3d& 
   return inside;
 }
 
+Eigen::Vector3d
+centreOf(const MapRoom& room, const Eigen::Vector3d& up)
+{
+  if (room.outline.empty())
+    return Eigen::Vector3d::Zero();
+  Eigen::Vector3d weighted = Eigen::Vector3d::Zero(); // from the first corner
+  double twice_area = 0;
+  for (std::size_t i = 2; i < room.outline.size(); ++i) {
+    const Eigen::Vector3d u = room.outline[i - 1] - room.outline[0];
+    const Eigen::Vector3d v = room.outline[i] - room.outline[0];
+    const double area = up.dot(u.cross(v)); // signed: the outline may be hollow
+    twice_area += area;
+    weighted += area / 3 * (u + v);
+  }
+  if (!(twice_area > 0))
+    return room.outline[0];
+  return room.outline[0] + weighted / twice_area;
+}
+
 std::size_t
 storeyAt(const SemanticMap& map, double height, double tolerance)
 {

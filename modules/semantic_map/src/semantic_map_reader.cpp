@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 namespace pcl6d {
 namespace {
@@ -128,9 +130,9 @@ public:
   MapRelation
   relation(const JsonPlace& place) const
   {
-    std::vector<std::string> parts;
-    place.forEach([&](const JsonPlace& part) { parts.push_back(part.text()); });
-    place.require(parts.size() == 3, "[first, predicate, second]");
+    std::istringstream words(place.text());
+    const std::vector<std::string> parts{std::istream_iterator<std::string>(words), {}};
+    place.require(parts.size() == 3, "\"first predicate second\"");
     const auto first = entityFromText(parts[0]), second = entityFromText(parts[2]);
     place.require(first && second && map_.placeOf(*first) && map_.placeOf(*second),
                   "of things in this map, such as \"plane:1\"");

@@ -129,8 +129,8 @@ writeSemanticMap(const std::filesystem::path& path, const SemanticMap& map)
   json["rooms"] = numbered(map.rooms);
   json["relations"] = Json::array();
   for (const auto& relation : map.relations)
-    json["relations"].push_back(
-        {toString(relation.first), relation.predicate, toString(relation.second)});
+    json["relations"].push_back(toString(relation.first) + ' ' + relation.predicate +
+                                ' ' + toString(relation.second));
   requireFinite(json, "");
   writeFileAtomically(path, [&](std::ostream& stream) {
     stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';

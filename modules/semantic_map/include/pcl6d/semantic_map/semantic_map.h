@@ -117,6 +117,10 @@ struct SemanticMap {
 bool
 isInPlan(const MapRoom& room, const Eigen::Vector3d& up, const Eigen::Vector3d& point);
 
+/** \return the centre of the area of a room [m], on its floor */
+Eigen::Vector3d
+centreOf(const MapRoom& room, const Eigen::Vector3d& up);
+
 /** \return the id of the storey whose floor is the highest not above a height along up
  * [m]; 0 without storeys, the lowest one below all floors
  * \param[in] tolerance [m] so far a floor may be above */

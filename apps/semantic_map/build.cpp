@@ -167,7 +167,7 @@ runMapBuild(const std::vector<std::string>& arguments)
   findRooms(map, floorPoints(cloud.points, labels));
   map.relations = findRelations(map);
 
-  writeLabelledMap(s.cloud, cloud, labels);
+  writeLabelledMap(s.cloud, cloud, labels, map.labelNames());
   writeSemanticMap(s.output, map);
   if (!s.quiet)
     printResult(map, s);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semantic_map/labelled_clouds.h"
 
+#include <pcl6d/io/label_colours.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_writer.h>
 
@@ -56,7 +57,8 @@ floorPoints(const Points& points, const PointLabels& labels)
 void
 writeLabelledMap(const std::filesystem::path& file,
                  const Scan& map,
-                 const PointLabels& labels)
+                 const PointLabels& labels,
+                 const std::vector<std::string>& label_names)
 {
   pcl::PCLPointCloud2 cloud = map.cloud;
   const auto add = [&](const char* name, const std::vector<std::uint32_t>& ids) {
@@ -66,6 +68,16 @@ writeLabelledMap(const std::filesystem::path& file,
   add("label", labels.label);
   add("plane_id", labels.plane_id);
   add("object_id", labels.object_id);
+  std::vector<std::uint32_t> colour_of_label;
+  for (const auto& name : label_names) {
+    const auto [red, green, blue] = labelColour(name);
+    colour_of_label.push_back(std::uint32_t{red} << 16U | std::uint32_t{green} << 8U |
+                              blue);
+  }
+  std::vector<std::uint32_t> colours;
+  for (const auto label : labels.label)
+    colours.push_back(colour_of_label[label]);
+  add("rgb", colours);
   writeScan(file, cloud);
 }
 

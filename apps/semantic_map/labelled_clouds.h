@@ -22,11 +22,14 @@ findScansOfParts(const FinishedRun& run,
 Points
 floorPoints(const Points& points, const PointLabels& labels);
 
-/** \brief Writes the map of a run with the fields label, plane_id and object_id.
- * \param[in] file .pcd or .ply \throws IoFailed it cannot be written */
+/** \brief Writes the map of a run with the fields label, plane_id, object_id and rgb, the
+ * colour of the label; fields that the map has already are kept.
+ * \param[in] file .pcd or .ply \param[in] label_names by number
+ * \throws IoFailed it cannot be written */
 void
 writeLabelledMap(const std::filesystem::path& file,
                  const Scan& map,
-                 const PointLabels& labels);
+                 const PointLabels& labels,
+                 const std::vector<std::string>& label_names);
 
 } // namespace pcl6d::app

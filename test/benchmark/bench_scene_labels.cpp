@@ -63,14 +63,22 @@ printMissed(const LabelledMap& map,
             const pcl6d::Interpretation& labels,
             std::uint32_t id)
 {
-  std::printf("  missed door id %u, %zd points:\n",
+  const auto door = pcl6d::levelledPlane(
+      map.truth[id - 1], Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+  const auto seen = std::count(map.plane_id.begin(), map.plane_id.end(), id);
+  std::printf("  missed door id %u, %zd points, centre %.2f %.2f normal %.2f %.2f:\n",
               id,
-              std::count(map.plane_id.begin(), map.plane_id.end(), id));
+              seen,
+              door.centre.x(),
+              door.centre.y(),
+              door.normal.x(),
+              door.normal.y());
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const auto shares = sharesOf(map, segments[i]);
-    if (shares.count(id) > 0 && shares.at(id) > 0.01)
-      std::printf("    share %.2f of area %.2f in %s",
-                  shares.at(id),
+    const auto size = static_cast<double>(segments[i].points.size());
+    if (shares.count(id) > 0 && shares.at(id) * size > 0.05 * seen)
+      std::printf("    %.0f points of area %.2f in %s",
+                  shares.at(id) * size,
                   segments[i].plane.area,
                   explanationText(labels, i).c_str());
   }
@@ -159,6 +167,40 @@ distanceToTruth(const LabelledMap& map,
   return std::sqrt(sum / std::max(count, 1.0));
 }
 
+// Mean angle [rad] of planes to the true ones that most of their points lie on, weighted
+// by area.
+double
+angleToTruth(const LabelledMap& map,
+             const std::vector<pcl6d::PlaneSegment>& segments,
+             const std::vector<pcl6d::PlaneSegment>& planes)
+{
+  double sum = 0, area = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const auto id = largestOf(sharesOf(map, segments[i]));
+    if (id == 0 || segments[i].plane.label == "none")
+      continue;
+    const double cosine =
+        std::abs(planes[i].plane.normal.dot(map.truth[id - 1].normal));
+    sum += segments[i].plane.area * std::acos(std::min(cosine, 1.0));
+    area += segments[i].plane.area;
+  }
+  return sum / std::max(area, 1e-9);
+}
+
+// The points put onto the planes that were fitted to them.
+pcl6d::Points
+ontoFits(const LabelledMap& map, const std::vector<pcl6d::PlaneSegment>& segments)
+{
+  pcl6d::Points points = map.points;
+  for (const auto& [plane, places, seen_from, outline] : segments)
+    for (const auto i : places) {
+      const Eigen::Vector3d p = points[i].cast<double>();
+      points[i] =
+          (p - (plane.normal.dot(p) - plane.offset) * plane.normal).cast<float>();
+    }
+  return points;
+}
+
 double
 secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -217,8 +259,8 @@ printRefinement(const std::string& scene, std::uint64_t seed, bool is_verbose)
   const auto model = refineModel(found.planes, map.points);
   const double seconds = secondsSince(start);
   pcl6d::RefinementOptions options;
-  options.project = true;
-  const auto projected = refineModel(found.planes, map.points, options);
+  options.project = false;
+  const auto turned = refineModel(found.planes, map.points, options);
   std::size_t refused = 0, changed = 0;
   for (std::size_t i = 0; i < model.changes.size(); ++i) {
     refused += model.changes[i].refusal.empty() ? 0 : 1;
@@ -229,16 +271,20 @@ printRefinement(const std::string& scene, std::uint64_t seed, bool is_verbose)
                   found.planes[i].plane.area,
                   model.changes[i].refusal.c_str());
   }
-  std::printf("refinement %s %2llu changed %zu refused %zu frames %zu rms [mm] before "
-              "%.3f after %.3f projected %.3f seconds %.3f\n",
+  std::printf("refinement %s %2llu changed %zu refused %zu frames %zu rms [mm] points "
+              "%.3f turned %.3f fits %.3f refined %.3f angle [deg] before %.4f after "
+              "%.4f seconds %.3f\n",
               scene.c_str(),
               static_cast<unsigned long long>(seed),
               changed,
               refused,
               model.headings.size(),
               1e3 * distanceToTruth(map, map.points, found.planes),
+              1e3 * distanceToTruth(map, turned.points, found.planes),
+              1e3 * distanceToTruth(map, ontoFits(map, found.planes), found.planes),
               1e3 * distanceToTruth(map, model.points, found.planes),
-              1e3 * distanceToTruth(map, projected.points, found.planes),
+              angleToTruth(map, found.planes, found.planes) / kDegree,
+              angleToTruth(map, found.planes, model.planes) / kDegree,
               seconds);
   std::fflush(stdout);
 }

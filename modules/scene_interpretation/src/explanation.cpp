@@ -123,7 +123,7 @@ private:
     for (std::size_t j = 0; j < labels_.size(); ++j)
       if (j != plane_ && hasLabel(j))
         if (const PairRule* const rule = problem_.forbids(plane_, label, j, labels_[j]))
-          return {name, "not " + toString(rule->rule) + ": " + nameOf(j), j};
+          return {name, "not '" + toString(rule->rule) + "' beside " + nameOf(j), j};
     for (const auto& need : rules_.needs)
       if (need.label == label && !partnerFor(need))
         return {name,

@@ -211,7 +211,7 @@ optimiseFrames(const std::vector<FittedPlane>& planes,
       if (directions[p].kind == Kind::kFree)
         continue;
       const Eigen::MatrixXd J = derivative(directions[p], keep_up, frames);
-      const Eigen::MatrixXd AJ = planes[p].scatter * J;
+      const Eigen::MatrixXd AJ = planes[p].information * J;
       if (H.size() == 0) {
         H = Eigen::MatrixXd::Zero(J.cols(), J.cols());
         g = Eigen::VectorXd::Zero(J.cols());

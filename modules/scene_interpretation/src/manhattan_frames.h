@@ -16,8 +16,11 @@ struct FittedPlane {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();    ///< about the centroid [m^2]
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero(); ///< of the normal [rad^2]
-  double area = 0;                                      ///< [m^2]
-  double points = 0;                                    ///< number of them
+  /// n^T information n: what a normal n costs, its pseudo-inverse [1 / rad^2]; without
+  /// errors of poses the scatter over the variance of the noise
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  double area = 0;   ///< [m^2]
+  double points = 0; ///< number of them
 };
 
 /** \brief What the exact normal of a plane is to be. */
@@ -48,7 +51,7 @@ gatherFrames(const std::vector<FittedPlane>& planes,
              const std::vector<bool>& alone,
              std::vector<ExactDirection>& directions);
 
-/** \brief Turns frames to where sum n^T A n over all planes is smallest.
+/** \brief Turns frames to where the sum of n^T information n over all planes is smallest.
  * \param[in] keep_up only the headings change */
 void
 optimiseFrames(const std::vector<FittedPlane>& planes,

@@ -38,14 +38,18 @@ fitNormal(const RefinementOptions& options, FittedPlane& fit)
   fit.normal = solver.eigenvectors().col(0);
   if (fit.normal.dot(before) < 0)
     fit.normal = -fit.normal;
+  constexpr double kPatch = 1.0;           // [m^2] with one error of the map
+  constexpr double kLeastVariance = 1e-20; // [rad^2] of planes without any error
   const double noise = std::max(lambda(0), 0.0) / std::max(fit.points - 3, 1.0);
+  const double patches = std::max(fit.area / kPatch, 1.0);
+  const double bias = options.map_position_error * options.map_position_error / patches;
   for (const int k : {1, 2}) {
     const Eigen::Vector3d axis = solver.eigenvectors().col(k);
     const double spread = lambda(k) / fit.points; // [m^2] mean square
-    const double variance =
-        noise / lambda(k) + options.map_angle_error * options.map_angle_error +
-        options.map_position_error * options.map_position_error / spread;
-    fit.covariance += variance * axis * axis.transpose();
+    const double variance = noise / lambda(k) + bias / spread;
+    fit.information += axis * axis.transpose() / std::max(variance, kLeastVariance);
+    fit.covariance += (variance + options.map_angle_error * options.map_angle_error) *
+                      axis * axis.transpose();
   }
   return true;
 }

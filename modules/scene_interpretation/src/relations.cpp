@@ -57,6 +57,8 @@ isOnto(const ScenePlane& i, const ScenePlane& j, const RelationTolerances& t)
 bool
 isRecessed(const ScenePlane& i, const ScenePlane& j, const RelationTolerances& t)
 {
+  if (i.side_known && j.side_known && i.normal.dot(j.normal) < 0)
+    return false; // the back of a wall is no place for a door of its front
   return isOnto(i, j, t) && isInside(j.corners, j.normal, i.centre, t.touch) &&
          (!j.side_known || inFront(i, j) < t.in_front);
 }

@@ -229,7 +229,7 @@ private:
           if (above[a][via] && above[via][b])
             above[a][b] = true;
     for (std::size_t a = 0; a < count; ++a)
-      for (std::size_t b = 0; b < count; ++b)
+      for (std::size_t b = a + 1; b < count; ++b)
         if (above[a][b] && above[b][a])
           fail("'" + name(a) + "' is always above '" + name(b) + "', and that above '" +
                name(a) + "', by way of other labels");

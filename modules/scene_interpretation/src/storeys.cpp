@@ -113,19 +113,21 @@ private:
   addFloor(std::size_t plane, std::vector<Level>& levels) const
   {
     const double height = planes_[plane].centre.z();
-    for (auto& level : levels)
-      if (std::abs(level.height - height) < options_.tolerances.height) {
-        level.planes.push_back(plane);
-        level.area += planes_[plane].area;
-        return;
-      }
-    const bool is_furniture =
-        planes_[plane].area < options_.min_floor_area ||
-        std::any_of(levels.begin(), levels.end(), [&](const Level& level) {
-          return std::abs(level.height - height) < options_.min_headroom &&
-                 isBeside(plane, level, 0);
-        });
-    if (levels.empty() || !is_furniture)
+    const auto isAt = [&](const Level& level) {
+      return std::abs(level.height - height) < options_.tolerances.height;
+    };
+    const auto isTooNear = [&](const Level& level) {
+      return !isAt(level) && std::abs(level.height - height) < options_.min_headroom &&
+             isBeside(plane, level, 0);
+    };
+    if (std::any_of(levels.begin(), levels.end(), isTooNear))
+      return;
+    const auto level = std::find_if(levels.begin(), levels.end(), isAt);
+    if (level != levels.end()) {
+      level->planes.push_back(plane);
+      level->area += planes_[plane].area;
+    }
+    else if (levels.empty() || planes_[plane].area >= options_.min_floor_area)
       levels.push_back({height, planes_[plane].area, {plane}});
   }
 

@@ -22,12 +22,13 @@ struct RefinementOptions {
   double max_turn = 0.17453292519943295; ///< [rad] of any plane: 10 deg; in (0, pi/4)
   double max_move = 0.1;                 ///< [m] of any point of a plane; > 0
   double significance = 3; ///< standard deviations that a plane may turn at most; > 0
-  /// [rad] standard deviation of what the poses of the scans do to a normal, beside the
-  /// noise of the points: 0.2 deg; >= 0
+  /// [m] standard deviation of what the poses of the scans do to each square metre of a
+  /// plane, beside the noise of the points; >= 0
+  double map_position_error = 0.005;
+  /// [rad] and to a whole plane, however large: 0.2 deg; >= 0
   double map_angle_error = 0.003490658503988659;
-  double map_position_error = 0.003; ///< [m] the same of points; >= 0
-  bool project = false;              ///< put the points exactly onto their plane
-  unsigned int num_threads = 0;      ///< 0: one per core; never changes the result
+  bool project = true; ///< put the points onto their plane; false: keep their noise
+  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -73,11 +74,15 @@ struct RefinedModel {
  * ones are gathered into frames of parallel and orthogonal walls, as far as the
  * uncertainty of their normals allows; one frame is a Manhattan world, a wall that fits
  * none has one of its own and is vertical only. All normals together, the vertical and
- * one heading per frame, minimise the sum of the squared distances of all points to
- * planes through their centroids, by Gauss and Newton's method. A plane that would
- * have to turn further than its uncertainty explains (significance), or than max_turn
- * or max_move, is taken out: of its frame first, then of the vertical ones. So a wall
- * that leans for certain keeps leaning. Points of planes without a label stay.
+ * one heading per frame, minimise the sum of n^T W n by Gauss and Newton's method, W the
+ * inverse covariance of a plane's fit: the noise of its points, and map_position_error.
+ * Without the latter W is the scatter of the points over their variance, and the
+ * sum that of their squared distances to planes through their centroids, as in the book.
+ *
+ * A plane that would have to turn further than its uncertainty explains (significance),
+ * or than max_turn or max_move, is taken out: of its frame first, then of the vertical
+ * ones. So a wall that leans for certain keeps leaning. Points of planes without a label
+ * stay.
  * \param[in] segments planes with labels and places of points
  * \param[in] points [m] the cloud that was segmented
  * \throws BadArgument an option breaks its rule, or a place is not that of a point

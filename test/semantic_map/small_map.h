@@ -92,7 +92,7 @@ twoRooms()
     MapScan scan;
     scan.id = 2 * i; // every other one
     scan.file = "scan" + std::to_string(scan.id) + ".pcd";
-    scan.T_world_scan = planarPose(1 + 3.1 * static_cast<double>(i), 2.5, 0.1);
+    scan.T_world_scan = planarPose(1 + 3.2 * static_cast<double>(i), 2.5, 0.1);
     scan.T_world_scan.translation().z() = 1;
     map.scans.push_back(scan);
   }

@@ -69,6 +69,8 @@ TEST(FindRooms, PartsAFloorByAWallWithAClosedDoor)
   EXPECT_TRUE(says(map, "plane:6", "belongs_to", right));
   EXPECT_TRUE(says(map, "plane:7", "belongs_to", left));
   EXPECT_TRUE(says(map, "plane:8", "belongs_to", right));
+  EXPECT_TRUE(says(map, "plane:9", "belongs_to", left)) << "the door";
+  EXPECT_TRUE(says(map, "plane:9", "belongs_to", right));
   EXPECT_FALSE(says(map, "plane:7", "belongs_to", right));
   EXPECT_FALSE(says(map, "plane:5", "belongs_to", right));
   EXPECT_FALSE(isInPlan(map.rooms[1], map.up, {9, 1, 0}));

@@ -46,9 +46,13 @@ fullMap()
 std::string
 faultOf(const std::function<void(json&)>& change)
 {
+  static const std::string written = [] {
+    const TempFolder folder;
+    writeSemanticMap(folder / "map.json", fullMap());
+    return readText(folder / "map.json");
+  }();
   const TempFolder folder;
-  writeSemanticMap(folder / "map.json", fullMap());
-  json content = json::parse(readText(folder / "map.json"));
+  json content = json::parse(written);
   change(content);
   writeText(folder / "map.json", content.dump());
   try {
@@ -161,6 +165,10 @@ TEST(SemanticMapIo, NamesFileAndPlaceOfWhatIsWrong)
       {[](json& m) { m["links"][0]["to"] = 77; }, "/links/0/to", "77"},
       {[](json& m) { m["links"][0]["pairs"] = -1; }, "/links/0/pairs", "-1"},
       {[](json& m) { m["objects"][0]["class"] = 3; }, "/objects/0/class", "text"},
+      {[](json& m) { m["objects"][0]["class"] = ""; }, "/objects/0/class", "a name"},
+      {[](json& m) { m["objects"][1]["covariance"][0][0] = -1; },
+       "/objects/1/covariance",
+       "not positive semidefinite"},
       {[](json& m) { m["objects"][0]["symmetry"] = -2; },
        "/objects/0/symmetry",
        ">= 0"},

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 namespace pcl6d {
 namespace {
@@ -163,13 +163,14 @@ readJson(const std::string& file, const std::function<void(const JsonPlace&)>& t
 {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad())
+  std::ostringstream content; // its operator<< catches what reading a folder throws
+  content << stream.rdbuf();
+  if (!stream.is_open() || content.bad() || errno == EISDIR)
     throw IoFailed(file + ": cannot be read: " +
                    (errno != 0 ? std::strerror(errno) : "unknown reason"));
   Json json;
   try {
-    json = Json::parse(content);
+    json = Json::parse(content.str());
   } catch (const Json::exception& error) {
     const std::string message = error.what();
     const std::size_t end = message.find("] ");

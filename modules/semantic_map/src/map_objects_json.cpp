@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_objects_json.h"
 
+#include <pcl6d/common/information.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
 namespace pcl6d {
@@ -69,9 +70,14 @@ objectFrom(const JsonPlace& place)
 {
   MapObject object;
   object.pose.object_class = (place / "class").text();
+  (place / "class").require(!object.pose.object_class.empty(), "a name");
   object.pose.T_world_object = (place / "T_world_object").pose();
   object.pose.box = boxFrom(place);
   object.covariance = matrix6From(place, "covariance");
+  if (const auto covariance = place.find("covariance")) {
+    const std::string fault = informationFault(*object.covariance);
+    covariance->require(fault.empty(), "a covariance; this one is " + fault);
+  }
   if (const auto score = place.find("score"))
     object.score = score->number();
   if (const auto symmetry = place.find("symmetry")) {

@@ -6,8 +6,6 @@
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 
@@ -24,9 +22,7 @@ check(const MapObject& object, std::size_t place)
   require(object.symmetry >= 0, (name + "symmetry").c_str(), object.symmetry, ">= 0");
   if (!object.covariance)
     return;
-  std::string fault = informationFault(*object.covariance);
-  if (fault.empty() && object.covariance->llt().info() != Eigen::Success)
-    fault = "not positive definite";
+  const std::string fault = informationFault(*object.covariance);
   if (!fault.empty())
     throw BadArgument(name + "covariance is " + fault);
 }

@@ -55,7 +55,7 @@ public:
     for (auto& room : rooms_)
       room.area = areaOf(room.outline);
     findLevelPlanes();
-    findUprightPlanes();
+    findWalls();
     findNeighbours();
     return std::move(rooms_);
   }
@@ -181,13 +181,10 @@ private:
 
   // A wall belongs to the rooms that touch 25 cm, or half, of it.
   void
-  findUprightPlanes()
+  findWalls()
   {
     constexpr double kLength = 0.25; // [m]
-    for (std::size_t i = 0; i < storey_.walls.size() + storey_.doors.size(); ++i) {
-      const bool is_wall = i < storey_.walls.size();
-      const PlanPlane& plane =
-          is_wall ? storey_.walls[i] : storey_.doors[i - storey_.walls.size()];
+    for (const auto& plane : storey_.walls) {
       const PlanLine line = planLine(plane.shape);
       const auto points = samples(line);
       const Eigen::Vector2d along = (line.to - line.from).normalized();
@@ -208,8 +205,6 @@ private:
                                      std::min(kLength, line.length() / 2))
           rooms_[room].planes.push_back(plane.id);
     }
-    for (auto& room : rooms_)
-      std::sort(room.planes.begin(), room.planes.end());
   }
 
   /** \return the distance of each room to a line, if it is at most 0.35 m: the thickness of
@@ -234,24 +229,43 @@ private:
     return distances;
   }
 
-  // A door joins the two rooms that are nearest to it.
+  /** \return the rooms nearest to a line, at most two, the nearest first */
+  std::vector<std::size_t>
+  roomsAt(const PlanLine& line) const
+  {
+    std::vector<std::pair<double, std::size_t>> near;
+    for (const auto& [room, distance] : roomsNear(line))
+      near.emplace_back(distance, room);
+    std::sort(near.begin(), near.end());
+    std::vector<std::size_t> rooms;
+    for (std::size_t i = 0; i < std::min<std::size_t>(near.size(), 2); ++i)
+      rooms.push_back(near[i].second);
+    return rooms;
+  }
+
+  // A door joins, and belongs to, the two rooms that are nearest to it.
   void
   findNeighbours()
   {
     std::vector<std::set<std::size_t>> neighbours(rooms_.size());
-    for (const auto* const lines : {&doors_, &doorways_})
-      for (const auto& line : *lines) {
-        std::vector<std::pair<double, std::size_t>> near;
-        for (const auto& [room, distance] : roomsNear(line))
-          near.emplace_back(distance, room);
-        if (near.size() < 2)
-          continue;
-        std::sort(near.begin(), near.end());
-        neighbours[near[0].second].insert(near[1].second);
-        neighbours[near[1].second].insert(near[0].second);
-      }
-    for (std::size_t i = 0; i < rooms_.size(); ++i)
+    const auto join = [&](const std::vector<std::size_t>& rooms) {
+      if (rooms.size() < 2)
+        return;
+      neighbours[rooms[0]].insert(rooms[1]);
+      neighbours[rooms[1]].insert(rooms[0]);
+    };
+    for (std::size_t i = 0; i < doors_.size(); ++i) {
+      const auto rooms = roomsAt(doors_[i]);
+      join(rooms);
+      for (const auto room : rooms)
+        rooms_[room].planes.push_back(storey_.doors[i].id);
+    }
+    for (const auto& gap : doorways_)
+      join(roomsAt(gap));
+    for (std::size_t i = 0; i < rooms_.size(); ++i) {
       rooms_[i].neighbours.assign(neighbours[i].begin(), neighbours[i].end());
+      std::sort(rooms_[i].planes.begin(), rooms_[i].planes.end());
+    }
   }
 
   const StoreyPlanes& storey_;

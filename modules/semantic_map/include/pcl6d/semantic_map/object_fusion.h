@@ -46,7 +46,7 @@ struct FusedObject {
  * \return by the first observation; score: the best, scans and points: all, box and class:
  * of the start; covariance none if the pitch is a right angle
  * \throws BadArgument an option breaks its rule; an observation without class, with a pose
- * that is not rigid, a covariance that is not finite, symmetric and positive, or a negative
+ * that is not rigid, a covariance that is none (informationFault()), or a negative
  * symmetry \ingroup semantic_map */
 std::vector<FusedObject>
 fuseObjects(const std::vector<MapObject>& observations,

@@ -7,9 +7,9 @@
 #include <pcl6d/io/scan_name.h>
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 namespace pcl6d::app {
 namespace {
@@ -73,10 +73,11 @@ public:
   Number
   number(const std::string& column) const
   {
-    std::istringstream stream(text(column));
-    stream.imbue(std::locale::classic());
+    const std::string& cell = text(column);
     Number number{};
-    if (!(stream >> number) || !(stream >> std::ws).eof() || !(number >= 0))
+    const auto [end, error] =
+        std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    if (error != std::errc() || end != cell.data() + cell.size() || !(number >= 0))
       fail(column + " = '" + text(column) + "', but must be a number >= 0");
     return number;
   }
@@ -154,7 +155,9 @@ FinishedRun::readLinks() const
         table.fail("the run has no scan " + std::to_string(id));
     link.kind = table.text("kind");
     link.pairs = table.number<std::size_t>("pairs");
-    link.rms = table.text("rms") == "nan" ? 0 : table.number<double>("rms");
+    // of links without pairs there is no rms
+    if (table.text("rms").find("nan") == std::string::npos)
+      link.rms = table.number<double>("rms");
     const auto found = information.find({link.from, link.to});
     if (found != information.end())
       link.information = found->second;

@@ -264,6 +264,14 @@ TEST(SemanticMap, NamesWhatIsWrongWithTheData)
               1,
               {"class"});
   EXPECT_FALSE(std::filesystem::exists(map / "out.json"));
+  const auto broken = map / "broken";
+  std::filesystem::copy(map.run(), broken, std::filesystem::copy_options::recursive);
+  for (const char* const row :
+       {"0,99,loop,used,3,0.1", "0,-1,loop,used,3,0.1", "0,1"}) {
+    writeText(broken / "links.csv",
+              std::string("from,to,kind,verdict,pairs,rms\n") + row + "\n");
+    expectError(program({"build", broken.string()}), 1, {"links.csv", "line 2"});
+  }
   writeText(map / "cut.json", readText(map.run() / "semantic_map.json").substr(0, 999));
   expectError(program({"info", (map / "cut.json").string()}), 1, {"cut.json", "line"});
 }

@@ -23,7 +23,9 @@ constexpr std::size_t kSeen = 1000;              // points on a door that was se
 struct Scores {
   double labelled = 0, right = 0; // [m^2] floor, ceiling, wall as found
   double truth = 0, covered = 0;  // [m^2] on planes found, by the label of its points
-  std::size_t doors = 0, found = 0, claimed = 0, confirmed = 0;
+  std::size_t faces = 0, faces_found = 0; // of doors
+  std::set<std::uint32_t> doors, doors_found;
+  std::size_t claimed = 0, confirmed = 0;
 };
 
 bool
@@ -46,6 +48,23 @@ std::string
 labelOf(const LabelledMap& map, std::uint32_t id)
 {
   return id == 0 ? "none" : map.truth[id - 1].label;
+}
+
+// The first face of the door that a face belongs to.
+std::uint32_t
+doorOf(const LabelledMap& map, std::uint32_t id)
+{
+  constexpr double kThick = 0.2; // [m]
+  const auto centre = [&](std::uint32_t i) {
+    return pcl6d::levelledPlane(
+               map.truth[i - 1], Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero())
+        .centre;
+  };
+  for (std::uint32_t other = 1; other < id; ++other)
+    if (labelOf(map, other) == "door" && map.truth[other - 1].area > 1 &&
+        (centre(other) - centre(id)).norm() < kThick)
+      return other;
+  return id;
 }
 
 std::uint32_t
@@ -140,9 +159,13 @@ scoreSegments(const LabelledMap& map,
     if (labelOf(map, static_cast<std::uint32_t>(id)) != "door" || seen[id] < kSeen ||
         map.truth[id - 1].area < 1)
       continue;
-    ++scores.doors;
+    ++scores.faces;
+    const std::uint32_t door = doorOf(map, static_cast<std::uint32_t>(id));
+    scores.doors.insert(door);
     const bool is_found = doors_found.count(static_cast<std::uint32_t>(id)) > 0;
-    scores.found += is_found ? 1 : 0;
+    scores.faces_found += is_found ? 1 : 0;
+    if (is_found)
+      scores.doors_found.insert(door);
     if (is_verbose && !is_found)
       printMissed(map, segments, labels, static_cast<std::uint32_t>(id));
   }
@@ -229,7 +252,8 @@ printLabels(const std::string& scene, std::uint64_t seed, bool is_verbose)
   Scores s;
   scoreSegments(map, found.planes, labels, is_verbose, s);
   std::printf(
-      "labels %s %2llu planes %3zu right %.4f recall %.4f doors %zu/%zu claimed "
+      "labels %s %2llu planes %3zu right %.4f recall %.4f doors %zu/%zu faces %zu/%zu "
+      "claimed "
       "%zu/%zu storeys %zu nodes %zu seconds %.3f segmentation %.2f status %s\n",
       scene.c_str(),
       static_cast<unsigned long long>(seed),

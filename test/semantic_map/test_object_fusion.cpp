@@ -17,7 +17,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kPosition = 0.02; // [m] standard deviations of an observation
-constexpr double kAngle = 0.04;    // [rad]
+constexpr double kAngle = 0.02;    // [rad]
 
 Matrix6
 noiseCovariance()

@@ -47,6 +47,7 @@ uncertainPose(const MapObject& object, const FusionOptions& options)
     covariance = G * *object.covariance * G.transpose();
   }
   covariance += diagonal(options.min_position_error, options.min_angle_error);
+  result.covariance = covariance;
   result.information = covariance.inverse();
   return result;
 }

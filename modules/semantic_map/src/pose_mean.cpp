@@ -64,6 +64,9 @@ robustMean(const std::vector<UncertainPose>& poses, std::size_t start, double ga
   constexpr double kSmallStep = 1e-12; // [m], [rad]
   PoseMean mean;
   mean.pose = poses[start].pose;
+  mean.covariance = poses[start].covariance;
+  mean.counts.assign(poses.size(), false);
+  mean.counts[start] = true;
   for (int step = 0; step < kMostSteps; ++step) {
     Matrix6d H = Matrix6d::Zero();
     Vector6d g = Vector6d::Zero();
@@ -72,7 +75,12 @@ robustMean(const std::vector<UncertainPose>& poses, std::size_t start, double ga
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const Vector6d error = poseError(mean.pose, poses[i].pose);
       const Vector6d pull = poses[i].information * error;
-      mean.counts.push_back(error.dot(pull) <= gate || (step == 0 && i == start));
+      // what did not make the mean differs from it by the errors of both
+      const Vector6d whitened =
+          before[i]
+              ? pull
+              : Vector6d((poses[i].covariance + mean.covariance).ldlt().solve(error));
+      mean.counts.push_back(error.dot(whitened) <= gate);
       if (!mean.counts.back())
         continue;
       H += poses[i].information;
@@ -82,7 +90,7 @@ robustMean(const std::vector<UncertainPose>& poses, std::size_t start, double ga
       mean.pose = poses[start].pose;
       mean.counts.assign(poses.size(), false);
       mean.counts[start] = true;
-      mean.covariance = poses[start].information.inverse();
+      mean.covariance = poses[start].covariance;
       return mean;
     }
     const Vector6d change = H.ldlt().solve(g);

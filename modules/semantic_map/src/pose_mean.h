@@ -14,11 +14,12 @@ namespace pcl6d {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/** \brief A pose and the inverse covariance of its error: position [m] and rotation vector
- * [rad], both in the axes of the world. */
+/** \brief A pose and the covariance of its error: position [m] and rotation vector [rad],
+ * both in the axes of the world. */
 struct UncertainPose {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  Matrix6d information = Matrix6d::Identity();
+  Matrix6d covariance = Matrix6d::Identity();
+  Matrix6d information = Matrix6d::Identity(); ///< its inverse
 };
 
 /** \return G, which takes changes of x y z roll pitch yaw to those of position and rotation

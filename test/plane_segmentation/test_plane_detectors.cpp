@@ -21,17 +21,9 @@ using pcl6d::PlaneCloud;
 using pcl6d::Points;
 using pcl6d::Random;
 
-/** What a test may ask of a detector. */
-struct Wish {
-  double max_distance = 0.03; // [m]
-  double gap = 0.2;           // [m]
-  std::uint64_t seed = 1;
-  unsigned int num_threads = 1;
-};
-
 struct Detector {
   std::string name;
-  std::function<PlaneCandidates(const PlaneCloud&, const Wish&)> find;
+  std::function<PlaneCandidates(const PlaneCloud&, std::uint64_t seed)> find;
 };
 
 void
@@ -40,24 +32,13 @@ PrintTo(const Detector& detector, std::ostream* out)
   *out << detector.name;
 }
 
-template <typename Options>
-Options
-optionsOf(const Wish& wish)
-{
-  Options options;
-  options.max_distance = wish.max_distance;
-  options.gap = wish.gap;
-  options.seed = wish.seed;
-  options.num_threads = wish.num_threads;
-  return options;
-}
-
 Detector
 hough(const std::string& name, pcl6d::HoughVariant variant)
 {
-  return {name, [variant](const PlaneCloud& cloud, const Wish& wish) {
-            auto options = optionsOf<pcl6d::HoughPlaneOptions>(wish);
+  return {name, [variant](const PlaneCloud& cloud, std::uint64_t seed) {
+            pcl6d::HoughPlaneOptions options;
             options.variant = variant;
+            options.seed = seed;
             return pcl6d::houghCandidates(cloud, options);
           }};
 }
@@ -65,9 +46,10 @@ hough(const std::string& name, pcl6d::HoughVariant variant)
 Detector
 ransac()
 {
-  return {"Ransac", [](const PlaneCloud& cloud, const Wish& wish) {
-            return pcl6d::ransacCandidates(cloud,
-                                           optionsOf<pcl6d::RansacPlaneOptions>(wish));
+  return {"Ransac", [](const PlaneCloud& cloud, std::uint64_t seed) {
+            pcl6d::RansacPlaneOptions options;
+            options.seed = seed;
+            return pcl6d::ransacCandidates(cloud, options);
           }};
 }
 
@@ -89,24 +71,23 @@ fittedNormal(const PlaneCloud& cloud, const std::vector<std::uint32_t>& places)
 class Detectors : public testing::TestWithParam<Detector> {
 protected:
   PlaneCandidates
-  find(const Points& points, const Wish& wish = {}) const
+  find(const Points& points, unsigned int num_threads = 1) const
   {
-    return GetParam().find(PlaneCloud(points, 1), wish);
+    return GetParam().find(PlaneCloud(points, num_threads), 1);
   }
 };
 
 // The cube of check C26: 3000 points a face, evenly within 5 cm of it.
 constexpr std::size_t kFacePoints = 3000;
 constexpr double kFaceNoise = 0.05; // [m]
-const Wish kCubeWish{0.06, 0.4, 1, 1};
+/** Of a face; the rest, near an edge or in a rough place, is left to finishPlanes(). */
+constexpr double kSmoothShare = 0.6;
 
 TEST_P(Detectors, FindTheSixFacesOfANoisyCube)
 {
   const PlaneCloud cloud(pcl6d::test::noisyCube(4, kFacePoints, kFaceNoise, 5), 1);
   for (const std::uint64_t seed : {1, 2, 3}) {
-    Wish wish = kCubeWish;
-    wish.seed = seed;
-    const PlaneCandidates planes = GetParam().find(cloud, wish);
+    const PlaneCandidates planes = GetParam().find(cloud, seed);
     ASSERT_EQ(planes.size(), 6u);
     std::set<std::size_t> faces;
     for (const auto& plane : planes) {
@@ -115,7 +96,7 @@ TEST_P(Detectors, FindTheSixFacesOfANoisyCube)
       const auto axis = static_cast<int>(face / 2);
       const double cosine = std::abs(fittedNormal(cloud, plane)[axis]);
       EXPECT_LT(std::acos(std::min(1.0, cosine)), 0.16 * M_PI / 180) << "face " << face;
-      EXPECT_GT(plane.size(), 0.8 * kFacePoints);
+      EXPECT_GT(plane.size(), kSmoothShare * kFacePoints);
     }
     EXPECT_EQ(faces.size(), 6u);
   }
@@ -125,9 +106,8 @@ TEST_P(Detectors, GiveEachPointToOnePlaneAtMost)
 {
   const Points points = pcl6d::test::noisyCube(4, kFacePoints, kFaceNoise, 5);
   std::vector<int> planes_of(points.size(), 0);
-  for (const auto& plane : find(points, kCubeWish)) {
+  for (const auto& plane : find(points)) {
     EXPECT_TRUE(std::is_sorted(plane.begin(), plane.end()));
-    EXPECT_GE(plane.size(), 50u);
     for (const auto i : plane)
       ++planes_of.at(i);
   }
@@ -137,12 +117,9 @@ TEST_P(Detectors, GiveEachPointToOnePlaneAtMost)
 TEST_P(Detectors, GiveTheSamePlanesForAnyNumberOfThreads)
 {
   const Points points = pcl6d::test::noisyCube(4, kFacePoints, kFaceNoise, 5);
-  Wish wish = kCubeWish;
-  const PlaneCandidates one = find(points, wish);
-  for (const unsigned int threads : {2u, 8u}) {
-    wish.num_threads = threads;
-    EXPECT_EQ(find(points, wish), one);
-  }
+  const PlaneCandidates one = find(points, 1);
+  for (const unsigned int threads : {2u, 8u})
+    EXPECT_EQ(find(points, threads), one);
 }
 
 TEST_P(Detectors, FindAllOfASinglePlane)
@@ -199,8 +176,10 @@ TEST_P(Detectors, FindAPlateInClutterAndNothingElse)
                          .cast<float>());
   const PlaneCandidates planes = find(points);
   ASSERT_EQ(planes.size(), 1u);
-  EXPECT_GT(planes[0].size(), 400u);
-  EXPECT_LT(planes[0].back(), 550u);
+  const auto of_plate = std::count_if(
+      planes[0].begin(), planes[0].end(), [](std::uint32_t i) { return i < 500; });
+  EXPECT_GT(of_plate, 400);
+  EXPECT_LT(planes[0].size(), 1.03 * static_cast<double>(of_plate)); // in a surfel
 }
 
 TEST_P(Detectors, FindNoPlaneOnASphere)
@@ -225,9 +204,11 @@ TEST_P(Detectors, FindNoPlaneInFewPointsOnALineOrInNoPoints)
 TEST_P(Detectors, WorkFarFromTheOrigin)
 {
   Points points = pcl6d::test::noisyCube(4, kFacePoints, 0.01, 5);
+  pcl6d::PlaneCloudOptions options;
+  options.viewpoint = {9000, -9000, 100}; // float: 1 mm
   for (auto& point : points)
-    point += Eigen::Vector3f(9000, -9000, 100); // float: 1 mm
-  EXPECT_EQ(find(points).size(), 6u);
+    point += options.viewpoint;
+  EXPECT_EQ(GetParam().find(PlaneCloud(points, options), 1).size(), 6u);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -237,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
                     hough("HoughRandomized", pcl6d::HoughVariant::kRandomized),
                     hough("HoughProbabilistic", pcl6d::HoughVariant::kProbabilistic),
                     hough("HoughStandard", pcl6d::HoughVariant::kStandard)),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& detector) { return detector.param.name; });
 
 template <typename Options, typename Value>
 void
@@ -254,22 +235,21 @@ TEST(RansacPlaneOptions, NameWhatBreaksItsRule)
   EXPECT_NO_THROW(Options().validate());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {0.0, -1.0, nan}) {
-    expectRefused(&Options::max_distance, bad);
+    expectRefused(&Options::max_plane_distance, bad);
     expectRefused(&Options::max_angle, bad);
     expectRefused(&Options::neighbourhood, bad);
-    expectRefused(&Options::gap, bad);
     expectRefused(&Options::probability, bad);
   }
   expectRefused(&Options::max_angle, 1.6);
   expectRefused(&Options::probability, 1.0);
-  expectRefused(&Options::min_points, std::size_t{2});
+  expectRefused(&Options::min_surfels, std::size_t{2});
   Options options;
-  options.gap = -1;
+  options.bend = -1;
   try {
     pcl6d::ransacCandidates(PlaneCloud({}), options);
     FAIL() << "accepted";
   } catch (const pcl6d::BadArgument& error) {
-    EXPECT_STREQ(error.what(), "gap = -1, but must be finite and > 0");
+    EXPECT_STREQ(error.what(), "bend = -1, but must be finite and >= 0");
   }
 }
 
@@ -280,14 +260,13 @@ TEST(HoughPlaneOptions, NameWhatBreaksItsRule)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {0.0, -1.0, nan}) {
     expectRefused(&Options::offset_cell, bad);
-    expectRefused(&Options::max_distance, bad);
+    expectRefused(&Options::max_plane_distance, bad);
     expectRefused(&Options::max_angle, bad);
-    expectRefused(&Options::gap, bad);
     expectRefused(&Options::max_side, bad);
     expectRefused(&Options::share, bad);
   }
   expectRefused(&Options::slices, 1);
-  expectRefused(&Options::min_points, std::size_t{2});
+  expectRefused(&Options::min_surfels, std::size_t{2});
   expectRefused(&Options::min_side, -0.1);
   expectRefused(&Options::min_side, 2.0);
   expectRefused(&Options::votes, 1);

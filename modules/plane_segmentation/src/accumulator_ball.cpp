@@ -15,13 +15,15 @@ constexpr double kPi = 3.14159265358979323846;
 AccumulatorBall::AccumulatorBall(int slices)
 {
   require(slices >= 2 && slices <= 1000, "slices", slices, "in [2, 1000]");
-  const double wanted = kPi / slices; // [rad] width of a cell
-  cap_ = portableAcos(1 - wanted * wanted / (2 * kPi));
+  const double wanted = kPi * kPi / (slices * slices); // [sr] area of a cell
+  cap_ = portableAcos(1 - wanted / (2 * kPi));
   height_ = (kPi - 2 * cap_) / slices;
   first_ = {0, 1};
   for (int i = 0; i < slices; ++i) {
-    const double girth = portableSinCos(cap_ + (i + 0.5) * height_).sin * 2 * kPi;
-    const auto cells = static_cast<std::size_t>(std::lround(girth / wanted));
+    const double slice = 2 * kPi *
+                         (portableSinCos(cap_ + i * height_).cos -
+                          portableSinCos(cap_ + (i + 1) * height_).cos);
+    const auto cells = static_cast<std::size_t>(std::lround(slice / wanted));
     first_.push_back(first_.back() + std::max<std::size_t>(1, cells));
   }
 }

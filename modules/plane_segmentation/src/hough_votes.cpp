@@ -10,21 +10,21 @@
 namespace pcl6d {
 
 namespace {
-/** The points that face into each cell of the ball. */
-class PointsByDirection {
+/** The surfels that face into each cell of the ball. */
+class SurfelsByDirection {
 public:
-  PointsByDirection(const PointColumns& points, const AccumulatorBall& ball)
-  : first_(ball.size() + 1, 0), slots_(points.size())
+  SurfelsByDirection(const SurfelColumns& surfels, const AccumulatorBall& ball)
+  : first_(ball.size() + 1, 0), slots_(surfels.size())
   {
     std::vector<std::size_t> cells;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      cells.push_back(ball.cellOf(points.normal(i).cast<double>()));
+    for (std::size_t i = 0; i < surfels.size(); ++i) {
+      cells.push_back(ball.cellOf(surfels.normal(i).cast<double>()));
       ++first_[cells.back() + 1];
     }
     for (std::size_t cell = 0; cell < ball.size(); ++cell)
       first_[cell + 1] += first_[cell];
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t i = 0; i < surfels.size(); ++i)
       slots_[next[cells[i]]++] = i;
   }
 
@@ -48,29 +48,29 @@ keyOf(std::size_t direction, std::int32_t offset)
          static_cast<std::int64_t>(direction);
 }
 
-/** How far the points are from the origin, in cells, rounded up. */
+/** How far the surfels are from the origin, in cells, rounded up. */
 std::int32_t
-reach(const PointColumns& points, double cell)
+reach(const SurfelColumns& surfels, double cell)
 {
   float farthest = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    farthest = std::max(farthest, points.point(i).squaredNorm());
+  for (std::size_t i = 0; i < surfels.size(); ++i)
+    farthest = std::max(farthest, surfels.point(i).squaredNorm());
   return static_cast<std::int32_t>(std::sqrt(static_cast<double>(farthest)) / cell) + 2;
 }
 } // namespace
 
 std::vector<HoughCell>
-voteForAll(const PointColumns& points,
+voteForAll(const SurfelColumns& surfels,
            const AccumulatorBall& ball,
            const HoughVoteOptions& options)
 {
-  const PointsByDirection by_direction(points, ball);
+  const SurfelsByDirection by_direction(surfels, ball);
   std::vector<Eigen::Vector3f> centres;
   for (std::size_t cell = 0; cell < ball.size(); ++cell)
     centres.push_back(ball.centre(cell).cast<float>());
   const auto cosine = static_cast<float>(portableSinCos(options.max_angle).cos);
   const auto per_metre = static_cast<float>(1 / options.offset_cell);
-  const std::int32_t middle = reach(points, options.offset_cell);
+  const std::int32_t middle = reach(surfels, options.offset_cell);
   std::vector<std::vector<HoughCell>> rows(ball.size());
   parallelFor(ball.size(), options.num_threads, [&](std::size_t direction) {
     const Eigen::Vector3f normal = centres[direction];
@@ -78,7 +78,7 @@ voteForAll(const PointColumns& points,
     for (std::size_t facing = 0; facing < ball.size(); ++facing)
       if (centres[facing].dot(normal) >= cosine)
         by_direction.visit(facing, [&](std::size_t slot) {
-          const float offset = std::floor(normal.dot(points.point(slot)) * per_metre);
+          const float offset = std::floor(normal.dot(surfels.point(slot)) * per_metre);
           ++votes[static_cast<std::size_t>(static_cast<std::int32_t>(offset) + middle)];
         });
     for (std::int32_t offset = -middle; offset < middle; ++offset) {

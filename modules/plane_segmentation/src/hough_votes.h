@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "remaining_points.h"
+#include "remaining_surfels.h"
 
 #include <pcl6d/plane_segmentation/accumulator_ball.h>
 
@@ -19,18 +19,18 @@ struct HoughCell {
   std::uint32_t votes = 0;
 };
 
-/** \brief How points vote for all planes through them. */
+/** \brief How surfels vote for all planes through them. */
 struct HoughVoteOptions {
   double offset_cell = 0.1;    ///< [m]
-  double max_angle = 0.35;     ///< [rad] between a plane's normal and that of a point
+  double max_angle = 0.35;     ///< [rad] between a plane's normal and that of a surfel
   std::uint32_t min_votes = 1; ///< cells with fewer are left out
   unsigned int num_threads = 0;
 };
 
-/** \brief Lets each point vote for all planes through it.
+/** \brief Lets each surfel vote for all planes through it.
  * \return the cells by falling count, then by direction and offset */
 std::vector<HoughCell>
-voteForAll(const PointColumns& points,
+voteForAll(const SurfelColumns& surfels,
            const AccumulatorBall& ball,
            const HoughVoteOptions& options);
 

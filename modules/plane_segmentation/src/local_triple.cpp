@@ -18,13 +18,15 @@ drawFrom(std::size_t begin, std::size_t end, Random& random)
 } // namespace
 
 std::optional<TriplePlane>
-drawTriple(const RemainingPoints& points, const TripleOptions& options, Random& random)
+drawTriple(const RemainingSurfels& surfels,
+           const TripleOptions& options,
+           Random& random)
 {
-  const PointColumns& columns = points.columns();
-  const std::size_t first = drawFrom(0, points.size(), random);
+  const SurfelColumns& columns = surfels.columns();
+  const std::size_t first = drawFrom(0, surfels.size(), random);
   const auto level = static_cast<int>(
       drawFrom(0, static_cast<std::size_t>(options.num_levels), random));
-  const RemainingPoints::Range cell = points.cell(first, level);
+  const RemainingSurfels::Range cell = surfels.cell(first, level);
   const std::array<std::size_t, 3> slots = {first,
                                             drawFrom(cell.begin, cell.end, random),
                                             drawFrom(cell.begin, cell.end, random)};

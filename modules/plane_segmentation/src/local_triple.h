@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "remaining_points.h"
+#include "remaining_surfels.h"
 
 #include <pcl6d/common/random.h>
 
@@ -9,7 +9,7 @@
 
 namespace pcl6d {
 
-/** \brief How three points are drawn that may lie on one plane. */
+/** \brief How three surfels are drawn that may lie on one plane. */
 struct TripleOptions {
   int num_levels = 4;      ///< sizes of cells, from the finest; each is as likely
   double min_distance = 0; ///< [m] between each two of them
@@ -18,15 +18,17 @@ struct TripleOptions {
   double min_sine = 0.2;
 };
 
-/** \brief The plane of three points, on the side to which their normals point. */
+/** \brief The plane of three surfels, on the side to which their normals point. */
 struct TriplePlane {
   Eigen::Vector3f normal;
   float offset = 0; ///< [m] normal . p
 };
 
-/** \brief Draws a point and two of its neighbours.
+/** \brief Draws a surfel and two of its neighbours.
  * \return none if they do not make a plane that suits their normals */
 std::optional<TriplePlane>
-drawTriple(const RemainingPoints& points, const TripleOptions& options, Random& random);
+drawTriple(const RemainingSurfels& surfels,
+           const TripleOptions& options,
+           Random& random);
 
 } // namespace pcl6d

@@ -20,10 +20,14 @@ constexpr std::size_t kBatch = 2048; // draws that are made before they vote
 constexpr int kLevels = 3;           // sizes of the cells that points are drawn from
 constexpr int kWindow = 4;           // steps on each side of a peak
 
-SupportOptions
-supportOf(const HoughPlaneOptions& options)
+PlaneSearch
+makeSearch(const PlaneCloud& cloud, const HoughPlaneOptions& options)
 {
-  return {options.max_distance, portableSinCos(options.max_angle).cos, options.gap};
+  return {cloud,
+          options.max_side / (1 << (kLevels - 1)),
+          {options.max_plane_distance, options.bend},
+          portableSinCos(options.max_angle).cos,
+          options.min_surfels};
 }
 
 /** The randomized transform. */
@@ -32,21 +36,19 @@ public:
   RandomizedHough(const PlaneCloud& cloud, const HoughPlaneOptions& options)
   : options_(options)
   , ball_(options.slices)
-  , search_(cloud,
-            options.max_side / (1 << (kLevels - 1)),
-            supportOf(options),
-            options.min_points)
+  , num_threads_(cloud.numThreads())
+  , search_(makeSearch(cloud, options))
   {
     triple_.num_levels = kLevels;
     triple_.min_distance = options.min_side;
-    triple_.min_cosine = supportOf(options).min_cosine;
+    triple_.min_cosine = portableSinCos(options.max_angle).cos;
   }
 
   PlaneCandidates
   run()
   {
     int failures = 0;
-    while (search_.points().size() >= options_.min_points &&
+    while (search_.surfels().size() >= options_.min_surfels &&
            failures < options_.max_failures) {
       const Votes best = vote();
       const bool found = best.count > 0 && takeMean(best);
@@ -97,10 +99,10 @@ private:
   drawBatch()
   {
     std::vector<std::vector<TriplePlane>> planes(kBatch / kBlock);
-    parallelBlocks(kBatch, kBlock, options_.num_threads, [&](const Block& block) {
+    parallelBlocks(kBatch, kBlock, num_threads_, [&](const Block& block) {
       Random random(mixBits(mixBits(options_.seed) + num_blocks_ + block.index));
       for (std::size_t i = block.begin; i < block.end; ++i)
-        if (const auto plane = drawTriple(search_.points(), triple_, random))
+        if (const auto plane = drawTriple(search_.surfels(), triple_, random))
           planes[block.index].push_back(*plane);
     });
     num_blocks_ += planes.size();
@@ -121,6 +123,7 @@ private:
 
   HoughPlaneOptions options_;
   AccumulatorBall ball_;
+  unsigned int num_threads_;
   PlaneSearch search_;
   TripleOptions triple_;
   std::size_t num_blocks_ = 0;
@@ -132,7 +135,8 @@ public:
   FullHough(const PlaneCloud& cloud, const HoughPlaneOptions& options)
   : options_(options)
   , ball_(options.slices)
-  , search_(cloud, options.max_side, supportOf(options), options.min_points)
+  , num_threads_(cloud.numThreads())
+  , search_(makeSearch(cloud, options))
   {}
 
   PlaneCandidates
@@ -157,16 +161,16 @@ private:
   void
   takePeaks()
   {
-    const std::size_t size = search_.points().size();
+    const std::size_t size = search_.surfels().size();
     const auto voters =
         static_cast<std::size_t>(std::ceil(share() * static_cast<double>(size)));
-    const auto fewest = share() * static_cast<double>(options_.min_points);
+    const auto fewest = share() * static_cast<double>(options_.min_surfels);
     HoughVoteOptions voting;
     voting.offset_cell = options_.offset_cell;
     voting.max_angle = options_.max_angle;
-    voting.num_threads = options_.num_threads;
+    voting.num_threads = num_threads_;
     voting.min_votes = static_cast<std::uint32_t>(std::max(1.0, fewest));
-    const PointColumns sample = search_.points().sample(
+    const SurfelColumns sample = search_.surfels().sample(
         voters, mixBits(options_.seed) + search_.found().size());
     HoughPeaks peaks(voteForAll(sample, ball_, voting), ball_, kWindow);
     int failures = 0;
@@ -184,14 +188,14 @@ private:
     const double offset = (peak.offset + 0.5) * options_.offset_cell;
     Slab slab = search_.slab(ball_.centre(peak.direction).cast<float>(),
                              static_cast<float>(offset));
-    slab.max_distance =
-        std::max(slab.max_distance, static_cast<float>(options_.offset_cell));
+    slab.slack = static_cast<float>(options_.offset_cell);
     const Support support = search_.supportOf(slab);
     return !support.slots.empty() && search_.take(support);
   }
 
   HoughPlaneOptions options_;
   AccumulatorBall ball_;
+  unsigned int num_threads_;
   PlaneSearch search_;
 };
 } // namespace
@@ -205,11 +209,11 @@ HoughPlaneOptions::validate() const
   };
   require(slices >= 2 && slices <= 1000, "slices", slices, "in [2, 1000]");
   requirePositive("offset_cell", offset_cell);
-  requirePositive("max_distance", max_distance);
+  requirePositive("max_plane_distance", max_plane_distance);
   require(
       max_angle > 0 && max_angle < kRightAngle, "max_angle", max_angle, "in (0, pi/2)");
-  requirePositive("gap", gap);
-  require(min_points >= 3, "min_points", min_points, ">= 3");
+  require(std::isfinite(bend) && bend >= 0, "bend", bend, "finite and >= 0");
+  require(min_surfels >= 3, "min_surfels", min_surfels, ">= 3");
   require(min_side >= 0, "min_side", min_side, ">= 0");
   require(std::isfinite(max_side) && max_side > min_side,
           "max_side",

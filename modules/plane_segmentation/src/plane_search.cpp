@@ -6,8 +6,8 @@ namespace pcl6d {
 Support
 PlaneSearch::supportOf(const Slab& guess) const
 {
-  Support support = findSupport(points_, guess, support_);
-  if (support.slots.size() < min_points_)
+  Support support = findSupport(surfels_, guess);
+  if (support.slots.size() < min_surfels_)
     support.slots.clear();
   return support;
 }
@@ -15,10 +15,10 @@ PlaneSearch::supportOf(const Slab& guess) const
 bool
 PlaneSearch::take(const Support& support)
 {
-  const bool flat = !isCurved(points_.columns(), support);
+  const bool flat = !isCurved(surfels_.columns(), support);
   if (flat)
-    found_.push_back(points_.places(support.slots));
-  points_.remove(support.slots);
+    found_.push_back(surfels_.pointsOf(support.slots));
+  surfels_.remove(support.slots);
   return flat;
 }
 

@@ -8,36 +8,37 @@ namespace pcl6d {
 /** \brief A search that takes one plane after the other out of a cloud. */
 class PlaneSearch {
 public:
-  /** \param[in] finest_cell [m] see RemainingPoints
-   * \param[in] min_points of a plane */
+  /** \param[in] finest_cell [m], reach: see RemainingSurfels
+   * \param[in] min_cosine between the normals of a surfel and of its plane
+   * \param[in] min_surfels of a plane */
   PlaneSearch(const PlaneCloud& cloud,
               double finest_cell,
-              const SupportOptions& support,
-              std::size_t min_points)
-  : support_(support), min_points_(min_points), points_(cloud, finest_cell)
+              const SurfelReach& reach,
+              double min_cosine,
+              std::size_t min_surfels)
+  : min_cosine_(static_cast<float>(min_cosine))
+  , min_surfels_(min_surfels)
+  , surfels_(cloud, finest_cell, reach)
   {}
 
-  const RemainingPoints&
-  points() const
+  const RemainingSurfels&
+  surfels() const
   {
-    return points_;
+    return surfels_;
   }
 
   /** \return a slab that finds the support of a plane */
   Slab
   slab(const Eigen::Vector3f& normal, float offset) const
   {
-    return {normal,
-            offset,
-            static_cast<float>(support_.max_distance),
-            static_cast<float>(support_.min_cosine)};
+    return {normal, offset, min_cosine_, 0};
   }
 
   /** \return see findSupport(); no slots if they are too few */
   Support
   supportOf(const Slab& guess) const;
 
-  /** \brief Removes the points of a patch, which is a plane unless it is curved.
+  /** \brief Removes a patch, which is a plane unless it is curved.
    * \return whether it is a plane */
   bool
   take(const Support& support);
@@ -50,9 +51,9 @@ public:
   }
 
 private:
-  SupportOptions support_;
-  std::size_t min_points_;
-  RemainingPoints points_;
+  float min_cosine_;
+  std::size_t min_surfels_;
+  RemainingSurfels surfels_;
   PlaneCandidates found_;
 };
 

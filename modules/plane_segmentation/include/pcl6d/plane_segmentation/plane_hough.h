@@ -18,23 +18,23 @@ enum class HoughVariant {
 /** \brief Knobs of houghCandidates(). */
 struct HoughPlaneOptions {
   HoughVariant variant = HoughVariant::kRandomized;
-  int slices = 45;            ///< of the AccumulatorBall: cells of pi / slices
-  double offset_cell = 0.1;   ///< [m] size of a cell along the normal; > 0
-  double max_distance = 0.03; ///< [m] of an inlier to its plane; > 0
+  int slices = 45;               ///< of the AccumulatorBall: cells of pi / slices
+  double offset_cell = 0.1;      ///< [m] size of a cell along the normal; > 0
+  double max_plane_distance = 3; ///< [sigma] of a surfel to its plane; > 0
+  double bend =
+      0.02; ///< [m] that it may be away in any case: real scans are bent; >= 0
   double max_angle = 0.35; ///< [rad] between its normal and the plane's; in (0, pi/2)
-  double gap = 0.2;        ///< [m] that parts the patches of a plane; > 0
-  std::size_t min_points = 50; ///< of a plane; >= 3
+  std::size_t min_surfels = 8; ///< of a plane; >= 3
   /// \name Randomized
   ///@{
   double min_side = 0.1; ///< [m] between each two of three points; >= 0
   double max_side = 2;   ///< [m] edge of the cell that they are drawn from; > min_side
   int votes = 20;        ///< for a plane that is looked at; >= 2
-  int max_draws = 20000; ///< then the plane with most votes is looked at; >= 1
+  int max_draws = 5000;  ///< then the plane with most votes is looked at; >= 1
   int max_failures = 20; ///< planes in turn that were none: the end; >= 1
   ///@}
-  double share = 0.3;           ///< of the points that vote if probabilistic; in (0, 1]
-  std::uint64_t seed = 1;       ///< of the draws
-  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  double share = 0.3;     ///< of the points that vote if probabilistic; in (0, 1]
+  std::uint64_t seed = 1; ///< of the draws
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

@@ -10,14 +10,14 @@ namespace pcl6d {
 
 /** \brief Knobs of ransacCandidates(). */
 struct RansacPlaneOptions {
-  double max_distance = 0.03; ///< [m] of an inlier to its plane; > 0
+  double max_plane_distance = 3; ///< [sigma] of a surfel to its plane; > 0
+  double bend =
+      0.02; ///< [m] that it may be away in any case: real scans are bent; >= 0
   double max_angle = 0.35;  ///< [rad] between its normal and the plane's; in (0, pi/2)
   double neighbourhood = 2; ///< [m] three points are drawn from so near; > 0
-  double gap = 0.2;         ///< [m] that parts the patches of a plane; > 0
-  std::size_t min_points = 50;  ///< of a plane; >= 3
-  double probability = 0.99;    ///< that no such plane is missed; in (0, 1)
-  std::uint64_t seed = 1;       ///< of the draws
-  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  std::size_t min_surfels = 8; ///< of a plane; >= 3
+  double probability = 0.99;   ///< that no such plane is missed; in (0, 1)
+  std::uint64_t seed = 1;      ///< of the draws
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "remaining_surfels.h"
-#include "surfel_trust.h"
 
 #include <pcl6d/common/random.h>
 
@@ -45,17 +44,14 @@ struct CodedSurfel {
 
 /** \return the smooth surfels by their cells */
 std::vector<CodedSurfel>
-smoothInOrder(const Surfels& surfels,
-              const SurfelTrust& trust,
-              const Eigen::AlignedBox3f& box,
-              double finest)
+smoothInOrder(const Surfels& surfels, const Eigen::AlignedBox3f& box, double finest)
 {
   const float extent = surfels.points.empty() ? 0.f : box.sizes().maxCoeff();
   const float edge =
       std::max(static_cast<float>(finest), extent / static_cast<float>(1 << kBits));
   std::vector<CodedSurfel> order;
   for (std::uint32_t i = 0; i < surfels.size(); ++i)
-    if (trust.smooth[i])
+    if (surfels.smooth[i])
       order.push_back({mortonCode((surfels.points[i] - box.min()) / edge), i});
   std::sort(order.begin(), order.end(), [](const CodedSurfel& a, const CodedSurfel& b) {
     return a.code != b.code ? a.code < b.code : a.surfel < b.surfel;
@@ -95,17 +91,17 @@ RemainingSurfels::RemainingSurfels(const PlaneCloud& cloud,
 : cloud_(cloud)
 {
   const Surfels& surfels = cloud.surfels();
-  const SurfelTrust trust(cloud);
   Eigen::AlignedBox3f box;
   for (const auto& point : surfels.points)
     box.extend(point);
-  for (const auto& [code, surfel] : smoothInOrder(surfels, trust, box, finest)) {
+  for (const auto& [code, surfel] : smoothInOrder(surfels, box, finest)) {
     codes_.push_back(code);
     surfels_.push_back(surfel);
     columns_.append(
         surfels.points[surfel] - box.min(),
         surfels.normals[surfel],
-        static_cast<float>(std::max(reach.sigmas * trust.sigma[surfel], reach.least)));
+        static_cast<float>(std::max(
+            reach.sigmas * static_cast<double>(surfels.noise[surfel]), reach.least)));
   }
   slots_.assign(surfels.size(), kGone);
   numberSlots();

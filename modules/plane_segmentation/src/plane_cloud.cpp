@@ -105,6 +105,22 @@ measuredNoise(const PlaneCloud& cloud)
   return NoiseModel(ranges, residuals, kLeastNoise);
 }
 
+double
+medianRange(const PlaneCloud& cloud)
+{
+  std::vector<double> ranges;
+  const std::size_t size = cloud.points().size();
+  for (std::size_t i = 0; i < size; i += strideOfSamples(size))
+    ranges.push_back((cloud.points()[i] - cloud.viewpoint(i)).norm());
+  return upperMedian(ranges);
+}
+
+double
+length(double a, double b)
+{
+  return std::sqrt(a * a + b * b);
+}
+
 /** Some points, and some standard deviations of their noise, wide. */
 double
 suitableVoxel(double spacing, double noise)
@@ -150,8 +166,10 @@ PlaneCloud::PlaneCloud(const Points& points, const PlaneCloudOptions& options)
 {
   if (!options.viewpoints.empty())
     viewpoints_ = chosenOf(options.viewpoints, places_);
-  const double voxel = options.voxel.value_or(suitableVoxel(
-      spacing_, options.noise ? *options.noise : roughNoise(points_, tree_)));
+  const double voxel = options.voxel.value_or(
+      suitableVoxel(spacing_,
+                    length(options.noise ? *options.noise : roughNoise(points_, tree_),
+                           distortion_ * medianRange(*this))));
   surfels_ = groupSurfels(points_, voxel, num_threads_);
   noise_ = options.noise ? NoiseModel(*options.noise) : measuredNoise(*this);
   for (std::size_t i = 0; i < surfels_.size(); ++i)

@@ -18,11 +18,10 @@ enum class HoughVariant {
 /** \brief Knobs of houghCandidates(). */
 struct HoughPlaneOptions {
   HoughVariant variant = HoughVariant::kRandomized;
-  int slices = 45;               ///< of the AccumulatorBall: cells of pi / slices
-  double offset_cell = 0.1;      ///< [m] size of a cell along the normal; > 0
-  double max_plane_distance = 2; ///< [sigma] of a surfel to its plane; > 0
-  double bend =
-      0.02; ///< [m] that it may be away in any case: real scans are bent; >= 0
+  int slices = 45;                 ///< of the AccumulatorBall: cells of pi / slices
+  double offset_cell = 0.1;        ///< [m] size of a cell along the normal; > 0
+  double max_plane_distance = 1.5; ///< [sigma] of a surfel to its plane; > 0
+  double bend = 0.01;      ///< [m] it may be away in any case, as scans are bent; >= 0
   double max_angle = 0.35; ///< [rad] between its normal and the plane's; in (0, pi/2)
   std::size_t min_surfels = 8; ///< of a plane; >= 3
   /// \name Randomized

@@ -10,9 +10,8 @@ namespace pcl6d {
 
 /** \brief Knobs of ransacCandidates(). */
 struct RansacPlaneOptions {
-  double max_plane_distance = 2; ///< [sigma] of a surfel to its plane; > 0
-  double bend =
-      0.02; ///< [m] that it may be away in any case: real scans are bent; >= 0
+  double max_plane_distance = 1.5; ///< [sigma] of a surfel to its plane; > 0
+  double bend = 0.01;       ///< [m] it may be away in any case, as scans are bent; >= 0
   double max_angle = 0.35;  ///< [rad] between its normal and the plane's; in (0, pi/2)
   double neighbourhood = 2; ///< [m] three points are drawn from so near; > 0
   std::size_t min_surfels = 8; ///< of a plane; >= 3

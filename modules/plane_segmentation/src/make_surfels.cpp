@@ -19,7 +19,9 @@ constexpr std::size_t kBlockSize = 256;    // surfels
 constexpr std::size_t kFewNeighbours = 10; // on a strip
 constexpr double kLineTolerance = 1e-8;    // of squared spreads
 constexpr double kSmooth = 1.5;            // [sigma] rms of neighbours to their plane
-constexpr double kLeastSpread = 3;         // [rms] or they are a line, not a plane
+/** [rad] between ray and surface; what a scanner sees edge-on is its own scan line. */
+constexpr float kLeastIncidence = 0.02f;
+constexpr double kLeastSpread = 3; // [rms] or they are a line, not a plane
 
 void
 groupPoints(const Points& points, double voxel, Surfels& surfels)
@@ -120,8 +122,10 @@ fitSurfels(Surfels& surfels,
           patch = few;
       }
       const Eigen::Vector3f& place = surfels.points[i];
-      const bool away = patch.normal.dot(viewpoint_of(i) - place) < 0;
-      surfels.normals[i] = away ? Eigen::Vector3f(-patch.normal) : patch.normal;
+      const Eigen::Vector3f ray = viewpoint_of(i) - place;
+      const float towards = patch.normal.dot(ray);
+      patch.smooth &= std::abs(towards) > kLeastIncidence * ray.norm();
+      surfels.normals[i] = towards < 0 ? Eigen::Vector3f(-patch.normal) : patch.normal;
       surfels.roughness[i] = patch.roughness;
       surfels.smooth[i] = patch.smooth;
       places[i] =

@@ -10,6 +10,8 @@ namespace pcl6d {
 
 namespace {
 constexpr std::size_t kBlockSize = 512; // surfels
+/** Where no normal tells, near edges and clutter, points must be so much closer. */
+constexpr double kEdge = 0.8;
 
 /** Which parts have points in each surfel. */
 class PartsInside {
@@ -70,7 +72,9 @@ public:
     const Eigen::Vector3d place = cloud_.points()[i].cast<double>();
     const Eigen::Vector3d ray = cloud_.viewpoint(i).cast<double>() - place;
     const Eigen::Vector3d normal = cloud_.normals()[i].cast<double>();
-    double nearest = max_distance_ * cloud_.surfels().noise[surfel];
+    double nearest =
+        (cloud_.surfels().smooth[surfel] ? max_distance_ : kEdge * max_distance_) *
+        cloud_.surfels().noise[surfel];
     std::uint32_t owner = kNoPart;
     for (const auto part : around) {
       const PlaneFit& plane = parts_[part].plane;

@@ -15,6 +15,7 @@ constexpr double kLeastCosine = 0.94; // of the normals of one carrier plane: 20
 /** How much farther, squared, points may be from a common plane than from their own. */
 constexpr double kGrowth = 1.3;
 constexpr double kShift = 1.0; // [sigma] beyond that, for what noise does not explain
+constexpr double kLargestStep = 2.0; // [sigma] between the planes where the parts meet
 
 bool
 staysAsFlat(const PlanePart& part, const PlaneFit& common)
@@ -71,19 +72,29 @@ PlaneParts::split(std::size_t min_points)
   fitAll();
 }
 
-/** Whether some surfel of one is close to one of the other. */
+/** Whether the parts come close to each other, and there without a step. */
 bool
 PlaneParts::touch(const PlanePart& a, const PlanePart& b) const
 {
+  const Points& surfels = cloud_.surfels().points;
   Points places;
   for (const auto i : surfelsOf(a))
-    places.push_back(cloud_.surfels().points[i]);
+    places.push_back(surfels[i]);
   const PointTree tree(places, cloud_.numThreads());
   const auto gap = static_cast<float>(options_.merge_gap);
-  for (const auto i : surfelsOf(b))
-    if (tree.nearest(cloud_.surfels().points[i], gap * gap).index >= 0)
-      return true;
-  return false;
+  Neighbour closest{-1, gap * gap};
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();
+  for (const auto i : surfelsOf(b)) {
+    const Neighbour near = tree.nearest(surfels[i], closest.distance_sq);
+    if (near.index < 0)
+      continue;
+    closest = near;
+    contact =
+        (surfels[i] + places[static_cast<std::size_t>(near.index)]).cast<double>() / 2;
+  }
+  const double step = a.plane.distance(contact) - b.plane.distance(contact);
+  return closest.index >= 0 &&
+         std::abs(step) < kLargestStep * std::max(a.sigma, b.sigma);
 }
 
 /** Joins a part with a larger one before it. */

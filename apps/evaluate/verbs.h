@@ -23,4 +23,9 @@ runIcp(const std::vector<std::string>& arguments);
 int
 runLengths(const std::vector<std::string>& arguments);
 
+/** \brief `map RUN_DIR`: how good a map is, without a reference path.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runMap(const std::vector<std::string>& arguments);
+
 } // namespace pcl6d::app

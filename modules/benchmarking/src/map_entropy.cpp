@@ -15,8 +15,8 @@
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kBlockSize = 64;      // places
-constexpr double kLeastVariance = 1e-8;     // [m^2] of points on an exact plane
+constexpr std::size_t kBlockSize = 64;            // places
+constexpr double kLeastVariance = 1e-8;           // [m^2] of points on an exact plane
 constexpr double kLogTwoPi = 1.83787706640934548; // ln(2 pi)
 
 LocalSpread
@@ -52,10 +52,9 @@ localSpreads(const Points& places, const Points& map, const MapEntropyOptions& o
   parallelBlocks(
       places.size(), kBlockSize, options.num_threads, [&](const Block& block) {
         for (std::size_t i = block.begin; i < block.end; ++i)
-          spreads[i] =
-              spreadOf(places[i].allFinite() ? grid.momentsAround(places[i])
-                                             : PointMoments(),
-                       options.min_points);
+          spreads[i] = spreadOf(places[i].allFinite() ? grid.momentsAround(places[i])
+                                                      : PointMoments(),
+                                options.min_points);
       });
   return spreads;
 }

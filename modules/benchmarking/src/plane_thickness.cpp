@@ -27,8 +27,10 @@ checkMap(const MapPoints& map, std::size_t num_scans)
           "normals",
           map.normals.size(),
           "one per point");
-  require(
-      map.scans.size() == map.points.size(), "scans", map.scans.size(), "one per point");
+  require(map.scans.size() == map.points.size(),
+          "scans",
+          map.scans.size(),
+          "one per point");
   for (const std::uint32_t scan : map.scans)
     require(scan < num_scans, "scan of a point", scan, "one of the scans");
 }
@@ -127,7 +129,8 @@ void
 PlaneThicknessOptions::validate() const
 {
   require(std::isfinite(gate) && gate > 0, "gate", gate, "finite and > 0");
-  require(max_angle > 0 && max_angle < M_PI / 2, "max_angle", max_angle, "in (0, pi/2)");
+  require(
+      max_angle > 0 && max_angle < M_PI / 2, "max_angle", max_angle, "in (0, pi/2)");
   require(std::isfinite(min_area) && min_area >= 0,
           "min_area",
           min_area,

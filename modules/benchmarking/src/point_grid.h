@@ -35,8 +35,8 @@ public:
 
 private:
   double radius_;
-  std::vector<VoxelKey> keys_; ///< of the occupied cells, ascending
-  std::vector<std::size_t> begin_; ///< first point of each cell, and the end
+  std::vector<VoxelKey> keys_;            ///< of the occupied cells, ascending
+  std::vector<std::size_t> begin_;        ///< first point of each cell, and the end
   std::array<std::vector<float>, 3> xyz_; ///< of the points, cell by cell
 };
 

@@ -13,9 +13,9 @@ namespace {
 double
 quantile(std::vector<float>& values, double share)
 {
-  const auto place = std::min(
-      values.size() - 1,
-      static_cast<std::size_t>(share * static_cast<double>(values.size())));
+  const auto place =
+      std::min(values.size() - 1,
+               static_cast<std::size_t>(share * static_cast<double>(values.size())));
   const auto nth = values.begin() + static_cast<std::ptrdiff_t>(place);
   std::nth_element(values.begin(), nth, values.end());
   return *nth;

@@ -20,6 +20,8 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kPairSample = 200;     ///< points that measure a pair, each way
 constexpr std::size_t kEntropySample = 1000; ///< places of a scan
 constexpr double kMapCells = 5;              ///< per radius of the entropy
+constexpr double kGateVoxels = 1.5;          ///< of the thickness of planes
+constexpr double kLeastGate = 0.1;           ///< [m]
 constexpr std::uint64_t kSeed = 1;
 
 std::vector<MapScan>
@@ -222,7 +224,7 @@ MapMeasuring::measurePlanes(MapQuality& quality) const
     }
   }
   PlaneThicknessOptions options;
-  options.gate = maxDistance();
+  options.gate = std::max(kLeastGate, kGateVoxels * options_.voxel);
   options.num_threads = options_.num_threads;
   quality.thickness = planeThickness(planes, map, scans_.size(), options);
   for (ThickPlane& thick : quality.thickness.planes) {

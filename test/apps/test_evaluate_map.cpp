@@ -176,7 +176,7 @@ TEST(EvaluateMap, NamesWhatIsWrongWithTheScans)
                            "POINTS 4\nDATA ascii\n";
   writeText(copy / "run/scans/scan002.pcd",
             head + "nan nan nan\nnan nan nan\nnan nan nan\n1 2 3\n");
-  expectError(copy.measured(), 1, {"scan002.pcd", "1 finite"});
+  expectError(copy.measured(), 1, {"scan002.pcd", "1 points"});
   writeText(copy / "run/scans/scan002.pcd",
             "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
             "WIDTH 0\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 0\nDATA ascii\n");

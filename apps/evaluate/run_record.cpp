@@ -63,8 +63,7 @@ bytesOf(const fs::path& file)
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/** \return our libraries that this program has loaded, which are those of pcl_slam6d and
- * some more */
+/** \return our libraries that this program has loaded, without those that only measure */
 std::set<std::string>
 loadedLibraries()
 {
@@ -76,7 +75,9 @@ loadedLibraries()
       continue;
     const std::string file = line.substr(slash);
     const std::string name = fs::path(file).filename().string();
-    if (name.rfind("libpcl6d_", 0) == 0 && name.rfind("libpcl6d_benchmarking", 0) != 0)
+    const auto isOf = [&](const char* prefix) { return name.rfind(prefix, 0) == 0; };
+    if (isOf("libpcl6d_") && !isOf("libpcl6d_benchmarking") &&
+        !isOf("libpcl6d_plane_segmentation"))
       files.insert(file);
   }
   return files;

@@ -111,8 +111,14 @@ private:
   void
   addErrors(SuiteResult& result) const
   {
-    if (!results_.reference.poses.empty())
-      result.row.errors = evaluateTrajectory(result.estimate, results_.reference);
+    const Trajectory& reference = results_.reference;
+    if (reference.poses.empty())
+      return;
+    SuiteRow& row = result.row;
+    row.errors = evaluateTrajectory(result.estimate, reference);
+    const auto& pairs = row.errors->matching.pairs;
+    row.steps = stepErrors(result.estimate, reference, pairs);
+    row.drift = driftErrors(result.estimate, reference, pairs);
   }
 
   /** The initial poses are the same for all methods: the first result tells them. */

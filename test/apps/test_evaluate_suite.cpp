@@ -3,6 +3,7 @@
 #include "bad_input.h"
 #include "suite_test.h"
 
+#include <pcl6d/benchmarking/relative_error.h>
 #include <pcl6d/benchmarking/trajectory_error.h>
 #include <pcl6d/io/trajectory_io.h>
 
@@ -40,6 +41,8 @@ expectErrors(const CsvRow& row, const Trajectory& estimate)
   expect("max_yaw_rad", errors.yaw.max);
   expect("rms_position_m", errors.position.rms);
   expect("max_orientation_rad", errors.orientation.max);
+  std::vector<pcl6d::PosePair> pairs = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
+  expect("rpe_step_rms_m", stepErrors(estimate, truth, pairs).translation.rms);
 }
 
 /** \return the ids of processes that have a word in their command line */

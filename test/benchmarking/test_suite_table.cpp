@@ -25,14 +25,19 @@ path(const std::vector<double>& shifts, double yaw)
   return trajectory;
 }
 
-/** Errors of 0, 3 and 4 m: rms sqrt(25 / 3); the yaw is off by 0.01 rad. */
+/** Errors of 0, 3 and 4 m: rms sqrt(25 / 3); the yaw is off by 0.01 rad. The two steps are
+ * (1.0299, 2.9899) and (0.9300, -7.0097) instead of (1, 0), by hand, so the rms of their
+ * errors is 5.3889; both together miss 4.0200 m, asked for over 1.5 m. */
 SuiteRow
 measured()
 {
   SuiteRow row;
   row.data = "street";
   row.method = "A";
-  row.errors = evaluateTrajectory(path({0, 3, -4}, 0.01), path({0, 0, 0}, 0));
+  const Trajectory estimate = path({0, 3, -4}, 0.01), truth = path({0, 0, 0}, 0);
+  row.errors = evaluateTrajectory(estimate, truth);
+  row.steps = stepErrors(estimate, truth, row.errors->matching.pairs);
+  row.drift = driftErrors(estimate, truth, row.errors->matching.pairs, {1.5});
   row.agreement = 0.5;
   row.seconds = 12.345;
   row.cpu_seconds = 20;
@@ -60,14 +65,13 @@ TEST(SuiteTable, MarkdownHasTheBooksMeasuresInMetresAndDegrees)
 {
   EXPECT_EQ(
       pcl6d::suiteMarkdown({measured(), failed()}),
-      "| method | sigma pos [m] | max pos [m] | sigma yaw [deg] | max yaw [deg] | 3D "
-      "rms "
-      "[m] | 3D rms [deg] | agreement | time [s] | CPU [s] | memory [MB] | verdict |\n"
+      "| method | sigma pos [m] | max pos [m] | sigma yaw [deg] | max yaw [deg] | "
+      "3D rms [m] | RPE/step [m] | drift [%] | agreement | time [s] | memory [MB] | "
+      "verdict |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n"
-      "| A | 2.887 | 4.000 | 0.573 | 0.573 | 2.887 | 0.573 | 0.500 | 12.3 | 20.0 | 100 "
-      "| "
-      "trusted |\n"
-      "| B\\|C, \"D\" | - | - | - | - | - | - | - | 0.2 | - | - | failed (exit 1) |\n"
+      "| A | 2.887 | 4.000 | 0.573 | 0.573 | 2.887 | 5.3889 | 268.000 | 0.500 | "
+      "12.3 | 100 | trusted |\n"
+      "| B\\|C, \"D\" | - | - | - | - | - | - | - | - | 0.2 | - | failed (exit 1) |\n"
       "\n- B|C, \"D\": scan1.pcd: broken, alas\n");
 }
 
@@ -102,12 +106,13 @@ TEST(SuiteTable, CsvHasAllColumnsWithEveryDigitAndQuotesTexts)
       line(0),
       "data,method,sigma_position_2d_m,max_position_2d_m,sigma_yaw_rad,max_yaw_rad,"
       "rms_position_m,max_position_m,rms_orientation_rad,max_orientation_rad,"
+      "rpe_step_rms_m,rpe_step_rms_rad,drift_per_metre,drift_rad_per_metre,"
       "agreement,seconds,cpu_seconds,peak_memory_mb,runs,verdict,message");
   EXPECT_EQ(line(1).substr(0, 9), "street,A,");
   EXPECT_EQ(std::stod(line(1).substr(9)), errors.position_2d.rms) << "all digits";
   EXPECT_NE(line(1).find(",0.5,12.345,20.0,99.6,1,trusted,"), std::string::npos);
   EXPECT_EQ(line(2),
-            "street,\"B|C, \"\"D\"\"\",,,,,,,,,,0.25,,,1,failed (exit 1),"
+            "street,\"B|C, \"\"D\"\"\",,,,,,,,,,,,,,0.25,,,1,failed (exit 1),"
             "\"scan1.pcd: broken, alas\"");
 }
 

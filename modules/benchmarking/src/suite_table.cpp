@@ -40,6 +40,34 @@ errorColumn(const std::string& key,
           }};
 }
 
+/** A column of the rms of the motions from pose to pose. */
+Column
+stepColumn(const std::string& key,
+           const std::string& title,
+           double unit,
+           ErrorStatistics RelativeErrors::*kind)
+{
+  return {key, title, unit, 4, [=](const SuiteRow& row) -> Number {
+            if (!row.steps || row.steps->motions.empty())
+              return std::nullopt;
+            return (*row.steps.*kind).rms;
+          }};
+}
+
+/** A column of what is lost per metre. */
+Column
+driftColumn(const std::string& key,
+            const std::string& title,
+            double unit,
+            double DriftErrors::*number)
+{
+  return {key, title, unit, 3, [=](const SuiteRow& row) -> Number {
+            if (!row.drift || row.drift->stretches == 0)
+              return std::nullopt;
+            return *row.drift.*number;
+          }};
+}
+
 const std::vector<Column>&
 columns()
 {
@@ -63,16 +91,19 @@ columns()
       errorColumn(
           "rms_position_m", "3D rms [m]", 1, &Errors::position, &Statistics::rms),
       errorColumn("max_position_m", "", 1, &Errors::position, &Statistics::max),
-      errorColumn("rms_orientation_rad",
-                  "3D rms [deg]",
-                  kDegrees,
-                  &Errors::orientation,
-                  &Statistics::rms),
+      errorColumn(
+          "rms_orientation_rad", "", kDegrees, &Errors::orientation, &Statistics::rms),
       errorColumn(
           "max_orientation_rad", "", kDegrees, &Errors::orientation, &Statistics::max),
+      stepColumn("rpe_step_rms_m", "RPE/step [m]", 1, &RelativeErrors::translation),
+      stepColumn("rpe_step_rms_rad", "", kDegrees, &RelativeErrors::rotation),
+      driftColumn(
+          "drift_per_metre", "drift [%]", 100, &DriftErrors::translation_per_metre),
+      driftColumn(
+          "drift_rad_per_metre", "", kDegrees, &DriftErrors::rotation_per_metre),
       {"agreement", "agreement", 1, 3, [](const auto& row) { return row.agreement; }},
       {"seconds", "time [s]", 1, 1, [](const auto& row) { return row.seconds; }},
-      {"cpu_seconds", "CPU [s]", 1, 1, [](const auto& row) { return row.cpu_seconds; }},
+      {"cpu_seconds", "", 1, 1, [](const auto& row) { return row.cpu_seconds; }},
       {"peak_memory_mb", "memory [MB]", 1, 0, [](const auto& row) {
          return row.peak_memory_mb;
        }}};

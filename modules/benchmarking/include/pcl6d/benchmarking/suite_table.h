@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/benchmarking/relative_error.h>
 #include <pcl6d/benchmarking/trajectory_error.h>
 
 #include <optional>
@@ -14,8 +15,10 @@ struct SuiteRow {
   std::string data;
   std::string method;
   std::optional<TrajectoryEvaluation> errors; ///< none: no result, or no reference
-  std::optional<double> agreement;            ///< of the scans, as in summary.json
-  std::optional<double> seconds; ///< of the clock; of several runs the median
+  std::optional<RelativeErrors> steps; ///< RPE from each compared pose to the next
+  std::optional<DriftErrors> drift;    ///< RPE per distance
+  std::optional<double> agreement;     ///< of the scans, as in summary.json
+  std::optional<double> seconds;       ///< of the clock; of several runs the median
   std::optional<double> cpu_seconds;
   std::optional<double> peak_memory_mb; ///< largest of several runs [MB]
   int runs = 0;                         ///< that the times are of; 0: nothing was run
@@ -24,7 +27,8 @@ struct SuiteRow {
 };
 
 /** \brief The table of the book (6.4.3) with more columns, for people: errors without
- * alignment in m and degrees, agreement, time, memory and verdict; "-" where there is no
+ * alignment in m and degrees, agreement, time, memory and verdict, not all that
+ * suiteCsv() has; "-" where there is no
  * number, and a list of the messages below. A column that is empty in all rows is left
  * out, that of the data too if all rows have the same. */
 std::string

@@ -11,7 +11,7 @@ using namespace pcl6d;
 int
 run(const std::vector<std::string>& arguments)
 {
-  const std::string verbs = "trajectory, icp, lengths, map";
+  const std::string verbs = "trajectory, icp, lengths, map, suite";
   if (arguments.empty())
     throw app::UsageError("the first argument must say what to evaluate: " + verbs);
   const std::string& verb = arguments.front();
@@ -23,6 +23,8 @@ run(const std::vector<std::string>& arguments)
     return app::runLengths({arguments.begin() + 1, arguments.end()});
   if (verb == "map")
     return app::runMap({arguments.begin() + 1, arguments.end()});
+  if (verb == "suite")
+    return app::runSuite({arguments.begin() + 1, arguments.end()});
   if (verb == "--version")
     return app::runTrajectory({verb});
   if (verb != "--help" && verb != "-h")
@@ -34,7 +36,8 @@ run(const std::vector<std::string>& arguments)
       << "  icp SCAN_A SCAN_B               from how far off ICP finds the pose of "
          "B\n"
       << "  lengths FILE                    ratios of lengths\n"
-      << "  map RUN_DIR                     how good a map is, without a reference\n\n"
+      << "  map RUN_DIR                     how good a map is, without a reference\n"
+      << "  suite SUITE.json                several methods over several data sets\n\n"
       << app::kEvaluate << " WHAT --help tells the options.\n";
   return app::kDone;
 }

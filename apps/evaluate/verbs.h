@@ -28,4 +28,9 @@ runLengths(const std::vector<std::string>& arguments);
 int
 runMap(const std::vector<std::string>& arguments);
 
+/** \brief `suite SUITE.json`: several methods over several data sets.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runSuite(const std::vector<std::string>& arguments);
+
 } // namespace pcl6d::app

@@ -18,4 +18,9 @@ runTrajectory(const std::vector<std::string>& arguments);
 int
 runIcp(const std::vector<std::string>& arguments);
 
+/** \brief `mcl SCAN_DIR --map FILE`: a reference path by localisation in a known plan.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runMcl(const std::vector<std::string>& arguments);
+
 } // namespace pcl6d::app

@@ -28,6 +28,11 @@ runLengths(const std::vector<std::string>& arguments);
 int
 runMap(const std::vector<std::string>& arguments);
 
+/** \brief `mcl SCAN_DIR --map FILE`: a reference path by localisation in a known plan.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runMcl(const std::vector<std::string>& arguments);
+
 /** \brief `suite SUITE.json`: several methods over several data sets.
  * \param[in] arguments after the verb \return the exit code */
 int

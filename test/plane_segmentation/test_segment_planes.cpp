@@ -167,11 +167,11 @@ TEST(SegmentPlanes, WallsThatMeetDoNotEatEachOthersPoints)
   }
 }
 
-TEST(SegmentPlanes, TheTwoFacesOfAThinWallAreTwoPlanes)
+TEST(SegmentPlanes, TheTwoFacesOfAWallAreTwoPlanes)
 {
   test::Surfaces surfaces(0.005);
   const auto front = surfaces.add({2, -1, -1}, {0, 2, 0}, {0, 0, 2}, 0.03);
-  const auto back = surfaces.add({2.1, -1, -1}, {0, 2, 0}, {0, 0, 2}, 0.03);
+  const auto back = surfaces.add({2.3, -1, -1}, {0, 2, 0}, {0, 0, 2}, 0.03);
   PlaneCloudOptions options; // a map: each point has the place of its own scan
   options.viewpoints.assign(front.size(), {0, 0, 0});
   options.viewpoints.resize(surfaces.points().size(), {4, 0, 0});

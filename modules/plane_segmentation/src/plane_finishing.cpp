@@ -114,6 +114,7 @@ finishPlanes(const PlaneCloud& cloud,
   options.validate();
   PlaneParts parts(cloud, options);
   parts.start(candidates);
+  parts.dropSmall();
   parts.merge();
   for (int round = 0; round < 3; ++round) {
     for (int hop = 0; hop < (round == 2 ? kHops : 1); ++hop)

@@ -50,7 +50,8 @@ run(const std::vector<std::string>& arguments)
   }
   const app::PlaneStepResult result =
       app::findPlanes(*cloud, settings.step, settings.num_threads);
-  for (const auto& warning : app::writePlaneFiles(out, *cloud, result, app::kPlanes))
+  for (const auto& warning :
+       app::writePlaneFiles(out, *cloud, result, settings.step, app::kPlanes))
     bar.warn(warning);
   const auto written = out.publish();
   if (settings.quiet)

@@ -45,24 +45,6 @@ say(ProgressBar& bar, const std::string& name, const Parameter& parameter)
   bar.say(line.str());
 }
 
-/** A cloud of its chosen points. */
-pcl::PCLPointCloud2
-chosenOf(const pcl::PCLPointCloud2& cloud, const std::vector<std::size_t>& chosen)
-{
-  pcl::PCLPointCloud2 part = cloud;
-  part.data.clear();
-  part.data.reserve(chosen.size() * cloud.point_step);
-  for (const auto i : chosen) {
-    const auto begin = cloud.data.begin() +
-                       static_cast<std::ptrdiff_t>(i * std::size_t{cloud.point_step});
-    part.data.insert(part.data.end(), begin, begin + cloud.point_step);
-  }
-  part.width = static_cast<pcl::uindex_t>(chosen.size());
-  part.height = 1;
-  part.row_step = part.width * part.point_step;
-  return part;
-}
-
 PlaneStepCloud
 readOne(const PlaneSettings& s, ProgressBar& bar)
 {
@@ -70,15 +52,9 @@ readOne(const PlaneSettings& s, ProgressBar& bar)
   const Slam6DParameters parameters = parametersOf(s, {scan.points});
   say(bar, "min-range", parameters.min_range);
   say(bar, "max-range", parameters.max_range);
-  std::vector<std::size_t> chosen;
   PlaneStepCloud result;
-  for (std::size_t i = 0; i < scan.points.size(); ++i)
-    if (isWithinRange(
-            scan.points[i], parameters.min_range.value, parameters.max_range.value)) {
-      chosen.push_back(i);
-      result.points.push_back(scan.points[i]);
-    }
-  result.cloud = chosenOf(scan.cloud, chosen);
+  result.points =
+      gateByRange(scan.points, parameters.min_range.value, parameters.max_range.value);
   return result;
 }
 
@@ -153,7 +129,6 @@ private:
   joined(const MapBuilder& map) const
   {
     PlaneStepCloud result;
-    result.cloud = map.cloud();
     result.points = map.points();
     result.world_offset = scans_.worldOffset();
     for (const auto scan : map.scans())

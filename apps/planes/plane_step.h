@@ -4,8 +4,6 @@
 #include "common/output_folder.h"
 #include "planes/plane_settings.h"
 
-#include <pcl/PCLPointCloud2.h>
-
 #include <string>
 #include <vector>
 
@@ -39,14 +37,16 @@ findPlanes(const PlaneStepCloud& cloud,
 std::string
 planeFilePattern();
 
-/** \brief Writes planes.json (in the full coordinates of the world), labels.json,
- * planes.pcd, hulls.ply, planes.png and, if refined, refinement.json and refined.pcd.
+/** \brief Writes planes.json (in the full coordinates of the world; refined ones, if there
+ * are), planes.pcd, hulls.ply, planes.png, with labels labels.json and, if refined,
+ * refinement.json and refined.pcd.
  * \param[in] generator the program, as it stands in planes.json
  * \return warnings, such as that no picture could be drawn */
 std::vector<std::string>
 writePlaneFiles(const OutputFolder& out,
                 const PlaneStepCloud& cloud,
                 const PlaneStepResult& result,
+                const PlaneStepOptions& options,
                 const std::string& generator);
 
 /** \return a table of the planes, for people: the largest 40 */

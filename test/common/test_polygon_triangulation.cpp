@@ -50,7 +50,7 @@ areaOf(const std::vector<Ring>& rings, const Eigen::Vector3d& normal)
   for (const auto& ring : rings)
     corners.insert(corners.end(), ring.begin(), ring.end());
   double sum = 0;
-  for (const auto& [a, b, c] : triangulate(rings, normal)) {
+  for (const auto& [a, b, c] : pcl6d::triangulate(rings, normal)) {
     const double area =
         (corners[b] - corners[a]).cross(corners[c] - corners[a]).dot(normal) / 2;
     EXPECT_GE(area, -1e-9);
@@ -79,7 +79,7 @@ TEST(Triangulate, FillsStarsWithHolesOnce)
       rings.push_back(hole);
       triangles += 14;
     }
-    EXPECT_EQ(triangulate(rings, normal).size(), triangles);
+    EXPECT_EQ(pcl6d::triangulate(rings, normal).size(), triangles);
     EXPECT_NEAR(areaOf(rings, normal), expected, 1e-9);
   }
 }
@@ -103,12 +103,12 @@ TEST(Triangulate, TakesSeveralOuterRings)
 TEST(Triangulate, LeavesOutWhatIsNoRing)
 {
   const Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  EXPECT_TRUE(triangulate({}, normal).empty());
-  EXPECT_TRUE(triangulate({{{0, 0, 0}, {1, 0, 0}}}, normal).empty());
+  EXPECT_TRUE(pcl6d::triangulate({}, normal).empty());
+  EXPECT_TRUE(pcl6d::triangulate({{{0, 0, 0}, {1, 0, 0}}}, normal).empty());
   const Ring clockwise = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}};
-  EXPECT_TRUE(triangulate({clockwise}, normal).empty());
+  EXPECT_TRUE(pcl6d::triangulate({clockwise}, normal).empty());
   const Ring square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  EXPECT_EQ(triangulate({{{5, 5, 0}}, square}, normal)[0][0], 4u);
+  EXPECT_EQ(pcl6d::triangulate({{{5, 5, 0}}, square}, normal)[0][0], 4u);
 }
 
 TEST(Triangulate, EndsOnRingsThatCrossThemselves)
@@ -117,5 +117,5 @@ TEST(Triangulate, EndsOnRingsThatCrossThemselves)
   Ring ring;
   for (int i = 0; i < 200; ++i)
     ring.emplace_back(random.uniform(), random.uniform(), 0);
-  EXPECT_LE(triangulate({ring}, Eigen::Vector3d::UnitZ()).size(), 198u);
+  EXPECT_LE(pcl6d::triangulate({ring}, Eigen::Vector3d::UnitZ()).size(), 198u);
 }

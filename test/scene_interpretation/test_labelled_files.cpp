@@ -74,8 +74,9 @@ TEST(SceneInterpreter, LabelsAndRefinesTheCloud)
   EXPECT_EQ(model.status, pcl6d::Status::kOk);
   ASSERT_EQ(moved.size(), scene.cloud->size());
   EXPECT_NEAR(moved[7].z, (*scene.cloud)[7].z, 1e-5);
-  pcl6d::LabelRules rules;
-  interpreter.setRules(rules);
+  auto planes = interpreter.planes();
+  planes[3].plane.label = "sofa"; // of which the book knows nothing
+  interpreter.setPlanes(planes);
   EXPECT_THROW(interpreter.getLabelledCloud(labelled), pcl6d::BadArgument);
 }
 

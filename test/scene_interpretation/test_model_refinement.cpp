@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/bits.h"
 #include "support/box_room.h"
-#include "support/temp_folder.h"
+#include "support/plane_model.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/scene_interpretation/model_refinement.h>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +18,8 @@ using pcl6d::Random;
 using pcl6d::RefinedKind;
 using pcl6d::RefinementOptions;
 using pcl6d::test::BoxRoom;
+using pcl6d::test::modelOf;
+using pcl6d::test::PlaneModel;
 using pcl6d::test::rectangle;
 using pcl6d::test::TruePlane;
 
@@ -28,48 +28,6 @@ constexpr double kExact = 1e-9; // [rad] of directions that are to be exact
 const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
 const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
-
-struct Model {
-  std::vector<PlaneSegment> planes;
-  Points points;
-};
-
-struct Errors {
-  double noise = 0.01; // [m] of points
-  double angle = 0;    // [rad] of planes, about each axis
-};
-
-// Points on the planes, which are turned about their centres first.
-Model
-modelOf(const std::vector<TruePlane>& truth, const Errors& errors, Random& random)
-{
-  Model model;
-  for (const auto& t : truth) {
-    PlaneSegment segment;
-    segment.plane = t.plane;
-    segment.seen_from = t.seen_from;
-    const auto& hull = t.plane.hull;
-    const Eigen::Vector3d centre = (hull[0] + hull[2]) / 2;
-    Eigen::Vector3d w(random.normal(), random.normal(), random.normal());
-    const Eigen::Matrix3d R = pcl6d::rotationFromVector(errors.angle * w);
-    for (int i = 0; i < 4000; ++i) {
-      const double u = random.uniform(-1, 1), v = random.uniform(-1, 1);
-      const Eigen::Vector3d p = u * (hull[1] - hull[0]) / 2 +
-                                v * (hull[3] - hull[0]) / 2 +
-                                errors.noise * random.normal() * t.plane.normal;
-      segment.points.push_back(static_cast<std::uint32_t>(model.points.size()));
-      model.points.push_back((centre + R * p).cast<float>());
-    }
-    segment.plane.normal = R * t.plane.normal;
-    for (auto& corner : segment.plane.hull)
-      corner = centre + R * (corner - centre);
-    segment.plane.offset = segment.plane.normal.dot(centre);
-    orientPlane(segment.plane);
-    segment.outline = {segment.plane.hull};
-    model.planes.push_back(segment);
-  }
-  return model;
-}
 
 // Root mean square distance [m] of the points of labelled planes to the true planes.
 double
@@ -115,7 +73,7 @@ TEST(RefineModel, MakesAManhattanRoomExact)
 {
   Random random(1);
   const auto truth = turned(BoxRoom().planes(), pcl6d::rotationFromVector(0.4 * kUp));
-  const Model model = modelOf(truth, {0.01, 0.1 * kDegree}, random);
+  const PlaneModel model = modelOf(truth, {0.01, 0.1 * kDegree}, random);
   const auto refined = refineModel(model.planes, model.points);
   EXPECT_EQ(refined.status, pcl6d::Status::kOk);
   ASSERT_EQ(refined.headings.size(), 1u);
@@ -149,7 +107,7 @@ TEST(RefineModel, BringsPointsNearerToTheTruePlanes)
   turn_only.project = false;
   double before = 0, turned = 0, projected = 0; // of all trials: single ones may differ
   for (int trial = 0; trial < 10; ++trial) {
-    const Model model = modelOf(truth, {0.002, 0.3 * kDegree}, random);
+    const PlaneModel model = modelOf(truth, {0.002, 0.3 * kDegree}, random);
     const Points turned_points =
         refineModel(model.planes, model.points, turn_only).points;
     const Points projected_points =
@@ -166,7 +124,7 @@ TEST(RefineModel, FindsTheSmallestSumOfSquares)
 {
   Random random(3);
   const auto truth = BoxRoom().planes();
-  const Model model = modelOf(truth, {0.001, 0.1 * kDegree}, random);
+  const PlaneModel model = modelOf(truth, {0.001, 0.1 * kDegree}, random);
   RefinementOptions options; // as the book: nothing but the noise of the points ...
   options.map_angle_error = options.map_position_error = 0;
   options.significance = 1000; // ... which takes 0.1 deg for very significant
@@ -202,7 +160,7 @@ TEST(RefineModel, GivesEachManhattanWorldAFrame)
   const Eigen::Vector3d across = kUp.cross(along);
   truth.push_back(rectangle("wall", {9, 0, 1.3}, 2 * along, 1.3 * kUp));
   truth.push_back(rectangle("wall", {9, 3, 1.3}, 2 * across, 1.3 * kUp));
-  const Model model = modelOf(truth, {0.01, 0.1 * kDegree}, random);
+  const PlaneModel model = modelOf(truth, {0.01, 0.1 * kDegree}, random);
   const auto refined = refineModel(model.planes, model.points);
   ASSERT_EQ(refined.headings.size(), 2u);
   for (const std::size_t i : {9u, 10u}) {
@@ -224,7 +182,7 @@ TEST(RefineModel, LeavesAWallThatLeansForCertain)
   auto truth = BoxRoom().planes();
   const Eigen::Vector3d leaning(std::sin(2 * kDegree), 0, std::cos(2 * kDegree));
   truth[2] = rectangle("wall", {-2.5, 0, 1.3}, 2 * kY, 1.3 * leaning);
-  const Model model = modelOf(truth, {0.01, 0.05 * kDegree}, random);
+  const PlaneModel model = modelOf(truth, {0.01, 0.05 * kDegree}, random);
   const auto refined = refineModel(model.planes, model.points);
   EXPECT_EQ(refined.changes[2].kind, RefinedKind::kUnchanged);
   EXPECT_EQ(refined.changes[2].refusal.find("not made vertical: would turn by "), 0u)
@@ -243,7 +201,7 @@ TEST(RefineModel, LeavesAWallThatLeansForCertain)
 TEST(RefineModel, RefusesToMoveFar)
 {
   Random random(6);
-  const Model model = modelOf(BoxRoom().planes(), {0.01, 0.1 * kDegree}, random);
+  const PlaneModel model = modelOf(BoxRoom().planes(), {0.01, 0.1 * kDegree}, random);
   RefinementOptions options;
   options.max_move = 1e-4;
   const auto refined = refineModel(model.planes, model.points, options);
@@ -258,7 +216,7 @@ TEST(RefineModel, RefusesToMoveFar)
 TEST(RefineModel, TakesTheVerticalThatIsGiven)
 {
   Random random(7);
-  const Model model = modelOf(BoxRoom().planes(), {0.01, 0.1 * kDegree}, random);
+  const PlaneModel model = modelOf(BoxRoom().planes(), {0.01, 0.1 * kDegree}, random);
   RefinementOptions options;
   options.up = kUp;
   const auto refined = refineModel(model.planes, model.points, options);
@@ -270,7 +228,7 @@ TEST(RefineModel, TakesTheVerticalThatIsGiven)
 TEST(RefineModel, TurnsPointsAboutTheirCentroidAndProjectsThemIfAsked)
 {
   Random random(8);
-  const Model model = modelOf(BoxRoom().planes(), {0.01, 0.1 * kDegree}, random);
+  const PlaneModel model = modelOf(BoxRoom().planes(), {0.01, 0.1 * kDegree}, random);
   RefinementOptions options;
   options.project = false;
   const auto turned = refineModel(model.planes, model.points, options);
@@ -302,7 +260,7 @@ TEST(RefineModel, TurnsPointsAboutTheirCentroidAndProjectsThemIfAsked)
 TEST(RefineModel, HasTheSameBitsForAnyNumberOfThreads)
 {
   Random random(9);
-  const Model model = modelOf(BoxRoom().planes(), {0.01, 0.1 * kDegree}, random);
+  const PlaneModel model = modelOf(BoxRoom().planes(), {0.01, 0.1 * kDegree}, random);
   RefinementOptions options;
   options.num_threads = 1;
   const auto one = refineModel(model.planes, model.points, options);
@@ -313,58 +271,4 @@ TEST(RefineModel, HasTheSameBitsForAnyNumberOfThreads)
     for (std::size_t i = 0; i < one.points.size(); ++i)
       ASSERT_TRUE(pcl6d::test::sameBits(refined.points[i], one.points[i]));
   }
-}
-
-TEST(RefineModel, OfOneFloorTurnsNothing)
-{
-  Random random(10);
-  const Model model =
-      modelOf({rectangle("floor", {0, 0, 1}, kX, kY)}, {0.01, 0.1 * kDegree}, random);
-  const auto refined = refineModel(model.planes, model.points);
-  EXPECT_EQ(refined.status, pcl6d::Status::kOk);
-  EXPECT_LT(refined.changes[0].turn, 1e-9);
-  RefinementOptions options;
-  options.up = kUp;
-  EXPECT_GT(refineModel(model.planes, model.points, options).changes[0].turn, 1e-4);
-}
-
-TEST(RefineModel, OfNothingLabelledSaysSo)
-{
-  Random random(11);
-  Model model = modelOf({rectangle("none", {0, 0, 1}, kX, kY)}, {}, random);
-  EXPECT_EQ(refineModel(model.planes, model.points).status,
-            pcl6d::Status::kRankDeficient);
-  EXPECT_EQ(pcl6d::refineModel({}, {}).status, pcl6d::Status::kRankDeficient);
-  model.planes[0].plane.label = "floor";
-  model.planes[0].points.assign(5, 0); // one place: no plane
-  EXPECT_EQ(refineModel(model.planes, model.points).status,
-            pcl6d::Status::kRankDeficient);
-}
-
-TEST(RefineModel, RefusesWhatBreaksARule)
-{
-  Random random(12);
-  Model model = modelOf({rectangle("floor", {0, 0, 1}, kX, kY)}, {}, random);
-  RefinementOptions options;
-  options.max_turn = 0;
-  EXPECT_THROW(refineModel(model.planes, model.points, options), pcl6d::BadArgument);
-  options = {};
-  options.up = Eigen::Vector3d::Zero();
-  EXPECT_THROW(refineModel(model.planes, model.points, options), pcl6d::BadArgument);
-  model.points.pop_back();
-  EXPECT_THROW(refineModel(model.planes, model.points), pcl6d::BadArgument);
-}
-
-TEST(RefineModel, IsReportedAsJson)
-{
-  Random random(13);
-  const Model model = modelOf(BoxRoom().planes(), {0.01, 0.1 * kDegree}, random);
-  const pcl6d::test::TempFolder folder;
-  writeRefinement(folder / "refinement.json", refineModel(model.planes, model.points));
-  const auto json =
-      nlohmann::json::parse(pcl6d::test::readText(folder / "refinement.json"));
-  ASSERT_EQ(json.at("planes").size(), 9u);
-  EXPECT_EQ(json.at("planes").at(0).at("kind"), "horizontal");
-  EXPECT_EQ(json.at("planes").at(2).at("frame"), 1);
-  EXPECT_EQ(json.at("planes").at(8).at("kind"), "unchanged");
 }

@@ -15,8 +15,8 @@
 
 namespace pcl6d::test {
 
-/** \brief All scans of a simulated scene in one frame, whose z points up, with what each
- * point lies on. */
+/** \brief All scans of a simulated scene in one frame, whose z points up, with what
+ * each point lies on. */
 struct LabelledMap {
   Points points;                       ///< [m]
   Points viewpoints;                   ///< [m] of each point

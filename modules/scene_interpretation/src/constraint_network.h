@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-/** \file The constraint network of book 7.1.2, free of geometry: variables that may take
- * one of several values, or none. Internal to the module scene_interpretation. */
+/** \file The constraint network of book 7.1.2, free of geometry: variables that may
+ * take one of several values, or none. Internal to the module scene_interpretation. */
 namespace pcl6d {
 
 /** \brief A possible value of a variable. */
@@ -33,8 +33,8 @@ struct NetworkSolution {
 };
 
 /** \brief The consistent choice of the largest worth; of several the first, where
- * variables are compared by falling worth (ties: the lower place), values by preference,
- * none last. Branch and bound, apart for each component of the network.
+ * variables are compared by falling worth (ties: the lower place), values by
+ * preference, none last. Branch and bound, apart for each component of the network.
  * \param[in] node_limit of all components together */
 NetworkSolution
 solve(const ConstraintNetwork& network, std::size_t node_limit);

@@ -51,7 +51,8 @@ gatherFrames(const std::vector<FittedPlane>& planes,
              const std::vector<bool>& alone,
              std::vector<ExactDirection>& directions);
 
-/** \brief Turns frames to where the sum of n^T information n over all planes is smallest.
+/** \brief Turns frames to where the sum of n^T information n over all planes is
+ * smallest.
  * \param[in] keep_up only the headings change */
 void
 optimiseFrames(const std::vector<FittedPlane>& planes,

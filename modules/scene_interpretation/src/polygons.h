@@ -14,7 +14,8 @@ using Corners = std::vector<Eigen::Vector3d>;
 double
 extentAlong(const Corners& corners, const Eigen::Vector3d& direction);
 
-/** \return the centre of the area of a polygon; the mean of its corners if it has none */
+/** \return the centre of the area of a polygon; the mean of its corners if it has none
+ * */
 Eigen::Vector3d
 centreOfArea(const Corners& corners);
 

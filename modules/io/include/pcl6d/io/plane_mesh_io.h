@@ -19,8 +19,9 @@ struct LabelledPolygon {
   std::string label = "none";
 };
 
-/** \brief Writes polygons as a mesh, binary PLY, atomically: triangles in the colours of
- * their labels (labelColour()); each face has `plane_id`, its polygon's place plus one.
+/** \brief Writes polygons as a mesh, binary PLY, atomically: triangles in the colours
+ * of their labels (labelColour()); each face has `plane_id`, its polygon's place plus
+ * one.
  * \throws IoFailed the file cannot be written \ingroup io */
 void
 writePolygonMesh(const std::filesystem::path& path,

@@ -103,8 +103,8 @@ estimateUp(const std::vector<Plane>& planes, double tau, double max_tilt);
 std::string
 explanationText(const Interpretation& interpretation, std::size_t plane);
 
-/** \brief Writes labels, storeys and explanations as JSON, atomically; the id of a plane
- * is its place plus one. \throws IoFailed the file cannot be written */
+/** \brief Writes labels, storeys and explanations as JSON, atomically; the id of a
+ * plane is its place plus one. \throws IoFailed the file cannot be written */
 void
 writeInterpretation(const std::filesystem::path& path,
                     const Interpretation& interpretation);

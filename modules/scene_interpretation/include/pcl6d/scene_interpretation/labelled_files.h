@@ -26,8 +26,8 @@ writeLabelledHulls(const std::filesystem::path& path,
 /** \brief Writes a cloud with the fields `rgb`, `plane_id` (the place of its plane plus
  * one) and `label` (labelNumber()) as PCD or PLY.
  * \param[in] rules that the labels are of
- * \throws IoFailed the file cannot be written \throws BadArgument a place is not that of
- * a point, or the rules do not know a label */
+ * \throws IoFailed the file cannot be written \throws BadArgument a place is not that
+ * of a point, or the rules do not know a label */
 void
 writeLabelledCloud(const std::filesystem::path& path,
                    const Points& points,

@@ -74,28 +74,31 @@ struct RefinedModel {
  * ones are gathered into frames of parallel and orthogonal walls, as far as the
  * uncertainty of their normals allows; one frame is a Manhattan world, a wall that fits
  * none has one of its own and is vertical only. All normals together, the vertical and
- * one heading per frame, minimise the sum of n^T W n by Gauss and Newton's method, W the
- * inverse covariance of a plane's fit: the noise of its points, and map_position_error.
- * Without the latter W is the scatter of the points over their variance, and the
- * sum that of their squared distances to planes through their centroids, as in the book.
+ * one heading per frame, minimise the sum of n^T W n by Gauss and Newton's method, W
+ * the inverse covariance of a plane's fit: the noise of its points, and
+ * map_position_error. Without the latter W is the scatter of the points over their
+ * variance, and the sum that of their squared distances to planes through their
+ * centroids, as in the book.
  *
  * A plane that would have to turn further than its uncertainty explains (significance),
  * or than max_turn or max_move, is taken out: of its frame first, then of the vertical
- * ones. So a wall that leans for certain keeps leaning. Points of planes without a label
- * stay.
+ * ones. So a wall that leans for certain keeps leaning. Points of planes without a
+ * label stay.
  * \param[in] segments planes with labels and places of points
  * \param[in] points [m] the cloud that was segmented
  * \throws BadArgument an option breaks its rule, or a place is not that of a point
- * \note Source: A. Nüchter, H. Surmann, J. Hertzberg, "Automatic model refinement for 3D
- * reconstruction with mobile robots", 3DIM 2003; exact constraints in place of a cost.
+ * \note Source: A. Nüchter, H. Surmann, J. Hertzberg, "Automatic model refinement for
+ * 3D reconstruction with mobile robots", 3DIM 2003; exact constraints in place of a
+ * cost.
  * \ingroup scene_interpretation */
 RefinedModel
 refineModel(const std::vector<PlaneSegment>& segments,
             const Points& points,
             const RefinementOptions& options = {});
 
-/** \brief Writes what became of the planes as JSON, atomically; the id of a plane is its
- * place plus one, angles are in radians. \throws IoFailed the file cannot be written */
+/** \brief Writes what became of the planes as JSON, atomically; the id of a plane is
+ * its place plus one, angles are in radians. \throws IoFailed the file cannot be
+ * written */
 void
 writeRefinement(const std::filesystem::path& path, const RefinedModel& model);
 

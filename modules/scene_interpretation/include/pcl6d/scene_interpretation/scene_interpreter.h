@@ -9,8 +9,8 @@
 
 namespace pcl6d {
 
-/** \brief Labels the planes of a cloud and makes them exact, with the calls that users of
- * PCL know. \code
+/** \brief Labels the planes of a cloud and makes them exact, with the calls that users
+ * of PCL know. \code
  * pcl6d::RegionGrowingPlaneSegmentation<pcl::PointXYZ> segmentation;
  * segmentation.setInputCloud(map);
  * pcl6d::PlaneSegments found;
@@ -65,14 +65,15 @@ public:
   Interpretation
   interpret();
 
-  /** \brief The cloud with the number of each point's label (labelNumber()), 0 for points
-   * on no plane. \throws BadArgument no input cloud, a plane has points beyond it, or a
-   * label that is not of the rules */
+  /** \brief The cloud with the number of each point's label (labelNumber()), 0 for
+   * points on no plane. \throws BadArgument no input cloud, a plane has points beyond
+   * it, or a label that is not of the rules */
   void
   getLabelledCloud(pcl::PointCloud<pcl::PointXYZL>& cloud) const;
 
-  /** \brief Makes the planes exact, see refineModel(). \param[out] cloud the input cloud
-   * with the points moved \throws BadArgument no input cloud, or see refineModel() */
+  /** \brief Makes the planes exact, see refineModel(). \param[out] cloud the input
+   * cloud with the points moved \throws BadArgument no input cloud, or see
+   * refineModel() */
   RefinedModel
   refine(pcl::PointCloud<PointT>& cloud) const;
 

@@ -12,8 +12,8 @@
 
 namespace pcl6d {
 
-/** \brief What the interpretation knows of a plane (book 7.1.2): a piece of surface in a
- * frame whose z points up, with its sizes. \ingroup scene_interpretation */
+/** \brief What the interpretation knows of a plane (book 7.1.2): a piece of surface in
+ * a frame whose z points up, with its sizes. \ingroup scene_interpretation */
 struct ScenePlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< towards the side that was seen
   bool side_known = false;              ///< which side was seen; else the sign is free

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/scene_interpretation/labelled_files.h>
 #include <pcl6d/scene_interpretation/scene_interpreter.h>
 

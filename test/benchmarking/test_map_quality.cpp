@@ -77,9 +77,9 @@ TEST(MeasureMap, OfTheTruthShowsTheNoiseOfTheScanner)
   EXPECT_EQ(quality.scans.size(), kScans);
   EXPECT_EQ(quality.scans[3].neighbours, 11u);
   EXPECT_GT(quality.agreement, 0.1) << "points a voxel apart seldom meet within 6 cm";
-  // Walls with 5 mm noise along the ray.
+  // Walls with 5 mm noise along the ray; points at their edges add to it.
   EXPECT_GE(quality.thickness.planes.size(), 6u);
-  EXPECT_LT(quality.thickness.median, 0.006);
+  EXPECT_LT(quality.thickness.median, 0.01);
   EXPECT_GT(quality.thickness.median, 0.002);
   EXPECT_LT(quality.others.plane.median, 0.006);
   EXPECT_LT(quality.revisit_blur, 1.5) << "edges, seen from other sides, count too";

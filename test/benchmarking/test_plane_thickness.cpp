@@ -7,9 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 using pcl6d::MapPoints;
-using pcl6d::Plane;
+using pcl6d::PlaneSegment;
 using pcl6d::planeThickness;
 using pcl6d::PlaneThicknessOptions;
 using pcl6d::Random;
@@ -17,15 +18,16 @@ using pcl6d::test::badArgumentOf;
 
 namespace {
 /** A wall of 4 m x 2 m in the plane x = 3, seen from the origin. */
-Plane
+PlaneSegment
 wall()
 {
-  Plane plane;
-  plane.normal = -Eigen::Vector3d::UnitX();
-  plane.offset = -3;
-  plane.hull = {{3, -2, 0}, {3, 2, 0}, {3, 2, 2}, {3, -2, 2}};
-  plane.area = 8;
-  return plane;
+  PlaneSegment segment;
+  segment.plane.normal = Eigen::Vector3d::UnitX();
+  segment.plane.offset = 3;
+  segment.plane.hull = {{3, -2, 0}, {3, 2, 0}, {3, 2, 2}, {3, -2, 2}};
+  segment.plane.area = 8;
+  segment.seen_from = -Eigen::Vector3d::UnitX();
+  return segment;
 }
 
 /** Points of a scan on that wall, moved towards +x, with noise [m]. */
@@ -94,17 +96,40 @@ TEST(PlaneThickness, TakesOnlyPointsThatAreOfThePlane)
   EXPECT_EQ(planeThickness({wall()}, map, 2).rms, before);
 }
 
+TEST(PlaneThickness, LeavesOutWhatLiesInAHoleOfTheOutline)
+{
+  MapPoints map;
+  addScan(map, 0, 0, 0);
+  addScan(map, 1, 0, 0);
+  PlaneSegment window = wall(); // an L with a hole
+  window.outline = {
+      {{3, -2, 0}, {3, 2, 0}, {3, 2, 1}, {3, 0, 1}, {3, 0, 2}, {3, -2, 2}},
+      {{3, -1.5, 0.5}, {3, -1.5, 1.5}, {3, -0.5, 1.5}, {3, -0.5, 0.5}}};
+  for (const auto& [y, z, inside] : {std::tuple(1.0, 0.5, true),
+                                     {1.0, 1.5, false},
+                                     {-1.0, 1.0, false},
+                                     {-1.75, 1.0, true}}) {
+    MapPoints one = map;
+    for (int i = 0; i < 1000; ++i) {
+      one.points.push_back(Eigen::Vector3d(3.1, y, z).cast<float>());
+      one.normals.push_back(-Eigen::Vector3f::UnitX());
+      one.scans.push_back(0);
+    }
+    const double rms = planeThickness({window}, one, 2).rms;
+    EXPECT_EQ(rms > 0.02, inside) << y << ' ' << z << ": " << rms;
+  }
+}
+
 TEST(PlaneThickness, CountsASurfaceOnce)
 {
   MapPoints map;
   addScan(map, 0, 0, 0.01);
   addScan(map, 1, 0, 0.01);
-  Plane part = wall(); // the same wall, as a nearer scan saw it
-  part.hull = {{3, -1, 0}, {3, -1, 1}, {3, 1, 1}, {3, 1, 0}};
-  part.area = 2;
-  Plane back = part; // its other face
-  back.normal = -back.normal;
-  back.offset = -back.offset;
+  PlaneSegment part = wall(); // the same wall, as a nearer scan saw it
+  part.plane.hull = {{3, -1, 0}, {3, -1, 1}, {3, 1, 1}, {3, 1, 0}};
+  part.plane.area = 2;
+  PlaneSegment back = part; // its other face
+  back.seen_from = -back.seen_from;
   EXPECT_EQ(planeThickness({part, wall()}, map, 2).planes.size(), 1u);
   EXPECT_EQ(planeThickness({part, wall()}, map, 2).planes[0].plane.area, 8);
   EXPECT_EQ(planeThickness({part, back}, map, 2).planes.size(), 1u) << "no points";

@@ -205,15 +205,15 @@ MapMeasuring::measureSpread(MapQuality& quality) const
   quality.spread_points = all.count;
 }
 
-std::vector<Plane>
+std::vector<PlaneSegment>
 MapMeasuring::planesOfScans() const
 {
   const std::size_t stride = strideFor(scans_.size(), kPlaneScans);
-  std::vector<std::vector<Plane>> of_scan((scans_.size() + stride - 1) / stride);
+  std::vector<std::vector<PlaneSegment>> of_scan((scans_.size() + stride - 1) / stride);
   parallelFor(of_scan.size(), options_.num_threads, [&](std::size_t k) {
     of_scan[k] = planesOfScan(scans_[k * stride].measured, poses_[k * stride]);
   });
-  std::vector<Plane> planes;
+  std::vector<PlaneSegment> planes;
   for (const auto& one : of_scan)
     planes.insert(planes.end(), one.begin(), one.end());
   return planes;
@@ -222,7 +222,7 @@ MapMeasuring::planesOfScans() const
 void
 MapMeasuring::measurePlanes(MapQuality& quality) const
 {
-  const std::vector<Plane> planes = planesOfScans();
+  const std::vector<PlaneSegment> planes = planesOfScans();
   MapPoints map;
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     const Eigen::Matrix3f R = poses_[i].linear().cast<float>();

@@ -40,7 +40,7 @@ public:
   measureReference(const Points& reference, MapQuality& quality) const;
 
 private:
-  std::vector<Plane>
+  std::vector<PlaneSegment>
   planesOfScans() const;
   double
   within() const;

@@ -51,12 +51,10 @@ filesOfRun(const fs::path& run)
 }
 
 MapFiles
-filesOfScans(const fs::path& path, const std::string& poses)
+filesOfScans(const fs::path& path, bool needs_poses)
 {
-  ScanFolderOptions options;
-  options.poses_file = poses;
-  const ScanFolder folder(path, options);
-  if (!folder.hasPoses())
+  const ScanFolder folder(path);
+  if (needs_poses && !folder.hasPoses())
     throw IoFailed(path.string() +
                    ": holds neither a run (no summary.json) nor scans with poses; give "
                    "the run's folder, or --poses FILE");
@@ -117,9 +115,9 @@ LoadedMap
 loadMap(const MapSource& source, unsigned int num_threads)
 {
   const bool is_run = fs::exists(fs::path(source.folder) / "summary.json");
-  MapFiles files =
-      is_run ? filesOfRun(source.folder) : filesOfScans(source.folder, source.poses);
-  if (is_run && !source.poses.empty())
+  MapFiles files = is_run ? filesOfRun(source.folder)
+                          : filesOfScans(source.folder, source.poses.empty());
+  if (!source.poses.empty())
     replacePoses(files, source.poses);
   if (files.files.size() < 2)
     throw IoFailed(source.folder + ": holds one scan, but a map needs two to agree");

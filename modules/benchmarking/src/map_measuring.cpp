@@ -20,6 +20,9 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kPairSample = 200;     ///< points that measure a pair, each way
 constexpr std::size_t kEntropySample = 1000; ///< places of a scan
 constexpr double kMapCells = 5;              ///< per radius of the entropy
+constexpr std::size_t kPlaneScans = 50;      ///< that planes are looked for in
+constexpr double kGateVoxels = 1.5;          ///< of the thickness of planes
+constexpr double kLeastGate = 0.1;           ///< [m]
 constexpr std::uint64_t kSeed = 1;
 
 std::vector<MapScan>
@@ -202,17 +205,26 @@ MapMeasuring::measureSpread(MapQuality& quality) const
   quality.spread_points = all.count;
 }
 
+std::vector<PlaneSegment>
+MapMeasuring::planesOfScans() const
+{
+  const std::size_t stride = strideFor(scans_.size(), kPlaneScans);
+  std::vector<std::vector<PlaneSegment>> of_scan((scans_.size() + stride - 1) / stride);
+  parallelFor(of_scan.size(), options_.num_threads, [&](std::size_t k) {
+    of_scan[k] = planesOfScan(scans_[k * stride].measured, poses_[k * stride]);
+  });
+  std::vector<PlaneSegment> planes;
+  for (const auto& one : of_scan)
+    planes.insert(planes.end(), one.begin(), one.end());
+  return planes;
+}
+
 void
 MapMeasuring::measurePlanes(MapQuality& quality) const
 {
-  std::vector<std::vector<Plane>> of_scan(scans_.size());
-  parallelFor(scans_.size(), options_.num_threads, [&](std::size_t i) {
-    of_scan[i] = planesOfScan(scans_[i].measured, poses_[i]);
-  });
-  std::vector<Plane> planes;
+  const std::vector<PlaneSegment> planes = planesOfScans();
   MapPoints map;
   for (std::size_t i = 0; i < scans_.size(); ++i) {
-    planes.insert(planes.end(), of_scan[i].begin(), of_scan[i].end());
     const Eigen::Matrix3f R = poses_[i].linear().cast<float>();
     for (std::size_t k = 0; k < scans_[i].sample.size(); ++k) {
       map.points.push_back(
@@ -222,7 +234,7 @@ MapMeasuring::measurePlanes(MapQuality& quality) const
     }
   }
   PlaneThicknessOptions options;
-  options.gate = maxDistance();
+  options.gate = std::max(kLeastGate, kGateVoxels * options_.voxel);
   options.num_threads = options_.num_threads;
   quality.thickness = planeThickness(planes, map, scans_.size(), options);
   for (ThickPlane& thick : quality.thickness.planes) {

@@ -14,6 +14,9 @@ public:
   MapMeasuring(const std::vector<Points>& scans,
                const std::vector<Eigen::Isometry3d>& poses,
                const MapQualityOptions& options);
+  MapMeasuring(const MapMeasuring&) = delete; // the network refers to the scans
+  MapMeasuring&
+  operator=(const MapMeasuring&) = delete;
 
   /** \brief Which scans see each other, and how well they agree. First of all. */
   void
@@ -27,7 +30,8 @@ public:
   void
   measureSpread(MapQuality& quality) const;
 
-  /** \brief Thickness of the planes of single scans. */
+  /** \brief Thickness of the planes of single scans, at most 50 of them, evenly chosen:
+   * what they show is seen by others, too. */
   void
   measurePlanes(MapQuality& quality) const;
 
@@ -36,6 +40,8 @@ public:
   measureReference(const Points& reference, MapQuality& quality) const;
 
 private:
+  std::vector<PlaneSegment>
+  planesOfScans() const;
   double
   within() const;
   double

@@ -5,6 +5,7 @@
 #include <pcl6d/registration/icp_model.h>
 #include <pcl6d/search/point_tree.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -24,11 +25,11 @@ struct MapScan {
   Normals normals;  ///< of the surface at the sample
 };
 
-/** \return every n-th of the points of a sample, so that at most so many are left */
+/** \return the least n for which every n-th of a sample are at most so many; >= 1 */
 inline std::size_t
 strideFor(std::size_t size, std::size_t most)
 {
-  return (size + most - 1) / most > 0 ? (size + most - 1) / most : 1;
+  return std::max<std::size_t>(1, (size + most - 1) / most);
 }
 
 /** \brief Distances of single points to a surface [m]. */

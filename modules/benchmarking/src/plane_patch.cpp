@@ -10,36 +10,64 @@
 
 namespace pcl6d {
 
-PlanePatch::PlanePatch(const Plane& plane, double gate, double max_angle)
-: given_(plane)
+namespace {
+/** \return whether a ray from p crosses the rings an odd number of times */
+bool
+isInside(const std::vector<std::vector<Eigen::Vector2d>>& rings,
+         const Eigen::Vector2d& p)
+{
+  bool inside = false;
+  for (const auto& ring : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      if ((a.y() > p.y()) != (b.y() > p.y()) &&
+          p.x() - a.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+        inside = !inside;
+    }
+  return inside;
+}
+} // namespace
+
+PlanePatch::PlanePatch(const PlaneSegment& segment, double gate, double max_angle)
+: given_(segment.plane)
 , gate_(gate)
 , min_cosine_(portableSinCos(max_angle).cos)
-, normal_(plane.normal)
-, offset_(plane.offset)
 , centre_(Eigen::Vector3d::Zero())
 {
-  const auto& hull = given_.hull;
-  for (const auto& corner : hull)
-    centre_ += corner / static_cast<double>(hull.size());
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    radius_ = std::max(radius_, (hull[i] - centre_).norm());
-    Eigen::Vector3d inward = normal_.cross(hull[(i + 1) % hull.size()] - hull[i]);
-    if (inward.dot(centre_ - hull[i]) < 0) // clockwise
-      inward = -inward;
-    inward_.push_back(inward);
-  }
+  const double side = segment.seen_from.dot(given_.normal) < 0 ? -1 : 1;
+  normal_ = side * given_.normal;
+  offset_ = side * given_.offset;
+  axes_.row(0) = normal_.unitOrthogonal();
+  axes_.row(1) = normal_.cross(axes_.row(0).transpose());
+  for (const auto& corner : given_.hull)
+    centre_ += corner / static_cast<double>(given_.hull.size());
+  const auto flat = [&](const std::vector<Eigen::Vector3d>& corners) {
+    Ring ring;
+    for (const auto& corner : corners)
+      ring.push_back(onPlane(corner));
+    return ring;
+  };
+  hull_.push_back(flat(given_.hull));
+  for (const auto& corner : hull_.front())
+    radius_ = std::max(radius_, corner.norm());
+  for (const auto& ring : segment.outline)
+    outline_.push_back(flat(ring));
+  if (outline_.empty())
+    outline_ = hull_;
 }
 
 bool
-PlanePatch::holds(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const
+PlanePatch::isNear(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const
 {
-  if (std::abs(normal_.dot(point) - offset_) > gate_ ||
-      normal_.dot(normal) < min_cosine_)
-    return false;
-  for (std::size_t i = 0; i < inward_.size(); ++i)
-    if (inward_[i].dot(point - given_.hull[i]) < 0)
-      return false;
-  return true;
+  return std::abs(normal_.dot(point) - offset_) <= gate_ &&
+         normal_.dot(normal) >= min_cosine_;
+}
+
+bool
+PlanePatch::covers(const PlanePatch& other) const
+{
+  return isNear(other.centre_, other.normal_) &&
+         isInside(hull_, onPlane(other.centre_));
 }
 
 std::vector<std::size_t>
@@ -50,7 +78,7 @@ PlanePatch::membersOf(const MapPoints& map) const
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     const Eigen::Vector3d p = map.points[i].cast<double>();
     if ((p - centre_).squaredNorm() <= reach * reach &&
-        holds(p, map.normals[i].cast<double>()))
+        isNear(p, map.normals[i].cast<double>()) && isInside(outline_, onPlane(p)))
       members.push_back(i);
   }
   return members;

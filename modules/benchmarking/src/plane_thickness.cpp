@@ -37,21 +37,24 @@ checkMap(const MapPoints& map, std::size_t num_scans)
 
 /** Largest first, without those that show the surface of a larger one. */
 std::vector<PlanePatch>
-differentPatches(std::vector<Plane> planes, const PlaneThicknessOptions& options)
+differentPatches(const std::vector<PlaneSegment>& planes,
+                 const PlaneThicknessOptions& options)
 {
-  std::stable_sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) {
-    return a.area > b.area;
+  std::vector<const PlaneSegment*> by_area;
+  for (const PlaneSegment& segment : planes)
+    if (segment.plane.area >= options.min_area && segment.plane.hull.size() >= 3)
+      by_area.push_back(&segment);
+  std::stable_sort(by_area.begin(), by_area.end(), [](const auto* a, const auto* b) {
+    return a->plane.area > b->plane.area;
   });
   std::vector<PlanePatch> patches;
-  for (const Plane& plane : planes) {
+  for (const PlaneSegment* segment : by_area) {
     if (patches.size() == options.max_planes)
       break;
-    if (!(plane.area >= options.min_area) || plane.hull.size() < 3)
-      continue;
-    const PlanePatch patch(plane, options.gate, options.max_angle);
+    const PlanePatch patch(*segment, options.gate, options.max_angle);
     const bool known =
         std::any_of(patches.begin(), patches.end(), [&](const PlanePatch& larger) {
-          return larger.holds(patch.centre(), plane.normal);
+          return larger.covers(patch);
         });
     if (!known)
       patches.push_back(patch);
@@ -140,7 +143,7 @@ PlaneThicknessOptions::validate() const
 }
 
 PlaneThickness
-planeThickness(const std::vector<Plane>& planes,
+planeThickness(const std::vector<PlaneSegment>& planes,
                const MapPoints& map,
                std::size_t num_scans,
                const PlaneThicknessOptions& options)

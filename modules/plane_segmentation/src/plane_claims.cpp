@@ -54,11 +54,9 @@ private:
 class Claims {
 public:
   Claims(const PlaneCloud& cloud,
-         const SurfelTrust& trust,
          const std::vector<PlanePart>& parts,
          const PlaneOptions& options)
   : cloud_(cloud)
-  , trust_(trust)
   , parts_(parts)
   , max_distance_(options.max_plane_distance)
   , least_cosine_(std::cos(options.max_angle))
@@ -72,13 +70,14 @@ public:
     const Eigen::Vector3d place = cloud_.points()[i].cast<double>();
     const Eigen::Vector3d ray = cloud_.viewpoint(i).cast<double>() - place;
     const Eigen::Vector3d normal = cloud_.normals()[i].cast<double>();
-    double nearest = max_distance_ * trust_.sigma[surfel];
+    double nearest = max_distance_ * cloud_.surfels().noise[surfel];
     std::uint32_t owner = kNoPart;
     for (const auto part : around) {
       const PlaneFit& plane = parts_[part].plane;
       const double distance = std::abs(plane.distance(place));
       if (distance < nearest && plane.normal.dot(ray) > 0 &&
-          (!trust_.smooth[surfel] || plane.normal.dot(normal) > least_cosine_)) {
+          (!cloud_.surfels().smooth[surfel] ||
+           plane.normal.dot(normal) > least_cosine_)) {
         nearest = distance;
         owner = part;
       }
@@ -88,7 +87,6 @@ public:
 
 private:
   const PlaneCloud& cloud_;
-  const SurfelTrust& trust_;
   const std::vector<PlanePart>& parts_;
   const double max_distance_; // [sigma]
   const double least_cosine_;
@@ -97,13 +95,12 @@ private:
 
 std::vector<std::uint32_t>
 claimPoints(const PlaneCloud& cloud,
-            const SurfelTrust& trust,
             const std::vector<PlanePart>& parts,
             const PlaneOptions& options)
 {
   const Surfels& surfels = cloud.surfels();
   const PartsInside inside(cloud, parts);
-  const Claims claims(cloud, trust, parts, options);
+  const Claims claims(cloud, parts, options);
   std::vector<std::uint32_t> owners(cloud.points().size(), kNoPart);
   parallelBlocks(
       surfels.size(), kBlockSize, cloud.numThreads(), [&](const Block& block) {

@@ -13,7 +13,6 @@ constexpr std::uint32_t kNoPart = 0xffffffff;
  * \return per point of the cloud the place of its part, or kNoPart */
 std::vector<std::uint32_t>
 claimPoints(const PlaneCloud& cloud,
-            const SurfelTrust& trust,
             const std::vector<PlanePart>& parts,
             const PlaneOptions& options);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "make_surfels.h"
 #include "plane_sums.h"
 
 #include <pcl6d/common/median.h>
@@ -104,11 +105,27 @@ measuredNoise(const PlaneCloud& cloud)
   return NoiseModel(ranges, residuals, kLeastNoise);
 }
 
+double
+medianRange(const PlaneCloud& cloud)
+{
+  std::vector<double> ranges;
+  const std::size_t size = cloud.points().size();
+  for (std::size_t i = 0; i < size; i += strideOfSamples(size))
+    ranges.push_back((cloud.points()[i] - cloud.viewpoint(i)).norm());
+  return upperMedian(ranges);
+}
+
+double
+length(double a, double b)
+{
+  return std::sqrt(a * a + b * b);
+}
+
 /** Some points, and some standard deviations of their noise, wide. */
 double
 suitableVoxel(double spacing, double noise)
 {
-  return std::clamp(std::max(3 * spacing, 4 * noise), 4 * kLeastNoise, kLargestVoxel);
+  return std::clamp(std::max(1.5 * spacing, 4 * noise), 4 * kLeastNoise, kLargestVoxel);
 }
 } // namespace
 
@@ -132,6 +149,10 @@ PlaneCloudOptions::validate(std::size_t num_points) const
           "noise",
           noise.value_or(0),
           "> 0 and finite");
+  require(distortion >= 0 && std::isfinite(distortion),
+          "distortion",
+          distortion,
+          ">= 0 and finite");
 }
 
 PlaneCloud::PlaneCloud(const Points& points, const PlaneCloudOptions& options)
@@ -141,13 +162,23 @@ PlaneCloud::PlaneCloud(const Points& points, const PlaneCloudOptions& options)
 , num_threads_(options.num_threads)
 , tree_(points_, options.num_threads)
 , spacing_(medianSpacing(points_, tree_))
+, distortion_(options.distortion)
 {
   if (!options.viewpoints.empty())
     viewpoints_ = chosenOf(options.viewpoints, places_);
-  const double voxel = options.voxel.value_or(suitableVoxel(
-      spacing_, options.noise ? *options.noise : roughNoise(points_, tree_)));
-  surfels_ = makeSurfels(points_, voxel, viewpoint_, viewpoints_, num_threads_);
+  const double voxel = options.voxel.value_or(
+      suitableVoxel(spacing_,
+                    length(options.noise ? *options.noise : roughNoise(points_, tree_),
+                           distortion_ * medianRange(*this))));
+  surfels_ = groupSurfels(points_, voxel, num_threads_);
   noise_ = options.noise ? NoiseModel(*options.noise) : measuredNoise(*this);
+  for (std::size_t i = 0; i < surfels_.size(); ++i)
+    surfels_.noise.push_back(
+        static_cast<float>(noise(surfels_.members[surfels_.begin[i]])));
+  fitSurfels(
+      surfels_,
+      [&](std::size_t i) { return viewpoint(surfels_.members[surfels_.begin[i]]); },
+      num_threads_);
   normals_.reserve(points_.size());
   for (const auto surfel : surfels_.of_point)
     normals_.push_back(surfels_.normals[surfel]);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "plane_bend.h"
+#include "plane_outline.h"
 #include "plane_parts.h"
 
 #include <pcl6d/common/parallel.h>
@@ -10,36 +12,75 @@
 namespace pcl6d {
 
 namespace {
+/** Of the distance to a surfel's farthest neighbour: larger gaps belong to the outline. */
+constexpr double kOutlineRadius = 0.6;
+constexpr double kLeastRadius = 0.015; // [m]
+
+/** \return the radius [m] of the disc that outlines the part; that which suits half of
+ * its surface, of which a far point stands for more than a near one */
+double
+outlineRadius(const PlaneCloud& cloud, const PlanePart& part)
+{
+  std::vector<double> radii;
+  double surface = 0;
+  for (const auto i : part.points) {
+    radii.push_back(cloud.surfels().radii[cloud.surfels().of_point[i]]);
+    surface += radii.back() * radii.back();
+  }
+  std::sort(radii.begin(), radii.end());
+  double below = 0;
+  std::size_t middle = 0;
+  while (middle + 1 < radii.size() && below < surface / 2) {
+    below += radii[middle] * radii[middle];
+    ++middle;
+  }
+  return std::max(kLeastRadius, kOutlineRadius * radii[middle]);
+}
+
 PlaneSegment
 toSegment(const PlaneCloud& cloud, const PlanePart& part)
 {
   PlaneSegment segment;
-  segment.plane.normal = part.plane.normal;
+  segment.plane.normal = segment.seen_from = part.plane.normal;
   segment.plane.offset = part.plane.offset;
-  segment.seen_from = part.plane.normal;
-  std::vector<Eigen::Vector3d> flat;
+  orientPlane(segment.plane);
+  std::vector<Eigen::Vector3d> places;
   double squares = 0;
   for (const auto i : part.points) {
-    const Eigen::Vector3d place = cloud.points()[i].cast<double>();
-    const double distance = part.plane.distance(place);
+    places.push_back(cloud.points()[i].cast<double>());
+    const double distance = part.plane.distance(places.back());
     squares += distance * distance;
-    flat.push_back(place - distance * part.plane.normal);
     segment.points.push_back(cloud.places()[i]);
   }
   segment.plane.inliers = part.points.size();
   segment.plane.rms = std::sqrt(squares / static_cast<double>(part.points.size()));
-  segment.plane.hull = convexHull(flat, part.plane.normal);
-  segment.outline = {segment.plane.hull};
-  Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
-  for (std::size_t i = 2; i < segment.plane.hull.size(); ++i)
-    twice_area += (segment.plane.hull[i - 1] - segment.plane.hull[0])
-                      .cross(segment.plane.hull[i] - segment.plane.hull[0]);
-  segment.plane.area = twice_area.norm() / 2;
-  if (segment.plane.offset < 0)
-    for (auto& ring : segment.outline)
-      std::reverse(ring.begin(), ring.end());
-  orientPlane(segment.plane);
+  addHulls(segment, places, outlineRadius(cloud, part));
   return segment;
+}
+
+std::vector<PlaneSegment>
+segmentsOf(const PlaneCloud& cloud,
+           const std::vector<PlanePart>& parts,
+           const PlaneOptions& options)
+{
+  std::vector<PlaneSegment> segments(parts.size());
+  parallelFor(parts.size(), cloud.numThreads(), [&](std::size_t i) {
+    if (parts[i].points.size() >= options.min_points && !isBent(cloud, parts[i]))
+      segments[i] = toSegment(cloud, parts[i]);
+  });
+  segments.erase(std::remove_if(segments.begin(),
+                                segments.end(),
+                                [&](const PlaneSegment& segment) {
+                                  return segment.points.empty() ||
+                                         segment.plane.area < options.min_area;
+                                }),
+                 segments.end());
+  std::stable_sort(segments.begin(),
+                   segments.end(),
+                   [](const PlaneSegment& a, const PlaneSegment& b) {
+                     return a.plane.area > b.plane.area;
+                   });
+  return segments;
 }
 } // namespace
 
@@ -79,18 +120,7 @@ finishPlanes(const PlaneCloud& cloud,
   parts.split(options.min_points / 2);
   parts.merge();
   PlaneSegments result;
-  for (const auto& part : parts.parts()) {
-    if (part.points.size() < options.min_points)
-      continue;
-    PlaneSegment segment = toSegment(cloud, part);
-    if (segment.plane.area >= options.min_area)
-      result.planes.push_back(std::move(segment));
-  }
-  std::stable_sort(result.planes.begin(),
-                   result.planes.end(),
-                   [](const PlaneSegment& a, const PlaneSegment& b) {
-                     return a.plane.area > b.plane.area;
-                   });
+  result.planes = segmentsOf(cloud, parts.parts(), options);
   std::vector<char> on_plane(cloud.places().empty() ? 0 : cloud.places().back() + 1, 0);
   for (const auto& segment : result.planes)
     for (const auto i : segment.points)

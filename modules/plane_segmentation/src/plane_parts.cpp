@@ -25,7 +25,7 @@ turnToSensor(const PlaneCloud& cloud, PlanePart& part)
 } // namespace
 
 PlaneParts::PlaneParts(const PlaneCloud& cloud, const PlaneOptions& options)
-: cloud_(cloud), options_(options), trust_(cloud)
+: cloud_(cloud), options_(options)
 {}
 
 void
@@ -46,7 +46,7 @@ PlaneParts::supports(const PlanePart& part, std::uint32_t point) const
 {
   const std::uint32_t surfel = cloud_.surfels().of_point[point];
   const Eigen::Vector3d normal = cloud_.normals()[point].cast<double>();
-  return trust_.smooth[surfel] &&
+  return cloud_.surfels().smooth[surfel] &&
          std::abs(part.plane.normal.dot(normal)) > std::cos(options_.max_angle);
 }
 
@@ -61,7 +61,7 @@ PlaneParts::fit(PlanePart& part) const
   const bool known = part.sums.count() > 0;
   for (const auto i : part.points) {
     const Eigen::Vector3d point = cloud_.points()[i].cast<double>();
-    const double sigma = trust_.sigma[cloud_.surfels().of_point[i]];
+    const double sigma = cloud_.surfels().noise[cloud_.surfels().of_point[i]];
     squares += sigma * sigma;
     all.add(point);
     if (known && supports(part, i))
@@ -94,7 +94,7 @@ PlaneParts::fitAll()
 void
 PlaneParts::claim()
 {
-  const auto owners = claimPoints(cloud_, trust_, parts_, options_);
+  const auto owners = claimPoints(cloud_, parts_, options_);
   for (auto& part : parts_)
     part.points.clear();
   for (std::uint32_t i = 0; i < owners.size(); ++i)

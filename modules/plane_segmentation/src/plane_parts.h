@@ -2,7 +2,6 @@
 #pragma once
 
 #include "plane_sums.h"
-#include "surfel_trust.h"
 
 #include <pcl6d/plane_segmentation/plane_finishing.h>
 
@@ -65,7 +64,6 @@ private:
 
   const PlaneCloud& cloud_;
   const PlaneOptions options_;
-  const SurfelTrust trust_;
   std::vector<PlanePart> parts_;
 };
 

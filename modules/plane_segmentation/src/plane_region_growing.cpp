@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plane_sums.h"
-#include "surfel_trust.h"
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/plane_segmentation/plane_region_growing.h>
@@ -13,13 +12,14 @@ namespace pcl6d {
 
 namespace {
 constexpr int kRounds = 3; // of growing a region, each from the plane of the last
+/** Of a surfel's place, by that of a point: the mean of twenty. */
+constexpr double kSurfelNoise = 0.5;
 
 /** Grows regions one by one; a surfel belongs to one region at most. */
 class Grower {
 public:
   Grower(const PlaneCloud& cloud, const RegionGrowingOptions& options)
   : surfels_(cloud.surfels())
-  , trust_(cloud)
   , options_(options)
   , least_cosine_(std::cos(options.max_angle))
   , taken_(surfels_.size(), 0)
@@ -32,11 +32,11 @@ public:
   {
     std::vector<std::uint32_t> order;
     for (std::uint32_t i = 0; i < surfels_.size(); ++i)
-      if (trust_.smooth[i])
+      if (surfels_.smooth[i])
         order.push_back(i);
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-      return surfels_.roughness[a] * trust_.sigma[b] <
-             surfels_.roughness[b] * trust_.sigma[a];
+      return surfels_.roughness[a] * surfels_.noise[b] <
+             surfels_.roughness[b] * surfels_.noise[a];
     });
     return order;
   }
@@ -80,7 +80,7 @@ private:
     std::size_t next_fit = 2 * options_.min_surfels;
     for (std::size_t next = 0; next < region_.size(); ++next) {
       const std::uint32_t i = region_[next];
-      if (!trust_.smooth[i])
+      if (!surfels_.smooth[i])
         continue; // the rim: part of it, but it leads on to other surfaces
       for (std::size_t k = surfels_.link_begin[i]; k < surfels_.link_begin[i + 1]; ++k)
         join(surfels_.links[k], plane);
@@ -100,11 +100,11 @@ private:
       return;
     seen_[i] = growth_;
     const Eigen::Vector3d place = surfels_.points[i].cast<double>();
-    const double sigma = trust_.sigma[i];
+    const double sigma = kSurfelNoise * surfels_.noise[i];
     const double distance = plane.distance(place) / sigma;
     if (std::abs(distance) > options_.max_plane_distance)
       return;
-    if (trust_.smooth[i] &&
+    if (surfels_.smooth[i] &&
         plane.normal.dot(surfels_.normals[i].cast<double>()) < least_cosine_)
       return;
     const double squares = squares_ + distance * distance;
@@ -130,7 +130,6 @@ private:
   }
 
   const Surfels& surfels_;
-  const SurfelTrust trust_;
   const RegionGrowingOptions& options_;
   const double least_cosine_;
   std::vector<char> taken_;

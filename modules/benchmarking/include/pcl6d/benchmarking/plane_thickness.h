@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/common/plane.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/filters/point_normals.h>
+#include <pcl6d/plane_segmentation/plane_segment.h>
 
 #include <cstdint>
 #include <vector>
@@ -49,15 +49,16 @@ struct PlaneThickness {
 /** \brief Thickness: rms of the points of all scans to the planes that they show.
  *
  * The planes come from single scans, in which a wall is sharp; in the whole map a bent wall
- * would pass for two sharp ones. A plane collects the points over its hull whose normals
- * look its way and that lie within the gate, is fitted to them anew, and collects again.
- * One that has its middle in the hull and the gate of a larger one is taken for the same
- * surface and left out, and so is one that fewer than two scans see.
- * \param[in] planes [m] in the world, normal towards the scanner that saw it, with hull
+ * would pass for two sharp ones. A plane collects the points over its outline whose normals
+ * look to where it was seen from and that lie within the gate, is fitted to them anew, and
+ * collects again. One that has its middle in the hull and the gate of a larger one is taken
+ * for the same surface and left out, and so is one that fewer than two scans see.
+ * \param[in] planes [m] in the world; without an outline the hull counts, without a hull
+ * of at least 3 corners they are left out
  * \param[in] num_scans how many scans the map has
  * \throws BadArgument an option breaks its rule, sizes differ, or a point is of no scan */
 PlaneThickness
-planeThickness(const std::vector<Plane>& planes,
+planeThickness(const std::vector<PlaneSegment>& planes,
                const MapPoints& map,
                std::size_t num_scans,
                const PlaneThicknessOptions& options = PlaneThicknessOptions());

@@ -7,6 +7,7 @@
 #include <pcl6d/plane_segmentation/surfels.h>
 #include <pcl6d/search/point_tree.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -21,10 +22,13 @@ using PlaneCandidates = std::vector<std::vector<std::uint32_t>>;
 /** \brief What is known of a cloud beside its points, and how it is prepared. */
 struct PlaneCloudOptions {
   Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero(); ///< [m] where the sensor stood
-  Points viewpoints;            ///< [m] of each point, if they differ; else empty
-  std::size_t width = 0;        ///< > 1: an organized cloud, in rows of this length
-  std::optional<double> voxel;  ///< [m] of the surfels, > 0; none: by spacing and noise
-  std::optional<double> noise;  ///< [m] of a point, > 0; none: estimated, over range
+  Points viewpoints;           ///< [m] of each point, if they differ; else empty
+  std::size_t width = 0;       ///< > 1: an organized cloud, in rows of this length
+  std::optional<double> voxel; ///< [m] of the surfels, > 0; none: by spacing and noise
+  std::optional<double> noise; ///< [m] of a point, > 0; none: estimated, over range
+  /** What calibration leaves: ranges along a flat wall are off by so much of the range,
+   * as neighbours agree and far places do not; >= 0. Adds to the noise. */
+  double distortion = 0.002;
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value
    * \param[in] num_points of the cloud */
@@ -82,11 +86,14 @@ public:
     return surfels_;
   }
 
-  /** \return the standard deviation [m] of a point's distance to its surface */
+  /** \return the standard deviation [m] of a point's distance to its surface, noise
+   * and distortion */
   double
   noise(std::size_t point) const
   {
-    return noise_.at((points_[point] - viewpoint(point)).norm());
+    const double range = (points_[point] - viewpoint(point)).norm();
+    const double noise = noise_.at(range);
+    return std::sqrt(noise * noise + distortion_ * distortion_ * range * range);
   }
 
   /** \return the median distance [m] of a point to the nearest other one; 0 for fewer
@@ -119,6 +126,7 @@ private:
   PointTree tree_;
   double spacing_ = 0;
   NoiseModel noise_;
+  double distortion_ = 0;
   Surfels surfels_;
   Normals normals_;
 };

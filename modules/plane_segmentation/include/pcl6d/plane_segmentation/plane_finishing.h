@@ -13,7 +13,7 @@ struct PlaneOptions {
   std::size_t min_points = 50;   ///< >= 3
   double max_plane_distance = 3; ///< [sigma] of a point to its plane; > 0
   double max_angle = 0.44; ///< [rad] of a point's normal to its plane's; (0, pi/2)
-  double merge_gap = 0.5;  ///< [m] between parts of one carrier plane; >= 0
+  double merge_gap = 1.0;  ///< [m] between parts of one carrier plane; >= 0
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

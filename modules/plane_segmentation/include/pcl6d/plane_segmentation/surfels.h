@@ -13,45 +13,29 @@ namespace pcl6d {
 /** \brief Elements of surface (after Pfister et al., SIGGRAPH 2000): the means of the
  * points in the voxels of a grid. Close to a scanner, where points are closer together
  * than they are exact, a normal from the next few points is noise; these average it
- * away, and there are fewer of them. Far away a surfel is a point. Places of surfels are
- * in the order of their voxels' keys.
- * \ingroup plane_segmentation */
+ * away, and there are fewer of them. Far away a surfel is a point. Surfels are in the
+ * order of their voxels' keys. \ingroup plane_segmentation */
 struct Surfels {
   static constexpr std::size_t kNeighbours = 20; ///< of a normal; itself included
 
-  Points points;                ///< [m] mean of the members
-  Normals normals;              ///< unit, towards the sensor; zero: on a line
-  std::vector<float> radii;     ///< [m] to the farthest of the neighbours
+  Points points;            ///< [m] mean of the members; where smooth, on the surface
+  Normals normals;          ///< unit, towards the sensor; zero: neighbours on a line
+  std::vector<float> radii; ///< [m] to the farthest of the neighbours
+  std::vector<float> noise; ///< [m] standard deviation of a point to its surface
   std::vector<float> roughness; ///< [m] rms of the neighbours to their plane
-  std::vector<float> spread;    ///< [m] rms of the neighbours along the middle axis
+  std::vector<char> smooth;     ///< whether the neighbours make a plane, up to noise
+
   std::vector<std::uint32_t> of_point; ///< of each point its surfel
-  std::vector<std::uint32_t> begin;    ///< first of each surfel in members, and the end
+  std::vector<std::uint32_t> begin;    ///< first of each in members, and the end
   std::vector<std::uint32_t> members;  ///< points, surfel by surfel, ascending in each
-  std::vector<std::uint32_t> link_begin; ///< first of each surfel in links, and the end
-  std::vector<std::uint32_t> links;      ///< neighbours of each, nearest first
+  std::vector<std::uint32_t> link_begin; ///< first of each in links, and the end
+  std::vector<std::uint32_t> links; ///< neighbours of each, nearest first, itself too
 
   std::size_t
   size() const
   {
     return points.size();
   }
-
-  std::size_t
-  numMembers(std::size_t surfel) const
-  {
-    return begin[surfel + 1] - begin[surfel];
-  }
 };
-
-/** \brief Makes the surfels of points, each seen from a place of its own.
- * \param[in] voxel [m] edge length of the grid's cells
- * \param[in] viewpoint_of [m] of a point
- * \throws BadArgument see voxelKey() */
-Surfels
-makeSurfels(const Points& points,
-            double voxel,
-            const Eigen::Vector3f& viewpoint,
-            const Points& viewpoints,
-            unsigned int num_threads);
 
 } // namespace pcl6d

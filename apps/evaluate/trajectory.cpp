@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/command_line.h"
+#include "evaluate/trusted_rows.h"
 #include "evaluate/verbs.h"
 
 #include <pcl6d/benchmarking/trajectory_error.h>
@@ -26,7 +27,8 @@ constexpr double kDegrees = 180 / M_PI;
 struct TrajectorySettings {
   std::string estimate;
   std::string reference;
-  std::string json; ///< file, "-" for stdout, or empty
+  std::string json;    ///< file, "-" for stdout, or empty
+  std::string trusted; ///< mcl.csv of `evaluate mcl`, or empty
   PoseMatchingOptions matching;
 };
 
@@ -51,6 +53,10 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
       ("max-time-difference",
        po::value(&difference)->value_name("S")->default_value(difference, "0.02"),
        "[s] largest between the stamps of a pair") //
+      ("trusted",
+       po::value(&s.trusted)->value_name("mcl.csv"),
+       "leave out the poses of the reference that this table of `mcl` does not trust; "
+       "one row per pose of the reference") //
       ("json",
        po::value(&s.json)->value_name("FILE"),
        "write the numbers (angles in radians) to FILE; - prints them instead of the "
@@ -59,7 +65,7 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
     return false;
   checkOptions([&] { s.matching.validate(); });
   std::error_code missing; // a missing file is no input
-  for (const auto& input : {s.estimate, s.reference})
+  for (const auto& input : {s.estimate, s.reference, s.trusted})
     if (fs::equivalent(s.json, input, missing))
       throw UsageError("--json = " + s.json + ", but that is an input");
   return true;
@@ -120,6 +126,7 @@ toJson(const TrajectorySettings& s, const TrajectoryEvaluation& evaluation)
                {"pairs", matching.pairs.size()},
                {"unmatched_estimate", matching.unmatched_estimate},
                {"unmatched_reference", matching.unmatched_reference},
+               {"untrusted", matching.untrusted},
                {"reference_path_length", evaluation.path_length}};
   json["without_alignment"] = toJson(evaluation.without_alignment, evaluation);
   json["with_alignment"] = toJson(evaluation.with_alignment, evaluation);
@@ -182,6 +189,8 @@ printTable(const TrajectorySettings& s, const TrajectoryEvaluation& evaluation)
     std::printf("; without partner: %zu of the estimate, %zu of the reference",
                 matching.unmatched_estimate,
                 matching.unmatched_reference);
+  if (matching.untrusted > 0)
+    std::printf("; left out, as the reference is not trusted: %zu", matching.untrusted);
   std::printf("\n");
   printErrors("without alignment", evaluation.without_alignment, evaluation);
   printErrors("with alignment", evaluation.with_alignment, evaluation);
@@ -200,6 +209,8 @@ runTrajectory(const std::vector<std::string>& arguments)
     return kDone;
   const Trajectory estimate = readTrajectory(s.estimate);
   const Trajectory reference = readTrajectory(s.reference);
+  if (!s.trusted.empty())
+    s.matching.trusted = readTrustedRows(s.trusted);
   const TrajectoryEvaluation evaluation = evaluate(s, estimate, reference);
   // File names need not be UTF-8, but JSON must be.
   const std::string json =

@@ -127,13 +127,12 @@ describeRun(CommandLine& line, MclSettings& s, Raw& raw)
        "match the scans by ICP against the map extruded to 3D and print how far that "
        "is "
        "from the localisation (book 6.4.4)") //
-      (
-          "output,o",
-          po::value(&s.out)->value_name("OUT_DIR"),
-          "folder for reference.kitti (all scans), reference.tum (trusted ones, stamps "
-          "as "
-          "the poses or the scans' indices), mcl.csv, mcl.json, mcl.png; made if "
-          "missing")                                      //
+      ("output,o",
+       po::value(&s.out)->value_name("OUT_DIR"),
+       "folder for reference.kitti (all scans), reference.tum (trusted ones, stamps "
+       "as "
+       "the poses or the scans' indices), mcl.csv, mcl.json, mcl.png; made if "
+       "missing")                                         //
       ("seed", valueOf(raw.seed), "same seed, same bits") //
       ("threads",
        valueOf(raw.threads),

@@ -3,6 +3,7 @@
 #include "common/command_line.h"
 #include "evaluate/result_file.h"
 #include "evaluate/trajectory_report.h"
+#include "evaluate/trusted_rows.h"
 #include "evaluate/verbs.h"
 
 #include <pcl6d/common/error.h>
@@ -25,6 +26,7 @@ struct TrajectorySettings {
   std::string json;             ///< file, "-" for stdout, or empty
   std::string output;           ///< .json or .csv, or empty
   std::string loops;            ///< file, or empty
+  std::string trusted;          ///< mcl.csv of `evaluate mcl`, or empty
   double interpolation_gap = 0; ///< [s]
   TrajectoryEvaluationOptions options;
 };
@@ -74,6 +76,10 @@ addOptions(CommandLine& line, TrajectorySettings& s)
        "loops in place of those found: lines `a b` with the indices of two poses of "
        "the "
        "reference, or a .g2o file") //
+      ("trusted",
+       po::value(&s.trusted)->value_name("mcl.csv"),
+       "leave out the poses of the reference that this table of `mcl` does not trust; "
+       "one row per pose of the reference") //
       ("output,o",
        po::value(&s.output)->value_name("FILE"),
        "write all numbers (.json) or a row per pose (.csv), angles in radians") //
@@ -93,9 +99,11 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
     return false;
   if (line.given("interpolate"))
     s.options.interpolation_gap = s.interpolation_gap;
-  if (line.given("interpolate") && line.given("loops"))
-    throw UsageError("--loops names poses of the reference, which --interpolate "
-                     "replaces: give one of both");
+  for (const char* const option : {"loops", "trusted"})
+    if (line.given("interpolate") && line.given(option))
+      throw UsageError(std::string("--") + option +
+                       " names poses of the reference, which --interpolate replaces: "
+                       "give one of both");
   checkOptions(
       [&] {
         s.options.matching.validate();
@@ -108,7 +116,7 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
       },
       {{"radius", "loop-radius"}, {"min_path", "loop-path"}});
   requireExtension("--output", s.output, {".json", ".csv"});
-  const std::vector<std::string> inputs{s.estimate, s.reference, s.loops};
+  const std::vector<std::string> inputs{s.estimate, s.reference, s.loops, s.trusted};
   refuseInput("--json", s.json, inputs);
   refuseInput("--output", s.output, inputs);
   return true;
@@ -155,6 +163,8 @@ runTrajectory(const std::vector<std::string>& arguments)
   const Trajectory reference = readTrajectory(s.reference);
   if (!s.loops.empty())
     s.options.loops = readLinkList(s.loops);
+  if (!s.trusted.empty())
+    s.options.matching.trusted = readTrustedRows(s.trusted);
   TrajectoryReport report{s.estimate, s.reference, s.options, {}};
   report.evaluation = evaluate(s, estimate, reference);
   write(s, report);

@@ -125,6 +125,7 @@ toJson(const TrajectoryReport& report)
                {"pairs", matching.pairs.size()},
                {"unmatched_estimate", matching.unmatched_estimate},
                {"unmatched_reference", matching.unmatched_reference},
+               {"untrusted", matching.untrusted},
                {"reference_path_length", evaluation.path_length}};
   json["without_alignment"] = toJson(evaluation.without_alignment, evaluation);
   json["with_alignment"] = toJson(evaluation.with_alignment, evaluation);

@@ -114,6 +114,8 @@ printTable(const TrajectoryReport& report)
     std::printf("; without partner: %zu of the estimate, %zu of the reference",
                 matching.unmatched_estimate,
                 matching.unmatched_reference);
+  if (matching.untrusted > 0)
+    std::printf("; left out, as the reference is not trusted: %zu", matching.untrusted);
   std::printf("\n");
   printErrors("without alignment", evaluation.without_alignment, evaluation);
   printErrors("with alignment (ATE)", evaluation.with_alignment, evaluation);

@@ -31,7 +31,7 @@ struct TiltSums {
 
 /** The tilt that fits, only in directions that the walls fix. */
 Eigen::Vector2d
-solve(const TiltSums& sums, bool& is_fixed)
+solve(const TiltSums& sums, double least, bool& is_fixed)
 {
   constexpr double kLeastShare = 0.02; // of the weight that must face a direction
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(sums.A);
@@ -40,7 +40,7 @@ solve(const TiltSums& sums, bool& is_fixed)
   for (int i = 0; i < 2; ++i) {
     const double lambda = solver.eigenvalues()(i);
     const Eigen::Vector2d axis = solver.eigenvectors().col(i);
-    if (lambda > kLeastShare * sums.weight && lambda > 0)
+    if (lambda > kLeastShare * sums.weight && lambda > least)
       tilt += axis * (axis.dot(sums.b) / lambda);
     else
       is_fixed = false;
@@ -68,7 +68,8 @@ levellingOf(const Eigen::Vector3d& up)
 Levelling
 levelByNormals(const std::vector<Eigen::Vector3d>& normals,
                const std::vector<double>& weights,
-               const Eigen::Matrix3d& guess)
+               const Eigen::Matrix3d& guess,
+               double least)
 {
   require(weights.empty() || weights.size() == normals.size(),
           "weights",
@@ -85,7 +86,7 @@ levelByNormals(const std::vector<Eigen::Vector3d>& normals,
       if (n.squaredNorm() > 0.5 && std::abs(ratio) < 3)
         sums.add(n, (weights.empty() ? 1 : weights[i]) / (1 + ratio * ratio));
     }
-    const Eigen::Vector2d tilt = solve(sums, level.is_fixed);
+    const Eigen::Vector2d tilt = solve(sums, least, level.is_fixed);
     level.walls = sums.weight;
     const Eigen::Vector3d up(tilt.x(), tilt.y(), 1);
     level.R_level_source =
@@ -98,6 +99,7 @@ Levelling
 levelByWalls(const Points& points, const Eigen::Matrix3d& guess, double voxel)
 {
   constexpr std::size_t kNeighbours = 12;
+  constexpr double kLeast = 20; // points
   ReductionOptions reduction;
   reduction.voxel = voxel;
   const Points reduced = reducePoints(points, reduction);
@@ -107,7 +109,7 @@ levelByWalls(const Points& points, const Eigen::Matrix3d& guess, double voxel)
   walls.reserve(normals.size());
   for (const auto& normal : normals)
     walls.push_back(normal.cast<double>());
-  return levelByNormals(walls, {}, guess);
+  return levelByNormals(walls, {}, guess, kLeast);
 }
 
 } // namespace pcl6d

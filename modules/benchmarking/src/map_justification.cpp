@@ -48,7 +48,7 @@ public:
     for (const auto& [other, pose] : metascan_)
       target.push_back(other->part(pose));
     const IcpResult result = icp(target, model->source(), T_map_scan, options_.icp);
-    if (result.stop != IcpStop::kAtRest) {
+    if (result.stop == IcpStop::kTooFewPairs || result.stop == IcpStop::kDiverged) {
       ++failed_;
       return;
     }

@@ -132,6 +132,16 @@ shapeOf(const std::vector<const ColumnPoint*>& group)
   return shape;
 }
 
+/** A wall seen at an angle is a line in the plan, thin against the width of the column
+ * [m], which leaves fill. A strip of sloping ground is such a line too, but longer than
+ * high. */
+bool
+isAtAnAngle(const PlanShape& shape, double height, double width)
+{
+  constexpr double kThinShare = 0.15; // what fills the width has 0.29
+  return shape.thickness <= kThinShare * width && shape.length <= height;
+}
+
 Group
 groupOf(const std::vector<const ColumnPoint*>& points,
         const VirtualScanOptions& options)
@@ -148,8 +158,10 @@ groupOf(const std::vector<const ColumnPoint*>& points,
     return group;
   const PlanShape shape = shapeOf(points);
   group.centre = shape.centre;
-  // A strip of sloping ground is a line in the plan as well, but longer than high.
-  group.is_wall = shape.thickness <= options.max_thickness && shape.length <= height;
+  const double nearest = points.front()->range, farthest = points.back()->range;
+  group.is_wall = shape.thickness <= options.max_thickness &&
+                  (farthest - nearest <= options.max_spread ||
+                   isAtAnAngle(shape, height, options.column * nearest));
   return group;
 }
 
@@ -226,6 +238,7 @@ VirtualScanOptions::validate() const
   require(isLength(max_gap), "max_gap", max_gap, "finite and > 0");
   require(isLength(min_height), "min_height", min_height, "finite and > 0");
   require(min_points > 0, "min_points", min_points, "> 0");
+  require(isLength(max_spread), "max_spread", max_spread, "finite and > 0");
   require(isLength(max_thickness), "max_thickness", max_thickness, "finite and > 0");
   require(max_columns > 0, "max_columns", max_columns, "> 0");
 }

@@ -18,16 +18,19 @@ struct Levelling {
 /** \brief Finds roll and pitch from walls, whose normals are horizontal: minimises sum w
  * (n . up)^2 with weights that leave out what is no wall, starting from a guess.
  *
- * A direction in which there are no walls keeps its tilt. Slopes, leaves and furniture
+ * A direction that too few walls face keeps its tilt. Slopes, leaves and furniture
  * count little: normals farther than 15 deg from horizontal are left out, then ever
  * closer ones.
  * \param[in] normals unit vectors; zero ones are skipped
  * \param[in] weights >= 0, one per normal, or empty for equal ones
- * \param[in] guess R_level_source, wrong by no more than about 10 deg */
+ * \param[in] guess R_level_source, wrong by no more than about 10 deg
+ * \param[in] least weight that must face a direction to tell its tilt
+ * \throws BadArgument weights are not one per normal */
 Levelling
 levelByNormals(const std::vector<Eigen::Vector3d>& normals,
                const std::vector<double>& weights,
-               const Eigen::Matrix3d& guess = Eigen::Matrix3d::Identity());
+               const Eigen::Matrix3d& guess = Eigen::Matrix3d::Identity(),
+               double least = 0);
 
 /** \brief levelByNormals() of the surfaces that a scan has seen. \param[in] points [m]
  * \param[in] voxel [m] of the reduction before normals are estimated; finite, > 0

@@ -24,6 +24,8 @@ struct JustificationOptions {
   {
     icp.max_distance = 0.5;
     icp.max_distance_start = 1;
+    icp.translation_epsilon = 1e-3; // walls leave z open, along which ICP creeps
+    icp.rotation_epsilon = 1e-4;
   }
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
@@ -41,7 +43,8 @@ struct JustificationRow {
   std::string method;       ///< such as "map, no ground"
   ErrorStatistics position; ///< [m] in the plan
   ErrorStatistics yaw;      ///< [rad]
-  std::size_t failed = 0;   ///< scans that ICP could not match
+  std::size_t failed =
+      0; ///< scans that ICP could not match: it found no pairs, or diverged
 };
 
 /** \return the walls as points: upright grids over the segments, relative to the map's

@@ -11,12 +11,13 @@ namespace pcl6d {
 
 /** \brief Knobs of virtualScan(). */
 struct VirtualScanOptions {
-  double column = 0.026;         ///< [rad] width of a column; in (0, pi]
-  double max_slope = 0.31;       ///< [rad] of the ground; in (0, pi / 2)
-  double max_ground_step = 0.3;  ///< [m] of the ground from point to point; > 0
-  double max_gap = 0.3;          ///< [m] between the ranges in one group; > 0
-  double min_height = 1.2;       ///< [m] vertical extent of a wall; > 0
-  std::size_t min_points = 5;    ///< on a wall in one column; > 0
+  double column = 0.026;        ///< [rad] width of a column; in (0, pi]
+  double max_slope = 0.31;      ///< [rad] of the ground; in (0, pi / 2)
+  double max_ground_step = 0.3; ///< [m] of the ground from point to point; > 0
+  double max_gap = 0.3;         ///< [m] between the ranges in one group; > 0
+  double min_height = 1.2;      ///< [m] vertical extent of a wall; > 0
+  std::size_t min_points = 5;   ///< on a wall in one column; > 0
+  double max_spread = 0.2; ///< [m] of the ranges of a wall that faces the scanner; > 0
   double max_thickness = 0.1;    ///< [m] rms of a wall about its line; > 0
   std::size_t max_columns = 100; ///< walls that are kept, chosen at random; > 0
   std::uint64_t seed = 1;        ///< of the choice
@@ -37,8 +38,9 @@ struct VirtualScan {
  *
  * The cloud is cut into vertical columns by azimuth, whatever the scanner. In each column
  * the ground is walked outwards and left out; what remains is grouped by its horizontal
- * range; a group that is high, has enough points and is thin is a wall. Thin means: about
- * a line in the plan, which a wall seen at an angle is too, while leaves fill a volume. Of
+ * range; a group that is high, has enough points and is thin is a wall. Thin means: all at
+ * one range, or about a line in the plan that is thin against the width of the column,
+ * which a wall seen at an angle is too, while leaves fill the column. Of
  * each column the farthest wall counts, as scanners see walls above parked cars and
  * people. Points are the centres of the groups.
  * \param[in] points [m] in the scan's frame; those that are not finite are skipped

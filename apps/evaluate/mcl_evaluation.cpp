@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/mcl_errors.h"
 #include "evaluate/mcl_evaluation.h"
 
 #include <pcl6d/benchmarking/levelling.h>
-#include <pcl6d/benchmarking/trajectory_error.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
-#include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 
@@ -193,44 +192,6 @@ placeScans(const MclSettings& s, MclEvaluation& e)
   e.T_map_world = standing(pose, z, fixed.R_level_scan) * fixed.odometry.inverse();
 }
 
-MclErrors
-errorsOf(const MclEvaluation& e, const Trajectory& reference, bool only_trusted)
-{
-  std::vector<double> position_2d, yaw, position, orientation;
-  for (std::size_t i = 0; i < e.scans.size(); ++i) {
-    if (only_trusted && !e.estimates[i].trusted())
-      continue;
-    const PoseError error =
-        poseError(e.scans[i].T_map_scan, e.T_map_world * reference.poses[i]);
-    position_2d.push_back(error.position_2d);
-    yaw.push_back(error.yaw);
-    position.push_back(error.position);
-    orientation.push_back(error.orientation);
-  }
-  return {yaw.size(),
-          errorStatistics(position_2d),
-          errorStatistics(yaw),
-          errorStatistics(position),
-          errorStatistics(orientation)};
-}
-
-/** \return the poses of a reference that belong to the scans */
-Trajectory
-readReference(const std::string& file, const ScanFolder& folder)
-{
-  const Trajectory all = readTrajectory(file);
-  if (all.poses.size() == folder.size())
-    return all;
-  if (all.poses.size() != folder.odometry().poses.size())
-    throw IoFailed(file + ": holds " + std::to_string(all.poses.size()) +
-                   " poses, but must hold one for each of the " +
-                   std::to_string(folder.size()) + " scans");
-  Trajectory selected;
-  for (std::size_t i = 0; i < folder.size(); ++i)
-    selected.poses.push_back(all.poses[static_cast<std::size_t>(folder.index(i))]);
-  return selected;
-}
-
 /** \return false if a signal came in */
 bool
 justify(const MclSettings& s,
@@ -292,7 +253,7 @@ evaluateMcl(const MclSettings& s, ProgressBar& bar, const Interrupt& interrupt)
                    "from scan to scan; give --poses");
   std::optional<Trajectory> reference;
   if (!s.reference.empty())
-    reference = readReference(s.reference, folder);
+    reference = readMclReference(s.reference, folder);
   MclEvaluation e(map);
   e.pose_source = folder.poseSource();
   const ScanReader reader(s, folder, map.R_map_world);
@@ -309,8 +270,8 @@ evaluateMcl(const MclSettings& s, ProgressBar& bar, const Interrupt& interrupt)
   localise(s, start, bar, e);
   placeScans(s, e);
   if (reference) {
-    e.all = errorsOf(e, *reference, false);
-    e.trusted = errorsOf(e, *reference, true);
+    e.all = mclErrors(e, *reference, false);
+    e.trusted = mclErrors(e, *reference, true);
   }
   if (s.justify && !justify(s, reader, bar, interrupt, e))
     return std::nullopt;

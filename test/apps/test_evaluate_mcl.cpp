@@ -47,7 +47,8 @@ std::vector<std::array<double, 4>>
 wallsOf(const std::string& planes_truth)
 {
   std::vector<std::array<double, 4>> walls;
-  for (const auto& plane : nlohmann::json::parse(planes_truth)["planes"]) {
+  const auto json = nlohmann::json::parse(planes_truth);
+  for (const auto& plane : json["planes"]) {
     if (plane["label"] != "wall" || plane["inliers"] == 0)
       continue;
     std::array<double, 4> wall{};

@@ -31,7 +31,7 @@ shareCarrier(const PlanePart& a, const PlanePart& b)
 {
   if (a.plane.normal.dot(b.plane.normal) < kLeastCosine)
     return false;
-  PlaneSums sums = a.sums;
+  PlaneMoments sums = a.sums;
   sums.add(b.sums);
   const auto common = sums.fit();
   return common && staysAsFlat(a, *common) && staysAsFlat(b, *common);

@@ -96,7 +96,7 @@ planesOfSac(const Cloud::Ptr& cloud)
   segmentation.setOptimizeCoefficients(true);
   segmentation.setModelType(pcl::SACMODEL_PLANE);
   segmentation.setMethodType(pcl::SAC_RANSAC);
-  segmentation.setMaxIterations(1000);
+  segmentation.setMaxIterations(100);
   segmentation.setDistanceThreshold(kMaxDistance);
   segmentation.setInputCloud(cloud);
   auto left = pcl::make_shared<pcl::Indices>();

@@ -17,8 +17,6 @@ namespace pcl6d::app {
 
 namespace {
 constexpr std::size_t kScansForParameters = 16;
-/** Matching needs few points, planes small ones too. */
-constexpr double kVoxelShare = 1.0 / 3;
 
 /** Range gate and voxel, those that the user left open derived as pcl_slam6d does. */
 Slam6DParameters
@@ -73,16 +71,18 @@ public:
     if (!deriveLengths(interrupt))
       return {};
     MapBuilder map(parameters_.voxel.value, scans_.worldOffset());
+    std::vector<Eigen::Isometry3d> poses;
     for (std::size_t i = 0; i < scans_.folder().size(); ++i) {
       if (interrupt.requested())
         return {};
+      poses.push_back(scans_.pose(i));
       map.addScan(gated(scans_.folder().read(i).points),
                   {},
-                  scans_.pose(i),
+                  poses.back(),
                   static_cast<std::uint32_t>(i));
       bar_.show({"reading", i + 1, scans_.folder().size()});
     }
-    return joined(map);
+    return planeCloudOf(map, poses, scans_.worldOffset());
   }
 
 private:
@@ -107,7 +107,7 @@ private:
       say(bar_, "max-range", parameters_.max_range);
     }
     if (!parameters_.voxel.given) {
-      parameters_.voxel.value *= kVoxelShare;
+      parameters_.voxel.value = planeVoxel(parameters_.voxel.value);
       parameters_.voxel.why = "a third of the voxel that matching would take";
     }
     say(bar_, "voxel", parameters_.voxel);
@@ -123,18 +123,6 @@ private:
       if (!isWithinRange(p, parameters_.min_range.value, parameters_.max_range.value))
         p.setConstant(kNan);
     return points;
-  }
-
-  PlaneStepCloud
-  joined(const MapBuilder& map) const
-  {
-    PlaneStepCloud result;
-    result.points = map.points();
-    result.world_offset = scans_.worldOffset();
-    for (const auto scan : map.scans())
-      result.viewpoints.push_back(
-          (scans_.pose(scan).translation() - result.world_offset).cast<float>());
-    return result;
   }
 
   const PlaneSettings& settings_;

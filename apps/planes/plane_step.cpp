@@ -90,6 +90,20 @@ drawPicture(const OutputFolder& out,
 }
 } // namespace
 
+PlaneStepCloud
+planeCloudOf(const MapBuilder& map,
+             const std::vector<Eigen::Isometry3d>& poses,
+             const Eigen::Vector3d& world_offset)
+{
+  PlaneStepCloud cloud;
+  cloud.points = map.points();
+  cloud.world_offset = world_offset;
+  for (const auto scan : map.scans())
+    cloud.viewpoints.push_back(
+        (poses[scan].translation() - world_offset).cast<float>());
+  return cloud;
+}
+
 PlaneStepResult
 findPlanes(const PlaneStepCloud& cloud,
            const PlaneStepOptions& options,

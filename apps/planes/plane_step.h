@@ -4,6 +4,8 @@
 #include "common/output_folder.h"
 #include "planes/plane_settings.h"
 
+#include <pcl6d/slam6d/map_builder.h>
+
 #include <string>
 #include <vector>
 
@@ -16,6 +18,21 @@ struct PlaneStepCloud {
   Points viewpoints;         ///< [m] per point where it was seen from; empty: origin
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero(); ///< [m] of the points
 };
+
+/** \return the edge [m] of the voxels in which a map keeps one point, for planes:
+ * matching needs few points, small planes more */
+inline double
+planeVoxel(double matching_voxel)
+{
+  return matching_voxel / 3;
+}
+
+/** \return the cloud of a map, whose scan numbers are places in poses
+ * \param[in] poses of the scans, T_world_scan in full coordinates */
+PlaneStepCloud
+planeCloudOf(const MapBuilder& map,
+             const std::vector<Eigen::Isometry3d>& poses,
+             const Eigen::Vector3d& world_offset);
 
 /** \brief What was found in it. */
 struct PlaneStepResult {

@@ -163,8 +163,7 @@ TEST(Planes, OfARunAreThoseThatItFindsItself)
   ASSERT_EQ(again.exit_code, 0) << again.err;
   expectFloorAndWalls(pcl6d::readPlanes(out + "/planes.json"));
   // A run without --planes replaces all of the one before.
-  ASSERT_EQ(pcl6d::test::runProgram("pcl_slam6d", {corridor(), "-o", run}).exit_code,
-            0);
+  ASSERT_EQ(pcl6d::test::slam(corridor(), run, {"--last", "3"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(run + "/planes.json"));
   EXPECT_FALSE(fs::exists(run + "/hulls.ply"));
 }

@@ -56,4 +56,22 @@ orderColour(double share)
   return interpolate(kTurbo, share);
 }
 
+Colour
+distinctColour(std::size_t number)
+{
+  constexpr double kGoldenRatio = 0.6180339887498949;
+  const double turn = kGoldenRatio * static_cast<double>(number);
+  const double hue = 6 * (turn - std::floor(turn));
+  // Every other round through the hues is paler.
+  const double saturation = number / 8 % 2 == 0 ? 0.75 : 0.45;
+  Colour colour{};
+  for (std::size_t i = 0; i < colour.size(); ++i) {
+    const double place = std::fmod(hue + 6 - 2 * static_cast<double>(i), 6.0);
+    const double share = std::clamp(std::abs(place - 3) - 1, 0.0, 1.0);
+    colour[i] =
+        static_cast<std::uint8_t>(std::lround(225 * (1 - saturation * (1 - share))));
+  }
+  return colour;
+}
+
 } // namespace pcl6d

@@ -3,6 +3,8 @@
 
 #include <pcl6d/visualization/image.h>
 
+#include <cstddef>
+
 namespace pcl6d {
 
 /** \brief Colours of height: dark violet over green to yellow, evenly brighter
@@ -14,5 +16,10 @@ heightColour(double share);
  * well apart (turbo, Mikhailov 2019). \param[in] share clamped to [0, 1] */
 Colour
 orderColour(double share);
+
+/** \brief Bright colours of things without an order, neighbours in number well apart: the
+ * hue goes on by the golden ratio. */
+Colour
+distinctColour(std::size_t number);
 
 } // namespace pcl6d

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "height_cut.h"
+#include "picture_size.h"
 #include "top_view_layout.h"
 #include "top_view_painter.h"
 
@@ -28,10 +29,9 @@ checkScene(const TopViewScene& scene, PointColour colour)
 void
 TopViewOptions::validate() const
 {
-  const auto isSize = [](int size) { return size >= 200 && size <= 8192; };
-  require(isSize(width), "width", width, "200 to 8192");
+  requirePictureSize("width", width);
   if (height)
-    require(isSize(*height), "height", *height, "200 to 8192");
+    requirePictureSize("height", *height);
   const int shorter = std::min(width, height.value_or(width));
   require(margin >= 0 && margin <= shorter / 8, "margin", margin, "0 to an eighth");
   if (point_size)

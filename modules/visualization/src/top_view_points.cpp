@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colours.h"
+#include "point_spread.h"
 #include "top_view_layout.h"
 #include "top_view_points.h"
-
-#include <pcl6d/common/random.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,41 +11,6 @@
 namespace pcl6d {
 
 namespace {
-/** The indices that stay when a random choice, fixed by the index, thins to a budget.
- */
-std::vector<std::size_t>
-thinned(const std::vector<std::size_t>& indices, std::size_t budget)
-{
-  if (indices.size() <= budget)
-    return indices;
-  const double share =
-      static_cast<double>(budget) / static_cast<double>(indices.size());
-  const auto limit = static_cast<std::uint64_t>(std::ldexp(share, 64));
-  std::vector<std::size_t> kept;
-  kept.reserve(budget + budget / 100);
-  for (const auto i : indices)
-    if (mixBits(i) < limit && kept.size() < budget)
-      kept.push_back(i);
-  return kept;
-}
-
-/** The mean distance of neighbours on the picture, seen from above. */
-double
-spacing(const std::vector<Eigen::Vector3f>& pixels, const TopViewLayout& layout)
-{
-  constexpr float kCell = 8; // [px]
-  const auto columns = static_cast<std::size_t>(layout.width / kCell) + 1;
-  const auto rows = static_cast<std::size_t>(layout.height / kCell) + 1;
-  std::vector<bool> occupied(columns * rows, false);
-  for (const auto& p : pixels)
-    occupied[static_cast<std::size_t>(p.y() / kCell) * columns +
-             static_cast<std::size_t>(p.x() / kCell)] = true;
-  const auto cells = std::count(occupied.begin(), occupied.end(), true);
-  return kCell *
-         std::sqrt(static_cast<double>(cells) /
-                   static_cast<double>(std::max<std::size_t>(pixels.size(), 1)));
-}
-
 std::vector<float>
 heightsOf(const TopViewScene& scene, const std::vector<std::size_t>& indices)
 {
@@ -111,8 +75,8 @@ drawnPoints(const TopViewScene& scene,
     drawn.colours.push_back(
         pointColour((value - layout.lowest_colour) / range, options));
   }
-  drawn.size = options.point_size.value_or(
-      std::clamp(1.2 * spacing(drawn.pixels, layout), 1.5, 6.0));
+  drawn.size = options.point_size.value_or(std::clamp(
+      1.2 * pixelSpacing(drawn.pixels, layout.width, layout.height), 1.5, 6.0));
   layout.points_drawn = drawn.pixels.size();
   return drawn;
 }

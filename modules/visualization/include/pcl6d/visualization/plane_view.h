@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/plane.h>
+#include <pcl6d/common/points.h>
+#include <pcl6d/visualization/image.h>
+#include <pcl6d/visualization/top_view.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief Knobs of PlaneView. */
+struct PlaneViewOptions {
+  int width = 1600;              ///< [px] 200 to 8192
+  int height = 1100;             ///< [px] 200 to 8192
+  std::optional<double> azimuth; ///< [rad] of the camera seen from the scene, from x to
+                                 ///< y; by default where most area is seen
+  double elevation = 0.75; ///< [rad] of the camera above the horizon; in (0, pi/2)
+  Background background = Background::kDark;
+  std::string title;                ///< top left; may be empty
+  std::size_t max_points = 2000000; ///< more are thinned evenly, always the same; > 0
+
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief What is to be seen. */
+struct PlaneViewScene {
+  Points points;                       ///< [m] of one frame; NaN is skipped
+  std::vector<std::uint32_t> plane_of; ///< per point its plane's place + 1; 0: none
+  std::vector<Plane> planes;
+  std::vector<Eigen::Vector3d> seen_from; ///< per plane: unit normal to the side seen
+};
+
+/** \brief Where things are on the picture. */
+struct PlaneViewLayout {
+  int width = 0;                ///< [px]
+  int height = 0;               ///< [px]
+  double metres_per_pixel = 1;  ///< along both axes of the picture
+  Eigen::Vector3d to_camera;    ///< unit vector from the scene to the camera
+  Eigen::Vector3d right;        ///< unit vector of the world along the columns
+  Eigen::Vector3d up;           ///< unit vector of the world against the rows
+  Eigen::Vector2d centre{0, 0}; ///< [m] along right, up in the middle of the picture
+  std::vector<bool> hidden;     ///< per plane: it faces away from the camera
+  std::size_t points_drawn = 0;
+
+  /** \return column and row of a place [m] */
+  Eigen::Vector2d
+  toPixel(const Eigen::Vector3d& place) const
+  {
+    const Eigen::Vector2d flat(right.dot(place), up.dot(place));
+    const Eigen::Vector2d offset = (flat - centre) / metres_per_pixel;
+    return {0.5 * width + offset.x(), 0.5 * height - offset.y()};
+  }
+};
+
+/** \brief Planes in a cloud from obliquely above, in parallel projection: each with a
+ * colour of its own, its hull and, if it is large enough, its number and label; points on
+ * no plane are grey. As in a doll's house, planes that face away from the camera (the
+ * ceiling, the near walls of a room) are left open.
+ * \code
+ * pcl6d::PlaneView().write("planes.png", scene);
+ * \endcode
+ * \ingroup visualization */
+class PlaneView {
+public:
+  /** \throws BadArgument an option breaks its rule */
+  explicit PlaneView(const PlaneViewOptions& options = PlaneViewOptions());
+
+  /** \brief Draws. \param[out] image the picture \return where things are on it
+   * \throws BadArgument no finite point, not one plane_of per point or one seen_from per
+   * plane, or a plane_of beyond the planes
+   * \throws IoFailed there is no display to draw on */
+  PlaneViewLayout
+  draw(const PlaneViewScene& scene, Image& image) const;
+
+  /** \brief Draws into a PNG file, atomically. \return where things are on it
+   * \throws BadArgument as draw() \throws IoFailed as draw(), or the file cannot be
+   * written */
+  PlaneViewLayout
+  write(const std::filesystem::path& path, const PlaneViewScene& scene) const;
+
+private:
+  PlaneViewOptions options_;
+};
+
+} // namespace pcl6d

@@ -114,7 +114,6 @@ finishPlanes(const PlaneCloud& cloud,
   options.validate();
   PlaneParts parts(cloud, options);
   parts.start(candidates);
-  parts.dropSmall();
   parts.merge();
   for (int round = 0; round < 3; ++round) {
     for (int hop = 0; hop < (round == 2 ? kHops : 1); ++hop)

@@ -35,6 +35,8 @@ PlaneParts::start(const PlaneCandidates& candidates)
 {
   parts_.clear();
   for (const auto& points : candidates) {
+    if (points.size() < options_.min_points / 2)
+      continue; // would not get through split() either
     parts_.emplace_back();
     parts_.back().points = points;
     std::sort(parts_.back().points.begin(), parts_.back().points.end());

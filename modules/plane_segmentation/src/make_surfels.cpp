@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "make_surfels.h"
-#include "plane_sums.h"
+#include "plane_moments.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/filters/voxel_reduction.h>
@@ -56,7 +56,7 @@ patchOf(const Surfels& surfels, std::size_t i, std::size_t most)
   const std::size_t size =
       std::min<std::size_t>(most, surfels.link_begin[i + 1] - begin);
   const Eigen::Vector3f& place = surfels.points[i];
-  PlaneSums sums(place.cast<double>());
+  PlaneMoments sums(place.cast<double>());
   for (std::size_t k = begin; k < begin + size; ++k)
     sums.add(surfels.points[surfels.links[k]].cast<double>());
   Patch patch;

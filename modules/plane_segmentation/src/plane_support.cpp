@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plane_sums.h"
+#include "plane_moments.h"
 #include "plane_support.h"
 
 #include <Eigen/Cholesky>
@@ -78,7 +78,7 @@ fitted(const SurfelColumns& surfels,
        const std::vector<std::uint32_t>& slots,
        const Slab& before)
 {
-  PlaneSums sums(surfels.point(slots.front()).cast<double>());
+  PlaneMoments sums(surfels.point(slots.front()).cast<double>());
   for (const auto slot : slots) {
     const double reach = surfels.reach[slot];
     sums.add(surfels.point(slot).cast<double>(), 1 / (reach * reach));

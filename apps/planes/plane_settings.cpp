@@ -25,7 +25,7 @@ struct Words {
   std::string up = "z";
   std::string rules = "book";
   bool no_labels = false;
-  bool project = false;
+  bool keep_noise = false;
   int threads = 0;
 };
 
@@ -80,9 +80,10 @@ describeLabels(CommandLine& line, PlaneSettings& s, Words& words)
           "refine",
           po::bool_switch(&s.step.refine),
           "make labelled planes exactly parallel, orthogonal, level and upright, and "
-          "move their points with them")("project",
-                                         po::bool_switch(&words.project),
-                                         "put their points onto the planes");
+          "put their points onto them")("keep-noise",
+                                        po::bool_switch(&words.keep_noise),
+                                        "turn and shift their points with them only, "
+                                        "noise and all");
 }
 
 void
@@ -120,9 +121,10 @@ judgeUse(const CommandLine& line, const Words& words, PlaneSettings& s)
                          s.input + " is none");
   if (words.no_labels && s.step.refine)
     throw UsageError("--refine needs labels, but --no-labels is given");
-  s.without_effect = line.withoutEffect({{"rules", s.step.labels, "with labels"},
-                                         {"up", s.step.labels, "with labels"},
-                                         {"project", s.step.refine, "with --refine"}});
+  s.without_effect =
+      line.withoutEffect({{"rules", s.step.labels, "with labels"},
+                          {"up", s.step.labels, "with labels"},
+                          {"keep-noise", s.step.refine, "with --refine"}});
 }
 
 void
@@ -152,7 +154,7 @@ interpret(const CommandLine& line, const Words& words, PlaneSettings& s)
   if (words.up == "auto")
     step.interpretation.up.reset();
   step.interpretation.validate();
-  step.refinement.project = words.project;
+  step.refinement.project = !words.keep_noise;
   step.refinement.validate();
 }
 } // namespace

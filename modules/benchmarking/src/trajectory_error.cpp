@@ -4,6 +4,7 @@
 #include <pcl6d/benchmarking/trajectory_error.h>
 #include <pcl6d/benchmarking/trajectory_resampling.h>
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/rotation.h>
 
 #include <Eigen/SVD>
@@ -55,7 +56,7 @@ poseError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& reference)
       Eigen::Matrix3d(reference.linear().transpose() * estimate.linear()));
   PoseError error;
   error.position = difference.norm();
-  error.orientation = 2 * std::atan2(q.vec().norm(), std::abs(q.w()));
+  error.orientation = 2 * portableAtan2(q.vec().norm(), std::abs(q.w()));
   error.position_2d = difference.head<2>().norm();
   error.yaw = std::abs(wrapAngle(eulerFromRotation(estimate.linear()).yaw -
                                  eulerFromRotation(reference.linear()).yaw));

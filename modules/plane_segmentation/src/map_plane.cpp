@@ -2,6 +2,8 @@
 #include "map_plane.h"
 #include "plane_outline.h"
 
+#include <pcl6d/common/portable_math.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,7 +51,7 @@ MapPlane::MapPlane(const std::vector<Eigen::Vector3d>& places,
 bool
 MapPlane::isContinuedBy(const MapPlane& other, const PlaneMapOptions& options) const
 {
-  if (plane_.normal.dot(other.plane_.normal) < std::cos(options.max_angle))
+  if (plane_.normal.dot(other.plane_.normal) < portableSinCos(options.max_angle).cos)
     return false;
   double steps = 0;
   std::size_t count = 0;

@@ -3,6 +3,7 @@
 #include "plane_parts.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/portable_math.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,8 +51,8 @@ PlaneParts::supports(const PlanePart& part, std::uint32_t point) const
 {
   const std::uint32_t surfel = cloud_.surfels().of_point[point];
   const Eigen::Vector3d normal = cloud_.normals()[point].cast<double>();
-  return cloud_.surfels().smooth[surfel] &&
-         std::abs(part.plane.normal.dot(normal)) > std::cos(options_.max_angle);
+  return cloud_.surfels().smooth[surfel] && std::abs(part.plane.normal.dot(normal)) >
+                                                portableSinCos(options_.max_angle).cos;
 }
 
 bool

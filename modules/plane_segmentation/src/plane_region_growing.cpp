@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plane_moments.h"
 
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/plane_segmentation/plane_region_growing.h>
 
@@ -21,7 +22,7 @@ public:
   Grower(const PlaneCloud& cloud, const RegionGrowingOptions& options)
   : surfels_(cloud.surfels())
   , options_(options)
-  , least_cosine_(std::cos(options.max_angle))
+  , least_cosine_(portableSinCos(options.max_angle).cos)
   , taken_(surfels_.size(), 0)
   , seen_(surfels_.size(), 0)
   {}

@@ -4,9 +4,13 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/map_builder.h>
+
+#include <pcl/conversions.h>
+#include <pcl/point_types.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -43,17 +47,54 @@ say(ProgressBar& bar, const std::string& name, const Parameter& parameter)
   bar.say(line.str());
 }
 
+/** What lies outside the range gate becomes NaN. */
+void
+dropOutOfRange(const Slam6DParameters& parameters, Points& points)
+{
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  for (auto& p : points)
+    if (!isWithinRange(p, parameters.min_range.value, parameters.max_range.value))
+      p.setConstant(kNan);
+}
+
+/** The points of an organized PCD file, on its grid; those without a measurement are NaN.
+ * \return nothing for any other file */
+std::optional<PlaneStepCloud>
+readGrid(const PlaneSettings& s)
+{
+  const ScanFormat format = s.folder.format == ScanFormat::kAuto
+                                ? scanFormatOfExtension(s.input)
+                                : s.folder.format;
+  if (format != ScanFormat::kPcd)
+    return {};
+  const pcl::PCLPointCloud2 cloud = readPcd(s.input);
+  if (cloud.height <= 1 || cloud.width <= 1)
+    return {};
+  PlaneStepCloud grid;
+  pcl::PointCloud<pcl::PointXYZ> points;
+  pcl::fromPCLPointCloud2(cloud, points);
+  grid.points = toPoints(points);
+  grid.width = cloud.width;
+  return grid;
+}
+
 PlaneStepCloud
 readOne(const PlaneSettings& s, ProgressBar& bar)
 {
-  const Scan scan = readScan(s.input, s.folder.format);
-  const Slam6DParameters parameters = parametersOf(s, {scan.points});
+  PlaneStepCloud cloud;
+  if (auto grid = readGrid(s))
+    cloud = *std::move(grid);
+  else
+    cloud.points = readScan(s.input, s.folder.format).points;
+  const Slam6DParameters parameters = parametersOf(s, {cloud.points});
   say(bar, "min-range", parameters.min_range);
   say(bar, "max-range", parameters.max_range);
-  PlaneStepCloud result;
-  result.points =
-      gateByRange(scan.points, parameters.min_range.value, parameters.max_range.value);
-  return result;
+  if (cloud.width > 1)
+    dropOutOfRange(parameters, cloud.points);
+  else
+    cloud.points = gateByRange(
+        cloud.points, parameters.min_range.value, parameters.max_range.value);
+  return cloud;
 }
 
 /** Joins the scans of a folder. */
@@ -76,10 +117,9 @@ public:
       if (interrupt.requested())
         return {};
       poses.push_back(scans_.pose(i));
-      map.addScan(gated(scans_.folder().read(i).points),
-                  {},
-                  poses.back(),
-                  static_cast<std::uint32_t>(i));
+      Points points = scans_.folder().read(i).points;
+      dropOutOfRange(parameters_, points);
+      map.addScan(points, {}, poses.back(), static_cast<std::uint32_t>(i));
       bar_.show({"reading", i + 1, scans_.folder().size()});
     }
     return planeCloudOf(map, poses, scans_.worldOffset());
@@ -112,17 +152,6 @@ private:
     }
     say(bar_, "voxel", parameters_.voxel);
     return true;
-  }
-
-  /** The map leaves out what is NaN. */
-  Points
-  gated(Points points) const
-  {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    for (auto& p : points)
-      if (!isWithinRange(p, parameters_.min_range.value, parameters_.max_range.value))
-        p.setConstant(kNan);
-    return points;
   }
 
   const PlaneSettings& settings_;

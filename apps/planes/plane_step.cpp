@@ -22,6 +22,7 @@ cloudOptions(const PlaneStepCloud& cloud,
 {
   PlaneCloudOptions made;
   made.viewpoints = cloud.viewpoints;
+  made.width = cloud.width;
   made.noise = options.noise;
   made.num_threads = num_threads;
   return made;

@@ -15,6 +15,7 @@ namespace pcl6d::app {
 struct PlaneStepCloud {
   pcl::PCLPointCloud2 cloud; ///< all fields, to be written with the planes
   Points points;             ///< [m] x, y, z of it
+  std::size_t width = 0;     ///< > 1: the points are a grid, in rows of this length
   Points viewpoints;         ///< [m] per point where it was seen from; empty: origin
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero(); ///< [m] of the points
 };

@@ -170,7 +170,7 @@ PlaneCloud::PlaneCloud(const Points& points, const PlaneCloudOptions& options)
       suitableVoxel(spacing_,
                     length(options.noise ? *options.noise : roughNoise(points_, tree_),
                            distortion_ * medianRange(*this))));
-  surfels_ = groupSurfels(points_, voxel, num_threads_);
+  surfels_ = groupSurfels(points_, voxel, {options.width, &places_}, num_threads_);
   noise_ = options.noise ? NoiseModel(*options.noise) : measuredNoise(*this);
   for (std::size_t i = 0; i < surfels_.size(); ++i)
     surfels_.noise.push_back(

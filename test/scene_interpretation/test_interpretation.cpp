@@ -88,6 +88,13 @@ TEST(Interpretation, EachStoreyHasItsOwnFloorAndCeiling)
     EXPECT_EQ(found.storey_of[i], i / 9) << i;
 }
 
+TEST(Interpretation, AWallThroughTwoStoreysIsAWallOfBoth)
+{
+  auto planes = house(2);
+  planes.push_back(rectangle("wall", {0, -2.2, 2.8}, 2.5 * kX, -2.8 * kUp)); // outside
+  EXPECT_EQ(interpreted(planes).labels, labelsOf(planes));
+}
+
 TEST(Interpretation, ASplitLevelRoomBesideIsAStoreyButAPlatformIsNot)
 {
   auto planes = BoxRoom().planes();

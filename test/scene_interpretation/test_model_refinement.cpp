@@ -32,7 +32,7 @@ const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 // Root mean square distance [m] of the points of labelled planes to the true planes.
 double
 distanceTo(const std::vector<TruePlane>& truth,
-           const Model& model,
+           const PlaneModel& model,
            const Points& points)
 {
   double sum = 0, count = 0;

@@ -41,6 +41,20 @@ isInTriangle(const Eigen::Vector2d& p,
   return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
 }
 
+// Whether the way from a corner to a point starts inside the ring. Of the copies of a
+// corner that a cut has made, this tells the one on the right side of the cut.
+bool
+startsInside(const Ring& ring, std::size_t i, const Eigen::Vector2d& point)
+{
+  const Eigen::Vector2d& a = ring[(i + ring.size() - 1) % ring.size()].at;
+  const Eigen::Vector2d& b = ring[i].at;
+  const Eigen::Vector2d& c = ring[(i + 1) % ring.size()].at;
+  const bool is_left_before = turn(a, b, point) >= 0;
+  const bool is_left_after = turn(b, c, point) >= 0;
+  return turn(a, b, c) > 0 ? is_left_before && is_left_after
+                           : is_left_before || is_left_after;
+}
+
 // The corner of the ring that a point sees best: that of the nearest edge to its right,
 // or, if another corner stands in between, the one nearest to the level of the point.
 std::size_t
@@ -67,7 +81,8 @@ visibleCorner(const Ring& ring, const Eigen::Vector2d& point)
   std::size_t chosen = best;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Eigen::Vector2d& p = ring[i].at;
-    if (p == corner ||
+    // A triangle without area holds every point of its line: so its end is looked at.
+    if (p.x() > std::max(hit.x(), corner.x()) || !startsInside(ring, i, point) ||
         !(isInTriangle(p, point, hit, corner) || isInTriangle(p, point, corner, hit)))
       continue;
     const Eigen::Vector2d d = p - point;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "make_surfels.h"
-#include "plane_sums.h"
+#include "plane_moments.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/filters/voxel_reduction.h>
@@ -41,6 +41,27 @@ groupPoints(const Points& points, double voxel, Surfels& surfels)
   }
 }
 
+void
+linkByTree(Surfels& surfels, unsigned int num_threads)
+{
+  const std::size_t size = surfels.size();
+  const PointTree tree(surfels.points, num_threads);
+  const std::size_t stride = std::min(size, Surfels::kNeighbours);
+  surfels.radii.resize(size);
+  surfels.links.resize(size * stride);
+  parallelBlocks(size, kBlockSize, num_threads, [&](const Block& block) {
+    std::array<Neighbour, Surfels::kNeighbours> nearest;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      tree.nearestK(surfels.points[i], stride, nearest.data());
+      surfels.radii[i] = std::sqrt(nearest[stride - 1].distance_sq);
+      for (std::size_t k = 0; k < stride; ++k)
+        surfels.links[i * stride + k] = static_cast<std::uint32_t>(nearest[k].index);
+    }
+  });
+  for (std::size_t i = 0; i <= size; ++i)
+    surfels.link_begin.push_back(static_cast<std::uint32_t>(i * stride));
+}
+
 /** The plane of the nearest neighbours of a surfel. */
 struct Patch {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero(); // zero: none
@@ -56,7 +77,7 @@ patchOf(const Surfels& surfels, std::size_t i, std::size_t most)
   const std::size_t size =
       std::min<std::size_t>(most, surfels.link_begin[i + 1] - begin);
   const Eigen::Vector3f& place = surfels.points[i];
-  PlaneSums sums(place.cast<double>());
+  PlaneMoments sums(place.cast<double>());
   for (std::size_t k = begin; k < begin + size; ++k)
     sums.add(surfels.points[surfels.links[k]].cast<double>());
   Patch patch;
@@ -80,26 +101,17 @@ patchOf(const Surfels& surfels, std::size_t i, std::size_t most)
 } // namespace
 
 Surfels
-groupSurfels(const Points& points, double voxel, unsigned int num_threads)
+groupSurfels(const Points& points,
+             double voxel,
+             const PointGrid& grid,
+             unsigned int num_threads)
 {
   Surfels surfels;
   groupPoints(points, voxel, surfels);
-  const std::size_t size = surfels.size();
-  const PointTree tree(surfels.points, num_threads);
-  const std::size_t stride = std::min(size, Surfels::kNeighbours);
-  surfels.radii.resize(size);
-  surfels.links.resize(size * stride);
-  parallelBlocks(size, kBlockSize, num_threads, [&](const Block& block) {
-    std::array<Neighbour, Surfels::kNeighbours> nearest;
-    for (std::size_t i = block.begin; i < block.end; ++i) {
-      tree.nearestK(surfels.points[i], stride, nearest.data());
-      surfels.radii[i] = std::sqrt(nearest[stride - 1].distance_sq);
-      for (std::size_t k = 0; k < stride; ++k)
-        surfels.links[i * stride + k] = static_cast<std::uint32_t>(nearest[k].index);
-    }
-  });
-  for (std::size_t i = 0; i <= size; ++i)
-    surfels.link_begin.push_back(static_cast<std::uint32_t>(i * stride));
+  if (grid.width > 1)
+    linkByGrid(surfels, grid, num_threads);
+  else
+    linkByTree(surfels, num_threads);
   return surfels;
 }
 

@@ -2,6 +2,7 @@
 #include "plane_claims.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/portable_math.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,7 @@ public:
   : cloud_(cloud)
   , parts_(parts)
   , max_distance_(options.max_plane_distance)
-  , least_cosine_(std::cos(options.max_angle))
+  , least_cosine_(portableSinCos(options.max_angle).cos)
   {}
 
   /** \return the part that a point belongs to, of those around it */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "make_surfels.h"
-#include "plane_sums.h"
+#include "plane_moments.h"
 
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/require.h>
@@ -56,7 +56,7 @@ medianSpacing(const Points& points, const PointTree& tree)
 
 /** \return rms [m] of points about their plane, unbiased; none if they have no plane */
 std::optional<double>
-residualOf(const PlaneSums& sums)
+residualOf(const PlaneMoments& sums)
 {
   const auto plane = sums.fit();
   if (!plane || sums.count() < 4)
@@ -73,7 +73,7 @@ roughNoise(const Points& points, const PointTree& tree)
   std::vector<double> ranges, residuals;
   for (std::size_t i = 0; i < points.size(); i += strideOfSamples(points.size())) {
     const std::size_t size = tree.nearestK(points[i], patch.size(), patch.data());
-    PlaneSums sums(points[i].cast<double>());
+    PlaneMoments sums(points[i].cast<double>());
     for (std::size_t k = 0; k < size; ++k)
       sums.add(points[static_cast<std::size_t>(patch[k].index)].cast<double>());
     if (const auto residual = residualOf(sums))
@@ -89,7 +89,7 @@ measuredNoise(const PlaneCloud& cloud)
   const Surfels& surfels = cloud.surfels();
   std::vector<double> ranges, residuals;
   for (std::size_t i = 0; i < surfels.size(); i += strideOfSamples(surfels.size())) {
-    PlaneSums sums(surfels.points[i].cast<double>());
+    PlaneMoments sums(surfels.points[i].cast<double>());
     for (std::size_t k = surfels.link_begin[i]; k < surfels.link_begin[i + 1]; ++k) {
       const std::uint32_t near = surfels.links[k];
       for (std::size_t m = surfels.begin[near]; m < surfels.begin[near + 1]; ++m)
@@ -170,7 +170,7 @@ PlaneCloud::PlaneCloud(const Points& points, const PlaneCloudOptions& options)
       suitableVoxel(spacing_,
                     length(options.noise ? *options.noise : roughNoise(points_, tree_),
                            distortion_ * medianRange(*this))));
-  surfels_ = groupSurfels(points_, voxel, num_threads_);
+  surfels_ = groupSurfels(points_, voxel, {options.width, &places_}, num_threads_);
   noise_ = options.noise ? NoiseModel(*options.noise) : measuredNoise(*this);
   for (std::size_t i = 0; i < surfels_.size(); ++i)
     surfels_.noise.push_back(

@@ -14,6 +14,8 @@ namespace pcl6d {
 namespace {
 /** Of the distance to a surfel's farthest neighbour: larger gaps belong to the outline. */
 constexpr double kOutlineRadius = 0.6;
+constexpr int kHops =
+    4; // to neighbours of neighbours, once small parts are out of the way
 constexpr double kLeastRadius = 0.015; // [m]
 
 /** \return the radius [m] of the disc that outlines the part; that which suits half of
@@ -113,12 +115,13 @@ finishPlanes(const PlaneCloud& cloud,
   PlaneParts parts(cloud, options);
   parts.start(candidates);
   parts.merge();
-  parts.claim();
-  parts.split(options.min_points / 2);
-  parts.merge();
-  parts.claim();
-  parts.split(options.min_points / 2);
-  parts.merge();
+  for (int round = 0; round < 3; ++round) {
+    for (int hop = 0; hop < (round == 2 ? kHops : 1); ++hop)
+      parts.claim();
+    parts.split(options.min_points / 2);
+    parts.merge();
+    parts.dropSmall();
+  }
   PlaneSegments result;
   result.planes = segmentsOf(cloud, parts.parts(), options);
   std::vector<char> on_plane(cloud.places().empty() ? 0 : cloud.places().back() + 1, 0);

@@ -14,8 +14,8 @@ namespace {
 constexpr double kLeastCosine = 0.94; // of the normals of one carrier plane: 20 deg
 /** How much farther, squared, points may be from a common plane than from their own. */
 constexpr double kGrowth = 1.3;
-constexpr double kShift = 1.0; // [sigma] beyond that, for what noise does not explain
-constexpr double kLargestStep = 2.0; // [sigma] between the planes where the parts meet
+constexpr double kShift = 1.5; // [sigma] beyond that, for what noise does not explain
+constexpr double kLargestStep = 3.0; // [sigma] between the planes where the parts meet
 
 bool
 staysAsFlat(const PlanePart& part, const PlaneFit& common)
@@ -31,7 +31,7 @@ shareCarrier(const PlanePart& a, const PlanePart& b)
 {
   if (a.plane.normal.dot(b.plane.normal) < kLeastCosine)
     return false;
-  PlaneSums sums = a.sums;
+  PlaneMoments sums = a.sums;
   sums.add(b.sums);
   const auto common = sums.fit();
   return common && staysAsFlat(a, *common) && staysAsFlat(b, *common);

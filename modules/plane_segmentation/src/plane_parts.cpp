@@ -3,6 +3,7 @@
 #include "plane_parts.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/portable_math.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,8 @@
 namespace pcl6d {
 
 namespace {
+constexpr double kSurelySmall = 0.5; // of the least area, by an estimate
+
 /** Makes the normal point to where most of the points were seen from. */
 void
 turnToSensor(const PlaneCloud& cloud, PlanePart& part)
@@ -33,6 +36,8 @@ PlaneParts::start(const PlaneCandidates& candidates)
 {
   parts_.clear();
   for (const auto& points : candidates) {
+    if (points.size() < options_.min_points / 2)
+      continue; // would not get through split() either
     parts_.emplace_back();
     parts_.back().points = points;
     std::sort(parts_.back().points.begin(), parts_.back().points.end());
@@ -46,8 +51,8 @@ PlaneParts::supports(const PlanePart& part, std::uint32_t point) const
 {
   const std::uint32_t surfel = cloud_.surfels().of_point[point];
   const Eigen::Vector3d normal = cloud_.normals()[point].cast<double>();
-  return cloud_.surfels().smooth[surfel] &&
-         std::abs(part.plane.normal.dot(normal)) > std::cos(options_.max_angle);
+  return cloud_.surfels().smooth[surfel] && std::abs(part.plane.normal.dot(normal)) >
+                                                portableSinCos(options_.max_angle).cos;
 }
 
 bool
@@ -56,7 +61,7 @@ PlaneParts::fit(PlanePart& part) const
   if (part.points.size() < 3)
     return false;
   const Eigen::Vector3d about = cloud_.points()[part.points.front()].cast<double>();
-  PlaneSums all(about), firm(about);
+  PlaneMoments all(about), firm(about);
   double squares = 0;
   const bool known = part.sums.count() > 0;
   for (const auto i : part.points) {
@@ -112,6 +117,21 @@ PlaneParts::surfelsOf(const PlanePart& part) const
   std::sort(surfels.begin(), surfels.end());
   surfels.erase(std::unique(surfels.begin(), surfels.end()), surfels.end());
   return surfels;
+}
+
+void
+PlaneParts::dropSmall()
+{
+  const Surfels& surfels = cloud_.surfels();
+  const auto is_small = [&](const PlanePart& part) {
+    double squares = 0;
+    for (const auto i : surfelsOf(part))
+      squares += static_cast<double>(surfels.radii[i] * surfels.radii[i]);
+    const double area = M_PI * squares / static_cast<double>(Surfels::kNeighbours);
+    return part.points.size() < options_.min_points ||
+           area < kSurelySmall * options_.min_area;
+  };
+  parts_.erase(std::remove_if(parts_.begin(), parts_.end(), is_small), parts_.end());
 }
 
 } // namespace pcl6d

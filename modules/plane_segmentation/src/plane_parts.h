@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "plane_sums.h"
+#include "plane_moments.h"
 
 #include <pcl6d/plane_segmentation/plane_finishing.h>
 
@@ -13,7 +13,7 @@ namespace pcl6d {
 /** \brief A plane in the making. The normal points to the side that was seen. */
 struct PlanePart {
   PlaneFit plane;
-  PlaneSums sums;                    ///< of the points that the plane is fitted to
+  PlaneMoments sums;                 ///< of the points that the plane is fitted to
   double sigma = 0;                  ///< [m] noise of these
   std::vector<std::uint32_t> points; ///< places in PlaneCloud::points(), ascending
 };
@@ -41,6 +41,11 @@ public:
   /** \brief Parts of one carrier plane that are near each other become one. */
   void
   merge();
+
+  /** \brief Drops what is too small to be a plane, so that it no longer claims points.
+   * Areas are estimates here, from the density of surfels. */
+  void
+  dropSmall();
 
   const std::vector<PlanePart>&
   parts() const

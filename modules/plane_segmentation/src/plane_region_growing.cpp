@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plane_sums.h"
+#include "plane_moments.h"
 
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/plane_segmentation/plane_region_growing.h>
 
@@ -21,7 +22,7 @@ public:
   Grower(const PlaneCloud& cloud, const RegionGrowingOptions& options)
   : surfels_(cloud.surfels())
   , options_(options)
-  , least_cosine_(std::cos(options.max_angle))
+  , least_cosine_(portableSinCos(options.max_angle).cos)
   , taken_(surfels_.size(), 0)
   , seen_(surfels_.size(), 0)
   {}
@@ -71,7 +72,7 @@ private:
   growFrom(PlaneFit& plane)
   {
     ++growth_;
-    sums_ = PlaneSums(surfels_.points[region_.front()].cast<double>());
+    sums_ = PlaneMoments(surfels_.points[region_.front()].cast<double>());
     squares_ = 0;
     std::vector<std::uint32_t> before;
     before.swap(region_);
@@ -136,7 +137,7 @@ private:
   std::vector<std::uint32_t> seen_; // the last growth that looked at a surfel
   std::uint32_t growth_ = 0;
   std::vector<std::uint32_t> region_;
-  PlaneSums sums_;     // of the region, weighted by 1 / sigma^2
+  PlaneMoments sums_;  // of the region, weighted by 1 / sigma^2
   double squares_ = 0; // [sigma^2] of the region's distances to its plane
 };
 } // namespace

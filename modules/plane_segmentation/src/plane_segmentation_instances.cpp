@@ -6,4 +6,6 @@
 namespace pcl6d {
 PCL6D_DEFINE_INSTANCES(PlaneSegmentation)
 PCL6D_DEFINE_INSTANCES(RegionGrowingPlaneSegmentation)
+PCL6D_DEFINE_INSTANCES(RansacPlaneSegmentation)
+PCL6D_DEFINE_INSTANCES(HoughPlaneSegmentation)
 } // namespace pcl6d

@@ -15,10 +15,12 @@ candidatesBy(const PlaneCloud& cloud,
   case PlaneMethod::kRegionGrowing:
     return regionGrowingCandidates(cloud, options.region_growing);
   case PlaneMethod::kRansac:
+    return ransacCandidates(cloud, options.ransac);
   case PlaneMethod::kHough:
-    break;
+    return houghCandidates(cloud, options.hough);
   }
-  throw ComputeFailed("plane method " + toString(method) + " is not there yet");
+  throw BadArgument("plane method = " + std::to_string(static_cast<int>(method)) +
+                    ", but must be one of PlaneMethod");
 }
 } // namespace
 
@@ -52,6 +54,8 @@ PlaneSegmentationOptions::validate() const
 {
   planes.validate();
   region_growing.validate();
+  ransac.validate();
+  hough.validate();
 }
 
 PlaneSegments

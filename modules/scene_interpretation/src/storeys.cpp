@@ -180,6 +180,9 @@ findStoreys(std::vector<ScenePlane>& planes,
   for (std::size_t i = 0; i < planes.size(); ++i) {
     planes[i].floor = result.storeys[result.storey_of[i]].floor;
     planes[i].ceiling = ceilings[i];
+    // A wall through several storeys is as high as its own.
+    if (ceilings[i] && planes[i].bottom < *ceilings[i] && planes[i].top > *ceilings[i])
+      planes[i].centre.z() = (planes[i].bottom + *ceilings[i]) / 2;
   }
 }
 

@@ -22,7 +22,9 @@ using PlaneCandidates = std::vector<std::vector<std::uint32_t>>;
 /** \brief What is known of a cloud beside its points, and how it is prepared. */
 struct PlaneCloudOptions {
   Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero(); ///< [m] where the sensor stood
-  Points viewpoints;           ///< [m] of each point, if they differ; else empty
+  /** [m] of each point, if they differ; else empty. Faces of a wall that are closer than
+   * the neighbours of a surfel get in each other's way; PlaneMap keeps them apart. */
+  Points viewpoints;
   std::size_t width = 0;       ///< > 1: an organized cloud, in rows of this length
   std::optional<double> voxel; ///< [m] of the surfels, > 0; none: by spacing and noise
   std::optional<double> noise; ///< [m] of a point, > 0; none: estimated, over range

@@ -99,9 +99,59 @@ private:
   RegionGrowingOptions options_;
 };
 
+/** \brief Planes by random samples, see ransacCandidates(). \ingroup plane_segmentation */
+template <typename PointT>
+class RansacPlaneSegmentation : public PlaneSegmentation<PointT> {
+public:
+  using Ptr = pcl::shared_ptr<RansacPlaneSegmentation<PointT>>;
+
+  /** \brief How samples are drawn. */
+  RansacPlaneOptions&
+  options()
+  {
+    return options_;
+  }
+
+protected:
+  PlaneCandidates
+  findCandidates(const PlaneCloud& cloud) const override
+  {
+    return ransacCandidates(cloud, options_);
+  }
+
+private:
+  RansacPlaneOptions options_;
+};
+
+/** \brief Planes by votes, see houghCandidates(). \ingroup plane_segmentation */
+template <typename PointT>
+class HoughPlaneSegmentation : public PlaneSegmentation<PointT> {
+public:
+  using Ptr = pcl::shared_ptr<HoughPlaneSegmentation<PointT>>;
+
+  /** \brief Who votes, and in which cells. */
+  HoughPlaneOptions&
+  options()
+  {
+    return options_;
+  }
+
+protected:
+  PlaneCandidates
+  findCandidates(const PlaneCloud& cloud) const override
+  {
+    return houghCandidates(cloud, options_);
+  }
+
+private:
+  HoughPlaneOptions options_;
+};
+
 } // namespace pcl6d
 #include <pcl6d/plane_segmentation/impl/plane_segmentation.hpp>
 namespace pcl6d {
 PCL6D_DECLARE_INSTANCES(PlaneSegmentation)
 PCL6D_DECLARE_INSTANCES(RegionGrowingPlaneSegmentation)
+PCL6D_DECLARE_INSTANCES(RansacPlaneSegmentation)
+PCL6D_DECLARE_INSTANCES(HoughPlaneSegmentation)
 } // namespace pcl6d

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <pcl6d/plane_segmentation/plane_finishing.h>
+#include <pcl6d/plane_segmentation/plane_hough.h>
+#include <pcl6d/plane_segmentation/plane_ransac.h>
 #include <pcl6d/plane_segmentation/plane_region_growing.h>
 
 #include <string>
@@ -24,6 +26,8 @@ toString(PlaneMethod method);
 struct PlaneSegmentationOptions {
   PlaneOptions planes;
   RegionGrowingOptions region_growing; ///< of kRegionGrowing
+  RansacPlaneOptions ransac;           ///< of kRansac
+  HoughPlaneOptions hough;             ///< of kHough
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

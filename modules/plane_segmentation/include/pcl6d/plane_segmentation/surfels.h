@@ -29,7 +29,8 @@ struct Surfels {
   std::vector<std::uint32_t> begin;    ///< first of each in members, and the end
   std::vector<std::uint32_t> members;  ///< points, surfel by surfel, ascending in each
   std::vector<std::uint32_t> link_begin; ///< first of each in links, and the end
-  std::vector<std::uint32_t> links; ///< neighbours of each, nearest first, itself too
+  std::vector<std::uint32_t> links; ///< neighbours of each, nearest first, itself too;
+                                    ///< of an organized cloud those on its grid
 
   std::size_t
   size() const

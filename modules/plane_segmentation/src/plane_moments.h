@@ -31,10 +31,10 @@ struct PlaneFit {
 
 /** \brief Weighted sums over points about a fixed place, from which the least-squares
  * plane follows (book 7.1.1). Sums of parts add up to those of the whole. */
-class PlaneSums {
+class PlaneMoments {
 public:
   /** \param[in] about [m] a place near the points, which saves digits */
-  explicit PlaneSums(const Eigen::Vector3d& about = Eigen::Vector3d::Zero())
+  explicit PlaneMoments(const Eigen::Vector3d& about = Eigen::Vector3d::Zero())
   : about_(about)
   {}
 
@@ -50,7 +50,7 @@ public:
 
   /** \brief Adds sums, which may be about another place. */
   void
-  add(const PlaneSums& other);
+  add(const PlaneMoments& other);
 
   std::size_t
   count() const

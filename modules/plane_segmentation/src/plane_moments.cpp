@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plane_sums.h"
+#include "plane_moments.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -8,7 +8,7 @@
 namespace pcl6d {
 
 void
-PlaneSums::add(const PlaneSums& other)
+PlaneMoments::add(const PlaneMoments& other)
 {
   const Eigen::Vector3d shift = other.about_ - about_;
   const Eigen::Matrix3d mixed = other.sum_ * shift.transpose();
@@ -20,7 +20,7 @@ PlaneSums::add(const PlaneSums& other)
 }
 
 double
-PlaneSums::meanSquare(const PlaneFit& plane) const
+PlaneMoments::meanSquare(const PlaneFit& plane) const
 {
   const double shift = plane.distance(mean());
   const double square =
@@ -29,7 +29,7 @@ PlaneSums::meanSquare(const PlaneFit& plane) const
 }
 
 std::optional<PlaneFit>
-PlaneSums::fit() const
+PlaneMoments::fit() const
 {
   constexpr double kLineTolerance = 1e-9; // of squared spreads (book 7.1.1)
   if (count_ < 3)

@@ -12,6 +12,7 @@
 
 using pcl6d::portableAcos;
 using pcl6d::portableAtan2;
+using pcl6d::portableExp;
 using pcl6d::portableLog;
 using pcl6d::portableSinCos;
 using pcl6d::Random;
@@ -218,6 +219,45 @@ TEST(PortableLog, AgreesWithTheCLibraryAtTheEdges)
   EXPECT_EQ(portableLog(kInfinity), kInfinity);
   for (const double x : {-kSmallest, -1.0, -kInfinity, kNan})
     EXPECT_TRUE(std::isnan(portableLog(x))) << x;
+}
+
+TEST(PortableExp, IsWithinOneUlp)
+{
+  Random random(6);
+  for (int i = 0; i < kTrials; ++i)
+    for (const double x : {random.uniform(-708, 709.7),
+                           random.uniform(-1, 1),
+                           random.uniform(-20, 20),
+                           std::ldexp(ofAnySize(random, 30), -30),
+                           (std::floor(random.uniform(-1000, 1000)) + 0.5) * M_LN2}) {
+      ASSERT_LE(ulps(portableExp(x), std::exp(static_cast<long double>(x))), 1)
+          << std::hexfloat << x;
+    }
+}
+
+TEST(PortableExp, AgreesWithTheCLibraryAtTheEdges)
+{
+  EXPECT_EQ(portableExp(0), 1);
+  EXPECT_EQ(portableExp(-0.0), 1);
+  EXPECT_EQ(portableExp(kSmallest), 1);
+  for (const double x : {709.79, 1e300, kInfinity})
+    EXPECT_EQ(portableExp(x), kInfinity) << x;
+  for (const double x : {-745.2, -800.0, -1e300, -kInfinity})
+    EXPECT_EQ(portableExp(x), 0) << x;
+  EXPECT_LT(portableExp(709.78), kInfinity);
+  for (double x = -745; x < -708; x += 0.37) // numbers with fewer digits
+    EXPECT_NEAR(portableExp(x), std::exp(x), 1.5 * kSmallest + 1e-15 * std::exp(x))
+        << x;
+  EXPECT_TRUE(std::isnan(portableExp(kNan)));
+}
+
+TEST(PortableExp, HasTheBitsItHadOnEveryMachineSoFar)
+{
+  Random random(7);
+  std::uint64_t hash = 0xcbf29ce484222325ull;
+  for (int i = 0; i < 100000; ++i)
+    addTo(hash, portableExp(random.uniform(-100, 100)));
+  EXPECT_EQ(hash, 7251358543322286089ull);
 }
 
 TEST(PortableMath, HasTheBitsItHadOnEveryMachineSoFar)

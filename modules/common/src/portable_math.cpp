@@ -20,6 +20,8 @@ struct Double2 {
 constexpr Double2 kPi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 constexpr Double2 kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr Double2 kQuarterPi{0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55};
+// log 2 in two parts, so that an exponent times the first one is exact.
+constexpr Double2 kLog2{0x1.62e42fefp-1, 0x1.473de6af278edp-34};
 constexpr Double2 kAtanHalf{0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56};
 
 /** \return a - b; the parts together are exact (Knuth's TwoSum) */
@@ -210,14 +212,43 @@ portableLog(double x)
                                 2.0 / 17,
                                 2.0 / 19,
                                 2.0 / 21};
-  // log 2 in two parts, so that an exponent times the first one is exact.
-  constexpr Double2 kLog2{0x1.62e42fefp-1, 0x1.473de6af278edp-34};
   const double f = m - 1; // exact
   const double s = f / (2 + f);
   const double tail = s * s * polynomial(kArtanh, s * s);
   const double half_sq = 0.5 * f * f;
   const double low = exponent * kLog2.low + s * (half_sq + tail);
   return exponent * kLog2.high + (f - (half_sq - low));
+}
+
+double
+portableExp(double x)
+{
+  if (std::isnan(x))
+    return x;
+  if (x > 710)
+    return kInfinity;
+  if (x < -746)
+    return 0;
+  // e^x = 2^k e^r with r = x - k log 2, |r| < 0.35
+  const double k = std::floor(x * M_LOG2E + 0.5);
+  const double high = x - k * kLog2.high; // exact
+  const double low = k * kLog2.low;
+  const double r = high - low;
+  const double r_low = (high - r) - low;
+  constexpr double kExponential[] = {1.0 / 2,
+                                     1.0 / 6,
+                                     1.0 / 24,
+                                     1.0 / 120,
+                                     1.0 / 720,
+                                     1.0 / 5040,
+                                     1.0 / 40320,
+                                     1.0 / 362880,
+                                     1.0 / 3628800,
+                                     1.0 / 39916800,
+                                     1.0 / 479001600,
+                                     1.0 / 6227020800};
+  const double tail = r_low + r * r * polynomial(kExponential, r);
+  return std::ldexp(1 + (r + tail), static_cast<int>(k));
 }
 
 } // namespace pcl6d

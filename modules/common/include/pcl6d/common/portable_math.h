@@ -2,8 +2,8 @@
 #pragma once
 
 /** \file
- * Sine, cosine, arc tangent, arc cosine and logarithm from + - * / and sqrt alone,
- * which IEEE 754 fixes to the last bit. The C library's functions are as accurate but
+ * Sine, cosine, arc tangent, arc cosine, logarithm and exponential from + - * / and sqrt
+ * alone, which IEEE 754 fixes to the last bit. The C library's functions are as accurate but
  * not as constant: glibc takes other code on a CPU with FMA than on one without, and
  * the last bits of sin, cos, tan, acos, atan2, exp, log and pow differ. Whatever a
  * result depends on calls these instead; so it must not call Eigen::AngleAxis,
@@ -41,5 +41,9 @@ portableAcos(double x);
 /** \return the natural logarithm, within 1 ulp; -infinity of 0, NaN of a negative x */
 double
 portableLog(double x);
+
+/** \return e^x, within 1 ulp; below 2^-1022 within 1.5 times the smallest number */
+double
+portableExp(double x);
 
 } // namespace pcl6d

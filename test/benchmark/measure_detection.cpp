@@ -8,6 +8,7 @@
 #include <pcl6d/io/mesh_io.h>
 #include <pcl6d/object_localization/cascade_file.h>
 #include <pcl6d/object_localization/object_detector.h>
+#include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/scanner/scene_bodies.h>
 #include <pcl6d/scanner/simulator.h>
 

@@ -99,6 +99,7 @@ TEST_F(Pictures, TakeACloudForTheObject)
 
 TEST_F(Pictures, AreRefusedWhereNoneCanBeMade)
 {
+  options.positives = 2;
   scans[0].reflectance.clear();
   options.channel = ImageChannel::kReflectance;
   expectRefused("background scan 0 has no reflectances");

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scans of a built-in scene with drifting odometry and exact truth.
 #include "common/app.h"
-#include "common/command_line.h"
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
-#include "simulate/drive_options.h"
-#include "simulate/scanner_options.h"
-#include "simulate/scene_options.h"
+#include "simulate/settings.h"
 #include "simulate/truth_files.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_name.h>
@@ -30,86 +26,11 @@
 
 namespace {
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using namespace pcl6d;
 
-constexpr const char* kName = "pcl_slam6d_simulate";
+using app::kSimulate;
+using app::SimulateSettings;
 constexpr const char* kMarker = "scene.json"; // only simulated folders have it
-
-struct Settings {
-  app::SceneWords scene;
-  app::ScannerWords scanner;
-  app::DriveWords drive;
-  std::string out;
-  bool has_scans = false; // given by the user
-  std::int64_t seed = 1;  // signed, as boost takes -1 for a large unsigned number
-  int threads = 0;
-  bool force = false;
-  bool quiet = false;
-  SimulationOptions simulation;
-};
-
-bool
-parse(const std::vector<std::string>& arguments, Settings& s)
-{
-  app::CommandLine line(
-      std::string("usage: ") + kName +
-      " SCENE -o DIR [options]\nSimulates a robot that drives through "
-      "a scene and scans it.\nSCENE is a scene description FILE.json, "
-      "a mesh FILE.ply|obj|stl with --path, or one of:" +
-      app::sceneList() + "\nScanners:" + app::scannerList());
-  line.positional("SCENE", &s.scene.name);
-  line.group("Simulation")
-      .add_options() //
-      ("scans",
-       po::value(&s.simulation.num_scans),
-       "number of scans, evenly along the way; by default what suits the scene") //
-      ("seed",
-       app::valueOf(s.seed),
-       "same seed, same bytes; also of what is random in a scene");
-  app::describeScene(line, s.scene);
-  app::describeScanner(line, s.scanner);
-  app::describeDrive(line, s.drive);
-  line.group("Run").add_options() //
-      ("output,o",
-       po::value(&s.out)->value_name("DIR")->required(),
-       "folder to write; made if missing") //
-      ("force",
-       po::bool_switch(&s.force),
-       "write into a folder that holds other files, but no scans") //
-      ("threads",
-       app::valueOf(s.threads),
-       "0: one per core; never changes results") //
-      ("quiet", po::bool_switch(&s.quiet), "print errors only");
-  const bool is_run = line.parse(arguments);
-  s.has_scans = is_run && line.given("scans");
-  return is_run;
-}
-
-/** Moves what has no field of its own into the simulator's options. */
-void
-applySettings(Settings& s)
-{
-  app::checkOptions([&] {
-    require(s.seed >= 0, "seed", s.seed, ">= 0");
-    require(s.threads >= 0, "threads", s.threads, ">= 0");
-  });
-  s.simulation.seed = static_cast<std::uint64_t>(s.seed);
-  s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
-  app::applyDrive(s.drive, s.simulation);
-}
-
-/** Reads the scene and fills in what the user left to it. */
-SimulationScene
-sceneOf(Settings& s)
-{
-  SimulationScene scene = app::loadScene(s.scene, s.simulation.seed);
-  if (!s.has_scans)
-    s.simulation.num_scans = scene.num_scans;
-  app::applyScanner(s.scanner, scene.max_range, s.simulation);
-  app::checkOptions([&] { s.simulation.validate(); }, {{"num_scans", "scans"}});
-  return scene;
-}
 
 /** \return whether a folder holds scans */
 bool
@@ -123,11 +44,11 @@ holdsScans(const fs::path& folder)
 }
 
 app::OutputRules
-outputRules(const Settings& s)
+outputRules(const SimulateSettings& s)
 {
   app::OutputRules rules;
   rules.folder = s.out;
-  rules.program = kName;
+  rules.program = kSimulate;
   rules.marker = kMarker;
   rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
                            "(planes|objects)_truth\\.json|times\\.txt|scene\\.json");
@@ -137,12 +58,12 @@ outputRules(const Settings& s)
 
 void
 writeSceneFile(const fs::path& path,
-               const Settings& s,
+               const SimulateSettings& s,
                const SimulationScene& scene,
                const Simulator& simulator)
 {
   nlohmann::ordered_json json = {{"schema_version", 1},
-                                 {"generator", kName},
+                                 {"generator", kSimulate},
                                  {"scene", s.scene.name},
                                  {"seed", s.seed},
                                  {"scans", s.simulation.num_scans},
@@ -163,7 +84,7 @@ writeSceneFile(const fs::path& path,
 /** \return false when a signal came in before the last scan */
 bool
 writeFiles(const app::OutputFolder& folder,
-           const Settings& s,
+           const SimulateSettings& s,
            const SimulationScene& scene,
            const Simulator& simulator,
            app::ProgressBar& progress)
@@ -201,7 +122,7 @@ writeFiles(const app::OutputFolder& folder,
 }
 
 void
-printSummary(const Settings& s, const Simulator& simulator)
+printSummary(const SimulateSettings& s, const Simulator& simulator)
 {
   double sum_sq = 0;
   double largest = 0;
@@ -228,11 +149,10 @@ printSummary(const Settings& s, const Simulator& simulator)
 int
 run(const std::vector<std::string>& arguments)
 {
-  Settings s;
-  if (!parse(arguments, s))
+  SimulateSettings s;
+  if (!app::parseSettings(arguments, s))
     return app::kDone;
-  applySettings(s);
-  const SimulationScene scene = sceneOf(s);
+  const SimulationScene scene = app::sceneOf(s);
   const Simulator simulator = app::startDrive(scene, s.simulation);
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))
@@ -252,5 +172,5 @@ run(const std::vector<std::string>& arguments)
 int
 main(int argc, char** argv)
 {
-  return pcl6d::app::runMain(kName, argc, argv, run);
+  return pcl6d::app::runMain(kSimulate, argc, argv, run);
 }

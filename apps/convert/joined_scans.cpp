@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/interrupt.h"
+#include "common/open_scans.h"
 #include "common/progress_bar.h"
 #include "convert/joined_layout.h"
 #include "convert/loss_tally.h"
 #include "convert/scan_jobs.h"
-#include "convert/scan_source.h"
 #include "convert/vector_field.h"
 
 #include <pcl6d/common/error.h>
@@ -27,7 +27,9 @@ struct Stopped {}; ///< thrown after a signal
 class JoinedScans {
 public:
   explicit JoinedScans(const ScanSettings& settings)
-  : settings_(settings), source_(settings), bar_(settings.quiet)
+  : settings_(settings)
+  , source_(openScans(settings.input, settings.folder))
+  , bar_(settings.quiet)
   {
     for (std::size_t i = 0; i < source_.folder().size(); ++i)
       refuseAsOutput(source_.folder().file(i));
@@ -147,7 +149,7 @@ private:
   }
 
   const ScanSettings& settings_;
-  const ScanSource source_;
+  const RegisteredScans source_;
   const Interrupt interrupt_;
   ProgressBar bar_;
   JoinedLayout layout_;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/interrupt.h"
+#include "common/open_scans.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "convert/loss_tally.h"
 #include "convert/scan_jobs.h"
-#include "convert/scan_source.h"
 #include "convert/verbs.h"
 
 #include <pcl6d/common/error.h>
@@ -44,7 +44,7 @@ class FolderConversion {
 public:
   explicit FolderConversion(const ScanSettings& settings)
   : settings_(settings)
-  , source_(settings)
+  , source_(openScans(settings.input, settings.folder))
   , out_(rules(settings))
   , bar_(settings.quiet)
   , uos_(isUos(settings.writer.format))
@@ -136,7 +136,7 @@ private:
   }
 
   const ScanSettings& settings_;
-  const ScanSource source_;
+  const RegisteredScans source_;
   OutputFolder out_;
   const Interrupt interrupt_;
   ProgressBar bar_;

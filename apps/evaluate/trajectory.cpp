@@ -1,67 +1,124 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/command_line.h"
+#include "evaluate/result_file.h"
+#include "evaluate/trajectory_report.h"
+#include "evaluate/trusted_rows.h"
 #include "evaluate/verbs.h"
 
-#include <pcl6d/benchmarking/trajectory_error.h>
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/link_list_io.h>
 #include <pcl6d/io/trajectory_io.h>
 
-#include <nlohmann/json.hpp>
-
+#include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <limits>
 
 namespace pcl6d::app {
 
 namespace {
-namespace fs = std::filesystem;
 namespace po = boost::program_options;
-using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180 / M_PI;
 
 struct TrajectorySettings {
   std::string estimate;
   std::string reference;
-  std::string json; ///< file, "-" for stdout, or empty
-  PoseMatchingOptions matching;
+  std::string json;             ///< file, "-" for stdout, or empty
+  std::string output;           ///< .json or .csv, or empty
+  std::string loops;            ///< file, or empty
+  std::string trusted;          ///< mcl.csv of `evaluate mcl`, or empty
+  double interpolation_gap = 0; ///< [s]
+  TrajectoryEvaluationOptions options;
 };
 
-bool
-parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
+constexpr const char* kUsageText =
+    " trajectory ESTIMATE REFERENCE [options]\n"
+    "Position and orientation errors of a trajectory against a reference, first\n"
+    "without alignment, then after the rigid motion that fits the positions best "
+    "(ATE);\n"
+    "errors of the motions per step and per distance (RPE), drift, errors across "
+    "loops\n"
+    "and of length ratios.\n"
+    "Files: KITTI (12 numbers a row) or TUM (8 numbers a row). Poses are matched by\n"
+    "time if both files have stamps (TUM), else by their index. If one file is TUM\n"
+    "and all its stamps are whole numbers within the rows of the other, these are\n"
+    "indices: so give trajectory.tum of a run of selected scans (--first, --every).\n";
+
+void
+addOptions(CommandLine& line, TrajectorySettings& s)
 {
-  CommandLine line(
-      std::string("usage: ") + kEvaluate +
-      " trajectory ESTIMATE REFERENCE [options]\n"
-      "Position and orientation errors of a trajectory against a reference, first\n"
-      "without alignment, then after the rigid motion that fits the positions best.\n"
-      "Files: KITTI (12 numbers a row) or TUM (8 numbers a row). Poses are matched by\n"
-      "time if both files have stamps (TUM), else by their index. If one file is TUM\n"
-      "and all its stamps are whole numbers within the rows of the other, these are\n"
-      "indices: so give trajectory.tum of a run of selected scans (--first, "
-      "--every).\n");
-  line.positional("ESTIMATE", &s.estimate);
-  line.positional("REFERENCE", &s.reference);
-  double& difference = s.matching.max_time_difference;
+  double& difference = s.options.matching.max_time_difference;
+  RevisitOptions& revisits = s.options.revisits;
   line.group("Evaluation")
       .add_options() //
       ("max-time-difference",
        po::value(&difference)->value_name("S")->default_value(difference, "0.02"),
        "[s] largest between the stamps of a pair") //
+      ("interpolate",
+       po::value(&s.interpolation_gap)->value_name("S"),
+       "compare with the reference at the stamps of the estimate, interpolated between "
+       "poses at most [s] apart; both need stamps") //
+      ("lengths",
+       po::value(&s.options.lengths)->multitoken()->value_name("M ..."),
+       "[m] of the stretches of drift; default: 100 200 ... 800, or a round part of "
+       "them "
+       "where the path is shorter") //
+      ("loop-radius",
+       po::value(&revisits.radius)
+           ->value_name("M")
+           ->default_value(revisits.radius, "2"),
+       "[m] largest distance of two positions of the reference that close a loop") //
+      ("loop-path",
+       po::value(&revisits.min_path)->value_name("M")->default_value(revisits.min_path),
+       "[m] shortest way between them") //
+      ("loops",
+       po::value(&s.loops)->value_name("FILE"),
+       "loops in place of those found: lines `a b` with the indices of two poses of "
+       "the "
+       "reference, or a .g2o file") //
+      ("trusted",
+       po::value(&s.trusted)->value_name("mcl.csv"),
+       "leave out the poses of the reference that this table of `mcl` does not trust; "
+       "one row per pose of the reference") //
+      ("output,o",
+       po::value(&s.output)->value_name("FILE"),
+       "write all numbers (.json) or a row per pose (.csv), angles in radians") //
       ("json",
        po::value(&s.json)->value_name("FILE"),
-       "write the numbers (angles in radians) to FILE; - prints them instead of the "
-       "table");
+       "write all numbers as JSON to FILE; - prints them instead of the table");
+}
+
+bool
+parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
+{
+  CommandLine line(std::string("usage: ") + kEvaluate + kUsageText);
+  line.positional("ESTIMATE", &s.estimate);
+  line.positional("REFERENCE", &s.reference);
+  addOptions(line, s);
   if (!line.parse(arguments))
     return false;
-  checkOptions([&] { s.matching.validate(); });
-  std::error_code missing; // a missing file is no input
-  for (const auto& input : {s.estimate, s.reference})
-    if (fs::equivalent(s.json, input, missing))
-      throw UsageError("--json = " + s.json + ", but that is an input");
+  if (line.given("interpolate"))
+    s.options.interpolation_gap = s.interpolation_gap;
+  for (const char* const option : {"loops", "trusted"})
+    if (line.given("interpolate") && line.given(option))
+      throw UsageError(std::string("--") + option +
+                       " names poses of the reference, which --interpolate replaces: "
+                       "give one of both");
+  checkOptions(
+      [&] {
+        s.options.matching.validate();
+        s.options.revisits.validate();
+        const auto gap = s.options.interpolation_gap;
+        require(!gap || *gap > 0, "interpolate", gap.value_or(0), "> 0");
+        for (const double length : s.options.lengths)
+          require(
+              std::isfinite(length) && length > 0, "lengths", length, "finite and > 0");
+      },
+      {{"radius", "loop-radius"}, {"min_path", "loop-path"}});
+  requireExtension("--output", s.output, {".json", ".csv"});
+  const std::vector<std::string> inputs{s.estimate, s.reference, s.loops, s.trusted};
+  refuseInput("--json", s.json, inputs);
+  refuseInput("--output", s.output, inputs);
   return true;
 }
 
@@ -71,125 +128,29 @@ evaluate(const TrajectorySettings& s,
          const Trajectory& estimate,
          const Trajectory& reference)
 try {
-  return evaluateTrajectory(estimate, reference, s.matching);
+  return evaluateTrajectory(estimate, reference, s.options);
 } catch (const pcl::PCLException& e) {
   throw ComputeFailed(s.estimate + " against " + s.reference + ": " + e.what());
 }
 
-Json
-toJson(const ErrorStatistics& errors, const PoseMatching& matching)
-{
-  return {{"rms", errors.rms},
-          {"mean", errors.mean},
-          {"median", errors.median},
-          {"max", errors.max},
-          {"pose_of_max", matching.pairs[errors.index_of_max].estimate}};
-}
-
-/** The share of the path in percent; NaN (null in JSON) if there is no path. */
-double
-percentOfPath(const TrajectoryErrors& errors, double path_length)
-{
-  return path_length > 0 ? 100 * errors.position.rms / path_length
-                         : std::numeric_limits<double>::quiet_NaN();
-}
-
-Json
-toJson(const TrajectoryErrors& errors, const TrajectoryEvaluation& evaluation)
-{
-  const auto& matching = evaluation.matching;
-  return {
-      {"position", toJson(errors.position, matching)},
-      {"orientation", toJson(errors.orientation, matching)},
-      {"position_2d", toJson(errors.position_2d, matching)},
-      {"yaw", toJson(errors.yaw, matching)},
-      {"position_rms_percent_of_path", percentOfPath(errors, evaluation.path_length)}};
-}
-
-Json
-toJson(const TrajectorySettings& s, const TrajectoryEvaluation& evaluation)
-{
-  const auto& matching = evaluation.matching;
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> motion =
-      evaluation.alignment.transform.matrix();
-  Json json = {{"schema_version", 1},
-               {"estimate", s.estimate},
-               {"reference", s.reference},
-               {"matched_by", matching.by_time ? "time" : "index"},
-               {"max_time_difference", s.matching.max_time_difference},
-               {"pairs", matching.pairs.size()},
-               {"unmatched_estimate", matching.unmatched_estimate},
-               {"unmatched_reference", matching.unmatched_reference},
-               {"reference_path_length", evaluation.path_length}};
-  json["without_alignment"] = toJson(evaluation.without_alignment, evaluation);
-  json["with_alignment"] = toJson(evaluation.with_alignment, evaluation);
-  json["alignment"] = {
-      {"status", toString(evaluation.alignment.status)},
-      {"T_reference_estimate",
-       std::vector<double>(motion.data(), motion.data() + motion.size())}};
-  return json;
-}
-
 void
-printRow(const char* what,
-         const ErrorStatistics& errors,
-         double unit,
-         const PoseMatching& matching)
+write(const TrajectorySettings& s, const TrajectoryReport& report)
 {
-  std::printf("  %-18s%12.4f%12.4f%12.4f%12.4f%12zu\n",
-              what,
-              unit * errors.rms,
-              unit * errors.mean,
-              unit * errors.median,
-              unit * errors.max,
-              matching.pairs[errors.index_of_max].estimate);
+  if (s.json == "-")
+    std::fputs(toJson(report).c_str(), stdout);
+  else
+    printTable(report);
+  if (std::fflush(stdout) != 0)
+    throw IoFailed("cannot write to the standard output");
+  const auto writeJson = [&](std::ostream& stream) { stream << toJson(report); };
+  if (!s.json.empty() && s.json != "-")
+    writeFileAtomically(s.json, writeJson);
+  if (hasExtension(s.output, ".csv"))
+    writeFileAtomically(s.output,
+                        [&](std::ostream& stream) { writeCsv(stream, report); });
+  else if (!s.output.empty())
+    writeFileAtomically(s.output, writeJson);
 }
-
-void
-printErrors(const std::string& title,
-            const TrajectoryErrors& errors,
-            const TrajectoryEvaluation& evaluation)
-{
-  const auto& matching = evaluation.matching;
-  std::printf("\n%-20s%12s%12s%12s%12s%12s\n",
-              title.c_str(),
-              "rms",
-              "mean",
-              "median",
-              "max",
-              "max at pose");
-  printRow("position [m]", errors.position, 1, matching);
-  printRow("orientation [deg]", errors.orientation, kDegrees, matching);
-  printRow("2D position [m]", errors.position_2d, 1, matching);
-  printRow("yaw [deg]", errors.yaw, kDegrees, matching);
-  if (evaluation.path_length > 0)
-    std::printf("  position rms is %.2f %% of the path\n",
-                percentOfPath(errors, evaluation.path_length));
-}
-
-void
-printTable(const TrajectorySettings& s, const TrajectoryEvaluation& evaluation)
-{
-  const auto& matching = evaluation.matching;
-  std::printf("%s against %s\n"
-              "%zu pairs of poses by %s, path %.2f m",
-              s.estimate.c_str(),
-              s.reference.c_str(),
-              matching.pairs.size(),
-              matching.by_time ? "time" : "index",
-              evaluation.path_length);
-  if (matching.unmatched_estimate + matching.unmatched_reference > 0)
-    std::printf("; without partner: %zu of the estimate, %zu of the reference",
-                matching.unmatched_estimate,
-                matching.unmatched_reference);
-  std::printf("\n");
-  printErrors("without alignment", evaluation.without_alignment, evaluation);
-  printErrors("with alignment", evaluation.with_alignment, evaluation);
-  if (evaluation.alignment.status != Status::kOk)
-    std::printf("  only shifted: the positions do not determine a rotation (%s)\n",
-                toString(evaluation.alignment.status));
-}
-
 } // namespace
 
 int
@@ -200,18 +161,13 @@ runTrajectory(const std::vector<std::string>& arguments)
     return kDone;
   const Trajectory estimate = readTrajectory(s.estimate);
   const Trajectory reference = readTrajectory(s.reference);
-  const TrajectoryEvaluation evaluation = evaluate(s, estimate, reference);
-  // File names need not be UTF-8, but JSON must be.
-  const std::string json =
-      toJson(s, evaluation).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-  if (s.json == "-")
-    std::fputs(json.c_str(), stdout);
-  else
-    printTable(s, evaluation);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
-  if (!s.json.empty() && s.json != "-")
-    writeFileAtomically(s.json, [&](std::ostream& stream) { stream << json; });
+  if (!s.loops.empty())
+    s.options.loops = readLinkList(s.loops);
+  if (!s.trusted.empty())
+    s.options.matching.trusted = readTrustedRows(s.trusted);
+  TrajectoryReport report{s.estimate, s.reference, s.options, {}};
+  report.evaluation = evaluate(s, estimate, reference);
+  write(s, report);
   return kDone;
 }
 

@@ -157,6 +157,10 @@ describeRun(CommandLine& line, Settings& s, OptionWords& raw)
       "threads",
       po::value(&raw.threads)->default_value(0),
       "0: one per core; never changes the result")(
+      "planes",
+      po::bool_switch(&s.planes),
+      "find the planes of the map and say what they are: planes.json, planes.pcd, "
+      "hulls.ply and a picture (more choice: pcl_slam6d_planes OUT_DIR)")(
       "seed", valueOf(s.seed), "of random choices (those of --initial-guess features)")(
       "force", po::bool_switch(&s.force), "write into a folder that holds other files")(
       "quiet", po::bool_switch(&s.quiet), "print warnings and errors only")(

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "planes/plane_step.h"
 #include "slam6d/run_writer.h"
 #include "slam6d/verdict.h"
 
@@ -102,8 +103,9 @@ runFolderRules(const Settings& settings)
   rules.marker = "summary.json";
   rules.files = std::regex("trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
                            "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|links\\.csv|"
-                           "(summary|planes|objects|semantic_map)\\.json|"
-                           "top_view\\.png|report\\.html");
+                           "(summary|objects|semantic_map)\\.json|"
+                           "top_view\\.png|report\\.html|" +
+                           planeFilePattern());
   rules.force = settings.force;
   return rules;
 }
@@ -133,10 +135,14 @@ RunWriter::write(bool complete, const RunLog& log)
   if (complete) {
     if (!result_.stages.empty())
       writeGraph();
-    MapBuilder map(result_.parameters.voxel.value, summary_.world_offset);
-    summary_.complete = writeScansAndMap(map);
+    const double voxel = result_.parameters.voxel.value;
+    MapBuilder map(voxel, summary_.world_offset);
+    MapBuilder fine_map(planeVoxel(voxel), summary_.world_offset);
+    summary_.complete = writeScansAndMap(map, settings_.planes ? &fine_map : nullptr);
     if (summary_.complete)
       drawTopView(map);
+    if (summary_.complete && settings_.planes)
+      writePlanesOf(fine_map);
     summary_.map_points = summary_.complete ? map.points().size() : 0;
   }
   summary_.trusted = summary_.complete && result_.trusted();

@@ -65,7 +65,9 @@ private:
   void
   writeHistory() const;
   bool
-  writeScansAndMap(MapBuilder& map);
+  writeScansAndMap(MapBuilder& map, MapBuilder* fine_map);
+  void
+  writePlanesOf(const MapBuilder& map);
   void
   drawTopView(const MapBuilder& map);
   void

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of RunWriter that needs the scans again: scans/, map.pcd and the picture.
+#include "planes/plane_step.h"
 #include "slam6d/run_writer.h"
 
 #include <pcl6d/common/error.h>
@@ -81,7 +82,7 @@ relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
 
 /** \return false if interrupted */
 bool
-RunWriter::writeScansAndMap(MapBuilder& map)
+RunWriter::writeScansAndMap(MapBuilder& map, MapBuilder* fine_map)
 {
   const StageTimer timer("writing", summary_.stages);
   // A few scans at a time: read and written in parallel, joined in their order.
@@ -100,15 +101,36 @@ RunWriter::writeScansAndMap(MapBuilder& map)
                batch[k].cloud,
                relativeTo(summary_.world_offset, result_.scans[i].T_world_scan));
     });
-    for (std::size_t k = 0; k < count; ++k)
-      map.addScan(gated(std::move(batch[k].points), result_.parameters),
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = begin + k;
+      const Points points = gated(std::move(batch[k].points), result_.parameters);
+      const Eigen::Isometry3d& pose = result_.scans[i].T_world_scan;
+      map.addScan(points,
                   intensitiesOf(batch[k].cloud),
-                  result_.scans[begin + k].T_world_scan,
-                  static_cast<std::uint32_t>(folder_.index(begin + k)));
+                  pose,
+                  static_cast<std::uint32_t>(folder_.index(i)));
+      if (fine_map)
+        fine_map->addScan(points, {}, pose, static_cast<std::uint32_t>(i));
+    }
     bar_.show({"writing", begin + count, folder_.size()});
   }
   writePcd(out_ / "map.pcd", map.cloud());
   return true;
+}
+
+void
+RunWriter::writePlanesOf(const MapBuilder& map)
+{
+  const StageTimer timer("planes", summary_.stages);
+  std::vector<Eigen::Isometry3d> poses;
+  for (const ScanResult& scan : result_.scans)
+    poses.push_back(scan.T_world_scan);
+  const PlaneStepCloud cloud = planeCloudOf(map, poses, summary_.world_offset);
+  const PlaneStepOptions options;
+  const PlaneStepResult planes = findPlanes(cloud, options, settings_.slam.num_threads);
+  const auto warnings =
+      writePlaneFiles(out_, cloud, planes, options, summary_.generator);
+  summary_.warnings.insert(summary_.warnings.end(), warnings.begin(), warnings.end());
 }
 
 /** Without a display the run goes on and says so. */

@@ -145,6 +145,7 @@ wordsOf(const CommandLine& line, const OptionWords& raw, const Settings& s)
           word(line, "iterations", s.slam.max_iterations),
           word(line, "min-overlap", s.slam.min_overlap),
           word(line, "max-correction", s.slam.max_correction),
+          word(line, "planes", s.planes ? "yes" : "no"),
           word(line, "threads", raw.threads),
           word(line, "seed", s.seed)};
 }

@@ -25,6 +25,7 @@ struct Settings {
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
   bool deskew = false;    ///< undo the motion of the scanner during each scan
   MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
+  bool planes = false; ///< find and label the planes of the map
   bool force = false;
   bool quiet = false;
   bool verbose = false;

@@ -25,8 +25,11 @@ readCsv(const std::filesystem::path& file)
   std::vector<CsvRow> rows;
   for (std::string line; std::getline(stream, line);) {
     std::vector<std::string> cells(1);
+    bool quoted = false; // a quoted cell may hold commas
     for (const char c : line)
-      if (c == ',')
+      if (c == '"')
+        quoted = !quoted;
+      else if (c == ',' && !quoted)
         cells.emplace_back();
       else
         cells.back() += c;

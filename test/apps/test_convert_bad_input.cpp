@@ -119,8 +119,9 @@ TEST_F(BadInput, OptionsOfAFolderNeedOne)
         {a, "-o", out + ".ply", option, value}, 2, {option, "needs a folder"});
   expectRefused({a, "-o", out + ".ply", "--full"}, 2, {"--full", "needs a folder"});
   expectRefused({in, "-o", out, "--format", "ply", "--every", "0"}, 2, {"--every = 0"});
-  expectRefused(
-      {in, "-o", out, "--format", "ply", "--first", "2"}, 1, {"first = 2", "2 scans"});
+  expectRefused({in, "-o", out, "--format", "ply", "--first", "2"},
+                2,
+                {"--first = 2", "2 scans"});
 }
 
 TEST_F(BadInput, BrokenScansAreNamedWithThePlace)

@@ -102,20 +102,43 @@ TEST(MatchPoses, ByTimeUsesEveryPoseAtMostOnce)
 {
   // Both estimates are near reference 0; the closer one gets it, the other the next.
   const auto matching =
-      matchPoses(atStamps({0.0, 0.01}), atStamps({0.011, 0.018}), {0.02});
+      matchPoses(atStamps({0.0, 0.01}), atStamps({0.011, 0.018}), {0.02, {}});
   EXPECT_EQ(describe(matching.pairs), "0-1 1-0 ");
 }
 
 TEST(MatchPoses, ByTimeKeepsToTheTolerance)
 {
-  EXPECT_EQ(matchPoses(atStamps({0, 1}), atStamps({0, 1.25}), {0.25}).pairs.size(), 2u);
-  EXPECT_EQ(matchPoses(atStamps({0, 1}), atStamps({0, 1.25}), {0.2}).pairs.size(), 1u);
-  EXPECT_EQ(matchPoses(atStamps({0, 1}), atStamps({0, 1.25}), {0}).pairs.size(), 1u);
+  EXPECT_EQ(matchPoses(atStamps({0, 1}), atStamps({0, 1.25}), {0.25, {}}).pairs.size(),
+            2u);
+  EXPECT_EQ(matchPoses(atStamps({0, 1}), atStamps({0, 1.25}), {0.2, {}}).pairs.size(),
+            1u);
+  EXPECT_EQ(matchPoses(atStamps({0, 1}), atStamps({0, 1.25}), {0, {}}).pairs.size(),
+            1u);
 }
 
 TEST(MatchPoses, ByTimeWithoutAnyPairFails)
 {
   EXPECT_THROW(matchPoses(atStamps({0, 1}), atStamps({5, 6})), pcl6d::ComputeFailed);
+}
+
+TEST(MatchPoses, LeavesOutPairsWhoseReferenceIsNotTrusted)
+{
+  pcl6d::PoseMatchingOptions options;
+  options.trusted = {true, false, true, false};
+  auto matching = matchPoses(withoutStamps(4), withoutStamps(4), options);
+  EXPECT_EQ(describe(matching.pairs), "0-0 2-2 ");
+  EXPECT_EQ(matching.untrusted, 2u);
+  EXPECT_EQ(matching.unmatched_estimate + matching.unmatched_reference, 0u);
+
+  matching = matchPoses(atStamps({1, 2}), withoutStamps(4), options);
+  EXPECT_EQ(describe(matching.pairs), "1-2 ") << "stamps are indices";
+  EXPECT_EQ(matching.untrusted, 1u);
+
+  options.trusted = {true, false};
+  EXPECT_THROW(matchPoses(withoutStamps(4), withoutStamps(4), options), BadArgument);
+  options.trusted = {false, false, false, false};
+  EXPECT_THROW(matchPoses(withoutStamps(4), withoutStamps(4), options),
+               pcl6d::ComputeFailed);
 }
 
 TEST(MatchPoses, RefusesBrokenTrajectoriesAndOptions)
@@ -133,6 +156,6 @@ TEST(MatchPoses, RefusesBrokenTrajectoriesAndOptions)
   lost.poses[1].translation().x() = nan;
   EXPECT_THROW(matchPoses(lost, withoutStamps(2)), BadArgument);
   EXPECT_THROW(matchPoses(withoutStamps(2), lost), BadArgument);
-  EXPECT_THROW(matchPoses(withoutStamps(2), withoutStamps(2), {-0.1}), BadArgument);
-  EXPECT_THROW(matchPoses(withoutStamps(2), withoutStamps(2), {nan}), BadArgument);
+  EXPECT_THROW(matchPoses(withoutStamps(2), withoutStamps(2), {-0.1, {}}), BadArgument);
+  EXPECT_THROW(matchPoses(withoutStamps(2), withoutStamps(2), {nan, {}}), BadArgument);
 }

@@ -66,6 +66,22 @@ TEST(JudgeStage, AMovedScanMakesTheMapWorseAndPuttingItBackMakesItBetter)
       << "the same pairs, both ways round";
 }
 
+TEST(AgreementOver, IsTheHalfOfAStage)
+{
+  const Poses moved = oneMoved(2);
+  const auto& scans = network().scans;
+  const StageAgreement stage = judged(moved, moved);
+  const auto pairs = pcl6d::visiblePairs(scans, moved, kVoxel);
+  EXPECT_EQ(pairs.size(), stage.pairs);
+  const MapAgreement agreement = pcl6d::agreementOver(pairs, scans, moved, kVoxel);
+  EXPECT_EQ(agreement.total, stage.before.total);
+  EXPECT_EQ(agreement.scans, stage.before.scans);
+  EXPECT_EQ(pcl6d::agreementOver({}, scans, moved, kVoxel).total, 0);
+  const std::string outside = badArgumentOf(
+      [&] { pcl6d::agreementOver({{0, 6}}, scans, moved, kVoxel); });
+  EXPECT_NE(outside.find("scan of a pair = 6"), std::string::npos) << outside;
+}
+
 TEST(JudgeStage, NamesTheScanThatGotWorseWhileTheTotalDidNot)
 {
   // Scan 1 is put right and scan 4 wrong by as much: what is lost by one is gained by

@@ -44,7 +44,7 @@ messageOf(const std::filesystem::path& path)
 TEST(PlaneIo, ReadsBackEveryBitOfWhatItWrote)
 {
   const TempFolder folder;
-  pcl6d::writePlanes(folder.path() / "planes.json", twoPlanes(), 0.5);
+  pcl6d::writePlanes(folder.path() / "planes.json", twoPlanes(), {0.5, "a program"});
   const auto planes = pcl6d::readPlanes(folder.path() / "planes.json");
   const auto wanted = twoPlanes();
   ASSERT_EQ(planes.size(), wanted.size());
@@ -59,17 +59,19 @@ TEST(PlaneIo, ReadsBackEveryBitOfWhatItWrote)
   }
 }
 
-TEST(PlaneIo, WritesSecondsOnlyIfGiven)
+TEST(PlaneIo, WritesTheOriginOnlyIfGiven)
 {
   const TempFolder folder;
-  const auto textOf = [&](std::optional<double> seconds) {
-    pcl6d::writePlanes(folder.path() / "planes.json", {}, seconds);
+  const auto textOf = [&](const pcl6d::PlaneOrigin& origin) {
+    pcl6d::writePlanes(folder.path() / "planes.json", {}, origin);
     std::ostringstream text;
     text << std::ifstream(folder.path() / "planes.json").rdbuf();
     return text.str();
   };
-  EXPECT_NE(textOf(0.25).find("\"seconds\": 0.25"), std::string::npos);
+  EXPECT_NE(textOf({0.25, ""}).find("\"seconds\": 0.25"), std::string::npos);
+  EXPECT_NE(textOf({{}, "me"}).find("\"generator\": \"me\""), std::string::npos);
   EXPECT_EQ(textOf({}).find("seconds"), std::string::npos);
+  EXPECT_EQ(textOf({}).find("generator"), std::string::npos);
 }
 
 TEST(PlaneIo, NamesThePlaneAndTheFieldThatIsWrong)

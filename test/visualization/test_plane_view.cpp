@@ -108,6 +108,17 @@ TEST(PlaneView, DrawsWhatIsOnNoPlaneGrey)
   EXPECT_GT(colour[0], 60);
 }
 
+TEST(PlaneView, LooksAtTheLargerWallByItself)
+{
+  PlaneViewScene scene = room();
+  scene.planes[2].area = 10; // faces +x
+  scene.planes[3].area = 1;
+  Image image;
+  const auto layout = PlaneView().draw(scene, image);
+  EXPECT_GT(layout.to_camera.x(), 0.5);
+  EXPECT_FALSE(layout.hidden[2]);
+}
+
 TEST(PlaneView, FindsAWayToLookAndLeavesOutWhatIsNotFinite)
 {
   PlaneViewScene scene = room();

@@ -107,6 +107,22 @@ matchByTime(const std::vector<double>& estimate,
       [](const PosePair& a, const PosePair& b) { return a.estimate < b.estimate; });
   return matching;
 }
+
+/** Leaves out the pairs whose reference is not trusted. */
+void
+keepTrusted(const std::vector<bool>& trusted, PoseMatching& matching)
+{
+  auto& pairs = matching.pairs;
+  const auto kept =
+      std::remove_if(pairs.begin(), pairs.end(), [&](const PosePair& pair) {
+        return !trusted[pair.reference];
+      });
+  matching.untrusted = static_cast<std::size_t>(pairs.end() - kept);
+  pairs.erase(kept, pairs.end());
+  if (pairs.empty())
+    throw ComputeFailed("none of the " + std::to_string(matching.untrusted) +
+                        " pairs has a reference that is trusted");
+}
 } // namespace
 
 void
@@ -128,6 +144,11 @@ matchPoses(const Trajectory& estimate,
   options.validate();
   checkTrajectory(estimate, "estimate");
   checkTrajectory(reference, "reference");
+  const std::size_t num_trusted = options.trusted.size();
+  if (num_trusted != 0 && num_trusted != reference.poses.size())
+    throw BadArgument("it is known of " + std::to_string(num_trusted) +
+                      " poses whether they are trusted, but the reference has " +
+                      std::to_string(reference.poses.size()));
   const bool by_time = !estimate.stamps.empty() && !reference.stamps.empty();
   PoseMatching matching =
       by_time
@@ -143,6 +164,8 @@ matchPoses(const Trajectory& estimate,
   }
   matching.unmatched_estimate = estimate.poses.size() - matching.pairs.size();
   matching.unmatched_reference = reference.poses.size() - matching.pairs.size();
+  if (num_trusted != 0)
+    keepTrusted(options.trusted, matching);
   return matching;
 }
 

@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "pose_pairs.h"
+
 #include <pcl6d/benchmarking/trajectory_error.h>
+#include <pcl6d/benchmarking/trajectory_resampling.h>
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/rotation.h>
 
 #include <Eigen/SVD>
 
 #include <cmath>
-#include <string>
 
 namespace pcl6d {
 
 namespace {
-void
-checkPairs(const Trajectory& estimate,
-           const Trajectory& reference,
-           const std::vector<PosePair>& pairs)
-{
-  for (const auto& pair : pairs)
-    if (pair.estimate >= estimate.poses.size() ||
-        pair.reference >= reference.poses.size())
-      throw BadArgument("pair (" + std::to_string(pair.estimate) + ", " +
-                        std::to_string(pair.reference) +
-                        ") points outside the trajectories of " +
-                        std::to_string(estimate.poses.size()) + " and " +
-                        std::to_string(reference.poses.size()) + " poses");
-}
-
 ErrorStatistics
 statisticsOf(const std::vector<PoseError>& errors, double PoseError::*kind)
 {
@@ -68,7 +56,7 @@ poseError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& reference)
       Eigen::Matrix3d(reference.linear().transpose() * estimate.linear()));
   PoseError error;
   error.position = difference.norm();
-  error.orientation = 2 * std::atan2(q.vec().norm(), std::abs(q.w()));
+  error.orientation = 2 * portableAtan2(q.vec().norm(), std::abs(q.w()));
   error.position_2d = difference.head<2>().norm();
   error.yaw = std::abs(wrapAngle(eulerFromRotation(estimate.linear()).yaw -
                                  eulerFromRotation(reference.linear()).yaw));
@@ -132,19 +120,49 @@ pathLength(const Trajectory& trajectory)
   return length;
 }
 
+namespace {
+std::vector<Revisit>
+revisitsFor(const Trajectory& reference,
+            const std::vector<PosePair>& pairs,
+            const TrajectoryEvaluationOptions& options)
+{
+  if (!options.loops)
+    return findRevisits(reference, pairs, options.revisits);
+  if (options.interpolation_gap)
+    throw BadArgument("loops are given by the poses of the reference, which "
+                      "interpolation replaces: give one of both");
+  return revisitsOf(*options.loops, pairs);
+}
+} // namespace
+
 TrajectoryEvaluation
 evaluateTrajectory(const Trajectory& estimate,
                    const Trajectory& reference,
-                   const PoseMatchingOptions& options)
+                   const TrajectoryEvaluationOptions& options)
 {
+  if (options.interpolation_gap && estimate.stamps.empty())
+    throw BadArgument("the estimate has no time stamps, which interpolation needs");
   TrajectoryEvaluation evaluation;
-  evaluation.matching = matchPoses(estimate, reference, options);
-  const auto& pairs = evaluation.matching.pairs;
-  evaluation.without_alignment = trajectoryErrors(estimate, reference, pairs);
-  evaluation.alignment = alignPositions(estimate, reference, pairs);
-  evaluation.with_alignment =
-      trajectoryErrors(estimate, reference, pairs, evaluation.alignment.transform);
   evaluation.path_length = pathLength(reference);
+  const Trajectory compared =
+      options.interpolation_gap
+          ? resample(reference, estimate.stamps, *options.interpolation_gap)
+          : reference;
+  if (compared.poses.empty() && !reference.poses.empty())
+    throw ComputeFailed("no pose of the estimate lies between two poses of the "
+                        "reference that are close enough in time");
+  evaluation.matching = matchPoses(estimate, compared, options.matching);
+  const auto& pairs = evaluation.matching.pairs;
+  evaluation.without_alignment = trajectoryErrors(estimate, compared, pairs);
+  evaluation.alignment = alignPositions(estimate, compared, pairs);
+  evaluation.with_alignment =
+      trajectoryErrors(estimate, compared, pairs, evaluation.alignment.transform);
+  evaluation.steps = stepErrors(estimate, compared, pairs);
+  evaluation.drift = driftErrors(estimate, compared, pairs, options.lengths);
+  evaluation.loops = loopClosureErrors(
+      estimate, compared, pairs, revisitsFor(compared, pairs, options));
+  evaluation.length_ratios =
+      lengthRatioErrors(poseDistances(estimate, compared, pairs));
   return evaluation;
 }
 

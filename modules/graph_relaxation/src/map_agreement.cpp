@@ -19,13 +19,42 @@ constexpr std::size_t kSample = 700;
 constexpr double kTotalTolerance = 0.005;
 constexpr double kScanTolerance = 0.05;
 
+double
+agreementDistance(double voxel)
+{
+  return std::max(0.03, voxel / 2.5);
+}
+} // namespace
+
+std::vector<ScanPair>
+visiblePairs(const std::vector<NetworkScan>& scans,
+             const Poses& poses,
+             double voxel,
+             unsigned int num_threads)
+{
+  require(poses.size() == scans.size(), "poses", poses.size(), "one per scan");
+  return overlappingPairs(
+      scans,
+      poses,
+      kPartnerVoxels * voxel,
+      [](const ScanPair&) { return kLeastOverlap; },
+      num_threads);
+}
+
 MapAgreement
 agreementOver(const std::vector<ScanPair>& pairs,
               const std::vector<NetworkScan>& scans,
               const Poses& poses,
-              double distance,
+              double voxel,
               unsigned int num_threads)
 {
+  require(poses.size() == scans.size(), "poses", poses.size(), "one per scan");
+  for (const ScanPair& pair : pairs)
+    require(std::max(pair.first, pair.second) < scans.size(),
+            "scan of a pair",
+            std::max(pair.first, pair.second),
+            "one of the scans");
+  const double distance = agreementDistance(voxel);
   std::vector<PointVotes> votes(pairs.size());
   parallelFor(pairs.size(), num_threads, [&](std::size_t k) {
     const auto [a, b] = pairs[k];
@@ -49,7 +78,6 @@ agreementOver(const std::vector<ScanPair>& pairs,
     agreement.scans.push_back(one.share());
   return agreement;
 }
-} // namespace
 
 std::string
 StageAgreement::worse(const std::vector<bool>& counted) const
@@ -78,15 +106,9 @@ judgeStage(const std::vector<NetworkScan>& scans,
 {
   require(before.size() == scans.size(), "poses before", before.size(), "one per scan");
   require(after.size() == scans.size(), "poses after", after.size(), "one per scan");
-  const auto visible = [&](const Poses& poses) {
-    return overlappingPairs(
-        scans,
-        poses,
-        kPartnerVoxels * voxel,
-        [](const ScanPair&) { return kLeastOverlap; },
-        num_threads);
-  };
-  std::vector<ScanPair> pairs = visible(before), others = visible(after), all;
+  const std::vector<ScanPair> pairs = visiblePairs(scans, before, voxel, num_threads),
+                              others = visiblePairs(scans, after, voxel, num_threads);
+  std::vector<ScanPair> all;
   std::set_union(pairs.begin(),
                  pairs.end(),
                  others.begin(),
@@ -96,11 +118,10 @@ judgeStage(const std::vector<NetworkScan>& scans,
                    return a.second != b.second ? a.second < b.second
                                                : a.first < b.first;
                  });
-  const double distance = std::max(0.03, voxel / 2.5);
   StageAgreement stage;
   stage.pairs = all.size();
-  stage.before = agreementOver(all, scans, before, distance, num_threads);
-  stage.after = agreementOver(all, scans, after, distance, num_threads);
+  stage.before = agreementOver(all, scans, before, voxel, num_threads);
+  stage.after = agreementOver(all, scans, after, voxel, num_threads);
   return stage;
 }
 

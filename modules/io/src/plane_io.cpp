@@ -52,14 +52,16 @@ toPlane(const Json& json)
 void
 writePlanes(const std::filesystem::path& path,
             const std::vector<Plane>& planes,
-            std::optional<double> seconds)
+            const PlaneOrigin& origin)
 {
   Json list = Json::array();
   for (const auto& plane : planes)
     list.push_back(toJson(plane, list.size() + 1));
   Json json = {{"schema_version", 1}};
-  if (seconds)
-    json["seconds"] = *seconds;
+  if (!origin.generator.empty())
+    json["generator"] = origin.generator;
+  if (origin.seconds)
+    json["seconds"] = *origin.seconds;
   json["planes"] = list;
   writeFileAtomically(path,
                       [&](std::ostream& stream) { stream << json.dump(1) << '\n'; });

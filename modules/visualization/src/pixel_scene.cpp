@@ -143,7 +143,8 @@ void
 PixelScene::addText(const Eigen::Vector2d& place,
                     const std::string& text,
                     Align align,
-                    const Pen& pen)
+                    const Pen& pen,
+                    Turn turn)
 {
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
@@ -156,6 +157,8 @@ PixelScene::addText(const Eigen::Vector2d& place,
   style->SetJustification(align == Align::kLeft     ? VTK_TEXT_LEFT
                           : align == Align::kCentre ? VTK_TEXT_CENTERED
                                                     : VTK_TEXT_RIGHT);
+  if (turn == Turn::kUpwards)
+    style->SetOrientation(90);
   actor->SetPosition(place.x(), height_ - place.y());
   renderer_->AddActor2D(actor);
 }

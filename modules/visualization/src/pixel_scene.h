@@ -20,6 +20,7 @@ namespace pcl6d {
 class PixelScene {
 public:
   enum class Align { kLeft, kCentre, kRight };
+  enum class Turn { kNone, kUpwards };
   struct Pen {
     Colour colour;
     double size = 1;  ///< [px] width of a line, height of text, diameter of a point
@@ -41,12 +42,14 @@ public:
   /** \brief A filled circle; the pen's size is its diameter. */
   void
   addDisc(const Eigen::Vector2d& centre, const Pen& pen);
-  /** \param[in] place left, centre or right end of the text, half way up */
+  /** \param[in] place left, centre or right end of the text, half way up
+   * \param[in] turn kUpwards: reads from below to above, as beside an axis */
   void
   addText(const Eigen::Vector2d& place,
           const std::string& text,
           Align align,
-          const Pen& pen);
+          const Pen& pen,
+          Turn turn = Turn::kNone);
 
   /** \return the width of a text of this size [px] */
   static double

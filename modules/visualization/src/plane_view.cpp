@@ -47,7 +47,38 @@ longestDirection(const Points& points, const std::vector<std::size_t>& shown)
   return angle < 0 ? angle + M_PI : angle;
 }
 
-/** The camera across the longest extent, turned a little so that walls show. */
+Eigen::Vector3d
+towardsCamera(double azimuth, double elevation)
+{
+  return {std::cos(elevation) * std::cos(azimuth),
+          std::cos(elevation) * std::sin(azimuth),
+          std::sin(elevation)};
+}
+
+/** The azimuth from which most of the planes' area is seen; without planes, across the
+ * longest extent. */
+double
+bestAzimuth(const PlaneViewScene& scene,
+            const std::vector<std::size_t>& shown,
+            double elevation)
+{
+  constexpr int kTried = 48;
+  double best = longestDirection(scene.points, shown) - M_PI / 3;
+  double most = 0;
+  for (int i = 0; i < kTried; ++i) {
+    const double azimuth = 2 * M_PI * i / kTried;
+    const Eigen::Vector3d to_camera = towardsCamera(azimuth, elevation);
+    double seen = 0;
+    for (std::size_t k = 0; k < scene.planes.size(); ++k)
+      seen += scene.planes[k].area * std::max(0.0, scene.seen_from[k].dot(to_camera));
+    if (seen > most) {
+      most = seen;
+      best = azimuth;
+    }
+  }
+  return best;
+}
+
 void
 aim(const PlaneViewOptions& options,
     const PlaneViewScene& scene,
@@ -55,11 +86,9 @@ aim(const PlaneViewOptions& options,
     PlaneViewLayout& layout)
 {
   const double azimuth =
-      options.azimuth.value_or(longestDirection(scene.points, shown) - M_PI / 3);
-  const Eigen::Vector3d ahead(std::cos(azimuth), std::sin(azimuth), 0);
-  layout.to_camera = std::cos(options.elevation) * ahead +
-                     std::sin(options.elevation) * Eigen::Vector3d::UnitZ();
-  layout.right = Eigen::Vector3d(-ahead.y(), ahead.x(), 0);
+      options.azimuth.value_or(bestAzimuth(scene, shown, options.elevation));
+  layout.to_camera = towardsCamera(azimuth, options.elevation);
+  layout.right = Eigen::Vector3d(-std::sin(azimuth), std::cos(azimuth), 0);
   layout.up = layout.to_camera.cross(layout.right);
   for (const auto& side : scene.seen_from)
     layout.hidden.push_back(side.dot(layout.to_camera) < 0);

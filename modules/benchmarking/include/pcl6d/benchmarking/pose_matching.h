@@ -11,6 +11,9 @@ namespace pcl6d {
 /** \brief How poses of two trajectories belong together. \ingroup benchmarking */
 struct PoseMatchingOptions {
   double max_time_difference = 0.02; ///< [s] between the stamps of a pair; >= 0
+  std::vector<bool>
+      trusted; ///< whether each pose of the reference may be compared with;
+               ///< empty: all
 
   /** \throws BadArgument naming the field that breaks its rule, with its value */
   void
@@ -29,6 +32,7 @@ struct PoseMatching {
   std::vector<PosePair> pairs;
   std::size_t unmatched_estimate = 0;  ///< poses of the estimate without partner
   std::size_t unmatched_reference = 0; ///< poses of the reference without partner
+  std::size_t untrusted = 0; ///< pairs left out, as their reference is not trusted
 };
 
 /** \brief Finds which poses to compare.
@@ -39,8 +43,9 @@ struct PoseMatching {
  * trajectory.tum of a run of selected scans, a stamp is the index of its partner;
  * otherwise equal indices belong together.
  * \throws BadArgument a trajectory is empty, holds a pose that is not rigid, or stamps
- * that do not increase or are not as many as its poses; by index without such stamps: the counts differ
- * \throws ComputeFailed by time: no two stamps are close enough
+ * that do not increase or are not as many as its poses; by index without such stamps: the counts differ;
+ * trusted are not as many as the poses of the reference
+ * \throws ComputeFailed by time: no two stamps are close enough; no pair is trusted
  * \ingroup benchmarking */
 PoseMatching
 matchPoses(const Trajectory& estimate,

@@ -2,8 +2,13 @@
 #pragma once
 
 #include <pcl6d/benchmarking/error_statistics.h>
+#include <pcl6d/benchmarking/length_ratio.h>
+#include <pcl6d/benchmarking/loop_closure_error.h>
 #include <pcl6d/benchmarking/pose_matching.h>
+#include <pcl6d/benchmarking/relative_error.h>
 #include <pcl6d/common/status.h>
+
+#include <optional>
 
 namespace pcl6d {
 
@@ -25,13 +30,30 @@ struct TrajectoryErrors {
   ErrorStatistics yaw;         ///< [rad]
 };
 
+/** \brief Knobs of evaluateTrajectory(). */
+struct TrajectoryEvaluationOptions {
+  PoseMatchingOptions matching;
+  /** [s] compare with the reference at the stamps of the estimate, interpolated between
+   * poses that are no farther apart; > 0. None: with its own poses */
+  std::optional<double> interpolation_gap;
+  std::vector<double> lengths; ///< [m] of drift; > 0. Empty: stretchLengths()
+  RevisitOptions revisits;     ///< where the reference closes loops
+  /** loops by indices of reference poses, in place of those found; not with
+   * interpolation_gap */
+  std::optional<std::vector<std::pair<std::size_t, std::size_t>>> loops;
+};
+
 /** \brief All that evaluateTrajectory() finds out. */
 struct TrajectoryEvaluation {
   PoseMatching matching;
   TrajectoryErrors without_alignment; ///< both paths as they are: drift counts in full
-  TrajectoryErrors with_alignment;    ///< after alignment.transform
+  TrajectoryErrors with_alignment;    ///< after alignment.transform: ATE
   RigidEstimate alignment;            ///< T_reference_estimate; see alignPositions()
   double path_length = 0;             ///< [m] of the whole reference
+  RelativeErrors steps;               ///< RPE from each compared pose to the next
+  DriftErrors drift;                  ///< RPE per distance
+  RelativeErrors loops;               ///< loop closure errors
+  LengthRatioErrors length_ratios;    ///< of the distances between poses
 };
 
 /** \brief Error of one pose. The half angle comes from atan2(|vec|, |w|) of the error
@@ -70,10 +92,17 @@ double
 pathLength(const Trajectory& trajectory);
 
 /** \brief Compares an estimated trajectory with a reference.
- * \throws BadArgument, ComputeFailed as matchPoses() \ingroup benchmarking */
+ *
+ * with_alignment.position.rms is the absolute trajectory error (ATE) of J. Sturm et al.,
+ * IROS 2012. With interpolation the rows of `matching` point into resample() of the
+ * reference.
+ * \throws BadArgument, ComputeFailed as matchPoses(), resample(), driftErrors(),
+ * findRevisits() and revisitsOf(); loops and interpolation_gap are both given; no pose of
+ * the estimate lies between two of the reference \ingroup benchmarking */
 TrajectoryEvaluation
-evaluateTrajectory(const Trajectory& estimate,
-                   const Trajectory& reference,
-                   const PoseMatchingOptions& options = PoseMatchingOptions());
+evaluateTrajectory(
+    const Trajectory& estimate,
+    const Trajectory& reference,
+    const TrajectoryEvaluationOptions& options = TrajectoryEvaluationOptions());
 
 } // namespace pcl6d

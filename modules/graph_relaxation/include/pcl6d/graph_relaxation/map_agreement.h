@@ -27,6 +27,28 @@ struct StageAgreement {
   worse(const std::vector<bool>& counted = {}) const;
 };
 
+/** \return the pairs of scans that see each other at some poses: at least 5 % of the
+ * points of one have a point of the other within 2 voxels
+ * \param[in] voxel [m] of the reduction
+ * \param[in] num_threads 0: one per core; never changes the result
+ * \throws BadArgument not one pose per scan */
+std::vector<ScanPair>
+visiblePairs(const std::vector<NetworkScan>& scans,
+             const Poses& poses,
+             double voxel,
+             unsigned int num_threads = 0);
+
+/** \return how well scans agree at some poses, over given pairs of them: the share of
+ * points of each within max(3 cm, voxel / 2.5) of the other, less those that lie where it
+ * looked through
+ * \throws BadArgument not one pose per scan, or a pair is not of them */
+MapAgreement
+agreementOver(const std::vector<ScanPair>& pairs,
+              const std::vector<NetworkScan>& scans,
+              const Poses& poses,
+              double voxel,
+              unsigned int num_threads = 0);
+
 /** \brief Judges a stage by the poses before and after it: the share of points of each
  * scan within a distance of each other scan that sees the same places, less those that
  * lie where that scan looked through.

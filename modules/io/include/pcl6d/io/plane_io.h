@@ -5,18 +5,24 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pcl6d {
 
+/** \brief Where planes come from. */
+struct PlaneOrigin {
+  std::optional<double> seconds; ///< spent on finding them
+  std::string generator;         ///< the program; empty: not said
+};
+
 /** \brief Writes planes as JSON (fields: share/doc/run_folder.md), atomically; the id of
- * a plane is its place plus one.
- * \param[in] seconds spent on finding them; left out if not given
+ * a plane is its place plus one. What the origin does not say is left out.
  * \throws IoFailed the file cannot be written \ingroup io */
 void
 writePlanes(const std::filesystem::path& path,
             const std::vector<Plane>& planes,
-            std::optional<double> seconds = {});
+            const PlaneOrigin& origin = {});
 
 /** \brief Reads what writePlanes() wrote; an `rms` that is not there is 0.
  * \throws IoFailed the file cannot be read or is no such JSON; the message names the

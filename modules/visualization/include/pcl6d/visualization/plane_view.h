@@ -18,7 +18,7 @@ struct PlaneViewOptions {
   int width = 1600;              ///< [px] 200 to 8192
   int height = 1100;             ///< [px] 200 to 8192
   std::optional<double> azimuth; ///< [rad] of the camera seen from the scene, from x to
-                                 ///< y; by default across the longest extent
+                                 ///< y; by default where most area is seen
   double elevation = 0.75; ///< [rad] of the camera above the horizon; in (0, pi/2)
   Background background = Background::kDark;
   std::string title;                ///< top left; may be empty

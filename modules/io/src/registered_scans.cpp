@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/app.h"
-#include "convert/scan_source.h"
-
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
-#include <pcl6d/io/run_summary.h>
+#include <pcl6d/io/registered_scans.h>
 #include <pcl6d/io/scan_name.h>
 
 #include <charconv>
 
-namespace pcl6d::app {
+namespace pcl6d {
 
 namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSummary = "summary.json";
 
+std::optional<RunSummary>
+summaryOf(const fs::path& folder)
+{
+  if (!fs::exists(folder / kSummary))
+    return {};
+  return readRunSummary(folder / kSummary);
+}
+
 /** \return the folder that holds the scans: that of a run has them in a folder of its own
  */
 ScanFolder
-openFolder(const ScanSettings& settings, bool is_run)
+openFolder(const fs::path& path, const ScanFolderOptions& options, bool is_run)
 {
   if (!is_run)
-    return ScanFolder(settings.input, settings.folder);
-  if (!settings.folder.poses_file.empty())
-    throw UsageError("--poses = " + settings.folder.poses_file.string() +
-                     ", but the run in " + settings.input.string() +
-                     " has poses of its own");
-  if (!fs::is_directory(settings.input / "scans"))
-    throw IoFailed(settings.input.string() +
-                   ": the run was interrupted and holds no scans");
-  return ScanFolder(settings.input / "scans", settings.folder);
+    return ScanFolder(path, options);
+  if (!options.poses_file.empty())
+    throw BadArgument("poses_file = " + options.poses_file.string() +
+                      ", but the run in " + path.string() + " has poses of its own");
+  if (!fs::is_directory(path / "scans"))
+    throw IoFailed(path.string() + ": the run was interrupted and holds no scans");
+  return ScanFolder(path / "scans", options);
 }
 
 /** \return the option's value [m] \throws IoFailed it is none */
@@ -61,41 +64,40 @@ indexOf(const fs::path& scan, const RunSummary& summary)
 }
 } // namespace
 
-ScanSource::ScanSource(const ScanSettings& settings)
-: is_run_(fs::exists(settings.input / kSummary))
-, folder_(openFolder(settings, is_run_))
+RegisteredScans::RegisteredScans(const fs::path& path, const ScanFolderOptions& options)
+: summary_(summaryOf(path))
+, folder_(openFolder(path, options, summary_.has_value()))
 , world_offset_(pcl6d::worldOffset(folder_.initialPose(0)))
 {
   for (std::size_t i = 0; i < folder_.size(); ++i)
     indices_.push_back(static_cast<std::uint32_t>(folder_.index(i)));
-  if (is_run_)
-    readRun(settings.input / kSummary);
+  if (summary_)
+    readRun(path / kSummary);
 }
 
 void
-ScanSource::readRun(const fs::path& summary_file)
+RegisteredScans::readRun(const fs::path& summary_file)
 {
-  const RunSummary summary = readRunSummary(summary_file);
-  world_offset_ = summary.world_offset;
-  min_range_ = lengthOf(summary, "min-range", summary_file);
-  max_range_ = lengthOf(summary, "max-range", summary_file);
+  world_offset_ = summary_->world_offset;
+  min_range_ = lengthOf(*summary_, "min-range", summary_file);
+  max_range_ = lengthOf(*summary_, "max-range", summary_file);
   for (std::size_t i = 0; i < folder_.size(); ++i)
-    indices_[i] = indexOf(folder_.file(i), summary);
+    indices_[i] = indexOf(folder_.file(i), *summary_);
 }
 
 Eigen::Isometry3d
-ScanSource::pose(std::size_t i) const
+RegisteredScans::pose(std::size_t i) const
 {
   Eigen::Isometry3d pose = folder_.initialPose(i);
-  if (is_run_) // its VIEWPOINTs are relative
+  if (summary_) // its VIEWPOINTs are relative
     pose.translation() += world_offset_;
   return pose;
 }
 
 std::string
-ScanSource::poseSource() const
+RegisteredScans::poseSource() const
 {
-  return is_run_ ? "the run" : folder_.poseSource();
+  return summary_ ? "the run" : folder_.poseSource();
 }
 
-} // namespace pcl6d::app
+} // namespace pcl6d

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "convert/scan_settings.h"
+#include <pcl6d/io/run_summary.h>
+#include <pcl6d/io/scan_folder.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
-namespace pcl6d::app {
+namespace pcl6d {
 
 /** \brief The scans of a folder and their poses: raw ones, or those of a finished run of
- * pcl_slam6d. */
-class ScanSource {
+ * pcl_slam6d, which is known by its summary.json. \ingroup io */
+class RegisteredScans {
 public:
-  /** \throws IoFailed, BadArgument as ScanFolder; the run's summary is broken, or it was
-   * interrupted ahead of its scans */
-  explicit ScanSource(const ScanSettings& settings);
+  /** \param[in] path the folder \param[in] options of the scans; a run takes no poses
+   * \throws IoFailed, BadArgument as ScanFolder; the run's summary is broken, or it was
+   * interrupted ahead of its scans; poses are given for a run */
+  explicit RegisteredScans(const std::filesystem::path& path,
+                           const ScanFolderOptions& options = {});
 
   const ScanFolder&
   folder() const
@@ -58,11 +65,18 @@ public:
   std::string
   poseSource() const;
 
+  /** \return what the run tells of itself; none for raw scans */
+  const std::optional<RunSummary>&
+  summary() const
+  {
+    return summary_;
+  }
+
 private:
   void
-  readRun(const std::filesystem::path& summary);
+  readRun(const std::filesystem::path& summary_file);
 
-  bool is_run_;
+  std::optional<RunSummary> summary_;
   ScanFolder folder_;
   Eigen::Vector3d world_offset_;
   std::vector<std::uint32_t> indices_;
@@ -70,4 +84,4 @@ private:
   double max_range_ = std::numeric_limits<double>::infinity();
 };
 
-} // namespace pcl6d::app
+} // namespace pcl6d

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/command_line.h"
+#include "evaluate/result_file.h"
+#include "evaluate/verbs.h"
+
+#include <pcl6d/benchmarking/length_ratio.h>
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/atomic_file.h>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace pcl6d::app {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+/** \throws IoFailed unless the row holds 2 or 7 finite numbers, or 12 */
+LengthPair
+parseRow(const std::string& row, const std::string& place)
+{
+  std::istringstream stream(row);
+  std::vector<double> v;
+  std::string word;
+  while (stream >> word) {
+    char* end = nullptr;
+    v.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0' || !std::isfinite(v.back()))
+      throw IoFailed(place + ": " + word + ": must be a finite number");
+  }
+  const auto distance = [&](std::size_t a) {
+    return (Eigen::Vector3d(v[a], v[a + 1], v[a + 2]) -
+            Eigen::Vector3d(v[a + 3], v[a + 4], v[a + 5]))
+        .norm();
+  };
+  LengthPair length;
+  if (v.size() == 2)
+    length = {v[0], v[1]};
+  else if (v.size() == 7)
+    length = {distance(0), v[6]};
+  else if (v.size() == 12)
+    length = {distance(0), distance(6)};
+  else
+    throw IoFailed(place + ": " + std::to_string(v.size()) +
+                   " numbers: must be 2 (length in the map, in the reference), 7 (two "
+                   "points of the map, length) or 12 (two points of each)");
+  for (const double one : {length.estimate, length.reference})
+    if (!(one > 0))
+      throw IoFailed(place + ": " + std::to_string(one) + ": a length must be > 0");
+  return length;
+}
+
+std::vector<LengthPair>
+readLengths(const std::string& file)
+{
+  std::ifstream stream(file);
+  if (!stream)
+    throw IoFailed(file + ": cannot be read");
+  std::vector<LengthPair> lengths;
+  std::string row;
+  for (int number = 1; std::getline(stream, row); ++number) {
+    const std::size_t start = row.find_first_not_of(" \t\r");
+    if (start != std::string::npos && row[start] != '#')
+      lengths.push_back(parseRow(row, file + ": line " + std::to_string(number)));
+  }
+  if (stream.bad())
+    throw IoFailed(file + ": cannot be read");
+  if (lengths.size() < 2)
+    throw IoFailed(file + ": " + std::to_string(lengths.size()) +
+                   " lengths: a ratio needs two");
+  return lengths;
+}
+
+void
+print(const std::string& file,
+      const std::vector<LengthPair>& lengths,
+      const LengthRatioErrors& errors)
+{
+  std::printf("%s: %zu lengths, %zu ratios\n"
+              "  ratios are off by %.3f %% rms, %.3f %% mean, %.3f %% at most\n"
+              "  scale (median of map / reference): %.6f\n",
+              file.c_str(),
+              lengths.size(),
+              errors.ratio.count,
+              100 * errors.ratio.rms,
+              100 * errors.ratio.mean,
+              100 * errors.ratio.max,
+              errors.scale);
+}
+
+void
+write(const std::string& output,
+      const std::string& file,
+      const std::vector<LengthPair>& lengths,
+      const LengthRatioErrors& errors)
+{
+  const Json json = {{"schema_version", 1},
+                     {"lengths", file},
+                     {"count", lengths.size()},
+                     {"ratios", errors.ratio.count},
+                     {"rms", errors.ratio.rms},
+                     {"mean", errors.ratio.mean},
+                     {"median", errors.ratio.median},
+                     {"max", errors.ratio.max},
+                     {"scale", errors.scale}};
+  writeFileAtomically(output, [&](std::ostream& stream) {
+    stream << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  });
+}
+} // namespace
+
+int
+runLengths(const std::vector<std::string>& arguments)
+{
+  std::string file, output;
+  CommandLine line(
+      std::string("usage: ") + kEvaluate +
+      " lengths FILE [options]\n"
+      "Compares ratios of lengths in a map with those in a reference, such "
+      "as a plan or\n"
+      "an aerial picture, whose scale need not be known. A row of FILE "
+      "is a length in the\n"
+      "map and in the reference (2 numbers), two points of the map and the "
+      "length (7), or\n"
+      "two points of each (12).\n");
+  line.positional("FILE", &file);
+  line.group("Evaluation")
+      .add_options()("output,o",
+                     boost::program_options::value(&output)->value_name("FILE"),
+                     "write the numbers (.json)");
+  if (!line.parse(arguments))
+    return kDone;
+  requireExtension("--output", output, {".json"});
+  refuseInput("--output", output, {file});
+  const std::vector<LengthPair> lengths = readLengths(file);
+  const LengthRatioErrors errors = lengthRatioErrors(lengths);
+  print(file, lengths, errors);
+  if (std::fflush(stdout) != 0)
+    throw IoFailed("cannot write to the standard output");
+  if (!output.empty())
+    write(output, file, lengths, errors);
+  return kDone;
+}
+
+} // namespace pcl6d::app

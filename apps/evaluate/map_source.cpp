@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/map_source.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/io/run_summary.h>
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/slam6d/auto_parameters.h>
+#include <pcl6d/slam6d/scan_preparation.h>
+
+#include <filesystem>
+
+namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+
+/** Files and poses of a map, before anything is read. */
+struct MapFiles {
+  std::vector<fs::path> files;
+  LoadedMap map; ///< without points
+};
+
+MapFiles
+filesOfRun(const fs::path& run)
+{
+  const fs::path file = run / "summary.json";
+  const RunSummary summary = readRunSummary(file);
+  if (summary.generator != "pcl_slam6d")
+    throw IoFailed(file.string() + ": is of '" + summary.generator +
+                   "', not of pcl_slam6d");
+  if (!summary.complete)
+    throw IoFailed(file.string() +
+                   ": the run was interrupted, so it has no map; run it again");
+  MapFiles result;
+  result.map.pose_source = file.string();
+  for (const auto& scan : summary.scans) {
+    const fs::path pcd = run / "scans" / (scanName(scan.index) + ".pcd");
+    if (!fs::exists(pcd))
+      throw IoFailed(pcd.string() + ": is missing, though " + file.string() +
+                     " tells of it");
+    result.files.push_back(pcd);
+    result.map.names.push_back(scan.file);
+    Eigen::Isometry3d pose = scan.T_world_scan;
+    pose.translation() -= summary.world_offset;
+    result.map.poses.push_back(pose);
+  }
+  return result;
+}
+
+MapFiles
+filesOfScans(const fs::path& path, bool needs_poses)
+{
+  const ScanFolder folder(path);
+  if (needs_poses && !folder.hasPoses())
+    throw IoFailed(path.string() +
+                   ": holds neither a run (no summary.json) nor scans with poses; give "
+                   "the run's folder, or --poses FILE");
+  MapFiles result;
+  result.map.pose_source = folder.poseSource();
+  for (std::size_t i = 0; i < folder.size(); ++i) {
+    result.files.push_back(folder.file(i));
+    result.map.names.push_back(folder.name(i));
+    result.map.poses.push_back(folder.initialPose(i));
+  }
+  return result;
+}
+
+void
+replacePoses(MapFiles& files, const std::string& poses)
+{
+  files.map.poses = readTrajectory(poses).poses;
+  files.map.pose_source = poses;
+  if (files.map.poses.size() != files.files.size())
+    throw IoFailed(poses + ": " + std::to_string(files.map.poses.size()) +
+                   " poses, but must be one for each of the " +
+                   std::to_string(files.files.size()) + " scans");
+}
+
+/** A cloud in the world: a PCD may have a pose of its own. */
+Points
+readReference(const std::string& file)
+{
+  const Scan cloud = readScan(file);
+  if (cloud.points.size() < 3)
+    throw IoFailed(file + ": " + std::to_string(cloud.points.size()) +
+                   " points, but must be at least 3");
+  const auto pose = findScanPose(file);
+  return pose ? transformed(cloud.points, *pose) : cloud.points;
+}
+
+Slam6DOptions
+optionsOf(const MapSource& source)
+{
+  const auto given = [](const AutoDouble& value) {
+    return value.is_auto ? std::nullopt : std::optional<double>(value.value);
+  };
+  Slam6DOptions options;
+  options.min_range = given(source.min_range);
+  options.max_range = given(source.max_range);
+  options.voxel = given(source.voxel);
+  return options;
+}
+} // namespace
+
+void
+validateSource(const MapSource& source)
+{
+  optionsOf(source).validate();
+}
+
+LoadedMap
+loadMap(const MapSource& source, unsigned int num_threads)
+{
+  const bool is_run = fs::exists(fs::path(source.folder) / "summary.json");
+  MapFiles files = is_run ? filesOfRun(source.folder)
+                          : filesOfScans(source.folder, source.poses.empty());
+  if (!source.poses.empty())
+    replacePoses(files, source.poses);
+  if (files.files.size() < 2)
+    throw IoFailed(source.folder + ": holds one scan, but a map needs two to agree");
+  LoadedMap map = std::move(files.map);
+  map.scans.resize(files.files.size());
+  parallelFor(files.files.size(), num_threads, [&](std::size_t i) {
+    map.scans[i] = readScan(files.files[i]).points;
+  });
+  const Slam6DParameters parameters = deriveParameters(optionsOf(source), map.scans);
+  map.voxel = parameters.voxel.value;
+  for (std::size_t i = 0; i < map.scans.size(); ++i)
+    map.scans[i] = gateScan(map.scans[i], files.files[i].string(), parameters);
+  if (!source.reference.empty())
+    map.reference = readReference(source.reference);
+  return map;
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/benchmarking/monte_carlo_localisation.h>
+#include <pcl6d/benchmarking/segment_cut.h>
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/slam6d/slam6d_options.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief Where the first scan was taken. */
+enum class MclStart {
+  kPoses,   ///< as the poses say: the map is in their world
+  kGiven,   ///< MclSettings::start
+  kAnywhere ///< to be found
+};
+
+/** \brief The command line of `pcl_slam6d_evaluate mcl`. */
+struct MclSettings {
+  std::string folder;
+  std::string map;
+  double map_scale = 1; ///< [m] per unit of a plan
+  CloudSliceOptions slice;
+  ScanFolderOptions scans;
+  Slam6DOptions gate; ///< its range gate
+  MclStart start = MclStart::kPoses;
+  Eigen::Vector3d start_pose = Eigen::Vector3d::Zero(); ///< x, y [m], yaw [rad]
+  bool level_by_walls = true;                           ///< else by the poses
+  MclOptions mcl;
+  std::string reference; ///< trajectory to compare with, or empty
+  bool justify = false;
+  std::string out; ///< or empty
+  bool force = false;
+  bool quiet = false;
+  std::string without_effect; ///< about options given in vain; empty if there are none
+};
+
+/** \brief Fills the settings from the command line and the config file.
+ * \return false when there is nothing more to do (--help)
+ * \throws UsageError, boost::program_options::error an option breaks its rule */
+bool
+parseMclSettings(const std::vector<std::string>& arguments, MclSettings& settings);
+
+} // namespace pcl6d::app

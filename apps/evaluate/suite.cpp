@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/command_line.h"
+#include "evaluate/suite_check.h"
+#include "evaluate/suite_report.h"
+#include "evaluate/verbs.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/io/atomic_file.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kMarker = "suite.json"; // only folders of ours have it
+
+struct SuiteSettings {
+  std::string file;
+  std::string out;
+  std::string document; ///< Markdown file, or empty
+  std::vector<std::string> only;
+  double time_limit = 0; ///< [s] 0: that of the suite
+  int jobs = 1;
+  bool fresh = false;
+  bool force = false;
+  bool quiet = false;
+  std::string command; ///< as typed
+};
+
+void
+describeOptions(CommandLine& line, SuiteSettings& s)
+{
+  line.positional("SUITE.json", &s.file);
+  line.group("Suite").add_options() //
+      ("output,o",
+       po::value(&s.out)->value_name("OUT_DIR"),
+       "folder to write (default: the name of the suite and _results)") //
+      ("only",
+       po::value(&s.only)->multitoken()->composing()->value_name("NAME..."),
+       "only these methods or data sets, by their names")                     //
+      ("jobs", valueOf(s.jobs), "runs at once; more than 1 spoils the times") //
+      ("time-limit",
+       po::value(&s.time_limit)->value_name("S"),
+       "[s] of one run, instead of the suite's") //
+      ("document",
+       po::value(&s.document)->value_name("FILE.md"),
+       "put table, machine and commands into FILE.md too, in the place of those of "
+       "before")                                            //
+      ("fresh", po::bool_switch(&s.fresh), "run all again") //
+      ("force",
+       po::bool_switch(&s.force),
+       "write into a folder that holds other files") //
+      ("quiet", po::bool_switch(&s.quiet), "print the table, warnings and errors only");
+}
+
+bool
+parse(const std::vector<std::string>& arguments, SuiteSettings& s)
+{
+  CommandLine line(
+      std::string("usage: ") + kEvaluate +
+      " suite SUITE.json [-o OUT_DIR] [options]\n"
+      "Runs pcl_slam6d with several sets of options over several data sets, each in a\n"
+      "process of its own, and compares the results: table.md, table.csv, table.json "
+      "and\n"
+      "plots. Goes on where it was interrupted: a run that has ended is not repeated\n"
+      "unless programs, options or data have changed. Suite files: "
+      "share/doc/benchmark.md.\n");
+  describeOptions(line, s);
+  if (!line.parse(arguments))
+    return false;
+  checkOptions([&] {
+    require(s.jobs >= 1 && s.jobs <= 1024, "jobs", s.jobs, "in [1, 1024]");
+    require(!line.given("time-limit") || s.time_limit > 0,
+            "time_limit",
+            s.time_limit,
+            "> 0");
+  });
+  s.command = std::string(kEvaluate) + " suite";
+  for (const auto& argument : arguments)
+    s.command += ' ' + argument;
+  return true;
+}
+
+/** Paths of the command line count from here, those of the suite from its folder, which
+ * becomes the working folder. */
+void
+settlePaths(SuiteSettings& s)
+{
+  const fs::path file = s.file;
+  if (s.out.empty())
+    s.out = file.stem().string() + "_results";
+  s.out = fs::absolute(s.out).lexically_normal().string();
+  if (!s.document.empty())
+    s.document = fs::absolute(s.document).string();
+}
+
+void
+checkNames(const Suite& suite, const std::vector<std::string>& only)
+{
+  const auto has = [](const auto& items, const std::string& name) {
+    return std::any_of(
+        items.begin(), items.end(), [&](const auto& i) { return i.name == name; });
+  };
+  for (const auto& name : only)
+    if (!has(suite.data, name) && !has(suite.methods, name))
+      throw UsageError("--only " + name + ": " + suite.file.string() +
+                       " has no such method or data set");
+}
+
+/** The folder of the results, held by one call at a time. */
+class HeldFolder {
+public:
+  HeldFolder(const SuiteSettings& s, const Suite& suite) : folder_(s.out)
+  {
+    refuseInputs(suite);
+    std::error_code error;
+    if (fs::exists(folder_) && !fs::is_directory(folder_))
+      throw IoFailed(s.out + ": output is a file, not a folder");
+    if (!s.force && fs::exists(folder_) && !fs::is_empty(folder_) && !isOurs())
+      throw IoFailed(s.out +
+                     ": folder is not empty and holds no results of a suite (no " +
+                     kMarker + "); use another folder or --force");
+    fs::create_directories(folder_, error);
+    lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0)
+      throw IoFailed(s.out + ": cannot write into the output folder: " +
+                     (error ? error.message() : std::strerror(errno)));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
+      throw IoFailed(s.out + ": another call is writing here");
+    writeMarker(suite);
+    if (s.fresh)
+      for (const char* part : {"runs", "data"})
+        fs::remove_all(folder_ / part);
+  }
+  ~HeldFolder() { ::close(lock_); }
+  HeldFolder(const HeldFolder&) = delete;
+  HeldFolder&
+  operator=(const HeldFolder&) = delete;
+
+private:
+  /** What lies in our parts of the folder may be removed. */
+  void
+  refuseInputs(const Suite& suite) const
+  {
+    std::vector<fs::path> inputs = {suite.file};
+    for (const SuiteData& data : suite.data)
+      for (const auto& input : {data.folder, data.reference})
+        if (!input.empty())
+          inputs.push_back(fs::absolute(input));
+    std::error_code none;
+    for (const char* part : {"runs", "data"}) {
+      const fs::path ours = fs::weakly_canonical(folder_ / part, none);
+      for (const auto& input : inputs) {
+        const fs::path path = fs::weakly_canonical(input, none);
+        if (std::mismatch(ours.begin(), ours.end(), path.begin(), path.end()).first ==
+            ours.end())
+          throw IoFailed(folder_.string() + ": the input " + input.string() +
+                         " lies where results are written");
+      }
+    }
+  }
+
+  bool
+  isOurs() const
+  {
+    std::ifstream stream(folder_ / kMarker);
+    const auto json = Json::parse(stream, nullptr, false);
+    return json.is_object() && json.value("generator", Json()) == kEvaluate;
+  }
+
+  void
+  writeMarker(const Suite& suite) const
+  {
+    const Json json = {{"schema_version", 1},
+                       {"generator", kEvaluate},
+                       {"suite", suite.file.string()}};
+    const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+    writeFileAtomically(folder_ / kMarker,
+                        [&](std::ostream& stream) { stream << text << '\n'; });
+  }
+
+  fs::path folder_;
+  int lock_ = -1;
+};
+
+void
+writeText(const fs::path& file, const std::string& text)
+{
+  writeFileAtomically(file, [&](std::ostream& stream) { stream << text; });
+}
+
+void
+writeReport(const SuiteSettings& s,
+            const Suite& suite,
+            const std::vector<DataResults>& results,
+            ProgressBar& bar)
+{
+  const fs::path out = s.out;
+  const auto rows = rowsOf(results);
+  const std::string document = documentOf(suite, rows, s.command);
+  writeText(out / "table.md", document);
+  writeText(out / "table.csv", suiteCsv(rows));
+  writeText(out / "table.json", suiteJson(rows));
+  if (!s.document.empty())
+    putIntoDocument(s.document, suite.name, document);
+  const std::string table = suiteMarkdown(rows);
+  std::fputs(table.c_str(), stdout);
+  if (std::fflush(stdout) != 0)
+    throw IoFailed("cannot write to the standard output");
+  try {
+    drawSuite(out, results);
+  } catch (const pcl::PCLException& e) {
+    bar.warn(e.what()); // the numbers are there
+  }
+}
+
+bool
+allHaveResults(const std::vector<SuiteRun>& runs)
+{
+  return std::all_of(runs.begin(), runs.end(), [](const SuiteRun& run) {
+    return run.record && run.record->hasResult();
+  });
+}
+} // namespace
+
+int
+runSuite(const std::vector<std::string>& arguments)
+{
+  SuiteSettings s;
+  if (!parse(arguments, s))
+    return kDone;
+  const Suite suite = readSuite(s.file);
+  settlePaths(s);
+  fs::current_path(suite.file.parent_path());
+  checkNames(suite, s.only);
+  checkSuite(suite);
+  const HeldFolder held(s, suite);
+  const SuiteFolder folder{s.out};
+  SuiteRunOptions options;
+  options.jobs = s.jobs;
+  options.only = {s.only.begin(), s.only.end()};
+  if (s.time_limit > 0)
+    options.limit = s.time_limit;
+  ProgressBar bar(s.quiet);
+  const Interrupt interrupt;
+  const auto runs = runSuite(suite, folder, options, interrupt, bar);
+  if (!runs) {
+    bar.say("interrupted; the same call goes on from here");
+    return kInterrupted;
+  }
+  writeReport(s, suite, measureSuite(suite, folder, *runs), bar);
+  return allHaveResults(*runs) ? kDone : kDoubtful;
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "evaluate/suite_check.h"
+#include "simulate/settings.h"
+#include "slam6d/settings.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/io/trajectory_io.h>
+
+#include <functional>
+#include <set>
+
+namespace pcl6d::app {
+
+namespace {
+constexpr const char* kAnyFolder = "scans"; // for what is only parsed
+
+/** What tries options throws when they are wrong. */
+using Trial = std::function<void(const SuiteOptions&)>;
+
+/** \return what is wrong with the options; empty if nothing is */
+std::string
+faultOf(const SuiteOptions& options, const Trial& trial)
+try {
+  trial(options);
+  return "";
+} catch (const std::exception& e) {
+  return e.what();
+}
+
+/** Checks the options of one place in the file, on top of those that count there anyway.
+ * The one that is wrong by itself is named. */
+void
+checkOptionsAt(const std::string& place,
+               const SuiteOptions& options,
+               const SuiteOptions& below,
+               const Suite& suite,
+               const Trial& trial)
+{
+  static const std::set<std::string> kOfTheRunner = {
+      "config", "continue", "force", "help", "output", "quiet", "verbose", "version"};
+  for (const auto& [name, value] : options.items()) {
+    const std::string at = place + '/' + name;
+    if (kOfTheRunner.count(name) > 0)
+      refuseSuite(suite.file, at, "the option --" + name + " is not for suites");
+    SuiteOptions alone = SuiteOptions::object();
+    alone[name] = value;
+    const std::string fault = faultOf(alone, trial);
+    if (!fault.empty() && !faultOf(overlaid(below, options), trial).empty())
+      refuseSuite(suite.file, at, fault);
+  }
+  const std::string fault = faultOf(overlaid(below, options), trial);
+  if (!fault.empty())
+    refuseSuite(suite.file, place, fault);
+}
+
+Settings
+slamSettings(const std::string& folder, const SuiteOptions& options)
+{
+  std::vector<std::string> words = {folder, "-o", "out"};
+  for (const auto& word : wordsOf(options))
+    words.push_back(word);
+  Settings settings;
+  parseSettings(words, settings);
+  if (!settings.graph_in.empty() && !std::filesystem::exists(settings.graph_in))
+    throw UsageError(settings.graph_in + ": no such file");
+  return settings;
+}
+
+void
+tryScene(const std::string& scene, const SuiteOptions& options)
+{
+  std::vector<std::string> words = {scene, "-o", "out"};
+  for (const auto& word : wordsOf(options))
+    words.push_back(word);
+  SimulateSettings settings;
+  parseSettings(words, settings);
+  sceneOf(settings);
+}
+
+void
+checkSimulation(const SuiteData& data, const Suite& suite)
+{
+  const std::string place = "/data/" + data.name + "/simulate";
+  const std::string fault =
+      faultOf({}, [&](const SuiteOptions&) { tryScene(data.scene, {}); });
+  const bool is_mesh = fault.find("--path") != std::string::npos; // needs an option
+  if (!fault.empty() && !is_mesh)
+    refuseSuite(suite.file, place + "/scene", fault);
+  checkOptionsAt(place, data.simulation, {}, suite, [&](const SuiteOptions& options) {
+    tryScene(data.scene, options);
+  });
+}
+
+void
+checkReference(const SuiteData& data, const Suite& suite)
+{
+  if (data.reference.empty())
+    return;
+  const std::string fault =
+      faultOf({}, [&](const SuiteOptions&) { readTrajectory(data.reference); });
+  if (!fault.empty())
+    refuseSuite(suite.file, "/data/" + data.name + "/reference", fault);
+}
+
+void
+openFolder(const SuiteData& data, const SuiteOptions& options)
+{
+  const Settings settings = slamSettings(data.folder, options);
+  const ScanFolder folder(settings.input, settings.folder);
+}
+} // namespace
+
+void
+checkSuite(const Suite& suite)
+{
+  const Trial parsing = [](const SuiteOptions& options) {
+    slamSettings(kAnyFolder, options);
+  };
+  checkOptionsAt("/defaults", suite.defaults, {}, suite, parsing);
+  for (const auto& method : suite.methods)
+    checkOptionsAt(
+        "/methods/" + method.name, method.options, suite.defaults, suite, parsing);
+  for (const auto& data : suite.data) {
+    const std::string place = "/data/" + data.name;
+    checkOptionsAt(place + "/options", data.options, suite.defaults, suite, parsing);
+    if (!data.scene.empty())
+      checkSimulation(data, suite);
+    checkReference(data, suite);
+    const SuiteOptions below = overlaid(suite.defaults, data.options);
+    for (const auto& method : suite.methods) {
+      const SuiteOptions options = overlaid(below, method.options);
+      const std::string fault = faultOf(options, [&](const SuiteOptions& all) {
+        data.scene.empty() ? openFolder(data, all) : parsing(all);
+      });
+      if (!fault.empty())
+        refuseSuite(suite.file, place, fault + " (with '" + method.name + "')");
+    }
+  }
+}
+
+} // namespace pcl6d::app

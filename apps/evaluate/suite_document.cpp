@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/suite_report.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/version.h>
+#include <pcl6d/io/atomic_file.h>
+
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <thread>
+
+namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+
+/** \return what follows a key in a file of lines `key<separator>value`; or "unknown" */
+std::string
+valueIn(const fs::path& file, const std::string& key, char separator)
+{
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    const auto place = line.find(separator);
+    if (place == std::string::npos || line.rfind(key, 0) != 0)
+      continue;
+    std::string value = line.substr(place + 1);
+    value.erase(0, value.find_first_not_of(" \t\""));
+    while (!value.empty() && value.back() == '"')
+      value.pop_back();
+    return value;
+  }
+  return "unknown";
+}
+
+std::string
+machine()
+{
+  return valueIn("/proc/cpuinfo", "model name", ':') + ", " +
+         std::to_string(std::thread::hardware_concurrency()) + " threads, " +
+         valueIn("/etc/os-release", "PRETTY_NAME", '=') + ", pcl6d " PCL6D_VERSION;
+}
+
+std::string
+joined(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const auto& word : words)
+    text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+/** The commands that are run, as a user would type them. */
+std::string
+commandsOf(const Suite& suite)
+{
+  std::string text;
+  for (const SuiteData& data : suite.data)
+    if (!data.scene.empty())
+      text += "pcl_slam6d_simulate " + data.scene + " -o " + data.name + ' ' +
+              joined(wordsOf(data.simulation)) + '\n';
+  for (const SuiteMethod& method : suite.methods) {
+    const std::string options =
+        joined(wordsOf(overlaid(suite.defaults, method.options)));
+    text += "pcl_slam6d SCANS -o OUT " + options + "   # " + method.name + '\n';
+  }
+  for (const SuiteData& data : suite.data)
+    if (!data.options.empty())
+      text += "# on " + data.name + " also: " + joined(wordsOf(data.options)) + '\n';
+  return text;
+}
+
+std::string
+contentOf(const fs::path& file)
+{
+  if (!fs::exists(file))
+    return "";
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || fs::is_directory(file))
+    throw IoFailed(file.string() + ": cannot read the document");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+} // namespace
+
+std::string
+documentOf(const Suite& suite,
+           const std::vector<SuiteRow>& rows,
+           const std::string& command)
+{
+  std::string text = "## " + suite.title + "\n\n";
+  if (!suite.description.empty())
+    text += suite.description + "\n\n";
+  text += suiteMarkdown(rows);
+  text += "\nErrors without alignment. Machine: " + machine() + ".\n\n```\n" + command +
+          "\n```\nruns, each in a process of its own:\n```\n" + commandsOf(suite) +
+          "```\n";
+  return text;
+}
+
+void
+putIntoDocument(const fs::path& file, const std::string& name, const std::string& text)
+{
+  const std::string begin = "<!-- suite " + name + " -->\n";
+  const std::string end = "<!-- end of suite " + name + " -->";
+  std::string content = contentOf(file);
+  const auto first = content.find(begin), last = content.find(end);
+  const std::string block = begin + text + end;
+  if (first == std::string::npos && last == std::string::npos)
+    content += (content.empty() ? "" : "\n") + block + '\n';
+  else if (first == std::string::npos || last == std::string::npos || last < first)
+    throw IoFailed(file.string() + ": holds only one of the lines '" +
+                   begin.substr(0, begin.size() - 1) + "' and '" + end +
+                   "', or not in this order");
+  else
+    content.replace(first, last + end.size() - first, block);
+  writeFileAtomically(file, [&](std::ostream& stream) { stream << content; });
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/suite_report.h"
+
+#include <pcl6d/visualization/line_chart.h>
+
+#include <algorithm>
+
+namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+
+constexpr Colour kReference{0, 0, 0};
+constexpr Colour kOdometry{170, 170, 170};
+
+bool
+isOdometry(const SuiteResult& result)
+{
+  return result.row.runs == 0;
+}
+
+ChartSeries
+namedSeries(const SuiteResult& result)
+{
+  ChartSeries series;
+  series.name = result.row.method;
+  if (isOdometry(result))
+    series.colour = kOdometry;
+  return series;
+}
+
+void
+addPath(const Trajectory& path, ChartSeries series, LineChartScene& scene)
+{
+  if (path.poses.empty())
+    return;
+  for (const auto& pose : path.poses) {
+    series.x.push_back(pose.translation().x());
+    series.y.push_back(pose.translation().y());
+  }
+  scene.series.push_back(std::move(series));
+}
+
+/** \return the part of the reference that some estimate is compared with */
+Trajectory
+comparedReference(const DataResults& data)
+{
+  std::size_t first = data.reference.poses.size(), end = 0;
+  for (const SuiteResult& result : data.results)
+    if (result.row.errors)
+      for (const PosePair& pair : result.row.errors->matching.pairs) {
+        first = std::min(first, pair.reference);
+        end = std::max(end, pair.reference + 1);
+      }
+  Trajectory part;
+  for (std::size_t i = first; i < end; ++i)
+    part.poses.push_back(data.reference.poses[i]);
+  return part;
+}
+
+/** The reference lies on top, as the thing to see is where others leave it. */
+LineChartScene
+pathsOf(const DataResults& data)
+{
+  LineChartScene scene;
+  scene.title = data.data + ": paths";
+  scene.x.title = "x [m]";
+  scene.y.title = "y [m]";
+  scene.equal_aspect = true;
+  for (const SuiteResult& result : data.results)
+    addPath(result.estimate, namedSeries(result), scene);
+  ChartSeries reference;
+  reference.name = "reference";
+  reference.colour = kReference;
+  addPath(comparedReference(data), reference, scene);
+  return scene;
+}
+
+LineChartScene
+errorsOf(const DataResults& data)
+{
+  LineChartScene scene;
+  scene.title = data.data + ": position error";
+  scene.x.title = "scan";
+  scene.y.title = "error [m]";
+  scene.y.logarithmic = true;
+  for (const SuiteResult& result : data.results) {
+    if (!result.row.errors)
+      continue;
+    ChartSeries series = namedSeries(result);
+    const auto& poses = result.row.errors->without_alignment.poses;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      series.x.push_back(
+          static_cast<double>(result.row.errors->matching.pairs[i].reference));
+      series.y.push_back(poses[i].position);
+    }
+    scene.series.push_back(std::move(series));
+  }
+  return scene;
+}
+
+LineChartScene
+timesOf(const DataResults& data)
+{
+  LineChartScene scene;
+  scene.title = data.data + ": what the time is spent for";
+  scene.x.title = "time [s]";
+  scene.y.title = "position rms [m]";
+  scene.x.logarithmic = scene.y.logarithmic = true;
+  for (const SuiteResult& result : data.results) {
+    if (!result.row.errors || !result.row.seconds)
+      continue;
+    ChartSeries series = namedSeries(result);
+    series.mark = ChartMark::kDots;
+    series.x = {*result.row.seconds};
+    series.y = {result.row.errors->without_alignment.position.rms};
+    scene.series.push_back(std::move(series));
+  }
+  return scene;
+}
+
+/** A chart without a point that has a logarithm is not drawn. */
+bool
+hasPoints(const LineChartScene& scene)
+{
+  for (const ChartSeries& series : scene.series)
+    for (std::size_t i = 0; i < series.x.size(); ++i)
+      if ((!scene.x.logarithmic || series.x[i] > 0) &&
+          (!scene.y.logarithmic || series.y[i] > 0))
+        return true;
+  return false;
+}
+} // namespace
+
+void
+drawSuite(const fs::path& folder, const std::vector<DataResults>& results)
+{
+  for (const DataResults& data : results) {
+    LineChartOptions options;
+    options.height = std::max(options.height,
+                              120 + 21 * (2 + static_cast<int>(data.results.size())));
+    const LineChart chart(options);
+    const std::pair<const char*, LineChartScene> charts[] = {
+        {"_paths.png", pathsOf(data)},
+        {"_errors.png", errorsOf(data)},
+        {"_times.png", timesOf(data)}};
+    for (const auto& [ending, scene] : charts)
+      if (hasPoints(scene))
+        chart.write(folder / (data.data + ending), scene);
+  }
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief Reads the column `trusted` of a table of `mcl`. \return one value per row
+ * \throws IoFailed naming file, line and value: unreadable, no such column, no row, or a
+ * value that is neither 0 nor 1 */
+std::vector<bool>
+readTrustedRows(const std::string& file);
+
+} // namespace pcl6d::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/plane_segmentation/segment_planes.h>
+#include <pcl6d/scene_interpretation/interpretation.h>
+#include <pcl6d/scene_interpretation/model_refinement.h>
+
+#include <optional>
+#include <string>
+
+namespace pcl6d::app {
+
+constexpr const char* kPlanes = "pcl_slam6d_planes"; ///< the program's name
+
+/** \brief How planes are found, labelled and refined. */
+struct PlaneStepOptions {
+  PlaneMethod method = PlaneMethod::kRegionGrowing;
+  PlaneSegmentationOptions segmentation;
+  std::optional<double> noise; ///< [m] of a point; none: estimated
+  bool labels = true;
+  LabelRules rules = bookRules();
+  InterpretationOptions interpretation;
+  bool refine = false;
+  RefinementOptions refinement;
+};
+
+/** \brief The command line of pcl_slam6d_planes. */
+struct PlaneSettings {
+  std::string input; ///< a scan, a folder of scans, or a run folder
+  std::string out;
+  ScanFolderOptions folder;        ///< format of a single scan, too
+  std::optional<double> min_range; ///< [m] none: derived
+  std::optional<double> max_range; ///< [m] none: derived
+  std::optional<double> voxel;     ///< [m] of the map of a folder; none: derived
+  PlaneStepOptions step;
+  unsigned int num_threads = 0; ///< 0: one per core
+  bool force = false;
+  bool quiet = false;
+  bool verbose = false;       ///< explain the labels
+  std::string without_effect; ///< options that were given for nothing; else empty
+};
+
+/** \brief Fills the settings from the command line and the config file.
+ * \return false when there is nothing more to do (--help)
+ * \throws UsageError, boost::program_options::error an option breaks its rule */
+bool
+parsePlaneSettings(const std::vector<std::string>& arguments, PlaneSettings& settings);
+
+} // namespace pcl6d::app

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace pcl6d {
+
+/** \return the colour (red, green, blue) in which every picture and file of the suite
+ * shows a label: those of the book's labels and of share/rules are fixed, none is grey,
+ * other words get one of eight colours by their letters \ingroup io */
+std::array<std::uint8_t, 3>
+labelColour(const std::string& label);
+
+} // namespace pcl6d

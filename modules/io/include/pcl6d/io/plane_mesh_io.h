@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief A flat piece of surface, as triangulate() takes it. */
+struct LabelledPolygon {
+  std::vector<std::vector<Eigen::Vector3d>> rings; ///< [m] outer ones and their holes
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  std::string label = "none";
+};
+
+/** \brief Writes polygons as a mesh, binary PLY, atomically: triangles in the colours
+ * of their labels (labelColour()); each face has `plane_id`, its polygon's place plus
+ * one.
+ * \throws IoFailed the file cannot be written \ingroup io */
+void
+writePolygonMesh(const std::filesystem::path& path,
+                 const std::vector<LabelledPolygon>& polygons);
+
+/** \brief What a point belongs to. */
+struct PointLabel {
+  std::uint32_t plane_id = 0; ///< from 1; 0: none
+  std::uint32_t label = 0;    ///< number of the label
+  std::string name = "none";  ///< the label, for its colour
+};
+
+/** \brief Writes points with the fields `rgb`, `plane_id` and `label` as the extension
+ * says, PCD or PLY, atomically. \param[in] label_of per point the place of its label in
+ * labels \throws IoFailed the file cannot be written
+ * \throws BadArgument not one label per point, or a place that is none */
+void
+writeLabelledPoints(const std::filesystem::path& path,
+                    const Points& points,
+                    const std::vector<std::uint32_t>& label_of,
+                    const std::vector<PointLabel>& labels);
+
+} // namespace pcl6d

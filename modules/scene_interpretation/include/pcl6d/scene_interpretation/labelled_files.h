@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+#include <pcl6d/plane_segmentation/plane_segment.h>
+#include <pcl6d/scene_interpretation/label_rules.h>
+
+#include <filesystem>
+#include <vector>
+
+/** \file The outputs of an interpreted scene. */
+namespace pcl6d {
+
+/** \return per point the place of its plane plus one; 0: on none
+ * \throws BadArgument a place is not that of a point \ingroup scene_interpretation */
+std::vector<std::uint32_t>
+planeIds(const std::vector<PlaneSegment>& segments, std::size_t num_points);
+
+/** \brief Writes the outlines of planes, their holes left open, as a coloured triangle
+ * mesh (PLY, see writePolygonMesh()); of a plane without outline its hull.
+ * \throws IoFailed the file cannot be written */
+void
+writeLabelledHulls(const std::filesystem::path& path,
+                   const std::vector<PlaneSegment>& segments);
+
+/** \brief Writes a cloud with the fields `rgb`, `plane_id` (the place of its plane plus
+ * one) and `label` (labelNumber()) as PCD or PLY.
+ * \param[in] rules that the labels are of
+ * \throws IoFailed the file cannot be written \throws BadArgument a place is not that
+ * of a point, or the rules do not know a label */
+void
+writeLabelledCloud(const std::filesystem::path& path,
+                   const Points& points,
+                   const std::vector<PlaneSegment>& segments,
+                   const LabelRules& rules = bookRules());
+
+} // namespace pcl6d

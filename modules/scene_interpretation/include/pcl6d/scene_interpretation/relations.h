@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/scene_interpretation/scene_plane.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \file
+ * Relations of two planes, the predicates of the book's constraint network (7.1.2), and
+ * rules made of them. */
+namespace pcl6d {
+
+/** \brief How two planes i, j of one storey lie to each other; `z` is the height of a
+ * plane's centre. Tolerances: RelationTolerances. */
+enum class Relation {
+  kParallel,    ///< "parallel": the same or opposite normals
+  kOrthogonal,  ///< "orthogonal"
+  kAbove,       ///< "above": z_i > z_j + h
+  kUnder,       ///< "under": z_j > z_i + h
+  kEqualHeight, ///< "equalheight": |z_i - z_j| < h
+  kOnto,        ///< "onto": parallel, and i lies in the carrier plane of j
+  kRecessed,    ///< "recessed": onto, within the hull of j, and not in front of j
+  kHinged,      ///< "hinged": both upright, across each other, an edge of i at j
+  kStep,        ///< "step": one step of a flight of stairs higher or lower, and near
+  kTouches,     ///< "touches": the hulls meet
+  kApart        ///< "apart": the hulls do not overlap in plan
+};
+
+const char*
+toString(Relation relation);
+
+/** \return the relation of that name; none if there is none */
+std::optional<Relation>
+relationFromName(const std::string& name);
+
+/** \return all names, for messages: "parallel, orthogonal, ..." */
+std::string
+relationNames();
+
+/** \brief How exactly relations are to hold. */
+struct RelationTolerances {
+  double angle = 0.17453292519943295; ///< [rad] tau: 10 deg; in (0, pi/4)
+  double height = 0.2;                ///< [m] h, of heights and carriers; > 0
+  double touch = 0.1;                 ///< [m] hulls this near meet; > 0
+  double in_front = 0.015;            ///< [m] "recessed" may lie that far out; >= 0
+  double hinge = 0.2;                 ///< [m] from an edge to the wall; > 0
+  double hinge_angle = 0.5235987755982988; ///< [rad] least angle of a leaf: 30 deg
+  double min_step = 0.08;                  ///< [m] of stairs; > 0
+  double max_step = 0.25;                  ///< [m] > min_step
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \return whether i is in the relation to j */
+bool
+holds(Relation relation,
+      const ScenePlane& i,
+      const ScenePlane& j,
+      const RelationTolerances& tolerances);
+
+/** \brief A relation, or several joined by "all", "any" and "not". */
+struct RelationRule {
+  enum class Kind { kRelation, kAll, kAny, kNot };
+  Kind kind = Kind::kRelation;
+  Relation relation = Relation::kParallel; ///< of kRelation
+  std::vector<RelationRule> parts;         ///< of the others; exactly one of kNot
+};
+
+/** \return the rule in words: "parallel and (equalheight or apart)" */
+std::string
+toString(const RelationRule& rule);
+
+bool
+holds(const RelationRule& rule,
+      const ScenePlane& i,
+      const ScenePlane& j,
+      const RelationTolerances& tolerances);
+
+} // namespace pcl6d

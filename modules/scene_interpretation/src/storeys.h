@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/scene_interpretation/interpretation.h>
+#include <pcl6d/scene_interpretation/scene_plane.h>
+
+#include <vector>
+
+/** \file Storeys of a building. Internal to the module scene_interpretation. */
+namespace pcl6d {
+
+/** \brief Finds the storeys, the storey of each plane, and for each plane the height of
+ * the floor of its storey and of the ceiling over it. */
+void
+findStoreys(std::vector<ScenePlane>& planes,
+            const InterpretationOptions& options,
+            Interpretation& result);
+
+} // namespace pcl6d

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/visualization/line_chart.h>
+
+namespace pcl6d {
+
+/** \return whether a point is to be drawn: no NaN, and nothing <= 0 on a logarithmic axis */
+bool
+isDrawn(double x, double y, const LineChartScene& scene);
+
+/** \brief Places plot, axes and legend. \throws BadArgument as LineChart::draw() */
+LineChartLayout
+layOut(const LineChartScene& scene, const LineChartOptions& options);
+
+} // namespace pcl6d

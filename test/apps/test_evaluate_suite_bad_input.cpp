@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Suite files with mistakes: all are told before anything runs.
+#include "bad_input.h"
+#include "suite_test.h"
+
+#include <functional>
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using pcl6d::test::expectError;
+using pcl6d::test::SuiteTest;
+using pcl6d::test::writeText;
+
+namespace {
+class SuiteBadInput : public SuiteTest {
+protected:
+  void
+  expectRefusedWith(const std::function<void(Json&)>& change,
+                    const std::vector<std::string>& words)
+  {
+    Json suite = smallSuite();
+    change(suite);
+    auto all = words;
+    all.push_back("small.json: ");
+    expectRefused(suite.dump(), all);
+  }
+};
+} // namespace
+
+TEST_F(SuiteBadInput, NamesTheOptionThatPclSlam6dDoesNotKnow)
+{
+  expectRefusedWith([](Json& s) { s["methods"]["pairwise"]["metrc"] = "point"; },
+                    {"/methods/pairwise/metrc: ", "unrecognised option"});
+  expectRefusedWith([](Json& s) { s["defaults"]["relaxations"] = "none"; },
+                    {"/defaults/relaxations: "});
+  expectRefusedWith([](Json& s) { s["data"]["corridor"]["options"]["lst"] = 3; },
+                    {"/data/corridor/options/lst: "});
+}
+
+TEST_F(SuiteBadInput, NamesTheValueThatAnOptionDoesNotTake)
+{
+  expectRefusedWith([](Json& s) { s["methods"]["metascan"]["metric"] = "pint"; },
+                    {"/methods/metascan/metric: ", "--metric = pint", "point"});
+  expectRefusedWith([](Json& s) { s["methods"]["metascan"]["voxel"] = -1; },
+                    {"/methods/metascan/voxel: ", "--voxel = -1"});
+  expectRefusedWith([](Json& s) { s["methods"]["metascan"]["iterations"] = "many"; },
+                    {"/methods/metascan/iterations: ", "many"});
+  expectRefusedWith([](Json& s) { s["methods"]["metascan"]["deskew"] = "yes"; },
+                    {"/methods/metascan/deskew: "});
+  expectRefusedWith(
+      [](Json& s) {
+        s["methods"]["metascan"]["voxel"] = {1, 2};
+      },
+      {"/methods/metascan/voxel: ", "expected a number"});
+  expectRefusedWith([](Json& s) { s["methods"]["metascan"]["graph-in"] = "no.g2o"; },
+                    {"/methods/metascan/graph-in: ", "no.g2o"});
+  expectRefusedWith([](Json& s) { s["data"]["corridor"]["options"]["first"] = 99; },
+                    {"/data/corridor", "99"});
+}
+
+TEST_F(SuiteBadInput, KeepsWhatIsItsOwnBusiness)
+{
+  for (const char* name : {"output", "config", "continue", "force", "help"})
+    expectRefusedWith([&](Json& s) { s["methods"]["pairwise"][name] = "x"; },
+                      {std::string("/methods/pairwise/") + name, "not for suites"});
+}
+
+TEST_F(SuiteBadInput, NamesFieldsThatAreNotKnownOrMissing)
+{
+  expectRefusedWith([](Json& s) { s["metods"] = Json::object(); },
+                    {": /: ", "'metods'", "methods"});
+  expectRefusedWith([](Json& s) { s["data"]["corridor"]["fodler"] = "x"; },
+                    {"/data/corridor: ", "'fodler'"});
+  expectRefusedWith([](Json& s) { s.erase("methods"); }, {"'methods' is missing"});
+  expectRefusedWith([](Json& s) { s["methods"] = Json::object(); },
+                    {"/methods: ", "at least one"});
+  expectRefusedWith([](Json& s) { s["data"]["corridor"].erase("folder"); },
+                    {"/data/corridor: ", "'simulate' or 'folder'"});
+  expectRefusedWith([](Json& s) { s.erase("schema_version"); }, {"schema_version"});
+  expectRefusedWith([](Json& s) { s["schema_version"] = 2; },
+                    {"/schema_version: 2, but must be 1"});
+  expectRefusedWith([](Json& s) { s["time_limit"] = -1; }, {"/time_limit: -1"});
+  expectRefusedWith([](Json& s) { s["repetitions"] = 1.5; }, {"/repetitions: "});
+  expectRefusedWith([](Json& s) { s["keep_scans"] = 1; }, {"/keep_scans: 1"});
+  expectRefusedWith([](Json& s) { s["methods"] = 3; }, {"/methods: ", "object"});
+}
+
+TEST_F(SuiteBadInput, NamesMustBeGoodForFoldersAndThereOnce)
+{
+  expectRefused(R"({"schema_version": 1, "data": {}, "methods":
+                    {"a": {"voxel": 1}, "a": {"voxel": 2}}})",
+                {"/methods: ", "'a' is there twice"});
+  expectRefused(R"({"schema_version": 1, "methods": {"a": {"voxel": 1, "voxel": 2}}})",
+                {"/methods/a: ", "'voxel' is there twice"});
+  for (const char* name : {"", "..", "a/b", "a|b"})
+    expectRefusedWith([&](Json& s) { s["methods"][name] = Json::object(); },
+                      {"/methods: ", "is no name"});
+  expectRefusedWith([](Json& s) { s["methods"]["odometry"] = Json::object(); },
+                    {"/methods/odometry: ", "initial poses"});
+  expectRefusedWith([](Json& s) { s["methods"]["corridor"] = Json::object(); },
+                    {"/methods/corridor: ", "data set"});
+}
+
+TEST_F(SuiteBadInput, NamesDataThatAreNotThere)
+{
+  expectRefusedWith([](Json& s) { s["data"]["corridor"]["folder"] = "nowhere"; },
+                    {"/data/corridor: ", "nowhere"});
+  expectRefusedWith([](Json& s) { s["data"]["corridor"]["reference"] = "none.txt"; },
+                    {"/data/corridor/reference: ", "none.txt"});
+  expectRefusedWith(
+      [](Json& s) {
+        s["data"]["corridor"] = {{"simulate", {{"scene", "moon"}}}};
+      },
+      {"/data/corridor/simulate/scene: ", "moon"});
+  expectRefusedWith(
+      [](Json& s) {
+        s["data"]["corridor"] = {{"simulate", {{"scene", "rooms"}, {"scns", 3}}}};
+      },
+      {"/data/corridor/simulate/scns: "});
+  expectRefusedWith(
+      [](Json& s) {
+        s["data"]["corridor"] = {{"simulate", {{"scene", "rooms"}, {"scanner", "x"}}}};
+      },
+      {"/data/corridor/simulate/scanner: ", "--scanner = x"});
+}
+
+TEST_F(SuiteBadInput, IsNoJsonOrNotThere)
+{
+  expectRefused("{\"schema_version\": 1,\n oops}", {"small.json", "no JSON", "line 2"});
+  expectError(pcl6d::test::runProgram("pcl_slam6d_evaluate",
+                                      {"suite", (folder / "none.json").string()}),
+              "pcl_slam6d_evaluate",
+              2,
+              {"none.json"});
+}
+
+TEST_F(SuiteBadInput, RefusesWrongArguments)
+{
+  const std::string name = "pcl_slam6d_evaluate";
+  expectError(run(smallSuite(), {"--only", "pairwse"}), name, 2, {"--only pairwse"});
+  expectError(run(smallSuite(), {"--jobs", "0"}), name, 2, {"--jobs = 0"});
+  expectError(
+      run(smallSuite(), {"--time-limit", "-3"}), name, 2, {"--time-limit = -3"});
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(SuiteBadInput, RefusesFoldersOfOthers)
+{
+  const std::string name = "pcl_slam6d_evaluate";
+  fs::create_directory(out);
+  writeText(out / "thesis.tex", "important");
+  expectError(run(smallSuite()), name, 1, {"out: folder is not empty", "--force"});
+  fs::remove_all(out);
+  writeText(out, "a file");
+  expectError(run(smallSuite()), name, 1, {"out: output is a file"});
+  fs::remove(out);
+  auto suite = smallSuite();
+  fs::create_directories(out / "data");
+  fs::copy(pcl6d::test::scans(), out / "data" / "mine");
+  suite["data"]["corridor"]["folder"] = (out / "data" / "mine").string();
+  expectError(run(suite, {"--force"}), name, 1, {"data/mine lies where"});
+  EXPECT_TRUE(fs::exists(out / "data" / "mine" / "scan000.pcd"));
+}

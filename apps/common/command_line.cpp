@@ -33,6 +33,14 @@ CommandLine::positional(const std::string& name, std::string* value)
 }
 
 void
+CommandLine::positionals(const std::string& name, std::vector<std::string>* values)
+{
+  hidden_.add_options()(name.c_str(), po::value(values));
+  positions_.add(name.c_str(), -1);
+  positional_names_.push_back(name);
+}
+
+void
 CommandLine::printHelp() const
 {
   std::cout << usage_;

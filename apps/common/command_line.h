@@ -33,6 +33,11 @@ public:
   void
   positional(const std::string& name, std::string* value);
 
+  /** \brief Declares that all further positional arguments belong together; at least one
+   * is required. */
+  void
+  positionals(const std::string& name, std::vector<std::string>* values);
+
   /** \brief Lets the value of an option bring others, which count where neither the
    * command line nor the config file gives them.
    * \param[in] lines `name = value` lines for a value of the option; what they throw goes

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/object_localization/haar_cascade.h>
+
+namespace pcl6d {
+
+/** \brief Windows of one size side by side: the value of a feature in all of them is
+ * computed in one sweep, with the bits of CascadeEvaluator. */
+class WindowBatch {
+public:
+  /** \param[in] windows of width x height pixels
+   * \throws BadArgument a window has another size */
+  WindowBatch(const std::vector<GrayImage>& windows,
+              int width,
+              int height,
+              IntegralImage::Tables tables);
+
+  std::size_t
+  size() const
+  {
+    return factors_.size();
+  }
+
+  /** \param[out] values size() numbers */
+  void
+  valuesOf(const HaarFeature& feature, float* values) const;
+
+private:
+  int stride_;
+  std::vector<std::uint32_t> sums_, tilted_; // entry of the table * size() + window
+  std::vector<float> factors_;
+};
+
+/** \brief For each feature the order of the windows by its value, so that the best
+ * threshold takes one sweep over them. */
+class SortedFeatures {
+public:
+  static constexpr std::size_t kMostWindows = 0x7fff; ///< 15 bits each
+
+  /** \param[in] features what trees may choose from; kept by reference, like windows
+   * \throws BadArgument more than kMostWindows windows, or no feature */
+  SortedFeatures(const WindowBatch& windows,
+                 const std::vector<HaarFeature>& features,
+                 unsigned int num_threads = 0);
+
+  /** A sample as least squares see it. */
+  struct Weighted {
+    float weight = 0;
+    float response = 0; ///< weight times label
+  };
+
+  /** \brief The cut of a node. */
+  struct Split {
+    bool found = false; ///< false: no feature tells the samples apart
+    std::size_t feature = 0;
+    float threshold = 0;
+    double gain = 0; ///< by which the weighted squared error falls
+  };
+
+  /** \return the split of samples with weights above zero whose two sides, each answered
+   * by its mean label, leave the smallest squared error; of equal ones the first feature
+   * \param[in] samples one per window */
+  Split
+  bestSplit(const std::vector<Weighted>& samples) const;
+
+  const WindowBatch&
+  windows() const
+  {
+    return windows_;
+  }
+  const std::vector<HaarFeature>&
+  features() const
+  {
+    return features_;
+  }
+
+private:
+  struct Cut {
+    std::size_t place = 0; // behind which the order is cut
+    double gain = 0;
+  };
+  void
+  sortFeature(std::size_t feature,
+              std::vector<float>& values,
+              std::vector<std::uint64_t>& keys);
+  Cut
+  bestCut(std::size_t feature,
+          const std::vector<Weighted>& samples,
+          const double total_weight,
+          const double total_response) const;
+  float
+  thresholdBehind(std::size_t feature, std::size_t place) const;
+
+  const WindowBatch& windows_;
+  const std::vector<HaarFeature>& features_;
+  unsigned int num_threads_;
+  std::vector<std::uint16_t>
+      order_; // feature * windows + place; top bit: next is equal
+};
+
+/** \brief Gentle AdaBoost: trees are added one by one, each the least squares fit to the
+ * labels under weights that grow where the sum of the trees is wrong.
+ *
+ * Same result for any number of threads.
+ * \note Source: J. Friedman, T. Hastie, R. Tibshirani, "Additive logistic regression: a
+ * statistical view of boosting", Annals of Statistics 28(2), 2000, algorithm 4.
+ * \ingroup object_localization */
+class GentleBoost {
+public:
+  /** Keeps a reference to the features. \param[in] labels +1 or -1, one per window
+   * \param[in] splits nodes of each tree, in [1, 16]
+   * \throws BadArgument a label is missing or another, or splits breaks its rule */
+  GentleBoost(const SortedFeatures& features, std::vector<int> labels, int splits = 1);
+
+  /** \brief Adds a tree. \return false if no feature tells the windows apart */
+  bool
+  addTree();
+
+  /** \return the trees; their features are places in SortedFeatures::features() */
+  const std::vector<HaarTree>&
+  trees() const
+  {
+    return trees_;
+  }
+
+  /** \return the sum of the trees' answers, per window, with the bits of CascadeEvaluator */
+  const std::vector<double>&
+  sums() const
+  {
+    return sums_;
+  }
+
+private:
+  struct Leaf;
+  void
+  searchSplit(Leaf& leaf) const;
+  void
+  cut(const Leaf& leaf, HaarTree& tree, std::vector<Leaf>& leaves) const;
+  std::vector<Leaf>
+  grow(HaarTree& tree) const;
+  void
+  reweigh(const std::vector<Leaf>& leaves, const HaarTree& tree);
+
+  const SortedFeatures& features_;
+  std::vector<int> labels_;
+  int splits_;
+  std::vector<double> weights_; // sum 1
+  std::vector<double> sums_;
+  std::vector<HaarTree> trees_;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/object_localization/haar_cascade.h>
+
+#include <filesystem>
+
+namespace pcl6d {
+
+/** \brief Writes a cascade as cv::CascadeClassifier of OpenCV 4 reads it (XML, type
+ * opencv-cascade-classifier, features HAAR), whole or not at all. The subject goes into an
+ * element `pcl6d`, which OpenCV passes over.
+ * \throws BadArgument see HaarCascade::validate() \throws IoFailed the file cannot be
+ * written \ingroup object_localization */
+void
+writeCascade(const std::filesystem::path& path, const HaarCascade& cascade);
+
+/** \brief Reads such a file, whoever trained it; numbers are kept to the last bit.
+ * \throws IoFailed naming file and rule: missing, no XML (with the line), another kind of
+ * cascade (LBP, or the format of OpenCV 1), or HaarCascade::validate() */
+HaarCascade
+readCascade(const std::filesystem::path& path);
+
+} // namespace pcl6d

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/progress.h>
+#include <pcl6d/common/triangle_mesh.h>
+#include <pcl6d/object_localization/detection_views.h>
+#include <pcl6d/object_localization/object_model.h>
+#include <pcl6d/scanner/scanner_presets.h>
+
+namespace pcl6d {
+
+/** \return a mesh of small squares on the points of a model, so that a cloud hides what is
+ * behind it as the object would */
+TriangleMesh
+meshOfPoints(const ObjectModel& model);
+
+/** \brief The window that suits an object. */
+struct WindowShape {
+  int width = 24;         ///< [px]
+  int height = 24;        ///< [px]
+  double object_size = 1; ///< [m] height of the window where the object stands
+};
+
+/** \return a window of about 576 pixels around models that stand upright (z), turned any
+ * way about the vertical, with some margin
+ * \throws BadArgument no model, one without triangles, or larger than
+ * ObjectModel::kLargestDiameter (is it in millimetres?) */
+WindowShape
+windowShapeOf(const std::vector<TriangleMesh>& models);
+
+/** \brief A scan without the object. */
+struct BackgroundScan {
+  Points points;                  ///< [m] scanner at the origin, z up
+  std::vector<float> reflectance; ///< one per point, or empty
+};
+
+/** \brief Knobs of makeTrainingImages(). */
+struct TrainingImageOptions {
+  ImageChannel channel = ImageChannel::kRange;
+  std::size_t positives = 1000; ///< > 0
+  double min_distance = 1.5;    ///< [m] in plan, > 0
+  double max_distance = 5;      ///< [m] > min_distance
+  double min_visible = 0.6;     ///< share of the samples on the object, in (0, 1]
+  double min_reflectance = 0.3; ///< of the object, drawn each time; in [0, 1]
+  double max_reflectance = 0.8; ///< >= min_reflectance, <= 1
+  std::size_t min_samples = 25; ///< of the scanner on the object, > 0
+  std::uint64_t seed = 1;       ///< same seed, same images
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief What trainCascade() learns from. */
+struct TrainingImages {
+  std::vector<GrayImage> positives;   ///< of the window's size
+  std::vector<GrayImage> backgrounds; ///< pictures of the scans as they are
+};
+
+/** \brief Puts models into scans and cuts out what a detector would see of them.
+ *
+ * Each positive takes a scan, a free place on its floor, a heading and a distance by the
+ * seed, measures the model there as the scanner does, noise included, and hides what it
+ * hides; the window is off the object by a few per cent. Same images for any number of
+ * threads.
+ * \param[in] models upright (z), standing on their lowest point
+ * \throws BadArgument an option breaks its rule, no scans, or a scan lacks reflectances
+ * where the channel needs them
+ * \throws ComputeFailed no free place was found for many positives (the message says what
+ * was in the way most often) \ingroup object_localization */
+TrainingImages
+makeTrainingImages(const std::vector<TriangleMesh>& models,
+                   const WindowShape& window,
+                   const ScannerPreset& scanner,
+                   const std::vector<BackgroundScan>& scans,
+                   const DetectionViews& views,
+                   const TrainingImageOptions& options = {},
+                   const ProgressCallback& progress = {});
+
+} // namespace pcl6d

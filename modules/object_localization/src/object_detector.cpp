@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/object_localization/cascade_evaluator.h>
+#include <pcl6d/object_localization/object_detector.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+/** A window that passed all stages. */
+struct ObjectDetector::Hit {
+  ImageRect box;
+  double range = 0; // [m]
+};
+
+namespace {
+constexpr double kSameObject = 0.5; // overlap of two boxes, over their union
+
+double
+overlap(const ImageRect& a, const ImageRect& b)
+{
+  const int width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+  const int height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+  if (width <= 0 || height <= 0)
+    return 0;
+  const double both = double{1} * width * height;
+  return both /
+         (double{1} * a.width * a.height + double{1} * b.width * b.height - both);
+}
+
+/** \return the median range of the middle of a box; NaN where nothing is */
+double
+rangeBehind(const RangeImage& image, const ImageRect& box)
+{
+  std::vector<float> ranges;
+  for (int y = box.y + box.height / 4; y < box.y + box.height - box.height / 4; ++y)
+    for (int x = box.x + box.width / 4; x < box.x + box.width - box.width / 4; ++x)
+      if (const float range = image.range({y, x}); std::isfinite(range))
+        ranges.push_back(range);
+  if (ranges.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return *middle;
+}
+
+std::vector<std::size_t>
+pointsBehind(const RangeImage& image,
+             const DetectedObject& object,
+             const Points& points,
+             double depth)
+{
+  const ImageRect& b = object.box;
+  std::vector<std::size_t> behind;
+  for (const std::size_t i :
+       image.pointsIn({{b.y, b.x}, {b.y + b.height - 1, b.x + b.width - 1}}))
+    if (std::abs(double{points[i].norm()} - object.range) <= depth)
+      behind.push_back(i);
+  return behind;
+}
+
+bool
+isSurer(const DetectedObject& a, const DetectedObject& b)
+{
+  return a.score > b.score;
+}
+
+void
+checkCascades(const std::vector<HaarCascade>& cascades)
+{
+  for (const auto& cascade : cascades) {
+    cascade.validate();
+    if (!cascade.subject)
+      throw BadArgument(
+          "the cascade does not tell its channel and the object's size: it "
+          "was not trained by pcl_slam6d_objects train");
+  }
+  if (cascades.size() == 2 &&
+      cascades[0].subject->channel == cascades[1].subject->channel)
+    throw BadArgument("both cascades look at the same channel");
+}
+} // namespace
+
+DetectionRule
+detectionRuleFromName(const std::string& name)
+{
+  if (name == "and")
+    return DetectionRule::kAnd;
+  require(name == "or", "rule", name, "and or or");
+  return DetectionRule::kOr;
+}
+
+void
+DetectorOptions::validate() const
+{
+  views.validate();
+  WindowGrid{scale_factor, 0, 0}.validate();
+  require(min_neighbours >= 1, "min_neighbours", min_neighbours, ">= 1");
+  require(size_tolerance > 1, "size_tolerance", size_tolerance, "> 1");
+}
+
+ObjectDetector::ObjectDetector(HaarCascade cascade,
+                               const DetectorOptions& options,
+                               std::optional<HaarCascade> other)
+: options_(options), views_(options.views)
+{
+  options.validate();
+  cascades_.push_back(std::move(cascade));
+  if (other)
+    cascades_.push_back(std::move(*other));
+  checkCascades(cascades_);
+}
+
+std::vector<DetectedObject>
+ObjectDetector::detect(const Points& points,
+                       const std::vector<float>& reflectance) const
+{
+  bool has_depth = true;
+  for (const auto& cascade : cascades_)
+    has_depth = has_depth && (cascade.subject->channel == ImageChannel::kRange);
+  if (!has_depth && reflectance.size() != points.size())
+    throw BadArgument("a cascade looks at reflectances, but the scan has " +
+                      std::to_string(reflectance.size()) + " for " +
+                      std::to_string(points.size()) + " points");
+  std::vector<std::vector<DetectedObject>> found(views_.size());
+  parallelFor(views_.size(), options_.views.num_threads, [&](std::size_t view) {
+    const RangeImage image = views_.image(view, points, reflectance);
+    found[view] = detectIn(view, image, cascades_.front());
+    if (cascades_.size() == 2)
+      found[view] =
+          combined(std::move(found[view]), detectIn(view, image, cascades_.back()));
+    for (auto& object : found[view])
+      object.points =
+          pointsBehind(image, object, points, cascades_.front().subject->object_size);
+  });
+  std::vector<DetectedObject> all;
+  for (auto& of_view : found) {
+    std::stable_sort(of_view.begin(), of_view.end(), isSurer);
+    std::move(of_view.begin(), of_view.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+std::vector<DetectedObject>
+ObjectDetector::detectIn(std::size_t view,
+                         const RangeImage& image,
+                         const HaarCascade& cascade) const
+{
+  const DetectionViewOptions& v = options_.views;
+  std::vector<Hit> hits;
+  if (cascade.subject->channel == ImageChannel::kReflectance) {
+    hits = hitsOf(
+        reflectancePicture(image), {v.min_range, v.max_range}, view, image, cascade);
+    return grouped(hits, view, DetectionSource::kReflectance);
+  }
+  for (const auto& slice : views_.slices()) {
+    const auto found = hitsOf(rangePicture(image, slice), slice, view, image, cascade);
+    hits.insert(hits.end(), found.begin(), found.end());
+  }
+  return grouped(hits, view, DetectionSource::kRange);
+}
+
+std::vector<ObjectDetector::Hit>
+ObjectDetector::hitsOf(const GrayImage& picture,
+                       const DepthSlice& slice,
+                       std::size_t view,
+                       const RangeImage& image,
+                       const HaarCascade& cascade) const
+{
+  const double size = cascade.subject->object_size;
+  const double smallest =
+      views_.pixelsOf(size, slice.far_end) / options_.size_tolerance;
+  // Off the middle of a view things are less deep than far.
+  const double depth = slice.near_end * 0.6;
+  const double largest = views_.pixelsOf(size, depth) * options_.size_tolerance;
+  if (smallest > picture.rows)
+    return {};
+  WindowGrid grid{options_.scale_factor, static_cast<int>(smallest), 0};
+  if (largest < picture.rows)
+    grid.max_height = std::max(grid.min_height, static_cast<int>(std::ceil(largest)));
+  std::vector<Hit> hits;
+  for (const auto& box : detectWindows(cascade, picture, grid)) {
+    const double range = rangeBehind(image, box);
+    if (!(range >= slice.near_end && range <= slice.far_end))
+      continue;
+    const Pixel middle{box.y + box.height / 2, box.x + box.width / 2};
+    const Eigen::Vector3d there = range * image.projection().ray(middle).direction;
+    const double wanted = views_.pixelsOf(size, views_.place(view, there).depth);
+    if (box.height <= wanted * options_.size_tolerance &&
+        wanted <= box.height * options_.size_tolerance)
+      hits.push_back({box, range});
+  }
+  return hits;
+}
+
+std::vector<DetectedObject>
+ObjectDetector::grouped(const std::vector<Hit>& hits,
+                        std::size_t view,
+                        DetectionSource source) const
+{
+  struct Group {
+    Hit founder;
+    double x = 0, y = 0, width = 0, height = 0, range = 0;
+    int count = 0;
+  };
+  std::vector<Group> groups;
+  for (const auto& hit : hits) {
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
+      return overlap(g.founder.box, hit.box) >= kSameObject &&
+             std::abs(g.founder.range - hit.range) <= options_.views.slice_depth / 2;
+    });
+    if (group == groups.end())
+      group = groups.insert(groups.end(), Group{hit});
+    group->x += hit.box.x;
+    group->y += hit.box.y;
+    group->width += hit.box.width;
+    group->height += hit.box.height;
+    group->range += hit.range;
+    ++group->count;
+  }
+  std::vector<DetectedObject> objects;
+  for (const auto& g : groups)
+    if (g.count >= options_.min_neighbours) {
+      const auto mean = [&](double sum) {
+        return static_cast<int>(std::floor(sum / g.count + 0.5));
+      };
+      DetectedObject object;
+      object.view = view;
+      object.box = {mean(g.x), mean(g.y), mean(g.width), mean(g.height)};
+      object.score = g.count;
+      object.source = source;
+      object.range = g.range / g.count;
+      objects.push_back(object);
+    }
+  return objects;
+}
+
+std::vector<DetectedObject>
+ObjectDetector::combined(std::vector<DetectedObject> a,
+                         const std::vector<DetectedObject>& b) const
+{
+  constexpr double kSameInBoth = 0.3; // the channels differ in where they see the edges
+  for (const auto& other : b) {
+    const auto same = std::find_if(a.begin(), a.end(), [&](const DetectedObject& o) {
+      return o.source != other.source && overlap(o.box, other.box) >= kSameInBoth;
+    });
+    if (same == a.end()) {
+      a.push_back(other);
+      continue;
+    }
+    same->score += other.score;
+    same->source = DetectionSource::kBoth;
+  }
+  if (options_.rule == DetectionRule::kAnd)
+    a.erase(std::remove_if(a.begin(),
+                           a.end(),
+                           [](const DetectedObject& o) {
+                             return o.source != DetectionSource::kBoth;
+                           }),
+            a.end());
+  return a;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/object_localization/cascade_training.h>
+
+namespace pcl6d {
+
+/** \brief A stage as it was trained, apart from its cascade. */
+struct TrainedStage {
+  HaarStage stage; ///< its nodes name places in `features`
+  std::vector<HaarFeature> features;
+  StageReport report;
+  bool reached = false; ///< max_false_alarm
+};
+
+/** \param[in] features that the stage may use \throws BadArgument too many windows */
+TrainedStage
+trainStage(const std::vector<GrayImage>& positives,
+           const std::vector<GrayImage>& negatives,
+           const std::vector<HaarFeature>& features,
+           const CascadeTrainingOptions& options);
+
+/** \brief Appends a stage and those of its features that it uses and the cascade does not
+ * have yet. */
+void
+append(HaarCascade& cascade, const TrainedStage& trained);
+
+} // namespace pcl6d

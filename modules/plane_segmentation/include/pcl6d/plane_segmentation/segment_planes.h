@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/plane_segmentation/plane_finishing.h>
+#include <pcl6d/plane_segmentation/plane_region_growing.h>
+
+#include <string>
+
+namespace pcl6d {
+
+/** \brief How planes are looked for (book 7.1.1). */
+enum class PlaneMethod { kRegionGrowing, kRansac, kHough };
+
+/** \return the method called "region-growing", "ransac" or "hough"
+ * \throws BadArgument another name */
+PlaneMethod
+planeMethodFromName(const std::string& name);
+
+/** \return the method's name */
+std::string
+toString(PlaneMethod method);
+
+/** \brief Knobs of segmentPlanes(). */
+struct PlaneSegmentationOptions {
+  PlaneOptions planes;
+  RegionGrowingOptions region_growing; ///< of kRegionGrowing
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief Finds the planes in a cloud: a detector, then finishPlanes().
+ * The same bits for any number of threads. Fewer than 3 points, or none on a plane: no
+ * planes, all finite points unassigned.
+ * \return points as places in the cloud that `cloud` was made of
+ * \throws BadArgument an option breaks its rule \ingroup plane_segmentation */
+PlaneSegments
+segmentPlanes(const PlaneCloud& cloud,
+              PlaneMethod method = PlaneMethod::kRegionGrowing,
+              const PlaneSegmentationOptions& options = {});
+
+} // namespace pcl6d

@@ -3,10 +3,10 @@
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
-#include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/object_localization/object_localizer.h>
 #include <pcl6d/object_localization/pose_clusters.h>
 #include <pcl6d/object_localization/pose_votes.h>
+#include <pcl6d/plane_segmentation/segment_planes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,22 +16,9 @@ namespace pcl6d {
 namespace {
 /** Surfaces of the refinement are twice as fine as those of the votes. */
 constexpr double kRefinement = 0.5;
+constexpr double kLargePlane = 1.3;      // of the diameter
 constexpr double kClusterDistance = 0.1; // of the diameter
 constexpr double kClusterAngle = 0.35;   // [rad], 20 deg
-
-/** Normals of points that are reduced already, towards the scanner. */
-OrientedPoints
-surfaceOf(const Points& points, double voxel, unsigned int num_threads)
-{
-  ReductionOptions reduction;
-  reduction.voxel = voxel;
-  OrientedPoints surface;
-  surface.points = reducePoints(points, reduction);
-  constexpr std::size_t kNeighbours = 14;
-  surface.normals = estimateNormals(
-      surface.points, PointTree(surface.points, num_threads), kNeighbours, num_threads);
-  return surface;
-}
 
 /** \return how many points face the scanner when the most do, over 26 directions */
 std::size_t
@@ -50,16 +37,37 @@ mostFacing(const OrientedPoints& surface)
   return most;
 }
 
-bool
-isAccepted(const PoseCheck& check,
-           std::size_t most_facing,
-           const LocalizerOptions& options)
+/** The surface of a scan without the planes in which the object could lie as a whole,
+ * such as floor, walls and tables: they are no part of it. */
+OrientedPoints
+withoutLargePlanes(const PlaneCloud& cloud, double diameter)
 {
-  return check.support.size() >= options.min_support &&
-         static_cast<double>(check.facing()) >=
-             options.min_facing * static_cast<double>(most_facing) &&
-         check.visibleFraction() >= options.min_visible &&
-         check.freeSpaceViolation() <= options.max_violation;
+  PlaneSegmentationOptions options;
+  options.planes.min_area = 0.25 * diameter * diameter;
+  const PlaneSegments found =
+      segmentPlanes(cloud, PlaneMethod::kRegionGrowing, options);
+  std::vector<bool> is_large(cloud.points().size(), false);
+  for (const auto& segment : found.planes) {
+    Eigen::AlignedBox3d box;
+    for (const auto& corner : segment.plane.hull)
+      box.extend(corner);
+    if (box.diagonal().norm() > kLargePlane * diameter)
+      for (const auto i : segment.points) // all points are finite: places are points
+        is_large[i] = true;
+  }
+  const Surfels& surfels = cloud.surfels();
+  OrientedPoints rest;
+  for (std::size_t s = 0; s < surfels.size(); ++s) {
+    std::size_t large = 0;
+    const std::uint32_t begin = surfels.begin[s], end = surfels.begin[s + 1];
+    for (std::uint32_t m = begin; m < end; ++m)
+      large += is_large[surfels.members[m]] ? 1 : 0;
+    if (2 * large < end - begin) {
+      rest.points.push_back(surfels.points[s]);
+      rest.normals.push_back(surfels.normals[s]);
+    }
+  }
+  return rest;
 }
 
 double
@@ -111,6 +119,7 @@ LocalizerOptions::validate() const
   const auto isShare = [](double x) { return x >= 0 && x <= 1; };
   require(isShare(min_visible), "min_visible", min_visible, "0 to 1");
   require(isShare(min_facing), "min_facing", min_facing, "0 to 1");
+  require(isShare(min_agreement), "min_agreement", min_agreement, "0 to 1");
   require(isShare(max_violation), "max_violation", max_violation, "0 to 1");
   require(min_support > 0, "min_support", min_support, "> 0");
   require(
@@ -127,13 +136,11 @@ ObjectLocalizer::ObjectLocalizer(ObjectModel model, const LocalizerOptions& opti
 , table_(coarse_, model_.diameter())
 {}
 
-std::vector<LocalizedObject>
-ObjectLocalizer::locate(const LocalizationScene& scene) const
+std::vector<VotedPose>
+ObjectLocalizer::firstPoses(const SceneSurface& surface) const
 {
-  const double fine_voxel = kRefinement * voxel_;
-  const SceneSurface surface(
-      surfaceOf(scene.points(), fine_voxel, options_.num_threads));
-  const OrientedPoints rough = reduceOriented(surface.oriented, voxel_);
+  const OrientedPoints rough =
+      reduceOriented(withoutLargePlanes(surface.cloud, model_.diameter()), voxel_);
   PoseVoteOptions voting;
   voting.num_threads = options_.num_threads;
   auto poses =
@@ -143,30 +150,63 @@ ObjectLocalizer::locate(const LocalizationScene& scene) const
                    kClusterAngle);
   poses.resize(
       std::min(poses.size(), static_cast<std::size_t>(options_.max_candidates)));
+  return poses;
+}
 
+bool
+ObjectLocalizer::accepts(const PoseCheck& check) const
+{
+  return check.support.size() >= options_.min_support &&
+         static_cast<double>(check.facing()) >=
+             options_.min_facing * static_cast<double>(most_facing_) &&
+         check.visibleFraction() >= options_.min_visible &&
+         check.agreement() >= options_.min_agreement &&
+         check.freeSpaceViolation() <= options_.max_violation;
+}
+
+void
+ObjectLocalizer::removeRefused(std::vector<ObjectCandidate>& candidates) const
+{
+  const auto isRefused = [this](const auto& c) { return !accepts(c.check); };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isRefused),
+                   candidates.end());
+}
+
+std::vector<LocalizedObject>
+ObjectLocalizer::locate(const LocalizationScene& scene) const
+{
+  const SceneSurface surface(
+      scene.points(), kRefinement * voxel_, options_.num_threads);
+  const ObjectRefinement refinement(scene, surface, fine_, kRefinement * voxel_);
+  const auto poses = firstPoses(surface);
   std::vector<ObjectCandidate> candidates(poses.size());
   parallelFor(poses.size(), options_.num_threads, [&](std::size_t i) {
-    candidates[i] =
-        refineOnSurface(scene, surface, fine_, poses[i].T_scene_model, fine_voxel);
+    candidates[i] = refinement.onSurface(poses[i].T_scene_model);
   });
-  candidates.erase(std::remove_if(candidates.begin(),
-                                  candidates.end(),
-                                  [&](const auto& candidate) {
-                                    return !isAccepted(
-                                        candidate.check, most_facing_, options_);
-                                  }),
-                   candidates.end());
+  removeRefused(candidates);
+  candidates = strongest(std::move(candidates), options_.max_shared_support);
+  for (auto& candidate : candidates)
+    candidate = refinement.onPoints(candidate, model_.surface());
+  removeRefused(candidates);
   std::vector<LocalizedObject> objects;
-  for (const auto& candidate :
-       strongest(std::move(candidates), options_.max_shared_support)) {
-    LocalizedObject object =
-        refineOnPoints(scene, model_.surface(), candidate, fine_voxel);
-    object.object_class = model_.objectClass();
-    object.score = scoreOf(candidate.check);
-    object.visible_fraction = candidate.check.visibleFraction();
-    objects.push_back(std::move(object));
-  }
+  for (auto& candidate : strongest(std::move(candidates), options_.max_shared_support))
+    objects.push_back(describe(std::move(candidate)));
   return objects;
+}
+
+LocalizedObject
+ObjectLocalizer::describe(ObjectCandidate candidate) const
+{
+  LocalizedObject object;
+  object.object_class = model_.objectClass();
+  object.status = candidate.status;
+  object.T_scene_object = candidate.T_scene_model;
+  object.covariance = candidate.covariance;
+  object.score = scoreOf(candidate.check);
+  object.visible_fraction = candidate.check.visibleFraction();
+  object.rms = candidate.rms;
+  object.points = std::move(candidate.points);
+  return object;
 }
 
 } // namespace pcl6d

@@ -5,10 +5,15 @@
 #include <pcl6d/registration/icp_model.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace pcl6d {
 
 namespace {
+constexpr std::size_t kFewestFacing = 10; // points
+/** Of the size of an element: how far a pose that is right leaves them apart. */
+constexpr double kStrictness = 0.4;
+
 /** The part of a model that faces the scanner, which is at the origin of the scene. */
 OrientedPoints
 facingPart(const OrientedPoints& model, const Eigen::Isometry3d& T_scene_model)
@@ -74,68 +79,92 @@ pointsAround(const LocalizationScene& scene,
 }
 } // namespace
 
+SceneSurface::SceneSurface(const Points& points, double voxel, unsigned int num_threads)
+: cloud(points,
+        [&] {
+          PlaneCloudOptions options;
+          options.voxel = voxel;
+          options.num_threads = num_threads;
+          return options;
+        }())
+, elements{cloud.surfels().points, cloud.surfels().normals}
+, tree(elements.points, num_threads)
+{}
+
 ObjectCandidate
-refineOnSurface(const LocalizationScene& scene,
-                const SceneSurface& surface,
-                const OrientedPoints& model,
-                const Eigen::Isometry3d& guess,
-                double voxel)
+ObjectRefinement::onSurface(const Eigen::Isometry3d& guess) const
 {
   const IcpTarget target{
-      {&surface.tree, &surface.oriented.points, &surface.oriented.normals}};
-  IcpOptions options = surfaceIcp(voxel);
-  ObjectCandidate candidate{guess, {}};
+      {&surface_.tree, &surface_.elements.points, &surface_.elements.normals}};
+  IcpOptions options = surfaceIcp(voxel_);
+  ObjectCandidate candidate;
+  candidate.T_scene_model = guess;
   for (int round = 0; round < 2; ++round) {
-    const OrientedPoints facing = facingPart(model, candidate.T_scene_model);
-    if (facing.size() < 10)
+    const OrientedPoints facing = facingPart(model_, candidate.T_scene_model);
+    if (facing.size() < kFewestFacing)
       return candidate;
-    const IcpResult result = icp(
-        target, {&facing.points, &facing.normals}, candidate.T_scene_model, options);
-    candidate.T_scene_model = result.T_target_source;
+    candidate.T_scene_model =
+        icp(target, {&facing.points, &facing.normals}, candidate.T_scene_model, options)
+            .T_target_source;
     options.max_distance_start = 0;
   }
-  candidate.check = checkPose(
-      scene, surface.oriented, surface.tree, model, candidate.T_scene_model, voxel);
+  candidate.check = check(candidate.T_scene_model, voxel_);
   return candidate;
 }
 
-LocalizedObject
-refineOnPoints(const LocalizationScene& scene,
-               const OrientedPoints& model,
-               const ObjectCandidate& candidate,
-               double voxel)
+ObjectCandidate
+ObjectRefinement::onPoints(const ObjectCandidate& candidate,
+                           const OrientedPoints& dense) const
 {
-  LocalizedObject object;
-  object.T_scene_object = candidate.T_scene_model;
-  object.rms = candidate.check.rms;
   std::vector<std::uint32_t> places;
   IcpModel::Options making;
   making.normals = true;
-  making.normal_voxel = voxel;
+  making.normal_voxel = voxel_;
   const IcpModel around(
-      pointsAround(scene, model, candidate.T_scene_model, voxel, places), making);
-  const OrientedPoints facing = facingPart(model, candidate.T_scene_model);
+      pointsAround(scene_, dense, candidate.T_scene_model, voxel_, places), making);
+  const OrientedPoints facing = facingPart(dense, candidate.T_scene_model);
   IcpOptions options;
   options.metric = Metric::kPlane;
-  options.max_distance = voxel;
-  options.translation_epsilon = 1e-6;
-  options.rotation_epsilon = 1e-6;
+  options.max_distance = voxel_;
+  options.max_iterations = 50;
+  options.translation_epsilon = 1e-4 * voxel_;
+  options.rotation_epsilon = 1e-5;
   const IcpResult result = icp({around.part()},
                                {&facing.points, &facing.normals},
                                candidate.T_scene_model,
                                options);
-  object.status = result.status;
   if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged)
-    return object;
-  object.T_scene_object = result.T_target_source;
-  object.covariance = result.covariance;
-  object.rms = result.residual;
-  const PointTree placed(transformed(facing.points, object.T_scene_object));
-  const auto reach = static_cast<float>(voxel);
+    return candidate;
+  ObjectCandidate refined;
+  refined.status = result.status;
+  refined.T_scene_model = result.T_target_source;
+  refined.covariance = result.covariance;
+  refined.rms = result.residual;
+  const PointTree placed(transformed(facing.points, refined.T_scene_model));
+  const auto reach = static_cast<float>(voxel_);
   for (std::size_t i = 0; i < places.size(); ++i)
     if (placed.nearest(around.points()[i], reach * reach).index >= 0)
-      object.points.push_back(places[i]);
-  return object;
+      refined.points.push_back(places[i]);
+  refined.check = check(refined.T_scene_model, kStrictness * voxel_);
+  return refined;
+}
+
+/** \param[in] tolerance [m] of exact points */
+PoseCheck
+ObjectRefinement::check(const Eigen::Isometry3d& T_scene_model, double tolerance) const
+{
+  const Neighbour nearest = surface_.tree.nearest(
+      T_scene_model.translation().cast<float>(), std::numeric_limits<float>::max());
+  const double noise =
+      nearest.index < 0 ? 0
+                        : double{surface_.cloud.surfels()
+                                     .noise[static_cast<std::size_t>(nearest.index)]};
+  return checkPose(scene_,
+                   surface_.elements,
+                   surface_.tree,
+                   model_,
+                   T_scene_model,
+                   tolerance + noise);
 }
 
 } // namespace pcl6d

@@ -1,42 +1,66 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/object_localization/object_localizer.h>
+#include <pcl6d/common/status.h>
 #include <pcl6d/object_localization/pose_check.h>
+#include <pcl6d/plane_segmentation/plane_cloud.h>
+#include <pcl6d/registration/pose_information.h>
+
+#include <optional>
 
 /** \file From a rough pose of an object to a precise one. Internal to the module. */
 namespace pcl6d {
 
-/** \brief The surface of a scan with what finds places on it. */
+/** \brief The surface of a scan in elements of one size, and what finds places on it. */
 struct SceneSurface {
-  explicit SceneSurface(OrientedPoints surface)
-  : oriented(std::move(surface)), tree(oriented.points)
-  {}
-  OrientedPoints oriented;
-  PointTree tree;
+  /** \param[in] voxel [m] size of an element */
+  SceneSurface(const Points& points, double voxel, unsigned int num_threads);
+
+  PlaneCloud cloud;
+  OrientedPoints elements; ///< the surfels of the cloud
+  PointTree tree;          ///< over the elements
 };
 
 /** \brief A pose that may be that of an object. */
 struct ObjectCandidate {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   PoseCheck check;
+  Status status = Status::kMaxIterations;
+  std::optional<PoseCovariance> covariance;
+  double rms = 0;                    ///< [m] of the scan's points to the model
+  std::vector<std::uint32_t> points; ///< of the scan on the object, ascending
 };
 
-/** \brief ICP of the model's facing part to the surface, twice, as the pose says which part
- * faces the scanner; then the check. \param[in] voxel [m] of both surfaces */
-ObjectCandidate
-refineOnSurface(const LocalizationScene& scene,
-                const SceneSurface& surface,
-                const OrientedPoints& model,
-                const Eigen::Isometry3d& guess,
-                double voxel);
+/** \brief Makes poses of one model in one scan precise, and checks them. */
+class ObjectRefinement {
+public:
+  /** \param[in] model in elements of the size of the surface's, voxel [m].
+   * Keeps references to all three. */
+  ObjectRefinement(const LocalizationScene& scene,
+                   const SceneSurface& surface,
+                   const OrientedPoints& model,
+                   double voxel)
+  : scene_(scene), surface_(surface), model_(model), voxel_(voxel)
+  {}
 
-/** \brief ICP of the whole model to all points around it. \return pose, covariance, rms,
- * status and points of the object; where ICP fails, those of the candidate */
-LocalizedObject
-refineOnPoints(const LocalizationScene& scene,
-               const OrientedPoints& model,
-               const ObjectCandidate& candidate,
-               double voxel);
+  /** \brief ICP of the model's facing part to the surface, twice, as the pose says which
+   * part faces the scanner; then a lenient check. */
+  ObjectCandidate
+  onSurface(const Eigen::Isometry3d& guess) const;
+
+  /** \brief ICP of a model to all points around it; then a strict check. Where ICP fails,
+   * the candidate stays as it was. \param[in] dense the model with all its points */
+  ObjectCandidate
+  onPoints(const ObjectCandidate& candidate, const OrientedPoints& dense) const;
+
+private:
+  PoseCheck
+  check(const Eigen::Isometry3d& T_scene_model, double tolerance) const;
+
+  const LocalizationScene& scene_;
+  const SceneSurface& surface_;
+  const OrientedPoints& model_;
+  double voxel_;
+};
 
 } // namespace pcl6d

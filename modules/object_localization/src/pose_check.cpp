@@ -128,7 +128,7 @@ checkPose(const LocalizationScene& scene,
     else if (seen < p.seen.range - margin)
       ++check.occluded;
     else
-      ++check.unseen; // a surface is near, but turned otherwise: the rim of something
+      ++check.misfit;
   }
   if (check.supported > 0)
     check.rms = std::sqrt(squares / static_cast<double>(check.supported));

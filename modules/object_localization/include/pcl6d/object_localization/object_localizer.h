@@ -13,6 +13,11 @@
 
 namespace pcl6d {
 
+struct ObjectCandidate;
+struct PoseCheck;
+struct SceneSurface;
+struct VotedPose;
+
 /** \brief Knobs of ObjectLocalizer. */
 struct LocalizerOptions {
   double resolution = 0.05;  ///< of the search, as a share of the model's diameter; in
@@ -21,6 +26,7 @@ struct LocalizerOptions {
   double min_visible = 0.25; ///< PoseCheck::visibleFraction() of an object
   double min_facing = 0.3;   ///< of the surface that faces the scanner where most of it
                              ///< does: an open shell is not believed from behind
+  double min_agreement = 0.85;    ///< PoseCheck::agreement()
   double max_violation = 0.15;     ///< PoseCheck::freeSpaceViolation()
   std::size_t min_support = 30;    ///< surface elements of the scan on the object; > 0
   double max_shared_support = 0.3; ///< of the weaker one of two objects
@@ -71,6 +77,15 @@ public:
   }
 
 private:
+  std::vector<VotedPose>
+  firstPoses(const SceneSurface& surface) const;
+  bool
+  accepts(const PoseCheck& check) const;
+  void
+  removeRefused(std::vector<ObjectCandidate>& candidates) const;
+  LocalizedObject
+  describe(ObjectCandidate candidate) const;
+
   LocalizerOptions options_;
   ObjectModel model_;
   double voxel_;            ///< [m] of the search

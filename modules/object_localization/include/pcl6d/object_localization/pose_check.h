@@ -12,10 +12,11 @@
 namespace pcl6d {
 
 /** \brief What a scan says of an object at a pose: each point of the model's surface that
- * faces the scanner and that the object itself does not hide is one of four. */
+ * faces the scanner and that the object itself does not hide is one of five. */
 struct PoseCheck {
   std::size_t supported = 0; ///< the scan has a surface there
   std::size_t refuted = 0;   ///< the scanner saw through
+  std::size_t misfit = 0;    ///< there is a surface, but off or turned otherwise
   std::size_t occluded = 0;  ///< something is in front
   std::size_t unseen = 0;    ///< no measurement in this direction
   double rms = 0;            ///< [m] distance to the surface, of those supported
@@ -26,7 +27,7 @@ struct PoseCheck {
   std::size_t
   facing() const
   {
-    return supported + refuted + occluded + unseen;
+    return supported + refuted + misfit + occluded + unseen;
   }
 
   /** \return the share of the facing surface that is seen */
@@ -36,6 +37,15 @@ struct PoseCheck {
     return facing() == 0
                ? 0
                : static_cast<double>(supported) / static_cast<double>(facing());
+  }
+
+  /** \return of the surface that the scan shows where the object would be, the share that
+   * is the object's */
+  double
+  agreement() const
+  {
+    const std::size_t known = supported + misfit;
+    return known == 0 ? 0 : static_cast<double>(supported) / static_cast<double>(known);
   }
 
   /** \return of what the scan speaks of, the share that speaks against the pose */

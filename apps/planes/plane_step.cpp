@@ -69,12 +69,15 @@ worldPlanes(const std::vector<PlaneSegment>& segments, const Eigen::Vector3d& of
   return planes;
 }
 
-/** \return a warning if there is no display to draw on, else nothing */
+/** \return a warning if there is no display to draw on, or nothing to draw; else nothing */
 std::vector<std::string>
 drawPicture(const OutputFolder& out,
             const Points& points,
             const std::vector<PlaneSegment>& segments)
 {
+  const auto isFinite = [](const Eigen::Vector3f& p) { return p.allFinite(); };
+  if (std::none_of(points.begin(), points.end(), isFinite))
+    return {"no picture: there are no points"};
   PlaneViewScene scene;
   scene.points = points;
   scene.plane_of = planeIds(segments, points.size());

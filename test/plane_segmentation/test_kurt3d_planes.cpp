@@ -15,10 +15,11 @@
 #include <fstream>
 
 namespace {
-constexpr double kMaxAngle = M_PI / 180;      // [rad]
-constexpr double kMaxDistance = 0.03;         // [m]
-constexpr double kNear = 0.3;                 // [m] from the middle to the next point
-constexpr double kNoReturn = 32, kSelf = 0.2; // [m] ranges that are none
+constexpr double kMaxAngle = M_PI / 180; // [rad]
+constexpr double kMaxDistance = 0.03;    // [m]
+constexpr double kNear = 0.3;            // [m] from the middle to the next point
+constexpr double kNoReturn = 32.7,
+                 kSelf = 0.15; // [m] ranges that are none, as its README tells
 
 Eigen::Vector3d
 toVector(const nlohmann::json& numbers)

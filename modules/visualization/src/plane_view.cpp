@@ -104,7 +104,7 @@ extentOf(std::vector<double> values)
     std::nth_element(values.begin(), values.begin() + place, values.end());
     return values[static_cast<std::size_t>(place)];
   };
-  return {at(0.002), at(0.998)};
+  return {at(0.0005), at(0.9995)};
 }
 
 void

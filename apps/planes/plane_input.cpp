@@ -5,12 +5,10 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/map_builder.h>
-
-#include <pcl/conversions.h>
-#include <pcl/point_types.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -57,8 +55,8 @@ dropOutOfRange(const Slam6DParameters& parameters, Points& points)
       p.setConstant(kNan);
 }
 
-/** The points of an organized PCD file, on its grid; those without a measurement are NaN.
- * \return nothing for any other file */
+/** The points of a PCD file with all those without a measurement, which keep an organized
+ * one on its grid. \return nothing for other files, and for one without coordinates */
 std::optional<PlaneStepCloud>
 readGrid(const PlaneSettings& s)
 {
@@ -67,15 +65,18 @@ readGrid(const PlaneSettings& s)
                                 : s.folder.format;
   if (format != ScanFormat::kPcd)
     return {};
-  const pcl::PCLPointCloud2 cloud = readPcd(s.input);
-  if (cloud.height <= 1 || cloud.width <= 1)
+  const pcl::PCLPointCloud2 file = readPcd(s.input);
+  const auto x = fieldValues(file, "x");
+  const auto y = fieldValues(file, "y");
+  const auto z = fieldValues(file, "z");
+  if (!x || !y || !z)
     return {};
-  PlaneStepCloud grid;
-  pcl::PointCloud<pcl::PointXYZ> points;
-  pcl::fromPCLPointCloud2(cloud, points);
-  grid.points = toPoints(points);
-  grid.width = cloud.width;
-  return grid;
+  PlaneStepCloud cloud;
+  cloud.width = file.height > 1 ? file.width : 0;
+  for (std::size_t i = 0; i < x->values.size(); ++i)
+    cloud.points.push_back(
+        Eigen::Vector3d(x->values[i], y->values[i], z->values[i]).cast<float>());
+  return cloud;
 }
 
 PlaneStepCloud

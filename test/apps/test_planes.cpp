@@ -206,6 +206,32 @@ TEST(Planes, TellsWhatIsWrongBeforeItWrites)
   EXPECT_FALSE(fs::exists(out));
 }
 
+TEST(Planes, OfAnOrganizedCloudAreFoundOnItsGridWhateverTheTypeOfItsNumbers)
+{
+  // A floor 1 m below a camera that looks ahead and down; one ray in ten is lost.
+  constexpr int kWidth = 80, kHeight = 60;
+  std::string text = "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\n"
+                     "WIDTH 80\nHEIGHT 60\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 4800\n"
+                     "DATA ascii\n";
+  for (int row = 0; row < kHeight; ++row)
+    for (int column = 0; column < kWidth; ++column) {
+      const double x = 1 / (0.3 + 0.01 * row), y = x * (0.4 - 0.01 * column);
+      text += column % 10 == 3 ? "nan nan nan\n"
+                               : std::to_string(x) + ' ' + std::to_string(y) + " -1\n";
+    }
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  writeText(folder / "grid.pcd", text);
+  const auto outcome = planes({folder / "grid.pcd", "-o", out});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto found = pcl6d::readPlanes(out + "/planes.json");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].offset, 1, 1e-6);
+  EXPECT_EQ(found[0].inliers, static_cast<std::size_t>(kWidth * kHeight * 9 / 10));
+  EXPECT_EQ(numbersOf(out + "/planes.pcd", "plane_id").size(),
+            static_cast<std::size_t>(kWidth * kHeight));
+}
+
 TEST(Planes, AreNoneWhereThereIsNoSurface)
 {
   const TempFolder folder;

@@ -16,7 +16,7 @@ namespace pcl6d {
  * plane is the same for all (PlaneOptions).
  *
  * The sensor stood at the cloud's sensor_origin_. Of an organized cloud the neighbours
- * on its grid count too. With setIndices() only the chosen points are looked at. \code
+ * are those on its grid. With setIndices() only the chosen points are looked at. \code
  * pcl6d::RegionGrowingPlaneSegmentation<pcl::PointXYZ> segmentation;
  * segmentation.setInputCloud(cloud);
  * pcl6d::PlaneSegments found;

@@ -6,7 +6,6 @@
 #include <pcl6d/object_localization/object_localizer.h>
 #include <pcl6d/object_localization/pose_clusters.h>
 #include <pcl6d/object_localization/pose_votes.h>
-#include <pcl6d/plane_segmentation/segment_planes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +15,6 @@ namespace pcl6d {
 namespace {
 /** Surfaces of the refinement are twice as fine as those of the votes. */
 constexpr double kRefinement = 0.5;
-constexpr double kLargePlane = 1.3;      // of the diameter
 constexpr double kClusterDistance = 0.1; // of the diameter
 constexpr double kClusterAngle = 0.35;   // [rad], 20 deg
 
@@ -35,39 +33,6 @@ mostFacing(const OrientedPoints& surface)
         most = std::max(most, static_cast<std::size_t>(count));
       }
   return most;
-}
-
-/** The surface of a scan without the planes in which the object could lie as a whole,
- * such as floor, walls and tables: they are no part of it. */
-OrientedPoints
-withoutLargePlanes(const PlaneCloud& cloud, double diameter)
-{
-  PlaneSegmentationOptions options;
-  options.planes.min_area = 0.25 * diameter * diameter;
-  const PlaneSegments found =
-      segmentPlanes(cloud, PlaneMethod::kRegionGrowing, options);
-  std::vector<bool> is_large(cloud.points().size(), false);
-  for (const auto& segment : found.planes) {
-    Eigen::AlignedBox3d box;
-    for (const auto& corner : segment.plane.hull)
-      box.extend(corner);
-    if (box.diagonal().norm() > kLargePlane * diameter)
-      for (const auto i : segment.points) // all points are finite: places are points
-        is_large[i] = true;
-  }
-  const Surfels& surfels = cloud.surfels();
-  OrientedPoints rest;
-  for (std::size_t s = 0; s < surfels.size(); ++s) {
-    std::size_t large = 0;
-    const std::uint32_t begin = surfels.begin[s], end = surfels.begin[s + 1];
-    for (std::uint32_t m = begin; m < end; ++m)
-      large += is_large[surfels.members[m]] ? 1 : 0;
-    if (2 * large < end - begin) {
-      rest.points.push_back(surfels.points[s]);
-      rest.normals.push_back(surfels.normals[s]);
-    }
-  }
-  return rest;
 }
 
 double
@@ -140,7 +105,7 @@ std::vector<VotedPose>
 ObjectLocalizer::firstPoses(const SceneSurface& surface) const
 {
   const OrientedPoints rough =
-      reduceOriented(withoutLargePlanes(surface.cloud, model_.diameter()), voxel_);
+      reduceOriented(surface.withoutLargePlanes(), voxel_);
   PoseVoteOptions voting;
   voting.num_threads = options_.num_threads;
   auto poses =
@@ -176,7 +141,7 @@ std::vector<LocalizedObject>
 ObjectLocalizer::locate(const LocalizationScene& scene) const
 {
   const SceneSurface surface(
-      scene.points(), kRefinement * voxel_, options_.num_threads);
+      scene.points(), kRefinement * voxel_, model_.diameter(), options_.num_threads);
   const ObjectRefinement refinement(scene, surface, fine_, kRefinement * voxel_);
   const auto poses = firstPoses(surface);
   std::vector<ObjectCandidate> candidates(poses.size());

@@ -46,50 +46,19 @@ surfaceIcp(double voxel)
   return options;
 }
 
-/** All points of the scan around an object. */
-Points
-pointsAround(const LocalizationScene& scene,
-             const OrientedPoints& model,
-             const Eigen::Isometry3d& T_scene_model,
-             double rim,
-             std::vector<std::uint32_t>& places)
+/** Of the scan's points, in which noise is averaged by their number, to the model. */
+IcpOptions
+pointIcp(double voxel)
 {
-  Eigen::AlignedBox3d box;
-  for (const auto& p : model.points)
-    box.extend(p.cast<double>());
-  box.extend(box.min() - Eigen::Vector3d::Constant(rim));
-  box.extend(box.max() + Eigen::Vector3d::Constant(rim));
-  const Eigen::Vector3d middle = T_scene_model * box.center();
-  const double reach = 0.5 * box.diagonal().norm();
-  auto near = scene.tree().withinRadius(middle.cast<float>(),
-                                        static_cast<float>(reach * reach));
-  std::sort(near.begin(), near.end(), [](const Neighbour& a, const Neighbour& b) {
-    return a.index < b.index;
-  });
-  const Eigen::Isometry3d T_model_scene = T_scene_model.inverse();
-  Points around;
-  for (const auto& neighbour : near) {
-    const auto& p = scene.points()[static_cast<std::size_t>(neighbour.index)];
-    if (box.contains(T_model_scene * p.cast<double>())) {
-      around.push_back(p);
-      places.push_back(static_cast<std::uint32_t>(neighbour.index));
-    }
-  }
-  return around;
+  IcpOptions options;
+  options.metric = Metric::kPlane;
+  options.max_distance = voxel;
+  options.max_iterations = 50;
+  options.translation_epsilon = 1e-3 * voxel;
+  options.rotation_epsilon = 1e-5;
+  return options;
 }
 } // namespace
-
-SceneSurface::SceneSurface(const Points& points, double voxel, unsigned int num_threads)
-: cloud(points,
-        [&] {
-          PlaneCloudOptions options;
-          options.voxel = voxel;
-          options.num_threads = num_threads;
-          return options;
-        }())
-, elements{cloud.surfels().points, cloud.surfels().normals}
-, tree(elements.points, num_threads)
-{}
 
 ObjectCandidate
 ObjectRefinement::onSurface(const Eigen::Isometry3d& guess) const
@@ -117,36 +86,63 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
                            const OrientedPoints& dense) const
 {
   std::vector<std::uint32_t> places;
-  IcpModel::Options making;
-  making.normals = true;
-  making.normal_voxel = voxel_;
-  const IcpModel around(
-      pointsAround(scene_, dense, candidate.T_scene_model, voxel_, places), making);
-  const OrientedPoints facing = facingPart(dense, candidate.T_scene_model);
-  IcpOptions options;
-  options.metric = Metric::kPlane;
-  options.max_distance = voxel_;
-  options.max_iterations = 50;
-  options.translation_epsilon = 1e-4 * voxel_;
-  options.rotation_epsilon = 1e-5;
-  const IcpResult result = icp({around.part()},
-                               {&facing.points, &facing.normals},
-                               candidate.T_scene_model,
-                               options);
-  if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged)
-    return candidate;
-  ObjectCandidate refined;
-  refined.status = result.status;
-  refined.T_scene_model = result.T_target_source;
-  refined.covariance = result.covariance;
-  refined.rms = result.residual;
-  const PointTree placed(transformed(facing.points, refined.T_scene_model));
+  const Points around = pointsAround(candidate.T_scene_model, dense, places);
+  ObjectCandidate refined = candidate;
+  for (int round = 0; round < 2; ++round) {
+    OrientedPoints facing = facingPart(dense, refined.T_scene_model);
+    const IcpModel target(std::move(facing.points), std::move(facing.normals), {});
+    const IcpResult result = icp({target.part()},
+                                 {&around, nullptr},
+                                 refined.T_scene_model.inverse(),
+                                 pointIcp(voxel_));
+    if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged)
+      return candidate;
+    refined.status = result.status;
+    refined.T_scene_model = result.T_target_source.inverse();
+    refined.covariance = result.covariance;
+    refined.rms = result.residual;
+  }
+  refined.points.clear();
+  const PointTree placed(
+      transformed(facingPart(dense, refined.T_scene_model).points, refined.T_scene_model));
   const auto reach = static_cast<float>(voxel_);
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (placed.nearest(around.points()[i], reach * reach).index >= 0)
+    if (placed.nearest(around[i], reach * reach).index >= 0)
       refined.points.push_back(places[i]);
   refined.check = check(refined.T_scene_model, kStrictness * voxel_);
   return refined;
+}
+
+/** The points of the scan around an object that are on no large plane. */
+Points
+ObjectRefinement::pointsAround(const Eigen::Isometry3d& T_scene_model,
+                               const OrientedPoints& dense,
+                               std::vector<std::uint32_t>& places) const
+{
+  Eigen::AlignedBox3d box;
+  for (const auto& p : dense.points)
+    box.extend(p.cast<double>());
+  box.extend(box.min() - Eigen::Vector3d::Constant(voxel_));
+  box.extend(box.max() + Eigen::Vector3d::Constant(voxel_));
+  const Eigen::Vector3d middle = T_scene_model * box.center();
+  const double reach = 0.5 * box.diagonal().norm();
+  const Eigen::Isometry3d T_model_scene = T_scene_model.inverse();
+  const Surfels& surfels = surface_.cloud.surfels();
+  for (const auto& near : surface_.tree.withinRadius(
+           middle.cast<float>(), static_cast<float>(reach * reach))) {
+    const auto element = static_cast<std::size_t>(near.index);
+    if (surface_.large[element] ||
+        !box.contains(T_model_scene * surface_.elements.points[element].cast<double>()))
+      continue;
+    places.insert(places.end(),
+                  surfels.members.begin() + surfels.begin[element],
+                  surfels.members.begin() + surfels.begin[element + 1]);
+  }
+  std::sort(places.begin(), places.end());
+  Points around;
+  for (const auto place : places)
+    around.push_back(scene_.points()[place]);
+  return around;
 }
 
 /** \param[in] tolerance [m] of exact points */
@@ -160,8 +156,7 @@ ObjectRefinement::check(const Eigen::Isometry3d& T_scene_model, double tolerance
                         : double{surface_.cloud.surfels()
                                      .noise[static_cast<std::size_t>(nearest.index)]};
   return checkPose(scene_,
-                   surface_.elements,
-                   surface_.tree,
+                   surface_,
                    model_,
                    T_scene_model,
                    tolerance + noise);

@@ -3,23 +3,12 @@
 
 #include <pcl6d/common/status.h>
 #include <pcl6d/object_localization/pose_check.h>
-#include <pcl6d/plane_segmentation/plane_cloud.h>
 #include <pcl6d/registration/pose_information.h>
 
 #include <optional>
 
 /** \file From a rough pose of an object to a precise one. Internal to the module. */
 namespace pcl6d {
-
-/** \brief The surface of a scan in elements of one size, and what finds places on it. */
-struct SceneSurface {
-  /** \param[in] voxel [m] size of an element */
-  SceneSurface(const Points& points, double voxel, unsigned int num_threads);
-
-  PlaneCloud cloud;
-  OrientedPoints elements; ///< the surfels of the cloud
-  PointTree tree;          ///< over the elements
-};
 
 /** \brief A pose that may be that of an object. */
 struct ObjectCandidate {
@@ -54,6 +43,10 @@ public:
   onPoints(const ObjectCandidate& candidate, const OrientedPoints& dense) const;
 
 private:
+  Points
+  pointsAround(const Eigen::Isometry3d& T_scene_model,
+               const OrientedPoints& dense,
+               std::vector<std::uint32_t>& places) const;
   PoseCheck
   check(const Eigen::Isometry3d& T_scene_model, double tolerance) const;
 

@@ -81,28 +81,27 @@ facingPoints(const OrientedPoints& model,
 /** \return the scan's surface at a place: its index, or -1 if there is none that fits */
 int
 surfaceAt(const FacingPoint& p,
-          const OrientedPoints& surface,
-          const PointTree& tree,
+          const SceneSurface& surface,
           double tolerance,
           double& distance)
 {
   const auto reach = static_cast<float>(3 * tolerance);
-  const Neighbour near = tree.nearest(p.place.cast<float>(), reach * reach);
+  const Neighbour near = surface.tree.nearest(p.place.cast<float>(), reach * reach);
   if (near.index < 0)
     return -1;
   const auto i = static_cast<std::size_t>(near.index);
-  const Eigen::Vector3d normal = surface.normals[i].cast<double>();
-  distance = normal.dot(p.place - surface.points[i].cast<double>());
+  const Eigen::Vector3d normal = surface.elements.normals[i].cast<double>();
+  distance = normal.dot(p.place - surface.elements.points[i].cast<double>());
   constexpr double kSameSide = 0.5; // cosine of 60 deg
-  const bool fits = std::abs(distance) <= tolerance && normal.dot(p.normal) > kSameSide;
+  const bool fits = !surface.large[i] && std::abs(distance) <= tolerance &&
+                    normal.dot(p.normal) > kSameSide;
   return fits ? near.index : -1;
 }
 } // namespace
 
 PoseCheck
 checkPose(const LocalizationScene& scene,
-          const OrientedPoints& scene_surface,
-          const PointTree& tree,
+          const SceneSurface& surface,
           const OrientedPoints& model,
           const Eigen::Isometry3d& T_scene_model,
           double tolerance)
@@ -113,7 +112,7 @@ checkPose(const LocalizationScene& scene,
   for (const FacingPoint& p :
        facingPoints(model, T_scene_model, ranges.projection(), 2 * tolerance)) {
     double distance = 0;
-    const int i = surfaceAt(p, scene_surface, tree, tolerance, distance);
+    const int i = surfaceAt(p, surface, tolerance, distance);
     const double seen = ranges.range(p.seen.pixel);
     const double margin = 2 * tolerance / p.cosine;
     if (i >= 0) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl6d/object_localization/localization_scene.h>
-#include <pcl6d/object_localization/oriented_points.h>
+#include <pcl6d/object_localization/scene_surface.h>
 
 #include <Eigen/Geometry>
 
@@ -58,14 +58,12 @@ struct PoseCheck {
 };
 
 /** \brief Compares an object at a pose with a scan (book 7.2.2, step 4).
- * \param[in] scene_surface of the scan around the object, with normals to the scanner
- * \param[in] tree over its points
+ * \param[in] surface of the scan; what is on a large plane is no object
  * \param[in] tolerance [m] between two surfaces that are the same
  * \ingroup object_localization */
 PoseCheck
 checkPose(const LocalizationScene& scene,
-          const OrientedPoints& scene_surface,
-          const PointTree& tree,
+          const SceneSurface& surface,
           const OrientedPoints& model,
           const Eigen::Isometry3d& T_scene_model,
           double tolerance);

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/object_localization/scene_surface.h>
+#include <pcl6d/plane_segmentation/segment_planes.h>
+
+namespace pcl6d {
+
+namespace {
+constexpr double kLargePlane = 1.3; // of the diameter
+/** Planes are looked for in surfels of so many elements, which average their noise. */
+constexpr double kPlaneSurfel = 4;
+
+PlaneCloudOptions
+cloudOptions(double voxel, unsigned int num_threads)
+{
+  PlaneCloudOptions options;
+  options.voxel = voxel;
+  options.num_threads = num_threads;
+  return options;
+}
+
+bool
+isLarge(const Plane& plane, double diameter)
+{
+  Eigen::AlignedBox3d box;
+  for (const auto& corner : plane.hull)
+    box.extend(corner);
+  return box.diagonal().norm() > kLargePlane * diameter;
+}
+} // namespace
+
+SceneSurface::SceneSurface(const Points& points,
+                           double voxel,
+                           double diameter,
+                           unsigned int num_threads)
+: cloud(points, cloudOptions(voxel, num_threads))
+, elements{cloud.surfels().points, cloud.surfels().normals}
+, tree(elements.points, num_threads)
+, large(elements.size(), 0)
+{
+  if (elements.size() < 3)
+    return;
+  PlaneSegmentationOptions options;
+  options.planes.min_area = 0.25 * diameter * diameter;
+  const PlaneCloud coarse(elements.points,
+                          cloudOptions(kPlaneSurfel * voxel, num_threads));
+  for (const auto& segment :
+       segmentPlanes(coarse, PlaneMethod::kRegionGrowing, options).planes)
+    if (isLarge(segment.plane, diameter))
+      for (const auto element : segment.points)
+        large[element] = 1;
+}
+
+OrientedPoints
+SceneSurface::withoutLargePlanes() const
+{
+  OrientedPoints rest;
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (!large[i]) {
+      rest.points.push_back(elements.points[i]);
+      rest.normals.push_back(elements.normals[i]);
+    }
+  return rest;
+}
+
+} // namespace pcl6d

@@ -15,6 +15,8 @@ namespace pcl6d {
 namespace {
 /** Surfaces of the refinement are twice as fine as those of the votes. */
 constexpr double kRefinement = 0.5;
+/** Before the last step a pose need not agree as well, by this factor. */
+constexpr double kRoughAgreement = 0.6;
 constexpr double kClusterDistance = 0.1; // of the diameter
 constexpr double kClusterAngle = 0.35;   // [rad], 20 deg
 
@@ -41,6 +43,15 @@ scoreOf(const PoseCheck& check)
   return check.visibleFraction() * (1 - check.freeSpaceViolation());
 }
 
+/** \return how much of the scan a pose explains, less for what speaks against it: a
+ * share of the facing surface would prefer poses that show the scanner a small face */
+double
+explanation(const PoseCheck& check)
+{
+  return static_cast<double>(check.support.size()) * check.agreement() *
+         (1 - check.freeSpaceViolation());
+}
+
 /** \return how much of the smaller support is in the other one, too */
 double
 sharedSupport(const PoseCheck& a, const PoseCheck& b)
@@ -61,7 +72,7 @@ strongest(std::vector<ObjectCandidate> candidates, double max_shared)
 {
   std::stable_sort(
       candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-        return scoreOf(a.check) > scoreOf(b.check);
+        return explanation(a.check) > explanation(b.check);
       });
   std::vector<ObjectCandidate> kept;
   for (auto& candidate : candidates) {
@@ -86,6 +97,7 @@ LocalizerOptions::validate() const
   require(isShare(min_facing), "min_facing", min_facing, "0 to 1");
   require(isShare(min_agreement), "min_agreement", min_agreement, "0 to 1");
   require(isShare(max_violation), "max_violation", max_violation, "0 to 1");
+  require(max_continuation >= 0, "max_continuation", max_continuation, ">= 0");
   require(min_support > 0, "min_support", min_support, "> 0");
   require(
       isShare(max_shared_support), "max_shared_support", max_shared_support, "0 to 1");
@@ -119,20 +131,22 @@ ObjectLocalizer::firstPoses(const SceneSurface& surface) const
 }
 
 bool
-ObjectLocalizer::accepts(const PoseCheck& check) const
+ObjectLocalizer::accepts(const PoseCheck& check, double min_agreement) const
 {
   return check.support.size() >= options_.min_support &&
          static_cast<double>(check.facing()) >=
              options_.min_facing * static_cast<double>(most_facing_) &&
          check.visibleFraction() >= options_.min_visible &&
-         check.agreement() >= options_.min_agreement &&
-         check.freeSpaceViolation() <= options_.max_violation;
+         check.agreement() >= min_agreement &&
+         check.freeSpaceViolation() <= options_.max_violation &&
+         check.continuation() <= options_.max_continuation;
 }
 
 void
-ObjectLocalizer::removeRefused(std::vector<ObjectCandidate>& candidates) const
+ObjectLocalizer::removeRefused(std::vector<ObjectCandidate>& candidates,
+                               double min_agreement) const
 {
-  const auto isRefused = [this](const auto& c) { return !accepts(c.check); };
+  const auto isRefused = [&](const auto& c) { return !accepts(c.check, min_agreement); };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isRefused),
                    candidates.end());
 }
@@ -148,11 +162,11 @@ ObjectLocalizer::locate(const LocalizationScene& scene) const
   parallelFor(poses.size(), options_.num_threads, [&](std::size_t i) {
     candidates[i] = refinement.onSurface(poses[i].T_scene_model);
   });
-  removeRefused(candidates);
+  removeRefused(candidates, kRoughAgreement * options_.min_agreement);
   candidates = strongest(std::move(candidates), options_.max_shared_support);
   for (auto& candidate : candidates)
     candidate = refinement.onPoints(candidate, model_.surface());
-  removeRefused(candidates);
+  removeRefused(candidates, options_.min_agreement);
   std::vector<LocalizedObject> objects;
   for (auto& candidate : strongest(std::move(candidates), options_.max_shared_support))
     objects.push_back(describe(std::move(candidate)));

@@ -13,6 +13,9 @@ namespace {
 constexpr std::size_t kFewestFacing = 10; // points
 /** Of the size of an element: how far a pose that is right leaves them apart. */
 constexpr double kStrictness = 0.4;
+/** Of the rms: farther pairs are of another surface. */
+constexpr double kGate = 3;
+constexpr int kRounds = 3;
 
 /** The part of a model that faces the scanner, which is at the origin of the scene. */
 OrientedPoints
@@ -48,13 +51,13 @@ surfaceIcp(double voxel)
 
 /** Of the scan's points, in which noise is averaged by their number, to the model. */
 IcpOptions
-pointIcp(double voxel)
+pointIcp(double max_distance)
 {
   IcpOptions options;
   options.metric = Metric::kPlane;
-  options.max_distance = voxel;
+  options.max_distance = max_distance;
   options.max_iterations = 50;
-  options.translation_epsilon = 1e-3 * voxel;
+  options.translation_epsilon = 1e-3 * max_distance;
   options.rotation_epsilon = 1e-5;
   return options;
 }
@@ -88,19 +91,21 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
   std::vector<std::uint32_t> places;
   const Points around = pointsAround(candidate.T_scene_model, dense, places);
   ObjectCandidate refined = candidate;
-  for (int round = 0; round < 2; ++round) {
+  double gate = voxel_;
+  for (int round = 0; round < kRounds; ++round) {
     OrientedPoints facing = facingPart(dense, refined.T_scene_model);
     const IcpModel target(std::move(facing.points), std::move(facing.normals), {});
     const IcpResult result = icp({target.part()},
                                  {&around, nullptr},
                                  refined.T_scene_model.inverse(),
-                                 pointIcp(voxel_));
+                                 pointIcp(gate));
     if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged)
       return candidate;
     refined.status = result.status;
     refined.T_scene_model = result.T_target_source.inverse();
     refined.covariance = result.covariance;
     refined.rms = result.residual;
+    gate = std::clamp(kGate * result.residual, 0.1 * voxel_, voxel_);
   }
   refined.points.clear();
   const PointTree placed(
@@ -158,6 +163,7 @@ ObjectRefinement::check(const Eigen::Isometry3d& T_scene_model, double tolerance
   return checkPose(scene_,
                    surface_,
                    model_,
+                   model_tree_,
                    T_scene_model,
                    tolerance + noise);
 }

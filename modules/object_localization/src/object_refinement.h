@@ -29,7 +29,11 @@ public:
                    const SceneSurface& surface,
                    const OrientedPoints& model,
                    double voxel)
-  : scene_(scene), surface_(surface), model_(model), voxel_(voxel)
+  : scene_(scene)
+  , surface_(surface)
+  , model_(model)
+  , model_tree_(model.points)
+  , voxel_(voxel)
   {}
 
   /** \brief ICP of the model's facing part to the surface, twice, as the pose says which
@@ -53,6 +57,7 @@ private:
   const LocalizationScene& scene_;
   const SceneSurface& surface_;
   const OrientedPoints& model_;
+  PointTree model_tree_;
   double voxel_;
 };
 

@@ -97,12 +97,41 @@ surfaceAt(const FacingPoint& p,
                     normal.dot(p.normal) > kSameSide;
   return fits ? near.index : -1;
 }
+/** Counts the supporting elements from where the surface goes on beyond the object. */
+void
+checkContinuation(const SceneSurface& surface,
+         const PointTree& model_tree,
+         const Eigen::Isometry3d& T_model_scene,
+         double tolerance,
+         PoseCheck& check)
+{
+  constexpr float kSmooth = 0.94F; // cosine of 20 deg
+  constexpr double kBeyond = 2;    // times the tolerance
+  const Surfels& surfels = surface.cloud.surfels();
+  const auto reach = static_cast<float>(kBeyond * kBeyond * tolerance * tolerance);
+  for (const auto element : check.support) {
+    bool goes_on = false;
+    for (auto l = surfels.link_begin[element]; l < surfels.link_begin[element + 1]; ++l) {
+      const std::uint32_t next = surfels.links[l];
+      const Eigen::Vector3d place =
+          T_model_scene * surfels.points[next].cast<double>();
+      if (model_tree.nearest(place.cast<float>(), reach).index >= 0)
+        continue;
+      const Eigen::Vector3f& normal = surfels.normals[element];
+      const float off = normal.dot(surfels.points[next] - surfels.points[element]);
+      goes_on = goes_on || (surfels.normals[next].dot(normal) > kSmooth &&
+                            std::abs(off) < static_cast<float>(tolerance));
+    }
+    check.continued += goes_on ? 1 : 0;
+  }
+}
 } // namespace
 
 PoseCheck
 checkPose(const LocalizationScene& scene,
           const SceneSurface& surface,
           const OrientedPoints& model,
+          const PointTree& model_tree,
           const Eigen::Isometry3d& T_scene_model,
           double tolerance)
 {
@@ -134,6 +163,7 @@ checkPose(const LocalizationScene& scene,
   std::sort(check.support.begin(), check.support.end());
   check.support.erase(std::unique(check.support.begin(), check.support.end()),
                       check.support.end());
+  checkContinuation(surface, model_tree, T_scene_model.inverse(), tolerance, check);
   return check;
 }
 

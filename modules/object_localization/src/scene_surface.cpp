@@ -5,7 +5,9 @@
 namespace pcl6d {
 
 namespace {
-constexpr double kLargePlane = 1.3; // of the diameter
+/** A plane is large by its length and its area, in diameters. */
+constexpr double kLargeLength = 1.3;
+constexpr double kLargeArea = 0.5;
 /** Planes are looked for in surfels of so many elements, which average their noise. */
 constexpr double kPlaneSurfel = 4;
 
@@ -24,7 +26,8 @@ isLarge(const Plane& plane, double diameter)
   Eigen::AlignedBox3d box;
   for (const auto& corner : plane.hull)
     box.extend(corner);
-  return box.diagonal().norm() > kLargePlane * diameter;
+  return box.diagonal().norm() > kLargeLength * diameter &&
+         plane.area > kLargeArea * diameter * diameter;
 }
 } // namespace
 
@@ -40,7 +43,7 @@ SceneSurface::SceneSurface(const Points& points,
   if (elements.size() < 3)
     return;
   PlaneSegmentationOptions options;
-  options.planes.min_area = 0.25 * diameter * diameter;
+  options.planes.min_area = kLargeArea * diameter * diameter;
   const PlaneCloud coarse(elements.points,
                           cloudOptions(kPlaneSurfel * voxel, num_threads));
   for (const auto& segment :

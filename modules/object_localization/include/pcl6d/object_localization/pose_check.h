@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct PoseCheck {
   std::size_t misfit = 0;    ///< there is a surface, but off or turned otherwise
   std::size_t occluded = 0;  ///< something is in front
   std::size_t unseen = 0;    ///< no measurement in this direction
+  std::size_t continued = 0; ///< of `support`: from where the surface goes on smoothly
+                             ///< beyond the object
   double rms = 0;            ///< [m] distance to the surface, of those supported
   /** places of the scan's points that support it, ascending, each once */
   std::vector<std::uint32_t> support;
@@ -48,6 +51,16 @@ struct PoseCheck {
     return known == 0 ? 0 : static_cast<double>(supported) / static_cast<double>(known);
   }
 
+  /** \return how much of the surface goes on where the object ends, as on a piece of a
+   * wall: as a share of the perimeter of a square of as many elements */
+  double
+  continuation() const
+  {
+    return support.empty() ? 0
+                           : static_cast<double>(continued) /
+                                 (4 * std::sqrt(static_cast<double>(support.size())));
+  }
+
   /** \return of what the scan speaks of, the share that speaks against the pose */
   double
   freeSpaceViolation() const
@@ -59,12 +72,14 @@ struct PoseCheck {
 
 /** \brief Compares an object at a pose with a scan (book 7.2.2, step 4).
  * \param[in] surface of the scan; what is on a large plane is no object
+ * \param[in] model in elements of the surface's size \param[in] model_tree over them
  * \param[in] tolerance [m] between two surfaces that are the same
  * \ingroup object_localization */
 PoseCheck
 checkPose(const LocalizationScene& scene,
           const SceneSurface& surface,
           const OrientedPoints& model,
+          const PointTree& model_tree,
           const Eigen::Isometry3d& T_scene_model,
           double tolerance);
 

@@ -116,8 +116,7 @@ ObjectLocalizer::ObjectLocalizer(ObjectModel model, const LocalizerOptions& opti
 std::vector<VotedPose>
 ObjectLocalizer::firstPoses(const SceneSurface& surface) const
 {
-  const OrientedPoints rough =
-      reduceOriented(surface.withoutLargePlanes(), voxel_);
+  const OrientedPoints rough = reduceOriented(surface.withoutLargePlanes(), voxel_);
   PoseVoteOptions voting;
   voting.num_threads = options_.num_threads;
   auto poses =
@@ -146,7 +145,9 @@ void
 ObjectLocalizer::removeRefused(std::vector<ObjectCandidate>& candidates,
                                double min_agreement) const
 {
-  const auto isRefused = [&](const auto& c) { return !accepts(c.check, min_agreement); };
+  const auto isRefused = [&](const auto& c) {
+    return !accepts(c.check, min_agreement);
+  };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isRefused),
                    candidates.end());
 }
@@ -164,8 +165,9 @@ ObjectLocalizer::locate(const LocalizationScene& scene) const
   });
   removeRefused(candidates, kRoughAgreement * options_.min_agreement);
   candidates = strongest(std::move(candidates), options_.max_shared_support);
-  for (auto& candidate : candidates)
-    candidate = refinement.onPoints(candidate, model_.surface());
+  parallelFor(candidates.size(), options_.num_threads, [&](std::size_t i) {
+    candidates[i] = refinement.onPoints(candidates[i], model_.surface());
+  });
   removeRefused(candidates, options_.min_agreement);
   std::vector<LocalizedObject> objects;
   for (auto& candidate : strongest(std::move(candidates), options_.max_shared_support))

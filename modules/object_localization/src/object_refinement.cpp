@@ -49,6 +49,18 @@ surfaceIcp(double voxel)
   return options;
 }
 
+/** \return evenly spread points, enough to come near */
+Points
+someOf(const Points& points)
+{
+  constexpr std::size_t kEnough = 2000;
+  const std::size_t stride = points.size() / kEnough + 1;
+  Points some;
+  for (std::size_t i = 0; i < points.size(); i += stride)
+    some.push_back(points[i]);
+  return some;
+}
+
 /** Of the scan's points, in which noise is averaged by their number, to the model. */
 IcpOptions
 pointIcp(double max_distance)
@@ -59,6 +71,7 @@ pointIcp(double max_distance)
   options.max_iterations = 50;
   options.translation_epsilon = 1e-3 * max_distance;
   options.rotation_epsilon = 1e-5;
+  options.num_threads = 1;
   return options;
 }
 } // namespace
@@ -93,10 +106,11 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
   ObjectCandidate refined = candidate;
   double gate = voxel_;
   for (int round = 0; round < kRounds; ++round) {
+    const Points data = round + 1 < kRounds ? someOf(around) : around;
     OrientedPoints facing = facingPart(dense, refined.T_scene_model);
     const IcpModel target(std::move(facing.points), std::move(facing.normals), {});
     const IcpResult result = icp({target.part()},
-                                 {&around, nullptr},
+                                 {&data, nullptr},
                                  refined.T_scene_model.inverse(),
                                  pointIcp(gate));
     if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged)
@@ -108,8 +122,8 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
     gate = std::clamp(kGate * result.residual, 0.1 * voxel_, voxel_);
   }
   refined.points.clear();
-  const PointTree placed(
-      transformed(facingPart(dense, refined.T_scene_model).points, refined.T_scene_model));
+  const PointTree placed(transformed(facingPart(dense, refined.T_scene_model).points,
+                                     refined.T_scene_model));
   const auto reach = static_cast<float>(voxel_);
   for (std::size_t i = 0; i < places.size(); ++i)
     if (placed.nearest(around[i], reach * reach).index >= 0)
@@ -160,12 +174,8 @@ ObjectRefinement::check(const Eigen::Isometry3d& T_scene_model, double tolerance
       nearest.index < 0 ? 0
                         : double{surface_.cloud.surfels()
                                      .noise[static_cast<std::size_t>(nearest.index)]};
-  return checkPose(scene_,
-                   surface_,
-                   model_,
-                   model_tree_,
-                   T_scene_model,
-                   tolerance + noise);
+  return checkPose(
+      scene_, surface_, model_, model_tree_, T_scene_model, tolerance + noise);
 }
 
 } // namespace pcl6d

@@ -100,10 +100,10 @@ surfaceAt(const FacingPoint& p,
 /** Counts the supporting elements from where the surface goes on beyond the object. */
 void
 checkContinuation(const SceneSurface& surface,
-         const PointTree& model_tree,
-         const Eigen::Isometry3d& T_model_scene,
-         double tolerance,
-         PoseCheck& check)
+                  const PointTree& model_tree,
+                  const Eigen::Isometry3d& T_model_scene,
+                  double tolerance,
+                  PoseCheck& check)
 {
   constexpr float kSmooth = 0.94F; // cosine of 20 deg
   constexpr double kBeyond = 2;    // times the tolerance
@@ -111,10 +111,10 @@ checkContinuation(const SceneSurface& surface,
   const auto reach = static_cast<float>(kBeyond * kBeyond * tolerance * tolerance);
   for (const auto element : check.support) {
     bool goes_on = false;
-    for (auto l = surfels.link_begin[element]; l < surfels.link_begin[element + 1]; ++l) {
+    for (auto l = surfels.link_begin[element]; l < surfels.link_begin[element + 1];
+         ++l) {
       const std::uint32_t next = surfels.links[l];
-      const Eigen::Vector3d place =
-          T_model_scene * surfels.points[next].cast<double>();
+      const Eigen::Vector3d place = T_model_scene * surfels.points[next].cast<double>();
       if (model_tree.nearest(place.cast<float>(), reach).index >= 0)
         continue;
       const Eigen::Vector3f& normal = surfels.normals[element];

@@ -20,15 +20,15 @@ struct VotedPose;
 
 /** \brief Knobs of ObjectLocalizer. */
 struct LocalizerOptions {
-  double resolution = 0.05;  ///< of the search, as a share of the model's diameter; in
-                             ///< [0.02, 0.2]
-  int max_candidates = 24;   ///< poses that are looked at closely; > 0
+  double resolution = 0.05; ///< of the search, as a share of the model's diameter; in
+                            ///< [0.02, 0.2]
+  int max_candidates = 24;  ///< poses that are looked at closely; > 0
   double min_visible = 0.3; ///< PoseCheck::visibleFraction() of an object
-  double min_facing = 0.3;   ///< of the surface that faces the scanner where most of it
-                             ///< does: an open shell is not believed from behind
-  double min_agreement = 0.88;   ///< PoseCheck::agreement()
-  double max_violation = 0.08;   ///< PoseCheck::freeSpaceViolation()
-  double max_continuation = 0.4; ///< PoseCheck::continuation(); >= 0
+  double min_facing = 0.3;  ///< of the surface that faces the scanner where most of it
+                            ///< does: an open shell is not believed from behind
+  double min_agreement = 0.88;     ///< PoseCheck::agreement()
+  double max_violation = 0.08;     ///< PoseCheck::freeSpaceViolation()
+  double max_continuation = 0.4;   ///< PoseCheck::continuation(); >= 0
   std::size_t min_support = 30;    ///< surface elements of the scan on the object; > 0
   double max_shared_support = 0.3; ///< of the weaker one of two objects
   unsigned int num_threads = 0;    ///< 0: one per core; never changes the result

@@ -108,8 +108,8 @@ ObjectLocalizer::ObjectLocalizer(ObjectModel model, const LocalizerOptions& opti
 , model_(std::move(model))
 , voxel_(options_.resolution * model_.diameter())
 , coarse_(reduceOriented(model_.surface(), voxel_))
-, fine_(reduceOriented(model_.surface(), kRefinement * voxel_))
-, most_facing_(mostFacing(fine_))
+, fine_(std::make_shared<const ModelSurface>(model_.surface(), kRefinement * voxel_))
+, most_facing_(mostFacing(fine_->surface))
 , table_(coarse_, model_.diameter())
 {}
 
@@ -157,7 +157,7 @@ ObjectLocalizer::locate(const LocalizationScene& scene) const
 {
   const SceneSurface surface(
       scene.points(), kRefinement * voxel_, model_.diameter(), options_.num_threads);
-  const ObjectRefinement refinement(scene, surface, fine_, kRefinement * voxel_);
+  const ObjectRefinement refinement(scene, surface, *fine_);
   const auto poses = firstPoses(surface);
   std::vector<ObjectCandidate> candidates(poses.size());
   parallelFor(poses.size(), options_.num_threads, [&](std::size_t i) {

@@ -85,7 +85,7 @@ ObjectRefinement::onSurface(const Eigen::Isometry3d& guess) const
   ObjectCandidate candidate;
   candidate.T_scene_model = guess;
   for (int round = 0; round < 2; ++round) {
-    const OrientedPoints facing = facingPart(model_, candidate.T_scene_model);
+    const OrientedPoints facing = facingPart(model_.surface, candidate.T_scene_model);
     if (facing.size() < kFewestFacing)
       return candidate;
     candidate.T_scene_model =
@@ -93,7 +93,7 @@ ObjectRefinement::onSurface(const Eigen::Isometry3d& guess) const
             .T_target_source;
     options.max_distance_start = 0;
   }
-  candidate.check = check(candidate.T_scene_model, voxel_);
+  candidate.check = checkPose(scene_, surface_, model_, candidate.T_scene_model, voxel_);
   return candidate;
 }
 
@@ -128,7 +128,8 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
   for (std::size_t i = 0; i < places.size(); ++i)
     if (placed.nearest(around[i], reach * reach).index >= 0)
       refined.points.push_back(places[i]);
-  refined.check = check(refined.T_scene_model, kStrictness * voxel_);
+  refined.check = checkPose(
+      scene_, surface_, model_, refined.T_scene_model, kStrictness * voxel_);
   return refined;
 }
 
@@ -162,20 +163,6 @@ ObjectRefinement::pointsAround(const Eigen::Isometry3d& T_scene_model,
   for (const auto place : places)
     around.push_back(scene_.points()[place]);
   return around;
-}
-
-/** \param[in] tolerance [m] of exact points */
-PoseCheck
-ObjectRefinement::check(const Eigen::Isometry3d& T_scene_model, double tolerance) const
-{
-  const Neighbour nearest = surface_.tree.nearest(
-      T_scene_model.translation().cast<float>(), std::numeric_limits<float>::max());
-  const double noise =
-      nearest.index < 0 ? 0
-                        : double{surface_.cloud.surfels()
-                                     .noise[static_cast<std::size_t>(nearest.index)]};
-  return checkPose(
-      scene_, surface_, model_, model_tree_, T_scene_model, tolerance + noise);
 }
 
 } // namespace pcl6d

@@ -23,17 +23,15 @@ struct ObjectCandidate {
 /** \brief Makes poses of one model in one scan precise, and checks them. */
 class ObjectRefinement {
 public:
-  /** \param[in] model in elements of the size of the surface's, voxel [m].
+  /** \param[in] model in elements of the size of the surface's
    * Keeps references to all three. */
   ObjectRefinement(const LocalizationScene& scene,
                    const SceneSurface& surface,
-                   const OrientedPoints& model,
-                   double voxel)
+                   const ModelSurface& model)
   : scene_(scene)
   , surface_(surface)
   , model_(model)
-  , model_tree_(model.points)
-  , voxel_(voxel)
+  , voxel_(model.element)
   {}
 
   /** \brief ICP of the model's facing part to the surface, twice, as the pose says which
@@ -51,13 +49,9 @@ private:
   pointsAround(const Eigen::Isometry3d& T_scene_model,
                const OrientedPoints& dense,
                std::vector<std::uint32_t>& places) const;
-  PoseCheck
-  check(const Eigen::Isometry3d& T_scene_model, double tolerance) const;
-
   const LocalizationScene& scene_;
   const SceneSurface& surface_;
-  const OrientedPoints& model_;
-  PointTree model_tree_;
+  const ModelSurface& model_;
   double voxel_;
 };
 

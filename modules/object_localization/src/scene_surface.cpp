@@ -2,6 +2,8 @@
 #include <pcl6d/object_localization/scene_surface.h>
 #include <pcl6d/plane_segmentation/segment_planes.h>
 
+#include <cmath>
+
 namespace pcl6d {
 
 namespace {
@@ -18,6 +20,26 @@ cloudOptions(double voxel, unsigned int num_threads)
   options.voxel = voxel;
   options.num_threads = num_threads;
   return options;
+}
+
+Points
+directionsTo(const Points& points)
+{
+  Points directions;
+  for (const auto& p : points)
+    directions.push_back(p.normalized()); // the origin stays where it is
+  return directions;
+}
+
+std::vector<float>
+noiseOf(const Surfels& surfels)
+{
+  std::vector<float> noise;
+  for (std::size_t i = 0; i < surfels.size(); ++i) {
+    const auto members = static_cast<float>(surfels.begin[i + 1] - surfels.begin[i]);
+    noise.push_back(2 * surfels.noise[i] / std::sqrt(members));
+  }
+  return noise;
 }
 
 bool
@@ -38,6 +60,8 @@ SceneSurface::SceneSurface(const Points& points,
 : cloud(points, cloudOptions(voxel, num_threads))
 , elements{cloud.surfels().points, cloud.surfels().normals}
 , tree(elements.points, num_threads)
+, directions(directionsTo(elements.points), num_threads)
+, noise(noiseOf(cloud.surfels()))
 , large(elements.size(), 0)
 {
   if (elements.size() < 3)

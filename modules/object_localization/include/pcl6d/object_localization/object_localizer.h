@@ -7,12 +7,14 @@
 #include <pcl6d/object_localization/pair_features.h>
 #include <pcl6d/registration/pose_information.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace pcl6d {
 
+struct ModelSurface;
 struct ObjectCandidate;
 struct PoseCheck;
 struct SceneSurface;
@@ -91,7 +93,7 @@ private:
   ObjectModel model_;
   double voxel_;            ///< [m] of the search
   OrientedPoints coarse_;   ///< the model for votes
-  OrientedPoints fine_;     ///< for refinement
+  std::shared_ptr<const ModelSurface> fine_; ///< for refinement
   std::size_t most_facing_; ///< points of fine_, from the best side
   PairFeatureTable table_;
 };

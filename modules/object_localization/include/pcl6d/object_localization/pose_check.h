@@ -70,16 +70,29 @@ struct PoseCheck {
   }
 };
 
-/** \brief Compares an object at a pose with a scan (book 7.2.2, step 4).
- * \param[in] surface of the scan; what is on a large plane is no object
- * \param[in] model in elements of the surface's size \param[in] model_tree over them
- * \param[in] tolerance [m] between two surfaces that are the same
+/** \brief The surface of a model in elements of one size. */
+struct ModelSurface {
+  /** \param[in] dense the model \param[in] size [m] > 0 */
+  ModelSurface(const OrientedPoints& dense, double size)
+  : surface(reduceOriented(dense, size)), tree(surface.points), element(size)
+  {}
+
+  OrientedPoints surface;
+  PointTree tree; ///< over its points
+  double element; ///< [m]
+};
+
+/** \brief Compares an object at a pose with a scan (book 7.2.2, step 4): each element of
+ * its surface with the rays of the scan through it. Where the scan is too coarse for a
+ * ray to meet an element, it says nothing of it.
+ * \param[in] surface of the scan, in elements of the model's size or larger; what is on
+ * a large plane is no object
+ * \param[in] tolerance [m] of a pose that is right, without the noise of the scan
  * \ingroup object_localization */
 PoseCheck
 checkPose(const LocalizationScene& scene,
           const SceneSurface& surface,
-          const OrientedPoints& model,
-          const PointTree& model_tree,
+          const ModelSurface& model,
           const Eigen::Isometry3d& T_scene_model,
           double tolerance);
 

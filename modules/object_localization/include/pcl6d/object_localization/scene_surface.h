@@ -26,7 +26,9 @@ struct SceneSurface {
   PlaneCloud cloud;
   OrientedPoints elements; ///< the surfels of the cloud
   PointTree tree;          ///< over the elements
-  std::vector<char> large; ///< per element: whether it is on a large plane
+  PointTree directions;    ///< over the unit vectors from the scanner to them
+  std::vector<float> noise; ///< [m] per element: two standard deviations, averaged
+  std::vector<char> large;  ///< per element: whether it is on a large plane
 };
 
 } // namespace pcl6d

@@ -103,7 +103,8 @@ classesOf(const std::string& file)
   if (file.empty())
     return classes;
   std::ifstream in(file);
-  for (const auto& object : nlohmann::json::parse(in)["objects"])
+  const auto document = nlohmann::json::parse(in);
+  for (const auto& object : document["objects"])
     classes.push_back(object["class"]);
   return classes;
 }

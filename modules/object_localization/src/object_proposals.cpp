@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "cavities.h"
 #include "crease_parts.h"
 #include "footprint_box.h"
 #include "surfel_graph.h"
@@ -33,7 +34,9 @@ public:
   propose() const
   {
     std::vector<std::vector<ObjectProposal>> families; // wholes, each with its parts
-    for (const auto& set : connectedSets(cloud_, graph_, supports_))
+    SurfelSets sets = connectedSets(cloud_, graph_, supports_);
+    joinCavities(cloud_, graph_, supports_.up, sets);
+    for (const auto& set : sets)
       if (auto whole = standing(set))
         families.push_back(withParts(std::move(*whole), set));
     std::stable_sort(
@@ -88,7 +91,7 @@ private:
     const Eigen::Vector3f middle = middleOf(set);
     for (std::size_t k = 0; k < supports_.prisms.size(); ++k) {
       if (supports_.roles[k] != PlaneRole::kBase ||
-          !supports_.prisms[k].covers(middle, options_.contact))
+          !supports_.prisms[k].covers(middle, options_.overhang))
         continue;
       const auto [low, high] = heightsOver(k, set);
       if (low > -options_.contact && low < options_.contact &&
@@ -215,6 +218,7 @@ ProposalOptions::validate() const
   require(max_height > 0, "max_height", max_height, "> 0");
   require(min_height > 0, "min_height", min_height, "> 0");
   require(contact > 0, "contact", contact, "> 0");
+  require(overhang >= 0, "overhang", overhang, ">= 0");
   require(gap >= 1 && std::isfinite(gap), "gap", gap, ">= 1 and finite");
   require(crease > 0 && crease < 1, "crease", crease, "in (0, 1)");
   require(min_points >= 3, "min_points", min_points, ">= 3");

@@ -16,17 +16,32 @@ constexpr std::uint32_t kNoPlane = SceneSupports::kNoPlane;
 constexpr std::size_t kBlockSize = 1024; // surfels
 constexpr double kCoplanarSine = 0.1;
 constexpr double kCoplanarDistance = 0.1; // [m]
-constexpr double kPlanMargin = 0.05;      // [m] around a plane's hull
+constexpr double kPlanMargin = 0.1;       // [m] around the hull of a wall
 
-/** \return the largest distance [m] of two corners */
+/** 
+eturn the largest distance [m] of two corners in plan */
 double
-extentOf(const std::vector<Eigen::Vector3d>& hull)
+widthOf(const std::vector<Eigen::Vector3d>& hull, const Eigen::Vector3d& up)
 {
-  double extent = 0;
+  double width_sq = 0;
   for (const auto& a : hull)
     for (const auto& b : hull)
-      extent = std::max(extent, (a - b).norm());
-  return extent;
+      width_sq = std::max(width_sq, (a - b).cross(up).squaredNorm());
+  return std::sqrt(width_sq);
+}
+
+/** 
+eturn the difference [m] of the highest and the lowest corner */
+double
+heightOf(const std::vector<Eigen::Vector3d>& hull, const Eigen::Vector3d& up)
+{
+  double low = 0, high = 0;
+  for (const auto& corner : hull) {
+    const double height = up.dot(corner - hull[0]);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return high - low;
 }
 
 Eigen::Vector3d
@@ -137,7 +152,8 @@ public:
     for (std::size_t k = 0; k < planes_.size(); ++k)
       if (isLevel(k))
         roles[k] = isOverAnother(k) ? PlaneRole::kRaised : PlaneRole::kBase;
-      else if (extentOf(planes_[k].plane.hull) > options_.max_extent)
+      else if (widthOf(planes_[k].plane.hull, up_) > options_.max_extent ||
+               heightOf(planes_[k].plane.hull, up_) > options_.max_height)
         roles[k] = PlaneRole::kStructure;
     for (std::size_t k = 0; k < planes_.size(); ++k)
       if (roles[k] == PlaneRole::kThing && continuesStructure(k, roles))
@@ -161,7 +177,7 @@ private:
       const double height = prisms_[j].height(middle);
       if (j != k && isLevel(j) && planes_[j].plane.area > planes_[k].plane.area &&
           height > kCoplanarDistance && height < options_.max_height &&
-          prisms_[j].covers(middle, 0))
+          prisms_[j].covers(middle, options_.overhang))
         return true;
     }
     return false;
@@ -258,14 +274,16 @@ surfelsOfThings(const PlaneCloud& cloud,
                 const ProposalOptions& options)
 {
   const Surfels& surfels = cloud.surfels();
+  // below it, what hangs down beside a table shows that it does not stand on it
+  const double deepest = -3 * options.contact;
   std::vector<char> chosen(surfels.size(), 0);
   parallelBlocks(
       surfels.size(), kBlockSize, options.num_threads, [&](const Block& block) {
         for (std::size_t i = block.begin; i < block.end; ++i) {
           const auto isOver = [&](std::size_t k) {
             return supports.roles[k] == PlaneRole::kBase &&
-                   supports.prisms[k].height(surfels.points[i]) > 0 &&
-                   supports.prisms[k].covers(surfels.points[i], kPlanMargin);
+                   supports.prisms[k].height(surfels.points[i]) > deepest &&
+                   supports.prisms[k].covers(surfels.points[i], options.overhang);
           };
           bool over = false;
           for (std::size_t k = 0; k < supports.prisms.size() && !over; ++k)

@@ -15,7 +15,7 @@ namespace pcl6d {
 
 namespace {
 constexpr std::size_t kBlockSize = 256; // surfels
-constexpr std::size_t kMostLinks = 48;  // of a surfel; itself included
+constexpr std::size_t kMostLinks = 64;  // of a surfel; itself included
 constexpr float kReach = 4;             // [spacings] of links
 
 Points
@@ -27,30 +27,28 @@ placesOf(const Surfels& surfels, const std::vector<std::uint32_t>& chosen)
   return points;
 }
 
-/** \return the distance [m] from a surfel to the next one where these are densest */
+/** \return the distance [m] of surfels where they are dense, by the area of as many as
+ * make a normal */
 float
-leastSpacing(const Points& points, const PointTree& tree)
+leastSpacing(const Surfels& all, const std::vector<std::uint32_t>& surfels)
 {
-  constexpr std::size_t kSamples = 1000, kDensest = 10; // one of so many
-  std::vector<float> distances;
-  std::array<Neighbour, 2> near;
-  const std::size_t stride = std::max<std::size_t>(points.size() / kSamples, 1);
-  for (std::size_t i = 0; i < points.size(); i += stride)
-    if (tree.nearestK(points[i], 2, near.data()) == 2)
-      distances.push_back(near[1].distance_sq);
-  if (distances.empty())
+  constexpr std::size_t kDense = 4; // one of so many is as dense
+  std::vector<float> radii;
+  for (const auto i : surfels)
+    radii.push_back(all.radii[i]);
+  if (radii.empty())
     return 0;
   const auto chosen =
-      distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / kDensest);
-  std::nth_element(distances.begin(), chosen, distances.end());
-  return std::sqrt(*chosen);
+      radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / kDense);
+  std::nth_element(radii.begin(), chosen, radii.end());
+  return *chosen * std::sqrt(static_cast<float>(M_PI / Surfels::kNeighbours));
 }
 
 float
 concavityOf(const Surfels& surfels, std::uint32_t i, std::uint32_t j)
 {
   const Eigen::Vector3f chord = (surfels.points[j] - surfels.points[i]).normalized();
-  return std::min(surfels.normals[i].dot(chord), -surfels.normals[j].dot(chord));
+  return (surfels.normals[i] - surfels.normals[j]).dot(chord) / 2;
 }
 
 SurfelSets
@@ -117,7 +115,7 @@ linkSurfels(const PlaneCloud& cloud,
   const Surfels& all = cloud.surfels();
   const Points points = placesOf(all, surfels);
   const PointTree tree(points, options.num_threads);
-  const float least = leastSpacing(points, tree);
+  const float least = leastSpacing(all, surfels);
   const auto gap = static_cast<float>(options.gap);
   SurfelGraph graph;
   for (const auto i : surfels) {

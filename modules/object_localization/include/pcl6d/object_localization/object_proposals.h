@@ -24,9 +24,11 @@ struct ProposalOptions {
   double max_height = 2.1;   ///< [m] of a thing's top over its support; > 0
   double min_height = 0.015; ///< [m] the same, at least; > 0
   double contact = 0.12;     ///< [m] from a thing's lowest point to its support; > 0
-  double gap = 2.5;          ///< [spacings] that part two things; >= 1
-  double crease = 0.3;       ///< sine of the angle to the chord over a concave crease,
-                             ///< across which two things touch; in (0, 1)
+  double overhang = 0.5; ///< [m] of a thing beyond what is seen of its support, such as
+                         ///< the floor under a shelf; >= 0
+  double gap = 2;        ///< [spacings] that part two things; >= 1
+  double crease = 0.3;   ///< sine of the angle to the chord over a concave crease,
+                         ///< across which two things touch; in (0, 1)
   std::size_t min_points = 30; ///< of a thing; >= 3
   bool parts = true; ///< whether to propose also the parts of what creases and
                      ///< planes divide, such as each box of a stack

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/object_localization/object_proposals.h>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+/** \file What the planes of a scene are to the things in it. Internal to the module
+ * object_localization. */
+namespace pcl6d {
+
+/** \brief The space over the hull of a plane, on the side that was seen. */
+class PlanePrism {
+public:
+  explicit PlanePrism(const PlaneSegment& segment);
+
+  /** \return the height [m] over the plane */
+  double
+  height(const Eigen::Vector3f& point) const
+  {
+    return side_.dot(point.cast<double>()) - offset_;
+  }
+
+  /** \return whether the point is over or under the hull grown by a margin [m] */
+  bool
+  covers(const Eigen::Vector3f& point, double margin) const;
+
+  /** \return the unit normal on the side that was seen */
+  const Eigen::Vector3d&
+  side() const
+  {
+    return side_;
+  }
+
+private:
+  Eigen::Vector3d side_;
+  double offset_;                      // [m] along side_
+  std::vector<Eigen::Vector4d> edges_; // outside where (n, -d).(p, 1) > 0
+};
+
+/** \brief What a plane is to things. */
+enum class PlaneRole {
+  kThing,     ///< may be part of one
+  kRaised,    ///< the same, level, and may carry others
+  kBase,      ///< carries things and is none
+  kStructure, ///< neither, such as a wall
+};
+
+/** \brief The planes of a scene with their roles. */
+struct SceneSupports {
+  static constexpr std::uint32_t kNoPlane = std::numeric_limits<std::uint32_t>::max();
+
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  std::vector<PlanePrism> prisms;             ///< one per plane
+  std::vector<PlaneRole> roles;               ///< one per plane
+  std::vector<std::uint32_t> plane_of_surfel; ///< or kNoPlane
+};
+
+SceneSupports
+findSupports(const PlaneCloud& cloud,
+             const PlaneSegments& planes,
+             const ProposalOptions& options);
+
+/** \return the surfels that may be on things: over a base, not on one nor on structure;
+ * ascending */
+std::vector<std::uint32_t>
+surfelsOfThings(const PlaneCloud& cloud,
+                const SceneSupports& supports,
+                const ProposalOptions& options);
+
+} // namespace pcl6d

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "object_refinement.h"
+#include "object_candidates.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/object_localization/object_localizer.h>
 #include <pcl6d/object_localization/pose_clusters.h>
 #include <pcl6d/object_localization/pose_votes.h>
+#include <pcl6d/object_localization/upright_poses.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,11 @@ namespace {
 constexpr double kRefinement = 0.5;
 /** Before the last step a pose need not agree as well, by this factor. */
 constexpr double kRoughAgreement = 0.6;
+/** Of a proposal: poses that are compared with the scan, and those made precise. */
+constexpr std::size_t kPlacings = 60;
+constexpr std::size_t kPlacingsRefined = 6;
+constexpr double kFieldReach = 3;  // elements
+constexpr double kPlacingGate = 3; // elements
 constexpr double kClusterDistance = 0.1; // of the diameter
 constexpr double kClusterAngle = 0.35;   // [rad], 20 deg
 
@@ -37,53 +43,6 @@ mostFacing(const OrientedPoints& surface)
   return most;
 }
 
-double
-scoreOf(const PoseCheck& check)
-{
-  return check.visibleFraction() * (1 - check.freeSpaceViolation());
-}
-
-/** \return how much of the scan a pose explains, less for what speaks against it: a
- * share of the facing surface would prefer poses that show the scanner a small face */
-double
-explanation(const PoseCheck& check)
-{
-  return static_cast<double>(check.support.size()) * check.agreement() *
-         (1 - check.freeSpaceViolation());
-}
-
-/** \return how much of the smaller support is in the other one, too */
-double
-sharedSupport(const PoseCheck& a, const PoseCheck& b)
-{
-  std::vector<std::uint32_t> both;
-  std::set_intersection(a.support.begin(),
-                        a.support.end(),
-                        b.support.begin(),
-                        b.support.end(),
-                        std::back_inserter(both));
-  return static_cast<double>(both.size()) /
-         static_cast<double>(std::min(a.support.size(), b.support.size()));
-}
-
-/** Leaves out those that explain what a better one explains; best first. */
-std::vector<ObjectCandidate>
-strongest(std::vector<ObjectCandidate> candidates, double max_shared)
-{
-  std::stable_sort(
-      candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-        return explanation(a.check) > explanation(b.check);
-      });
-  std::vector<ObjectCandidate> kept;
-  for (auto& candidate : candidates) {
-    const auto isSame = [&](const ObjectCandidate& other) {
-      return sharedSupport(candidate.check, other.check) > max_shared;
-    };
-    if (std::none_of(kept.begin(), kept.end(), isSame))
-      kept.push_back(std::move(candidate));
-  }
-  return kept;
-}
 } // namespace
 
 void
@@ -110,6 +69,8 @@ ObjectLocalizer::ObjectLocalizer(ObjectModel model, const LocalizerOptions& opti
 , coarse_(reduceOriented(model_.surface(), voxel_))
 , fine_(std::make_shared<const ModelSurface>(model_.surface(), kRefinement * voxel_))
 , most_facing_(mostFacing(fine_->surface))
+, field_(std::make_shared<const DistanceField>(
+      fine_->surface.points, fine_->element, kFieldReach * fine_->element))
 , table_(coarse_, model_.diameter())
 {}
 
@@ -133,7 +94,7 @@ bool
 ObjectLocalizer::accepts(const PoseCheck& check, double min_agreement) const
 {
   return check.support.size() >= options_.min_support &&
-         static_cast<double>(check.facing()) >=
+         static_cast<double>(check.elements) >=
              options_.min_facing * static_cast<double>(most_facing_) &&
          check.visibleFraction() >= options_.min_visible &&
          check.agreement() >= min_agreement &&
@@ -155,8 +116,7 @@ ObjectLocalizer::removeRefused(std::vector<ObjectCandidate>& candidates,
 std::vector<LocalizedObject>
 ObjectLocalizer::locate(const LocalizationScene& scene) const
 {
-  const SceneSurface surface(
-      scene.points(), kRefinement * voxel_, model_.diameter(), options_.num_threads);
+  const SceneSurface surface = surfaceOf(scene);
   const ObjectRefinement refinement(scene, surface, *fine_);
   const auto poses = firstPoses(surface);
   std::vector<ObjectCandidate> candidates(poses.size());
@@ -166,8 +126,77 @@ ObjectLocalizer::locate(const LocalizationScene& scene) const
   removeRefused(candidates, kRoughAgreement * options_.min_agreement);
   candidates = strongest(std::move(candidates), options_.max_shared_support);
   parallelFor(candidates.size(), options_.num_threads, [&](std::size_t i) {
-    candidates[i] = refinement.onPoints(candidates[i], model_.surface());
+    candidates[i] = refinement.onPoints(candidates[i], model_.surface(), fine_->element);
   });
+  return objectsOf(std::move(candidates));
+}
+
+std::vector<LocalizedObject>
+ObjectLocalizer::locate(const LocalizationScene& scene,
+                        const std::vector<ObjectProposal>& proposals) const
+{
+  const SceneSurface surface = surfaceOf(scene);
+  const ObjectRefinement refinement(scene, surface, *fine_);
+  const ModelSurface coarse(model_.surface(), voxel_);
+  std::vector<std::vector<ObjectCandidate>> of_proposal(proposals.size());
+  parallelFor(proposals.size(), options_.num_threads, [&](std::size_t i) {
+    if (mayBe(proposals[i]))
+      of_proposal[i] = placed(proposals[i], refinement, coarse);
+  });
+  std::vector<ObjectCandidate> candidates;
+  for (auto& some : of_proposal)
+    std::move(some.begin(), some.end(), std::back_inserter(candidates));
+  return objectsOf(std::move(candidates));
+}
+
+SceneSurface
+ObjectLocalizer::surfaceOf(const LocalizationScene& scene) const
+{
+  return {scene.points(), fine_->element, model_.diameter(), options_.num_threads};
+}
+
+/** Whether a proposal is not much larger than the model. */
+bool
+ObjectLocalizer::mayBe(const ObjectProposal& proposal) const
+{
+  constexpr double kTaller = 0.2;  // [m] of what is on it
+  constexpr double kLonger = 0.8;  // [m] of what touches it
+  const Eigen::Vector3d size = model_.box().sizes();
+  return proposal.size.z() < size.z() + kTaller &&
+         proposal.size.head<2>().norm() < size.head<2>().norm() + kLonger;
+}
+
+/** Upright poses of the model at a proposal, made precise. */
+std::vector<ObjectCandidate>
+ObjectLocalizer::placed(const ObjectProposal& proposal,
+                        const ObjectRefinement& refinement,
+                        const ModelSurface& coarse) const
+{
+  Points points;
+  for (const auto place : proposal.points)
+    points.push_back(refinement.scene().points()[place]);
+  std::vector<ObjectCandidate> candidates;
+  for (const auto& pose : uprightPoses(*field_,
+                                       model_.box(),
+                                       model_.symmetry(),
+                                       points,
+                                       proposal.T_scene_box,
+                                       kPlacings))
+    candidates.push_back(refinement.checked(pose.T_scene_model, coarse));
+  std::stable_sort(
+      candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+        return explanation(a.check) > explanation(b.check);
+      });
+  candidates.resize(std::min(candidates.size(), kPlacingsRefined));
+  for (auto& candidate : candidates)
+    candidate =
+        refinement.onPoints(candidate, model_.surface(), kPlacingGate * fine_->element);
+  return candidates;
+}
+
+std::vector<LocalizedObject>
+ObjectLocalizer::objectsOf(std::vector<ObjectCandidate> candidates) const
+{
   removeRefused(candidates, options_.min_agreement);
   std::vector<LocalizedObject> objects;
   for (auto& candidate : strongest(std::move(candidates), options_.max_shared_support))
@@ -186,6 +215,7 @@ ObjectLocalizer::describe(ObjectCandidate candidate) const
   object.score = scoreOf(candidate.check);
   object.visible_fraction = candidate.check.visibleFraction();
   object.rms = candidate.rms;
+  object.evidence = static_cast<double>(candidate.points.size()) * trust(candidate.check);
   object.points = std::move(candidate.points);
   return object;
 }

@@ -98,13 +98,23 @@ ObjectRefinement::onSurface(const Eigen::Isometry3d& guess) const
 }
 
 ObjectCandidate
+ObjectRefinement::checked(const Eigen::Isometry3d& T_scene_model,
+                          const ModelSurface& model) const
+{
+  ObjectCandidate candidate;
+  candidate.T_scene_model = T_scene_model;
+  candidate.check = checkPose(scene_, surface_, model, T_scene_model, model.element);
+  return candidate;
+}
+
+ObjectCandidate
 ObjectRefinement::onPoints(const ObjectCandidate& candidate,
-                           const OrientedPoints& dense) const
+                           const OrientedPoints& dense,
+                           double gate) const
 {
   std::vector<std::uint32_t> places;
   const Points around = pointsAround(candidate.T_scene_model, dense, places);
   ObjectCandidate refined = candidate;
-  double gate = voxel_;
   for (int round = 0; round < kRounds; ++round) {
     const Points data = round + 1 < kRounds ? someOf(around) : around;
     OrientedPoints facing = facingPart(dense, refined.T_scene_model);
@@ -113,8 +123,10 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
                                  {&data, nullptr},
                                  refined.T_scene_model.inverse(),
                                  pointIcp(gate));
-    if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged)
-      return candidate;
+    if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged) {
+      refined.check = {};
+      return refined;
+    }
     refined.status = result.status;
     refined.T_scene_model = result.T_target_source.inverse();
     refined.covariance = result.covariance;

@@ -39,10 +39,23 @@ public:
   ObjectCandidate
   onSurface(const Eigen::Isometry3d& guess) const;
 
-  /** \brief ICP of a model to all points around it; then a strict check. Where ICP fails,
-   * the candidate stays as it was. \param[in] dense the model with all its points */
+  /** \brief A pose as it is, checked with a surface of any element size. */
   ObjectCandidate
-  onPoints(const ObjectCandidate& candidate, const OrientedPoints& dense) const;
+  checked(const Eigen::Isometry3d& T_scene_model, const ModelSurface& model) const;
+
+  /** \brief ICP of a model to all points around it; then a strict check. Where ICP fails,
+   * nothing supports the candidate. \param[in] dense the model with all its points
+   * \param[in] gate [m] of pairs at the start */
+  ObjectCandidate
+  onPoints(const ObjectCandidate& candidate,
+           const OrientedPoints& dense,
+           double gate) const;
+
+  const LocalizationScene&
+  scene() const
+  {
+    return scene_;
+  }
 
 private:
   Points

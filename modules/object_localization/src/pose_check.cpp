@@ -29,6 +29,7 @@ public:
   void
   add(const FacingElement& e)
   {
+    ++check_.elements;
     const auto width = static_cast<float>(kRayWidth * element_ / e.range);
     const auto rays = surface_.directions.withinRadius(
         (e.point / e.range).cast<float>(), width * width, kMostRays);

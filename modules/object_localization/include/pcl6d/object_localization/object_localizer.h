@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/common/status.h>
 #include <pcl6d/object_localization/localization_scene.h>
+#include <pcl6d/object_localization/localized_object.h>
 #include <pcl6d/object_localization/object_model.h>
+#include <pcl6d/object_localization/object_proposals.h>
 #include <pcl6d/object_localization/pair_features.h>
-#include <pcl6d/registration/pose_information.h>
 
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace pcl6d {
 
+class DistanceField;
+class ObjectRefinement;
 struct ModelSurface;
 struct ObjectCandidate;
 struct PoseCheck;
@@ -37,20 +37,6 @@ struct LocalizerOptions {
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
-};
-
-/** \brief An object found in a scan. */
-struct LocalizedObject {
-  std::string object_class;
-  /** kOk, or kRankDeficient: the surfaces leave a turn or shift open, as on a model that
-   * looks the same from all around */
-  Status status = Status::kOk;
-  Eigen::Isometry3d T_scene_object = Eigen::Isometry3d::Identity();
-  std::optional<PoseCovariance> covariance; ///< x y z roll pitch yaw [m, rad]
-  double score = 0;                  ///< visible fraction less free-space violation
-  double visible_fraction = 0;       ///< of the surface that faces the scanner
-  double rms = 0;                    ///< [m]
-  std::vector<std::uint32_t> points; ///< of the scene that lie on it, ascending
 };
 
 /** \brief Finds an object of known shape in a scan and its pose in six degrees of
@@ -79,7 +65,24 @@ public:
     return model_;
   }
 
+  /** \brief The same where something may be, such as proposeObjects() finds: upright, on
+   * what the proposals stand on. Also in coarse scans, in which pairs of points say little.
+   * \param[in] proposals of the scene's points \return best first */
+  std::vector<LocalizedObject>
+  locate(const LocalizationScene& scene,
+         const std::vector<ObjectProposal>& proposals) const;
+
 private:
+  SceneSurface
+  surfaceOf(const LocalizationScene& scene) const;
+  bool
+  mayBe(const ObjectProposal& proposal) const;
+  std::vector<ObjectCandidate>
+  placed(const ObjectProposal& proposal,
+         const ObjectRefinement& refinement,
+         const ModelSurface& coarse) const;
+  std::vector<LocalizedObject>
+  objectsOf(std::vector<ObjectCandidate> candidates) const;
   std::vector<VotedPose>
   firstPoses(const SceneSurface& surface) const;
   bool
@@ -95,6 +98,7 @@ private:
   OrientedPoints coarse_;   ///< the model for votes
   std::shared_ptr<const ModelSurface> fine_; ///< for refinement
   std::size_t most_facing_; ///< points of fine_, from the best side
+  std::shared_ptr<const DistanceField> field_; ///< of fine_
   PairFeatureTable table_;
 };
 

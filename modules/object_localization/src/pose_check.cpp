@@ -11,8 +11,11 @@ namespace pcl6d {
 namespace {
 constexpr double kSameSide = 0.5; // cosine of 60 deg
 constexpr float kSmooth = 0.94F;  // cosine of 20 deg
-/** A ray meets an element within so many of its sizes. */
+/** A ray may meet an element within so many of its sizes, and certainly does closer. */
 constexpr double kRayWidth = 0.75;
+constexpr double kRayCore = 0.4;
+/** The next ray is not farther away than so many spacings. */
+constexpr double kNextRay = 2;
 /** Ranges differ by more than so many tolerances if they are of two surfaces. */
 constexpr double kApart = 2;
 
@@ -21,9 +24,15 @@ class RayCheck {
 public:
   RayCheck(const LocalizationScene& scene,
            const SceneSurface& surface,
-           double element,
+           const ModelSurface& model,
+           const Eigen::Isometry3d& T_scene_model,
            double tolerance)
-  : scene_(scene), surface_(surface), element_(element), tolerance_(tolerance)
+  : scene_(scene)
+  , surface_(surface)
+  , model_(model)
+  , T_model_scene_(T_scene_model.inverse())
+  , element_(model.element)
+  , tolerance_(tolerance)
   {}
 
   void
@@ -35,22 +44,20 @@ public:
         (e.point / e.range).cast<float>(), width * width, kMostRays);
     if (rays.empty())
       return addUnmet(e);
+    const auto core = static_cast<float>(kRayCore * element_ / e.range);
     double nearest = INFINITY, farthest = 0;
     for (const Neighbour& ray : rays) {
       const auto i = static_cast<std::size_t>(ray.index);
       if (supports(e, i))
         return;
+      if (ray.distance_sq > core * core)
+        continue;
       const double range = surface_.elements.points[i].cast<double>().norm();
       nearest = std::min(nearest, range);
       farthest = std::max(farthest, range);
     }
-    const double margin = kApart * tolerance_ / e.cosine;
-    if (nearest > e.range + margin)
-      ++check_.refuted;
-    else if (farthest < e.range - margin)
-      ++check_.occluded;
-    else
-      ++check_.misfit;
+    if (farthest > 0)
+      addUnsupported(e, nearest, farthest);
   }
 
   PoseCheck
@@ -85,22 +92,46 @@ private:
     return true;
   }
 
-  /** Where no ray met the element: was there none, or are they far apart? */
+  /** Of an element that rays met elsewhere. */
+  void
+  addUnsupported(const FacingElement& e, double nearest, double farthest)
+  {
+    const double margin = kApart * tolerance_ / e.cosine;
+    if (nearest > e.range + margin)
+      ++check_.refuted;
+    else if (farthest < e.range - margin)
+      ++check_.occluded;
+    else
+      ++check_.misfit;
+  }
+
+  /** Where no ray met the element: was there none, is something in front, or are rays
+   * so far apart? */
   void
   addUnmet(const FacingElement& e)
   {
-    const auto seen = scene_.ranges().projection().project(e.point);
-    if (!seen)
-      return;
-    const double range = scene_.ranges().range(seen->pixel);
-    if (std::isnan(range))
+    const auto spacing = static_cast<float>(kNextRay * scene_.angularSpacing());
+    const Neighbour ray = surface_.directions.nearest((e.point / e.range).cast<float>(),
+                                                      spacing * spacing);
+    if (ray.index < 0) {
       ++check_.unseen;
-    else if (range < e.range - kApart * tolerance_ / e.cosine)
+      return;
+    }
+    const Eigen::Vector3f& point =
+        surface_.elements.points[static_cast<std::size_t>(ray.index)];
+    const auto reach = static_cast<float>(kApart * (tolerance_ + element_));
+    const bool is_own =
+        model_.tree.nearest((T_model_scene_ * point.cast<double>()).cast<float>(),
+                            reach * reach)
+            .index >= 0;
+    if (!is_own && point.norm() < e.range - kApart * tolerance_ / e.cosine)
       ++check_.occluded;
   }
 
   const LocalizationScene& scene_;
   const SceneSurface& surface_;
+  const ModelSurface& model_;
+  Eigen::Isometry3d T_model_scene_;
   double element_;
   double tolerance_;
   PoseCheck check_;
@@ -143,7 +174,7 @@ checkPose(const LocalizationScene& scene,
           const Eigen::Isometry3d& T_scene_model,
           double tolerance)
 {
-  RayCheck rays(scene, surface, model.element, tolerance);
+  RayCheck rays(scene, surface, model, T_scene_model, tolerance);
   for (const FacingElement& e :
        facingElements(model.surface, T_scene_model, model.element))
     rays.add(e);

@@ -39,6 +39,11 @@ public:
     for (const auto& set : sets)
       if (auto whole = standing(set))
         families.push_back(withParts(std::move(*whole), set));
+      else if (set.size() >=
+               options_.min_points / 2) // too large, say: of several things
+        for (const auto& part : partsOf(set))
+          if (auto piece = standing(part))
+            families.push_back({std::move(*piece)});
     std::stable_sort(
         families.begin(), families.end(), [](const auto& a, const auto& b) {
           return a[0].points.size() > b[0].points.size();
@@ -141,15 +146,23 @@ private:
     family.push_back(std::move(whole));
     if (!options_.parts)
       return family;
-    SurfelSets parts;
-    for (const auto& layer : layersOf(set))
-      for (auto& part : divideAtCreases(cloud_, graph_, layer, options_))
-        parts.push_back(std::move(part));
+    const SurfelSets parts = partsOf(set);
     if (parts.size() > 1)
       for (const auto& part : parts)
         if (auto proposal = proposalOf(part, support))
           family.push_back(std::move(*proposal));
     return family;
+  }
+
+  /** \return what level planes and creases divide a set into, disjoint */
+  SurfelSets
+  partsOf(const std::vector<std::uint32_t>& set) const
+  {
+    SurfelSets parts;
+    for (const auto& layer : layersOf(set))
+      for (auto& part : divideAtCreases(cloud_, graph_, layer, options_))
+        parts.push_back(std::move(part));
+    return parts;
   }
 
   /** \return what stands on level planes of a set, and the rest */

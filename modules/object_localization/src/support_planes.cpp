@@ -15,8 +15,8 @@ namespace {
 constexpr std::uint32_t kNoPlane = SceneSupports::kNoPlane;
 constexpr std::size_t kBlockSize = 1024; // surfels
 constexpr double kCoplanarSine = 0.1;
-constexpr double kCoplanarDistance = 0.1; // [m]
-constexpr double kPlanMargin = 0.1;       // [m] around the hull of a wall
+constexpr double kCoplanarDistance = 0.02; // [m]
+constexpr double kPlanMargin = 0.1;        // [m] around the hull of a wall
 
 /** 
 eturn the largest distance [m] of two corners in plan */
@@ -149,12 +149,15 @@ public:
   find() const
   {
     std::vector<PlaneRole> roles(planes_.size(), PlaneRole::kThing);
-    for (std::size_t k = 0; k < planes_.size(); ++k)
+    for (std::size_t k = 0; k < planes_.size(); ++k) {
+      const double width = widthOf(planes_[k].plane.hull, up_);
       if (isLevel(k))
-        roles[k] = isOverAnother(k) ? PlaneRole::kRaised : PlaneRole::kBase;
-      else if (widthOf(planes_[k].plane.hull, up_) > options_.max_extent ||
+        roles[k] = width <= options_.max_extent && isOverAnother(k) ? PlaneRole::kRaised
+                                                                    : PlaneRole::kBase;
+      else if (width > options_.max_extent ||
                heightOf(planes_[k].plane.hull, up_) > options_.max_height)
         roles[k] = PlaneRole::kStructure;
+    }
     for (std::size_t k = 0; k < planes_.size(); ++k)
       if (roles[k] == PlaneRole::kThing && continuesStructure(k, roles))
         roles[k] = PlaneRole::kStructure;
@@ -265,6 +268,30 @@ findSupports(const PlaneCloud& cloud,
   else if (ViewBorder(cloud).isNarrow())
     supports.up = upByFeet(cloud, supports, planes);
   supports.roles = Roles(planes, supports.prisms, supports.up, options).find();
+  for (std::size_t k = 0; k < planes.planes.size(); ++k) {
+    auto& q = planes.planes[k].plane;
+    Eigen::Vector3d lo = q.hull[0], hi = q.hull[0];
+    for (auto& c : q.hull) {
+      lo = lo.cwiseMin(c);
+      hi = hi.cwiseMax(c);
+    }
+    fprintf(stderr,
+            "plane %zu role %d area %.2f n %.2f %.2f %.2f pts %zu lo %.2f %.2f %.2f hi "
+            "%.2f %.2f %.2f\n",
+            k,
+            int(supports.roles[k]),
+            q.area,
+            supports.prisms[k].side().x(),
+            supports.prisms[k].side().y(),
+            supports.prisms[k].side().z(),
+            q.inliers,
+            lo.x(),
+            lo.y(),
+            lo.z(),
+            hi.x(),
+            hi.y(),
+            hi.z());
+  } //DEBUG
   return supports;
 }
 

@@ -99,7 +99,7 @@ private:
           !supports_.prisms[k].covers(middle, options_.overhang))
         continue;
       const auto [low, high] = heightsOver(k, set);
-      if (low > -options_.contact && low < options_.contact &&
+      if (low > -options_.contact && low < options_.max_float &&
           high > options_.min_height && high < options_.max_height)
         return proposalOf(set, k);
     }
@@ -231,6 +231,7 @@ ProposalOptions::validate() const
   require(max_height > 0, "max_height", max_height, "> 0");
   require(min_height > 0, "min_height", min_height, "> 0");
   require(contact > 0, "contact", contact, "> 0");
+  require(max_float >= 0, "max_float", max_float, ">= 0");
   require(overhang >= 0, "overhang", overhang, ">= 0");
   require(gap >= 1 && std::isfinite(gap), "gap", gap, ">= 1 and finite");
   require(crease > 0 && crease < 1, "crease", crease, "in (0, 1)");

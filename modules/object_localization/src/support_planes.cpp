@@ -18,8 +18,7 @@ constexpr double kCoplanarSine = 0.1;
 constexpr double kCoplanarDistance = 0.02; // [m]
 constexpr double kPlanMargin = 0.1;        // [m] around the hull of a wall
 
-/** 
-eturn the largest distance [m] of two corners in plan */
+/** \return the largest distance [m] of two corners in plan */
 double
 widthOf(const std::vector<Eigen::Vector3d>& hull, const Eigen::Vector3d& up)
 {
@@ -30,8 +29,7 @@ widthOf(const std::vector<Eigen::Vector3d>& hull, const Eigen::Vector3d& up)
   return std::sqrt(width_sq);
 }
 
-/** 
-eturn the difference [m] of the highest and the lowest corner */
+/** \return the difference [m] of the highest and the lowest corner */
 double
 heightOf(const std::vector<Eigen::Vector3d>& hull, const Eigen::Vector3d& up)
 {
@@ -268,30 +266,6 @@ findSupports(const PlaneCloud& cloud,
   else if (ViewBorder(cloud).isNarrow())
     supports.up = upByFeet(cloud, supports, planes);
   supports.roles = Roles(planes, supports.prisms, supports.up, options).find();
-  for (std::size_t k = 0; k < planes.planes.size(); ++k) {
-    auto& q = planes.planes[k].plane;
-    Eigen::Vector3d lo = q.hull[0], hi = q.hull[0];
-    for (auto& c : q.hull) {
-      lo = lo.cwiseMin(c);
-      hi = hi.cwiseMax(c);
-    }
-    fprintf(stderr,
-            "plane %zu role %d area %.2f n %.2f %.2f %.2f pts %zu lo %.2f %.2f %.2f hi "
-            "%.2f %.2f %.2f\n",
-            k,
-            int(supports.roles[k]),
-            q.area,
-            supports.prisms[k].side().x(),
-            supports.prisms[k].side().y(),
-            supports.prisms[k].side().z(),
-            q.inliers,
-            lo.x(),
-            lo.y(),
-            lo.z(),
-            hi.x(),
-            hi.y(),
-            hi.z());
-  } //DEBUG
   return supports;
 }
 

@@ -18,7 +18,11 @@ scoreOf(const PoseCheck& check)
 double
 trust(const PoseCheck& check)
 {
-  return check.agreement() * (1 - check.freeSpaceViolation());
+  const std::size_t measured = check.facing() - check.unseen;
+  const double seen = measured == 0 ? 0
+                                    : static_cast<double>(check.supported) /
+                                          static_cast<double>(measured);
+  return seen * check.agreement() * (1 - check.freeSpaceViolation());
 }
 
 double

@@ -10,12 +10,13 @@ namespace pcl6d {
 double
 scoreOf(const PoseCheck& check);
 
-/** \return 1 if nothing speaks against a pose, 0 if all does */
+/** \return 1 if all that faces the scanner and was measured is seen, and nothing speaks
+ * against a pose; 0 if all does */
 double
 trust(const PoseCheck& check);
 
-/** \return how much of the scan a pose explains, less for what speaks against it: a
- * share of the facing surface would prefer poses that show the scanner a small face */
+/** \return how much of the scan a pose explains, less for what speaks against it; the
+ * trust alone would prefer poses that show the scanner a small face */
 double
 explanation(const PoseCheck& check);
 

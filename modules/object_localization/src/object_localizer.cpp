@@ -43,6 +43,14 @@ mostFacing(const OrientedPoints& surface)
   return most;
 }
 
+/** \return the shortest rotation that gives the z axis the direction that R gives it */
+Eigen::Matrix3d
+withoutTurn(const Eigen::Matrix3d& R)
+{
+  const Eigen::Vector3d z = R.col(2);
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z)
+      .toRotationMatrix();
+}
 } // namespace
 
 void
@@ -211,7 +219,12 @@ ObjectLocalizer::describe(ObjectCandidate candidate) const
   object.object_class = model_.objectClass();
   object.status = candidate.status;
   object.T_scene_object = candidate.T_scene_model;
-  object.covariance = candidate.covariance;
+  if (model_.symmetry().isRound()) { // any turn is as good: no turn
+    object.status = Status::kRankDeficient;
+    object.T_scene_object.linear() = withoutTurn(candidate.T_scene_model.linear());
+  }
+  else
+    object.covariance = candidate.covariance;
   object.score = scoreOf(candidate.check);
   object.visible_fraction = candidate.check.visibleFraction();
   object.rms = candidate.rms;

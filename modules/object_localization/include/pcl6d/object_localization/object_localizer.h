@@ -26,7 +26,7 @@ struct LocalizerOptions {
                             ///< [0.02, 0.2]
   int max_candidates = 24;  ///< poses that are looked at closely; > 0
   double min_visible = 0.3; ///< PoseCheck::visibleFraction() of an object
-  double min_facing = 0.15;  ///< of the surface that faces the scanner where most of it
+  double min_facing = 0.08;  ///< of the surface that faces the scanner where most of it
                             ///< does: an open shell is not believed from behind
   double min_agreement = 0.88;     ///< PoseCheck::agreement()
   double max_violation = 0.08;     ///< PoseCheck::freeSpaceViolation()

@@ -10,25 +10,8 @@ PlanePrism::PlanePrism(const PlaneSegment& segment)
 : side_(segment.seen_from)
 , offset_(segment.plane.normal.dot(side_) < 0 ? -segment.plane.offset
                                               : segment.plane.offset)
-{
-  const auto& hull = segment.plane.hull;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Eigen::Vector3d edge = hull[(i + 1) % hull.size()] - hull[i];
-    if (!(edge.squaredNorm() > 0))
-      continue;
-    const Eigen::Vector3d out = edge.cross(segment.plane.normal).normalized();
-    edges_.emplace_back(out.x(), out.y(), out.z(), -out.dot(hull[i]));
-  }
-}
-
-bool
-PlanePrism::covers(const Eigen::Vector3f& point, double margin) const
-{
-  const Eigen::Vector4d place = point.cast<double>().homogeneous();
-  return std::all_of(edges_.begin(), edges_.end(), [&](const Eigen::Vector4d& edge) {
-    return edge.dot(place) <= margin;
-  });
-}
+, hull_(segment.plane)
+{}
 
 double
 widthOf(const std::vector<Eigen::Vector3d>& hull, const Eigen::Vector3d& up)

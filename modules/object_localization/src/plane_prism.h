@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/hull_prism.h>
 #include <pcl6d/plane_segmentation/plane_segment.h>
 
 #include <Eigen/Geometry>
@@ -24,7 +25,10 @@ public:
 
   /** \return whether the point is over or under the hull grown by a margin [m] */
   bool
-  covers(const Eigen::Vector3f& point, double margin) const;
+  covers(const Eigen::Vector3f& point, double margin) const
+  {
+    return hull_.covers(point.cast<double>(), margin);
+  }
 
   /** \return the unit normal on the side that was seen */
   const Eigen::Vector3d&
@@ -35,8 +39,8 @@ public:
 
 private:
   Eigen::Vector3d side_;
-  double offset_;                      // [m] along side_
-  std::vector<Eigen::Vector4d> edges_; // outside where (n, -d).(p, 1) > 0
+  double offset_; // [m] along side_
+  HullPrism hull_;
 };
 
 /** \return the largest distance [m] of two corners in plan */

@@ -46,6 +46,28 @@ loadMesh(const SceneWords& words)
   options.up = words.up == "y" ? UpAxis::kY : UpAxis::kZ;
   return meshScene(words.name, readPointList(words.path), options);
 }
+
+SimulationScene
+loadWhole(const SceneWords& words, std::uint64_t seed)
+{
+  checkOptions([&] {
+    require(words.up == "y" || words.up == "z", "up", words.up, "y or z");
+    require(words.scale > 0, "scale", words.scale, "> 0");
+    require(words.labels == "auto" || words.labels == "yes" || words.labels == "no",
+            "labels",
+            words.labels,
+            "auto, yes or no");
+  });
+  if (isMesh(words))
+    return loadMesh(words);
+  if (!words.path.empty())
+    throw UsageError("--path is for meshes only; " + words.name + " has its own way");
+  if (extensionOf(words.name) == ".json")
+    return readScene(words.name);
+  SimulationScene scene;
+  checkOptions([&] { scene = builtInScene(words.name, seed); });
+  return scene;
+}
 } // namespace
 
 std::string
@@ -68,32 +90,22 @@ describeScene(CommandLine& line, SceneWords& words)
        "the last to the first")                                              //
       ("scale", valueOf(words.scale), "of a mesh: [m] per unit of the file") //
       ("up", valueOf(words.up), "of a mesh: y|z, the axis that points up")   //
-      ("labels",
-       valueOf(words.labels),
-       "yes|no|auto: points carry plane_id, object_id and label, and "
-       "planes_truth.json and objects_truth.json are written; auto: not for corridor");
+      (
+          "labels",
+          valueOf(words.labels),
+          "yes|no|auto: points carry plane_id, object_id and label, and "
+          "planes_truth.json and objects_truth.json are written; auto: not for "
+          "corridor") //
+      ("without",
+       po::value(&words.without)->value_name("CLASS")->composing(),
+       "leaves out the objects of a class, such as chair; may be repeated");
 }
 
 SimulationScene
 loadScene(const SceneWords& words, std::uint64_t seed)
 {
-  checkOptions([&] {
-    require(words.up == "y" || words.up == "z", "up", words.up, "y or z");
-    require(words.scale > 0, "scale", words.scale, "> 0");
-    require(words.labels == "auto" || words.labels == "yes" || words.labels == "no",
-            "labels",
-            words.labels,
-            "auto, yes or no");
-  });
-  if (isMesh(words))
-    return loadMesh(words);
-  if (!words.path.empty())
-    throw UsageError("--path is for meshes only; " + words.name + " has its own way");
-  if (extensionOf(words.name) == ".json")
-    return readScene(words.name);
-  SimulationScene scene;
-  checkOptions([&] { scene = builtInScene(words.name, seed); });
-  return scene;
+  SimulationScene scene = loadWhole(words, seed);
+  return words.without.empty() ? scene : withoutObjects(scene, words.without);
 }
 
 bool
@@ -115,6 +127,8 @@ describeScene(const SceneWords& words,
       waypoints.push_back({p.x(), p.y(), p.z()});
     json["waypoints"] = waypoints;
   }
+  if (!words.without.empty())
+    json["without"] = words.without;
   if (!scene.description.empty())
     json["description"] = nlohmann::ordered_json::parse(scene.description);
 }

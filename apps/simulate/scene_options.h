@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
 
 namespace pcl6d::app {
 
@@ -18,6 +19,7 @@ struct SceneWords {
   double scale = 1; ///< [m] per unit of a mesh
   std::string up = "z";
   std::string labels = "auto";
+  std::vector<std::string> without; ///< classes of objects that are left out
 };
 
 /** \return the known scenes, a line each, for --help */

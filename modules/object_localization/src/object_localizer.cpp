@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "object_refinement.h"
+#include "object_candidates.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/object_localization/object_localizer.h>
 #include <pcl6d/object_localization/pose_clusters.h>
 #include <pcl6d/object_localization/pose_votes.h>
-#include <pcl6d/plane_segmentation/segment_planes.h>
+#include <pcl6d/object_localization/upright_poses.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,13 @@ namespace pcl6d {
 namespace {
 /** Surfaces of the refinement are twice as fine as those of the votes. */
 constexpr double kRefinement = 0.5;
-constexpr double kLargePlane = 1.3;      // of the diameter
+/** Before the last step a pose need not agree as well, by this factor. */
+constexpr double kRoughAgreement = 0.6;
+/** Of a proposal: poses that are compared with the scan, and those made precise. */
+constexpr std::size_t kPlacings = 60;
+constexpr std::size_t kPlacingsRefined = 6;
+constexpr double kFieldReach = 3;  // elements
+constexpr double kPlacingGate = 3; // elements
 constexpr double kClusterDistance = 0.1; // of the diameter
 constexpr double kClusterAngle = 0.35;   // [rad], 20 deg
 
@@ -37,76 +43,13 @@ mostFacing(const OrientedPoints& surface)
   return most;
 }
 
-/** The surface of a scan without the planes in which the object could lie as a whole,
- * such as floor, walls and tables: they are no part of it. */
-OrientedPoints
-withoutLargePlanes(const PlaneCloud& cloud, double diameter)
+/** \return the shortest rotation that gives the z axis the direction that R gives it */
+Eigen::Matrix3d
+withoutTurn(const Eigen::Matrix3d& R)
 {
-  PlaneSegmentationOptions options;
-  options.planes.min_area = 0.25 * diameter * diameter;
-  const PlaneSegments found =
-      segmentPlanes(cloud, PlaneMethod::kRegionGrowing, options);
-  std::vector<bool> is_large(cloud.points().size(), false);
-  for (const auto& segment : found.planes) {
-    Eigen::AlignedBox3d box;
-    for (const auto& corner : segment.plane.hull)
-      box.extend(corner);
-    if (box.diagonal().norm() > kLargePlane * diameter)
-      for (const auto i : segment.points) // all points are finite: places are points
-        is_large[i] = true;
-  }
-  const Surfels& surfels = cloud.surfels();
-  OrientedPoints rest;
-  for (std::size_t s = 0; s < surfels.size(); ++s) {
-    std::size_t large = 0;
-    const std::uint32_t begin = surfels.begin[s], end = surfels.begin[s + 1];
-    for (std::uint32_t m = begin; m < end; ++m)
-      large += is_large[surfels.members[m]] ? 1 : 0;
-    if (2 * large < end - begin) {
-      rest.points.push_back(surfels.points[s]);
-      rest.normals.push_back(surfels.normals[s]);
-    }
-  }
-  return rest;
-}
-
-double
-scoreOf(const PoseCheck& check)
-{
-  return check.visibleFraction() * (1 - check.freeSpaceViolation());
-}
-
-/** \return how much of the smaller support is in the other one, too */
-double
-sharedSupport(const PoseCheck& a, const PoseCheck& b)
-{
-  std::vector<std::uint32_t> both;
-  std::set_intersection(a.support.begin(),
-                        a.support.end(),
-                        b.support.begin(),
-                        b.support.end(),
-                        std::back_inserter(both));
-  return static_cast<double>(both.size()) /
-         static_cast<double>(std::min(a.support.size(), b.support.size()));
-}
-
-/** Leaves out those that explain what a better one explains; best first. */
-std::vector<ObjectCandidate>
-strongest(std::vector<ObjectCandidate> candidates, double max_shared)
-{
-  std::stable_sort(
-      candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-        return scoreOf(a.check) > scoreOf(b.check);
-      });
-  std::vector<ObjectCandidate> kept;
-  for (auto& candidate : candidates) {
-    const auto isSame = [&](const ObjectCandidate& other) {
-      return sharedSupport(candidate.check, other.check) > max_shared;
-    };
-    if (std::none_of(kept.begin(), kept.end(), isSame))
-      kept.push_back(std::move(candidate));
-  }
-  return kept;
+  const Eigen::Vector3d z = R.col(2);
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z)
+      .toRotationMatrix();
 }
 } // namespace
 
@@ -121,6 +64,7 @@ LocalizerOptions::validate() const
   require(isShare(min_facing), "min_facing", min_facing, "0 to 1");
   require(isShare(min_agreement), "min_agreement", min_agreement, "0 to 1");
   require(isShare(max_violation), "max_violation", max_violation, "0 to 1");
+  require(max_continuation >= 0, "max_continuation", max_continuation, ">= 0");
   require(min_support > 0, "min_support", min_support, "> 0");
   require(
       isShare(max_shared_support), "max_shared_support", max_shared_support, "0 to 1");
@@ -131,16 +75,17 @@ ObjectLocalizer::ObjectLocalizer(ObjectModel model, const LocalizerOptions& opti
 , model_(std::move(model))
 , voxel_(options_.resolution * model_.diameter())
 , coarse_(reduceOriented(model_.surface(), voxel_))
-, fine_(reduceOriented(model_.surface(), kRefinement * voxel_))
-, most_facing_(mostFacing(fine_))
+, fine_(std::make_shared<const ModelSurface>(model_.surface(), kRefinement * voxel_))
+, most_facing_(mostFacing(fine_->surface))
+, field_(std::make_shared<const DistanceField>(
+      fine_->surface.points, fine_->element, kFieldReach * fine_->element))
 , table_(coarse_, model_.diameter())
 {}
 
 std::vector<VotedPose>
 ObjectLocalizer::firstPoses(const SceneSurface& surface) const
 {
-  const OrientedPoints rough =
-      reduceOriented(withoutLargePlanes(surface.cloud, model_.diameter()), voxel_);
+  const OrientedPoints rough = reduceOriented(surface.withoutLargePlanes(), voxel_);
   PoseVoteOptions voting;
   voting.num_threads = options_.num_threads;
   auto poses =
@@ -154,20 +99,24 @@ ObjectLocalizer::firstPoses(const SceneSurface& surface) const
 }
 
 bool
-ObjectLocalizer::accepts(const PoseCheck& check) const
+ObjectLocalizer::accepts(const PoseCheck& check, double min_agreement) const
 {
   return check.support.size() >= options_.min_support &&
-         static_cast<double>(check.facing()) >=
+         static_cast<double>(check.elements) >=
              options_.min_facing * static_cast<double>(most_facing_) &&
          check.visibleFraction() >= options_.min_visible &&
-         check.agreement() >= options_.min_agreement &&
-         check.freeSpaceViolation() <= options_.max_violation;
+         check.agreement() >= min_agreement &&
+         check.freeSpaceViolation() <= options_.max_violation &&
+         check.continuation() <= options_.max_continuation;
 }
 
 void
-ObjectLocalizer::removeRefused(std::vector<ObjectCandidate>& candidates) const
+ObjectLocalizer::removeRefused(std::vector<ObjectCandidate>& candidates,
+                               double min_agreement) const
 {
-  const auto isRefused = [this](const auto& c) { return !accepts(c.check); };
+  const auto isRefused = [&](const auto& c) {
+    return !accepts(c.check, min_agreement);
+  };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isRefused),
                    candidates.end());
 }
@@ -175,19 +124,88 @@ ObjectLocalizer::removeRefused(std::vector<ObjectCandidate>& candidates) const
 std::vector<LocalizedObject>
 ObjectLocalizer::locate(const LocalizationScene& scene) const
 {
-  const SceneSurface surface(
-      scene.points(), kRefinement * voxel_, options_.num_threads);
-  const ObjectRefinement refinement(scene, surface, fine_, kRefinement * voxel_);
+  const SceneSurface surface = surfaceOf(scene);
+  const ObjectRefinement refinement(scene, surface, *fine_);
   const auto poses = firstPoses(surface);
   std::vector<ObjectCandidate> candidates(poses.size());
   parallelFor(poses.size(), options_.num_threads, [&](std::size_t i) {
     candidates[i] = refinement.onSurface(poses[i].T_scene_model);
   });
-  removeRefused(candidates);
+  removeRefused(candidates, kRoughAgreement * options_.min_agreement);
   candidates = strongest(std::move(candidates), options_.max_shared_support);
+  parallelFor(candidates.size(), options_.num_threads, [&](std::size_t i) {
+    candidates[i] = refinement.onPoints(candidates[i], model_.surface(), fine_->element);
+  });
+  return objectsOf(std::move(candidates));
+}
+
+std::vector<LocalizedObject>
+ObjectLocalizer::locate(const LocalizationScene& scene,
+                        const std::vector<ObjectProposal>& proposals) const
+{
+  const SceneSurface surface = surfaceOf(scene);
+  const ObjectRefinement refinement(scene, surface, *fine_);
+  const ModelSurface coarse(model_.surface(), voxel_);
+  std::vector<std::vector<ObjectCandidate>> of_proposal(proposals.size());
+  parallelFor(proposals.size(), options_.num_threads, [&](std::size_t i) {
+    if (mayBe(proposals[i]))
+      of_proposal[i] = placed(proposals[i], refinement, coarse);
+  });
+  std::vector<ObjectCandidate> candidates;
+  for (auto& some : of_proposal)
+    std::move(some.begin(), some.end(), std::back_inserter(candidates));
+  return objectsOf(std::move(candidates));
+}
+
+SceneSurface
+ObjectLocalizer::surfaceOf(const LocalizationScene& scene) const
+{
+  return {scene.points(), fine_->element, model_.diameter(), options_.num_threads};
+}
+
+/** Whether a proposal is not much larger than the model. */
+bool
+ObjectLocalizer::mayBe(const ObjectProposal& proposal) const
+{
+  constexpr double kTaller = 0.2;  // [m] of what is on it
+  constexpr double kLonger = 0.8;  // [m] of what touches it
+  const Eigen::Vector3d size = model_.box().sizes();
+  return proposal.size.z() < size.z() + kTaller &&
+         proposal.size.head<2>().norm() < size.head<2>().norm() + kLonger;
+}
+
+/** Upright poses of the model at a proposal, made precise. */
+std::vector<ObjectCandidate>
+ObjectLocalizer::placed(const ObjectProposal& proposal,
+                        const ObjectRefinement& refinement,
+                        const ModelSurface& coarse) const
+{
+  Points points;
+  for (const auto place : proposal.points)
+    points.push_back(refinement.scene().points()[place]);
+  std::vector<ObjectCandidate> candidates;
+  for (const auto& pose : uprightPoses(*field_,
+                                       model_.box(),
+                                       model_.symmetry(),
+                                       points,
+                                       proposal.T_scene_box,
+                                       kPlacings))
+    candidates.push_back(refinement.checked(pose.T_scene_model, coarse));
+  std::stable_sort(
+      candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+        return explanation(a.check) > explanation(b.check);
+      });
+  candidates.resize(std::min(candidates.size(), kPlacingsRefined));
   for (auto& candidate : candidates)
-    candidate = refinement.onPoints(candidate, model_.surface());
-  removeRefused(candidates);
+    candidate =
+        refinement.onPoints(candidate, model_.surface(), kPlacingGate * fine_->element);
+  return candidates;
+}
+
+std::vector<LocalizedObject>
+ObjectLocalizer::objectsOf(std::vector<ObjectCandidate> candidates) const
+{
+  removeRefused(candidates, options_.min_agreement);
   std::vector<LocalizedObject> objects;
   for (auto& candidate : strongest(std::move(candidates), options_.max_shared_support))
     objects.push_back(describe(std::move(candidate)));
@@ -201,10 +219,16 @@ ObjectLocalizer::describe(ObjectCandidate candidate) const
   object.object_class = model_.objectClass();
   object.status = candidate.status;
   object.T_scene_object = candidate.T_scene_model;
-  object.covariance = candidate.covariance;
+  if (model_.symmetry().isRound()) { // any turn is as good: no turn
+    object.status = Status::kRankDeficient;
+    object.T_scene_object.linear() = withoutTurn(candidate.T_scene_model.linear());
+  }
+  else
+    object.covariance = candidate.covariance;
   object.score = scoreOf(candidate.check);
   object.visible_fraction = candidate.check.visibleFraction();
   object.rms = candidate.rms;
+  object.evidence = static_cast<double>(candidate.points.size()) * trust(candidate.check);
   object.points = std::move(candidate.points);
   return object;
 }

@@ -89,21 +89,38 @@ private:
     return heights;
   }
 
-  /** \return the proposal, if the set stands on a base and has the size of a thing */
+  /** \return the proposal, if the set stands on a plane and has the size of a thing */
   std::optional<ObjectProposal>
   standing(const std::vector<std::uint32_t>& set) const
   {
+    const auto support = supportOf(set);
+    return support ? proposalOf(set, *support) : std::nullopt;
+  }
+
+  /** \return the level plane that a set touches from above, or else the base over which
+   * it seems to float */
+  std::optional<std::size_t>
+  supportOf(const std::vector<std::uint32_t>& set) const
+  {
     const Eigen::Vector3f middle = middleOf(set);
+    std::optional<std::size_t> touched, below;
+    double nearest = options_.contact;
     for (std::size_t k = 0; k < supports_.prisms.size(); ++k) {
-      if (supports_.roles[k] != PlaneRole::kBase ||
+      const PlaneRole role = supports_.roles[k];
+      if ((role != PlaneRole::kBase && role != PlaneRole::kRaised) ||
           !supports_.prisms[k].covers(middle, options_.overhang))
         continue;
       const auto [low, high] = heightsOver(k, set);
-      if (low > -options_.contact && low < options_.contact &&
-          high > options_.min_height && high < options_.max_height)
-        return proposalOf(set, k);
+      if (high <= options_.min_height || high >= options_.max_height)
+        continue;
+      if (std::abs(low) < nearest) {
+        nearest = std::abs(low);
+        touched = k;
+      }
+      if (role == PlaneRole::kBase && low > -options_.contact && low < options_.max_float)
+        below = below.value_or(k);
     }
-    return {};
+    return touched ? touched : below;
   }
 
   /** \return the proposal, if the set has the size of a thing */
@@ -149,7 +166,7 @@ private:
     const SurfelSets parts = partsOf(set);
     if (parts.size() > 1)
       for (const auto& part : parts)
-        if (auto proposal = proposalOf(part, support))
+        if (auto proposal = proposalOf(part, supportOf(part).value_or(support)))
           family.push_back(std::move(*proposal));
     return family;
   }
@@ -231,6 +248,7 @@ ProposalOptions::validate() const
   require(max_height > 0, "max_height", max_height, "> 0");
   require(min_height > 0, "min_height", min_height, "> 0");
   require(contact > 0, "contact", contact, "> 0");
+  require(max_float >= 0, "max_float", max_float, ">= 0");
   require(overhang >= 0, "overhang", overhang, ">= 0");
   require(gap >= 1 && std::isfinite(gap), "gap", gap, ">= 1 and finite");
   require(crease > 0 && crease < 1, "crease", crease, "in (0, 1)");

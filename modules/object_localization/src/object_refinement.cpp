@@ -13,6 +13,9 @@ namespace {
 constexpr std::size_t kFewestFacing = 10; // points
 /** Of the size of an element: how far a pose that is right leaves them apart. */
 constexpr double kStrictness = 0.4;
+/** Of the rms: farther pairs are of another surface. */
+constexpr double kGate = 3;
+constexpr int kRounds = 3;
 
 /** The part of a model that faces the scanner, which is at the origin of the scene. */
 OrientedPoints
@@ -46,50 +49,32 @@ surfaceIcp(double voxel)
   return options;
 }
 
-/** All points of the scan around an object. */
+/** \return evenly spread points, enough to come near */
 Points
-pointsAround(const LocalizationScene& scene,
-             const OrientedPoints& model,
-             const Eigen::Isometry3d& T_scene_model,
-             double rim,
-             std::vector<std::uint32_t>& places)
+someOf(const Points& points)
 {
-  Eigen::AlignedBox3d box;
-  for (const auto& p : model.points)
-    box.extend(p.cast<double>());
-  box.extend(box.min() - Eigen::Vector3d::Constant(rim));
-  box.extend(box.max() + Eigen::Vector3d::Constant(rim));
-  const Eigen::Vector3d middle = T_scene_model * box.center();
-  const double reach = 0.5 * box.diagonal().norm();
-  auto near = scene.tree().withinRadius(middle.cast<float>(),
-                                        static_cast<float>(reach * reach));
-  std::sort(near.begin(), near.end(), [](const Neighbour& a, const Neighbour& b) {
-    return a.index < b.index;
-  });
-  const Eigen::Isometry3d T_model_scene = T_scene_model.inverse();
-  Points around;
-  for (const auto& neighbour : near) {
-    const auto& p = scene.points()[static_cast<std::size_t>(neighbour.index)];
-    if (box.contains(T_model_scene * p.cast<double>())) {
-      around.push_back(p);
-      places.push_back(static_cast<std::uint32_t>(neighbour.index));
-    }
-  }
-  return around;
+  constexpr std::size_t kEnough = 2000;
+  const std::size_t stride = points.size() / kEnough + 1;
+  Points some;
+  for (std::size_t i = 0; i < points.size(); i += stride)
+    some.push_back(points[i]);
+  return some;
+}
+
+/** Of the scan's points, in which noise is averaged by their number, to the model. */
+IcpOptions
+pointIcp(double max_distance)
+{
+  IcpOptions options;
+  options.metric = Metric::kPlane;
+  options.max_distance = max_distance;
+  options.max_iterations = 50;
+  options.translation_epsilon = 1e-3 * max_distance;
+  options.rotation_epsilon = 1e-5;
+  options.num_threads = 1;
+  return options;
 }
 } // namespace
-
-SceneSurface::SceneSurface(const Points& points, double voxel, unsigned int num_threads)
-: cloud(points,
-        [&] {
-          PlaneCloudOptions options;
-          options.voxel = voxel;
-          options.num_threads = num_threads;
-          return options;
-        }())
-, elements{cloud.surfels().points, cloud.surfels().normals}
-, tree(elements.points, num_threads)
-{}
 
 ObjectCandidate
 ObjectRefinement::onSurface(const Eigen::Isometry3d& guess) const
@@ -100,7 +85,7 @@ ObjectRefinement::onSurface(const Eigen::Isometry3d& guess) const
   ObjectCandidate candidate;
   candidate.T_scene_model = guess;
   for (int round = 0; round < 2; ++round) {
-    const OrientedPoints facing = facingPart(model_, candidate.T_scene_model);
+    const OrientedPoints facing = facingPart(model_.surface, candidate.T_scene_model);
     if (facing.size() < kFewestFacing)
       return candidate;
     candidate.T_scene_model =
@@ -108,63 +93,88 @@ ObjectRefinement::onSurface(const Eigen::Isometry3d& guess) const
             .T_target_source;
     options.max_distance_start = 0;
   }
-  candidate.check = check(candidate.T_scene_model, voxel_);
+  candidate.check = checkPose(scene_, surface_, model_, candidate.T_scene_model, voxel_);
+  return candidate;
+}
+
+ObjectCandidate
+ObjectRefinement::checked(const Eigen::Isometry3d& T_scene_model,
+                          const ModelSurface& model) const
+{
+  ObjectCandidate candidate;
+  candidate.T_scene_model = T_scene_model;
+  candidate.check = checkPose(scene_, surface_, model, T_scene_model, model.element);
   return candidate;
 }
 
 ObjectCandidate
 ObjectRefinement::onPoints(const ObjectCandidate& candidate,
-                           const OrientedPoints& dense) const
+                           const OrientedPoints& dense,
+                           double gate) const
 {
   std::vector<std::uint32_t> places;
-  IcpModel::Options making;
-  making.normals = true;
-  making.normal_voxel = voxel_;
-  const IcpModel around(
-      pointsAround(scene_, dense, candidate.T_scene_model, voxel_, places), making);
-  const OrientedPoints facing = facingPart(dense, candidate.T_scene_model);
-  IcpOptions options;
-  options.metric = Metric::kPlane;
-  options.max_distance = voxel_;
-  options.max_iterations = 50;
-  options.translation_epsilon = 1e-4 * voxel_;
-  options.rotation_epsilon = 1e-5;
-  const IcpResult result = icp({around.part()},
-                               {&facing.points, &facing.normals},
-                               candidate.T_scene_model,
-                               options);
-  if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged)
-    return candidate;
-  ObjectCandidate refined;
-  refined.status = result.status;
-  refined.T_scene_model = result.T_target_source;
-  refined.covariance = result.covariance;
-  refined.rms = result.residual;
-  const PointTree placed(transformed(facing.points, refined.T_scene_model));
+  const Points around = pointsAround(candidate.T_scene_model, dense, places);
+  ObjectCandidate refined = candidate;
+  for (int round = 0; round < kRounds; ++round) {
+    const Points data = round + 1 < kRounds ? someOf(around) : around;
+    OrientedPoints facing = facingPart(dense, refined.T_scene_model);
+    const IcpModel target(std::move(facing.points), std::move(facing.normals), {});
+    const IcpResult result = icp({target.part()},
+                                 {&data, nullptr},
+                                 refined.T_scene_model.inverse(),
+                                 pointIcp(gate));
+    if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged) {
+      refined.check = {};
+      return refined;
+    }
+    refined.status = result.status;
+    refined.T_scene_model = result.T_target_source.inverse();
+    refined.covariance = result.covariance;
+    refined.rms = result.residual;
+    gate = std::clamp(kGate * result.residual, 0.1 * voxel_, voxel_);
+  }
+  refined.points.clear();
+  const PointTree placed(transformed(facingPart(dense, refined.T_scene_model).points,
+                                     refined.T_scene_model));
   const auto reach = static_cast<float>(voxel_);
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (placed.nearest(around.points()[i], reach * reach).index >= 0)
+    if (placed.nearest(around[i], reach * reach).index >= 0)
       refined.points.push_back(places[i]);
-  refined.check = check(refined.T_scene_model, kStrictness * voxel_);
+  refined.check = checkPose(
+      scene_, surface_, model_, refined.T_scene_model, kStrictness * voxel_);
   return refined;
 }
 
-/** \param[in] tolerance [m] of exact points */
-PoseCheck
-ObjectRefinement::check(const Eigen::Isometry3d& T_scene_model, double tolerance) const
+/** The points of the scan around an object that are on no large plane. */
+Points
+ObjectRefinement::pointsAround(const Eigen::Isometry3d& T_scene_model,
+                               const OrientedPoints& dense,
+                               std::vector<std::uint32_t>& places) const
 {
-  const Neighbour nearest = surface_.tree.nearest(
-      T_scene_model.translation().cast<float>(), std::numeric_limits<float>::max());
-  const double noise =
-      nearest.index < 0 ? 0
-                        : double{surface_.cloud.surfels()
-                                     .noise[static_cast<std::size_t>(nearest.index)]};
-  return checkPose(scene_,
-                   surface_.elements,
-                   surface_.tree,
-                   model_,
-                   T_scene_model,
-                   tolerance + noise);
+  Eigen::AlignedBox3d box;
+  for (const auto& p : dense.points)
+    box.extend(p.cast<double>());
+  box.extend(box.min() - Eigen::Vector3d::Constant(voxel_));
+  box.extend(box.max() + Eigen::Vector3d::Constant(voxel_));
+  const Eigen::Vector3d middle = T_scene_model * box.center();
+  const double reach = 0.5 * box.diagonal().norm();
+  const Eigen::Isometry3d T_model_scene = T_scene_model.inverse();
+  const Surfels& surfels = surface_.cloud.surfels();
+  for (const auto& near : surface_.tree.withinRadius(
+           middle.cast<float>(), static_cast<float>(reach * reach))) {
+    const auto element = static_cast<std::size_t>(near.index);
+    if (surface_.large[element] ||
+        !box.contains(T_model_scene * surface_.elements.points[element].cast<double>()))
+      continue;
+    places.insert(places.end(),
+                  surfels.members.begin() + surfels.begin[element],
+                  surfels.members.begin() + surfels.begin[element + 1]);
+  }
+  std::sort(places.begin(), places.end());
+  Points around;
+  for (const auto place : places)
+    around.push_back(scene_.points()[place]);
+  return around;
 }
 
 } // namespace pcl6d

@@ -3,23 +3,12 @@
 
 #include <pcl6d/common/status.h>
 #include <pcl6d/object_localization/pose_check.h>
-#include <pcl6d/plane_segmentation/plane_cloud.h>
 #include <pcl6d/registration/pose_information.h>
 
 #include <optional>
 
 /** \file From a rough pose of an object to a precise one. Internal to the module. */
 namespace pcl6d {
-
-/** \brief The surface of a scan in elements of one size, and what finds places on it. */
-struct SceneSurface {
-  /** \param[in] voxel [m] size of an element */
-  SceneSurface(const Points& points, double voxel, unsigned int num_threads);
-
-  PlaneCloud cloud;
-  OrientedPoints elements; ///< the surfels of the cloud
-  PointTree tree;          ///< over the elements
-};
 
 /** \brief A pose that may be that of an object. */
 struct ObjectCandidate {
@@ -34,13 +23,15 @@ struct ObjectCandidate {
 /** \brief Makes poses of one model in one scan precise, and checks them. */
 class ObjectRefinement {
 public:
-  /** \param[in] model in elements of the size of the surface's, voxel [m].
+  /** \param[in] model in elements of the size of the surface's
    * Keeps references to all three. */
   ObjectRefinement(const LocalizationScene& scene,
                    const SceneSurface& surface,
-                   const OrientedPoints& model,
-                   double voxel)
-  : scene_(scene), surface_(surface), model_(model), voxel_(voxel)
+                   const ModelSurface& model)
+  : scene_(scene)
+  , surface_(surface)
+  , model_(model)
+  , voxel_(model.element)
   {}
 
   /** \brief ICP of the model's facing part to the surface, twice, as the pose says which
@@ -48,18 +39,32 @@ public:
   ObjectCandidate
   onSurface(const Eigen::Isometry3d& guess) const;
 
-  /** \brief ICP of a model to all points around it; then a strict check. Where ICP fails,
-   * the candidate stays as it was. \param[in] dense the model with all its points */
+  /** \brief A pose as it is, checked with a surface of any element size. */
   ObjectCandidate
-  onPoints(const ObjectCandidate& candidate, const OrientedPoints& dense) const;
+  checked(const Eigen::Isometry3d& T_scene_model, const ModelSurface& model) const;
+
+  /** \brief ICP of a model to all points around it; then a strict check. Where ICP fails,
+   * nothing supports the candidate. \param[in] dense the model with all its points
+   * \param[in] gate [m] of pairs at the start */
+  ObjectCandidate
+  onPoints(const ObjectCandidate& candidate,
+           const OrientedPoints& dense,
+           double gate) const;
+
+  const LocalizationScene&
+  scene() const
+  {
+    return scene_;
+  }
 
 private:
-  PoseCheck
-  check(const Eigen::Isometry3d& T_scene_model, double tolerance) const;
-
+  Points
+  pointsAround(const Eigen::Isometry3d& T_scene_model,
+               const OrientedPoints& dense,
+               std::vector<std::uint32_t>& places) const;
   const LocalizationScene& scene_;
   const SceneSurface& surface_;
-  const OrientedPoints& model_;
+  const ModelSurface& model_;
   double voxel_;
 };
 

@@ -3,9 +3,14 @@
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/object_localization/oriented_points.h>
 
+#include <array>
+
 namespace pcl6d {
 
 namespace {
+/** A face with fewer points than the other one over this is an edge or noise. */
+constexpr std::size_t kFaceShare = 3;
+
 struct Sums {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -20,11 +25,11 @@ struct Sums {
   }
 };
 
-/** The sums of the face with more points: normals on the side of the first, or not. */
-Sums
-largerFace(const OrientedPoints& surface, const IndexRange& members)
+/** The sums of both faces: normals on the side of the first, or not. */
+std::array<Sums, 2>
+facesOf(const OrientedPoints& surface, const IndexRange& members)
 {
-  Sums faces[2];
+  std::array<Sums, 2> faces;
   const Eigen::Vector3f* first = nullptr;
   for (const auto index : members) {
     const auto i = static_cast<std::size_t>(index);
@@ -35,7 +40,7 @@ largerFace(const OrientedPoints& surface, const IndexRange& members)
       first = &normal;
     faces[normal.dot(*first) < 0 ? 1 : 0].add(surface.points[i], normal);
   }
-  return faces[1].count > faces[0].count ? faces[1] : faces[0];
+  return faces;
 }
 } // namespace
 
@@ -48,12 +53,15 @@ reduceOriented(const OrientedPoints& surface, double voxel)
   const VoxelGroups groups(surface.points, voxel);
   OrientedPoints reduced;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const Sums face = largerFace(surface, groups.indices(g));
-    if (face.count == 0)
-      continue;
-    reduced.points.push_back(
-        (face.point / static_cast<double>(face.count)).cast<float>());
-    reduced.normals.push_back(face.normal.normalized().cast<float>());
+    const auto faces = facesOf(surface, groups.indices(g));
+    for (int f = 0; f < 2; ++f) {
+      const auto& face = faces[f];
+      if (face.count == 0 || kFaceShare * face.count < faces[1 - f].count)
+        continue;
+      reduced.points.push_back(
+          (face.point / static_cast<double>(face.count)).cast<float>());
+      reduced.normals.push_back(face.normal.normalized().cast<float>());
+    }
   }
   return reduced;
 }

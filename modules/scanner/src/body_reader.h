@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "json_object.h"
-
+#include <pcl6d/io/json_object.h>
 #include <pcl6d/scanner/terrain.h>
 
 #include <map>

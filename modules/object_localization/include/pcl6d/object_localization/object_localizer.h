@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/common/status.h>
 #include <pcl6d/object_localization/localization_scene.h>
+#include <pcl6d/object_localization/localized_object.h>
 #include <pcl6d/object_localization/object_model.h>
+#include <pcl6d/object_localization/object_proposals.h>
 #include <pcl6d/object_localization/pair_features.h>
-#include <pcl6d/registration/pose_information.h>
 
-#include <optional>
-#include <string>
+#include <memory>
 #include <vector>
 
 namespace pcl6d {
 
+class DistanceField;
+class ObjectRefinement;
+struct ModelSurface;
 struct ObjectCandidate;
 struct PoseCheck;
 struct SceneSurface;
@@ -20,34 +22,21 @@ struct VotedPose;
 
 /** \brief Knobs of ObjectLocalizer. */
 struct LocalizerOptions {
-  double resolution = 0.05;  ///< of the search, as a share of the model's diameter; in
-                             ///< [0.02, 0.2]
-  int max_candidates = 24;   ///< poses that are looked at closely; > 0
-  double min_visible = 0.25; ///< PoseCheck::visibleFraction() of an object
-  double min_facing = 0.3;   ///< of the surface that faces the scanner where most of it
-                             ///< does: an open shell is not believed from behind
-  double min_agreement = 0.85;    ///< PoseCheck::agreement()
-  double max_violation = 0.15;     ///< PoseCheck::freeSpaceViolation()
+  double resolution = 0.05; ///< of the search, as a share of the model's diameter; in
+                            ///< [0.02, 0.2]
+  int max_candidates = 24;  ///< poses that are looked at closely; > 0
+  double min_visible = 0.3; ///< PoseCheck::visibleFraction() of an object
+  double min_facing = 0.08;  ///< of the surface that faces the scanner where most of it
+                            ///< does: an open shell is not believed from behind
+  double min_agreement = 0.88;     ///< PoseCheck::agreement()
+  double max_violation = 0.08;     ///< PoseCheck::freeSpaceViolation()
+  double max_continuation = 0.4;   ///< PoseCheck::continuation(); >= 0
   std::size_t min_support = 30;    ///< surface elements of the scan on the object; > 0
   double max_shared_support = 0.3; ///< of the weaker one of two objects
   unsigned int num_threads = 0;    ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
-};
-
-/** \brief An object found in a scan. */
-struct LocalizedObject {
-  std::string object_class;
-  /** kOk, or kRankDeficient: the surfaces leave a turn or shift open, as on a model that
-   * looks the same from all around */
-  Status status = Status::kOk;
-  Eigen::Isometry3d T_scene_object = Eigen::Isometry3d::Identity();
-  std::optional<PoseCovariance> covariance; ///< x y z roll pitch yaw [m, rad]
-  double score = 0;                  ///< visible fraction less free-space violation
-  double visible_fraction = 0;       ///< of the surface that faces the scanner
-  double rms = 0;                    ///< [m]
-  std::vector<std::uint32_t> points; ///< of the scene that lie on it, ascending
 };
 
 /** \brief Finds an object of known shape in a scan and its pose in six degrees of
@@ -76,13 +65,30 @@ public:
     return model_;
   }
 
+  /** \brief The same where something may be, such as proposeObjects() finds: upright, on
+   * what the proposals stand on. Also in coarse scans, in which pairs of points say little.
+   * \param[in] proposals of the scene's points \return best first */
+  std::vector<LocalizedObject>
+  locate(const LocalizationScene& scene,
+         const std::vector<ObjectProposal>& proposals) const;
+
 private:
+  SceneSurface
+  surfaceOf(const LocalizationScene& scene) const;
+  bool
+  mayBe(const ObjectProposal& proposal) const;
+  std::vector<ObjectCandidate>
+  placed(const ObjectProposal& proposal,
+         const ObjectRefinement& refinement,
+         const ModelSurface& coarse) const;
+  std::vector<LocalizedObject>
+  objectsOf(std::vector<ObjectCandidate> candidates) const;
   std::vector<VotedPose>
   firstPoses(const SceneSurface& surface) const;
   bool
-  accepts(const PoseCheck& check) const;
+  accepts(const PoseCheck& check, double min_agreement) const;
   void
-  removeRefused(std::vector<ObjectCandidate>& candidates) const;
+  removeRefused(std::vector<ObjectCandidate>& candidates, double min_agreement) const;
   LocalizedObject
   describe(ObjectCandidate candidate) const;
 
@@ -90,8 +96,9 @@ private:
   ObjectModel model_;
   double voxel_;            ///< [m] of the search
   OrientedPoints coarse_;   ///< the model for votes
-  OrientedPoints fine_;     ///< for refinement
+  std::shared_ptr<const ModelSurface> fine_; ///< for refinement
   std::size_t most_facing_; ///< points of fine_, from the best side
+  std::shared_ptr<const DistanceField> field_; ///< of fine_
   PairFeatureTable table_;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/triangle_mesh.h>
-#include <pcl6d/object_localization/oriented_points.h>
+#include <pcl6d/object_localization/object_symmetry.h>
 
 #include <Eigen/Geometry>
 
@@ -48,6 +48,18 @@ public:
     return surface_;
   }
 
+  /** \return none, unless it was told */
+  const ObjectSymmetry&
+  symmetry() const
+  {
+    return symmetry_;
+  }
+  void
+  setSymmetry(const ObjectSymmetry& symmetry)
+  {
+    symmetry_ = symmetry;
+  }
+
   /** \return [m] in the object's frame */
   const Eigen::AlignedBox3d&
   box() const
@@ -68,6 +80,7 @@ private:
   std::string class_;
   OrientedPoints surface_;
   Eigen::AlignedBox3d box_;
+  ObjectSymmetry symmetry_;
 };
 
 } // namespace pcl6d

@@ -29,7 +29,10 @@ struct ProposalOptions {
   double gap = 2;        ///< [spacings] that part two things; >= 1
   double crease = 0.3;   ///< sine of the angle to the chord over a concave crease,
                          ///< across which two things touch; in (0, 1)
-  std::size_t min_points = 30; ///< of a thing; >= 3
+  /** [m] that a thing may seem to float over its support, because its feet are hidden or
+   * too thin for the scan; >= 0 */
+  double max_float = 1;
+  std::size_t min_points = 12; ///< of a thing; >= 3
   bool parts = true; ///< whether to propose also the parts of what creases and
                      ///< planes divide, such as each box of a stack
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result

@@ -19,8 +19,8 @@ struct OrientedPoints {
   }
 };
 
-/** \return the mean point and normal of each occupied voxel; points without a normal are
- * left out, and of the two faces of a thin sheet the one with more points stays
+/** \return the mean point and normal of each occupied voxel, and of a thin sheet one of
+ * each face; points without a normal are left out
  * \throws BadArgument not one normal per point, or voxel breaks its rule */
 OrientedPoints
 reduceOriented(const OrientedPoints& surface, double voxel);

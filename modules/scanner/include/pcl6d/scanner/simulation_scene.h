@@ -42,6 +42,11 @@ struct SimulationScene {
 std::vector<ObjectPose>
 sceneObjects(const SimulationScene& scene, const Eigen::Isometry3d& T_scene_world);
 
+/** \return the scene without its objects of some classes; the others, and the planes, are
+ * numbered anew. Classes that it does not have are no error. */
+SimulationScene
+withoutObjects(const SimulationScene& scene, const std::vector<std::string>& classes);
+
 /** \return the names that builtInScene() knows */
 std::vector<std::string>
 builtInSceneNames();

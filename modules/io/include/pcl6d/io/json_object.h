@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-/** \file Objects of a JSON file, read key by key. Internal to the module scanner. */
+/** \file Objects of a JSON file, read key by key. Who includes it links nlohmann-json. */
 namespace pcl6d {
 
 /** \brief One object {...} of a JSON file: tells of what is missing, of another type or

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "json_object.h"
-
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/json_object.h>
 
 #include <algorithm>
 #include <cmath>

@@ -24,15 +24,9 @@ class RayCheck {
 public:
   RayCheck(const LocalizationScene& scene,
            const SceneSurface& surface,
-           const ModelSurface& model,
-           const Eigen::Isometry3d& T_scene_model,
+           double element,
            double tolerance)
-  : scene_(scene)
-  , surface_(surface)
-  , model_(model)
-  , T_model_scene_(T_scene_model.inverse())
-  , element_(model.element)
-  , tolerance_(tolerance)
+  : scene_(scene), surface_(surface), element_(element), tolerance_(tolerance)
   {}
 
   void
@@ -105,34 +99,20 @@ private:
       ++check_.misfit;
   }
 
-  /** Where no ray met the element: was there none, is something in front, or are rays
-   * so far apart? */
+  /** Where no ray met the element: was there none around, or are rays so far apart? Then
+   * nothing is known of it, and the others stand for it. */
   void
   addUnmet(const FacingElement& e)
   {
     const auto spacing = static_cast<float>(kNextRay * scene_.angularSpacing());
-    const Neighbour ray = surface_.directions.nearest((e.point / e.range).cast<float>(),
-                                                      spacing * spacing);
-    if (ray.index < 0) {
+    if (surface_.directions
+            .nearest((e.point / e.range).cast<float>(), spacing * spacing)
+            .index < 0)
       ++check_.unseen;
-      return;
-    }
-    const Eigen::Vector3f& point =
-        surface_.elements.points[static_cast<std::size_t>(ray.index)];
-    const auto reach = static_cast<float>(kApart * (tolerance_ + element_));
-    const bool is_own =
-        model_.tree
-            .nearest((T_model_scene_ * point.cast<double>()).cast<float>(),
-                     reach * reach)
-            .index >= 0;
-    if (!is_own && point.norm() < e.range - kApart * tolerance_ / e.cosine)
-      ++check_.occluded;
   }
 
   const LocalizationScene& scene_;
   const SceneSurface& surface_;
-  const ModelSurface& model_;
-  Eigen::Isometry3d T_model_scene_;
   double element_;
   double tolerance_;
   PoseCheck check_;
@@ -175,7 +155,7 @@ checkPose(const LocalizationScene& scene,
           const Eigen::Isometry3d& T_scene_model,
           double tolerance)
 {
-  RayCheck rays(scene, surface, model, T_scene_model, tolerance);
+  RayCheck rays(scene, surface, model.element, tolerance);
   for (const FacingElement& e :
        facingElements(model.surface, T_scene_model, model.element))
     rays.add(e);

@@ -119,6 +119,21 @@ private:
   double squares_ = 0;
 };
 
+/** Whether two elements side by side are of one surface: where normals are known, those of
+ * both agree and each is on the other's plane; else no step in range divides them. */
+bool
+areJoined(const Surfels& surfels, std::uint32_t a, std::uint32_t b, double tolerance)
+{
+  const Eigen::Vector3f way = surfels.points[b] - surfels.points[a];
+  if (surfels.smooth[a] && surfels.smooth[b])
+    return surfels.normals[b].dot(surfels.normals[a]) > kSmooth &&
+           std::abs(surfels.normals[a].dot(way)) < static_cast<float>(tolerance);
+  constexpr float kSlope = 1.5F; // of a surface that is not seen too steeply
+  const float depth = std::abs(surfels.points[a].normalized().dot(way));
+  const float aside = std::sqrt(std::max(way.squaredNorm() - depth * depth, 0.0F));
+  return depth < kSlope * aside;
+}
+
 /** Counts the supporting elements from where the surface goes on beyond the object. */
 void
 checkContinuation(const SceneSurface& surface,
@@ -133,12 +148,9 @@ checkContinuation(const SceneSurface& surface,
     const auto beyond = static_cast<float>(4 * near * near);
     const auto goesOn = [&](std::uint32_t next) {
       const Eigen::Vector3d place = T_model_scene * surfels.points[next].cast<double>();
-      if (model_tree.nearest(place.cast<float>(), beyond).index >= 0)
-        return false;
-      const Eigen::Vector3f& normal = surfels.normals[element];
-      const float off = normal.dot(surfels.points[next] - surfels.points[element]);
-      return surfels.normals[next].dot(normal) > kSmooth &&
-             std::abs(off) < static_cast<float>(near);
+      return !surface.large[next] &&
+             model_tree.nearest(place.cast<float>(), beyond).index < 0 &&
+             areJoined(surfels, element, next, near);
     };
     if (std::any_of(surfels.links.begin() + surfels.link_begin[element],
                     surfels.links.begin() + surfels.link_begin[element + 1],

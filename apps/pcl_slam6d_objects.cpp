@@ -16,6 +16,9 @@ struct Verb {
 };
 
 constexpr Verb kVerbs[] = {
+    {"locate",
+     "locate INPUT --model MODEL... -o OUT_DIR           objects and their poses",
+     app::runLocate},
     {"train",
      "train MODEL... --background SCANS -o CASCADE.xml   a detector from models",
      app::runTrain},
@@ -40,7 +43,7 @@ run(const std::vector<std::string>& arguments)
     if (first == verb.name)
       return verb.run({arguments.begin() + 1, arguments.end()});
   if (first == "--version")
-    return app::runTrain({first});
+    return app::runLocate({first});
   if (first != "--help" && first != "-h")
     throw app::UsageError("no such job as '" + first + "', but only: " + verbNames());
   std::cout << "usage: " << app::kObjects << " JOB ...\n"

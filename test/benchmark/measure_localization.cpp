@@ -17,7 +17,7 @@
 namespace {
 using namespace pcl6d;
 constexpr double kMinVisible = 0.4;
-constexpr double kNear = 0.1;                 // [m] of an object that counts as found
+constexpr double kNear = 0.1;               // [m] of an object that counts as found
 constexpr double kTurned = 10 * M_PI / 180; // [rad] the same
 
 struct Tally {
@@ -77,14 +77,15 @@ compare(const test::ObjectRoom& room,
       hit = found[i].object_class == model.objectClass() && shift < kNear &&
             turn < kTurned;
       if (verbose && shift < 0.5)
-        std::printf("   near %s: %s %.3f m %.1f deg, visible %.2f score %.2f points %zu\n",
-                    model.objectClass().c_str(),
-                    found[i].object_class.c_str(),
-                    shift,
-                    turn * 180 / M_PI,
-                    found[i].visible_fraction,
-                    found[i].score,
-                    found[i].points.size());
+        std::printf(
+            "   near %s: %s %.3f m %.1f deg, visible %.2f score %.2f points %zu\n",
+            model.objectClass().c_str(),
+            found[i].object_class.c_str(),
+            shift,
+            turn * 180 / M_PI,
+            found[i].visible_fraction,
+            found[i].score,
+            found[i].points.size());
       if (!hit)
         continue;
       is_true[i] = true;
@@ -137,7 +138,8 @@ int
 main(int argc, char** argv)
 try {
   if (argc < 2)
-    return std::puts("usage: measure_localization STORE [FIRST] [LAST] [SCANNER] [v]"), 2;
+    return std::puts("usage: measure_localization STORE [FIRST] [LAST] [SCANNER] [v]"),
+           2;
   const std::uint64_t first = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 11;
   const std::uint64_t last = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 30;
   test::ObjectRoomOptions options;
@@ -156,8 +158,8 @@ try {
     for (const auto& room : test::objectRooms(models, seed, options)) {
       const auto start = std::chrono::steady_clock::now();
       const auto found = locateAll(localizers, room.points);
-      seconds +=
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+                     .count();
       if (argc > 5)
         std::printf("seed %d scan %d\n", static_cast<int>(seed), scans % options.scans);
       compare(room, found, models, tallies, argc > 5);

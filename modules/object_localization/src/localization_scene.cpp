@@ -38,19 +38,28 @@ angularSpacingOf(const Points& points, const PointTree& tree)
                           : std::min(upperMedian(std::move(spacings)), kCoarsest);
 }
 
-/** A frame that looks along x to the middle of a narrow view, such as that of a depth
- * camera, whose own z axis may point forwards; the scan's own frame for a wide one. */
-Eigen::Matrix3d
-lookAtPoints(const Points& points)
+/** \return the mean of the directions to points; its length is 1 in a narrow view and 0 all
+ * around */
+Eigen::Vector3d
+meanDirection(const Points& points)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& p : points)
     if (p.squaredNorm() > 0)
       sum += p.cast<double>().normalized();
-  constexpr double kNarrow = 0.5; // length of the mean direction; 0: all around
-  if (sum.norm() < kNarrow * static_cast<double>(points.size()))
+  return sum / static_cast<double>(points.size());
+}
+
+constexpr double kNarrow = 0.5; // length of the mean direction
+
+/** A frame that looks along x to the middle of a narrow view, such as that of a depth
+ * camera, whose own z axis may point forwards; the scan's own frame for a wide one. */
+Eigen::Matrix3d
+lookAlong(const Eigen::Vector3d& direction)
+{
+  if (direction.norm() < kNarrow)
     return Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d x = sum.normalized();
+  const Eigen::Vector3d x = direction.normalized();
   const Eigen::Vector3d up =
       std::abs(x.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
   Eigen::Matrix3d R;
@@ -65,7 +74,7 @@ ImageView
 viewOf(const Points& points, double pixel)
 {
   ImageView view;
-  view.T_scan_view.linear() = lookAtPoints(points);
+  view.T_scan_view.linear() = lookAlong(meanDirection(points));
   const Eigen::Matrix3d R_view_scan = view.T_scan_view.linear().transpose();
   Eigen::AlignedBox2d angles;
   for (const auto& point : points) {
@@ -96,6 +105,7 @@ LocalizationScene::LocalizationScene(const Points& points, unsigned int num_thre
 : points_(finiteOf(points))
 , tree_(points_, num_threads)
 , angular_spacing_(angularSpacingOf(points_, tree_))
+, is_narrow_(meanDirection(points_).norm() >= kNarrow)
 {
   RangeImageOptions options;
   options.num_threads = num_threads;

@@ -39,7 +39,8 @@ double
 sharedShare(const Places& a, const Places& b)
 {
   Places both;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  std::set_intersection(
+      a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
   return both.empty() ? 0
                       : static_cast<double>(both.size()) /
                             static_cast<double>(std::min(a.size(), b.size()));

@@ -21,8 +21,8 @@ constexpr double kRoughAgreement = 0.6;
 /** Of a proposal: poses that are compared with the scan, and those made precise. */
 constexpr std::size_t kPlacings = 60;
 constexpr std::size_t kPlacingsRefined = 6;
-constexpr double kFieldReach = 3;  // elements
-constexpr double kPlacingGate = 3; // elements
+constexpr double kFieldReach = 3;        // elements
+constexpr double kPlacingGate = 3;       // elements
 constexpr double kClusterDistance = 0.1; // of the diameter
 constexpr double kClusterAngle = 0.35;   // [rad], 20 deg
 
@@ -77,8 +77,9 @@ ObjectLocalizer::ObjectLocalizer(ObjectModel model, const LocalizerOptions& opti
 , coarse_(reduceOriented(model_.surface(), voxel_))
 , fine_(std::make_shared<const ModelSurface>(model_.surface(), kRefinement * voxel_))
 , most_facing_(mostFacing(fine_->surface))
-, field_(std::make_shared<const DistanceField>(
-      fine_->surface.points, fine_->element, kFieldReach * fine_->element))
+, field_(std::make_shared<const DistanceField>(fine_->surface.points,
+                                               fine_->element,
+                                               kFieldReach * fine_->element))
 , table_(coarse_, model_.diameter())
 {}
 
@@ -134,7 +135,8 @@ ObjectLocalizer::locate(const LocalizationScene& scene) const
   removeRefused(candidates, kRoughAgreement * options_.min_agreement);
   candidates = strongest(std::move(candidates), options_.max_shared_support);
   parallelFor(candidates.size(), options_.num_threads, [&](std::size_t i) {
-    candidates[i] = refinement.onPoints(candidates[i], model_.surface(), fine_->element);
+    candidates[i] =
+        refinement.onPoints(candidates[i], model_.surface(), fine_->element);
   });
   return objectsOf(std::move(candidates));
 }
@@ -167,8 +169,8 @@ ObjectLocalizer::surfaceOf(const LocalizationScene& scene) const
 bool
 ObjectLocalizer::mayBe(const ObjectProposal& proposal) const
 {
-  constexpr double kTaller = 0.2;  // [m] of what is on it
-  constexpr double kLonger = 0.8;  // [m] of what touches it
+  constexpr double kTaller = 0.2; // [m] of what is on it
+  constexpr double kLonger = 0.8; // [m] of what touches it
   const Eigen::Vector3d size = model_.box().sizes();
   return proposal.size.z() < size.z() + kTaller &&
          proposal.size.head<2>().norm() < size.head<2>().norm() + kLonger;
@@ -228,7 +230,8 @@ ObjectLocalizer::describe(ObjectCandidate candidate) const
   object.score = scoreOf(candidate.check);
   object.visible_fraction = candidate.check.visibleFraction();
   object.rms = candidate.rms;
-  object.evidence = static_cast<double>(candidate.points.size()) * trust(candidate.check);
+  object.evidence =
+      static_cast<double>(candidate.points.size()) * trust(candidate.check);
   object.points = std::move(candidate.points);
   return object;
 }

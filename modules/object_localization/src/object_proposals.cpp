@@ -117,7 +117,8 @@ private:
         nearest = std::abs(low);
         touched = k;
       }
-      if (role == PlaneRole::kBase && low > -options_.contact && low < options_.max_float)
+      if (role == PlaneRole::kBase && low > -options_.contact &&
+          low < options_.max_float)
         below = below.value_or(k);
     }
     return touched ? touched : below;

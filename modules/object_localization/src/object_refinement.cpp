@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "object_refinement.h"
 
+#include <pcl6d/object_localization/pose_covariance.h>
 #include <pcl6d/registration/icp.h>
 #include <pcl6d/registration/icp_model.h>
 
@@ -93,7 +94,8 @@ ObjectRefinement::onSurface(const Eigen::Isometry3d& guess) const
             .T_target_source;
     options.max_distance_start = 0;
   }
-  candidate.check = checkPose(scene_, surface_, model_, candidate.T_scene_model, voxel_);
+  candidate.check =
+      checkPose(scene_, surface_, model_, candidate.T_scene_model, voxel_);
   return candidate;
 }
 
@@ -129,7 +131,9 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
     }
     refined.status = result.status;
     refined.T_scene_model = result.T_target_source.inverse();
-    refined.covariance = result.covariance;
+    refined.covariance = result.covariance ? inverseCovariance(*result.covariance,
+                                                               result.T_target_source)
+                                           : std::nullopt;
     refined.rms = result.residual;
     gate = std::clamp(kGate * result.residual, 0.1 * voxel_, voxel_);
   }
@@ -140,8 +144,8 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
   for (std::size_t i = 0; i < places.size(); ++i)
     if (placed.nearest(around[i], reach * reach).index >= 0)
       refined.points.push_back(places[i]);
-  refined.check = checkPose(
-      scene_, surface_, model_, refined.T_scene_model, kStrictness * voxel_);
+  refined.check =
+      checkPose(scene_, surface_, model_, refined.T_scene_model, kStrictness * voxel_);
   return refined;
 }
 

@@ -121,8 +121,9 @@ private:
         surface_.elements.points[static_cast<std::size_t>(ray.index)];
     const auto reach = static_cast<float>(kApart * (tolerance_ + element_));
     const bool is_own =
-        model_.tree.nearest((T_model_scene_ * point.cast<double>()).cast<float>(),
-                            reach * reach)
+        model_.tree
+            .nearest((T_model_scene_ * point.cast<double>()).cast<float>(),
+                     reach * reach)
             .index >= 0;
     if (!is_own && point.norm() < e.range - kApart * tolerance_ / e.cosine)
       ++check_.occluded;

@@ -10,9 +10,9 @@
 namespace pcl6d {
 
 namespace {
-constexpr int kHeadings = 72;           // in a turn
+constexpr int kHeadings = 72;            // in a turn
 constexpr std::size_t kMostPoints = 150; // that vote; evenly taken
-constexpr double kSlack = 3;            // cells that points may be outside of the model
+constexpr double kSlack = 3; // cells that points may be outside of the model
 
 /** A heading and a shift of the model's base. */
 struct Placing {
@@ -136,8 +136,7 @@ uprightPoses(const DistanceField& model,
   if (points.empty())
     return {};
   const auto some = onBase(points, T_scene_base.inverse(), box.min().z());
-  const int headings =
-      symmetry.isRound() ? 1 : std::max(kHeadings / symmetry.turns, 1);
+  const int headings = symmetry.isRound() ? 1 : std::max(kHeadings / symmetry.turns, 1);
   std::vector<Placing> placings;
   for (int heading = 0; heading < headings; ++heading) {
     const Eigen::Matrix3d R = turnBy(-heading * 2 * M_PI / kHeadings);

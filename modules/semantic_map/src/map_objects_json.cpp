@@ -2,7 +2,10 @@
 #include "map_objects_json.h"
 
 #include <pcl6d/common/information.h>
+#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
+
+#include <ostream>
 
 namespace pcl6d {
 
@@ -36,6 +39,8 @@ toJson(const MapObject& object, std::size_t id)
           {"box_min", rowByRow(pose.box.min())},
           {"box_max", rowByRow(pose.box.max())},
           {"score", object.score},
+          {"visible_fraction", object.visible_fraction},
+          {"rms", object.rms},
           {"symmetry", object.symmetry},
           {"moves", pose.moves},
           {"points", pose.points},
@@ -80,6 +85,10 @@ objectFrom(const JsonPlace& place)
   }
   if (const auto score = place.find("score"))
     object.score = score->number();
+  if (const auto fraction = place.find("visible_fraction"))
+    object.visible_fraction = fraction->number();
+  if (const auto rms = place.find("rms"))
+    object.rms = rms->number();
   if (const auto symmetry = place.find("symmetry")) {
     object.symmetry = symmetry->integer();
     symmetry->require(object.symmetry >= 0, ">= 0");
@@ -91,6 +100,25 @@ objectFrom(const JsonPlace& place)
   if (const auto scans = place.find("scans"))
     object.scans = scans->counts();
   return object;
+}
+
+void
+writeMapObjects(const std::filesystem::path& path,
+                const std::vector<MapObject>& objects,
+                const MapObjectsOrigin& origin)
+{
+  Json list = Json::array();
+  for (const auto& object : objects)
+    list.push_back(toJson(object, list.size() + 1));
+  const Json json = {{"schema_version", 1},
+                     {"generator", origin.generator},
+                     {"seconds", origin.seconds},
+                     {"objects", list}};
+  writeFileAtomically(path,
+                      [&](std::ostream& stream) {
+                        stream << json.dump(1, ' ', false, Json::error_handler_t::replace)
+                               << '\n';
+                      });
 }
 
 std::vector<MapObject>

@@ -124,6 +124,8 @@ fuse(const std::vector<MapObject>& observations,
     if (!mean.counts[i])
       fused.outliers.push_back(group[i]);
     object.score = std::max(object.score, observation.score);
+    object.visible_fraction =
+        std::max(object.visible_fraction, observation.visible_fraction);
     object.pose.points += observation.pose.points;
     object.pose.moves = object.pose.moves || observation.pose.moves;
     object.scans.insert(

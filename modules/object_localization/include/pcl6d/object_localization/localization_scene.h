@@ -36,6 +36,13 @@ public:
     return *ranges_;
   }
 
+  /** \return whether it looks one way, as a camera does, and not all around */
+  bool
+  isNarrow() const
+  {
+    return is_narrow_;
+  }
+
   /** \return median distance of a point and its nearest neighbour over its range [rad] */
   double
   angularSpacing() const
@@ -47,6 +54,7 @@ private:
   Points points_;
   PointTree tree_;
   double angular_spacing_;
+  bool is_narrow_ = false;
   std::unique_ptr<const RangeImage> ranges_;
 };
 

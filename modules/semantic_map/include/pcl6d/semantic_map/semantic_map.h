@@ -52,6 +52,8 @@ struct MapPlane {
 struct MapObject {
   ObjectPose pose;
   double score = 0; ///< in [0, 1]
+  double visible_fraction = 0; ///< of the surface that faced the scanner, in [0, 1]
+  double rms = 0;              ///< [m] distance of its points to the model
   /** of x y z roll pitch yaw of T_world_object [m, rad]; none if not known */
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
   /** It looks the same after each turn by 2 pi / symmetry about its z axis; 1: only after

@@ -4,6 +4,7 @@
 #include <pcl6d/semantic_map/semantic_map.h>
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace pcl6d {
@@ -22,9 +23,22 @@ writeSemanticMap(const std::filesystem::path& path, const SemanticMap& map);
 SemanticMap
 readSemanticMap(const std::filesystem::path& path);
 
+/** \brief Who made a list of objects, and how long it took. */
+struct MapObjectsOrigin {
+  double seconds = 0;
+  std::string generator; ///< name of the program
+};
+
+/** \brief Writes `objects.json`, atomically; what readMapObjects() reads.
+ * \throws IoFailed the file cannot be written */
+void
+writeMapObjects(const std::filesystem::path& path,
+                const std::vector<MapObject>& objects,
+                const MapObjectsOrigin& origin = {});
+
 /** \brief Reads a list of objects, `objects.json` of a run or `objects_truth.json` of a
  * simulation: `class` and `T_world_object` of each must be there; `extent` and `centre` of
- * its box, `score`, `covariance`, `symmetry`, `scans`, `moves`, `points` may be.
+ * its box, `score`, `visible_fraction`, `rms`, `covariance`, `symmetry`, `scans`, `moves`, `points` may be.
  * \throws IoFailed as readSemanticMap() */
 std::vector<MapObject>
 readMapObjects(const std::filesystem::path& path);

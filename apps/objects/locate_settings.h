@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "objects/object_finder.h"
+
+#include <pcl6d/io/scan_folder.h>
+
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief What `locate` was asked to do. */
+struct LocateSettings {
+  std::string input; ///< a scan, a folder of scans, or a run
+  std::vector<std::string> models;
+  std::string store;
+  ModelFileOptions file;
+  std::string out;
+  ScanFolderOptions folder;
+  FinderOptions finder;
+  double min_range = 0;
+  double max_range = 0; ///< 0: all
+  bool fuse = true;     ///< what several scans saw
+  bool force = false;
+  bool quiet = false;
+  std::string without_effect; ///< a sentence about options that do not count
+};
+
+/** \return false if there is nothing more to do (--help) \throws UsageError */
+bool
+parseLocate(const std::vector<std::string>& arguments, LocateSettings& settings);
+
+} // namespace pcl6d::app

@@ -27,6 +27,8 @@ struct BuildSettings {
   std::string cloud;
   std::string planes;
   std::string objects;
+  std::vector<std::string> models;
+  std::string store;
   std::string rules;
   bool keep_observations = false;
   bool quiet = false;
@@ -43,6 +45,13 @@ describe(BuildSettings& s, CommandLine& line)
       ("objects",
        po::value(&s.objects)->value_name("FILE"),
        "objects.json; by default that of the run, else there are no objects") //
+      ("model",
+       po::value(&s.models)->value_name("MODEL")->composing()->multitoken(),
+       "look for objects in the scans: a mesh, a cloud or a folder of the model store, "
+       "as of pcl_slam6d_objects locate; several may follow") //
+      ("store",
+       po::value(&s.store)->value_name("DIR"),
+       "look for all models of a store, such as share/models") //
       ("rules",
        po::value(&s.rules)->value_name("FILE"),
        "rules of labels (share/rules); by default the book's");
@@ -98,6 +107,9 @@ parse(const std::vector<std::string>& arguments, BuildSettings& s)
   describe(s, line);
   if (!line.parse(arguments))
     return false;
+  if (!s.objects.empty() && (!s.models.empty() || !s.store.empty()))
+    throw UsageError(
+        "--objects gives the objects; it does not go with --model or --store");
   checkOptions([&] { require(s.threads >= 0, "threads", s.threads, ">= 0"); });
   const fs::path folder = s.run;
   if (s.output.empty())
@@ -121,7 +133,7 @@ fused(const std::vector<MapObject>& observations)
   return objects;
 }
 
-/** \brief Makes sure that all scans that are named are of the run. \throws IoFailed an object was seen by one */
+/** \throws IoFailed an object was seen by a scan that is not of the run */
 void
 checkScans(const SemanticMap& map, const std::string& source)
 {
@@ -130,6 +142,36 @@ checkScans(const SemanticMap& map, const std::string& source)
       if (!map.placeOf({EntityKind::kScan, id}))
         throw IoFailed(source + ": object " + std::to_string(i + 1) + ": scan " +
                        std::to_string(id) + ", but the run has no such scan");
+}
+
+/** Finds objects, each once, and planes. \return false if interrupted */
+bool
+addParts(const FinishedRun& run,
+         const BuildSettings& s,
+         ProgressBar& bar,
+         SemanticMap& map)
+{
+  const Interrupt interrupt;
+  const ScenePartsOptions options{s.planes,
+                                  s.objects,
+                                  s.models,
+                                  s.store,
+                                  s.rules,
+                                  static_cast<unsigned int>(s.threads)};
+  const auto objects = findObjects(run, options, bar, interrupt);
+  if (!objects)
+    return false;
+  map.objects = objects->parts;
+  checkScans(map, objects->source);
+  if (!s.keep_observations)
+    map.objects = fused(map.objects);
+  const auto planes = findPlanes(run, options, bar, interrupt);
+  if (!planes)
+    return false;
+  map.planes = planes->parts;
+  bar.say("planes: " + planes->source);
+  bar.say("objects: " + objects->source);
+  return true;
 }
 
 void
@@ -154,32 +196,20 @@ runMapBuild(const std::vector<std::string>& arguments)
   BuildSettings s;
   if (!parse(arguments, s))
     return kDone;
-  const Interrupt interrupt;
   ProgressBar bar(s.quiet);
-  const auto threads = static_cast<unsigned int>(s.threads);
-  const ScenePartsOptions part_options{s.planes, s.objects, s.rules, threads};
   const FinishedRun run(s.run);
   SemanticMap map;
   map.scans = run.scans();
   map.links = run.readLinks();
   map.world_offset = run.worldOffset();
   const Scan cloud = run.readMap();
-  const auto objects = findObjects(run, part_options);
-  map.objects = objects.parts;
-  checkScans(map, objects.source);
-  if (!s.keep_observations)
-    map.objects = fused(map.objects);
-  const auto planes = findPlanes(run, part_options, bar, interrupt);
-  if (!planes) {
+  if (!addParts(run, s, bar, map)) {
     bar.say("interrupted while reading; nothing is written");
     return kInterrupted;
   }
-  map.planes = planes->parts;
-  bar.say("planes: " + planes->source);
-  bar.say("objects: " + objects.source);
 
   PointLabelOptions label_options;
-  label_options.num_threads = threads;
+  label_options.num_threads = static_cast<unsigned int>(s.threads);
   const PointLabeller labeller(map, label_options);
   findScansOfParts(run, labeller, bar, map);
   Eigen::Isometry3d T_world_map = Eigen::Isometry3d::Identity();

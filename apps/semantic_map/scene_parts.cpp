@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "objects/locate_scans.h"
 #include "planes/plane_input.h"
 #include "semantic_map/scene_parts.h"
 
@@ -94,15 +95,30 @@ findPlanes(const FinishedRun& run,
   return result;
 }
 
-SceneParts<MapObject>
-findObjects(const FinishedRun& run, const ScenePartsOptions& options)
+std::optional<SceneParts<MapObject>>
+findObjects(const FinishedRun& run,
+            const ScenePartsOptions& options,
+            ProgressBar& bar,
+            const Interrupt& interrupt)
 {
+  if (!options.models.empty() || !options.store.empty()) {
+    LocateSettings settings;
+    settings.input = run.folder().string();
+    settings.models = options.models;
+    settings.store = options.store;
+    settings.finder.localizer.num_threads = options.num_threads;
+    auto located = locateScans(settings, bar, interrupt);
+    if (!located)
+      return {};
+    return SceneParts<MapObject>{std::move(located->observations),
+                                 "found in the scans"};
+  }
   const fs::path of_run = run.folder() / "objects.json";
   const fs::path file =
       options.objects.empty() && fs::exists(of_run) ? of_run : options.objects;
   if (file.empty())
-    return {{}, "none given"};
-  return {readMapObjects(file), file.string()};
+    return SceneParts<MapObject>{{}, "none given"};
+  return SceneParts<MapObject>{readMapObjects(file), file.string()};
 }
 
 } // namespace pcl6d::app

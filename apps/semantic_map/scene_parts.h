@@ -17,10 +17,12 @@ namespace pcl6d::app {
 
 /** \brief Where to take planes and objects from. */
 struct ScenePartsOptions {
-  std::filesystem::path planes;  ///< as planes.json; empty: see findPlanes()
-  std::filesystem::path objects; ///< as objects.json; empty: see findObjects()
-  std::filesystem::path rules;   ///< of labels; empty: the book's
-  unsigned int num_threads = 0;  ///< 0: one per core; never changes the result
+  std::filesystem::path planes;    ///< as planes.json; empty: see findPlanes()
+  std::filesystem::path objects;   ///< as objects.json; empty: see findObjects()
+  std::vector<std::string> models; ///< of objects to look for: files or folders
+  std::string store;               ///< of more models; empty: none
+  std::filesystem::path rules;     ///< of labels; empty: the book's
+  unsigned int num_threads = 0;    ///< 0: one per core; never changes the result
 };
 
 /** \brief Planes or objects, and where they come from, for people. */
@@ -40,11 +42,15 @@ findPlanes(const FinishedRun& run,
            ProgressBar& bar,
            const Interrupt& interrupt);
 
-/** \brief The objects of a run, one entry per observation: those of the given file, or of
- * objects.json in the folder of the run; none without either. The place where
- * localisation with models plugs in.
- * \throws IoFailed a file cannot be read */
-SceneParts<MapObject>
-findObjects(const FinishedRun& run, const ScenePartsOptions& options);
+/** \brief The objects of a run, one entry per observation: those of the given file, those of
+ * the models that are found in its scans, as pcl_slam6d_objects does, or those of
+ * objects.json in the folder of the run; none without any of these.
+ * \return nothing if interrupted
+ * \throws IoFailed, BadArgument a file cannot be read, or a model not be used */
+std::optional<SceneParts<MapObject>>
+findObjects(const FinishedRun& run,
+            const ScenePartsOptions& options,
+            ProgressBar& bar,
+            const Interrupt& interrupt);
 
 } // namespace pcl6d::app

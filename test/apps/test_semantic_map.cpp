@@ -225,6 +225,9 @@ TEST(SemanticMap, RefusesAWrongCommandLine)
   expectError(program({"find"}), 2, {"'find'"});
   expectError(program({"build"}), 2, {"RUN_DIR"});
   expectError(program({"build", run, "--threads", "-1"}), 2, {"--threads = -1"});
+  expectError(program({"build", run, "--objects", "a.json", "--model", "a.ply"}),
+              2,
+              {"--objects", "--model"});
   expectError(
       program({"build", run, "--cloud", "x.xyz"}), 2, {"x.xyz", ".pcd or .ply"});
   expectError(program({"build", run, "-o", run + "/summary.json"}),

@@ -233,3 +233,21 @@ TEST(MapQuery, PrintsATableAndJson)
   writeTable(nothing, answerQuery(map(), parseQuery("objects class=sofa")));
   EXPECT_EQ(nothing.str(), "");
 }
+
+TEST(MapQuery, ComparesAnUnknownHeightWithNoNumber)
+{
+  SemanticMap open = map(); // without ceilings
+  open.rooms[0].height.reset();
+  open.storeys[0].ceiling.reset();
+  const auto answer = [&](const std::string& query) {
+    return answerQuery(open, parseQuery(query));
+  };
+  EXPECT_EQ(answer("rooms height<100").rows.size(), 1u);
+  EXPECT_EQ(answer("rooms height>=0").rows.size(), 1u);
+  EXPECT_EQ(answer("storeys height<100").rows.size(), 0u);
+  std::ostringstream json, table;
+  writeJson(json, answer("rooms id=1"));
+  EXPECT_TRUE(nlohmann::json::parse(json.str())["results"][0]["height"].is_null());
+  writeTable(table, answer("storeys"));
+  EXPECT_EQ(table.str().find("nan"), std::string::npos) << table.str();
+}

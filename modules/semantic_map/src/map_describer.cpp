@@ -2,12 +2,14 @@
 #include "map_describer.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace pcl6d {
 namespace {
 using Things = std::vector<Entity>;
 
 constexpr bool kInTable = true;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN(); // matches nothing
 
 template <typename Elements, typename Neighbours>
 void
@@ -220,7 +222,7 @@ MapDescriber::room(std::size_t place) const
     has.push_back(plane);
   Properties properties{number("id", self.id, kInTable),
                         number("area", room.area, kInTable),
-                        number("height", room.height.value_or(0), kInTable)};
+                        number("height", room.height.value_or(kUnknown), kInTable)};
   addPosition(properties, centreOf(room, map_.up));
   properties.push_back({"storey",
                         things(EntityKind::kStorey, {room.storey}),
@@ -239,7 +241,7 @@ MapDescriber::storey(std::size_t place) const
   for (std::size_t i = 0; i < map_.rooms.size(); ++i)
     if (map_.rooms[i].storey == place + 1)
       rooms.push_back({EntityKind::kRoom, i + 1});
-  const double height = storey.ceiling.value_or(storey.floor) - storey.floor;
+  const double height = storey.ceiling.value_or(kUnknown) - storey.floor;
   return {number("id", place + 1, kInTable),
           number("floor", storey.floor, kInTable),
           number("height", height, kInTable),

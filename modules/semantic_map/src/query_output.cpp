@@ -16,6 +16,8 @@ using Things = std::vector<Entity>;
 std::string
 textOf(double number)
 {
+  if (std::isnan(number))
+    return "-";
   std::array<char, 64> buffer{};
   const bool is_whole = std::floor(number) == number && std::abs(number) < 1e15;
   std::snprintf(buffer.data(), buffer.size(), is_whole ? "%.0f" : "%.3f", number);

@@ -8,5 +8,5 @@ find_package(nlohmann_json 3.9 REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d)
 find_package(VTK 9 REQUIRED COMPONENTS
-  CommonCore CommonDataModel FiltersCore FiltersSources IOImage
-  RenderingCore RenderingFreeType RenderingOpenGL2)
+  CommonCore CommonDataModel CommonMath FiltersCore FiltersSources IOImage
+  InteractionStyle RenderingCore RenderingFreeType RenderingOpenGL2 RenderingUI)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "colours.h"
 #include "live_view_channel.h"
 #include "live_view_shapes.h"
 #include "live_view_window.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/visualization/map_overlays.h>
 
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>

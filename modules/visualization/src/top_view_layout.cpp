@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "annotations.h"
 #include "top_view_layout.h"
+
+#include <pcl6d/common/error.h>
 
 #include <Eigen/Geometry>
 
@@ -43,7 +46,9 @@ mapExtent(const Points& points)
 Eigen::AlignedBox2d
 sceneExtent(const Points& points, const TopViewScene& scene)
 {
-  Eigen::AlignedBox2d box = mapExtent(points);
+  Eigen::AlignedBox2d box;
+  if (!points.empty())
+    box = mapExtent(points);
   for (const auto* trajectory : {&scene.trajectory, &scene.initial})
     for (const auto& pose : trajectory->poses)
       if (pose.translation().allFinite())
@@ -55,16 +60,6 @@ sceneExtent(const Points& points, const TopViewScene& scene)
   box.min() -= lacking + rim;
   box.max() += lacking + rim;
   return box;
-}
-
-double
-roundDown(double metres)
-{
-  const double power = std::pow(10.0, std::floor(std::log10(metres)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= metres)
-      return digit * power;
-  return power;
 }
 
 void
@@ -79,6 +74,16 @@ placeScaleBar(TopViewLayout& layout, double margin)
 }
 } // namespace
 
+double
+roundDown(double metres)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(metres)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= metres)
+      return digit * power;
+  return power;
+}
+
 float
 quantile(std::vector<float> values, double share)
 {
@@ -88,16 +93,29 @@ quantile(std::vector<float> values, double share)
   return values[static_cast<std::size_t>(rank)];
 }
 
+Eigen::AlignedBox2d
+areaOf(const TopViewScene& scene, const TopViewOptions& options)
+{
+  Points points;
+  for (const auto i : shownPoints(scene.points, scene.trajectory, options.cut).indices)
+    points.push_back(scene.points[i]);
+  if (points.empty() && scene.trajectory.poses.empty() && scene.initial.poses.empty())
+    throw BadArgument("the map has no points to draw");
+  return sceneExtent(points, scene);
+}
+
 TopViewLayout
 layOut(const Points& points, const TopViewScene& scene, const TopViewOptions& options)
 {
-  const Eigen::AlignedBox2d box = sceneExtent(points, scene);
+  const Eigen::AlignedBox2d box =
+      options.area ? *options.area : sceneExtent(points, scene);
   const double margin = options.margin;
   TopViewLayout layout;
   layout.width = options.width;
-  layout.text_size = std::clamp(options.width / 85.0, 10.0, 48.0);
+  layout.area = box;
+  layout.text_size = textSizeFor(options.width);
   const bool has_top_line = !options.title.empty() || !scene.trajectory.poses.empty() ||
-                            !scene.initial.poses.empty();
+                            !scene.initial.poses.empty() || !scene.overlay.keys.empty();
   layout.map.left = margin;
   layout.map.right = options.width - margin;
   layout.map.top = margin + (has_top_line ? 2.2 * layout.text_size : 0);

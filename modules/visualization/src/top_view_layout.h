@@ -10,6 +10,15 @@ namespace pcl6d {
 TopViewLayout
 layOut(const Points& points, const TopViewScene& scene, const TopViewOptions& options);
 
+/** \return the part of the world that a top view of the scene shows by itself
+ * \throws BadArgument there is neither a point to draw nor a pose */
+Eigen::AlignedBox2d
+areaOf(const TopViewScene& scene, const TopViewOptions& options);
+
+/** \return the longest of 1, 2 or 5 times a power of ten that is not longer [m] */
+double
+roundDown(double metres);
+
 /** \return the value below which the given share of the values lies (nearest rank, from
  * an even sample of them); \param[in] values not empty */
 float

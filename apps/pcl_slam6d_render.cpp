@@ -16,6 +16,9 @@ struct Verb {
 };
 
 constexpr Verb kVerbs[] = {
+    {"animation",
+     "the map growing, relaxing, turning or flown through, as frames and a video",
+     app::runAnimation},
     {"picture",
      "views of the map, the poses and the links as PNG files",
      app::runPicture},

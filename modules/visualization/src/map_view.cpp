@@ -126,8 +126,12 @@ MapView::drawShown(const MapViewScene& scene,
   layout.ceiling_hidden = shown.ceiling_hidden;
   const auto indices = thinned(shown.indices, options_.max_points);
   layout.points_drawn = indices.size();
-  PointPaint paint = paintPoints(
-      scene, indices, {options_.colour, options_.colour_map, options_.background});
+  PointPaint paint = paintPoints(scene,
+                                 indices,
+                                 {options_.colour,
+                                  options_.colour_map,
+                                  options_.background,
+                                  options_.colour_range});
   layout.lowest_colour = paint.scale.lowest;
   layout.highest_colour = paint.scale.highest;
   PixelScene canvas(

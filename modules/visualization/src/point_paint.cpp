@@ -132,7 +132,13 @@ paintPoints(const MapCloud& cloud,
   values.reserve(indices.size());
   for (const auto i : indices)
     values.push_back(valueOf(cloud, i, rule.colour));
-  setRange(values, rule.colour, paint.scale);
+  if (rule.range) {
+    paint.scale.lowest = rule.range->front();
+    paint.scale.highest = rule.range->back();
+  }
+  else {
+    setRange(values, rule.colour, paint.scale);
+  }
   const double lowest = paint.scale.lowest;
   const double range = std::max(paint.scale.highest - lowest, 1e-9);
   constexpr int kSteps = 1024; // more than the eye tells apart

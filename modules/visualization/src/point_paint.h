@@ -3,6 +3,7 @@
 
 #include <pcl6d/visualization/map_cloud.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -14,6 +15,8 @@ struct PaintRule {
   PointColour colour = PointColour::kHeight;
   std::optional<ColourMap> map; ///< by default one that suits the colour
   Background background = Background::kDark;
+  std::optional<std::array<double, 2>> range = {}; ///< values at the ends; by default
+                                                   ///< they follow the points
 };
 
 /** \brief What the colours mean. */

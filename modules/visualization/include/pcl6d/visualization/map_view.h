@@ -8,6 +8,7 @@
 #include <pcl6d/visualization/map_cloud.h>
 #include <pcl6d/visualization/overlay.h>
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,8 @@ struct MapViewOptions {
   int margin = 24;           ///< [px] around everything; 0 to an eighth of the width
   PointColour colour = PointColour::kHeight;
   std::optional<ColourMap> colour_map; ///< by default one that suits the colour
+  /** values at the two ends of the colours; by default they follow the points */
+  std::optional<std::array<double, 2>> colour_range;
   Background background = Background::kDark;
   bool transparent = false; ///< in place of the background
   std::string title;        ///< top left; may be empty

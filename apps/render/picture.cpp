@@ -64,11 +64,23 @@ runPicture(const std::vector<std::string>& arguments)
   RunPictures pictures(run, s);
   const auto views = s.views.empty() ? pictures.suitableViews() : s.views;
   const fs::path output = prepareOutput(s, views.size());
+  bool drawn = false;
   for (const std::string& view : views) {
     const fs::path file = isPictureFile(output) ? output : output / (view + ".png");
-    writePng(file, pictures.draw(view));
+    try {
+      writePng(file, pictures.draw(view));
+    } catch (const BadArgument& e) { // nothing to draw, in this view
+      if (!s.views.empty())
+        throw IoFailed(s.run + ": " + view + ": " + e.what());
+      std::cerr << kRender << ": warning: no picture of " << view << ": " << e.what()
+                << '\n';
+      continue;
+    }
+    drawn = true;
     std::cout << file.string() << '\n';
   }
+  if (!drawn)
+    throw IoFailed(s.run + ": there is nothing to draw");
   return kDone;
 }
 

@@ -24,9 +24,9 @@ struct PictureSettings {
   std::optional<int> width;  ///< [px]
   std::optional<int> height; ///< [px]
   std::size_t points = 4000000;
-  AutoDouble slice_height; ///< [m] in the world
-  double slice_thickness = 0.2;
-  std::optional<int> scan; ///< index NNN
+  AutoDouble slice_height;      ///< [m] in the world
+  double slice_thickness = 0.3; ///< [m]
+  std::optional<int> scan;      ///< index NNN
   std::size_t viewpoint = 1;
   AutoDouble azimuth;   ///< [rad]
   AutoDouble elevation; ///< [rad]

@@ -14,8 +14,8 @@ namespace pcl6d::app {
 struct RunPictures::View {
   const char* name;
   const char* purpose;
-  const char* needs; ///< a file of the run without which it cannot be drawn; "": any
-  bool usual;        ///< drawn unless others are asked for
+  /** files of the run without which it cannot be drawn; "map": map.pcd or scans/ */
+  std::vector<std::string> needs;
   Image (RunPictures::*draw)();
 };
 
@@ -24,28 +24,22 @@ RunPictures::views()
 {
   using R = RunPictures;
   static const std::vector<View> kViews = {
-      {"top", "map and paths from above", "", true, &R::drawTop},
-      {"perspective", "map from where most is seen", "map", true, &R::drawPerspective},
-      {"before-after", "first and final poses", "map", true, &R::drawBeforeAfter},
-      {"graph", "scans and their links", "links.csv", true, &R::drawGraph},
+      {"top", "map and paths from above", {}, &R::drawTop},
+      {"perspective", "map from where most is seen", {"map"}, &R::drawPerspective},
+      {"before-after", "first and final poses", {"map"}, &R::drawBeforeAfter},
+      {"graph", "scans and their links", {"links.csv"}, &R::drawGraph},
       {"covariance",
        "how sure the positions are",
-       "summary.json",
-       true,
+       {"summary.json"},
        &R::drawCovariance},
-      {"slice", "horizontal layer: a floor plan", "map", true, &R::drawSlice},
-      {"panorama", "all around one scan", "scans", true, &R::drawPanorama},
+      {"slice", "horizontal layer: a floor plan", {"map"}, &R::drawSlice},
+      {"panorama", "all around one scan", {"scans"}, &R::drawPanorama},
       {"convergence",
        "the way of one scan to its place",
-       "frames",
-       true,
+       {"frames", "scans"},
        &R::drawConvergence},
-      {"planes", "planes with hulls and labels", "planes.json", true, &R::drawPlanes},
-      {"objects",
-       "objects with boxes and models",
-       "objects.json",
-       true,
-       &R::drawObjects},
+      {"planes", "planes with hulls and labels", {"planes.json"}, &R::drawPlanes},
+      {"objects", "objects with boxes and models", {"objects.json"}, &R::drawObjects},
   };
   return kViews;
 }
@@ -95,10 +89,11 @@ RunPictures::RunPictures(const RunFolder& run, const PictureSettings& settings)
 std::string
 RunPictures::lackedBy(const std::string& view) const
 {
-  const std::string needed = viewOf(view).needs;
-  if (needed == "map")
-    return run_.has("map.pcd") || run_.has("scans") ? "" : "map.pcd";
-  return needed.empty() || run_.has(needed) ? "" : needed;
+  for (const std::string& needed : viewOf(view).needs)
+    if (needed == "map" ? !run_.has("map.pcd") && !run_.has("scans")
+                        : !run_.has(needed))
+      return needed == "map" ? "map.pcd" : needed;
+  return "";
 }
 
 std::vector<std::string>
@@ -106,7 +101,7 @@ RunPictures::suitableViews() const
 {
   std::vector<std::string> suitable;
   for (const View& view : views())
-    if (view.usual && lackedBy(view.name).empty())
+    if (lackedBy(view.name).empty())
       suitable.emplace_back(view.name);
   return suitable;
 }

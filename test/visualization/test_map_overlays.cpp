@@ -27,6 +27,8 @@ using pcl6d::test::drawnPixels;
 using pcl6d::test::kDarkBackground;
 using pcl6d::test::nearestDifference;
 
+constexpr int kThinLine = 100; // of a channel: it covers pixels in part
+
 /** Five poses in a row, 2 m apart. */
 Trajectory
 row()
@@ -47,8 +49,8 @@ drawn(const Overlay& overlay)
       scene.points.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
   scene.overlay = overlay;
   TopViewOptions options;
-  options.width = 800;
-  options.height = 500;
+  options.width = 1600; // lines are wider than a pixel
+  options.height = 1000;
   options.colour = pcl6d::PointColour::kPlain;
   return TopView(options).draw(scene);
 }
@@ -68,11 +70,14 @@ TEST(GraphOverlay, ColoursLinksByVerdictAndResidual)
   EXPECT_GT(at(1)[1], at(1)[0] + 60) << "small residual: green";
   EXPECT_GT(at(3)[0], at(3)[1] + 60) << "large residual: red";
   EXPECT_GT(at(5)[2], at(5)[0] + 60) << "odometry: blue";
-  EXPECT_LT(difference(at(7), {125, 118, 122}), 40) << "refused: grey";
+  EXPECT_LT(
+      nearestDifference(picture.image, picture.layout.toPixel({7, 0}), {125, 118, 122}),
+      50)
+      << "refused: grey";
   EXPECT_GT(at(4)[0], at(4)[1] + 100) << "doubtful scan: red dot";
   EXPECT_GT(at(0)[1], 180) << "scan: bright dot";
   EXPECT_GT(drawnPixels(
-                picture.image, {200, 0, 800, picture.layout.map.top}, kDarkBackground),
+                picture.image, {400, 0, 1600, picture.layout.map.top}, kDarkBackground),
             300)
       << "legend";
 }
@@ -102,7 +107,8 @@ TEST(CovarianceOverlay, DrawsThreeSigmaEnlargedByARoundFactor)
   const auto picture = drawn(overlay);
   const Colour colour = overlay.keys[0].colour;
   const Eigen::Vector2d at(4 + 3 * factor * sigma.x(), 0);
-  EXPECT_LE(nearestDifference(picture.image, picture.layout.toPixel(at), colour), 40);
+  EXPECT_LE(nearestDifference(picture.image, picture.layout.toPixel(at), colour),
+            kThinLine);
   const Eigen::Vector2d aside(4, 3 * factor * sigma.y());
   EXPECT_LE(nearestDifference(picture.image, picture.layout.toPixel(aside), colour),
             40);
@@ -130,7 +136,7 @@ TEST(ObjectOverlay, DrawsTheBoxAndTheClass)
   const Eigen::Vector2d middle = picture.layout.toPixel({4, 0});
   EXPECT_GT(
       drawnPixels(picture.image,
-                  {middle.x() - 30, middle.y() - 8, middle.x() + 30, middle.y() + 8},
+                  {middle.x() - 40, middle.y() - 12, middle.x() + 40, middle.y() + 12},
                   kDarkBackground),
       30)
       << "the name";

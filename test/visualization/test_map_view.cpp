@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace {
 using Eigen::Vector3d;
@@ -81,6 +83,15 @@ alongY()
   camera.centre = {320, 150};
   return camera;
 }
+/** Where a place is on a picture; it must be there. */
+Eigen::Vector2d
+pixelOf(const Camera& camera, const Vector3d& place)
+{
+  const auto pixel = camera.toPixel(place);
+  if (!pixel)
+    throw std::logic_error("a place that the camera must see");
+  return pixel->head<2>();
+}
 } // namespace
 
 TEST(Camera, ProjectsAsAPinhole)
@@ -99,8 +110,8 @@ TEST(MapView, ShowsSurfacesClosedInTheirColoursWhereTheyBelong)
   EXPECT_EQ(picture.image.width, 640);
   EXPECT_EQ(picture.image.height, 400);
   const auto expectAt = [&](const Vector3d& place, const std::string& label) {
-    const auto pixel = picture.layout.camera.toPixel(place);
-    EXPECT_LE(difference(colourAt(picture.image, pixel->head<2>()), labelColour(label)),
+    const auto pixel = pixelOf(picture.layout.camera, place);
+    EXPECT_LE(difference(colourAt(picture.image, pixel), labelColour(label)),
               kTolerance)
         << place.transpose();
   };
@@ -110,8 +121,8 @@ TEST(MapView, ShowsSurfacesClosedInTheirColoursWhereTheyBelong)
     expectAt({along, 1, 0}, "floor");
     expectAt({along, 2, 0}, "floor");
   }
-  const auto above = picture.layout.camera.toPixel({2, 3, 2.3});
-  EXPECT_EQ(colourAt(picture.image, above->head<2>()), kDarkBackground);
+  EXPECT_EQ(colourAt(picture.image, pixelOf(picture.layout.camera, {2, 3, 2.3})),
+            kDarkBackground);
 }
 
 TEST(MapView, HidesWhatLiesBehind)
@@ -119,8 +130,8 @@ TEST(MapView, HidesWhatLiesBehind)
   MapViewScene scene = corner();
   addPatch(scene, {1.5, 1, 0.5}, {1, 0, 0}, {0, 0, 1}, "door"); // in front of the wall
   const auto picture = MapView(byLabel()).draw(scene, alongY());
-  const auto pixel = picture.layout.camera.toPixel({2, 1, 1});
-  EXPECT_LE(difference(colourAt(picture.image, pixel->head<2>()), labelColour("door")),
+  const auto pixel = pixelOf(picture.layout.camera, {2, 1, 1});
+  EXPECT_LE(difference(colourAt(picture.image, pixel), labelColour("door")),
             kTolerance);
 }
 
@@ -157,7 +168,7 @@ TEST(MapView, ShowsTitleLegendAndColourBar)
   EXPECT_GT(drawn(400, 0, 640, top), 50) << "legend";
   EXPECT_GT(drawn(400, bottom + 2, 640, 400), 300) << "colour bar";
   EXPECT_NEAR(picture.layout.lowest_colour, 0, 1e-6);
-  EXPECT_NEAR(picture.layout.highest_colour, 2, 0.1);
+  EXPECT_NEAR(picture.layout.highest_colour, 1.9, 0.1); // the 98 % quantile
 }
 
 TEST(MapView, DrawsPathsAndOverlayOverPoints)
@@ -171,7 +182,7 @@ TEST(MapView, DrawsPathsAndOverlayOverPoints)
   scene.overlay.marks.push_back({{2, 3, 1.7}, red, 12});
   const auto picture = MapView(byLabel()).draw(scene, alongY());
   const auto at = [&](const Vector3d& place) {
-    return colourAt(picture.image, picture.layout.camera.toPixel(place)->head<2>());
+    return colourAt(picture.image, pixelOf(picture.layout.camera, place));
   };
   EXPECT_LE(difference(at({3.2, 2, 0}), kWhite), 12) << "path";
   EXPECT_LE(difference(at({2, 3, 1}), red), kTolerance) << "line";
@@ -186,7 +197,7 @@ TEST(MapView, DarkensWhatLiesBehindAnEdge)
   const auto flat = MapView(options).draw(scene, alongY());
   options.shading = 1;
   const auto shaded = MapView(options).draw(scene, alongY());
-  const auto pixel = flat.layout.camera.toPixel({2.5, 0, 1})->head<2>();
+  const auto pixel = pixelOf(flat.layout.camera, {2.5, 0, 1});
   const auto darkest = [&](const pcl6d::Image& image) {
     int lowest = 255;
     for (int dx = 0; dx < 5; ++dx) {
@@ -209,7 +220,7 @@ TEST(MapView, IsTransparentWhereNothingIsDrawn)
                                static_cast<std::size_t>(pixel.x())];
   };
   EXPECT_EQ(alphaAt({3, 3}), 0);
-  const auto wall = picture.layout.camera.toPixel({2, 3, 1})->head<2>();
+  const auto wall = pixelOf(picture.layout.camera, {2, 3, 1});
   EXPECT_EQ(alphaAt(wall), 255);
   EXPECT_LE(difference(colourAt(picture.image, wall), labelColour("wall")), kTolerance);
 }
@@ -219,15 +230,13 @@ TEST(MapView, FindsViewpointsThatShowEverything)
   const MapView view(byLabel());
   const auto cameras = view.viewpoints(corner(), 3);
   ASSERT_EQ(cameras.size(), 3u);
-  for (const Camera& camera : cameras)
-    for (const auto& p : corner().points) {
-      const auto pixel = camera.toPixel(p.cast<double>());
-      ASSERT_TRUE(pixel);
-      ASSERT_TRUE(
-          view.box().contains(pixel->head<2>()) ||
-          (pixel->head<2>() - view.box().left * Eigen::Vector2d::Ones()).minCoeff() >
-              -8);
-    }
+  const auto points = corner().points;
+  for (const Camera& camera : cameras) {
+    const auto seen = std::count_if(points.begin(), points.end(), [&](const auto& p) {
+      return view.box().contains(pixelOf(camera, p.template cast<double>()));
+    });
+    EXPECT_GT(static_cast<double>(seen), 0.93 * static_cast<double>(points.size()));
+  }
   // The wall hides the floor from behind, and the floor is seen from the front.
   EXPECT_LT(cameras.front().T_world_camera.translation().y(), 3);
   const auto heading = [](const Camera& camera) -> Eigen::Vector2d {
@@ -242,9 +251,10 @@ TEST(MapView, DrawsAPanoramaAllAround)
   const auto pole = [&](double x, double y, const std::string& label) {
     addPatch(scene, {x - 0.2, y - 0.2, -1}, {0.4, 0.4, 0}, {0, 0, 2}, label);
   };
-  pole(5, 0, "wall");   // ahead
-  pole(0, 5, "door");   // to the left
-  pole(0, -5, "floor"); // to the right
+  pole(5, 0, "wall");     // ahead
+  pole(0, 5, "door");     // to the left
+  pole(0, -5, "floor");   // to the right
+  pole(-5, 0, "ceiling"); // behind
   MapViewOptions options = byLabel();
   options.height.reset();
   const auto picture =
@@ -260,8 +270,20 @@ TEST(MapView, DrawsAPanoramaAllAround)
   expectAt(0.25, "door");
   expectAt(0.5, "wall");
   expectAt(0.75, "floor");
-  const auto up = picture.layout.camera.toPixel({5, 0, 0.9});
-  EXPECT_LT(up->y(), picture.layout.camera.centre.y());
+  EXPECT_LT(pixelOf(picture.layout.camera, {5, 0, 0.9}).y(),
+            picture.layout.camera.centre.y());
+}
+
+TEST(MapView, LeavesOutAzimuthsWithoutPointsInAPanorama)
+{
+  MapViewScene scene;
+  addPatch(scene, {-2, 5, -1}, {4, 0, 0}, {0, 0, 2}, "wall"); // to the left only
+  const auto picture =
+      MapView(byLabel()).drawPanorama(scene, Eigen::Isometry3d::Identity());
+  const auto& map = picture.layout.map;
+  EXPECT_NEAR(pixelOf(picture.layout.camera, {0, 5, 0}).x(), 320, 12);
+  EXPECT_NEAR(pixelOf(picture.layout.camera, {2, 5, 0}).x(), map.right, 50);
+  EXPECT_NEAR(pixelOf(picture.layout.camera, {-2, 5, 0}).x(), map.left, 50);
 }
 
 TEST(MapView, DrawsModelsIntoTheMap)
@@ -274,7 +296,7 @@ TEST(MapView, DrawsModelsIntoTheMap)
   model.mesh.triangles = {{0, 1, 2}};
   scene.models.push_back(model);
   const auto picture = MapView(byLabel()).draw(scene, alongY());
-  const auto pixel = picture.layout.camera.toPixel({1.3, 1, 0.5})->head<2>();
+  const auto pixel = pixelOf(picture.layout.camera, {1.3, 1, 0.5});
   const auto colour = colourAt(picture.image, pixel);
   EXPECT_GT(colour[2], 150);
   EXPECT_LT(colour[0], 80);

@@ -52,13 +52,19 @@ Annotations::Annotations(PixelScene& scene,
 : scene_(scene), frame_(frame), theme_(themeOf(background)), project_(project)
 {}
 
+std::optional<Eigen::Vector2d>
+Annotations::pixelOf(const Eigen::Vector3d& place) const
+{
+  return place.allFinite() ? project_(place) : std::nullopt;
+}
+
 /** A line that leaves the picture is cut where its corners are not to be seen. */
 std::vector<PixelScene::Polyline>
 Annotations::visibleParts(const std::vector<Eigen::Vector3d>& places) const
 {
   std::vector<PixelScene::Polyline> parts(1);
   for (const auto& place : places) {
-    const auto pixel = place.allFinite() ? project_(place) : std::nullopt;
+    const auto pixel = pixelOf(place);
     if (pixel)
       parts.back().push_back(*pixel);
     else if (!parts.back().empty())
@@ -95,7 +101,7 @@ Annotations::addPaths(const Paths& paths)
   const auto final = firstPlace(paths.final);
   const auto initial = firstPlace(paths.initial);
   const auto start = final ? final : initial;
-  const auto pixel = start ? project_(*start) : std::nullopt;
+  const auto pixel = start ? pixelOf(*start) : std::nullopt;
   if (pixel)
     addStartRing(*pixel, final ? theme_.final : theme_.initial);
 }
@@ -128,14 +134,14 @@ Annotations::addOverlay(const Overlay& overlay)
   addLines(overlay.lines);
   std::map<std::pair<Colour, double>, std::vector<Eigen::Vector2d>> discs;
   for (const auto& mark : overlay.marks)
-    if (const auto pixel = project_(mark.place))
+    if (const auto pixel = pixelOf(mark.place))
       discs[{mark.colour, mark.size}].push_back(*pixel);
   for (const auto& [look, places] : discs) {
     scene_.addDiscs(places, {theme_.background, scaled(look.second + 3), 21});
     scene_.addDiscs(places, {look.first, scaled(look.second), 22});
   }
   for (const auto& label : overlay.texts) {
-    const auto pixel = project_(label.place);
+    const auto pixel = pixelOf(label.place);
     if (!pixel)
       continue;
     const Eigen::Vector2d shadow(1.5, 1.5); // so that it is read on every colour

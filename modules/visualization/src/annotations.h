@@ -57,6 +57,8 @@ public:
   addColours(const ColourScale& scale);
 
 private:
+  std::optional<Eigen::Vector2d>
+  pixelOf(const Eigen::Vector3d& place) const;
   void
   addPath(const Trajectory& trajectory, const Colour& colour, double layer);
   void

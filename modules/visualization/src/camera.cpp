@@ -68,7 +68,7 @@ standFor(const std::vector<float>& u, const std::vector<float>& w, double tangen
     high[i] = u[i] - t * w[i];
     low[i] = -u[i] - t * w[i];
   }
-  constexpr double kNearlyAll = 0.9995;
+  constexpr double kNearlyAll = 0.99;
   const double a = quantile(std::move(high), kNearlyAll);
   const double b = quantile(std::move(low), kNearlyAll);
   return {-(a + b) / (2 * tangent), 0.5 * (a - b)};
@@ -104,8 +104,8 @@ cameraOnSample(const Points& sample,
   return camera;
 }
 
-/** How much of the picture is filled, times the share of the points that are not behind
- * others. */
+/** How much of the picture is filled, times the square of the share of the points that are
+ * not behind others. */
 double
 scoreOf(const Camera& camera, const Points& sample, const PixelBox& box)
 {
@@ -132,8 +132,34 @@ scoreOf(const Camera& camera, const Points& sample, const PixelBox& box)
     filled += std::isfinite(depth);
   for (const auto& [place, depth] : seen)
     visible += depth <= 1.03 * nearest[place];
-  return static_cast<double>(filled) / static_cast<double>(nearest.size()) *
-         static_cast<double>(visible) / static_cast<double>(sample.size());
+  const double share =
+      static_cast<double>(visible) / static_cast<double>(sample.size());
+  return share * share * static_cast<double>(filled) /
+         static_cast<double>(nearest.size());
+}
+
+/** Azimuths between which points lie [rad], all around unless a quarter is empty. */
+std::pair<double, double>
+seenAzimuths(const Points& points)
+{
+  constexpr int kBins = 360;
+  const auto bin = [](int i) { return static_cast<std::size_t>(i % kBins); };
+  std::vector<bool> seen(kBins, false);
+  for (const auto& p : points)
+    seen[bin(static_cast<int>((std::atan2(p.y(), p.x()) / (2 * M_PI) + 1) * kBins))] =
+        true;
+  int longest = 0, end = 0, gap = 0; // of the empty bins
+  for (int i = 0; i < 2 * kBins; ++i) {
+    gap = seen[bin(i)] ? 0 : gap + 1;
+    if (gap > longest && gap < kBins) {
+      longest = gap;
+      end = i + 1;
+    }
+  }
+  if (longest < kBins / 4)
+    return {-M_PI, M_PI};
+  const double degree = 2 * M_PI / kBins;
+  return {(end - 2) * degree, (end + kBins - longest + 2) * degree};
 }
 } // namespace
 
@@ -179,18 +205,22 @@ goodViewpoints(const Points& points, const PixelBox& box, std::size_t count)
 Camera
 panoramaFrom(const Eigen::Isometry3d& T_world_scan, const Points& points, PixelBox& box)
 {
-  Camera camera;
-  camera.projection = Projection::kPanorama;
-  Eigen::Matrix3d axes; // right, down, forward in the frame of the scan
-  axes << -Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitZ(),
-      Eigen::Vector3d::UnitX();
-  camera.T_world_camera = T_world_scan * Eigen::Isometry3d(axes);
-  camera.scale = (box.right - box.left) / (2 * M_PI);
+  const auto [from, to] = seenAzimuths(points);
+  const double ahead = 0.5 * (from + to);
   std::vector<float> elevations;
   for (const auto& p : points)
     elevations.push_back(std::atan2(p.z(), p.head<2>().norm()));
   const double low = quantile(elevations, 0.002) - 0.02; // [rad]
   const double high = quantile(std::move(elevations), 0.998) + 0.02;
+  Eigen::Matrix3d axes; // right, down, forward in the frame of the scan
+  axes << Eigen::Vector3d(std::sin(ahead), -std::cos(ahead), 0),
+      -Eigen::Vector3d::UnitZ(), Eigen::Vector3d(std::cos(ahead), std::sin(ahead), 0);
+  Camera camera;
+  camera.projection = Projection::kPanorama;
+  camera.T_world_camera = T_world_scan * Eigen::Isometry3d(axes);
+  constexpr double kHighest = 0.6; // of the width
+  const double width = box.right - box.left;
+  camera.scale = std::min(width / (to - from), kHighest * width / (high - low));
   camera.centre = {0.5 * (box.left + box.right), box.top + camera.scale * high};
   box.bottom = box.top + camera.scale * (high - low);
   return camera;

@@ -54,12 +54,15 @@ struct ResidualRange {
 };
 
 Overlay::Line
-lineOf(const ViewLink& link, const Trajectory& poses, const ResidualRange& range)
+lineOf(const ViewLink& link,
+       const Trajectory& poses,
+       const ResidualRange& range,
+       double width)
 {
   Overlay::Line line;
   line.points = {poses.poses[link.from].translation(),
                  poses.poses[link.to].translation()};
-  line.width = link.state == LinkState::kRefused ? 1 : 2;
+  line.width = link.state == LinkState::kRefused ? 1.4 : width;
   line.colour = link.state == LinkState::kRefused    ? kRefused
                 : link.state == LinkState::kOdometry ? kOdometry
                                                      : range.colourOf(link.rms);
@@ -150,12 +153,21 @@ graphOverlay(const Trajectory& poses,
             std::max(link.from, link.to),
             "one of the trajectory");
   const ResidualRange range(links);
+  // Refused ones below, then the used ones with the worst on top, then odometry.
+  std::vector<ViewLink> ordered = links;
+  const auto rank = [](const ViewLink& link) {
+    const int state = link.state == LinkState::kRefused ? 0
+                      : link.state == LinkState::kUsed  ? 1
+                                                        : 2;
+    return std::pair(state, std::isfinite(link.rms) ? link.rms : 0.0);
+  };
+  std::stable_sort(ordered.begin(), ordered.end(), [&](const auto& a, const auto& b) {
+    return rank(a) < rank(b);
+  });
+  const double width = links.size() > 6 * count ? 1.2 : 2; // many hide each other
   Overlay overlay;
-  for (const LinkState state :
-       {LinkState::kRefused, LinkState::kUsed, LinkState::kOdometry})
-    for (const auto& link : links)
-      if (link.state == state)
-        overlay.lines.push_back(lineOf(link, poses, range));
+  for (const auto& link : ordered)
+    overlay.lines.push_back(lineOf(link, poses, range, width));
   for (std::size_t i = 0; i < count; ++i) {
     const bool is_doubtful = !doubtful.empty() && doubtful[i];
     overlay.marks.push_back({poses.poses[i].translation(),

@@ -81,7 +81,7 @@ panoramaDiameter(const Points& points,
     if (const auto pixel = camera.project(to_camera * points[i].cast<double>()))
       if (box.contains(pixel->head<2>()))
         pixels.push_back(pixel->cast<float>());
-  return 1.4 * pixelSpacing(pixels,
+  return 1.9 * pixelSpacing(pixels,
                             static_cast<int>(box.right) + 1,
                             static_cast<int>(box.bottom) + 1);
 }

@@ -41,15 +41,7 @@ TopViewPicture
 TopView::draw(const TopViewScene& scene) const
 {
   scene.validate(options_.colour);
-  const ShownPoints shown = shownPoints(scene.points, scene.trajectory, options_.cut);
-  const bool no_pose = scene.trajectory.poses.empty() && scene.initial.poses.empty();
-  if (shown.indices.empty() && (no_pose || !scene.points.empty()))
-    throw BadArgument(options_.cut.slice ? "the slice has no points to draw"
-                                         : "the map has no points to draw");
-  Points points;
-  points.reserve(shown.indices.size());
-  for (const auto i : shown.indices)
-    points.push_back(scene.points[i]);
+  const auto [shown, points] = pointsToDraw(scene, options_);
   TopViewPicture picture;
   TopViewLayout& layout = picture.layout;
   layout = layOut(points, scene, options_);

@@ -43,16 +43,34 @@ mapExtent(const Points& points)
   return all.intersection(Eigen::AlignedBox2d(low - reach, high + reach));
 }
 
+/** Where poses and overlay are. */
+std::vector<Eigen::Vector2d>
+placesOf(const TopViewScene& scene)
+{
+  std::vector<Eigen::Vector2d> places;
+  const auto add = [&](const Eigen::Vector3d& place) {
+    if (place.allFinite())
+      places.emplace_back(place.head<2>());
+  };
+  for (const auto* trajectory : {&scene.trajectory, &scene.initial})
+    for (const auto& pose : trajectory->poses)
+      add(pose.translation());
+  for (const auto& mark : scene.overlay.marks)
+    add(mark.place);
+  for (const auto& line : scene.overlay.lines)
+    for (const auto& place : line.points)
+      add(place);
+  return places;
+}
+
 Eigen::AlignedBox2d
 sceneExtent(const Points& points, const TopViewScene& scene)
 {
   Eigen::AlignedBox2d box;
   if (!points.empty())
     box = mapExtent(points);
-  for (const auto* trajectory : {&scene.trajectory, &scene.initial})
-    for (const auto& pose : trajectory->poses)
-      if (pose.translation().allFinite())
-        box.extend(Eigen::Vector2d(pose.translation().head<2>()));
+  for (const auto& place : placesOf(scene))
+    box.extend(place);
   constexpr double kSmallest = 1.0; // [m] so that equal points are drawn, too
   const Eigen::Vector2d lacking =
       0.5 * (Eigen::Vector2d::Constant(kSmallest) - box.sizes()).cwiseMax(0.0);
@@ -93,15 +111,25 @@ quantile(std::vector<float> values, double share)
   return values[static_cast<std::size_t>(rank)];
 }
 
+PointsToDraw
+pointsToDraw(const TopViewScene& scene, const TopViewOptions& options)
+{
+  PointsToDraw drawn;
+  drawn.shown = shownPoints(scene.points, scene.trajectory, options.cut);
+  const auto& indices = drawn.shown.indices;
+  if (indices.empty() && (!scene.points.empty() || placesOf(scene).empty()))
+    throw BadArgument(options.cut.slice ? "the slice has no points to draw"
+                                        : "the map has no points to draw");
+  drawn.points.reserve(indices.size());
+  for (const auto i : indices)
+    drawn.points.push_back(scene.points[i]);
+  return drawn;
+}
+
 Eigen::AlignedBox2d
 areaOf(const TopViewScene& scene, const TopViewOptions& options)
 {
-  Points points;
-  for (const auto i : shownPoints(scene.points, scene.trajectory, options.cut).indices)
-    points.push_back(scene.points[i]);
-  if (points.empty() && scene.trajectory.poses.empty() && scene.initial.poses.empty())
-    throw BadArgument("the map has no points to draw");
-  return sceneExtent(points, scene);
+  return sceneExtent(pointsToDraw(scene, options).points, scene);
 }
 
 TopViewLayout

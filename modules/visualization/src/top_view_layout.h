@@ -10,8 +10,19 @@ namespace pcl6d {
 TopViewLayout
 layOut(const Points& points, const TopViewScene& scene, const TopViewOptions& options);
 
+/** \brief The points of a scene that are left after the cut. */
+struct PointsToDraw {
+  ShownPoints shown;
+  Points points; ///< those of shown
+};
+
+/** \throws BadArgument there is nothing to draw: no point, pose or overlay; or the cut
+ * leaves none of several points */
+PointsToDraw
+pointsToDraw(const TopViewScene& scene, const TopViewOptions& options);
+
 /** \return the part of the world that a top view of the scene shows by itself
- * \throws BadArgument there is neither a point to draw nor a pose */
+ * \throws BadArgument as pointsToDraw() */
 Eigen::AlignedBox2d
 areaOf(const TopViewScene& scene, const TopViewOptions& options);
 

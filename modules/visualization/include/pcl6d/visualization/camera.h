@@ -72,9 +72,10 @@ cameraOn(const Points& points, double azimuth, double elevation, const PixelBox&
 std::vector<Camera>
 goodViewpoints(const Points& points, const PixelBox& box, std::size_t count);
 
-/** \brief A panorama that looks ahead along x of a scan and shows the elevations at which
- * its points lie, all around in the width of the box. The box's lower end is moved to fit.
- * \param[in] points in the scan's frame [m], finite, at least one */
+/** \brief A panorama around a scan that shows the elevations at which its points lie, in
+ * the width of the box: all around, with x of the scan in the middle, unless there is
+ * nothing in a quarter of the circle or more, which is then left out. The box's lower end
+ * is moved to fit. \param[in] points in the scan's frame [m], finite, at least one */
 Camera
 panoramaFrom(const Eigen::Isometry3d& T_world_scan,
              const Points& points,

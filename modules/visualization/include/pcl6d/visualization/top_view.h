@@ -72,8 +72,8 @@ public:
   /** \throws BadArgument an option breaks its rule */
   explicit TopView(const TopViewOptions& options = TopViewOptions());
 
-  /** \throws BadArgument neither a finite point nor a pose, no point of several in the
-   * slice, or as MapCloud::validate()
+  /** \throws BadArgument neither a finite point nor a pose nor an overlay, no point of
+   * several in the slice, or as MapCloud::validate()
    * \throws IoFailed there is no display to draw on */
   TopViewPicture
   draw(const TopViewScene& scene) const;

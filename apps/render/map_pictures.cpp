@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The views from above and in perspective, one function each.
+// The views of the map, from above and in perspective.
 #include "render/run_pictures.h"
 
 #include <pcl6d/common/error.h>
@@ -34,6 +34,19 @@ relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
 {
   pose.translation() -= offset;
   return pose;
+}
+/** The paths with room around: where something is to be seen of each pose. */
+Eigen::AlignedBox2d
+areaAround(const Trajectory& trajectory)
+{
+  Eigen::AlignedBox2d box;
+  for (const auto& pose : trajectory.poses)
+    box.extend(Eigen::Vector2d(pose.translation().head<2>()));
+  if (box.isEmpty())
+    return {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, 1)};
+  const double room = 2 + 0.2 * box.diagonal().norm(); // [m]
+  return {box.min() - Eigen::Vector2d(room, room),
+          box.max() + Eigen::Vector2d(room, room)};
 }
 } // namespace
 
@@ -89,7 +102,8 @@ RunPictures::mapScene(PointColour colour)
 Image
 RunPictures::drawTop()
 {
-  const TopViewOptions options = topOptions("", PointColour::kHeight);
+  TopViewOptions options = topOptions("", PointColour::kHeight);
+  options.shading = 0.4;
   return TopView(options).draw(topScene(options.colour)).image;
 }
 
@@ -162,6 +176,7 @@ RunPictures::drawGraph()
   std::vector<bool> doubtful;
   for (const auto& scan : run_.summary().scans)
     doubtful.push_back(run_.hasSummary() && isDoubtful(scan));
+  options.area = areaAround(scene.trajectory);
   scene.overlay = graphOverlay(scene.trajectory, links, doubtful, options.background);
   scene.trajectory.poses.clear();
   scene.initial.poses.clear();
@@ -179,6 +194,7 @@ RunPictures::drawCovariance()
     if (scan.covariance)
       covariances.back() = scan.covariance->topLeftCorner<3, 3>();
   }
+  options.area = areaAround(scene.trajectory);
   scene.overlay = covarianceOverlay(scene.trajectory, covariances, options.background);
   scene.trajectory.poses.clear();
   scene.initial.poses.clear();

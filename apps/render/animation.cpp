@@ -89,7 +89,7 @@ int
 writeVideo(const RunAnimation& animation, const AnimationSettings& s)
 {
   const UnfinishedFile file(s.output);
-  VideoFile video(file.path(), s.width, s.height, s.fps);
+  VideoFile video(file.path(), s.output, s.width, s.height, s.fps);
   if (!play(animation, s, [&](std::size_t, const Image& image) { video.add(image); }))
     return kInterrupted;
   video.close();
@@ -104,9 +104,10 @@ videoIn(const OutputFolder& out, const AnimationSettings& s)
 {
   std::unique_ptr<VideoFile> video;
   try {
-    video = std::make_unique<VideoFile>(out / kVideoName, s.width, s.height, s.fps);
-  } catch (const IoFailed&) {
-    ProgressBar(s.quiet).warn("no video: this OpenCV has no codec for .mp4");
+    video = std::make_unique<VideoFile>(
+        out / kVideoName, s.output + '/' + kVideoName, s.width, s.height, s.fps);
+  } catch (const IoFailed& e) {
+    ProgressBar(s.quiet).warn(std::string("no video: ") + e.what());
     out.discard(kVideoName);
   }
   return video;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "render/film_points.h"
 #include "render/run_animation.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/visualization/camera_path.h>
-#include <pcl6d/visualization/height_cut.h>
 
 #include <algorithm>
 #include <limits>
@@ -11,35 +11,6 @@
 namespace pcl6d::app {
 
 namespace {
-/** \return the points that a picture shows, at most so many, evenly left out; each with
- * its place before */
-std::vector<std::size_t>
-chosenPoints(const Points& points, const Trajectory& path, std::size_t most)
-{
-  const auto shown = shownPoints(points, path, {}).indices;
-  const std::size_t step = (shown.size() + most - 1) / most;
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < shown.size(); i += std::max<std::size_t>(1, step))
-    chosen.push_back(shown[i]);
-  return chosen;
-}
-
-Eigen::Vector3d
-middleOf(const Points& points)
-{
-  Eigen::Vector3d middle;
-  std::vector<float> values(points.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    std::transform(points.begin(), points.end(), values.begin(), [&](const auto& p) {
-      return p[axis];
-    });
-    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), half, values.end());
-    middle[axis] = *half;
-  }
-  return middle;
-}
-
 Eigen::Isometry3d
 between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double share)
 {
@@ -78,19 +49,22 @@ RunAnimation::RunAnimation(const RunFolder& run, const AnimationSettings& settin
   case AnimationKind::kRelaxation:
     tellRelaxation();
     break;
-  default:
-    tellMap();
+  case AnimationKind::kTurntable:
+    tellTurntable();
+    break;
+  case AnimationKind::kFlyThrough:
+    tellFlyThrough();
   }
 }
 
-/** The map at rest, and a camera that moves. */
-void
-RunAnimation::tellMap()
+/** Takes the points of the map. \return a frame that shows them */
+RunAnimation::Frame
+RunAnimation::readMap(const HeightCut& cut)
 {
   const RunMap map = run_.readMap();
   const Trajectory path = run_.trajectory();
   Part part;
-  for (const auto i : chosenPoints(map.points, path, settings_.points))
+  for (const auto i : chosenPoints(map.points, path, cut, settings_.points))
     part.points.push_back(map.points[i]);
   if (part.points.empty())
     throw IoFailed(run_.path().string() + ": has no points to show (map.pcd is missing "
@@ -99,25 +73,49 @@ RunAnimation::tellMap()
   Frame frame;
   frame.poses = {Eigen::Isometry3d::Identity()};
   frame.path = path;
-  frames_.push_back(frame);
-  const MapView view(view_);
+  return frame;
+}
+
+void
+RunAnimation::tellTurntable()
+{
+  Frame frame = readMap({});
   const MapViewScene scene = sceneOf(frame);
-  std::vector<Camera> cameras;
-  if (settings_.kind == AnimationKind::kTurntable) {
-    cameras = turntable(
-        view.viewpoints(scene, 1).front(), middleOf(scene.points), settings_.frames);
+  const Camera first = MapView(view_).viewpoints(scene, 1).front();
+  for (const auto& camera :
+       turntable(first, middleOf(scene.points), settings_.frames)) {
+    frame.camera = camera;
+    frames_.push_back(frame);
+  }
+}
+
+/** From within, the map is seen closely, and with its ceiling: the scans are denser. */
+void
+RunAnimation::tellFlyThrough()
+{
+  HeightCut all;
+  all.max_height = std::numeric_limits<double>::infinity();
+  Frame frame;
+  const Trajectory path = run_.trajectory();
+  if (run_.has("scans")) {
+    frame.poses = path.poses;
+    readScans(path.poses, all);
   }
   else {
-    FlyThroughOptions options;
-    options.count = settings_.frames;
-    try {
-      cameras = flyThrough(path, view.box(), options);
-    } catch (const BadArgument&) {
-      throw IoFailed(run_.path().string() + ": its path has no length to fly along");
-    }
-    frame.path = {}; // the camera is on it
+    frame = readMap(all);
   }
-  frames_.clear();
+  FlyThroughOptions options;
+  options.count = settings_.frames;
+  std::vector<Camera> cameras;
+  try {
+    cameras = flyThrough(path, MapView(view_).box(), options);
+  } catch (const BadArgument&) {
+    throw IoFailed(run_.path().string() + ": its path has no length to fly along");
+  }
+  frame.path = {}; // the camera is on it
+  view_.colour = PointColour::kHeight;
+  view_.colour_range = heightsAlong(path, sceneOf(frame).points);
+  view_.point_size = 0.7;
   for (const auto& camera : cameras) {
     frame.camera = camera;
     frames_.push_back(frame);
@@ -143,9 +141,10 @@ RunAnimation::readHistory() const
   return history;
 }
 
-/** Takes the points of the scans, without what hides the others at the poses. */
+/** Takes the points of the scans, without those that are cut off at the poses. */
 void
-RunAnimation::readScans(const std::vector<Eigen::Isometry3d>& poses)
+RunAnimation::readScans(const std::vector<Eigen::Isometry3d>& poses,
+                        const HeightCut& cut)
 {
   const std::size_t most =
       std::max<std::size_t>(1, 2 * settings_.points / poses.size());
@@ -172,7 +171,8 @@ RunAnimation::readScans(const std::vector<Eigen::Isometry3d>& poses)
   std::vector<std::size_t> begin(parts_.size(), 0);
   for (std::size_t i = 1; i < parts_.size(); ++i)
     begin[i] = begin[i - 1] + parts_[i - 1].points.size();
-  for (const auto i : chosenPoints(whole.points, whole.trajectory, settings_.points))
+  for (const auto i :
+       chosenPoints(whole.points, whole.trajectory, cut, settings_.points))
     kept[part_of[i]].push_back(parts_[part_of[i]].points[i - begin[part_of[i]]]);
   for (std::size_t i = 0; i < parts_.size(); ++i)
     parts_[i].points = std::move(kept[i]);
@@ -193,7 +193,7 @@ RunAnimation::tellGrowth()
   }
   if (matched.empty())
     throw IoFailed(run_.path().string() + ": no scan of it was registered");
-  readScans(matched);
+  readScans(matched, {});
   Frame frame;
   for (std::size_t i = 0; i < matched.size(); ++i) {
     frame.poses.push_back(matched[i]);
@@ -216,7 +216,7 @@ RunAnimation::tellRelaxation()
   const auto poseAt = [&](std::size_t scan, std::size_t state) {
     return state + 1 == states ? final_poses[scan] : history[scan][state].T_world_scan;
   };
-  readScans(final_poses);
+  readScans(final_poses, {});
   std::size_t round = 0;
   for (std::size_t state = 0; state < states; ++state) {
     const FrameKind kind = history.back()[state].kind;

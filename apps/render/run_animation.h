@@ -44,7 +44,9 @@ private:
   };
 
   void
-  tellMap();
+  tellTurntable();
+  void
+  tellFlyThrough();
   void
   tellGrowth();
   void
@@ -52,7 +54,9 @@ private:
   std::vector<std::vector<pcl6d::Frame>>
   readHistory() const;
   void
-  readScans(const std::vector<Eigen::Isometry3d>& poses);
+  readScans(const std::vector<Eigen::Isometry3d>& poses, const HeightCut& cut);
+  Frame
+  readMap(const HeightCut& cut);
   MapViewScene
   sceneOf(const Frame& frame) const;
 

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include <fstream>
 #include <map>
 #include <vector>
 
@@ -32,9 +33,15 @@ struct VideoFile::Writer {
   cv::VideoWriter video;
 };
 
-VideoFile::VideoFile(const fs::path& path, int width, int height, double fps)
-: path_(path), writer_(std::make_unique<Writer>())
+VideoFile::VideoFile(const fs::path& path,
+                     const std::string& name,
+                     int width,
+                     int height,
+                     double fps)
+: path_(path), name_(name), writer_(std::make_unique<Writer>())
 {
+  if (!std::ofstream(path))
+    throw IoFailed(name + ": cannot be written");
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   for (const auto& name : codecsFor(path.extension()))
     if (writer_->video.open(path.string(),
@@ -42,9 +49,7 @@ VideoFile::VideoFile(const fs::path& path, int width, int height, double fps)
                             fps,
                             cv::Size(width, height)))
       return;
-  throw IoFailed(path.string() + ": cannot write this video: no codec for " +
-                 path.extension().string() +
-                 " in this OpenCV, or the place is not writable");
+  throw IoFailed(name + ": this OpenCV has no codec for " + path.extension().string());
 }
 
 VideoFile::~VideoFile() = default;
@@ -65,7 +70,7 @@ VideoFile::close()
   writer_->video.release();
   std::error_code error;
   if (fs::file_size(path_, error) == 0 || error)
-    throw IoFailed(path_.string() + ": cannot be written");
+    throw IoFailed(name_ + ": cannot be written");
 }
 
 } // namespace pcl6d::app

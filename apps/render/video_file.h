@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace pcl6d::app {
 
@@ -12,8 +13,13 @@ namespace pcl6d::app {
  * the extension of its name. */
 class VideoFile {
 public:
-  /** \throws IoFailed there is no codec, or the file cannot be written */
-  VideoFile(const std::filesystem::path& path, int width, int height, double fps);
+  /** \param[in] name of the file in messages
+   * \throws IoFailed there is no codec, or the file cannot be written */
+  VideoFile(const std::filesystem::path& path,
+            const std::string& name,
+            int width,
+            int height,
+            double fps);
   ~VideoFile();
   VideoFile(const VideoFile&) = delete;
   VideoFile&
@@ -29,6 +35,7 @@ public:
 private:
   struct Writer;
   std::filesystem::path path_;
+  std::string name_;
   std::unique_ptr<Writer> writer_;
 };
 

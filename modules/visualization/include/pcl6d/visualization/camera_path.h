@@ -20,10 +20,10 @@ turntable(const Camera& first, const Eigen::Vector3d& middle, std::size_t count)
 /** \brief Knobs of flyThrough(). */
 struct FlyThroughOptions {
   std::size_t count = 200;    ///< pictures, > 1
-  double above = 0.3;         ///< [m] of the camera above the poses
+  double above = 0.7;         ///< [m] of the camera above the poses
   double behind = 0.0;        ///< [m] that the camera hangs back along the path, >= 0
-  double ahead = 4.0;         ///< [m] along the path to the place that it looks at, > 0
-  double smoothing = 1.0;     ///< [m] of the path over which it is averaged, >= 0
+  double ahead = 6.0;         ///< [m] along the path to the place that it looks at, > 0
+  double smoothing = 4.0;     ///< [m] of the path over which it is averaged, >= 0
   double field_of_view = 1.2; ///< [rad] between left and right, above 0 and below pi
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void

@@ -142,11 +142,12 @@ TEST(Help, FitsTheColumnsAndBreaksListsBehindBars)
         const std::string text = help(program, columns, job);
         std::istringstream options(text.substr(text.find("\n\n")));
         for (std::string line; std::getline(options, line);)
-          if (line.rfind("  ", 0) == 0)
-            EXPECT_LE(line.size(), static_cast<std::size_t>(columns)) << line;
+          EXPECT_TRUE(line.rfind("  ", 0) != 0 ||
+                      line.size() <= static_cast<std::size_t>(columns))
+              << line;
       }
   const std::string narrow = help("pcl_slam6d", 60);
-  EXPECT_NE(narrow.find("svd|quaternion|\n"), std::string::npos) << narrow;
+  EXPECT_NE(narrow.find("svd|quaternion|orthonormal|\n"), std::string::npos) << narrow;
 }
 
 TEST(Help, InAVeryWideWindowHasEachOptionOnOneLineWithTheSameWords)
@@ -174,10 +175,10 @@ TEST(ManPages, HaveEachOptionAndEachJob)
       EXPECT_GE(options.size(), 3u) << program << ' ' << job;
       EXPECT_EQ(allMatches(page, R"(\n\.TP\n\\fB(?:-., )?(--[a-z0-9-]+)\\fR)"), options)
           << program << ' ' << job;
-      if (!job.empty())
-        EXPECT_NE(readText(pageOf(program)).find("\\fB" + job + "\\fR"),
-                  std::string::npos)
-            << program << ' ' << job;
+      EXPECT_TRUE(job.empty() ||
+                  readText(pageOf(program)).find("\\fB" + job + "\\fR") !=
+                      std::string::npos)
+          << program << ' ' << job;
     }
 }
 

@@ -6,6 +6,7 @@
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "slam6d/earlier_run.h"
+#include "slam6d/live_window.h"
 #include "slam6d/run_scans.h"
 #include "slam6d/run_writer.h"
 #include "slam6d/settings.h"
@@ -62,6 +63,7 @@ public:
   , settings_(resolved(settings, folder_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings))
+  , window_(settings_.live_view, std::string(kName) + ' ' + settings_.input, bar_)
   , slam_(settings_.slam)
   {}
 
@@ -92,6 +94,7 @@ public:
       bar_.warn(summary.verdict); // not a word of it would be a lie
     if (!summary.complete)
       return app::kInterrupted;
+    window_.linger(summary.verdict, [this] { return interrupt_.requested(); });
     return summary.trusted ? app::kDone : app::kDoubtful;
   }
 
@@ -119,6 +122,13 @@ private:
     return settings;
   }
 
+  void
+  show(const Progress& progress)
+  {
+    bar_.show(progress);
+    window_.show(progress);
+  }
+
   /** \return false if interrupted */
   bool
   readScans()
@@ -142,7 +152,8 @@ private:
         log_.dropped.push_back(scan.dropped);
         slam_.addScan(scan.points, folder_.initialPose(i), file);
       }
-      bar_.show({"reading", i + 1, folder_.size()});
+      window_.add(scan.points, folder_.initialPose(i));
+      show({"reading", i + 1, folder_.size()});
     }
     return true;
   }
@@ -153,7 +164,7 @@ private:
   {
     const app::StageTimer timer("matching", log_.stages);
     slam_.setProgressCallback([&](const Progress& progress) {
-      bar_.show(progress);
+      show(progress);
       if (interrupt_.requested())
         slam_.cancel();
     });
@@ -162,10 +173,13 @@ private:
         printParameters();
       if (settings_.verbose)
         printScan(i, scan);
+      window_.update(slam_.result());
       if (interrupt_.requested())
         slam_.cancel();
     });
-    return slam_.optimize();
+    const bool complete = slam_.optimize();
+    window_.update(slam_.result());
+    return complete;
   }
 
   static void
@@ -208,6 +222,7 @@ private:
   const app::Interrupt interrupt_;
   app::ProgressBar bar_;
   app::OutputFolder out_;
+  app::LiveWindow window_;
   Slam6D slam_;
   app::RunLog log_;
 };

@@ -6,7 +6,8 @@ find_package(Boost 1.71 REQUIRED COMPONENTS program_options filesystem)
 find_package(Threads REQUIRED)
 find_package(nlohmann_json 3.9 REQUIRED)
 find_package(embree 3 REQUIRED)
-find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d objdetect)
+find_package(OpenCV 4 REQUIRED COMPONENTS
+  core imgproc imgcodecs calib3d objdetect videoio)
 find_package(VTK 9 REQUIRED COMPONENTS
-  CommonCore CommonDataModel FiltersCore FiltersSources IOImage
-  RenderingCore RenderingFreeType RenderingOpenGL2)
+  CommonCore CommonDataModel CommonMath FiltersCore FiltersSources IOImage
+  InteractionStyle RenderingCore RenderingFreeType RenderingOpenGL2 RenderingUI)

@@ -76,6 +76,7 @@ function(pcl6d_add_app name)
   _pcl6d_compile_rules(${name})
   list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
   target_link_libraries(${name} PRIVATE pcl6d_apps_common ${modules} ${ARG_LINK_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY PCL6D_APPS ${name})
   install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT apps)
 endfunction()
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/command_line.h"
+#include "common/help_text.h"
 
 #include <pcl6d/common/version.h>
 
@@ -20,8 +21,8 @@ CommandLine::CommandLine(const std::string& usage) : usage_(usage)
 po::options_description&
 CommandLine::group(const std::string& caption)
 {
-  constexpr unsigned kColumns = 100;
-  return groups_.emplace_back(caption, kColumns, kColumns / 2);
+  captions_.push_back(caption);
+  return groups_.emplace_back();
 }
 
 void
@@ -43,9 +44,10 @@ CommandLine::positionals(const std::string& name, std::vector<std::string>* valu
 void
 CommandLine::printHelp() const
 {
+  const int columns = helpColumns();
   std::cout << usage_;
-  for (const auto& group : groups_)
-    std::cout << '\n' << group;
+  for (std::size_t i = 0; i < groups_.size(); ++i)
+    std::cout << '\n' << captions_[i] << ":\n" << optionTable(groups_[i], columns);
 }
 
 void

@@ -77,6 +77,7 @@ private:
   readLines(std::istream& lines, const std::string& source);
 
   std::string usage_;
+  std::vector<std::string> captions_; ///< of the groups
   std::vector<boost::program_options::options_description> groups_;
   boost::program_options::options_description hidden_;
   boost::program_options::positional_options_description positions_;

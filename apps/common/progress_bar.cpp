@@ -1,42 +1,180 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/progress_bar.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <iostream>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace pcl6d::app {
 
+namespace {
+constexpr double kMemory = 10; ///< [s] after which a step counts 1/e
+constexpr std::chrono::milliseconds kRedraw{100};
+constexpr int kMostCells = 40;
+constexpr int kFewestCells = 10; ///< less of a bar says nothing
+constexpr int kUnknownColumns = 80;
+constexpr const char* kEraseLine = "\r\033[K";
+
+bool
+isTerminal()
+{
+  const char* kind = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && kind && std::string(kind) != "dumb";
+}
+
+int
+columns()
+{
+  winsize size{};
+  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : kUnknownColumns;
+}
+
+std::string
+rateText(double per_second)
+{
+  const bool slow = per_second < 1;
+  char text[32];
+  std::snprintf(text,
+                sizeof(text),
+                slow              ? "%.1f s each"
+                : per_second < 10 ? "%.1f/s"
+                                  : "%.0f/s",
+                slow ? 1 / per_second : per_second);
+  return text;
+}
+
+/** \return stage, bar, count and estimate in one line; on a narrow terminal the estimate
+ * is left out first, then the bar */
+std::string
+lineOf(const Progress& progress, const std::string& estimate, int width)
+{
+  const std::string count =
+      std::to_string(progress.done) + "/" + std::to_string(progress.total);
+  const std::string behind = estimate.empty() ? "" : "  " + estimate;
+  std::string line = progress.stage + ' ' + count;
+  const auto free = [&](std::size_t needed) {
+    return width - 1 - static_cast<int>(line.size() + needed);
+  };
+  if (free(behind.size()) < 0)
+    return line.substr(0, static_cast<std::size_t>(std::max(width - 1, 0)));
+  const int cells = std::min(kMostCells, free(behind.size() + 3));
+  if (cells < kFewestCells)
+    return line + behind;
+  const auto filled =
+      static_cast<int>(static_cast<double>(cells) * static_cast<double>(progress.done) /
+                       static_cast<double>(progress.total));
+  return progress.stage + " [" + std::string(filled, '#') +
+         std::string(cells - filled, '.') + "] " + count + behind;
+}
+} // namespace
+
+void
+StepRate::update(std::size_t done, Clock::time_point now)
+{
+  if (last_) {
+    const double passed = std::chrono::duration<double>(now - *last_).count();
+    const double weight = std::exp(-passed / kMemory);
+    steps_ = weight * steps_ + static_cast<double>(done) - static_cast<double>(done_);
+    seconds_ = weight * seconds_ + passed;
+    watched_ += passed;
+  }
+  last_ = now;
+  done_ = done;
+}
+
+std::optional<double>
+StepRate::perSecond() const
+{
+  if (watched_ < 1 || steps_ <= 0)
+    return std::nullopt;
+  return steps_ / seconds_;
+}
+
+std::string
+durationText(double seconds)
+{
+  const auto all = static_cast<long>(std::lround(seconds));
+  const long hours = all / 3600, minutes = all / 60 % 60;
+  if (hours > 0)
+    return std::to_string(hours) + " h " + std::to_string(minutes) + " min";
+  return (minutes > 0 ? std::to_string(minutes) + " min " : "") +
+         std::to_string(all % 60) + " s";
+}
+
 ProgressBar::ProgressBar(bool quiet)
-: quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1)
+: quiet_(quiet), terminal_(isTerminal()), last_(StepRate::Clock::now())
 {}
 
 ProgressBar::~ProgressBar()
 {
-  endLine();
+  end();
 }
 
 void
-ProgressBar::endLine()
+ProgressBar::print(const std::string& line)
 {
-  if (line_open_)
-    std::cerr << '\n';
-  line_open_ = false;
+  if (!bar_.empty())
+    std::cerr << kEraseLine;
+  std::cerr << line << '\n' << bar_ << std::flush;
 }
 
 void
 ProgressBar::say(const std::string& line)
 {
-  if (quiet_)
-    return;
-  endLine();
-  std::cerr << line << '\n';
+  if (!quiet_)
+    print(line);
 }
 
 void
 ProgressBar::warn(const std::string& line)
 {
-  endLine();
-  std::cerr << "warning: " << line << '\n';
+  print("warning: " + line);
+}
+
+void
+ProgressBar::begin(const std::string& stage)
+{
+  end();
+  state_.stage = stage;
+  quarter_ = -1;
+  began_ = last_;
+  rate_ = StepRate();
+  rate_.update(0, began_);
+  drawn_ = {};
+}
+
+/** Leaves a line that tells how long the stage took; it may have been cut short. */
+void
+ProgressBar::end()
+{
+  if (bar_.empty())
+    return;
+  draw(durationText(std::chrono::duration<double>(last_ - began_).count()));
+  std::cerr << '\n';
+  bar_.clear();
+}
+
+void
+ProgressBar::draw(const std::string& estimate)
+{
+  bar_ = lineOf(state_, estimate, columns());
+  std::cerr << kEraseLine << bar_ << std::flush;
+  drawn_ = StepRate::Clock::now();
+}
+
+std::string
+ProgressBar::timeLeft() const
+{
+  const auto rate = rate_.perSecond();
+  if (!rate)
+    return {};
+  const auto left = static_cast<double>(state_.total - state_.done);
+  return rateText(*rate) + "  " + durationText(left / *rate) + " left";
 }
 
 void
@@ -44,29 +182,24 @@ ProgressBar::show(const Progress& progress)
 {
   if (quiet_ || progress.total == 0)
     return;
-  if (progress.stage != stage_) {
-    endLine();
-    stage_ = progress.stage;
-    shown_ = -1;
-  }
-  const int steps = terminal_ ? 100 : 4;
-  const int state = static_cast<int>(steps * progress.done / progress.total);
-  if (state == shown_)
-    return;
-  shown_ = state;
-  const std::string count =
-      std::to_string(progress.done) + "/" + std::to_string(progress.total);
+  if (progress.stage != state_.stage)
+    begin(progress.stage);
+  state_ = progress;
+  last_ = StepRate::Clock::now();
   if (!terminal_) {
-    std::cerr << stage_ << ' ' << count << '\n';
+    const auto quarter = static_cast<int>(4 * progress.done / progress.total);
+    if (quarter != quarter_)
+      std::cerr << state_.stage << ' ' << progress.done << '/' << progress.total
+                << '\n';
+    quarter_ = quarter;
     return;
   }
-  constexpr int kWidth = 40;
-  const int filled = kWidth * state / steps;
-  std::cerr << '\r' << stage_ << " [" << std::string(filled, '#')
-            << std::string(kWidth - filled, '.') << "] " << count << ' ' << std::flush;
-  line_open_ = true;
-  if (progress.done == progress.total)
-    endLine();
+  rate_.update(progress.done, last_);
+  const bool over = progress.done >= progress.total;
+  if (over || last_ - drawn_ >= kRedraw)
+    draw(timeLeft());
+  if (over)
+    end();
 }
 
 } // namespace pcl6d::app

@@ -162,6 +162,10 @@ describeRun(CommandLine& line, Settings& s, OptionWords& raw)
       "find the planes of the map and say what they are: planes.json, planes.pcd, "
       "hulls.ply and a picture (more choice: pcl_slam6d_planes OUT_DIR)")(
       "seed", valueOf(s.seed), "of random choices (those of --initial-guess features)")(
+      "live-view",
+      po::bool_switch(&s.live_view),
+      "show the map in a window while it grows, and at the end until that is closed; "
+      "without a display the run goes on without")(
       "force", po::bool_switch(&s.force), "write into a folder that holds other files")(
       "quiet", po::bool_switch(&s.quiet), "print warnings and errors only")(
       "verbose", po::bool_switch(&s.verbose), "print a line per scan");

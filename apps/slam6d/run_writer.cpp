@@ -104,8 +104,8 @@ runFolderRules(const Settings& settings)
   rules.files = std::regex("trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
                            "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|links\\.csv|"
                            "(summary|objects|semantic_map)\\.json|"
-                           "semantic_map\\.(pcd|ply)|"
-                           "top_view\\.png|report\\.html|" +
+                            "semantic_map\\.(pcd|ply)|"
+                            "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
                            planeFilePattern());
   rules.force = settings.force;
   return rules;

@@ -2,26 +2,10 @@
 // What a run tells of its links and of the stages that moved all scans.
 #include "slam6d/run_writer.h"
 
-#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pose_graph_io.h>
-
-#include <algorithm>
-#include <iomanip>
-#include <ostream>
+#include <pcl6d/io/run_links_io.h>
 
 namespace pcl6d::app {
-
-namespace {
-/** In quotes, which a comma in a reason needs. */
-std::string
-quoted(const std::string& text)
-{
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-} // namespace
 
 void
 RunWriter::writeGraph() const
@@ -33,16 +17,20 @@ RunWriter::writeGraph() const
     graph.ids.push_back(folder_.index(i));
   }
   writePoseGraphG2o(out_ / "graph.g2o", graph);
-  writeFileAtomically(out_ / "links.csv", [&](std::ostream& csv) {
-    csv << "from,to,kind,verdict,reason,distance,pairs,rms,overlap,condition,weight\n"
-        << std::setprecision(6);
-    for (const ScanLink& link : result_.links)
-      csv << folder_.index(link.from) << ',' << folder_.index(link.to) << ','
-          << toString(link.kind) << ',' << toString(link.verdict) << ','
-          << quoted(link.reason) << ',' << link.distance << ',' << link.pairs << ','
-          << link.rms << ',' << link.overlap << ',' << link.condition << ','
-          << link.weight << '\n';
-  });
+  std::vector<RunLink> links;
+  for (const ScanLink& link : result_.links)
+    links.push_back({static_cast<std::size_t>(folder_.index(link.from)),
+                     static_cast<std::size_t>(folder_.index(link.to)),
+                     toString(link.kind),
+                     toString(link.verdict),
+                     link.reason,
+                     link.distance,
+                     link.pairs,
+                     link.rms,
+                     link.overlap,
+                     link.condition,
+                     link.weight});
+  writeRunLinks(out_ / "links.csv", links);
 }
 
 void

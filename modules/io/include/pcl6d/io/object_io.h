@@ -14,4 +14,10 @@ namespace pcl6d {
 void
 writeObjects(const std::filesystem::path& path, const std::vector<ObjectPose>& objects);
 
+/** \brief Reads what writeObjects() wrote, or a list of found objects: `moves` and `points`
+ * may be missing, further fields are left out. \throws IoFailed the file cannot be read or
+ * is no such JSON; the message names the object and the field \ingroup io */
+std::vector<ObjectPose>
+readObjects(const std::filesystem::path& path);
+
 } // namespace pcl6d

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The private display on a bad day: a user's display, many at once, killed at any time.
+#include "drawing.h"
+#include "support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+#include <vector>
+
+namespace {
+using namespace pcl6d::test;
+
+/** The socket of a display on which somebody listens, but there is no X server. */
+class ListeningDisplay {
+public:
+  ListeningDisplay()
+  {
+    fs::create_directories("/tmp/.X11-unix");
+    file_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0);
+    for (number_ = 4000; number_ < 4100; ++number_) {
+      sockaddr_un address{};
+      address.sun_family = AF_UNIX;
+      path().copy(address.sun_path, sizeof(address.sun_path) - 1);
+      if (::bind(file_, reinterpret_cast<sockaddr*>(&address), sizeof(address)) == 0)
+        break;
+    }
+    ::listen(file_, 5);
+  }
+  ~ListeningDisplay()
+  {
+    ::close(file_);
+    fs::remove(path());
+  }
+  ListeningDisplay(const ListeningDisplay&) = delete;
+  ListeningDisplay&
+  operator=(const ListeningDisplay&) = delete;
+
+  std::string
+  name() const
+  {
+    return ":" + std::to_string(number_);
+  }
+  bool
+  wasCalled() const
+  {
+    return ::accept(file_, nullptr, nullptr) >= 0;
+  }
+
+private:
+  std::string
+  path() const
+  {
+    return "/tmp/.X11-unix/X" + std::to_string(number_);
+  }
+
+  int file_ = -1;
+  int number_ = 0;
+};
+
+/** \return the X servers whose environment holds a variable, such as "NAME=value" */
+std::vector<int>
+serversWith(const std::string& variable)
+{
+  std::vector<int> pids;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const int pid = std::atoi(entry.path().filename().c_str());
+    if (pid > 0 && runs(pid) && readText(entry.path() / "comm") == "Xvfb\n" &&
+        readText(entry.path() / "environ").find(variable) != std::string::npos)
+      pids.push_back(pid);
+  }
+  return pids;
+}
+} // namespace
+
+TEST(PrivateDisplay, NeverCallsTheUsersDisplay)
+{
+  const ListeningDisplay users;
+  const TempFolder folder;
+  Drawing drawing(folder / "a.png", "end", environmentWith("DISPLAY", users.name()));
+  EXPECT_EQ(drawing.wait(), 0) << drawing.line();
+  EXPECT_TRUE(fs::exists(folder / "a.png"));
+  EXPECT_FALSE(users.wasCalled());
+}
+
+TEST(PrivateDisplay, ServesSeveralProcessesThatStartTogether)
+{
+  const TempFolder folder;
+  std::vector<bp::child> started;
+  for (int i = 0; i < 6; ++i)
+    started.emplace_back(PCL6D_BUILD_DIR "/test/bin/draw_and_wait",
+                         (folder / (std::to_string(i) + ".png")).string(),
+                         "end",
+                         bp::std_out > bp::null);
+  for (auto& child : started) {
+    child.wait();
+    EXPECT_EQ(child.exit_code(), 0);
+  }
+  for (int i = 0; i < 6; ++i)
+    EXPECT_TRUE(fs::exists(folder / (std::to_string(i) + ".png"))) << i;
+}
+
+TEST(PrivateDisplay, LeavesNothingBehindWhenTheProcessIsKilledAtAnyTime)
+{
+  const TempFolder folder;
+  const std::string mark = "PCL6D_TEST=" + folder.path().string();
+  for (int i = 0; i < 10; ++i) {
+    bp::child child(PCL6D_BUILD_DIR "/test/bin/draw_and_wait",
+                    (folder / "a.png").string(),
+                    "wait",
+                    environmentWith("PCL6D_TEST", folder.path().string()),
+                    bp::std_out > bp::null);
+    std::this_thread::sleep_for(std::chrono::milliseconds(40 * i));
+    ::kill(child.id(), SIGKILL);
+    child.wait();
+  }
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (!serversWith(mark).empty() && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_TRUE(serversWith(mark).empty());
+  for (const int pid : serversWith(mark)) // ours, and nobody else will
+    ::kill(pid, SIGKILL);
+}

@@ -13,4 +13,9 @@ constexpr const char* kRender = "pcl_slam6d_render"; ///< the program's name
 int
 runPicture(const std::vector<std::string>& arguments);
 
+/** \brief `report RUN`: a page that tells all of a run.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runReport(const std::vector<std::string>& arguments);
+
 } // namespace pcl6d::app

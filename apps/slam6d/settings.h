@@ -26,6 +26,7 @@ struct Settings {
   bool deskew = false;    ///< undo the motion of the scanner during each scan
   MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
   bool planes = false; ///< find and label the planes of the map
+  bool report = false; ///< write report.html
   bool force = false;
   bool quiet = false;
   bool verbose = false;

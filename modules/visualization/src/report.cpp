@@ -90,7 +90,7 @@ void
 check(const RunMap& map)
 {
   for (const auto& [count, what] : {std::pair(map.scans.size(), "scan indices"),
-                                   std::pair(map.intensities.size(), "intensities")})
+                                    std::pair(map.intensities.size(), "intensities")})
     if (count != 0 && count != map.points.size())
       throw BadArgument("a map of " + std::to_string(map.points.size()) +
                         " points with " + std::to_string(count) + ' ' + what);
@@ -113,7 +113,8 @@ gatherReport(const RunFolder& run,
   data.title =
       title.empty() ? fs::canonical(run.path(), error).filename().string() : title;
   data.summary = run.summary();
-  data.missing = run.missing();
+  for (const auto& name : run.missing())
+    data.missing.push_back("missing: " + name);
   auto& missing = data.missing;
   data.links = readOrTell([&] { return run.readLinks(); }, missing);
   data.map = readOrTell([&] { return run.readMap(); }, missing);

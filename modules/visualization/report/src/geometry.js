@@ -23,7 +23,7 @@ function samples(map, axis) {
 function boundsOf(run) {
   const low = [], high = [];
   for (const axis of [0, 1, 2]) {
-    const [from, to] = quantiles(samples(run.map, axis), [0.01, 0.99]);
+    const [from, to] = quantiles(samples(run.map, axis), axis === 2 ? [0.02, 0.9] : [0.04, 0.96]);
     const places = run.scans.map((scan) => scan.position).filter(isPlace).map((p) => p[axis]);
     if (run.map.positions.length > 0) places.push(from, to);
     low.push(places.length > 0 ? places.reduce((a, b) => Math.min(a, b)) : 0);
@@ -45,15 +45,17 @@ function longAxisOf(run, centre) {
   return 0.5 * Math.atan2(2 * xy, xx - yy);
 }
 
-/** {centre, radius, low, high (of the heights that colours span), axis} */
+/** {centre, radius, low, high: what to look at; bottom, top: heights that colours span;
+ * highest: the highest point; axis: see longAxisOf(); local: places of the world in the view} */
 export function spaceOf(run) {
   const {low, high} = boundsOf(run);
   const centre = low.map((value, axis) => (value + high[axis]) / 2);
   const radius = Math.max(0.5, Math.hypot(...low.map((value, axis) => high[axis] - value)) / 2);
   const [bottom, top] = run.map.positions.length > 0
-    ? quantiles(samples(run.map, 2), [0.02, 0.98]) : [low[2], high[2]];
+    ? quantiles(samples(run.map, 2), [0.02, 0.93]) : [low[2], high[2]];
   return {
     centre, radius, low, high, bottom, top,
+    highest: samples(run.map, 2).reduce((a, b) => Math.max(a, b), high[2]),
     axis: longAxisOf(run, centre),
     local: (place) => place.map((value, axis) => value - centre[axis]),
   };

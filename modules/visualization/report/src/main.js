@@ -74,7 +74,8 @@ function build() {
     el('header', {}, el('p', {}, 'PCL6D \u00b7 report of a run'), el('h1', {}, run.title)),
     navigation(sections),
     el('main', {}, sections),
-    el('footer', {}, `Made by ${run.generator} ${run.version}. The map is drawn by three.js (MIT licence).`));
+    el('footer', {}, (run.generator ? `Made by ${run.generator} ${run.version}. ` : '') +
+      'The map is drawn by three.js (MIT licence).'));
   map.start();
   return {run, map, tables, selection};
 }

@@ -91,9 +91,9 @@ export class MapPanel {
   }
 
   #sliders() {
-    const {bottom, top, high} = this.view.space;
-    if (this.run.map.positions.length === 0 || !(high[2] > bottom)) return null;
-    const most = Math.max(high[2], top) + 0.01 * (top - bottom);
+    const {bottom, highest} = this.view.space;
+    if (this.run.map.positions.length === 0 || !(highest > bottom)) return null;
+    const most = highest + 0.01 * (highest - bottom);
     this.cut = slider('Hide above', {min: bottom, max: most, step: (most - bottom) / 200, value: most},
       (height) => this.#hideAbove(height >= most ? null : height));
     this.cutText = el('output', {});
@@ -125,7 +125,7 @@ export class MapPanel {
 
   #describe(mode) {
     const {bottom, top} = this.view.space;
-    const [from, to] = {height: [metres(bottom), metres(top)], scan: ['first scan', 'last scan'],
+    const [from, to] = {height: [fixed(bottom, 1) + ' m', fixed(top, 1) + ' m'], scan: ['first scan', 'last scan'],
                         intensity: ['low', 'high']}[mode];
     const ramp = mode === 'scan' ? this.run.ramps.order : this.run.ramps.height;
     const stops = [];

@@ -23,7 +23,7 @@ function decodedMap(map) {
 }
 
 /** Scans that a stranger should not rely on. */
-export const isDoubtful = (scan) => scan.state !== 'fixed' && scan.state !== 'matched';
+export const isDoubtful = (scan) => !['fixed', 'matched', ''].includes(scan.state); // '': not known
 
 export function readRun() {
   const run = JSON.parse(document.getElementById('run').textContent);

@@ -22,6 +22,8 @@ export class Table {
   /** \param options {noun, columns, rows, filters: [{label, keeps}], onpick, toneOf} */
   constructor(options) {
     Object.assign(this, options);
+    this.columns = this.columns.filter((column) => // one that says nothing only takes room
+      this.rows.length === 0 || this.rows.some((row) => column.text(row) !== ''));
     this.shown = this.rows;
     this.sorted = {column: null, down: false};
     this.picked = null;

@@ -2,7 +2,11 @@
 // What a reader should know first, in plain words.
 import {counted, el, fixed, seconds, whole} from './dom.js';
 
+/** Without a summary there are poses and points, and no more. */
+const isUnknown = (run) => run.generator === '';
+
 function headline(run) {
+  if (isUnknown(run)) return ['bad', 'How good this map is, is not known.'];
   if (!run.verdict.complete) return ['bad', 'This run was interrupted. Its map is not finished.'];
   if (run.verdict.trusted) return ['good', 'This map can be trusted.'];
   const floating = run.floating.length;
@@ -13,6 +17,7 @@ function headline(run) {
 }
 
 function meaning(run) {
+  if (isUnknown(run)) return 'The run left no summary.json, which would tell.';
   if (!run.verdict.complete)
     return 'Scans that were reached have poses; the others are as the odometry put them.';
   if (run.verdict.trusted)
@@ -61,19 +66,22 @@ function stageNotes(run) {
     el('li', {}, `${stage.name} was not taken: ${stage.reason}`));
 }
 
-const kShownScans = 12;
+const kMostNotes = 10; // of one kind
+
+function atMost(items, noteOf) {
+  const notes = items.slice(0, kMostNotes).map(noteOf);
+  const more = items.length - notes.length;
+  if (more > 0) notes.push(el('li', {class: notes[0].className}, `and ${whole(more)} more`));
+  return notes;
+}
 
 /** All that is not as it should be. */
 function notes(run, choose) {
-  const doubtful = run.doubtful.slice(0, kShownScans).map((scan) => scanNote(scan, choose));
-  if (run.doubtful.length > kShownScans)
-    doubtful.push(el('li', {class: 'bad'}, `and ${counted(run.doubtful.length - kShownScans, 'scan')} ` +
-      'more: see the table of scans'));
   return [
-    ...doubtful,
-    ...run.floating.map((file) => el('li', {class: 'bad'}, `${file} \u2013 no link joins it to the first scan`)),
-    ...run.warnings.map((text) => el('li', {class: 'warn'}, text)),
-    ...run.missing.map((text) => el('li', {class: 'warn'}, text)),
+    ...atMost(run.doubtful, (scan) => scanNote(scan, choose)),
+    ...atMost(run.floating, (file) => el('li', {class: 'bad'}, `${file} \u2013 no link joins it to the first scan`)),
+    ...atMost(run.warnings, (text) => el('li', {class: 'warn'}, text)),
+    ...atMost(run.missing, (text) => el('li', {class: 'warn'}, text)),
     ...refusedNotes(run),
     ...stageNotes(run),
   ];

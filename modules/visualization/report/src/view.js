@@ -61,7 +61,7 @@ export class View {
     const {low, high} = this.space;
     const area = Math.max(1e-3, (high[0] - low[0]) * (high[1] - low[1]));
     const spacing = Math.sqrt(area / Math.max(1, this.run.map.positions.length / 3));
-    return Math.min(Math.max(1.6 * spacing, this.run.map.step * 4), this.space.radius / 20);
+    return Math.min(Math.max(2 * spacing, this.run.map.step * 4), this.space.radius / 20);
   }
 
   #addControls() {

@@ -8,15 +8,13 @@ function limitOf(run, name, label) {
   return Number.isFinite(value) && value > 0 ? {value, label} : undefined;
 }
 
-const kHidden = ['fixed', 'pending']; // states that no match belongs to
-
 function ofScans(run, value, unit, digits) {
-  return run.scans.filter((scan) => !kHidden.includes(scan.state)).map((scan) => ({
+  return run.scans.map((scan) => ({
     x: scan.index, y: value(scan), item: scan, tone: isDoubtful(scan) ? 'bad' : 'good',
     label: `${scan.file}: ${fixed(value(scan), digits)}${unit}`}));
 }
 
-const inCentimetres = (value) => value === null ? null : 100 * value;
+const inCentimetres = (value) => value === null ? null : 100 * value; // null: not known
 
 function plotsOf(run, onpick) {
   const scans = {xTitle: 'scan', onpick, joined: true};

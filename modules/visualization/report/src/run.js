@@ -25,10 +25,17 @@ function decodedMap(map) {
 /** Scans that a stranger should not rely on. */
 export const isDoubtful = (scan) => !['fixed', 'matched', ''].includes(scan.state); // '': not known
 
+/** Of a scan that was never matched there is nothing to tell. */
+function withoutMatch(scan) {
+  const none = {pairs: null, rms: null, overlap: null, correction: null, iterations: null};
+  return scan.state === 'fixed' || scan.state === 'pending' ? {...scan, ...none} : scan;
+}
+
 export function readRun() {
   const run = JSON.parse(document.getElementById('run').textContent);
   run.map = decodedMap(run.map);
   run.ramps = {height: bytesOf(run.ramps.height), order: bytesOf(run.ramps.order)};
+  run.scans = run.scans.map(withoutMatch);
   run.doubtful = run.scans.filter(isDoubtful);
   run.refused = run.links.filter((link) => link.verdict === 'refused');
   run.scanOfIndex = new Map(run.scans.map((scan) => [scan.index, scan]));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page tests itself when opened as report.html#selftest: what a reader would see and do,
-// done and looked at. The outcome is text in the page, for a browser without a window.
+// done and looked at. The outcome is text in the page, for a browser without a window, or a
+// message to the page whose frame it is in.
 import {el} from './dom.js';
 
 function pixelsOf({view}) {
@@ -102,5 +103,6 @@ export function selfTest(page) {
   }
   check('no errors on the page', window.pageErrors.length === 0, window.pageErrors.join(' | '));
   const outcome = {passed: checks.every(({passed}) => passed), width: innerWidth, checks};
-  document.body.append(el('pre', {id: 'selftest'}, JSON.stringify(outcome)));
+  if (parent === window) document.body.append(el('pre', {id: 'selftest'}, JSON.stringify(outcome)));
+  else parent.postMessage(JSON.stringify(outcome), '*');
 }

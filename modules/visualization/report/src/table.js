@@ -35,7 +35,8 @@ export class Table {
 
   #build() {
     this.heads = this.columns.map((column, k) =>
-      el('th', {scope: 'col', class: column.number ? 'number' : null, title: column.title},
+      el('th', {scope: 'col', class: column.number ? 'number' : null, title: column.title,
+                style: `min-width:calc(${this.#widthOf(column)}ch + 1.8rem)`},
         el('button', {type: 'button', onclick: () => this.sort(k)}, column.label)));
     this.body = el('tbody');
     this.scroller = el('div', {class: 'scroller', tabindex: 0, role: 'region',
@@ -47,9 +48,16 @@ export class Table {
     this.element = el('div', {class: 'table'}, this.#tools(), this.scroller);
   }
 
+  /** The longest text of a column in letters, so that columns stay as they are while rows
+   * come and go. */
+  #widthOf(column) {
+    const longest = this.rows.reduce((most, row) => Math.max(most, String(column.text(row)).length), 0);
+    return Math.min(longest, 40);
+  }
+
   #tools() {
     this.chips = (this.filters ?? []).map((filter) =>
-      el('button', {type: 'button', class: 'chip', 'aria-pressed': filter === this.filter,
+      el('button', {type: 'button', class: 'chip', 'aria-pressed': String(filter === this.filter),
                     onclick: () => this.narrow(filter)},
         filter.label, el('small', {}, whole(this.rows.filter(filter.keeps).length))));
     const search = el('input', {type: 'search', placeholder: 'Find', 'aria-label':

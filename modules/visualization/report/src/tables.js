@@ -49,7 +49,7 @@ export function linkTable(run, selection) {
     noun: 'link',
     rows: run.links,
     filters: [{label: 'All', keeps: () => true}, ...['loop', 'network', 'sequence', 'given']
-      .map((kind) => ({label: kind, keeps: (link) => link.kind === kind}))
+      .map((kind) => ({label: kind[0].toUpperCase() + kind.slice(1), keeps: (link) => link.kind === kind}))
       .filter(({keeps}) => run.links.some(keeps)),
       {label: 'Refused', keeps: (link) => link.verdict === 'refused'}],
     toneOf: (link) => link.verdict === 'refused' ? 'doubtful' : null,

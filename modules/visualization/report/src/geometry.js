@@ -49,12 +49,15 @@ function longAxisOf(run, centre) {
  * highest: the highest point; axis: see longAxisOf(); local: places of the world in the view} */
 export function spaceOf(run) {
   const {low, high} = boundsOf(run);
+  const {ceiling = Infinity} = run.map; // what is above it is hidden at first
+  high[2] = Math.max(low[2], Math.min(high[2], ceiling));
   const centre = low.map((value, axis) => (value + high[axis]) / 2);
   const radius = Math.max(0.5, Math.hypot(...low.map((value, axis) => high[axis] - value)) / 2);
-  const [bottom, top] = run.map.positions.length > 0
+  const [bottom, highest] = run.map.positions.length > 0
     ? quantiles(samples(run.map, 2), [0.02, 0.93]) : [low[2], high[2]];
   return {
-    centre, radius, low, high, bottom, top,
+    centre, radius, low, high, bottom,
+    top: Math.max(bottom, Math.min(highest, ceiling)),
     highest: samples(run.map, 2).reduce((a, b) => Math.max(a, b), high[2]),
     axis: longAxisOf(run, centre),
     local: (place) => place.map((value, axis) => value - centre[axis]),

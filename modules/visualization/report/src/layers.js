@@ -108,13 +108,10 @@ function path(places, colour, width, dashed) {
   return group;
 }
 
-function marks(places, colourOf, size) {
+function marks(places, color, size) {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(new Float32Array(places.flat()), 3));
-  const colours = places.flatMap((_, k) => new Color(colourOf(k)).toArray());
-  geometry.setAttribute('color', new BufferAttribute(new Float32Array(colours), 3));
-  const material = new PointsMaterial({size, sizeAttenuation: false, vertexColors: true});
-  return new Points(geometry, asDiscs(material, 2));
+  return new Points(geometry, asDiscs(new PointsMaterial({size, color, sizeAttenuation: false}), 2));
 }
 
 const placesOf = (run, space, which) =>
@@ -123,10 +120,11 @@ const placesOf = (run, space, which) =>
 export function trajectoryLayer(run, space, pixelRatio) {
   const group = path(placesOf(run, space, 'position'), kColours.trajectory, 2.5, false);
   const scans = run.scans.filter((scan) => isPlace(scan.position));
-  const places = scans.map((scan) => space.local(scan.position));
-  if (places.length > 0)
-    group.add(marks(places, (k) => isDoubtful(scans[k]) ? kColours.doubtful : kColours.trajectory,
-      (scans.length > 400 ? 4 : 6) * pixelRatio));
+  const small = scans.length > 400 ? 4 : 6; // [CSS px]
+  for (const [chosen, colour, size] of [[scans, kColours.trajectory, small],
+                                        [scans.filter(isDoubtful), kColours.doubtful, 11]])
+    if (chosen.length > 0)
+      group.add(marks(chosen.map((scan) => space.local(scan.position)), colour, size * pixelRatio));
   return group;
 }
 

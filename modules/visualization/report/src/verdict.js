@@ -21,10 +21,11 @@ function meaning(run) {
   if (!run.verdict.complete)
     return 'Scans that were reached have poses; the others are as the odometry put them.';
   if (run.verdict.trusted)
-    return 'Every scan was matched with enough overlap and small residuals, and is joined to the first one. ' +
+    return run.scans.length === 1 ? 'There is one scan, and nothing to match it with.' :
+      'Every scan was matched with enough overlap and small residuals, and is joined to the first one. ' +
       'A scan matched to a wrong place that looks alike would not be noticed: have a look at the map.';
-  return 'The scans named below stand where the odometry put them, or nothing joins them to the ' +
-    'others. The rest of the map may still be good.';
+  return 'The scans named below could not be matched well, or nothing joins them to the others. ' +
+    'The rest of the map may still be good.';
 }
 
 function fact(value, label) {
@@ -53,12 +54,16 @@ function scanNote(scan, choose) {
     ` \u2013 ${words}${scan.reason ? ' (' + scan.reason + ')' : ''}`);
 }
 
+/** Reasons that differ by their numbers alone count as one. */
 function refusedNotes(run) {
   const reasons = new Map();
-  for (const link of run.refused) reasons.set(link.reason, (reasons.get(link.reason) ?? 0) + 1);
-  const sorted = [...reasons].sort((a, b) => b[1] - a[1]).slice(0, 5);
-  return sorted.map(([reason, count]) =>
-    el('li', {}, `${counted(count, 'link')} refused: ${reason || 'no reason given'}`));
+  for (const {reason} of run.refused) {
+    const kind = reason.replace(/\d+(\.\d+)?/g, '0');
+    reasons.set(kind, {reason, count: (reasons.get(kind)?.count ?? 0) + 1});
+  }
+  const sorted = [...reasons.values()].sort((a, b) => b.count - a.count).slice(0, 5);
+  return sorted.map(({reason, count}) => el('li', {},
+    `${counted(count, 'link')} refused${count > 1 ? ', such as' : ''}: ${reason || 'no reason given'}`));
 }
 
 function stageNotes(run) {

@@ -126,16 +126,38 @@ export class View {
 
   /** Looks at the whole from "oblique" or "top". */
   look(from) {
-    const {radius, axis} = this.space;
-    const half = Math.tan((kFieldOfView / 2) * Math.PI / 180);
-    const distance = 0.92 * radius / half / Math.min(1, this.camera.aspect * 0.9);
     const elevation = from === 'top' ? Math.PI / 2 - 1e-3 : 0.62; // [rad]
-    const azimuth = axis - Math.PI / 2;
-    this.controls.target.set(0, 0, 0);
-    this.camera.position.set(Math.cos(azimuth) * Math.cos(elevation),
-      Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation)).multiplyScalar(distance);
+    const azimuth = this.space.axis - Math.PI / 2;
+    const towards = new Vector3(Math.cos(azimuth) * Math.cos(elevation),
+      Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation));
+    this.#fit(towards);
     this.controls.update();
     this.render();
+  }
+
+  /** Moves the camera so that the whole fills the picture. */
+  #fit(towards) {
+    const {low, high, local, radius} = this.space;
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => new Vector3(
+      ...local([0, 1, 2].map((axis) => (bits >> axis & 1 ? high : low)[axis]))));
+    const {target} = this.controls;
+    target.set(0, 0, 0);
+    let distance = 4 * radius;
+    for (let round = 0; round < 12; ++round) {
+      this.camera.position.copy(target).addScaledVector(towards, distance);
+      this.camera.lookAt(target);
+      this.camera.updateMatrixWorld();
+      const seen = corners.map((corner) => corner.clone().project(this.camera));
+      const [left, right] = [Math.min(...seen.map((p) => p.x)), Math.max(...seen.map((p) => p.x))];
+      const [below, above] = [Math.min(...seen.map((p) => p.y)), Math.max(...seen.map((p) => p.y))];
+      const half = distance * Math.tan((kFieldOfView / 2) * Math.PI / 180); // of the height [m]
+      const {elements} = this.camera.matrixWorld;
+      target.addScaledVector(new Vector3(...elements.slice(0, 3)), half * this.camera.aspect * (left + right) / 2)
+        .addScaledVector(new Vector3(...elements.slice(4, 7)), half * (below + above) / 2);
+      const fill = Math.max(right - left, above - below) / 2;
+      distance = Math.min(20 * radius, Math.max(0.5 * radius, distance * (0.4 + 0.6 * fill / 0.9)));
+    }
+    this.camera.position.copy(target).addScaledVector(towards, distance);
   }
 
   /** Marks a scan and its points. */

@@ -156,6 +156,6 @@ export class MapPanel {
         this.selection.choose(scan, this)}, '\u00d7'),
       el('strong', {class: isDoubtful(scan) ? 'bad' : null}, scan.file),
       el('dl', {}, rows.map(([name, value]) => [el('dt', {}, name), el('dd', {}, value)])),
-      scan.reason ? el('p', {}, scan.reason) : null);
+      ...(scan.reason ? [el('p', {}, scan.reason)] : []));
   }
 }

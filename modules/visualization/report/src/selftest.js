@@ -68,6 +68,11 @@ function checkTable(name, table, check) {
   check(`${name}: only what is in sight is drawn`, rows <= 80, `${rows} rows of ${table.rows.length}`);
 }
 
+/** Whether no value of the program shows through. */
+function isInWords(element) {
+  return !/\[object \w+\]|\bundefined\b|\bNaN\b|\bnull\b/.test(element.textContent);
+}
+
 function checkPick({run, map, selection}, check) {
   const scan = run.scans[run.scans.length - 1];
   const before = pixelsOf(map);
@@ -75,6 +80,7 @@ function checkPick({run, map, selection}, check) {
   check('a chosen scan is shown', !map.card.hidden && map.card.textContent.includes(scan.file), scan.file);
   if (run.map.scans?.includes(run.scans.indexOf(scan)))
     check('a chosen scan is marked in the map', differing(before, pixelsOf(map)) > 0, '');
+  check('a chosen scan is told in words', isInWords(map.card), map.card.textContent);
   selection.choose(scan, 'test');
   check('a scan chosen again is not', map.card.hidden, '');
 }
@@ -83,6 +89,7 @@ function checkLayout(check) {
   const {scrollWidth, clientWidth} = document.documentElement;
   check('nothing is wider than the window', scrollWidth <= clientWidth, `${scrollWidth} in ${clientWidth}`);
   const broken = [...document.images].filter((image) => image.complete && image.naturalWidth === 0);
+  check('everything is in words', isInWords(document.getElementById('report')), '');
   check('all pictures are there', broken.length === 0, broken.map((image) => image.alt).join());
 }
 

@@ -4,12 +4,14 @@ import {counted, el, whole} from './dom.js';
 const kRowHeight = 34; // [px] as in style.css
 const kMargin = 12; // rows drawn beyond what is seen
 
+const kWords = new Intl.Collator('en', {numeric: true}); // scan2 before scan10
+
 const isMissing = (value) => value === null || value === undefined || Number.isNaN(value);
 
 /** What is missing stands last, whichever way round. */
 function compare(a, b, down) {
   if (isMissing(a) || isMissing(b)) return isMissing(a) - isMissing(b);
-  const order = typeof a === 'string' ? a.localeCompare(b, 'en', {numeric: true}) : a - b;
+  const order = typeof a === 'string' ? kWords.compare(a, b) : a - b;
   return down ? -order : order;
 }
 

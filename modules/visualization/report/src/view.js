@@ -26,11 +26,11 @@ export class View {
     this.scene.background = new Color(kGround);
     this.camera = new PerspectiveCamera(kFieldOfView, 1, this.space.radius / 200, this.space.radius * 60);
     this.camera.up.set(0, 0, 1);
+    this.from = 'oblique';
     this.#addLayers();
     this.#addControls();
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
     this.#resize();
-    this.look('oblique');
   }
 
   #addLayers() {
@@ -69,6 +69,7 @@ export class View {
     this.controls.enableZoom = false; // until the reader turns to the map; the page must scroll
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('start', () => { this.from = null; }); // the reader's own view stays
     this.canvas.addEventListener('pointerdown', () => { this.controls.enableZoom = true; });
     this.canvas.addEventListener('blur', () => { this.controls.enableZoom = false; });
     this.canvas.addEventListener('focus', () => { this.controls.enableZoom = true; });
@@ -81,7 +82,8 @@ export class View {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
-    this.render();
+    if (this.from) this.look(this.from);
+    else this.render();
   }
 
   /** Draws with the next frame of the screen, however often it is called before. */
@@ -126,8 +128,9 @@ export class View {
 
   /** Looks at the whole from "oblique" or "top". */
   look(from) {
+    this.from = from;
     const elevation = from === 'top' ? Math.PI / 2 - 1e-3 : 0.62; // [rad]
-    const azimuth = this.space.axis - Math.PI / 2;
+    const azimuth = this.space.axis - (this.camera.aspect < 1 ? 0 : Math.PI / 2); // fills the window
     const towards = new Vector3(Math.cos(azimuth) * Math.cos(elevation),
       Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation));
     this.#fit(towards);

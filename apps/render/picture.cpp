@@ -1,35 +1,86 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "render/run_pictures.h"
 #include "render/verbs.h"
 
-#include <pcl6d/io/run_folder.h>
-#include <pcl6d/visualization/top_view.h>
+#include <pcl6d/common/error.h>
+
+#include <iostream>
 
 namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+
+/** \return what the run lacks, in one line; empty if nothing */
+std::string
+lackOf(const RunFolder& run)
+{
+  const auto missing = run.missing();
+  constexpr std::size_t kNamed = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(missing.size(), kNamed); ++i)
+    text += (text.empty() ? "" : ", ") + missing[i];
+  if (missing.size() > kNamed)
+    text += " and " + std::to_string(missing.size() - kNamed) + " more files";
+  return text;
+}
+
+bool
+isPictureFile(const fs::path& path)
+{
+  return path.extension() == ".png" || path.extension() == ".PNG";
+}
+
+/** Makes the folder of the pictures, if there is to be one. \return where a view goes */
+fs::path
+prepareOutput(const PictureSettings& s, std::size_t views)
+{
+  const fs::path output =
+      s.output.empty() ? fs::path(s.run) / "pictures" : fs::path(s.output);
+  if (isPictureFile(output)) {
+    if (views != 1)
+      throw UsageError("--output = " + s.output + " is one file, but there are " +
+                       std::to_string(views) + " views; give a folder or one --view");
+    return output;
+  }
+  std::error_code error;
+  fs::create_directories(output, error);
+  if (error || !fs::is_directory(output))
+    throw IoFailed(output.string() + ": cannot make this folder");
+  return output;
+}
+} // namespace
 
 int
 runPicture(const std::vector<std::string>& arguments)
 {
-  std::string input, output;
-  CommandLine line(std::string("usage: ") + kRender +
-                   " picture RUN -o FILE.png\n"
-                   "Draws the map of a run from above.\n");
-  line.positional("RUN", &input);
-  line.group("Output").add_options()(
-      "output,o",
-      boost::program_options::value(&output)->value_name("FILE")->required(),
-      "PNG file");
-  if (!line.parse(arguments))
+  PictureSettings s;
+  if (!parsePictureSettings(arguments, s))
     return kDone;
-  const RunFolder run(input);
-  const RunMap map = run.readMap();
-  TopViewScene scene;
-  scene.points = map.points;
-  scene.scans = map.scans;
-  scene.trajectory = run.trajectory();
-  scene.initial = run.initialTrajectory();
-  TopView().write(output, scene);
+  const RunFolder run(s.run);
+  if (const std::string lack = lackOf(run); !lack.empty())
+    std::cerr << kRender << ": " << s.run << " lacks " << lack << '\n';
+  RunPictures pictures(run, s);
+  const auto views = s.views.empty() ? pictures.suitableViews() : s.views;
+  const fs::path output = prepareOutput(s, views.size());
+  bool drawn = false;
+  for (const std::string& view : views) {
+    const fs::path file = isPictureFile(output) ? output : output / (view + ".png");
+    try {
+      writePng(file, pictures.draw(view));
+    } catch (const BadArgument& e) { // nothing to draw, in this view
+      if (!s.views.empty())
+        throw IoFailed(s.run + ": " + view + ": " + e.what());
+      std::cerr << kRender << ": warning: no picture of " << view << ": " << e.what()
+                << '\n';
+      continue;
+    }
+    drawn = true;
+    std::cout << file.string() << '\n';
+  }
+  if (!drawn)
+    throw IoFailed(s.run + ": there is nothing to draw");
   return kDone;
 }
 

@@ -105,7 +105,7 @@ runFolderRules(const Settings& settings)
   rules.files = std::regex("trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
                            "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|links\\.csv|"
                            "(summary|objects|semantic_map)\\.json|"
-                           "top_view\\.png|report\\.html|" +
+                           "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
                            planeFilePattern());
   rules.force = settings.force;
   return rules;

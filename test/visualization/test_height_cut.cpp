@@ -75,12 +75,12 @@ TEST(HeightCut, DoesWhatTheOptionSays)
   const std::size_t floor = scene.points.size();
   addSlab(scene, 2);
   TopViewOptions options;
-  options.max_height = std::numeric_limits<double>::infinity();
+  options.cut.max_height = std::numeric_limits<double>::infinity();
   EXPECT_EQ(layoutOf(scene, options).points_drawn, scene.points.size());
-  options.max_height = 1.0;
+  options.cut.max_height = 1.0;
   EXPECT_EQ(layoutOf(scene, options).points_drawn, floor);
-  options.max_height.reset();
-  options.cut_above_trajectory = 2.5;
+  options.cut.max_height.reset();
+  options.cut.above_trajectory = 2.5;
   EXPECT_EQ(layoutOf(scene, options).points_drawn, scene.points.size());
 }
 

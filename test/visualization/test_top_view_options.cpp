@@ -29,6 +29,9 @@ TEST(TopViewOptions, RefuseAbsurdValuesNamingTheField)
   refuses("margin", [](auto& o) { o.margin = 800; });
   refuses("point_size", [](auto& o) { o.point_size = 0; });
   refuses("max_points", [](auto& o) { o.max_points = 0; });
-  refuses("max_height", [](auto& o) { o.max_height = std::nan(""); });
-  refuses("cut_above_trajectory", [](auto& o) { o.cut_above_trajectory = INFINITY; });
+  refuses("max_height", [](auto& o) { o.cut.max_height = std::nan(""); });
+  refuses("above_trajectory", [](auto& o) { o.cut.above_trajectory = INFINITY; });
+  refuses("thickness", [](auto& o) { o.cut.slice = {1.0, 0.0}; });
+  refuses("area", [](auto& o) { o.area.emplace(); });
+  refuses("shading", [](auto& o) { o.shading = -1; });
 }

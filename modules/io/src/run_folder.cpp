@@ -182,6 +182,21 @@ RunFolder::readMap() const
   return map;
 }
 
+RunMap
+RunFolder::readScanCloud(std::size_t place) const
+{
+  RunMap map;
+  const fs::path file = scanFile(place);
+  if (!fs::exists(file))
+    return map;
+  Scan scan = pcl6d::readScan(file);
+  map.points = std::move(scan.points);
+  map.scans.assign(map.points.size(),
+                   static_cast<std::uint32_t>(summary_.scans[place].index));
+  map.intensities = valuesOf<float>(scan.cloud, "intensity");
+  return map;
+}
+
 Points
 RunFolder::readScan(std::size_t place) const
 {

@@ -28,6 +28,33 @@ constexpr Table kTurbo{{{70, 70, 180},
                         {251, 128, 34},
                         {210, 49, 5},
                         {150, 20, 10}}};
+constexpr Table kMagma{{{59, 15, 112},
+                        {86, 20, 125},
+                        {129, 37, 129},
+                        {173, 52, 124},
+                        {214, 69, 108},
+                        {241, 96, 93},
+                        {253, 139, 103},
+                        {254, 188, 130},
+                        {252, 253, 191}}};
+constexpr Table kGrey{{{45, 46, 50},
+                       {70, 71, 75},
+                       {95, 96, 100},
+                       {120, 121, 125},
+                       {146, 147, 150},
+                       {172, 172, 175},
+                       {198, 198, 200},
+                       {224, 224, 225},
+                       {250, 250, 250}}};
+constexpr Table kWarning{{{40, 190, 110},
+                          {95, 200, 90},
+                          {145, 208, 75},
+                          {195, 212, 60},
+                          {240, 210, 55},
+                          {250, 175, 50},
+                          {250, 135, 50},
+                          {245, 95, 55},
+                          {235, 50, 60}}};
 
 Colour
 interpolate(const Table& table, double share)
@@ -43,6 +70,28 @@ interpolate(const Table& table, double share)
   return colour;
 }
 } // namespace
+
+Colour
+mapColour(ColourMap map, double share)
+{
+  switch (map) {
+  case ColourMap::kTurbo:
+    return interpolate(kTurbo, share);
+  case ColourMap::kMagma:
+    return interpolate(kMagma, share);
+  case ColourMap::kGrey:
+    return interpolate(kGrey, share);
+  case ColourMap::kViridis:
+    break;
+  }
+  return interpolate(kViridis, share);
+}
+
+Colour
+warningColour(double share)
+{
+  return interpolate(kWarning, share);
+}
 
 Colour
 heightColour(double share)

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/visualization/image.h>
+#include <pcl6d/visualization/map_overlays.h>
 
 #include <cstddef>
 
 namespace pcl6d {
+
+/** \return the colour of a map \param[in] share clamped to [0, 1] */
+Colour
+mapColour(ColourMap map, double share);
+
+/** \return green for 0 over yellow to red for 1, clamped: from good to bad */
+Colour
+warningColour(double share);
 
 /** \brief Colours of height: dark violet over green to yellow, evenly brighter
  * (viridis, van der Walt and Smith 2015). \param[in] share clamped to [0, 1] */
@@ -16,10 +24,5 @@ heightColour(double share);
  * well apart (turbo, Mikhailov 2019). \param[in] share clamped to [0, 1] */
 Colour
 orderColour(double share);
-
-/** \brief Bright colours of things without an order, neighbours in number well apart: the
- * hue goes on by the golden ratio. */
-Colour
-distinctColour(std::size_t number);
 
 } // namespace pcl6d

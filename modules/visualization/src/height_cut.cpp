@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "height_cut.h"
+#include <pcl6d/common/require.h>
+#include <pcl6d/visualization/height_cut.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace pcl6d {
@@ -107,30 +109,83 @@ PathGrid::coveredShare(const Points& points,
   }
   return along > 0 ? covered / along : 0;
 }
+std::vector<std::size_t>
+finitePoints(const Points& points, double max_height)
+{
+  const auto highest = static_cast<float>(max_height);
+  constexpr float kFarthest = 1e7F; // [m] no map is larger; finite in all sums
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3f& p = points[i];
+    if (p.z() <= highest && p.cwiseAbs().maxCoeff() <= kFarthest && p.allFinite())
+      indices.push_back(i);
+  }
+  return indices;
+}
+
+void
+keepSlice(const Points& points,
+          const Trajectory& trajectory,
+          const HeightSlice& slice,
+          std::vector<std::size_t>& indices)
+{
+  if (indices.empty())
+    return;
+  const auto half = static_cast<float>(0.5 * slice.thickness);
+  std::function<bool(std::size_t)> is_outside;
+  if (slice.height) {
+    const auto height = static_cast<float>(*slice.height);
+    is_outside = [&points, height, half](std::size_t i) {
+      return std::abs(points[i].z() - height) > half;
+    };
+  }
+  else {
+    if (trajectory.poses.empty())
+      throw BadArgument("a slice without a height follows the path, but there is none");
+    is_outside =
+        [&points, half, grid = PathGrid(points, indices, trajectory)](std::size_t i) {
+          return !(std::abs(grid.heightOverPath(points[i])) <= half);
+        };
+  }
+  indices.erase(std::remove_if(indices.begin(), indices.end(), is_outside),
+                indices.end());
+}
 } // namespace
 
-ShownPoints
-shownPoints(const TopViewScene& scene, const TopViewOptions& options)
+void
+HeightCut::validate() const
 {
-  const float highest = static_cast<float>(
-      options.max_height.value_or(std::numeric_limits<double>::infinity()));
+  if (max_height)
+    require(!std::isnan(*max_height), "max_height", *max_height, "a number");
+  require(
+      std::isfinite(above_trajectory), "above_trajectory", above_trajectory, "finite");
+  if (!slice)
+    return;
+  if (slice->height)
+    require(std::isfinite(*slice->height), "height", *slice->height, "finite");
+  require(slice->thickness > 0, "thickness", slice->thickness, "> 0");
+}
+
+ShownPoints
+shownPoints(const Points& points, const Trajectory& trajectory, const HeightCut& cut)
+{
   ShownPoints shown;
-  constexpr float kFarthest = 1e7F; // [m] no map is larger; finite in all sums
-  for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    const Eigen::Vector3f& p = scene.points[i];
-    if (p.z() <= highest && p.cwiseAbs().maxCoeff() <= kFarthest && p.allFinite())
-      shown.indices.push_back(i);
+  shown.indices = finitePoints(
+      points, cut.max_height.value_or(std::numeric_limits<double>::infinity()));
+  if (cut.slice) {
+    keepSlice(points, trajectory, *cut.slice, shown.indices);
+    return shown;
   }
-  if (options.max_height || shown.indices.empty() || scene.trajectory.poses.empty())
+  if (cut.max_height || shown.indices.empty() || trajectory.poses.empty())
     return shown;
 
-  const PathGrid grid(scene.points, shown.indices, scene.trajectory);
-  const auto cut = static_cast<float>(options.cut_above_trajectory);
+  const PathGrid grid(points, shown.indices, trajectory);
+  const auto above = static_cast<float>(cut.above_trajectory);
   constexpr double kIndoors = 0.5; // recorded: corridor 0.9, campus 0.05
-  if (grid.coveredShare(scene.points, shown.indices, cut) < kIndoors)
+  if (grid.coveredShare(points, shown.indices, above) < kIndoors)
     return shown;
   const auto hidden = [&](std::size_t i) {
-    return grid.heightOverPath(scene.points[i]) > cut;
+    return grid.heightOverPath(points[i]) > above;
   };
   const auto end = std::remove_if(shown.indices.begin(), shown.indices.end(), hidden);
   if (end == shown.indices.begin()) // nothing would be left

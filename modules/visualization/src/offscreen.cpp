@@ -48,24 +48,24 @@ private:
   vtkSmartPointer<vtkOutputWindow> before_;
 };
 
-Image
+PixelLayer
 readPixels(vtkRenderWindow* window, int width, int height)
 {
   vtkNew<vtkUnsignedCharArray> pixels;
-  window->GetPixelData(0, 0, width - 1, height - 1, /*front=*/0, pixels);
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(width);
-  const std::size_t size = row_bytes * static_cast<std::size_t>(height);
+  window->GetRGBACharPixelData(0, 0, width - 1, height - 1, /*front=*/0, pixels);
+  PixelLayer layer(width, height);
+  const std::size_t row_bytes = 4 * static_cast<std::size_t>(width);
+  const std::size_t size = layer.rgba.size();
   if (static_cast<std::size_t>(pixels->GetNumberOfValues()) != size)
     throw IoFailed("cannot draw pictures: OpenGL gave no pixels");
-  Image image{width, height, std::vector<std::uint8_t>(size)};
   const std::uint8_t* source = pixels->GetPointer(0); // rows from below
   for (std::size_t begin = 0; begin < size; begin += row_bytes)
-    std::copy_n(source + begin, row_bytes, &image.rgb[size - row_bytes - begin]);
-  return image;
+    std::copy_n(source + begin, row_bytes, &layer.rgba[size - row_bytes - begin]);
+  return layer;
 }
 } // namespace
 
-Image
+PixelLayer
 drawOffscreen(vtkRenderer* renderer, int width, int height)
 {
   static std::mutex one_at_a_time;
@@ -76,15 +76,16 @@ drawOffscreen(vtkRenderer* renderer, int width, int height)
   window->SetShowWindow(false);
   window->SetUseOffScreenBuffers(true);
   window->SetMultiSamples(4);
+  window->SetAlphaBitPlanes(1);
   window->SetSize(width, height);
   window->AddRenderer(renderer);
   window->Render();
-  Image image = readPixels(window, width, height);
+  PixelLayer layer = readPixels(window, width, height);
   window->RemoveRenderer(renderer);
   const std::string error = messages.firstError();
   if (!error.empty())
     throw IoFailed("cannot draw pictures: VTK says: " + error);
-  return image;
+  return layer;
 }
 
 } // namespace pcl6d

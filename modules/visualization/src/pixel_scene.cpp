@@ -2,11 +2,11 @@
 #include "offscreen.h"
 #include "pixel_scene.h"
 
+#include <pcl6d/common/parallel.h>
+
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
-#include <vtkFloatArray.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -14,7 +14,6 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <cmath>
 
@@ -27,25 +26,13 @@ setColour(const Colour& from, double* to)
   for (std::size_t i = 0; i < from.size(); ++i)
     to[i] = from[i] / 255.0;
 }
-
-/** One cell that visits all points in order: many points cost no memory for cells. */
-vtkNew<vtkCellArray>
-oneCell(vtkIdType count)
-{
-  vtkNew<vtkCellArray> cells;
-  cells->InsertNextCell(static_cast<int>(count));
-  for (vtkIdType i = 0; i < count; ++i)
-    cells->InsertCellPoint(i);
-  return cells;
-}
 } // namespace
 
 PixelScene::PixelScene(int width, int height, const Colour& background)
-: width_(width), height_(height)
+: width_(width), height_(height), background_(background), base_(width, height)
 {
-  double rgb[3];
-  setColour(background, rgb);
-  renderer_->SetBackground(rgb);
+  renderer_->SetBackground(0, 0, 0);
+  renderer_->SetBackgroundAlpha(0);
   vtkCamera* camera = renderer_->GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetParallelScale(0.5 * height);
@@ -57,16 +44,10 @@ PixelScene::PixelScene(int width, int height, const Colour& background)
 
 PixelScene::~PixelScene() = default;
 
-vtkActor*
-PixelScene::addActor(vtkPolyData* shape)
+void
+PixelScene::setBase(PixelLayer layer)
 {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(shape);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->LightingOff();
-  renderer_->AddActor(actor);
-  return actor;
+  base_ = std::move(layer);
 }
 
 void
@@ -74,69 +55,90 @@ PixelScene::addPoints(const std::vector<Eigen::Vector3f>& points,
                       const std::vector<Colour>& colours,
                       double size)
 {
-  const auto count = static_cast<vtkIdType>(points.size());
-  vtkNew<vtkPoints> places;
-  places->SetDataTypeToFloat();
-  places->SetNumberOfPoints(count);
-  vtkNew<vtkUnsignedCharArray> rgb;
-  rgb->SetNumberOfComponents(3);
-  rgb->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i) {
-    const auto& p = points[static_cast<std::size_t>(i)];
-    places->SetPoint(i, p.x(), static_cast<float>(height_) - p.y(), p.z());
-    rgb->SetTypedTuple(i, colours[static_cast<std::size_t>(i)].data());
-  }
-  vtkNew<vtkPolyData> shape;
-  shape->SetPoints(places);
-  shape->SetVerts(oneCell(count));
-  shape->GetPointData()->SetScalars(rgb);
-  addActor(shape)->GetProperty()->SetPointSize(static_cast<float>(size));
+  if (!splats_)
+    splats_ = std::make_unique<SplatBuffer>(width_, height_);
+  const auto first = static_cast<std::uint32_t>(splat_colours_.size());
+  splat_colours_.insert(splat_colours_.end(), colours.begin(), colours.end());
+  constexpr std::size_t kPointsPerBlock = 1U << 16U;
+  parallelBlocks(points.size(), kPointsPerBlock, 0, [&](const Block& block) {
+    for (std::size_t i = block.begin; i < block.end; ++i)
+      splats_->add(points[i].x(),
+                   points[i].y(),
+                   2 - points[i].z(), // any depth > 0 that falls with the layer
+                   static_cast<float>(size),
+                   first + static_cast<std::uint32_t>(i));
+  });
 }
 
-vtkActor*
-PixelScene::addShape(const std::vector<Eigen::Vector2d>& points,
-                     bool filled,
-                     const Pen& pen)
+void
+PixelScene::addShapes(const std::vector<Polyline>& shapes, bool filled, const Pen& pen)
 {
   vtkNew<vtkPoints> places;
   places->SetDataTypeToFloat();
-  for (const auto& p : points)
-    places->InsertNextPoint(p.x(), height_ - p.y(), pen.layer);
-  const auto cells = oneCell(places->GetNumberOfPoints());
+  vtkNew<vtkCellArray> cells;
+  for (const auto& points : shapes) {
+    cells->InsertNextCell(static_cast<int>(points.size()));
+    for (const auto& p : points)
+      cells->InsertCellPoint(
+          places->InsertNextPoint(p.x(), height_ - p.y(), pen.layer));
+  }
   vtkNew<vtkPolyData> shape;
   shape->SetPoints(places);
   if (filled)
     shape->SetPolys(cells);
   else
     shape->SetLines(cells);
-  vtkActor* actor = addActor(shape);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(shape);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  vtkProperty* style = actor->GetProperty();
   double rgb[3];
   setColour(pen.colour, rgb);
-  actor->GetProperty()->SetColor(rgb);
-  return actor;
+  style->SetColor(rgb);
+  style->LightingOff();
+  style->SetLineWidth(static_cast<float>(pen.size));
+  renderer_->AddActor(actor);
 }
 
 void
-PixelScene::addLine(const std::vector<Eigen::Vector2d>& points, const Pen& pen)
+PixelScene::addLine(const Polyline& points, const Pen& pen)
 {
-  if (points.size() < 2)
-    return;
-  addShape(points, false, pen)
-      ->GetProperty()
-      ->SetLineWidth(static_cast<float>(pen.size));
+  addLines({points}, pen);
+}
+
+void
+PixelScene::addLines(const std::vector<Polyline>& lines, const Pen& pen)
+{
+  std::vector<Polyline> drawn;
+  for (const auto& line : lines)
+    if (line.size() >= 2)
+      drawn.push_back(line);
+  if (!drawn.empty())
+    addShapes(drawn, false, pen);
 }
 
 void
 PixelScene::addDisc(const Eigen::Vector2d& centre, const Pen& pen)
 {
+  addDiscs({centre}, pen);
+}
+
+void
+PixelScene::addDiscs(const std::vector<Eigen::Vector2d>& centres, const Pen& pen)
+{
   constexpr int kCorners = 32;
-  std::vector<Eigen::Vector2d> circle;
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2 * M_PI * i / kCorners;
-    circle.push_back(centre + 0.5 * pen.size *
-                                  Eigen::Vector2d(std::cos(angle), -std::sin(angle)));
+  std::vector<Polyline> circles;
+  for (const auto& centre : centres) {
+    Polyline& circle = circles.emplace_back();
+    for (int i = 0; i < kCorners; ++i) {
+      const double angle = 2 * M_PI * i / kCorners;
+      circle.push_back(centre + 0.5 * pen.size *
+                                    Eigen::Vector2d(std::cos(angle), -std::sin(angle)));
+    }
   }
-  addShape(circle, true, pen);
+  if (!circles.empty())
+    addShapes(circles, true, pen);
 }
 
 void
@@ -175,9 +177,13 @@ PixelScene::textWidth(const std::string& text, double size)
 }
 
 Image
-PixelScene::draw()
+PixelScene::draw(bool transparent)
 {
-  return drawOffscreen(renderer_, width_, height_);
+  PixelLayer picture = base_;
+  if (splats_)
+    layOver(splats_->paint(splat_colours_, shading_), picture);
+  layOver(drawOffscreen(renderer_, width_, height_), picture);
+  return transparent ? onNothing(picture) : onBackground(picture, background_);
 }
 
 } // namespace pcl6d

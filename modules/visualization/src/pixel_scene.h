@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/visualization/image.h>
+#include "splat_buffer.h"
 
 #include <Eigen/Core>
 #include <vtkNew.h>
 
+#include <memory>
 #include <string>
+#include <vector>
 
-class vtkActor;
-class vtkPolyData;
 class vtkRenderer;
 
 namespace pcl6d {
 
 /** \brief A VTK scene whose unit is the pixel: column from the left, row from the top.
- * Of two things at the same place the one with the higher layer is seen; points have a
- * layer each, in [0, 1]. */
+ * Points are drawn by the CPU and lie below all else; of two points, or of two other things, at
+ * the same place the one with the higher layer is seen. */
 class PixelScene {
 public:
   enum class Align { kLeft, kCentre, kRight };
@@ -31,17 +31,33 @@ public:
   PixelScene(int width, int height, const Colour& background);
   ~PixelScene();
 
-  /** \param[in] points column, row, layer */
+  using Polyline = std::vector<Eigen::Vector2d>;
+
+  /** \brief Puts a layer below everything, in place of points. */
+  void
+  setBase(PixelLayer layer);
+  /** \brief Darkens the edges of points, as SplatBuffer::paint(). */
+  void
+  setShading(double strength)
+  {
+    shading_ = strength;
+  }
+  /** \param[in] points column, row, layer in [0, 1] */
   void
   addPoints(const std::vector<Eigen::Vector3f>& points,
             const std::vector<Colour>& colours,
             double size);
   /** \brief Points joined in order. */
   void
-  addLine(const std::vector<Eigen::Vector2d>& points, const Pen& pen);
+  addLine(const Polyline& points, const Pen& pen);
+  /** \brief Many lines with one pen, fast. */
+  void
+  addLines(const std::vector<Polyline>& lines, const Pen& pen);
   /** \brief A filled circle; the pen's size is its diameter. */
   void
   addDisc(const Eigen::Vector2d& centre, const Pen& pen);
+  void
+  addDiscs(const std::vector<Eigen::Vector2d>& centres, const Pen& pen);
   /** \param[in] place left, centre or right end of the text, half way up
    * \param[in] turn kUpwards: reads from below to above, as beside an axis */
   void
@@ -55,18 +71,22 @@ public:
   static double
   textWidth(const std::string& text, double size);
 
-  /** \throws IoFailed as drawOffscreen() */
+  /** \return the picture on the background, or on nothing if it is to be transparent
+   * \throws IoFailed as drawOffscreen() */
   Image
-  draw();
+  draw(bool transparent = false);
 
 private:
-  vtkActor*
-  addActor(vtkPolyData* shape);
-  vtkActor*
-  addShape(const std::vector<Eigen::Vector2d>& points, bool filled, const Pen& pen);
+  void
+  addShapes(const std::vector<Polyline>& shapes, bool filled, const Pen& pen);
 
   int width_;
   int height_;
+  Colour background_;
+  PixelLayer base_;
+  std::unique_ptr<SplatBuffer> splats_; ///< of the points; none: no points
+  std::vector<Colour> splat_colours_;
+  double shading_ = 0;
   vtkNew<vtkRenderer> renderer_;
 };
 

@@ -3,6 +3,7 @@
 #include "picture_size.h"
 #include "pixel_scene.h"
 #include "point_spread.h"
+#include "theme.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
@@ -151,7 +152,7 @@ addPoints(const PlaneViewScene& scene,
     colours.push_back(plane == 0 ? kUnassigned : distinctColour(plane - 1));
   }
   const double spacing = pixelSpacing(pixels, layout.width, layout.height);
-  picture.addPoints(pixels, colours, std::clamp(1.2 * spacing, 1.5, 6.0));
+  picture.addPoints(pixels, colours, std::clamp(1.4 * spacing, 1.5, 6.0));
   return pixels.size();
 }
 
@@ -219,10 +220,8 @@ PlaneView::draw(const PlaneViewScene& scene, Image& image) const
   };
   zoom(scene.points, shown, layout);
   shown.erase(std::remove_if(shown.begin(), shown.end(), isHidden), shown.end());
-  const bool dark = options_.background == Background::kDark;
-  const Colour text = dark ? Colour{240, 240, 240} : Colour{20, 20, 20};
-  PixelScene picture(
-      layout.width, layout.height, dark ? Colour{12, 13, 18} : Colour{255, 255, 255});
+  const Theme theme = themeOf(options_.background);
+  PixelScene picture(layout.width, layout.height, theme.background);
   if (!shown.empty())
     layout.points_drawn =
         addPoints(scene, thinned(shown, options_.max_points), layout, picture);
@@ -231,8 +230,8 @@ PlaneView::draw(const PlaneViewScene& scene, Image& image) const
       addPlane(scene.planes[k], k + 1, layout, picture);
   if (!options_.title.empty())
     picture.addText(
-        {kMargin, kMargin}, options_.title, PixelScene::Align::kLeft, {text, 20});
-  image = picture.draw();
+        {kMargin, kMargin}, options_.title, PixelScene::Align::kLeft, {theme.text, 20});
+  image = picture.draw(options_.transparent);
   return layout;
 }
 

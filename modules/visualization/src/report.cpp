@@ -43,15 +43,17 @@ titleOf(const std::string& name)
   return title;
 }
 
-/** \return the names of the pictures of a run, the top view first */
+/** \return the pictures of a run by their paths in its folder, the top view first */
 std::vector<std::string>
-pictureNames(const fs::path& folder)
+pictureNames(const fs::path& run)
 {
   std::vector<std::string> names;
-  std::error_code error; // a folder that cannot be listed has no pictures
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".png" && entry.is_regular_file(error))
-      names.push_back(entry.path().filename().string());
+  for (const auto& folder : {run, run / "pictures"}) {
+    std::error_code error; // a folder that cannot be listed has no pictures
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == ".png" && entry.is_regular_file(error))
+        names.push_back(entry.path().lexically_relative(run).string());
+  }
   std::sort(names.begin(), names.end(), [](const auto& a, const auto& b) {
     return std::make_pair(a != "top_view.png", a) <
            std::make_pair(b != "top_view.png", b);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "height_cut.h"
 #include "point_spread.h"
 #include "report_map.h"
+
+#include <pcl6d/visualization/height_cut.h>
 
 #include <Eigen/Geometry>
 
@@ -112,19 +113,18 @@ greyValues(const std::vector<float>& intensities,
 std::optional<double>
 ceilingOf(const ReportData& data)
 {
-  TopViewScene scene;
-  scene.points = data.map.points;
+  Trajectory trajectory;
   for (const auto& scan : data.summary.scans) {
     Eigen::Isometry3d pose = scan.T_world_scan;
     pose.translation() -= data.summary.world_offset;
-    scene.trajectory.poses.push_back(pose);
+    trajectory.poses.push_back(pose);
   }
-  const ShownPoints shown = shownPoints(scene, TopViewOptions());
+  const ShownPoints shown = shownPoints(data.map.points, trajectory, HeightCut());
   if (!shown.ceiling_hidden)
     return std::nullopt;
   double highest = -std::numeric_limits<double>::infinity();
   for (const auto i : shown.indices)
-    highest = std::max(highest, static_cast<double>(scene.points[i].z()));
+    highest = std::max(highest, static_cast<double>(data.map.points[i].z()));
   return highest;
 }
 } // namespace

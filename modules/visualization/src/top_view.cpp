@@ -1,30 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "height_cut.h"
+#include "annotations.h"
 #include "picture_size.h"
 #include "top_view_layout.h"
-#include "top_view_painter.h"
+#include "top_view_points.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/visualization/top_view.h>
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 
 namespace pcl6d {
-
-namespace {
-void
-checkScene(const TopViewScene& scene, PointColour colour)
-{
-  const bool by_scan = colour == PointColour::kScan;
-  if ((by_scan || !scene.scans.empty()) && scene.scans.size() != scene.points.size())
-    throw BadArgument(std::to_string(scene.scans.size()) + " scan indices for " +
-                      std::to_string(scene.points.size()) + " points");
-}
-
-} // namespace
 
 void
 TopViewOptions::validate() const
@@ -38,12 +24,12 @@ TopViewOptions::validate() const
     require(
         *point_size > 0 && *point_size <= 100, "point_size", *point_size, "0 to 100");
   require(max_points > 0, "max_points", max_points, "> 0");
-  if (max_height)
-    require(!std::isnan(*max_height), "max_height", *max_height, "a number");
-  require(std::isfinite(cut_above_trajectory),
-          "cut_above_trajectory",
-          cut_above_trajectory,
-          "finite");
+  require(!area || (area->sizes().minCoeff() > 0 && area->sizes().allFinite()),
+          "area",
+          "empty",
+          "a box of more than 0 m");
+  require(shading >= 0 && shading <= 5, "shading", shading, "0 to 5");
+  cut.validate();
 }
 
 TopView::TopView(const TopViewOptions& options) : options_(options)
@@ -54,27 +40,45 @@ TopView::TopView(const TopViewOptions& options) : options_(options)
 TopViewPicture
 TopView::draw(const TopViewScene& scene) const
 {
-  checkScene(scene, options_.colour);
-  const ShownPoints shown = shownPoints(scene, options_);
-  if (shown.indices.empty())
-    throw BadArgument("the map has no points to draw");
-  Points points;
-  points.reserve(shown.indices.size());
-  for (const auto i : shown.indices)
-    points.push_back(scene.points[i]);
+  scene.validate(options_.colour);
+  const auto [shown, points] = pointsToDraw(scene, options_);
   TopViewPicture picture;
-  picture.layout = layOut(points, scene, options_);
-  picture.layout.ceiling_hidden = shown.ceiling_hidden;
-  const auto drawn = drawnPoints(scene, shown, options_, picture.layout);
-  TopViewPainter painter(options_, picture.layout);
-  painter.addMap(drawn);
-  painter.addTrajectories(scene);
-  painter.addTitle();
-  painter.addLegend(scene);
-  painter.addScaleBar();
-  painter.addColourBar();
-  picture.image = painter.draw();
+  TopViewLayout& layout = picture.layout;
+  layout = layOut(points, scene, options_);
+  layout.ceiling_hidden = shown.ceiling_hidden;
+  const DrawnPoints drawn = drawnPoints(scene, shown, options_, layout);
+  PixelScene canvas(
+      layout.width, layout.height, themeOf(options_.background).background);
+  canvas.setShading(options_.shading);
+  canvas.addPoints(drawn.pixels, drawn.colours, drawn.size);
+  annotate(scene, drawn.scale, layout, canvas);
+  picture.image = canvas.draw(options_.transparent);
   return picture;
+}
+
+void
+TopView::annotate(const TopViewScene& scene,
+                  const ColourScale& scale,
+                  const TopViewLayout& layout,
+                  PixelScene& canvas) const
+{
+  const Annotations::Project project = [&](const Eigen::Vector3d& place) {
+    return std::optional<Eigen::Vector2d>(layout.toPixel(place.head<2>()));
+  };
+  const Annotations::Frame frame = {layout.width,
+                                    layout.height,
+                                    static_cast<double>(options_.margin),
+                                    layout.text_size};
+  const Annotations::Paths paths = {
+      scene.initial, scene.trajectory, options_.initial_label, options_.final_label};
+  Annotations annotations(canvas, frame, options_.background, project);
+  annotations.addPaths(paths);
+  annotations.addOverlay(scene.overlay);
+  annotations.addTitle(options_.title);
+  annotations.addLegend(paths, scene.overlay);
+  annotations.addScaleBar(
+      layout.scale_bar_begin, layout.scale_bar_end, layout.scale_bar_metres);
+  annotations.addColours(scale);
 }
 
 TopViewLayout

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "annotations.h"
 #include "top_view_layout.h"
+
+#include <pcl6d/common/error.h>
 
 #include <Eigen/Geometry>
 
@@ -40,14 +43,34 @@ mapExtent(const Points& points)
   return all.intersection(Eigen::AlignedBox2d(low - reach, high + reach));
 }
 
+/** Where poses and overlay are. */
+std::vector<Eigen::Vector2d>
+placesOf(const TopViewScene& scene)
+{
+  std::vector<Eigen::Vector2d> places;
+  const auto add = [&](const Eigen::Vector3d& place) {
+    if (place.allFinite())
+      places.emplace_back(place.head<2>());
+  };
+  for (const auto* trajectory : {&scene.trajectory, &scene.initial})
+    for (const auto& pose : trajectory->poses)
+      add(pose.translation());
+  for (const auto& mark : scene.overlay.marks)
+    add(mark.place);
+  for (const auto& line : scene.overlay.lines)
+    for (const auto& place : line.points)
+      add(place);
+  return places;
+}
+
 Eigen::AlignedBox2d
 sceneExtent(const Points& points, const TopViewScene& scene)
 {
-  Eigen::AlignedBox2d box = mapExtent(points);
-  for (const auto* trajectory : {&scene.trajectory, &scene.initial})
-    for (const auto& pose : trajectory->poses)
-      if (pose.translation().allFinite())
-        box.extend(Eigen::Vector2d(pose.translation().head<2>()));
+  Eigen::AlignedBox2d box;
+  if (!points.empty())
+    box = mapExtent(points);
+  for (const auto& place : placesOf(scene))
+    box.extend(place);
   constexpr double kSmallest = 1.0; // [m] so that equal points are drawn, too
   const Eigen::Vector2d lacking =
       0.5 * (Eigen::Vector2d::Constant(kSmallest) - box.sizes()).cwiseMax(0.0);
@@ -55,16 +78,6 @@ sceneExtent(const Points& points, const TopViewScene& scene)
   box.min() -= lacking + rim;
   box.max() += lacking + rim;
   return box;
-}
-
-double
-roundDown(double metres)
-{
-  const double power = std::pow(10.0, std::floor(std::log10(metres)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= metres)
-      return digit * power;
-  return power;
 }
 
 void
@@ -79,6 +92,16 @@ placeScaleBar(TopViewLayout& layout, double margin)
 }
 } // namespace
 
+double
+roundDown(double metres)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(metres)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= metres)
+      return digit * power;
+  return power;
+}
+
 float
 quantile(std::vector<float> values, double share)
 {
@@ -88,16 +111,39 @@ quantile(std::vector<float> values, double share)
   return values[static_cast<std::size_t>(rank)];
 }
 
+PointsToDraw
+pointsToDraw(const TopViewScene& scene, const TopViewOptions& options)
+{
+  PointsToDraw drawn;
+  drawn.shown = shownPoints(scene.points, scene.trajectory, options.cut);
+  const auto& indices = drawn.shown.indices;
+  if (indices.empty() && (!scene.points.empty() || placesOf(scene).empty()))
+    throw BadArgument(options.cut.slice ? "the slice has no points to draw"
+                                        : "the map has no points to draw");
+  drawn.points.reserve(indices.size());
+  for (const auto i : indices)
+    drawn.points.push_back(scene.points[i]);
+  return drawn;
+}
+
+Eigen::AlignedBox2d
+areaOf(const TopViewScene& scene, const TopViewOptions& options)
+{
+  return sceneExtent(pointsToDraw(scene, options).points, scene);
+}
+
 TopViewLayout
 layOut(const Points& points, const TopViewScene& scene, const TopViewOptions& options)
 {
-  const Eigen::AlignedBox2d box = sceneExtent(points, scene);
+  const Eigen::AlignedBox2d box =
+      options.area ? *options.area : sceneExtent(points, scene);
   const double margin = options.margin;
   TopViewLayout layout;
   layout.width = options.width;
-  layout.text_size = std::clamp(options.width / 85.0, 10.0, 48.0);
+  layout.area = box;
+  layout.text_size = textSizeFor(options.width);
   const bool has_top_line = !options.title.empty() || !scene.trajectory.poses.empty() ||
-                            !scene.initial.poses.empty();
+                            !scene.initial.poses.empty() || !scene.overlay.keys.empty();
   layout.map.left = margin;
   layout.map.right = options.width - margin;
   layout.map.top = margin + (has_top_line ? 2.2 * layout.text_size : 0);

@@ -10,6 +10,26 @@ namespace pcl6d {
 TopViewLayout
 layOut(const Points& points, const TopViewScene& scene, const TopViewOptions& options);
 
+/** \brief The points of a scene that are left after the cut. */
+struct PointsToDraw {
+  ShownPoints shown;
+  Points points; ///< those of shown
+};
+
+/** \throws BadArgument there is nothing to draw: no point, pose or overlay; or the cut
+ * leaves none of several points */
+PointsToDraw
+pointsToDraw(const TopViewScene& scene, const TopViewOptions& options);
+
+/** \return the part of the world that a top view of the scene shows by itself
+ * \throws BadArgument as pointsToDraw() */
+Eigen::AlignedBox2d
+areaOf(const TopViewScene& scene, const TopViewOptions& options);
+
+/** \return the longest of 1, 2 or 5 times a power of ten that is not longer [m] */
+double
+roundDown(double metres);
+
 /** \return the value below which the given share of the values lies (nearest rank, from
  * an even sample of them); \param[in] values not empty */
 float

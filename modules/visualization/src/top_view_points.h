@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "height_cut.h"
+#include "point_paint.h"
+
+#include <pcl6d/visualization/top_view.h>
 
 namespace pcl6d {
 
@@ -9,13 +11,9 @@ namespace pcl6d {
 struct DrawnPoints {
   std::vector<Eigen::Vector3f> pixels; ///< column, row, layer in [0, 1] by height
   std::vector<Colour> colours;
+  ColourScale scale;
   double size = 1; ///< [px]
 };
-
-/** \return the colour of a share of the colour range; low heights are near the colour
- * of the background, so that walls stand out */
-Colour
-pointColour(double share, const TopViewOptions& options);
 
 /** \brief Places, thins and colours the shown points.
  * \param[in,out] layout gets the range of the colours and the number of points */

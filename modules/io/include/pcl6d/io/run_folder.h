@@ -98,6 +98,10 @@ public:
   Points
   readScan(std::size_t place) const;
 
+  /** \return the same with its intensities and its index for each point */
+  RunMap
+  readScanCloud(std::size_t place) const;
+
   /** \throws IoFailed links.csv is broken */
   std::vector<RunLink>
   readLinks() const;

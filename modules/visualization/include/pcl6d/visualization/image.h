@@ -16,6 +16,8 @@ struct Image {
   int width = 0;                 ///< [px]
   int height = 0;                ///< [px]
   std::vector<std::uint8_t> rgb; ///< 3 bytes a pixel, row by row from the top
+  std::vector<std::uint8_t> alpha =
+      {}; ///< a byte a pixel, 255: opaque; empty: all opaque
 
   /** \return the colour of a pixel; column from the left, row from the top */
   Colour

@@ -3,8 +3,7 @@
 
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/points.h>
-#include <pcl6d/visualization/image.h>
-#include <pcl6d/visualization/top_view.h>
+#include <pcl6d/visualization/map_cloud.h>
 
 #include <cstdint>
 #include <optional>
@@ -21,6 +20,7 @@ struct PlaneViewOptions {
                                  ///< y; by default where most area is seen
   double elevation = 0.75; ///< [rad] of the camera above the horizon; in (0, pi/2)
   Background background = Background::kDark;
+  bool transparent = false;         ///< in place of the background
   std::string title;                ///< top left; may be empty
   std::size_t max_points = 2000000; ///< more are thinned evenly, always the same; > 0
 

@@ -40,7 +40,7 @@ struct ReportOptions {
 };
 
 /** \brief Gathers what a run left: what is missing or broken is named, not an error, and
- * so is a picture (*.png in the folder) that is too large for the budget.
+ * so is a picture (*.png in the folder or in pictures/) that is too large for the budget.
  * \param[in] title by default the name of the folder */
 ReportData
 gatherReport(const RunFolder& run,

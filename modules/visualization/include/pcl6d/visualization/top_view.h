@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/common/points.h>
 #include <pcl6d/common/trajectory.h>
-#include <pcl6d/visualization/image.h>
+#include <pcl6d/visualization/height_cut.h>
+#include <pcl6d/visualization/map_cloud.h>
+#include <pcl6d/visualization/overlay.h>
 #include <pcl6d/visualization/top_view_layout.h>
 
-#include <cstdint>
+#include <Eigen/Geometry>
+
 #include <optional>
 #include <string>
 
 namespace pcl6d {
 
-/** \brief What the colour of a map point tells. \ingroup visualization */
-enum class PointColour {
-  kHeight, ///< z, from its 2 % to its 98 % quantile
-  kScan    ///< index of the scan, from first to last
-};
-
-enum class Background { kDark, kLight };
+class PixelScene;
+struct ColourScale;
 
 /** \brief Knobs of TopView; the defaults suit maps of a room as well as of a campus. */
 struct TopViewOptions {
@@ -26,16 +23,18 @@ struct TopViewOptions {
   std::optional<int> height; ///< [px] 200 to 8192; by default follows the map's shape
   int margin = 24;           ///< [px] around everything; 0 to width / 8
   PointColour colour = PointColour::kHeight;
+  std::optional<ColourMap> colour_map; ///< by default one that suits the colour
   Background background = Background::kDark;
+  bool transparent = false;             ///< in place of the background
   std::string title;                    ///< top left; may be empty
   std::string final_label = "after";    ///< of the trajectory, in the legend
   std::string initial_label = "before"; ///< of the initial trajectory
   std::optional<double> point_size;     ///< [px] > 0; by default closes the gaps
   std::size_t max_points = 4000000; ///< more are thinned evenly, always the same; > 0
-  /** [m] points above are left out; by default, if the map has a ceiling, what is
-   * higher than cut_above_trajectory above the nearest pose; infinity: draw all */
-  std::optional<double> max_height;
-  double cut_above_trajectory = 0.5; ///< [m] see max_height
+  HeightCut cut;                    ///< by default leaves out a ceiling
+  std::optional<Eigen::AlignedBox2d>
+      area;           ///< [m] to be seen; by default all but single points far away
+  double shading = 0; ///< eye-dome lighting: how dark edges are; 0 to 5, 0: none
 
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
@@ -43,11 +42,10 @@ struct TopViewOptions {
 };
 
 /** \brief What is to be seen. */
-struct TopViewScene {
-  Points points;                    ///< the map in the world [m]; NaN is skipped
-  std::vector<std::uint32_t> scans; ///< index of each point's scan, or empty
-  Trajectory trajectory;            ///< final poses, or empty
-  Trajectory initial;               ///< poses before the run, or empty
+struct TopViewScene : MapCloud {
+  Trajectory trajectory; ///< final poses, or empty
+  Trajectory initial;    ///< poses before the run, or empty
+  Overlay overlay;       ///< drawn over points and poses
 };
 
 /** \brief A picture and where things are on it. */
@@ -61,7 +59,7 @@ struct TopViewPicture {
  *
  * Drawn by VTK on the PrivateDisplay. The map area leaves out single points that lie
  * far away from all others. In buildings the ceiling would hide everything below it: it
- * is found (see TopViewOptions::max_height) and cut away.
+ * is found (see HeightCut) and cut away.
  * \code
  * pcl6d::TopViewScene scene;
  * scene.points = map_points;
@@ -74,8 +72,8 @@ public:
   /** \throws BadArgument an option breaks its rule */
   explicit TopView(const TopViewOptions& options = TopViewOptions());
 
-  /** \throws BadArgument no finite point, as many scan indices as points neither nor
-   * none, or colour by scan without scan indices
+  /** \throws BadArgument neither a finite point nor a pose nor an overlay, no point of
+   * several in the slice, or as MapCloud::validate()
    * \throws IoFailed there is no display to draw on */
   TopViewPicture
   draw(const TopViewScene& scene) const;
@@ -87,6 +85,12 @@ public:
   write(const std::filesystem::path& path, const TopViewScene& scene) const;
 
 private:
+  void
+  annotate(const TopViewScene& scene,
+           const ColourScale& scale,
+           const TopViewLayout& layout,
+           PixelScene& canvas) const;
+
   TopViewOptions options_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstddef>
 
@@ -28,13 +28,14 @@ struct TopViewLayout {
   int height = 0;               ///< [px]
   PixelBox map;                 ///< nothing of the map lies outside
   double metres_per_pixel = 1;  ///< the same in x and y
+  Eigen::AlignedBox2d area;     ///< [m] of the world that is to be seen
   Eigen::Vector2d centre{0, 0}; ///< [m] world x, y in the middle of the map's box
   double scale_bar_metres = 1;  ///< 1, 2 or 5 times a power of ten
   Eigen::Vector2d scale_bar_begin{0, 0}; ///< [px] left end
   Eigen::Vector2d scale_bar_end{0, 0};   ///< [px] right end
   double text_size = 12;                 ///< [px]
-  double lowest_colour = 0;  ///< height [m] or scan at the lower end of the colours
-  double highest_colour = 0; ///< the same at the upper end
+  double lowest_colour = 0;              ///< value at the lower end of the colours
+  double highest_colour = 0;             ///< the same at the upper end
   bool ceiling_hidden = false;
   std::size_t points_drawn = 0;
 

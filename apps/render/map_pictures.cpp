@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The views of the map, from above and in perspective.
+#include "render/run_pictures.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/mesh_io.h>
+#include <pcl6d/visualization/before_after_view.h>
+#include <pcl6d/visualization/map_overlays.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d::app {
+
+namespace {
+LinkState
+stateOf(const RunLink& link)
+{
+  if (link.verdict == "odometry")
+    return LinkState::kOdometry;
+  return link.counts() ? LinkState::kUsed : LinkState::kRefused;
+}
+
+/** Scans that are not to be trusted. */
+bool
+isDoubtful(const RunSummary::ScanEntry& scan)
+{
+  return scan.state == "predicted" || scan.state == "unconverged" ||
+         scan.state == "pending";
+}
+
+Eigen::Isometry3d
+relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
+{
+  pose.translation() -= offset;
+  return pose;
+}
+/** The paths with room around: where something is to be seen of each pose. */
+Eigen::AlignedBox2d
+areaAround(const Trajectory& trajectory)
+{
+  Eigen::AlignedBox2d box;
+  for (const auto& pose : trajectory.poses)
+    box.extend(Eigen::Vector2d(pose.translation().head<2>()));
+  if (box.isEmpty())
+    return {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, 1)};
+  const double room = 2 + 0.2 * box.diagonal().norm(); // [m]
+  return {box.min() - Eigen::Vector2d(room, room),
+          box.max() + Eigen::Vector2d(room, room)};
+}
+} // namespace
+
+TopViewOptions
+RunPictures::topOptions(const std::string& of, PointColour usual) const
+{
+  TopViewOptions options;
+  options.width = settings_.width.value_or(options.width);
+  options.height = settings_.height;
+  options.colour = settings_.colour.value_or(usual);
+  options.colour_map = settings_.colour_map;
+  options.background = settings_.background;
+  options.transparent = settings_.transparent;
+  options.title = title(of);
+  options.max_points = settings_.points;
+  return options;
+}
+
+MapViewOptions
+RunPictures::mapOptions(const std::string& of, PointColour usual) const
+{
+  MapViewOptions options;
+  options.width = settings_.width.value_or(options.width);
+  options.height = settings_.height;
+  options.colour = settings_.colour.value_or(usual);
+  options.colour_map = settings_.colour_map;
+  options.background = settings_.background;
+  options.transparent = settings_.transparent;
+  options.title = title(of);
+  options.max_points = settings_.points;
+  return options;
+}
+
+TopViewScene
+RunPictures::topScene(PointColour colour)
+{
+  TopViewScene scene;
+  static_cast<MapCloud&>(scene) = cloudFor(colour);
+  scene.trajectory = run_.trajectory();
+  scene.initial = run_.initialTrajectory();
+  return scene;
+}
+
+MapViewScene
+RunPictures::mapScene(PointColour colour)
+{
+  MapViewScene scene;
+  static_cast<MapCloud&>(scene) = cloudFor(colour);
+  scene.trajectory = run_.trajectory();
+  return scene;
+}
+
+Image
+RunPictures::drawTop()
+{
+  TopViewOptions options = topOptions("", PointColour::kHeight);
+  options.shading = 0.4;
+  return TopView(options).draw(topScene(options.colour)).image;
+}
+
+Camera
+RunPictures::chosenCamera(const MapView& view, const MapViewScene& scene) const
+{
+  if (settings_.azimuth.is_auto && settings_.elevation.is_auto)
+    return view.viewpoints(scene, settings_.viewpoint).back();
+  constexpr double kUsualElevation = 0.75; // [rad]
+  return view.cameraFrom(scene,
+                         settings_.azimuth.value,
+                         settings_.elevation.is_auto ? kUsualElevation
+                                                     : settings_.elevation.value);
+}
+
+Image
+RunPictures::drawPerspective()
+{
+  MapViewOptions options = mapOptions("", PointColour::kHeight);
+  options.final_label = "path of the scanner";
+  const MapViewScene scene = mapScene(options.colour);
+  const MapView view(options);
+  return view.draw(scene, chosenCamera(view, scene)).image;
+}
+
+/** The map with each scan where it was at first. */
+TopViewScene
+RunPictures::sceneBefore(const TopViewScene& after, PointColour colour)
+{
+  TopViewScene before = after;
+  before.trajectory = run_.initialTrajectory();
+  before.initial.poses.clear();
+  std::vector<Eigen::Isometry3d> motions;
+  for (std::size_t i = 0; i < before.trajectory.poses.size(); ++i)
+    motions.push_back(before.trajectory.poses[i] * after.trajectory.poses[i].inverse());
+  if (before.scans.size() != before.points.size())
+    throw IoFailed(
+        run_.path().string() + ": before-after needs the scan of each point" +
+        (colour == PointColour::kLabel ? ", which colour label has not" : ""));
+  for (std::size_t k = 0; k < before.points.size(); ++k) {
+    const auto& motion = motions[placeOf(static_cast<int>(before.scans[k]))];
+    before.points[k] = (motion * before.points[k].cast<double>()).cast<float>();
+  }
+  return before;
+}
+
+Image
+RunPictures::drawBeforeAfter()
+{
+  TopViewOptions options = topOptions("before", PointColour::kScan);
+  options.width = settings_.width.value_or(2000);
+  options.final_label = options.initial_label = ""; // the titles tell
+  TopViewScene after = topScene(options.colour);
+  after.initial.poses.clear();
+  const TopViewScene before = sceneBefore(after, options.colour);
+  return BeforeAfterView(options, "after").draw(before, after).image;
+}
+
+Image
+RunPictures::drawGraph()
+{
+  TopViewOptions options = topOptions("links of the scans", PointColour::kPlain);
+  TopViewScene scene = topScene(options.colour);
+  std::vector<ViewLink> links;
+  for (const RunLink& link : run_.readLinks())
+    links.push_back({placeOf(static_cast<int>(link.from)),
+                     placeOf(static_cast<int>(link.to)),
+                     stateOf(link),
+                     link.rms});
+  std::vector<bool> doubtful;
+  for (const auto& scan : run_.summary().scans)
+    doubtful.push_back(run_.hasSummary() && isDoubtful(scan));
+  options.area = areaAround(scene.trajectory);
+  scene.overlay = graphOverlay(scene.trajectory, links, doubtful, options.background);
+  scene.trajectory.poses.clear();
+  scene.initial.poses.clear();
+  return TopView(options).draw(scene).image;
+}
+
+Image
+RunPictures::drawCovariance()
+{
+  TopViewOptions options = topOptions("covariances", PointColour::kPlain);
+  TopViewScene scene = topScene(options.colour);
+  std::vector<std::optional<Eigen::Matrix3d>> covariances;
+  for (const auto& scan : run_.summary().scans) {
+    covariances.emplace_back();
+    if (scan.covariance)
+      covariances.back() = scan.covariance->topLeftCorner<3, 3>();
+  }
+  options.area = areaAround(scene.trajectory);
+  scene.overlay = covarianceOverlay(scene.trajectory, covariances, options.background);
+  scene.trajectory.poses.clear();
+  scene.initial.poses.clear();
+  return TopView(options).draw(scene).image;
+}
+
+Image
+RunPictures::drawSlice()
+{
+  TopViewOptions options = topOptions("slice", PointColour::kScan);
+  options.cut.slice = HeightSlice{std::nullopt, settings_.slice_thickness};
+  if (!settings_.slice_height.is_auto)
+    options.cut.slice->height =
+        settings_.slice_height.value - run_.summary().world_offset.z();
+  options.final_label = "path of the scanner";
+  TopViewScene scene = topScene(options.colour);
+  scene.initial.poses.clear();
+  return TopView(options).draw(scene).image;
+}
+
+Image
+RunPictures::drawPanorama()
+{
+  const auto& scans = run_.summary().scans;
+  if (scans.empty())
+    throw IoFailed(run_.path().string() + ": panorama needs the poses of the scans");
+  const std::size_t place =
+      settings_.scan ? placeOf(*settings_.scan) : scans.size() / 2;
+  const RunMap own = run_.readScanCloud(place);
+  const Eigen::Isometry3d pose = run_.trajectory().poses[place];
+  MapViewScene scene;
+  scene.points = transformed(own.points, pose);
+  scene.scans = own.scans;
+  scene.reflectances = own.intensities;
+  MapViewOptions options = mapOptions(
+      "panorama of scan " + std::to_string(scans[place].index),
+      own.intensities.empty() ? PointColour::kHeight : PointColour::kReflectance);
+  options.width = settings_.width.value_or(2000);
+  return MapView(options).drawPanorama(scene, pose).image;
+}
+
+/** The mesh of a class, if there is one in --models. */
+std::vector<TriangleMesh>
+RunPictures::modelOf(const std::string& object_class) const
+{
+  if (settings_.models.empty())
+    return {};
+  for (const char* const extension : {".ply", ".obj", ".stl"}) {
+    const auto file =
+        std::filesystem::path(settings_.models) / (object_class + extension);
+    if (std::filesystem::exists(file))
+      return {readMesh(file)};
+  }
+  return {};
+}
+
+Image
+RunPictures::drawObjects()
+{
+  std::vector<ObjectPose> objects = run_.readObjects();
+  for (auto& object : objects)
+    object.T_world_object =
+        relativeTo(run_.summary().world_offset, object.T_world_object);
+  const MapViewOptions options = mapOptions("objects", PointColour::kPlain);
+  MapViewScene scene = mapScene(options.colour);
+  scene.trajectory.poses.clear();
+  scene.overlay = objectOverlay(objects, options.background);
+  for (const auto& object : objects)
+    for (TriangleMesh& mesh : modelOf(object.object_class)) {
+      for (auto& vertex : mesh.vertices)
+        vertex = object.T_world_object * vertex;
+      const auto key = std::find_if(
+          scene.overlay.keys.begin(), scene.overlay.keys.end(), [&](const auto& entry) {
+            return entry.text == object.object_class;
+          });
+      scene.models.push_back({mesh, key->colour});
+    }
+  const MapView view(options);
+  return view.draw(scene, chosenCamera(view, scene)).image;
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/command_line.h"
+
+#include <pcl6d/visualization/map_cloud.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief What `picture` is asked for. */
+struct PictureSettings {
+  std::string run;                ///< folder of a run
+  std::string output;             ///< file or folder; empty: pictures/ in the run
+  std::vector<std::string> views; ///< names; empty: all that suit the run
+  std::optional<PointColour> colour;
+  std::optional<ColourMap> colour_map;
+  Background background = Background::kDark;
+  bool transparent = false;
+  std::optional<int> width;  ///< [px]
+  std::optional<int> height; ///< [px]
+  std::size_t points = 4000000;
+  AutoDouble slice_height;      ///< [m] in the world
+  double slice_thickness = 0.3; ///< [m]
+  std::optional<int> scan;      ///< index NNN
+  std::size_t viewpoint = 1;
+  AutoDouble azimuth;   ///< [rad]
+  AutoDouble elevation; ///< [rad]
+  std::string models;   ///< folder of meshes; empty: none
+  std::string title;    ///< empty: says what the run is
+};
+
+/** \return false if there is nothing more to do
+ * \throws UsageError, boost::program_options::error the arguments break a rule */
+bool
+parsePictureSettings(const std::vector<std::string>& arguments,
+                     PictureSettings& settings);
+
+} // namespace pcl6d::app

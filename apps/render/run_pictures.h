@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "render/picture_settings.h"
+
+#include <pcl6d/io/run_folder.h>
+#include <pcl6d/visualization/map_view.h>
+#include <pcl6d/visualization/top_view.h>
+
+#include <map>
+#include <optional>
+
+namespace pcl6d::app {
+
+/** \brief Draws the views of one run. What they share is read once, when it is needed. */
+class RunPictures {
+public:
+  /** Both are referred to, not copied. */
+  RunPictures(const RunFolder& run, const PictureSettings& settings);
+
+  /** \return whether there is a view of that name */
+  static bool
+  isView(const std::string& name);
+  /** \return the names of all views with commas between */
+  static std::string
+  viewNames();
+  /** \return the names and what they show, a line each, for --help */
+  static std::string
+  viewTable();
+
+  /** \return the views that suit the run, in the order of the table */
+  std::vector<std::string>
+  suitableViews() const;
+
+  /** \return what the run lacks for a view, such as "planes.json"; empty if nothing */
+  std::string
+  lackedBy(const std::string& view) const;
+
+  /** \throws IoFailed, BadArgument it cannot be drawn */
+  Image
+  draw(const std::string& view);
+
+private:
+  struct View;
+  static const std::vector<View>&
+  views();
+  static const View&
+  viewOf(const std::string& name);
+
+  Image
+  drawTop();
+  Image
+  drawPerspective();
+  Image
+  drawBeforeAfter();
+  Image
+  drawGraph();
+  Image
+  drawCovariance();
+  Image
+  drawSlice();
+  Image
+  drawPanorama();
+  Image
+  drawPlanes();
+  Image
+  drawObjects();
+  Image
+  drawConvergence();
+
+  std::string
+  title(const std::string& of) const;
+  TopViewOptions
+  topOptions(const std::string& of, PointColour usual) const;
+  MapViewOptions
+  mapOptions(const std::string& of, PointColour usual) const;
+  MapCloud
+  cloudFor(PointColour colour);
+  const RunMap&
+  map();
+  MapCloud
+  labelledCloud() const;
+  TopViewScene
+  topScene(PointColour colour);
+  MapViewScene
+  mapScene(PointColour colour);
+  Camera
+  chosenCamera(const MapView& view, const MapViewScene& scene) const;
+  std::size_t
+  placeOf(int scan) const;
+  std::size_t
+  mostCorrected() const;
+  TopViewScene
+  sceneBefore(const TopViewScene& after, PointColour colour);
+  std::vector<TriangleMesh>
+  modelOf(const std::string& object_class) const;
+
+  const RunFolder& run_;
+  const PictureSettings& settings_;
+  std::optional<RunMap> map_;
+  std::map<int, std::size_t> places_; ///< of the scans, by index
+};
+
+} // namespace pcl6d::app

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/points.h>
+#include <pcl6d/visualization/map_cloud.h>
+#include <pcl6d/visualization/top_view_layout.h>
+
+#include <Eigen/Geometry>
+
+#include <string>
+#include <vector>
+
+namespace pcl6d {
+
+/** \brief One step of a scan on its way to its place. */
+struct ConvergenceStep {
+  std::string title;   ///< "odometry"
+  std::string caption; ///< "0.43 m, 2.1 deg off"; may be empty
+  Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
+  Points fixed; ///< what the other scans measured, at this step [m]
+};
+
+/** \brief What is to be seen. */
+struct ConvergenceStripScene {
+  std::string title;
+  Points scan; ///< in its own frame [m]
+  std::vector<ConvergenceStep> steps;
+};
+
+/** \brief Knobs of ConvergenceStrip. */
+struct ConvergenceStripOptions {
+  int width = 1600; ///< [px] of the picture; 400 to 8192
+  int columns = 0;  ///< panels in a row; 0: up to four
+  Background background = Background::kDark;
+  bool transparent = false; ///< in place of the background
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief Where things are on the picture. */
+struct ConvergenceStripLayout {
+  int width = 0;  ///< [px]
+  int height = 0; ///< [px]
+  int columns = 1;
+  double text_size = 15; ///< [px]
+  std::vector<PixelBox> panels;
+  Eigen::Vector2d centre{0, 0}; ///< [m] of the world in the middle of each panel
+  double metres_per_pixel = 1;  ///< the same in all panels
+
+  /** \return column and row of a place [m] on a panel */
+  Eigen::Vector2d
+  toPixel(std::size_t panel, const Eigen::Vector2d& world) const
+  {
+    const PixelBox& box = panels[panel];
+    const Eigen::Vector2d offset = (world - centre) / metres_per_pixel;
+    return {0.5 * (box.left + box.right) + offset.x(),
+            0.5 * (box.top + box.bottom) - offset.y()};
+  }
+};
+
+struct ConvergenceStripPicture {
+  Image image;
+  ConvergenceStripLayout layout;
+};
+
+/** \brief How a scan finds its place: one panel per step, from above, the scan in orange
+ * over what the others measured in grey. \ingroup visualization */
+class ConvergenceStrip {
+public:
+  /** \throws BadArgument an option breaks its rule */
+  explicit ConvergenceStrip(
+      const ConvergenceStripOptions& options = ConvergenceStripOptions());
+
+  /** \throws BadArgument no step, a scan without a finite point, or so many steps that the
+   * picture would be higher than 8192 px
+   * \throws IoFailed there is no display to draw on */
+  ConvergenceStripPicture
+  draw(const ConvergenceStripScene& scene) const;
+
+private:
+  ConvergenceStripOptions options_;
+};
+
+} // namespace pcl6d

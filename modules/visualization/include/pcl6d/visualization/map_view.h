@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/trajectory.h>
+#include <pcl6d/common/triangle_mesh.h>
+#include <pcl6d/visualization/camera.h>
+#include <pcl6d/visualization/height_cut.h>
+#include <pcl6d/visualization/map_cloud.h>
+#include <pcl6d/visualization/overlay.h>
+
+#include <optional>
+#include <string>
+
+namespace pcl6d {
+
+class PixelScene;
+struct ColourScale;
+
+/** \brief Knobs of MapView. */
+struct MapViewOptions {
+  int width = 1600;          ///< [px] 200 to 8192
+  std::optional<int> height; ///< [px] 200 to 8192; by default 9/16 of the width, of a
+                             ///< panorama as its elevations need
+  int margin = 24;           ///< [px] around everything; 0 to an eighth of the width
+  PointColour colour = PointColour::kHeight;
+  std::optional<ColourMap> colour_map; ///< by default one that suits the colour
+  Background background = Background::kDark;
+  bool transparent = false; ///< in place of the background
+  std::string title;        ///< top left; may be empty
+  std::string final_label = "after";
+  std::string initial_label = "before";
+  double shading = 1;               ///< eye-dome lighting: how dark edges are; 0 to 5
+  double point_size = 1;            ///< in mean distances of neighbours; > 0, up to 10
+  std::size_t max_points = 4000000; ///< more are thinned evenly, always the same; > 0
+  HeightCut cut;                    ///< by default leaves out a ceiling
+
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief What is to be seen. */
+struct MapViewScene : MapCloud {
+  /** \brief A model that is drawn into the map. */
+  struct Model {
+    TriangleMesh mesh; ///< in the world [m]
+    Colour colour{};
+  };
+
+  Trajectory trajectory; ///< final poses, or empty
+  Trajectory initial;    ///< poses before the run, or empty
+  Overlay overlay;       ///< drawn over points and poses
+  std::vector<Model> models;
+};
+
+/** \brief Where things are on the picture. */
+struct MapViewLayout {
+  int width = 0;  ///< [px]
+  int height = 0; ///< [px]
+  PixelBox map;   ///< between title and colour bar
+  double text_size = 12;
+  Camera camera;
+  double lowest_colour = 0;  ///< value at the lower end of the colours
+  double highest_colour = 0; ///< the same at the upper end
+  bool ceiling_hidden = false;
+  std::size_t points_drawn = 0; ///< after thinning
+};
+
+struct MapViewPicture {
+  Image image;
+  MapViewLayout layout;
+};
+
+/** \brief A map as a camera sees it, in perspective or as a panorama, with paths, overlay,
+ * legend and colour bar.
+ *
+ * Points are splats as large as their neighbours are far, so that surfaces close, with
+ * eye-dome lighting. In buildings the ceiling is cut away (see HeightCut), but not in a
+ * panorama. \code
+ * pcl6d::MapViewScene scene;
+ * scene.points = map_points;
+ * scene.trajectory = trajectory;
+ * const auto picture = pcl6d::MapView().draw(scene); // from where most is seen
+ * pcl6d::writePng("map.png", picture.image);
+ * \endcode
+ * \ingroup visualization */
+class MapView {
+public:
+  /** \throws BadArgument an option breaks its rule */
+  explicit MapView(const MapViewOptions& options = MapViewOptions());
+
+  /** \return the box of the picture that cameras should fill */
+  PixelBox
+  box() const;
+
+  /** \brief Draws what a camera sees; by default the first of goodViewpoints().
+   * \throws BadArgument no finite point, or as MapCloud::validate()
+   * \throws IoFailed there is no display to draw on */
+  MapViewPicture
+  draw(const MapViewScene& scene, const std::optional<Camera>& camera = {}) const;
+
+  /** \brief Draws all that lies around a scan, as seen from there.
+   * \param[in] scene the points of the scan, in the world \throws as draw() */
+  MapViewPicture
+  drawPanorama(const MapViewScene& scene, const Eigen::Isometry3d& T_world_scan) const;
+
+  /** \brief The cameras from which most of the scene is seen, best first.
+   * \param[in] count 1 to 4 \throws BadArgument no finite point */
+  std::vector<Camera>
+  viewpoints(const MapViewScene& scene, std::size_t count) const;
+
+  /** \brief A camera that shows the whole scene from a direction.
+   * \param[in] azimuth [rad] \param[in] elevation [rad] as cameraOn()
+   * \throws BadArgument no finite point */
+  Camera
+  cameraFrom(const MapViewScene& scene, double azimuth, double elevation) const;
+
+private:
+  ShownPoints
+  shownPointsOf(const MapViewScene& scene, Projection projection) const;
+  MapViewPicture
+  drawShown(const MapViewScene& scene,
+            const ShownPoints& shown,
+            MapViewLayout layout) const;
+  void
+  annotate(const MapViewScene& scene,
+           const ColourScale& scale,
+           const MapViewLayout& layout,
+           PixelScene& canvas) const;
+
+  MapViewOptions options_;
+};
+
+} // namespace pcl6d

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pixel_scene.h"
+#include "point_paint.h"
+#include "theme.h"
+
+#include <pcl6d/common/trajectory.h>
+#include <pcl6d/visualization/overlay.h>
+
+#include <functional>
+#include <optional>
+
+namespace pcl6d {
+
+/** \brief Everything on a picture of a map but its points: paths, overlay, title, legend,
+ * scale bar, and what the colours mean. */
+class Annotations {
+public:
+  /** \return where a place of the world is on the picture; nothing: it is not */
+  using Project = std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector3d&)>;
+
+  struct Frame {
+    int width = 0; ///< [px]
+    int height = 0;
+    double margin = 24;    ///< [px] around everything
+    double text_size = 18; ///< [px]
+  };
+
+  struct Paths {
+    const Trajectory& initial;
+    const Trajectory& final;
+    std::string initial_label = "before";
+    std::string final_label = "after";
+  };
+
+  /** The scene and the function are referred to, not copied. */
+  Annotations(PixelScene& scene,
+              const Frame& frame,
+              Background background,
+              const Project& project);
+
+  /** \brief The paths and a ring where they start. */
+  void
+  addPaths(const Paths& paths);
+  void
+  addOverlay(const Overlay& overlay);
+  void
+  addTitle(const std::string& title);
+  /** \brief Which path is which, and the keys of the overlay. */
+  void
+  addLegend(const Paths& paths, const Overlay& overlay);
+  void
+  addScaleBar(const Eigen::Vector2d& begin, const Eigen::Vector2d& end, double metres);
+  /** \brief The colour bar, or the names of the colours. */
+  void
+  addColours(const ColourScale& scale);
+
+private:
+  std::optional<Eigen::Vector2d>
+  pixelOf(const Eigen::Vector3d& place) const;
+  void
+  addPath(const Trajectory& trajectory, const Colour& colour, double layer);
+  void
+  addStartRing(const Eigen::Vector2d& place, const Colour& colour);
+  void
+  addLines(const std::vector<Overlay::Line>& lines);
+  void
+  addColourBar(const ColourScale& scale);
+  void
+  addColourNames(const ColourScale& scale);
+  /** \return where the next entry to the left ends */
+  double
+  addLegendText(double right, const std::string& label);
+  double
+  addLegendEntry(double right, const std::string& label, const Colour& colour);
+  std::vector<PixelScene::Polyline>
+  visibleParts(const std::vector<Eigen::Vector3d>& places) const;
+  PixelScene::Pen
+  text() const;
+  double
+  topRow() const;
+  double
+  bottomRow() const;
+  /** \return a length [px] that looks the same on pictures of any size */
+  double
+  scaled(double length) const;
+
+  PixelScene& scene_;
+  Frame frame_;
+  Theme theme_;
+  const Project& project_;
+};
+
+/** \return the size of text [px] on a picture of this width */
+double
+textSizeFor(int width);
+
+} // namespace pcl6d

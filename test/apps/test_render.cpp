@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// pcl_slam6d_render picture as a user runs it, on a small run that is made here.
+#include "support/run_program.h"
+
+#include <pcl6d/common/pose.h>
+#include <pcl6d/io/object_io.h>
+#include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/plane_io.h>
+#include <pcl6d/io/run_folder.h>
+#include <pcl6d/io/scan_fields.h>
+#include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/trajectory_io.h>
+
+#include <pcl/conversions.h>
+#include <pcl/point_types.h>
+
+#include <boost/process.hpp>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+namespace {
+namespace fs = std::filesystem;
+using pcl6d::test::Outcome;
+using pcl6d::test::TempFolder;
+using pcl6d::test::writeText;
+
+constexpr const char* kName = "pcl_slam6d_render";
+constexpr int kRunScans = 3;
+
+Outcome
+picture(const fs::path& run, std::vector<std::string> more)
+{
+  more.insert(more.begin(), {"picture", run.string()});
+  return pcl6d::test::runProgram(kName, more);
+}
+
+void
+expectError(const Outcome& outcome, int code, const std::vector<std::string>& words)
+{
+  pcl6d::test::expectError(outcome, kName, code, words);
+}
+
+/** The walls and the floor of a room of 6 m x 4 m, seen from its middle. */
+pcl::PCLPointCloud2
+roomCloud(const std::vector<double>& shift_x)
+{
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  std::vector<double> scans, intensities;
+  for (std::size_t scan = 0; scan < shift_x.size(); ++scan)
+    for (float a = -3; a <= 3; a += 0.1F)
+      for (float b = -2; b <= 2; b += 0.1F) {
+        const auto shift = static_cast<float>(shift_x[scan]);
+        cloud.push_back({a - shift, b, -1});
+        cloud.push_back({a - shift, 2, b / 2});
+        for (int i = 0; i < 2; ++i) {
+          scans.push_back(static_cast<double>(scan));
+          intensities.push_back(a + b + 5);
+        }
+      }
+  pcl::PCLPointCloud2 result;
+  pcl::toPCLPointCloud2(cloud, result);
+  pcl6d::addField(result, "scan", pcl::PCLPointField::UINT32, scans);
+  pcl6d::addField(result, "intensity", pcl::PCLPointField::FLOAT32, intensities);
+  return result;
+}
+
+/** A whole run: three scans 1 m apart, two planes, an object. */
+struct RoomRun : TempFolder {
+  RoomRun()
+  {
+    pcl6d::RunSummary summary;
+    summary.generator = "pcl_slam6d";
+    pcl6d::Trajectory trajectory;
+    std::vector<pcl6d::RunLink> links;
+    fs::create_directories(*this / "run/frames");
+    fs::create_directories(*this / "run/scans");
+    for (int i = 0; i < kRunScans; ++i) {
+      pcl6d::RunSummary::ScanEntry scan;
+      scan.file = pcl6d::scanName(i) + ".pcd";
+      scan.index = i;
+      scan.T_world_scan = pcl6d::planarPose(i - 1, 0, 0);
+      scan.initial_pose = pcl6d::planarPose(i - 1, 0.3 * i, 0.1 * i);
+      scan.state = i == 2 ? "predicted" : "matched";
+      scan.correction = 0.1 * i;
+      scan.covariance = 1e-4 * Eigen::Matrix<double, 6, 6>::Identity();
+      summary.scans.push_back(scan);
+      trajectory.poses.push_back(scan.T_world_scan);
+      pcl6d::writeFrames(*this / ("run/frames/" + pcl6d::scanName(i) + ".frames"),
+                         {{scan.initial_pose, pcl6d::FrameKind::kInvalid},
+                          {scan.T_world_scan, pcl6d::FrameKind::kIcp}});
+      pcl6d::writePcd(*this / ("run/scans/" + pcl6d::scanName(i) + ".pcd"),
+                      roomCloud({i - 1.0}));
+    }
+    links.push_back({0, 1, "sequence", "used", "", 1, 9, 0.02, 0.9, 0.5, 1});
+    links.push_back({1, 2, "sequence", "refused", "few pairs", 1, 2, 0.4, 0.1, 0.5, 0});
+    pcl6d::writeRunSummary(run() / "summary.json", summary);
+    pcl6d::writeTrajectoryKitti(run() / "trajectory.kitti", trajectory);
+    pcl6d::writeRunLinks(run() / "links.csv", links);
+    writeText(run() / "graph.g2o", "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n");
+    pcl6d::writePcd(run() / "map.pcd", roomCloud({0, 0, 0}));
+    writePlanesAndObjects();
+  }
+
+  void
+  writePlanesAndObjects() const
+  {
+    pcl6d::Plane floor;
+    floor.normal = -Eigen::Vector3d::UnitZ();
+    floor.offset = 1;
+    floor.label = "floor";
+    floor.area = 24;
+    floor.hull = {{-3, -2, -1}, {-3, 2, -1}, {3, 2, -1}, {3, -2, -1}};
+    pcl6d::writePlanes(run() / "planes.json", {floor});
+    pcl::PCLPointCloud2 cloud = roomCloud({0});
+    std::vector<double> ids;
+    for (std::size_t i = 0; i < cloud.width; ++i)
+      ids.push_back(i % 2 == 0 ? 1 : 0);
+    pcl6d::addField(cloud, "plane_id", pcl::PCLPointField::UINT32, ids);
+    pcl6d::writePcd(run() / "planes.pcd", cloud);
+    pcl6d::ObjectPose chair;
+    chair.object_class = "chair";
+    chair.T_world_object = pcl6d::planarPose(1, 0, 0.4);
+    chair.box = Eigen::AlignedBox3d(Eigen::Vector3d(-0.3, -0.3, -1),
+                                    Eigen::Vector3d(0.3, 0.3, 0));
+    pcl6d::writeObjects(run() / "objects.json", {chair});
+  }
+
+  fs::path
+  run() const
+  {
+    return *this / "run";
+  }
+  std::string
+  out(const std::string& name) const
+  {
+    return *this / name;
+  }
+};
+
+const RoomRun&
+room()
+{
+  static const RoomRun run;
+  return run;
+}
+
+/** \return width and height of a PNG file, from its header */
+std::pair<unsigned int, unsigned int>
+sizeOfPng(const fs::path& file)
+{
+  const std::string bytes = pcl6d::test::readText(file);
+  if (bytes.size() < 26 || bytes.compare(1, 3, "PNG") != 0)
+    return {0, 0};
+  const auto number = [&](std::size_t at) {
+    unsigned int value = 0;
+    for (std::size_t i = at; i < at + 4; ++i)
+      value = 256 * value + static_cast<unsigned char>(bytes[i]);
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+constexpr const char* kAllViews[] = {"top",
+                                     "perspective",
+                                     "before-after",
+                                     "graph",
+                                     "covariance",
+                                     "slice",
+                                     "panorama",
+                                     "convergence",
+                                     "planes",
+                                     "objects"};
+} // namespace
+
+TEST(RenderPicture, DrawsAllViewsOfARunByDefault)
+{
+  const Outcome outcome =
+      picture(room().run(), {"-o", room().out("all"), "--points", "20000"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  std::set<std::string> pictures; // all must differ
+  for (const std::string name : kAllViews) {
+    const fs::path file = fs::path(room().out("all")) / (name + ".png");
+    EXPECT_GE(sizeOfPng(file).first, 1600u) << file;
+    EXPECT_NE(outcome.out.find(file.string()), std::string::npos);
+    pictures.insert(pcl6d::test::readText(file));
+  }
+  EXPECT_EQ(pictures.size(), std::size(kAllViews));
+}
+
+TEST(RenderPicture, TakesEveryColourSizeAndBackground)
+{
+  std::set<std::string> pictures;
+  for (const std::string colour :
+       {"height", "scan", "reflectance", "residual", "label", "plain"}) {
+    const std::string file = room().out(colour + ".png");
+    const Outcome outcome = picture(
+        room().run(),
+        {"-o", file, "--view", "perspective", "--colour", colour, "--size", "320x240"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(sizeOfPng(file), std::pair(320u, 240u));
+    pictures.insert(pcl6d::test::readText(file));
+  }
+  EXPECT_EQ(pictures.size(), 6u);
+  const std::string file = room().out("clear.png");
+  EXPECT_EQ(picture(room().run(),
+                    {"-o",
+                     file,
+                     "--view",
+                     "top",
+                     "--transparent",
+                     "--colour-map",
+                     "magma",
+                     "--background",
+                     "light"})
+                .exit_code,
+            0);
+  EXPECT_EQ(pcl6d::test::readText(file)[25], 6) << "PNG with alpha";
+}
+
+TEST(RenderPicture, WritesIntoTheRunUnlessToldOtherwise)
+{
+  EXPECT_EQ(picture(room().run(), {"--view", "graph,covariance", "--size", "300x300"})
+                .exit_code,
+            0);
+  EXPECT_TRUE(fs::exists(room().run() / "pictures/graph.png"));
+  EXPECT_TRUE(fs::exists(room().run() / "pictures/covariance.png"));
+}
+
+TEST(RenderPicture, DrawsWhatIsThereAndSaysWhatIsMissing)
+{
+  const TempFolder folder;
+  fs::copy(room().run(), folder / "run", fs::copy_options::recursive);
+  for (const char* const name : {"summary.json", "map.pcd", "scans", "planes.json"})
+    fs::remove_all(folder / "run" / name);
+  const Outcome outcome = picture(folder / "run", {"-o", folder / "out"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("lacks summary.json, scans, map.pcd"), std::string::npos)
+      << outcome.err;
+  EXPECT_TRUE(fs::exists(folder / "out/top.png"));
+  EXPECT_TRUE(fs::exists(folder / "out/graph.png"));
+  EXPECT_FALSE(fs::exists(folder / "out/perspective.png"));
+  expectError(picture(folder / "run", {"-o", folder / "a.png", "--view", "planes"}),
+              1,
+              {"view planes", "planes.json is missing"});
+  EXPECT_FALSE(fs::exists(folder / "a.png"));
+}
+
+TEST(RenderPicture, JoinsTheScansWhereTheMapIsMissing)
+{
+  const TempFolder folder;
+  fs::copy(room().run(), folder / "run", fs::copy_options::recursive);
+  fs::remove(folder / "run/map.pcd");
+  const Outcome outcome =
+      picture(folder / "run",
+              {"-o", folder / "a.png", "--view", "perspective", "--colour", "scan"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(fs::exists(folder / "a.png"));
+}
+
+TEST(RenderPicture, RefusesABrokenOrEmptyRun)
+{
+  const TempFolder folder;
+  expectError(picture(folder / "gone", {}), 1, {"gone", "no such folder"});
+  expectError(picture(folder.path(), {}), 1, {"holds no run"});
+  fs::copy(room().run(), folder / "run", fs::copy_options::recursive);
+  const auto top = [&] {
+    return picture(folder / "run", {"-o", folder / "a.png", "--view", "perspective"});
+  };
+  writeText(folder / "run/map.pcd", "rubbish");
+  expectError(top(), 1, {"map.pcd"});
+  pcl::PCLPointCloud2 nothing = roomCloud({});
+  pcl6d::writePcd(folder / "run/map.pcd", nothing);
+  expectError(top(), 1, {"no points"});
+  std::string text = pcl6d::test::readText(folder / "run/summary.json");
+  const auto place = text.find("\"T_world_scan\": [");
+  text.replace(text.find("1.0", place), 3, "null");
+  writeText(folder / "run/summary.json", text);
+  expectError(top(), 1, {"summary.json", "null"});
+}
+
+TEST(RenderPicture, DrawsEvenASinglePoint)
+{
+  const TempFolder folder;
+  fs::copy(room().run(), folder / "run", fs::copy_options::recursive);
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  cloud.push_back({1, 1, 0});
+  pcl::PCLPointCloud2 one;
+  pcl::toPCLPointCloud2(cloud, one);
+  pcl6d::addField(one, "scan", pcl::PCLPointField::UINT32, {0});
+  pcl6d::writePcd(folder / "run/map.pcd", one);
+  const Outcome outcome =
+      picture(folder / "run", {"-o", folder / "out", "--view", "top,perspective"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+TEST(RenderPicture, RefusesAnOutputThatCannotBeWritten)
+{
+  const TempFolder folder;
+  writeText(folder / "file", "");
+  const auto to = [&](const std::string& output) {
+    return picture(room().run(),
+                   {"-o", output, "--view", "graph", "--size", "300x300"});
+  };
+  expectError(to(folder / "file/below"), 1, {"below"});
+  expectError(to(folder / "file/a.png"), 1, {"a.png"});
+  expectError(to(folder / "none/a.png"), 1, {"a.png"});
+}
+
+TEST(RenderPicture, RefusesWordsAndNumbersThatMakeNoSense)
+{
+  const auto refuses = [](const std::vector<std::string>& arguments,
+                          const std::vector<std::string>& words) {
+    expectError(picture(room().run(), arguments), 2, words);
+  };
+  refuses({"--view", "sideways"}, {"--view = sideways", "top, perspective"});
+  refuses({"--colour", "taste"}, {"--colour = taste", "height, scan"});
+  refuses({"--colour-map", "jet"}, {"--colour-map = jet", "viridis"});
+  refuses({"--background", "pink"}, {"--background = pink", "dark, light"});
+  for (const std::string size : {"0x0", "100x100000", "1920", "axb", "-5x300"})
+    refuses({"--size", size}, {"--size"});
+  refuses({"--points", "0"}, {"--points"});
+  refuses({"--thickness", "-1"}, {"--thickness"});
+  refuses({"--viewpoint", "9"}, {"--viewpoint = 9"});
+  refuses({"--elevation", "120"}, {"--elevation"});
+  refuses({"-o", "a.png"}, {"one file", "views"});
+  expectError(
+      picture(room().run(), {"--view", "panorama", "--scan", "77", "-o", "a.png"}),
+      1,
+      {"no scan 77"});
+  const auto job = [](const std::vector<std::string>& arguments) {
+    return pcl6d::test::runProgram(kName, arguments);
+  };
+  expectError(job({}), 2, {"the first argument"});
+  expectError(job({"paint"}), 2, {"'paint'", "picture"});
+  EXPECT_NE(job({"--help"}).out.find("picture"), std::string::npos);
+}
+
+TEST(RenderPicture, NeedsNoDisplayAndTellsWhenXvfbIsMissing)
+{
+  namespace bp = boost::process;
+  const TempFolder folder;
+  const auto start = [&](const std::string& name, bp::environment environment) {
+    return bp::child(PCL6D_BIN_DIR "/" + std::string(kName),
+                     bp::args({"picture",
+                               room().run().string(),
+                               "--view",
+                               "graph",
+                               "-o",
+                               (folder / (name + ".png")).string()}),
+                     environment,
+                     bp::std_out > bp::null,
+                     bp::std_err > (folder / (name + ".err")).string());
+  };
+  bp::environment nowhere = boost::this_process::environment();
+  nowhere["DISPLAY"] = ":9999";
+  bp::environment unset = boost::this_process::environment();
+  unset.erase("DISPLAY");
+  bp::child first = start("nowhere", nowhere),
+            second = start("unset", unset); // at once
+  first.wait();
+  second.wait();
+  EXPECT_EQ(first.exit_code(), 0);
+  EXPECT_EQ(second.exit_code(), 0);
+  EXPECT_EQ(pcl6d::test::readText(folder / "nowhere.png"),
+            pcl6d::test::readText(folder / "unset.png"));
+  bp::environment bare = boost::this_process::environment();
+  bare["PATH"] = folder.path().string();
+  bp::child third = start("bare", bare);
+  third.wait();
+  EXPECT_EQ(third.exit_code(), 1);
+  const std::string message = pcl6d::test::readText(folder / "bare.err");
+  EXPECT_NE(message.find("install the package xvfb"), std::string::npos) << message;
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+}

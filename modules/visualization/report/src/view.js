@@ -158,7 +158,7 @@ export class View {
       target.addScaledVector(new Vector3(...elements.slice(0, 3)), half * this.camera.aspect * (left + right) / 2)
         .addScaledVector(new Vector3(...elements.slice(4, 7)), half * (below + above) / 2);
       const fill = Math.max(right - left, above - below) / 2;
-      distance = Math.min(20 * radius, Math.max(0.5 * radius, distance * (0.4 + 0.6 * fill / 0.9)));
+      distance = Math.min(20 * radius, Math.max(0.5 * radius, distance * (0.4 + 0.6 * fill / 0.86)));
     }
     this.camera.position.copy(target).addScaledVector(towards, distance);
   }

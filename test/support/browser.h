@@ -71,10 +71,14 @@ selfTestOf(const std::filesystem::path& page, int width, int height)
   // As root there is no sandbox; without a graphics card WebGL is drawn by the processor.
   bp::system(bp::search_path("timeout"),
              "--kill-after=5",
-             "150",
+             "400",
              findBrowser(),
              "--headless=new",
              "--no-sandbox",
+             "--no-first-run",
+             "--disable-extensions",
+             "--disable-background-networking",
+             "--disable-dev-shm-usage", // small in containers
              "--use-angle=swiftshader",
              "--enable-unsafe-swiftshader",
              "--user-data-dir=" + (folder / "profile").string(),

@@ -231,6 +231,7 @@ RunPictures::drawPanorama()
       "panorama of scan " + std::to_string(scans[place].index),
       own.intensities.empty() ? PointColour::kHeight : PointColour::kReflectance);
   options.width = settings_.width.value_or(2000);
+  options.shading = 0.3; // near ground is seen under many angles
   return MapView(options).drawPanorama(scene, pose).image;
 }
 

@@ -22,6 +22,9 @@ constexpr Verb kVerbs[] = {
     {"picture",
      "views of the map, the poses and the links as PNG files",
      app::runPicture},
+    {"report",
+     "one page for a browser: verdict, map, plots, tables, pictures",
+     app::runReport},
 };
 
 void

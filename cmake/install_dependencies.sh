@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what the suite needs to build, test and run, on Debian and Ubuntu. Does nothing
 # where everything is there. On another system it lists the packages and exits with 1.
+# usage: cmake/install_dependencies.sh [--tests]
+#   --tests: also what only some tests need, which skip without it: a browser and npm
 set -euo pipefail
 
 # Per line: the Debian package, then a file or program that it gives. A package is only
@@ -25,6 +27,13 @@ needs=(
   "nlohmann-json3-dev /usr/include/nlohmann/json.hpp"
 )
 
+# What only tests need: the report is opened in a browser, and made again by npm.
+needs_of_tests=(
+  "chromium chromium"
+  "nodejs node"
+  "npm npm"
+)
+
 given() { # what: a program's name, or a file pattern with an absolute path
   case $1 in
     /*) compgen -G "$1" >/dev/null ;;
@@ -32,29 +41,46 @@ given() { # what: a program's name, or a file pattern with an absolute path
   esac
 }
 
-missing=()
-for need in "${needs[@]}"; do
-  read -r package what <<<"$need"
-  given "$what" || missing+=("$package")
-done
-if [ ${#missing[@]} -eq 0 ]; then
+# Prints the packages whose file or program is missing.
+missing_of() {
+  local need package what
+  for need in "$@"; do
+    read -r package what <<<"$need"
+    given "$what" || printf '%s ' "$package"
+  done
+}
+
+missing=$(missing_of "${needs[@]}")
+missing_of_tests=""
+if [ "${1:-}" = "--tests" ]; then
+  missing_of_tests=$(missing_of "${needs_of_tests[@]}")
+fi
+if [ -z "$missing$missing_of_tests" ]; then
   echo "dependencies: all there"
   exit 0
 fi
 
 if ! command -v apt-get >/dev/null; then
-  echo "error: no apt-get here. Please install, under your system's names: ${missing[*]}" >&2
+  echo "error: no apt-get here. Please install, under your system's names: $missing$missing_of_tests" >&2
   exit 1
 fi
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   if ! command -v sudo >/dev/null; then
-    echo "error: neither root nor sudo. Please install as root: ${missing[*]}" >&2
+    echo "error: neither root nor sudo. Please install as root: $missing$missing_of_tests" >&2
     exit 1
   fi
   as_root=(sudo)
 fi
-echo "dependencies: installing ${missing[*]}"
+install() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -q --no-install-recommends "$@"
+}
+echo "dependencies: installing $missing$missing_of_tests"
 "${as_root[@]}" apt-get update -q
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -y -q --no-install-recommends "${missing[@]}"
+# Package names hold no spaces.
+# shellcheck disable=SC2086
+[ -z "$missing" ] || install $missing
+for package in $missing_of_tests; do
+  install "$package" || echo "warning: no $package; tests that need it will be skipped" >&2
+done

@@ -10,7 +10,7 @@ if [ "${1:-}" = "--all" ]; then
 fi
 cd "$root"
 echo "== 1/3 dependencies"
-cmake/install_dependencies.sh
+cmake/install_dependencies.sh --tests
 echo "== 2/3 build"
 cmake --preset release
 cmake --build build/release

@@ -38,14 +38,24 @@ stepsOf(const std::vector<Frame>& frames)
   return steps;
 }
 
-/** \return the first steps, where most happens, and the last one */
+/** \return the steps that moved the scan, at most so many, and the last one */
 std::vector<HistoryStep>
-someOf(const std::vector<HistoryStep>& steps)
+someOf(const std::vector<HistoryStep>& steps, const std::vector<Frame>& frames)
 {
-  if (steps.size() <= kMostSteps)
-    return steps;
-  std::vector<HistoryStep> some(steps.begin(), steps.begin() + kMostSteps - 1);
-  some.push_back(steps.back());
+  constexpr double kStill = 5e-4; // [m], [rad]
+  std::vector<HistoryStep> some;
+  for (const auto& step : steps) {
+    if (!some.empty()) {
+      const auto moved = distanceBetween(frames[some.back().frame].T_world_scan,
+                                         frames[step.frame].T_world_scan);
+      const bool still = moved.translation < kStill && moved.rotation < kStill;
+      if (some.size() > 1 && still)
+        continue;
+      if (some.size() == kMostSteps)
+        some.pop_back();
+    }
+    some.push_back(step);
+  }
   return some;
 }
 
@@ -106,7 +116,7 @@ RunPictures::drawConvergence()
   scene.scan = run_.readScan(own);
   if (scene.scan.empty())
     throw IoFailed(run_.path().string() + ": the scan is missing in scans/");
-  for (const HistoryStep& step : someOf(stepsOf(history[own]))) {
+  for (const HistoryStep& step : someOf(stepsOf(history[own]), history[own])) {
     const Eigen::Isometry3d& pose = history[own][step.frame].T_world_scan;
     scene.steps.push_back({step.name,
                            distanceText(pose, last[own]),

@@ -178,8 +178,7 @@ RunPictures::drawGraph()
     doubtful.push_back(run_.hasSummary() && isDoubtful(scan));
   options.area = areaAround(scene.trajectory);
   scene.overlay = graphOverlay(scene.trajectory, links, doubtful, options.background);
-  scene.trajectory.poses.clear();
-  scene.initial.poses.clear();
+  options.draw_paths = false;
   return TopView(options).draw(scene).image;
 }
 
@@ -196,8 +195,7 @@ RunPictures::drawCovariance()
   }
   options.area = areaAround(scene.trajectory);
   scene.overlay = covarianceOverlay(scene.trajectory, covariances, options.background);
-  scene.trajectory.poses.clear();
-  scene.initial.poses.clear();
+  options.draw_paths = false;
   return TopView(options).draw(scene).image;
 }
 
@@ -233,6 +231,7 @@ RunPictures::drawPanorama()
       "panorama of scan " + std::to_string(scans[place].index),
       own.intensities.empty() ? PointColour::kHeight : PointColour::kReflectance);
   options.width = settings_.width.value_or(2000);
+  options.shading = 0.3; // near ground is seen under many angles
   return MapView(options).drawPanorama(scene, pose).image;
 }
 

@@ -18,4 +18,9 @@ runAnimation(const std::vector<std::string>& arguments);
 int
 runPicture(const std::vector<std::string>& arguments);
 
+/** \brief `report RUN`: a page that tells all of a run.
+ * \param[in] arguments after the verb \return the exit code */
+int
+runReport(const std::vector<std::string>& arguments);
+
 } // namespace pcl6d::app

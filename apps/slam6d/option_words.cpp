@@ -161,6 +161,9 @@ describeRun(CommandLine& line, Settings& s, OptionWords& raw)
       po::bool_switch(&s.planes),
       "find the planes of the map and say what they are: planes.json, planes.pcd, "
       "hulls.ply and a picture (more choice: pcl_slam6d_planes OUT_DIR)")(
+      "report",
+      po::bool_switch(&s.report),
+      "write report.html: verdict, map, plots and tables on one page for a browser")(
       "seed", valueOf(s.seed), "of random choices (those of --initial-guess features)")(
       "live-view",
       po::bool_switch(&s.live_view),

@@ -8,6 +8,7 @@
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/visualization/report.h>
 
 #include <algorithm>
 #include <charconv>
@@ -149,7 +150,22 @@ RunWriter::write(bool complete, const RunLog& log)
   summary_.trusted = summary_.complete && result_.trusted();
   summary_.verdict = verdictOf(result_, summary_);
   writeRunSummary(out_ / "summary.json", summary_);
+  if (settings_.report)
+    writeReportOf(out_ / "report.html");
   return summary_;
+}
+
+/** From the files that were written beside it. */
+void
+RunWriter::writeReportOf(const std::filesystem::path& path) const
+{
+  const std::string title =
+      std::filesystem::absolute(settings_.out / std::filesystem::path("."))
+          .lexically_normal()
+          .parent_path()
+          .filename()
+          .string();
+  writeReport(path, gatherReport(RunFolder(path.parent_path()), title));
 }
 
 Trajectory

@@ -73,6 +73,8 @@ private:
   void
   describe(bool complete, const RunLog& log);
   void
+  writeReportOf(const std::filesystem::path& path) const;
+  void
   warnOfOdometry();
   void
   writeGraph() const;

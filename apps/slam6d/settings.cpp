@@ -146,6 +146,7 @@ wordsOf(const CommandLine& line, const OptionWords& raw, const Settings& s)
           word(line, "min-overlap", s.slam.min_overlap),
           word(line, "max-correction", s.slam.max_correction),
           word(line, "planes", s.planes ? "yes" : "no"),
+          word(line, "report", s.report ? "yes" : "no"),
           word(line, "threads", raw.threads),
           word(line, "seed", s.seed)};
 }

@@ -27,6 +27,7 @@ struct Settings {
   MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
   bool planes = false; ///< find and label the planes of the map
   bool live_view = false; ///< show the map in a window while it grows
+  bool report = false; ///< write report.html
   bool force = false;
   bool quiet = false;
   bool verbose = false;

@@ -115,7 +115,8 @@ drawByVtk(const Points& points, const Camera& camera)
   window->AddRenderer(renderer);
   window->Render();
   vtkNew<vtkUnsignedCharArray> pixels;
-  window->GetPixelData(0, 0, kWidth - 1, kHeight - 1, 0, pixels);
+  vtkRenderWindow* const drawn = window; // whose overload takes an array
+  drawn->GetPixelData(0, 0, kWidth - 1, kHeight - 1, 0, pixels);
   return {pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues()};
 }
 

@@ -3,31 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
-#include <sstream>
 
 namespace pcl6d {
 
 namespace {
 using Align = PixelScene::Align;
-
-std::string
-number(double value, int decimals)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
-}
-
-int
-decimalsFor(const ColourScale& scale)
-{
-  const double span = scale.highest - scale.lowest;
-  if (scale.is_integer || span >= 10 || !(span > 0))
-    return 0;
-  return span >= 1 ? 1 : span >= 0.1 ? 2 : 3;
-}
 
 std::optional<Eigen::Vector3d>
 firstPlace(const Trajectory& trajectory)
@@ -56,6 +37,21 @@ std::optional<Eigen::Vector2d>
 Annotations::pixelOf(const Eigen::Vector3d& place) const
 {
   return place.allFinite() ? project_(place) : std::nullopt;
+}
+
+/** With a halo, so that it is read on points of every colour. */
+void
+Annotations::addText(const Eigen::Vector2d& place,
+                     const std::string& text,
+                     PixelScene::Align align,
+                     const PixelScene::Pen& pen)
+{
+  constexpr double kHalo = 1.3; // [px]
+  for (const double x : {-kHalo, kHalo})
+    for (const double y : {-kHalo, kHalo})
+      scene_.addText(
+          place + Eigen::Vector2d(x, y), text, align, {theme_.background, pen.size});
+  scene_.addText(place, text, align, pen);
 }
 
 /** A line that leaves the picture is cut where its corners are not to be seen. */
@@ -144,123 +140,60 @@ Annotations::addOverlay(const Overlay& overlay)
     const auto pixel = pixelOf(label.place);
     if (!pixel)
       continue;
-    const Eigen::Vector2d shadow(1.5, 1.5); // so that it is read on every colour
-    const double size = 0.9 * frame_.text_size;
-    scene_.addText(
-        *pixel + shadow, label.text, Align::kCentre, {theme_.background, size});
-    scene_.addText(*pixel, label.text, Align::kCentre, {label.colour, size});
+    addText(*pixel, label.text, Align::kCentre, {label.colour, 0.9 * frame_.text_size});
   }
 }
 
 void
 Annotations::addTitle(const std::string& title)
 {
-  if (!title.empty())
-    scene_.addText({frame_.margin, topRow()},
-                   title,
-                   Align::kLeft,
-                   {theme_.text, 1.15 * frame_.text_size});
+  if (title.empty())
+    return;
+  const double size = 1.15 * frame_.text_size;
+  addText({frame_.margin, topRow()}, title, Align::kLeft, {theme_.text, size});
+  title_end_ = frame_.margin + PixelScene::textWidth(title, size);
 }
 
-double
-Annotations::addLegendText(double right, const std::string& label)
+/** The next entry of the legend to the left; where the title is, a row further down.
+ * \return where its text begins */
+Eigen::Vector2d
+Annotations::addLegendText(const std::string& label, double room)
 {
-  scene_.addText({right, topRow()}, label, Align::kRight, text());
-  return right - PixelScene::textWidth(label, frame_.text_size) - scaled(10);
+  const double width = PixelScene::textWidth(label, frame_.text_size) + room;
+  if (legend_end_.x() - width < title_end_ + scaled(20))
+    legend_end_ = {frame_.width - frame_.margin,
+                   legend_end_.y() + 1.4 * frame_.text_size};
+  addText(legend_end_, label, Align::kRight, text());
+  const Eigen::Vector2d begin = legend_end_ - Eigen::Vector2d(width - room, 0);
+  legend_end_.x() -= width + scaled(26);
+  return begin;
 }
 
-double
-Annotations::addLegendEntry(double right,
-                            const std::string& label,
-                            const Colour& colour)
+void
+Annotations::addLegendEntry(const std::string& label, const Colour& colour)
 {
-  const Eigen::Vector2d end(addLegendText(right, label), topRow());
+  const Eigen::Vector2d end =
+      addLegendText(label, scaled(46)) - Eigen::Vector2d(scaled(10), 0);
   const Eigen::Vector2d begin = end - Eigen::Vector2d(scaled(36), 0);
-  scene_.addLine({begin, end}, {colour, scaled(3), 10});
-  return begin.x() - scaled(26);
+  scene_.addLine({begin, end}, {theme_.background, scaled(5), 29});
+  scene_.addLine({begin, end}, {colour, scaled(3), 30});
 }
 
 void
 Annotations::addLegend(const Paths& paths, const Overlay& overlay)
 {
-  double right = frame_.width - frame_.margin;
+  legend_end_ = {frame_.width - frame_.margin, topRow()};
   for (auto key = overlay.keys.rbegin(); key != overlay.keys.rend(); ++key)
-    right = addLegendEntry(right, key->text, key->colour);
+    addLegendEntry(key->text, key->colour);
   const bool has_final = !paths.final.poses.empty();
   const bool has_initial = !paths.initial.poses.empty();
   if (has_final && !paths.final_label.empty())
-    right = addLegendEntry(right, paths.final_label, theme_.final);
+    addLegendEntry(paths.final_label, theme_.final);
   if (has_initial && !paths.initial_label.empty())
-    right = addLegendEntry(right, paths.initial_label, theme_.initial);
+    addLegendEntry(paths.initial_label, theme_.initial);
   if (has_final || has_initial)
-    addStartRing({addLegendText(right, "start") - scaled(8), topRow()}, theme_.text);
-}
-
-void
-Annotations::addScaleBar(const Eigen::Vector2d& begin,
-                         const Eigen::Vector2d& end,
-                         double metres)
-{
-  const Eigen::Vector2d tick(0, 0.4 * frame_.text_size);
-  scene_.addLine({begin - tick, begin, end, end - tick}, {theme_.text, scaled(2), 10});
-  std::ostringstream label;
-  label << metres << " m";
-  scene_.addText({0.5 * (begin.x() + end.x()), begin.y() - 1.1 * frame_.text_size},
-                 label.str(),
-                 Align::kCentre,
-                 text());
-}
-
-void
-Annotations::addColours(const ColourScale& scale)
-{
-  if (!scale.keys.empty())
-    addColourNames(scale);
-  else if (!scale.title.empty())
-    addColourBar(scale);
-}
-
-void
-Annotations::addColourNames(const ColourScale& scale)
-{
-  double right = frame_.width - frame_.margin;
-  const double row = bottomRow() - 0.2 * frame_.text_size;
-  for (auto key = scale.keys.rbegin(); key != scale.keys.rend(); ++key) {
-    scene_.addText({right, row}, key->first, Align::kRight, text());
-    right -= PixelScene::textWidth(key->first, frame_.text_size) + scaled(16);
-    scene_.addDisc({right, row}, {key->second, scaled(14), 10});
-    right -= scaled(28);
-  }
-}
-
-void
-Annotations::addColourBar(const ColourScale& scale)
-{
-  const int decimals = decimalsFor(scale);
-  const std::string low = number(scale.lowest, decimals);
-  const std::string high = number(scale.highest, decimals);
-  const double gap = 0.5 * frame_.text_size;
-  const double row = bottomRow() - 0.2 * frame_.text_size;
-  const double half_height = 0.35 * frame_.text_size;
-  const double length = 0.16 * frame_.width;
-  const double right = frame_.width - frame_.margin - gap -
-                       PixelScene::textWidth(high, frame_.text_size);
-  const double left = right - length;
-
-  std::vector<Eigen::Vector3f> pixels;
-  std::vector<Colour> colours;
-  for (double column = left; column < right; ++column)
-    for (double y = row - half_height; y < row + half_height; ++y) {
-      pixels.push_back(Eigen::Vector3d(column, y, 1).cast<float>());
-      colours.push_back(scale.colourOf((column - left) / length));
-    }
-  scene_.addPoints(pixels, colours, 2);
-  scene_.addText({left - gap, row}, low, Align::kRight, text());
-  scene_.addText({right + gap, row}, high, Align::kLeft, text());
-  scene_.addText({0.5 * (left + right), row - 1.2 * frame_.text_size},
-                 scale.title,
-                 Align::kCentre,
-                 text());
+    addStartRing(addLegendText("start", scaled(30)) - Eigen::Vector2d(scaled(18), 0),
+                 theme_.text);
 }
 
 PixelScene::Pen

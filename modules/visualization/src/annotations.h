@@ -47,7 +47,7 @@ public:
   addOverlay(const Overlay& overlay);
   void
   addTitle(const std::string& title);
-  /** \brief Which path is which, and the keys of the overlay. */
+  /** \brief Which path is which, and the keys of the overlay; after the title. */
   void
   addLegend(const Paths& paths, const Overlay& overlay);
   void
@@ -69,11 +69,15 @@ private:
   addColourBar(const ColourScale& scale);
   void
   addColourNames(const ColourScale& scale);
-  /** \return where the next entry to the left ends */
-  double
-  addLegendText(double right, const std::string& label);
-  double
-  addLegendEntry(double right, const std::string& label, const Colour& colour);
+  void
+  addText(const Eigen::Vector2d& place,
+          const std::string& text,
+          PixelScene::Align align,
+          const PixelScene::Pen& pen);
+  Eigen::Vector2d
+  addLegendText(const std::string& label, double room);
+  void
+  addLegendEntry(const std::string& label, const Colour& colour);
   std::vector<PixelScene::Polyline>
   visibleParts(const std::vector<Eigen::Vector3d>& places) const;
   PixelScene::Pen
@@ -90,6 +94,8 @@ private:
   Frame frame_;
   Theme theme_;
   const Project& project_;
+  double title_end_ = 0;             ///< [px]
+  Eigen::Vector2d legend_end_{0, 0}; ///< [px] right end of the next entry
 };
 
 /** \return the size of text [px] on a picture of this width */

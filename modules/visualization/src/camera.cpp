@@ -68,7 +68,7 @@ standFor(const std::vector<float>& u, const std::vector<float>& w, double tangen
     high[i] = u[i] - t * w[i];
     low[i] = -u[i] - t * w[i];
   }
-  constexpr double kNearlyAll = 0.99;
+  constexpr double kNearlyAll = 0.997;
   const double a = quantile(std::move(high), kNearlyAll);
   const double b = quantile(std::move(low), kNearlyAll);
   return {-(a + b) / (2 * tangent), 0.5 * (a - b)};

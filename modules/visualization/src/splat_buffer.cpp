@@ -126,6 +126,8 @@ public:
   {
     const float depth = depthAt(column, row);
     const int near = reach_, diagonal = std::max(1, static_cast<int>(0.7F * reach_));
+    constexpr float kNoise = 0.006F; // of surfaces that are seen flat
+    const float beyond = depth - kNoise;
     float behind = 0;
     for (const auto& [dx, dy] : {std::pair{near, 0},
                                  {-near, 0},
@@ -135,7 +137,8 @@ public:
                                  {diagonal, -diagonal},
                                  {-diagonal, diagonal},
                                  {-diagonal, -diagonal}})
-      behind += std::max(0.0F, depth - depthAt(column + dx, row + dy)); // -inf: nothing
+      behind +=
+          std::max(0.0F, beyond - depthAt(column + dx, row + dy)); // -inf: nothing
     return std::max(0.25F, std::exp(-strength_ * behind / 8));
   }
 

@@ -29,6 +29,7 @@ struct TopViewOptions {
   std::string title;                    ///< top left; may be empty
   std::string final_label = "after";    ///< of the trajectory, in the legend
   std::string initial_label = "before"; ///< of the initial trajectory
+  bool draw_paths = true;               ///< false: they serve the cut alone
   std::optional<double> point_size;     ///< [px] > 0; by default closes the gaps
   std::size_t max_points = 4000000; ///< more are thinned evenly, always the same; > 0
   HeightCut cut;                    ///< by default leaves out a ceiling

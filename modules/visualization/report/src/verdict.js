@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a reader should know first, in plain words.
+import {counted, el, fixed, seconds, whole} from './dom.js';
+
+/** Without a summary there are poses and points, and no more. */
+const isUnknown = (run) => run.generator === '';
+
+function headline(run) {
+  if (isUnknown(run)) return ['bad', 'How good this map is, is not known.'];
+  if (!run.verdict.complete) return ['bad', 'This run was interrupted. Its map is not finished.'];
+  if (run.verdict.trusted) return ['good', 'This map can be trusted.'];
+  const floating = run.floating.length;
+  if (run.doubtful.length > 0)
+    return ['bad', `Do not trust ${run.doubtful.length === run.scans.length - 1 ? 'this map' :
+      counted(run.doubtful.length, 'scan') + ' of this map'}.`];
+  return ['bad', floating > 0 ? 'This map is in pieces that nothing joins.' : 'This map is not to be trusted.'];
+}
+
+function meaning(run) {
+  if (isUnknown(run)) return 'The run left no summary.json, which would tell.';
+  if (!run.verdict.complete)
+    return 'Scans that were reached have poses; the others are as the odometry put them.';
+  if (run.verdict.trusted)
+    return run.scans.length === 1 ? 'There is one scan, and nothing to match it with.' :
+      'Every scan was matched with enough overlap and small residuals, and is joined to the first one. ' +
+      'A scan matched to a wrong place that looks alike would not be noticed: have a look at the map.';
+  return 'The scans named below could not be matched well, or nothing joins them to the others. ' +
+    'The rest of the map may still be good.';
+}
+
+function fact(value, label) {
+  return el('div', {}, el('dd', {}, value), el('dt', {}, label));
+}
+
+function facts(run) {
+  const time = run.stages.reduce((sum, stage) => sum + stage.seconds, 0);
+  const memory = run.stages.reduce((most, stage) => Math.max(most, stage.peak_memory_mb), 0);
+  const points = run.scans.reduce((sum, scan) => sum + scan.points, 0);
+  return el('dl', {class: 'facts'},
+    fact(whole(run.scans.length), 'scans'),
+    fact(points >= 1e6 ? fixed(points / 1e6, 1) + ' M' : whole(points), 'points measured'),
+    fact(whole(run.map.total), 'points in the map'),
+    fact(fixed(run.length, 1) + ' m', 'travelled'),
+    fact(whole(run.links.length - run.refused.length), 'links used'),
+    fact(seconds(time), memory > 0 ? `with ${whole(memory)} MB` : 'of work'));
+}
+
+function scanNote(scan, choose) {
+  const words = {predicted: 'not matched: it stands where the odometry put it',
+                 unconverged: 'matching did not come to rest',
+                 pending: 'not reached'}[scan.state] ?? scan.state;
+  return el('li', {class: 'bad'},
+    el('button', {type: 'button', class: 'link', onclick: () => choose(scan)}, scan.file),
+    ` \u2013 ${words}${scan.reason ? ' (' + scan.reason + ')' : ''}`);
+}
+
+/** Reasons that differ by their numbers alone count as one. */
+function refusedNotes(run) {
+  const reasons = new Map();
+  for (const {reason} of run.refused) {
+    const kind = reason.replace(/\d+(\.\d+)?/g, '0');
+    reasons.set(kind, {reason, count: (reasons.get(kind)?.count ?? 0) + 1});
+  }
+  const sorted = [...reasons.values()].sort((a, b) => b.count - a.count).slice(0, 5);
+  return sorted.map(({reason, count}) => el('li', {},
+    `${counted(count, 'link')} refused${count > 1 ? ', such as' : ''}: ${reason || 'no reason given'}`));
+}
+
+function stageNotes(run) {
+  return run.graph_stages.filter((stage) => stage.undone).map((stage) =>
+    el('li', {}, `${stage.name} was not taken: ${stage.reason}`));
+}
+
+const kMostNotes = 10; // of one kind
+
+function atMost(items, noteOf) {
+  const notes = items.slice(0, kMostNotes).map(noteOf);
+  const more = items.length - notes.length;
+  if (more > 0) notes.push(el('li', {class: notes[0].className}, `and ${whole(more)} more`));
+  return notes;
+}
+
+/** All that is not as it should be. */
+function notes(run, choose) {
+  return [
+    ...atMost(run.doubtful, (scan) => scanNote(scan, choose)),
+    ...atMost(run.floating, (file) => el('li', {class: 'bad'}, `${file} \u2013 no link joins it to the first scan`)),
+    ...atMost(run.warnings, (text) => el('li', {class: 'warn'}, text)),
+    ...atMost(run.missing, (text) => el('li', {class: 'warn'}, text)),
+    ...refusedNotes(run),
+    ...stageNotes(run),
+  ];
+}
+
+/** The top of the page. */
+export function verdictSection(run, choose) {
+  const [tone, words] = headline(run);
+  const list = notes(run, choose);
+  const numbers = run.verdict.text.split('\n').filter((line) => line.startsWith('least overlap'));
+  return el('section', {id: 'verdict', class: 'verdict ' + tone},
+    el('h2', {}, words),
+    el('p', {}, meaning(run)),
+    list.length > 0 ? el('ul', {class: 'notes'}, list) : null,
+    numbers.length > 0 ? el('p', {class: 'numbers'}, 'Weakest matches: ' + numbers[0] + '.') : null,
+    facts(run));
+}

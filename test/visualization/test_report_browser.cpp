@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page in a browser, and the page as npm makes it.
+#include "report_run.h"
+#include "support/browser.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+
+namespace {
+namespace fs = std::filesystem;
+using pcl6d::ReportData;
+using pcl6d::test::expectPassed;
+using pcl6d::test::findBrowser;
+using pcl6d::test::isChecked;
+using pcl6d::test::makeReportData;
+using pcl6d::test::readText;
+using pcl6d::test::selfTestOf;
+using pcl6d::test::TempFolder;
+
+class ReportInABrowser : public testing::Test {
+protected:
+  void
+  SetUp() override
+  {
+    if (findBrowser().empty())
+      GTEST_SKIP() << "no browser: apt-get install chromium";
+  }
+
+  nlohmann::json
+  open(const ReportData& data, int width, int height) const
+  {
+    pcl6d::writeReport(folder_ / "report.html", data);
+    return selfTestOf(folder_ / "report.html", width, height);
+  }
+
+private:
+  TempFolder folder_;
+};
+
+bool
+isThere(const std::string& program)
+{
+  return !boost::process::search_path(program).empty();
+}
+
+/** \return whether npm could not reach its registry */
+bool
+hasNoNetwork(const std::string& log)
+{
+  for (const char* const code : {"ENOTFOUND",
+                                 "EAI_AGAIN",
+                                 "ECONNREFUSED",
+                                 "ECONNRESET",
+                                 "ETIMEDOUT",
+                                 "ENETUNREACH",
+                                 "ERR_SOCKET_TIMEOUT"})
+    if (log.find(code) != std::string::npos)
+      return true;
+  return false;
+}
+} // namespace
+
+TEST_F(ReportInABrowser, WorksOnADesktop)
+{
+  const auto outcome = open(makeReportData(), 1280, 900);
+  expectPassed(outcome);
+  EXPECT_EQ(outcome["width"], 1280);
+  for (const char* const layer :
+       {"map", "trajectory", "initial", "links", "planes", "objects", "grid"})
+    EXPECT_TRUE(isChecked(outcome, "layer " + std::string(layer) + " can be switched"))
+        << layer;
+}
+
+TEST_F(ReportInABrowser, WorksOnAPhoneWithOddNames)
+{
+  ReportData data = makeReportData(300);
+  data.title = data.summary.scans[1].file = data.links[0].reason =
+      "</script><b onclick=\"x\">'&" + std::string(80, 'w');
+  data.summary.scans[4].T_world_scan.translation().setConstant(
+      std::numeric_limits<double>::quiet_NaN());
+  const auto outcome = open(data, 390, 844);
+  expectPassed(outcome);
+  EXPECT_EQ(outcome["width"], 390);
+}
+
+TEST_F(ReportInABrowser, ShowsARunWithoutMap)
+{
+  ReportData data = makeReportData();
+  data.map = {};
+  data.planes = {};
+  data.objects = {};
+  data.missing = {"missing: map.pcd (the run was interrupted)"};
+  const auto outcome = open(data, 800, 600);
+  expectPassed(outcome);
+  EXPECT_FALSE(isChecked(outcome, "layer map can be switched"));
+}
+
+TEST(ReportPage, IsWhatNpmMakesOfItsSources)
+{
+  for (const char* const program : {"node", "npm"})
+    if (!isThere(program))
+      GTEST_SKIP() << "no " << program << ": apt-get install nodejs npm";
+  const fs::path source = fs::path(PCL6D_SOURCE_DIR) / "modules/visualization/report";
+  const TempFolder folder;
+  for (const char* const file : {"package.json", "package-lock.json", "build.js"})
+    fs::copy(source / file, folder / file);
+  fs::copy(source / "src", folder / "src", fs::copy_options::recursive);
+  const std::string command = "cd '" + folder.path().string() +
+                              "' && npm ci --no-audit --no-fund > log 2>&1 && npm run "
+                              "build >> log 2>&1";
+  const int code = std::system(command.c_str());
+  const std::string log = readText(folder / "log");
+  if (code != 0 && hasNoNetwork(log))
+    GTEST_SKIP() << "npm does not reach its registry";
+  ASSERT_EQ(code, 0) << log;
+  EXPECT_TRUE(readText(folder / "report_page.html") ==
+              readText(source / "report_page.html"))
+      << "run `npm ci && npm run build` in " << source;
+}

@@ -257,9 +257,9 @@ RunPictures::drawObjects()
   for (auto& object : objects)
     object.T_world_object =
         relativeTo(run_.summary().world_offset, object.T_world_object);
-  const MapViewOptions options = mapOptions("objects", PointColour::kPlain);
+  MapViewOptions options = mapOptions("objects", PointColour::kPlain);
+  options.draw_paths = false;
   MapViewScene scene = mapScene(options.colour);
-  scene.trajectory.poses.clear();
   scene.overlay = objectOverlay(objects, options.background);
   for (const auto& object : objects)
     for (TriangleMesh& mesh : modelOf(object.object_class)) {

@@ -165,8 +165,11 @@ MapView::annotate(const MapViewScene& scene,
                                     layout.height,
                                     static_cast<double>(options_.margin),
                                     layout.text_size};
-  const Annotations::Paths paths = {
-      scene.initial, scene.trajectory, options_.initial_label, options_.final_label};
+  static const Trajectory kNone;
+  const Annotations::Paths paths = {options_.draw_paths ? scene.initial : kNone,
+                                    options_.draw_paths ? scene.trajectory : kNone,
+                                    options_.initial_label,
+                                    options_.final_label};
   Annotations annotations(canvas, frame, options_.background, project);
   annotations.addPaths(paths);
   annotations.addOverlay(scene.overlay);

@@ -32,6 +32,7 @@ struct MapViewOptions {
   std::string title;        ///< top left; may be empty
   std::string final_label = "after";
   std::string initial_label = "before";
+  bool draw_paths = true;           ///< false: they serve the cut alone
   double shading = 1;               ///< eye-dome lighting: how dark edges are; 0 to 5
   double point_size = 1;            ///< in mean distances of neighbours; > 0, up to 10
   std::size_t max_points = 4000000; ///< more are thinned evenly, always the same; > 0

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many objects the detectors of a model store find and how often they err, in
 // simulated flats in which all its models stand about (object_rooms.h). Usage:
-// measure_detection STORE [first seed] [last seed] [scans of each]. Prints the table of
+// measure_detection STORE [first seed] [last seed] [scans of each]
+// [min_neighbours]. Prints the table of
 // share/doc/objects.md.
 #include "object_rooms.h"
 
@@ -64,14 +65,15 @@ struct Tally {
   }
 };
 
-/** All detectors of one class: those of one channel alone are parts of OR. */
+/** All detectors of one class. What range sees is part of OR, and AND is. */
 struct ClassTally {
   using Source = DetectionSource;
   std::size_t model;
-  ObjectDetector detector;
+  ObjectDetector either;
+  ObjectDetector reflectance;
+  Tally by_reflectance = {"reflectance", {Source::kReflectance}};
   std::vector<Tally> tallies = {
       {"range", {Source::kRange, Source::kBoth}},
-      {"reflectance", {Source::kReflectance, Source::kBoth}},
       {"and", {Source::kBoth}},
       {"or", {Source::kRange, Source::kReflectance, Source::kBoth}}};
   double seconds = 0;
@@ -81,41 +83,51 @@ struct ClassTally {
   add(const test::ObjectRoom& room, const ObjectModel& shape)
   {
     const auto start = std::chrono::steady_clock::now();
-    const auto detected = detector.detect(room.points, room.reflectance);
+    const auto detected = either.detect(room.points, room.reflectance);
     seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++scans;
     for (auto& tally : tallies)
-      tally.add(room, detected, detector.views(), model, shape);
+      tally.add(room, detected, either.views(), model, shape);
+    by_reflectance.add(room,
+                       reflectance.detect(room.points, room.reflectance),
+                       reflectance.views(),
+                       model,
+                       shape);
   }
 
   void
   print(const std::string& object_class) const
   {
-    for (const auto& t : tallies)
-      std::printf("| %s | %s | %d | %d | %.3f | %.2f | %.3f |\n",
+    for (const Tally* const t :
+         {&tallies[0], &by_reflectance, &tallies[1], &tallies[2]})
+      std::printf("| %s | %s | %d | %d | %.3f | %.2f |\n",
                   object_class.c_str(),
-                  t.name.c_str(),
-                  t.found,
-                  t.objects,
-                  t.objects == 0 ? 0.0 : double(t.found) / t.objects,
-                  double(t.alarms) / scans,
-                  seconds / scans);
+                  t->name.c_str(),
+                  t->found,
+                  t->objects,
+                  t->objects == 0 ? 0.0 : double(t->found) / t->objects,
+                  double(t->alarms) / scans);
+    std::fprintf(
+        stderr, "%s: %.3f s per scan\n", object_class.c_str(), seconds / scans);
   }
 };
 
 std::vector<ClassTally>
-talliesOf(const std::vector<StoredModel>& models)
+talliesOf(const std::vector<StoredModel>& models, int min_neighbours)
 {
   DetectorOptions either;
+  either.min_neighbours = min_neighbours;
   either.rule = DetectionRule::kOr;
   std::vector<ClassTally> tallies;
   for (std::size_t m = 0; m < models.size(); ++m)
-    if (models[m].range_cascade && models[m].reflectance_cascade)
+    if (models[m].range_cascade && models[m].reflectance_cascade) {
+      const HaarCascade range = readCascade(*models[m].range_cascade);
+      const HaarCascade reflectance = readCascade(*models[m].reflectance_cascade);
       tallies.push_back({m,
-                         ObjectDetector(readCascade(*models[m].range_cascade),
-                                        either,
-                                        readCascade(*models[m].reflectance_cascade))});
+                         ObjectDetector(range, either, reflectance),
+                         ObjectDetector(reflectance, either)});
+    }
   return tallies;
 }
 
@@ -130,11 +142,16 @@ int
 main(int argc, char** argv)
 try {
   if (argc < 2)
-    return std::puts("usage: measure_detection STORE [FIRST] [LAST] [SCANS]"), 2;
+    return std::puts(
+               "usage: measure_detection STORE [FIRST] [LAST] [SCANS] [NEIGHBOURS]"),
+           2;
   std::vector<StoredModel> models;
   for (const auto& folder : listModels(argv[1]))
     models.push_back(readStoredModel(folder));
-  std::vector<ClassTally> tallies = talliesOf(models);
+  std::vector<ClassTally> tallies =
+      talliesOf(models,
+                static_cast<int>(number(
+                    argc, argv, 5, std::uint64_t(DetectorOptions().min_neighbours))));
   test::ObjectRoomOptions options;
   options.scans = static_cast<int>(number(argc, argv, 4, 5));
   const std::uint64_t last = number(argc, argv, 3, 30);
@@ -142,8 +159,8 @@ try {
     for (const auto& room : test::objectRooms(models, seed, options))
       for (auto& tally : tallies)
         tally.add(room, models[tally.model].model);
-  std::puts("| class | detector | found | of | recall | false boxes per scan | seconds "
-            "per scan, both |\n|---|---|---|---|---|---|---|");
+  std::puts("| class | detector | found | of | recall | false boxes per scan |\n"
+            "|---|---|---|---|---|---|");
   for (const auto& tally : tallies)
     tally.print(models[tally.model].model.objectClass());
   return 0;

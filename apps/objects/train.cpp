@@ -9,6 +9,7 @@
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/object_localization/cascade_file.h>
+#include <pcl6d/object_localization/model_store.h>
 
 #include <chrono>
 #include <cstdio>
@@ -20,32 +21,15 @@ namespace fs = std::filesystem;
 
 struct Interrupted {};
 
-/** A mesh as it is; a cloud as small squares. */
+/** A folder of the store, or a file. */
 TriangleMesh
-readModel(const std::string& file, const MeshOptions& options)
+readModel(const std::string& path, const MeshOptions& units)
 {
-  try {
-    TriangleMesh mesh;
-    const bool may_be_cloud = scanFormatOfExtension(file) != ScanFormat::kAuto;
-    if (!may_be_cloud)
-      mesh = readMesh(file, options);
-    else if (const Scan scan = readScan(file); !scan.left_out.empty()) // it has faces
-      mesh = readMesh(file, options);
-    else {
-      Points points;
-      for (const auto& p : scan.points) {
-        const Eigen::Vector3f scaled = p * static_cast<float>(options.scale);
-        points.emplace_back(options.up == UpAxis::kZ
-                                ? scaled
-                                : Eigen::Vector3f(scaled.x(), -scaled.z(), scaled.y()));
-      }
-      mesh = meshOfPoints(ObjectModel::fromCloud(fs::path(file).stem(), points));
-    }
-    windowShapeOf({mesh}); // its size
-    return mesh;
-  } catch (const BadArgument& e) {
-    throw BadArgument(file + ": " + e.what());
-  }
+  TriangleMesh mesh = fs::is_directory(path)
+                          ? readStoredModel(path).mesh
+                          : readModelFile(path, {units, "model"}).mesh;
+  windowShapeOf({mesh}); // its size
+  return mesh;
 }
 
 BackgroundScan
@@ -130,6 +114,8 @@ train(TrainSettings& s, const ProgressCallback& progress, ProgressBar& bar)
   const WindowShape window = windowShapeOf(models);
   s.training.width = window.width;
   s.training.height = window.height;
+  if (s.views.pixel == 0)
+    s.views.pixel = window.pixelFor(s.images.max_distance);
   const DetectionViews views(s.views);
   const auto scans = readBackgrounds(s, bar);
   const TrainingImages images =
@@ -143,7 +129,8 @@ train(TrainSettings& s, const ProgressCallback& progress, ProgressBar& bar)
       s.training,
       [&](const StageReport& stage) { printStage(++number, stage); },
       progress);
-  training.cascade.subject = CascadeSubject{s.images.channel, window.object_size};
+  training.cascade.subject = CascadeSubject{
+      s.images.channel, window.object_size, s.views.pixel, s.views.slice_depth};
   return finish(
       s, training, std::chrono::duration<double>(Clock::now() - start).count());
 }

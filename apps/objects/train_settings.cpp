@@ -19,7 +19,7 @@ struct Words {
   std::string channel = "range";
   std::string features = "all";
   AutoDouble resolution; // [deg]
-  double pixel = 0;      // [deg]
+  AutoDouble pixel;      // [deg]
 };
 
 std::string
@@ -28,7 +28,8 @@ usage()
   return std::string("usage: ") + kObjects +
          " train MODEL... --background SCANS -o CASCADE.xml [options]\n"
          "Trains a detector for one class of objects. The models (meshes .ply, .obj, "
-         ".stl, or\nclouds) stand upright in free places of the background scans, "
+         ".stl,\nclouds, or folders of a model store) stand upright in free places of "
+         "the background scans, "
          "which "
          "must not hold\nthe object, and are measured there by a simulated scanner. "
          "CASCADE.xml is read by\nthe job locate and by OpenCV 4 "
@@ -71,8 +72,12 @@ describePictures(TrainSettings& s, Words& words, CommandLine& line)
        "[deg] between its samples; auto: its own") //
       ("channel",
        valueOf(words.channel),
-       "what the detector looks at: range or reflectance")                           //
-      ("pixel", valueOf(words.pixel), "[deg] of the pictures")                       //
+       "what the detector looks at: range or reflectance") //
+      ("pixel",
+       valueOf(words.pixel),
+       "[deg] of the pictures; auto: at most 0.5, so that the window holds the object "
+       "up "
+       "to --max-distance")                                                          //
       ("slice-depth", valueOf(s.views.slice_depth), "[m] of a picture of ranges")    //
       ("max-range", valueOf(s.views.max_range), "[m] of the scans")                  //
       ("positives", valueOf(i.positives)->value_name("N"), "pictures of the object") //
@@ -105,7 +110,10 @@ describeTraining(TrainSettings& s, Words& words, CommandLine& line)
       ("features", valueOf(words.features), "upright, or all: tilted ones too") //
       ("features-per-stage",
        valueOf(t.features_per_stage),
-       "drawn from them for each stage")                   //
+       "drawn from them for each stage") //
+      ("features-per-tree",
+       valueOf(t.features_per_tree),
+       "drawn from those for each tree")                   //
       ("seed", valueOf(t.seed), "same seed, same cascade") //
       ("threads",
        valueOf(t.num_threads)->value_name("N"),
@@ -132,10 +140,14 @@ apply(const Words& words, TrainSettings& s)
     resolution = words.resolution.value * M_PI / 180;
   s.scanner = scannerByName(words.scanner, resolution);
   s.training.features = haarFeatureSetFromName(words.features);
-  s.views.pixel = words.pixel * M_PI / 180;
+  s.views.pixel = DetectionViewOptions().pixel;
+  if (!words.pixel.is_auto)
+    s.views.pixel = words.pixel.value * M_PI / 180;
   s.views.num_threads = s.training.num_threads;
   s.images.seed = s.training.seed;
   s.views.validate();
+  if (words.pixel.is_auto)
+    s.views.pixel = 0; // the models tell
   s.images.validate();
   s.training.validate();
 }
@@ -146,7 +158,6 @@ parseTrain(const std::vector<std::string>& arguments, TrainSettings& s)
 {
   CommandLine line(usage());
   Words words;
-  words.pixel = std::round(s.views.pixel * 180 / M_PI * 1000) / 1000;
   line.positionals("MODEL", &s.models);
   describeFiles(s, words, line);
   describePictures(s, words, line);

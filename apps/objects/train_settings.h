@@ -18,7 +18,7 @@ struct TrainSettings {
   int every = 1;     ///< of the scans of a folder
   MeshOptions mesh;
   ScannerPreset scanner;
-  DetectionViewOptions views;
+  DetectionViewOptions views; ///< pixel 0: as suits the models
   TrainingImageOptions images;
   CascadeTrainingOptions training;
   bool quiet = false;

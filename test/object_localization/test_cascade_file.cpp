@@ -14,7 +14,7 @@ struct CascadeFile : testing::Test {
   CascadeFile() : file(folder / "cascade.xml")
   {
     cascade = test::randomCascade(20, 30, HaarFeatureSet::kAll, 2, 3);
-    cascade.subject = CascadeSubject{ImageChannel::kReflectance, 1.2};
+    cascade.subject = CascadeSubject{ImageChannel::kReflectance, 1.2, 0.00512, 2};
     writeCascade(file, cascade);
     text = test::readText(file);
   }
@@ -47,6 +47,8 @@ TEST_F(CascadeFile, KeepsEveryBit)
   ASSERT_TRUE(read.subject);
   EXPECT_EQ(read.subject->channel, ImageChannel::kReflectance);
   EXPECT_EQ(read.subject->object_size, 1.2);
+  EXPECT_EQ(read.subject->pixel, 0.00512);
+  EXPECT_EQ(read.subject->slice_depth, 2);
   const std::string again = folder / "again.xml";
   writeCascade(again, read);
   EXPECT_EQ(test::readText(again), text);

@@ -66,7 +66,8 @@ struct Training : testing::Test {
     }
   }
   test::TempFolder folder;
-  std::vector<GrayImage> positives, backgrounds;
+  std::vector<GrayImage> positives;
+  std::vector<BackgroundImage> backgrounds;
   CascadeTrainingOptions options;
 };
 } // namespace
@@ -143,7 +144,8 @@ TEST_F(Training, GoesOnWhereItWasInterrupted)
 
 TEST_F(Training, EndsWhenNoNegativesAreLeft)
 {
-  for (auto& image : backgrounds) // bright, flat, with one edge: nothing like it
+  for (auto& [image, gate] :
+       backgrounds) // bright, flat, with one edge: nothing like it
     for (int y = 0; y < image.rows; ++y)
       for (int x = 0; x < image.cols; ++x)
         image.at(y, x) = x < 60 ? 220 : 120;
@@ -157,7 +159,7 @@ TEST_F(Training, SaysWhenItCannotSeparate)
 {
   for (std::size_t i = 0; i < positives.size(); ++i) // the object is anything
     positives[i] =
-        cropped(backgrounds[i % 20], {static_cast<int>(i / 4), 7, kSize, kSize});
+        cropped(backgrounds[i % 20].image, {static_cast<int>(i / 4), 7, kSize, kSize});
   options.max_trees = 3;
   options.state = folder / "state";
   const CascadeTraining training = trainCascade(positives, backgrounds, options);

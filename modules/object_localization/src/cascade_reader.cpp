@@ -108,6 +108,8 @@ subjectOf(const pt::ptree& xml)
   subject.channel =
       channel == "range" ? ImageChannel::kRange : ImageChannel::kReflectance;
   subject.object_size = numberOf(xml, "objectSize");
+  subject.pixel = numberOf(xml, "pixel");
+  subject.slice_depth = numberOf(xml, "sliceDepth");
   return subject;
 }
 

@@ -19,20 +19,10 @@ constexpr std::size_t kFewestNegatives = 10; // fewer tell nothing
 std::vector<HaarFeature>
 drawFeatures(const std::vector<HaarFeature>& all, std::size_t count, std::uint64_t seed)
 {
-  if (count >= all.size())
-    return all;
-  std::vector<std::pair<std::uint64_t, std::size_t>> keys(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i)
-    keys[i] = {mixBits(seed ^ mixBits(i)), i};
-  const auto end = keys.begin() + static_cast<std::ptrdiff_t>(count);
-  std::nth_element(keys.begin(), end, keys.end());
-  std::sort(keys.begin(), end, [](const auto& a, const auto& b) {
-    return a.second < b.second;
-  });
-  std::vector<HaarFeature> drawn;
-  for (auto key = keys.begin(); key != end; ++key)
-    drawn.push_back(all[key->second]);
-  return drawn;
+  std::vector<HaarFeature> some;
+  for (const std::size_t place : drawn(all.size(), count, seed))
+    some.push_back(all[place]);
+  return some;
 }
 
 /** \return those windows that pass all stages there are */
@@ -64,11 +54,11 @@ checkPositives(const std::vector<GrayImage>& positives,
 class Trainer {
 public:
   Trainer(const std::vector<GrayImage>& positives,
-          const std::vector<GrayImage>& backgrounds,
+          const std::vector<BackgroundImage>& backgrounds,
           const CascadeTrainingOptions& options,
           const ProgressCallback& progress)
   : positives_(positives)
-  , backgrounds_(backgrounds)
+  , finder_(backgrounds, options.scale_factor, options.num_threads)
   , options_(options)
   , progress_(progress)
   , features_(haarFeatures(options.width, options.height, options.features))
@@ -86,10 +76,8 @@ public:
             positives.size(),
             ">= " + std::to_string(kFewestPositives));
     tell("negatives", index);
-    const NegativeWindows negatives = findNegatives(
-        training.cascade,
-        backgrounds_,
-        {wanted(positives.size()), options_.scale_factor, seed, options_.num_threads});
+    const NegativeWindows negatives =
+        finder_.find(training.cascade, wanted(positives.size()), seed);
     if (index == 0 && negatives.windows.size() < kFewestNegatives)
       throw BadArgument("the backgrounds have " +
                         std::to_string(negatives.windows.size()) +
@@ -107,7 +95,8 @@ public:
         trainStage(positives,
                    negatives.windows,
                    drawFeatures(features_, options_.features_per_stage, mixBits(seed)),
-                   options_);
+                   options_,
+                   mixBits(~seed));
     trained.report.background = background;
     if (!trained.reached)
       training.end = TrainingEnd::kCannotSeparate;
@@ -136,7 +125,7 @@ private:
   }
 
   const std::vector<GrayImage>& positives_;
-  const std::vector<GrayImage>& backgrounds_;
+  NegativeFinder finder_;
   const CascadeTrainingOptions& options_;
   const ProgressCallback& progress_;
   std::vector<HaarFeature> features_;
@@ -149,6 +138,7 @@ CascadeTrainingOptions::validate() const
   require(width >= 4 && width <= 128, "width", width, "in [4, 128]");
   require(height >= 4 && height <= 128, "height", height, "in [4, 128]");
   require(features_per_stage > 0, "features_per_stage", features_per_stage, "> 0");
+  require(features_per_tree > 0, "features_per_tree", features_per_tree, "> 0");
   require(stages > 0, "stages", stages, "> 0");
   require(splits >= 1 && splits <= 16, "splits", splits, "in [1, 16]");
   require(max_trees > 0, "max_trees", max_trees, "> 0");
@@ -172,7 +162,7 @@ CascadeTrainingOptions::validate() const
 
 CascadeTraining
 trainCascade(const std::vector<GrayImage>& positives,
-             const std::vector<GrayImage>& backgrounds,
+             const std::vector<BackgroundImage>& backgrounds,
              const CascadeTrainingOptions& options,
              const std::function<void(const StageReport&)>& on_stage,
              const ProgressCallback& progress)

@@ -67,7 +67,9 @@ writeAll(std::ostream& out, const HaarCascade& cascade)
     out << "  <pcl6d>\n    <channel>"
         << (cascade.subject->channel == ImageChannel::kRange ? "range" : "reflectance")
         << "</channel>\n    <objectSize>" << cascade.subject->object_size
-        << "</objectSize></pcl6d>\n";
+        << "</objectSize>\n    <pixel>" << cascade.subject->pixel
+        << "</pixel>\n    <sliceDepth>" << cascade.subject->slice_depth
+        << "</sliceDepth></pcl6d>\n";
   out << "  <stageNum>" << cascade.stages.size() << "</stageNum>\n  <stages>\n";
   for (const auto& stage : cascade.stages)
     writeStage(out, stage);

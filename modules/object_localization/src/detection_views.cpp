@@ -57,7 +57,7 @@ DetectionViewOptions::validate() const
           max_range,
           "> min_range and finite");
   require(slice_depth >= 0.01, "slice_depth", slice_depth, ">= 0.01");
-  require(max_gap >= 1, "max_gap", max_gap, ">= 1");
+  require(max_gap > 0 && max_gap <= 1, "max_gap", max_gap, "in (0, 1] rad");
 }
 
 std::vector<DepthSlice>
@@ -95,7 +95,8 @@ DetectionViews::image(std::size_t view,
                           std::make_shared<PerspectiveProjection>(views_[view]),
                           ranges,
                           reflectance);
-  fillGaps(image, {options_.max_gap, kSameSurface});
+  const double gap = std::floor(options_.max_gap / options_.pixel + 0.5); // [px]
+  fillGaps(image, {std::max(1, static_cast<int>(gap)), kSameSurface});
   return image;
 }
 

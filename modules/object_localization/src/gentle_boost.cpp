@@ -31,14 +31,14 @@ GentleBoost::GentleBoost(const SortedFeatures& features,
 }
 
 void
-GentleBoost::searchSplit(Leaf& leaf) const
+GentleBoost::searchSplit(Leaf& leaf, const std::vector<std::size_t>& among) const
 {
   std::vector<SortedFeatures::Weighted> samples(labels_.size());
   for (const auto i : leaf.windows) {
     const auto weight = static_cast<float>(weights_[i]);
     samples[i] = {weight, weight * static_cast<float>(labels_[i])};
   }
-  leaf.split = features_.bestSplit(samples);
+  leaf.split = features_.bestSplit(samples, among);
 }
 
 void
@@ -62,12 +62,12 @@ GentleBoost::cut(const Leaf& leaf, HaarTree& tree, std::vector<Leaf>& leaves) co
 
 // The leaf whose split gains most is cut first.
 std::vector<GentleBoost::Leaf>
-GentleBoost::grow(HaarTree& tree) const
+GentleBoost::grow(HaarTree& tree, const std::vector<std::size_t>& among) const
 {
   std::vector<Leaf> leaves(1);
   for (std::uint32_t i = 0; i < labels_.size(); ++i)
     leaves[0].windows.push_back(i);
-  searchSplit(leaves[0]);
+  searchSplit(leaves[0], among);
   for (int n = 0; n < splits_; ++n) {
     const auto best = std::max_element(
         leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
@@ -80,7 +80,7 @@ GentleBoost::grow(HaarTree& tree) const
     cut(leaf, tree, leaves);
     if (n + 1 < splits_)
       for (auto made = leaves.end() - 2; made != leaves.end(); ++made)
-        searchSplit(*made);
+        searchSplit(*made, among);
   }
   return leaves;
 }
@@ -103,10 +103,10 @@ GentleBoost::reweigh(const std::vector<Leaf>& leaves, const HaarTree& tree)
 }
 
 bool
-GentleBoost::addTree()
+GentleBoost::addTree(const std::vector<std::size_t>& among)
 {
   HaarTree tree;
-  const std::vector<Leaf> leaves = grow(tree);
+  const std::vector<Leaf> leaves = grow(tree, among);
   if (tree.nodes.empty())
     return false;
   for (std::size_t l = 0; l < leaves.size(); ++l) {

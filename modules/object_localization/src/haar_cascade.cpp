@@ -59,11 +59,12 @@ HaarCascade::validate() const
     for (const auto& tree : stage.trees)
       validateTree(tree, features.size());
   }
-  if (subject)
-    require(subject->object_size > 0 && std::isfinite(subject->object_size),
-            "object_size",
-            subject->object_size,
-            "> 0");
+  if (!subject)
+    return;
+  const auto isPositive = [](double x) { return x > 0 && std::isfinite(x); };
+  require(isPositive(subject->object_size), "object_size", subject->object_size, "> 0");
+  require(isPositive(subject->pixel), "pixel", subject->pixel, "> 0");
+  require(isPositive(subject->slice_depth), "slice_depth", subject->slice_depth, "> 0");
 }
 
 } // namespace pcl6d

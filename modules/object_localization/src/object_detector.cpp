@@ -30,22 +30,6 @@ overlap(const ImageRect& a, const ImageRect& b)
          (double{1} * a.width * a.height + double{1} * b.width * b.height - both);
 }
 
-/** \return the median range of the middle of a box; NaN where nothing is */
-double
-rangeBehind(const RangeImage& image, const ImageRect& box)
-{
-  std::vector<float> ranges;
-  for (int y = box.y + box.height / 4; y < box.y + box.height - box.height / 4; ++y)
-    for (int x = box.x + box.width / 4; x < box.x + box.width - box.width / 4; ++x)
-      if (const float range = image.range({y, x}); std::isfinite(range))
-        ranges.push_back(range);
-  if (ranges.empty())
-    return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return *middle;
-}
-
 std::vector<std::size_t>
 pointsBehind(const RangeImage& image,
              const DetectedObject& object,
@@ -77,9 +61,23 @@ checkCascades(const std::vector<HaarCascade>& cascades)
           "the cascade does not tell its channel and the object's size: it "
           "was not trained by pcl_slam6d_objects train");
   }
-  if (cascades.size() == 2 &&
-      cascades[0].subject->channel == cascades[1].subject->channel)
+  if (cascades.size() == 1)
+    return;
+  const CascadeSubject &a = *cascades[0].subject, &b = *cascades[1].subject;
+  if (a.channel == b.channel)
     throw BadArgument("both cascades look at the same channel");
+  if (a.pixel != b.pixel || a.slice_depth != b.slice_depth)
+    throw BadArgument("the cascades look at pictures of another pixel or slice depth");
+}
+
+DetectionViewOptions
+viewsOf(const HaarCascade& cascade, DetectionViewOptions views)
+{
+  if (cascade.subject) {
+    views.pixel = cascade.subject->pixel;
+    views.slice_depth = cascade.subject->slice_depth;
+  }
+  return views;
 }
 } // namespace
 
@@ -104,9 +102,10 @@ DetectorOptions::validate() const
 ObjectDetector::ObjectDetector(HaarCascade cascade,
                                const DetectorOptions& options,
                                std::optional<HaarCascade> other)
-: options_(options), views_(options.views)
+: options_(options), views_(viewsOf(cascade, options.views))
 {
-  options.validate();
+  options_.views = views_.options();
+  options_.validate();
   cascades_.push_back(std::move(cascade));
   if (other)
     cascades_.push_back(std::move(*other));
@@ -151,12 +150,12 @@ ObjectDetector::detectIn(std::size_t view,
   const DetectionViewOptions& v = options_.views;
   std::vector<Hit> hits;
   if (cascade.subject->channel == ImageChannel::kReflectance) {
-    hits = hitsOf(
-        reflectancePicture(image), {v.min_range, v.max_range}, view, image, cascade);
+    hits =
+        hitsOf(reflectancePicture(image), {v.min_range, v.max_range}, image, cascade);
     return grouped(hits, view, DetectionSource::kReflectance);
   }
   for (const auto& slice : views_.slices()) {
-    const auto found = hitsOf(rangePicture(image, slice), slice, view, image, cascade);
+    const auto found = hitsOf(rangePicture(image, slice), slice, image, cascade);
     hits.insert(hits.end(), found.begin(), found.end());
   }
   return grouped(hits, view, DetectionSource::kRange);
@@ -165,33 +164,21 @@ ObjectDetector::detectIn(std::size_t view,
 std::vector<ObjectDetector::Hit>
 ObjectDetector::hitsOf(const GrayImage& picture,
                        const DepthSlice& slice,
-                       std::size_t view,
                        const RangeImage& image,
                        const HaarCascade& cascade) const
 {
-  const double size = cascade.subject->object_size;
-  const double smallest =
-      views_.pixelsOf(size, slice.far_end) / options_.size_tolerance;
-  // Off the middle of a view things are less deep than far.
-  const double depth = slice.near_end * 0.6;
-  const double largest = views_.pixelsOf(size, depth) * options_.size_tolerance;
-  if (smallest > picture.rows)
-    return {};
-  WindowGrid grid{options_.scale_factor, static_cast<int>(smallest), 0};
-  if (largest < picture.rows)
-    grid.max_height = std::max(grid.min_height, static_cast<int>(std::ceil(largest)));
+  const WindowGate gate(options_.views,
+                        image,
+                        slice,
+                        cascade.subject->object_size,
+                        options_.size_tolerance);
+  const auto grid = gate.grid(options_.scale_factor);
   std::vector<Hit> hits;
-  for (const auto& box : detectWindows(cascade, picture, grid)) {
-    const double range = rangeBehind(image, box);
-    if (!(range >= slice.near_end && range <= slice.far_end))
-      continue;
-    const Pixel middle{box.y + box.height / 2, box.x + box.width / 2};
-    const Eigen::Vector3d there = range * image.projection().ray(middle).direction;
-    const double wanted = views_.pixelsOf(size, views_.place(view, there).depth);
-    if (box.height <= wanted * options_.size_tolerance &&
-        wanted <= box.height * options_.size_tolerance)
-      hits.push_back({box, range});
-  }
+  if (!grid)
+    return hits;
+  for (const auto& box : detectWindows(cascade, picture, *grid))
+    if (const auto range = gate.rangeIn(box))
+      hits.push_back({box, *range});
   return hits;
 }
 

@@ -4,6 +4,7 @@
 #include <pcl6d/object_localization/boosting.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace pcl6d {
@@ -21,6 +22,28 @@ orderedBits(float value)
   std::memcpy(&bits, &value, sizeof bits);
   return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
+
+constexpr int kIndexBits = 16;
+
+/** \brief Sorts by the upper bits; what is equal keeps its order. */
+void
+sortByValue(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& spare)
+{
+  constexpr int kDigitBits = 11, kPasses = 3; // 32 bits
+  constexpr std::uint64_t kDigit = (1u << kDigitBits) - 1;
+  spare.resize(keys.size());
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const int shift = kIndexBits + pass * kDigitBits;
+    std::array<std::uint32_t, kDigit + 2> first{};
+    for (const auto key : keys)
+      ++first[(key >> shift & kDigit) + 1];
+    for (std::size_t digit = 0; digit < kDigit; ++digit)
+      first[digit + 1] += first[digit];
+    for (const auto key : keys)
+      spare[first[key >> shift & kDigit]++] = key;
+    keys.swap(spare);
+  }
+}
 } // namespace
 
 SortedFeatures::SortedFeatures(const WindowBatch& windows,
@@ -36,22 +59,22 @@ SortedFeatures::SortedFeatures(const WindowBatch& windows,
   order_.resize(features.size() * windows.size());
   parallelBlocks(features.size(), kBlock, num_threads, [&](const Block& block) {
     std::vector<float> values(windows_.size());
-    std::vector<std::uint64_t> keys(windows_.size());
+    std::vector<std::uint64_t> keys(windows_.size()), spare;
     for (std::size_t f = block.begin; f < block.end; ++f)
-      sortFeature(f, values, keys);
+      sortFeature(f, values, keys, spare);
   });
 }
 
 void
 SortedFeatures::sortFeature(std::size_t feature,
                             std::vector<float>& values,
-                            std::vector<std::uint64_t>& keys)
+                            std::vector<std::uint64_t>& keys,
+                            std::vector<std::uint64_t>& spare)
 {
-  constexpr int kIndexBits = 16;
   windows_.valuesOf(features_[feature], values.data());
   for (std::size_t i = 0; i < keys.size(); ++i)
     keys[i] = std::uint64_t{orderedBits(values[i])} << kIndexBits | i;
-  std::sort(keys.begin(), keys.end());
+  sortByValue(keys, spare);
   std::uint16_t* const order = &order_[feature * keys.size()];
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const bool equal =
@@ -104,7 +127,8 @@ SortedFeatures::thresholdBehind(std::size_t feature, std::size_t place) const
 }
 
 SortedFeatures::Split
-SortedFeatures::bestSplit(const std::vector<Weighted>& samples) const
+SortedFeatures::bestSplit(const std::vector<Weighted>& samples,
+                          const std::vector<std::size_t>& among) const
 {
   require(samples.size() == windows_.size(),
           "number of samples",
@@ -117,10 +141,11 @@ SortedFeatures::bestSplit(const std::vector<Weighted>& samples) const
   }
   if (!(weight > 0))
     return {};
-  std::vector<Cut> cuts(features_.size());
-  parallelBlocks(features_.size(), kBlock, num_threads_, [&](const Block& block) {
-    for (std::size_t f = block.begin; f < block.end; ++f)
-      cuts[f] = bestCut(f, samples, weight, response);
+  const auto featureAt = [&](std::size_t i) { return among.empty() ? i : among[i]; };
+  std::vector<Cut> cuts(among.empty() ? features_.size() : among.size());
+  parallelBlocks(cuts.size(), kBlock, num_threads_, [&](const Block& block) {
+    for (std::size_t i = block.begin; i < block.end; ++i)
+      cuts[i] = bestCut(featureAt(i), samples, weight, response);
   });
   const auto best =
       std::max_element(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
@@ -128,7 +153,7 @@ SortedFeatures::bestSplit(const std::vector<Weighted>& samples) const
       });
   if (!(best->gain > 1e-12 * weight))
     return {};
-  const auto feature = static_cast<std::size_t>(best - cuts.begin());
+  const std::size_t feature = featureAt(static_cast<std::size_t>(best - cuts.begin()));
   return {true, feature, thresholdBehind(feature, best->place), best->gain};
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stage_training.h"
 
+#include <pcl6d/common/random.h>
 #include <pcl6d/object_localization/boosting.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace pcl6d {
 namespace {
@@ -64,11 +67,32 @@ placeOf(const HaarFeature& feature, std::vector<HaarFeature>& features)
 }
 } // namespace
 
+std::vector<std::size_t>
+drawn(std::size_t size, std::size_t count, std::uint64_t seed)
+{
+  std::vector<std::size_t> places(size);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  if (count >= size)
+    return places;
+  const auto end = places.begin() + static_cast<std::ptrdiff_t>(count);
+  std::vector<std::uint64_t> keys(size);
+  for (std::size_t i = 0; i < size; ++i)
+    keys[i] = mixBits(seed ^ mixBits(i));
+  std::nth_element(
+      places.begin(), end, places.end(), [&](std::size_t a, std::size_t b) {
+        return std::tie(keys[a], a) < std::tie(keys[b], b);
+      });
+  places.erase(end, places.end());
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
 TrainedStage
 trainStage(const std::vector<GrayImage>& positives,
            const std::vector<GrayImage>& negatives,
            const std::vector<HaarFeature>& features,
-           const CascadeTrainingOptions& options)
+           const CascadeTrainingOptions& options,
+           std::uint64_t seed)
 {
   std::vector<GrayImage> windows = positives;
   windows.insert(windows.end(), negatives.begin(), negatives.end());
@@ -85,7 +109,10 @@ trainStage(const std::vector<GrayImage>& positives,
   const Classes classes{positives.size(), negatives.size()};
   TrainedStage trained;
   trained.features = features;
-  for (int t = 0; t < options.max_trees && !trained.reached && boost.addTree(); ++t) {
+  for (int t = 0; t < options.max_trees && !trained.reached; ++t) {
+    const std::uint64_t tree_seed = mixBits(seed ^ static_cast<std::uint64_t>(t));
+    if (!boost.addTree(drawn(features.size(), options.features_per_tree, tree_seed)))
+      break;
     trained.stage.threshold = classes.threshold(boost.sums(), options.min_hit_rate);
     classes.rate(boost.sums(), trained.stage, trained.report);
     trained.reached = trained.report.false_alarm <= options.max_false_alarm;

@@ -13,12 +13,18 @@ struct TrainedStage {
   bool reached = false; ///< max_false_alarm
 };
 
-/** \param[in] features that the stage may use \throws BadArgument too many windows */
+/** \return some of the places [0, size), drawn by the seed, in order */
+std::vector<std::size_t>
+drawn(std::size_t size, std::size_t count, std::uint64_t seed);
+
+/** \param[in] features that the stage may use
+ * \param[in] seed of which each of its trees may use \throws BadArgument too many windows */
 TrainedStage
 trainStage(const std::vector<GrayImage>& positives,
            const std::vector<GrayImage>& negatives,
            const std::vector<HaarFeature>& features,
-           const CascadeTrainingOptions& options);
+           const CascadeTrainingOptions& options,
+           std::uint64_t seed);
 
 /** \brief Appends a stage and those of its features that it uses and the cascade does not
  * have yet. */

@@ -20,6 +20,13 @@ struct Positive {
   Refusals refusals{};
 };
 
+/** \return what pictures of reflectance show */
+DepthSlice
+wholeDepth(const DetectionViews& views)
+{
+  return {views.options().min_range, views.options().max_range};
+}
+
 /** Cuts positives out of scans into which it puts models. */
 class PositiveMaker {
 public:
@@ -29,10 +36,12 @@ public:
                 const std::vector<BackgroundScan>& scans,
                 const DetectionViews& views,
                 const TrainingImageOptions& options)
-  : window_(window), scanner_(scanner), scans_(scans), views_(views), options_(options)
+  : window_(window), scanner_(scanner), views_(views), options_(options)
   {
     for (const auto& mesh : meshes)
       models_.emplace_back(mesh);
+    for (const auto& scan : scans)
+      scans_.emplace_back(scan);
   }
 
   Positive
@@ -89,9 +98,10 @@ private:
     const std::size_t view = views_.viewOf(object.middle);
     const RangeImage image =
         views_.image(view, object.scan.points, object.scan.reflectance);
-    const GrayImage picture = options_.channel == ImageChannel::kRange
-                                  ? rangePicture(image, sliceOf(object, random))
-                                  : reflectancePicture(image);
+    const bool is_range = options_.channel == ImageChannel::kRange;
+    const DepthSlice slice = is_range ? sliceOf(object, random) : wholeDepth(views_);
+    const GrayImage picture =
+        is_range ? rangePicture(image, slice) : reflectancePicture(image);
     const DetectionViews::Place place = views_.place(view, object.middle);
     const double height =
         random.uniform(0.93, 1.08) * views_.pixelsOf(window_.object_size, place.depth);
@@ -106,7 +116,9 @@ private:
     const bool fits_in = box.x >= 0 && box.y >= 0 && box.width >= 1 &&
                          box.height >= 1 && box.x + box.width <= picture.cols &&
                          box.y + box.height <= picture.rows;
-    if (!fits_in)
+    const WindowGate gate(
+        views_.options(), image, slice, window_.object_size, options_.size_tolerance);
+    if (!fits_in || !gate.rangeIn(box))
       return {};
     GrayImage window = resized(cropped(picture, box), window_.height, window_.width);
     const IntegralImage sums(window, IntegralImage::Tables::kUpright);
@@ -116,9 +128,9 @@ private:
   }
 
   std::vector<TrainingModel> models_;
+  std::vector<TrainingScan> scans_;
   const WindowShape& window_;
   const ScannerPreset& scanner_;
-  const std::vector<BackgroundScan>& scans_;
   const DetectionViews& views_;
   const TrainingImageOptions& options_;
 };
@@ -150,7 +162,8 @@ makePositives(const PositiveMaker& maker,
   }
   if (windows.size() * 2 > count || windows.size() == count)
     return windows;
-  const char* const reasons[] = {"the window left the view or lacked contrast",
+  const char* const reasons[] = {"the window left the view, lacked contrast, or "
+                                 "showed another range",
                                  "no floor was seen there",
                                  "something stood there",
                                  "the scanner had too few samples on the object",
@@ -163,23 +176,28 @@ makePositives(const PositiveMaker& maker,
                       reasons[most - refusals.begin()]);
 }
 
-std::vector<GrayImage>
+std::vector<BackgroundImage>
 makeBackgrounds(const std::vector<BackgroundScan>& scans,
+                const WindowShape& window,
                 const DetectionViews& views,
-                ImageChannel channel)
+                const TrainingImageOptions& options)
 {
-  std::vector<std::vector<GrayImage>> pictures(scans.size() * views.size());
+  std::vector<std::vector<BackgroundImage>> pictures(scans.size() * views.size());
   parallelFor(pictures.size(), views.options().num_threads, [&](std::size_t i) {
     const auto& scan = scans[i / views.size()];
     const RangeImage image =
         views.image(i % views.size(), scan.points, scan.reflectance);
-    if (channel == ImageChannel::kReflectance)
-      pictures[i].push_back(reflectancePicture(image));
+    const auto gate = [&](const DepthSlice& slice) {
+      return std::make_shared<const WindowGate>(
+          views.options(), image, slice, window.object_size, options.size_tolerance);
+    };
+    if (options.channel == ImageChannel::kReflectance)
+      pictures[i].emplace_back(reflectancePicture(image), gate(wholeDepth(views)));
     else
       for (const auto& slice : views.slices())
-        pictures[i].push_back(rangePicture(image, slice));
+        pictures[i].emplace_back(rangePicture(image, slice), gate(slice));
   });
-  std::vector<GrayImage> all;
+  std::vector<BackgroundImage> all;
   for (auto& of_view : pictures)
     std::move(of_view.begin(), of_view.end(), std::back_inserter(all));
   return all;
@@ -196,6 +214,7 @@ TrainingImageOptions::validate() const
           max_distance,
           "> min_distance and finite");
   require(min_visible > 0 && min_visible <= 1, "min_visible", min_visible, "in (0, 1]");
+  require(size_tolerance > 1, "size_tolerance", size_tolerance, "> 1");
   require(min_reflectance >= 0 && min_reflectance <= 1,
           "min_reflectance",
           min_reflectance,
@@ -228,7 +247,7 @@ makeTrainingImages(const std::vector<TriangleMesh>& models,
   TrainingImages images;
   images.positives =
       makePositives(maker, options.positives, views.options().num_threads, progress);
-  images.backgrounds = makeBackgrounds(scans, views, options.channel);
+  images.backgrounds = makeBackgrounds(scans, window, views, options);
   return images;
 }
 

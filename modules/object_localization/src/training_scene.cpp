@@ -93,7 +93,7 @@ samplesOn(const RayCaster& caster,
 
 /** Leaves out the points that the object hides. */
 MeasuredPoints
-notHidden(const BackgroundScan& scan,
+notHidden(const TrainingScan& scan,
           const TrainingModel& model,
           const Eigen::Isometry3d& T_model_scan)
 {
@@ -103,8 +103,8 @@ notHidden(const BackgroundScan& scan,
   const double cosine =
       std::sqrt(std::max(0.0, 1 - radius * radius / (distance * distance)));
   MeasuredPoints left;
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const Eigen::Vector3d p = scan.points[i].cast<double>();
+  for (std::size_t i = 0; i < scan.points().size(); ++i) {
+    const Eigen::Vector3d p = scan.points()[i].cast<double>();
     const double range = p.norm();
     const bool is_towards =
         distance <= radius || p.dot(middle) >= cosine * range * distance;
@@ -113,35 +113,35 @@ notHidden(const BackgroundScan& scan,
       if (model.caster().cast(ray, range))
         continue;
     }
-    left.points.push_back(scan.points[i]);
-    if (!scan.reflectance.empty())
-      left.reflectance.push_back(scan.reflectance[i]);
+    left.points.push_back(scan.points()[i]);
+    if (!scan.reflectance().empty())
+      left.reflectance.push_back(scan.reflectance()[i]);
   }
   return left;
+}
+
+constexpr int kCols = 720, kRows = 360; // half a degree
+
+std::size_t
+cellOf(const Eigen::Vector3f& p)
+{
+  const double azimuth = portableAtan2(p.y(), p.x());
+  const double elevation = portableAtan2(p.z(), p.head<2>().norm());
+  const int col = static_cast<int>((azimuth / M_PI + 1) / 2 * kCols) % kCols;
+  const int row =
+      std::min(kRows - 1, static_cast<int>((elevation / M_PI + 0.5) * kRows));
+  return static_cast<std::size_t>(row * kCols + col);
 }
 
 /** \return which samples the scan lets through: no point of it is near their direction
  * and clearly nearer */
 std::vector<bool>
-visible(const Points& samples, const Points& scan)
+visible(const Points& samples, const TrainingScan& scan)
 {
-  constexpr int kCols = 720, kRows = 360; // half a degree
-  constexpr float kClearly = 0.15f;       // [m]
-  const auto cellOf = [](const Eigen::Vector3f& p) {
-    const double azimuth = portableAtan2(p.y(), p.x());
-    const double elevation = portableAtan2(p.z(), p.head<2>().norm());
-    const int col = static_cast<int>((azimuth / M_PI + 1) / 2 * kCols) % kCols;
-    const int row =
-        std::min(kRows - 1, static_cast<int>((elevation / M_PI + 0.5) * kRows));
-    return static_cast<std::size_t>(row * kCols + col);
-  };
-  std::vector<float> nearest(std::size_t{kCols} * kRows,
-                             std::numeric_limits<float>::infinity());
-  for (const auto& p : scan)
-    nearest[cellOf(p)] = std::min(nearest[cellOf(p)], p.norm());
+  constexpr float kClearly = 0.15f; // [m]
   std::vector<bool> seen;
   for (const auto& p : samples)
-    seen.push_back(p.norm() < nearest[cellOf(p)] + kClearly);
+    seen.push_back(p.norm() < scan.nearestTowards(p) + kClearly);
   return seen;
 }
 
@@ -159,6 +159,22 @@ randomPose(const TrainingImageOptions& options, Random& random)
 }
 } // namespace
 
+TrainingScan::TrainingScan(const BackgroundScan& scan)
+: scan_(&scan)
+, nearest_(std::size_t{kCols} * kRows, std::numeric_limits<float>::infinity())
+{
+  for (const auto& p : scan.points) {
+    float& nearest = nearest_[cellOf(p)];
+    nearest = std::min(nearest, p.norm());
+  }
+}
+
+float
+TrainingScan::nearestTowards(const Eigen::Vector3f& point) const
+{
+  return nearest_[cellOf(point)];
+}
+
 TrainingModel::TrainingModel(const TriangleMesh& mesh)
 : caster_(sceneOf(mesh, boxOf(mesh.vertices)))
 {
@@ -168,7 +184,7 @@ TrainingModel::TrainingModel(const TriangleMesh& mesh)
 ObjectInScan
 putIntoScan(const TrainingModel& model,
             const ScannerPreset& scanner,
-            const BackgroundScan& scan,
+            const TrainingScan& scan,
             const TrainingImageOptions& options,
             Random& random)
 {
@@ -181,18 +197,18 @@ putIntoScan(const TrainingModel& model,
     result.verdict = verdict;
     return result;
   };
-  const auto floor = floorAt(scan.points, T_scan_model.translation().head<2>());
+  const auto floor = floorAt(scan.points(), T_scan_model.translation().head<2>());
   if (!floor)
     return refused(PlaceVerdict::kNoFloor);
   T_scan_model.translation().z() = *floor;
   const Eigen::Isometry3d T_model_scan = T_scan_model.inverse();
-  if (isBlocked(scan.points, model.box(), T_model_scan))
+  if (isBlocked(scan.points(), model.box(), T_model_scan))
     return refused(PlaceVerdict::kBlocked);
   const MeasuredPoints samples =
       samplesOn(model.caster(), scanner, T_model_scan, reflectance, seed);
   if (samples.points.size() < options.min_samples)
     return refused(PlaceVerdict::kTooFewSamples);
-  const std::vector<bool> seen = visible(samples.points, scan.points);
+  const std::vector<bool> seen = visible(samples.points, scan);
   const auto count = std::count(seen.begin(), seen.end(), true);
   if (static_cast<double>(count) <
       options.min_visible * static_cast<double>(samples.points.size()))
@@ -206,7 +222,7 @@ putIntoScan(const TrainingModel& model,
       result.nearest = std::min(result.nearest, range);
       result.farthest = std::max(result.farthest, range);
       result.scan.points.push_back(samples.points[i]);
-      if (!scan.reflectance.empty())
+      if (!scan.reflectance().empty())
         result.scan.reflectance.push_back(samples.reflectance[i]);
     }
   return result;

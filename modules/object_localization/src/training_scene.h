@@ -29,6 +29,32 @@ private:
   RayCaster caster_; // in that frame
 };
 
+/** \brief A scan into which models are put. */
+class TrainingScan {
+public:
+  /** Keeps a reference. */
+  explicit TrainingScan(const BackgroundScan& scan);
+
+  const Points&
+  points() const
+  {
+    return scan_->points;
+  }
+  const std::vector<float>&
+  reflectance() const
+  {
+    return scan_->reflectance;
+  }
+
+  /** \return [m] range of the nearest point in about the direction of another */
+  float
+  nearestTowards(const Eigen::Vector3f& point) const;
+
+private:
+  const BackgroundScan* scan_;
+  std::vector<float> nearest_; // per half degree
+};
+
 /** \brief Points with reflectances, one each or none. */
 struct MeasuredPoints {
   Points points;
@@ -51,7 +77,7 @@ struct ObjectInScan {
 ObjectInScan
 putIntoScan(const TrainingModel& model,
             const ScannerPreset& scanner,
-            const BackgroundScan& scan,
+            const TrainingScan& scan,
             const TrainingImageOptions& options,
             Random& random);
 

@@ -32,14 +32,11 @@ public:
     add(bits);
   }
   void
-  add(const std::vector<GrayImage>& images)
+  add(const GrayImage& image)
   {
-    add(std::uint64_t{images.size()});
-    for (const auto& image : images) {
-      add(static_cast<std::uint64_t>(image.rows));
-      for (const std::uint8_t gray : image.pixels)
-        hash_ = (hash_ ^ gray) * 0x100000001b3ull; // FNV-1a
-    }
+    add(static_cast<std::uint64_t>(image.rows));
+    for (const std::uint8_t gray : image.pixels)
+      hash_ = (hash_ ^ gray) * 0x100000001b3ull; // FNV-1a
   }
   std::string
   text() const
@@ -65,6 +62,7 @@ of(const CascadeTrainingOptions& o)
     print.add(number);
   print.add(static_cast<std::uint64_t>(o.features == HaarFeatureSet::kAll));
   print.add(std::uint64_t{o.features_per_stage});
+  print.add(std::uint64_t{o.features_per_tree});
   print.add(std::uint64_t{o.negatives});
   print.add(o.seed);
   return print;
@@ -96,15 +94,17 @@ toJson(const StageReport& stage)
 
 TrainingState::TrainingState(std::filesystem::path folder,
                              const std::vector<GrayImage>& positives,
-                             const std::vector<GrayImage>& backgrounds,
+                             const std::vector<BackgroundImage>& backgrounds,
                              const CascadeTrainingOptions& options)
 : folder_(std::move(folder))
 {
   if (folder_.empty())
     return;
   Fingerprint print = of(options);
-  print.add(positives);
-  print.add(backgrounds);
+  for (const auto& positive : positives)
+    print.add(positive);
+  for (const auto& background : backgrounds) // their gates come from the same scans
+    print.add(background.image);
   fingerprint_ = print.text();
 }
 

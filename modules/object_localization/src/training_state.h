@@ -12,7 +12,7 @@ public:
   /** \param[in] folder empty: nothing is kept */
   TrainingState(std::filesystem::path folder,
                 const std::vector<GrayImage>& positives,
-                const std::vector<GrayImage>& backgrounds,
+                const std::vector<BackgroundImage>& backgrounds,
                 const CascadeTrainingOptions& options);
 
   /** \brief Takes what an earlier call left; nothing if there is nothing.

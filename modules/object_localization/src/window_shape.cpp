@@ -36,6 +36,14 @@ checkSize(const Eigen::AlignedBox3d& box)
 }
 } // namespace
 
+double
+WindowShape::pixelFor(double distance) const
+{
+  constexpr double kStep = 1e-5; // the numbers of a cascade's file hold it
+  const double finest = std::floor(object_size / distance / height / kStep) * kStep;
+  return std::min(DetectionViewOptions().pixel, std::max(finest, 100 * kStep));
+}
+
 TriangleMesh
 meshOfPoints(const ObjectModel& model)
 {

@@ -60,9 +60,11 @@ public:
 
   /** \return the split of samples with weights above zero whose two sides, each answered
    * by its mean label, leave the smallest squared error; of equal ones the first feature
-   * \param[in] samples one per window */
+   * \param[in] samples one per window
+   * \param[in] among places of the features to choose from; empty: all */
   Split
-  bestSplit(const std::vector<Weighted>& samples) const;
+  bestSplit(const std::vector<Weighted>& samples,
+            const std::vector<std::size_t>& among = {}) const;
 
   const WindowBatch&
   windows() const
@@ -83,7 +85,8 @@ private:
   void
   sortFeature(std::size_t feature,
               std::vector<float>& values,
-              std::vector<std::uint64_t>& keys);
+              std::vector<std::uint64_t>& keys,
+              std::vector<std::uint64_t>& spare);
   Cut
   bestCut(std::size_t feature,
           const std::vector<Weighted>& samples,
@@ -113,9 +116,10 @@ public:
    * \throws BadArgument a label is missing or another, or splits breaks its rule */
   GentleBoost(const SortedFeatures& features, std::vector<int> labels, int splits = 1);
 
-  /** \brief Adds a tree. \return false if no feature tells the windows apart */
+  /** \brief Adds a tree. \param[in] among places of the features that it may use; empty:
+   * all \return false if no feature tells the windows apart */
   bool
-  addTree();
+  addTree(const std::vector<std::size_t>& among = {});
 
   /** \return the trees; their features are places in SortedFeatures::features() */
   const std::vector<HaarTree>&
@@ -134,11 +138,11 @@ public:
 private:
   struct Leaf;
   void
-  searchSplit(Leaf& leaf) const;
+  searchSplit(Leaf& leaf, const std::vector<std::size_t>& among) const;
   void
   cut(const Leaf& leaf, HaarTree& tree, std::vector<Leaf>& leaves) const;
   std::vector<Leaf>
-  grow(HaarTree& tree) const;
+  grow(HaarTree& tree, const std::vector<std::size_t>& among) const;
   void
   reweigh(const std::vector<Leaf>& leaves, const HaarTree& tree);
 

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/progress.h>
 #include <pcl6d/object_localization/haar_cascade.h>
+#include <pcl6d/object_localization/window_gate.h>
 
 #include <filesystem>
 #include <functional>
@@ -16,12 +17,13 @@ struct CascadeTrainingOptions {
   HaarFeatureSet features = HaarFeatureSet::kAll;
   /** from which each stage chooses; drawn anew for each, by the seed; > 0 */
   std::size_t features_per_stage = 10000;
-  int stages = 10;               ///< at most; > 0
-  int splits = 1;                ///< nodes of each tree, in [1, 16]
-  int max_trees = 100;           ///< of a stage; > 0
-  double min_hit_rate = 0.998;   ///< of each stage, in (0, 1]
-  double max_false_alarm = 0.4;  ///< of each stage, in (0, 1)
-  std::size_t negatives = 3000;  ///< for each stage, in [10, 20000]
+  std::size_t features_per_tree = 2000; ///< drawn from them for each tree; > 0
+  int stages = 10;                      ///< at most; > 0
+  int splits = 1;                       ///< nodes of each tree, in [1, 16]
+  int max_trees = 100;                  ///< of a stage; > 0
+  double min_hit_rate = 0.998;          ///< of each stage, in (0, 1]
+  double max_false_alarm = 0.4;         ///< of each stage, in (0, 1)
+  std::size_t negatives = 3000;         ///< for each stage, in [10, 20000]
   double target_false_alarm = 0; ///< of the cascade on the backgrounds: then it ends
   double scale_factor = 1.2;     ///< between the sizes of negatives, in (1, 2]
   std::uint64_t seed = 1;        ///< same seed, same cascade
@@ -64,7 +66,8 @@ struct CascadeTraining {
  * count, as the detector passes over them too. Same bits for any number of threads, and
  * whether or not it was interrupted.
  * \param[in] positives windows of the object, of the options' size
- * \param[in] backgrounds images of any size without it
+ * \param[in] backgrounds images of any size without it; of those with a gate, windows
+ * count that pass it
  * \param[in] on_stage called after each stage, also after those from the state
  * \throws BadArgument an option breaks its rule, fewer than 10 positives with contrast,
  * one of another size, or no background with a window of enough contrast
@@ -73,7 +76,7 @@ struct CascadeTraining {
  * \ingroup object_localization */
 CascadeTraining
 trainCascade(const std::vector<GrayImage>& positives,
-             const std::vector<GrayImage>& backgrounds,
+             const std::vector<BackgroundImage>& backgrounds,
              const CascadeTrainingOptions& options = {},
              const std::function<void(const StageReport&)>& on_stage = {},
              const ProgressCallback& progress = {});

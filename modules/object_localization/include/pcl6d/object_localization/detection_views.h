@@ -20,7 +20,7 @@ struct DetectionViewOptions {
   double min_range = 0.5;  ///< [m] > 0
   double max_range = 12;   ///< [m] > min_range
   double slice_depth = 3;  ///< [m] > 0; the next slice starts at the middle of this one
-  int max_gap = 3;         ///< [px] holes between the samples of a scan; >= 1
+  double max_gap = 0.0262; ///< [rad] holes between the samples of a scan (1.5 deg), > 0
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void

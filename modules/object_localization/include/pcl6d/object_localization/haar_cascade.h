@@ -40,6 +40,8 @@ struct HaarStage {
 struct CascadeSubject {
   ImageChannel channel = ImageChannel::kRange;
   double object_size = 1; ///< [m] height of the window where the object stands; > 0
+  double pixel = 0.00873; ///< [rad] of the pictures, see DetectionViewOptions
+  double slice_depth = 3; ///< [m] of pictures of ranges, see there
 };
 
 /** \brief Stages that a window must pass one after the other to be an object.

@@ -3,6 +3,7 @@
 
 #include <pcl6d/object_localization/detection_views.h>
 #include <pcl6d/object_localization/haar_cascade.h>
+#include <pcl6d/object_localization/window_gate.h>
 
 #include <optional>
 #include <string>
@@ -22,13 +23,13 @@ detectionRuleFromName(const std::string& name);
 
 /** \brief Knobs of ObjectDetector. */
 struct DetectorOptions {
-  DetectionViewOptions views;
+  DetectionViewOptions views; ///< pixel and slice_depth: those of the cascades count
   DetectionRule rule = DetectionRule::kAnd; ///< counts if there are two cascades
   double scale_factor = 1.1; ///< from one size of the window to the next, in (1, 2]
   int min_neighbours = 3;    ///< overlapping windows that make a detection, >= 1
   /** by which the size of a window may differ from that of the object at its distance, as
    * a factor; > 1 */
-  double size_tolerance = 1.4;
+  double size_tolerance = kSizeTolerance;
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -61,7 +62,7 @@ public:
   /** \param[in] cascade that tells its subject, see CascadeSubject
    * \param[in] other one of the other channel
    * \throws BadArgument an option breaks its rule, a cascade is broken, does not tell its
-   * subject, or both look at the same channel */
+   * subject, both look at the same channel, or at pictures of another kind */
   explicit ObjectDetector(HaarCascade cascade,
                           const DetectorOptions& options = {},
                           std::optional<HaarCascade> other = {});
@@ -86,7 +87,6 @@ private:
   std::vector<Hit>
   hitsOf(const GrayImage& picture,
          const DepthSlice& slice,
-         std::size_t view,
          const RangeImage& image,
          const HaarCascade& cascade) const;
   std::vector<DetectedObject>

@@ -5,6 +5,7 @@
 #include <pcl6d/common/triangle_mesh.h>
 #include <pcl6d/object_localization/detection_views.h>
 #include <pcl6d/object_localization/object_model.h>
+#include <pcl6d/object_localization/window_gate.h>
 #include <pcl6d/scanner/scanner_presets.h>
 
 namespace pcl6d {
@@ -19,6 +20,11 @@ struct WindowShape {
   int width = 24;         ///< [px]
   int height = 24;        ///< [px]
   double object_size = 1; ///< [m] height of the window where the object stands
+
+  /** \return [rad] of pictures in which the window is not smaller than this, whose
+   * pixels are those of the cascade, up to a distance [m] */
+  double
+  pixelFor(double distance) const;
 };
 
 /** \return a window of about 576 pixels around models that stand upright (z), turned any
@@ -40,11 +46,12 @@ struct TrainingImageOptions {
   std::size_t positives = 1000; ///< > 0
   double min_distance = 1.5;    ///< [m] in plan, > 0
   double max_distance = 5;      ///< [m] > min_distance
-  double min_visible = 0.6;     ///< share of the samples on the object, in (0, 1]
-  double min_reflectance = 0.3; ///< of the object, drawn each time; in [0, 1]
-  double max_reflectance = 0.8; ///< >= min_reflectance, <= 1
-  std::size_t min_samples = 25; ///< of the scanner on the object, > 0
-  std::uint64_t seed = 1;       ///< same seed, same images
+  double min_visible = 0.4;     ///< share of the samples on the object, in (0, 1]
+  double size_tolerance = kSizeTolerance; ///< of the detector, see WindowGate; > 1
+  double min_reflectance = 0.3;           ///< of the object, drawn each time; in [0, 1]
+  double max_reflectance = 0.8;           ///< >= min_reflectance, <= 1
+  std::size_t min_samples = 25;           ///< of the scanner on the object, > 0
+  std::uint64_t seed = 1;                 ///< same seed, same images
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -52,16 +59,16 @@ struct TrainingImageOptions {
 
 /** \brief What trainCascade() learns from. */
 struct TrainingImages {
-  std::vector<GrayImage> positives;   ///< of the window's size
-  std::vector<GrayImage> backgrounds; ///< pictures of the scans as they are
+  std::vector<GrayImage> positives;         ///< of the window's size
+  std::vector<BackgroundImage> backgrounds; ///< pictures of the scans as they are
 };
 
 /** \brief Puts models into scans and cuts out what a detector would see of them.
  *
  * Each positive takes a scan, a free place on its floor, a heading and a distance by the
  * seed, measures the model there as the scanner does, noise included, and hides what it
- * hides; the window is off the object by a few per cent. Same images for any number of
- * threads.
+ * hides; the window is off the object by a few per cent, and passes the detector's
+ * WindowGate. Same images for any number of threads.
  * \param[in] models upright (z), standing on their lowest point
  * \throws BadArgument an option breaks its rule, no scans, or a scan lacks reflectances
  * where the channel needs them

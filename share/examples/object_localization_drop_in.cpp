@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shows: code that was written for pcl::GeometricConsistencyGrouping or pcl::Hough3DGrouping
 // gets the poses of an object by recognize(), without key points, descriptors and
-// correspondences to make first. A corner bracket on a table, seen by a camera.
+// correspondences to make first. A stepped block on a table, seen by a camera.
 #include <pcl6d/object_localization/object_localization.h>
 
 #include <cstdio>
@@ -47,10 +47,12 @@ main()
   // The camera at the origin looks along x, down on a table; the block lies turned.
   Eigen::Isometry3f T_scene_model = Eigen::Isometry3f::Identity();
   T_scene_model.linear() =
-      (Eigen::AngleAxisf(0.3F, Eigen::Vector3f::UnitZ())).toRotationMatrix();
+      Eigen::AngleAxisf(0.3F, Eigen::Vector3f::UnitZ()).toRotationMatrix();
   T_scene_model.translation() << 0.8F, -0.1F, -0.35F;
   Cloud::Ptr scene(new Cloud);
-  addSheet(*scene, {0.5F, -0.5F, -0.352F}, {0.9F, 0, 0}, {0, 1, 0});
+  // the table, but for what the block hides
+  addSheet(*scene, {0.5F, -0.7F, -0.352F}, {0.9F, 0, 0}, {0, 0.45F, 0});
+  addSheet(*scene, {0.5F, 0.35F, -0.352F}, {0.9F, 0, 0}, {0, 0.45F, 0});
   for (const auto& point : *model) {
     const Eigen::Vector3f p = T_scene_model * point.getVector3fMap();
     scene->push_back(Point(p.x(), p.y(), p.z()));

@@ -47,7 +47,8 @@ ObjectLocalization<PointT>::recognize(Transformations& transformations)
     const auto& p = (*this->input_)[index].getVector3fMap();
     if (!p.allFinite())
       continue;
-    points.push_back((T_sensor_cloud * p.template cast<double>()).template cast<float>());
+    points.push_back(
+        (T_sensor_cloud * p.template cast<double>()).template cast<float>());
     places.push_back(static_cast<std::uint32_t>(index));
   }
   this->deinitCompute();
@@ -55,8 +56,8 @@ ObjectLocalization<PointT>::recognize(Transformations& transformations)
   transformations.clear();
   for (auto& object : objects_) {
     if (object.covariance)
-      object.covariance = movedCovariance(
-          *object.covariance, T_cloud_sensor, object.T_scene_object);
+      object.covariance =
+          movedCovariance(*object.covariance, T_cloud_sensor, object.T_scene_object);
     object.T_scene_object = T_cloud_sensor * object.T_scene_object;
     for (auto& point : object.points)
       point = places[point];

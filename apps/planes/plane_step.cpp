@@ -53,22 +53,6 @@ refine(const PlaneStepCloud& cloud,
   result.refined = refineModel(result.segments.planes, cloud.points, refinement);
 }
 
-/** Planes in the full coordinates of the world. */
-std::vector<Plane>
-worldPlanes(const std::vector<PlaneSegment>& segments, const Eigen::Vector3d& offset)
-{
-  std::vector<Plane> planes;
-  for (const auto& segment : segments) {
-    Plane plane = segment.plane;
-    plane.offset += plane.normal.dot(offset);
-    for (auto& corner : plane.hull)
-      corner += offset;
-    orientPlane(plane);
-    planes.push_back(std::move(plane));
-  }
-  return planes;
-}
-
 /** \return a warning if there is no display to draw on, or nothing to draw; else nothing */
 std::vector<std::string>
 drawPicture(const OutputFolder& out,
@@ -125,6 +109,22 @@ findPlanes(const PlaneStepCloud& cloud,
   if (options.refine)
     refine(cloud, options, num_threads, result);
   return result;
+}
+
+std::vector<Plane>
+worldPlanes(const std::vector<PlaneSegment>& segments,
+            const Eigen::Vector3d& world_offset)
+{
+  std::vector<Plane> planes;
+  for (const auto& segment : segments) {
+    Plane plane = segment.plane;
+    plane.offset += plane.normal.dot(world_offset);
+    for (auto& corner : plane.hull)
+      corner += world_offset;
+    orientPlane(plane);
+    planes.push_back(std::move(plane));
+  }
+  return planes;
 }
 
 std::string

@@ -50,6 +50,12 @@ findPlanes(const PlaneStepCloud& cloud,
            const PlaneStepOptions& options,
            unsigned int num_threads);
 
+/** \return planes in the full coordinates of the world
+ * \param[in] world_offset [m] that their points are relative to */
+std::vector<Plane>
+worldPlanes(const std::vector<PlaneSegment>& segments,
+            const Eigen::Vector3d& world_offset);
+
 /** \return the names of the files that writePlaneFiles() leaves, as a regular expression
  */
 std::string

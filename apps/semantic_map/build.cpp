@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/command_line.h"
+#include "common/interrupt.h"
 #include "common/progress_bar.h"
 #include "semantic_map/labelled_clouds.h"
 #include "semantic_map/scene_parts.h"
@@ -38,7 +39,7 @@ describe(BuildSettings& s, CommandLine& line)
   line.group("Input").add_options() //
       ("planes",
        po::value(&s.planes)->value_name("FILE"),
-       "planes.json; by default that of the run, else planes are found in its map") //
+       "planes.json; by default that of the run, else planes are found in its scans") //
       ("objects",
        po::value(&s.objects)->value_name("FILE"),
        "objects.json; by default that of the run, else there are no objects") //
@@ -63,6 +64,29 @@ describe(BuildSettings& s, CommandLine& line)
       ("quiet", po::bool_switch(&s.quiet), "print errors only");
 }
 
+/** \brief Makes sure that no input is overwritten. \throws UsageError */
+void
+checkOutputs(const BuildSettings& s)
+{
+  const fs::path folder = s.run;
+  std::vector<fs::path> inputs{s.planes, s.objects, s.rules};
+  for (const char* const name : {"map.pcd",
+                                 "summary.json",
+                                 "links.csv",
+                                 "graph.g2o",
+                                 "planes.json",
+                                 "objects.json"})
+    inputs.push_back(folder / name);
+  std::error_code missing;
+  for (const auto& out : {s.output, s.cloud})
+    for (const auto& in : inputs)
+      if (fs::equivalent(out, in, missing))
+        throw UsageError(out + " is an input");
+  if (fs::absolute(s.output).lexically_normal() ==
+      fs::absolute(s.cloud).lexically_normal())
+    throw UsageError("--output and --cloud are both " + s.cloud);
+}
+
 bool
 parse(const std::vector<std::string>& arguments, BuildSettings& s)
 {
@@ -83,15 +107,7 @@ parse(const std::vector<std::string>& arguments, BuildSettings& s)
   const ScanFormat format = scanFormatOfExtension(s.cloud);
   if (format != ScanFormat::kPcd && format != ScanFormat::kPly)
     throw UsageError("--cloud = " + s.cloud + ", but must end in .pcd or .ply");
-  std::error_code missing;
-  for (const auto& out : {s.output, s.cloud})
-    for (const auto& in : {(folder / "map.pcd").string(),
-                           (folder / "summary.json").string(),
-                           s.planes,
-                           s.objects,
-                           s.rules})
-      if (fs::equivalent(out, in, missing))
-        throw UsageError(out + " is an input");
+  checkOutputs(s);
   return true;
 }
 
@@ -138,6 +154,7 @@ runMapBuild(const std::vector<std::string>& arguments)
   BuildSettings s;
   if (!parse(arguments, s))
     return kDone;
+  const Interrupt interrupt;
   ProgressBar bar(s.quiet);
   const auto threads = static_cast<unsigned int>(s.threads);
   const ScenePartsOptions part_options{s.planes, s.objects, s.rules, threads};
@@ -152,9 +169,13 @@ runMapBuild(const std::vector<std::string>& arguments)
   checkScans(map, objects.source);
   if (!s.keep_observations)
     map.objects = fused(map.objects);
-  const auto planes = findPlanes(run, cloud, part_options);
-  map.planes = planes.parts;
-  bar.say("planes: " + planes.source);
+  const auto planes = findPlanes(run, part_options, bar, interrupt);
+  if (!planes) {
+    bar.say("interrupted while reading; nothing is written");
+    return kInterrupted;
+  }
+  map.planes = planes->parts;
+  bar.say("planes: " + planes->source);
   bar.say("objects: " + objects.source);
 
   PointLabelOptions label_options;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "planes/plane_input.h"
 #include "semantic_map/scene_parts.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/io/plane_io.h>
-#include <pcl6d/io/scan_fields.h>
-#include <pcl6d/plane_segmentation/segment_planes.h>
 #include <pcl6d/scene_interpretation/interpretation.h>
-#include <pcl6d/scene_interpretation/model_refinement.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
 #include <algorithm>
@@ -29,63 +26,32 @@ interpretationOptions(const ScenePartsOptions& options)
   return interpretation;
 }
 
-/** \return from where each point of the map was seen; empty if it does not tell */
-Points
-viewpointsOf(const FinishedRun& run, const Scan& map)
-{
-  const auto scan_of = fieldValues(map.cloud, "scan");
-  if (!scan_of)
-    return {};
-  SemanticMap known;
-  known.scans = run.scans();
-  Points viewpoints;
-  viewpoints.reserve(map.points.size());
-  for (const double id : scan_of->values) {
-    const auto place =
-        id >= 0 ? known.placeOf({EntityKind::kScan, static_cast<std::size_t>(id)})
-                : std::nullopt;
-    if (!place)
-      throw IoFailed((run.folder() / "map.pcd").string() + ": a point of scan " +
-                     std::to_string(id) + ", but the run has no such scan");
-    const Eigen::Vector3d position = known.scans[*place].T_world_scan.translation();
-    viewpoints.push_back((position - run.worldOffset()).cast<float>());
-  }
-  return viewpoints;
-}
-
-/** A plane relative to the offset of a run, in full coordinates. */
-Plane
-moved(Plane plane, const Eigen::Vector3d& offset)
-{
-  plane.offset += plane.normal.dot(offset);
-  for (auto& corner : plane.hull)
-    corner += offset;
-  orientPlane(plane);
-  return plane;
-}
-
-std::vector<MapPlane>
+/** The planes of the scans of a run, as pcl_slam6d_planes finds them, in full coordinates.
+ * \return nothing if interrupted */
+std::optional<std::vector<MapPlane>>
 segmentAndLabel(const FinishedRun& run,
-                const Scan& map,
-                const ScenePartsOptions& options)
+                const ScenePartsOptions& options,
+                ProgressBar& bar,
+                const Interrupt& interrupt)
 {
-  PlaneCloudOptions cloud_options;
-  cloud_options.viewpoints = viewpointsOf(run, map);
-  cloud_options.num_threads = options.num_threads;
-  PlaneSegments found = segmentPlanes(PlaneCloud(map.points, cloud_options));
-  const Interpretation interpretation =
-      interpretScene(found.planes, rulesOf(options), interpretationOptions(options));
-  applyLabels(interpretation, found.planes);
-  RefinementOptions refinement;
-  refinement.num_threads = options.num_threads;
-  const RefinedModel refined = refineModel(found.planes, map.points, refinement);
+  PlaneSettings settings;
+  settings.input = run.folder().string();
+  settings.step.rules = rulesOf(options);
+  settings.step.refine = true;
+  const auto cloud = readPlaneInput(settings, bar, interrupt);
+  if (!cloud)
+    return {};
+  const PlaneStepResult found = findPlanes(*cloud, settings.step, options.num_threads);
+  const RefinedModel& refined = *found.refined;
+  const auto measured = worldPlanes(found.segments.planes, cloud->world_offset);
+  const auto moved = worldPlanes(refined.planes, cloud->world_offset);
   std::vector<MapPlane> planes;
-  for (std::size_t i = 0; i < found.planes.size(); ++i) {
+  for (std::size_t i = 0; i < measured.size(); ++i) {
     MapPlane& plane = planes.emplace_back();
-    plane.measured = moved(found.planes[i].plane, run.worldOffset());
+    plane.measured = measured[i];
     if (refined.status == Status::kOk &&
         refined.changes[i].kind != RefinedKind::kUnchanged)
-      plane.refined = moved(refined.planes[i].plane, run.worldOffset());
+      plane.refined = moved[i];
   }
   return planes;
 }
@@ -105,14 +71,21 @@ labelIfBare(std::vector<Plane>& planes, const ScenePartsOptions& options)
 }
 } // namespace
 
-SceneParts<MapPlane>
-findPlanes(const FinishedRun& run, const Scan& map, const ScenePartsOptions& options)
+std::optional<SceneParts<MapPlane>>
+findPlanes(const FinishedRun& run,
+           const ScenePartsOptions& options,
+           ProgressBar& bar,
+           const Interrupt& interrupt)
 {
   const fs::path of_run = run.folder() / "planes.json";
   const fs::path file =
       options.planes.empty() && fs::exists(of_run) ? of_run : options.planes;
-  if (file.empty())
-    return {segmentAndLabel(run, map, options), "found in map.pcd"};
+  if (file.empty()) {
+    auto found = segmentAndLabel(run, options, bar, interrupt);
+    if (!found)
+      return {};
+    return SceneParts<MapPlane>{*std::move(found), "found in the scans"};
+  }
   std::vector<Plane> planes = readPlanes(file);
   labelIfBare(planes, options);
   SceneParts<MapPlane> result{{}, file.string()};

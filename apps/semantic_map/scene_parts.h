@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/interrupt.h"
+#include "common/progress_bar.h"
 #include "semantic_map/finished_run.h"
 
-#include <pcl6d/common/progress.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,12 +31,14 @@ struct SceneParts {
 };
 
 /** \brief The planes of a run, labelled: those of the given file, of planes.json in the
- * folder of the run, or found in its map, labelled and refined (book 7.1). Planes of a
- * file without any label are labelled.
- * \param[in] map that of the run; its points are relative to its offset
- * \throws IoFailed a file cannot be read */
-SceneParts<MapPlane>
-findPlanes(const FinishedRun& run, const Scan& map, const ScenePartsOptions& options);
+ * folder of the run, or found in its scans, labelled and refined (book 7.1), as
+ * pcl_slam6d_planes does. Planes of a file without any label are labelled.
+ * \return nothing if interrupted \throws IoFailed a file cannot be read */
+std::optional<SceneParts<MapPlane>>
+findPlanes(const FinishedRun& run,
+           const ScenePartsOptions& options,
+           ProgressBar& bar,
+           const Interrupt& interrupt);
 
 /** \brief The objects of a run, one entry per observation: those of the given file, or of
  * objects.json in the folder of the run; none without either. The place where

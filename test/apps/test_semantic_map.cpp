@@ -230,6 +230,13 @@ TEST(SemanticMap, RefusesAWrongCommandLine)
   expectError(program({"build", run, "-o", run + "/summary.json"}),
               2,
               {"summary.json is an input"});
+  expectError(
+      program({"build", run, "--cloud", run + "/map.pcd"}), 2, {"map.pcd is an input"});
+  expectError(
+      program({"build", run, "-o", run + "/links.csv"}), 2, {"links.csv is an input"});
+  expectError(program({"build", run, "-o", "one.ply", "--cloud", "./one.ply"}),
+              2,
+              {"both ./one.ply"});
   EXPECT_EQ(program({"--help"}).exit_code, 0);
   EXPECT_EQ(program({"--version"}).exit_code, 0);
   EXPECT_NE(program({"query", "--help"}).out.find("CONDITION"), std::string::npos);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/hull_prism.h>
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/random.h>
 
@@ -84,6 +85,29 @@ TEST(OrientPlane, ThroughTheOriginGoesByTheFirstComponent)
   pcl6d::orientPlane(plane);
   EXPECT_EQ(plane.normal, Eigen::Vector3d(0, 0.6, -0.8));
   EXPECT_FALSE(std::signbit(plane.offset));
+}
+
+TEST(HullPrism, HoldsWhatIsOverOrUnderTheHull)
+{
+  pcl6d::Plane plane;
+  plane.normal = kNormal;
+  plane.offset = 5;
+  plane.hull =
+      pcl6d::convexHull({onPlane(0, 0), onPlane(2, 0), onPlane(0, 1)}, kNormal);
+  const pcl6d::HullPrism prism(plane);
+  for (const double height : {-7.0, 0.0, 3.0}) {
+    const Eigen::Vector3d up = height * kNormal;
+    EXPECT_TRUE(prism.covers(onPlane(0.5, 0.5) + up));
+    EXPECT_FALSE(prism.covers(onPlane(-0.1, 0.5) + up));
+    EXPECT_TRUE(prism.covers(onPlane(-0.1, 0.5) + up, 0.11));
+    EXPECT_FALSE(prism.covers(onPlane(-0.1, 0.5) + up, 0.09));
+    EXPECT_FALSE(prism.covers(onPlane(1.5, 0.5) + up)) << "beyond the slanted side";
+    EXPECT_FALSE(prism.covers(onPlane(0.1, 0.1) + up, -0.11));
+  }
+  std::reverse(plane.hull.begin(), plane.hull.end());
+  plane.normal = -plane.normal; // the other side of the same
+  EXPECT_TRUE(pcl6d::HullPrism(plane).covers(onPlane(0.5, 0.5)));
+  EXPECT_FALSE(pcl6d::HullPrism(plane).covers(onPlane(-0.1, 0.5)));
 }
 
 TEST(PlaneLabel, HasAName)

@@ -184,3 +184,76 @@ TEST(FindRooms, FindsNothingWithoutAFloorAndRefusesWrongOptions)
   options.min_seen = 1.5;
   EXPECT_THROW(findRooms(map, {}, options), BadArgument);
 }
+
+namespace {
+/** Two rooms with a wall of 0.2 m between x = 4 and 4.2 and floor points of both. */
+SemanticMap
+roomsWithAThickWall()
+{
+  SemanticMap map;
+  add(map,
+      {rectangle("floor", {0, 0, 0}, {8.2, 0, 0}, {0, 3, 0}),
+       wall({0, 0}, {8.2, 0}),
+       wall({0, 3}, {8.2, 3}),
+       wall({0, 0}, {0, 3}),
+       wall({8.2, 0}, {8.2, 3}),
+       wall({4, 0}, {4, 3}),
+       wall({4.2, 0}, {4.2, 3})});
+  return map;
+}
+
+/** What is seen of the floor, with the wall open from y = from to y = to. */
+Points
+floorWithOpening(double from, double to)
+{
+  Points points;
+  for (double x = 0.03; x < 8.2; x += 0.06)
+    for (double y = 0.03; y < 3; y += 0.06)
+      if (x < 4 || x > 4.2 || (y > from && y < to))
+        points.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.F);
+  return points;
+}
+} // namespace
+
+TEST(FindRooms, JoinsRoomsWhereTheFloorGoesOnBelowALintel)
+{
+  SemanticMap map = roomsWithAThickWall();
+  findRooms(map, floorWithOpening(1, 2));
+  ASSERT_EQ(map.rooms.size(), 2u);
+  EXPECT_TRUE(says(map, "room:1", "next_to", "room:2"));
+  for (const auto& [from, to] : {std::pair{1.0, 1.0}, {1.0, 1.3}, {0.5, 2.5}}) {
+    SemanticMap closed = roomsWithAThickWall();
+    findRooms(closed, floorWithOpening(from, to));
+    ASSERT_EQ(closed.rooms.size(), 2u);
+    EXPECT_FALSE(says(closed, "room:1", "next_to", "room:2"))
+        << "shut, a cat flap, or no door: " << from << " to " << to;
+  }
+}
+
+TEST(FindRooms, TellsRoomsOnSplitLevelsApart)
+{
+  SemanticMap map; // the right room is 0.7 m higher
+  add(map,
+      {rectangle("floor", {0, 0, 0}, {4, 0, 0}, {0, 3, 0}),
+       rectangle("ceiling", {0, 0, 2.5}, {4, 0, 0}, {0, 3, 0}),
+       rectangle("floor", {4, 0, 0.7}, {4, 0, 0}, {0, 3, 0}),
+       rectangle("ceiling", {4, 0, 3.2}, {4, 0, 0}, {0, 3, 0}),
+       wall({0, 0}, {8, 0}, 0, 3.2),
+       wall({0, 3}, {8, 3}, 0, 3.2),
+       wall({0, 0}, {0, 3}, 0, 3.2),
+       wall({8, 0}, {8, 3}, 0, 3.2),
+       wall({4, 0}, {4, 3}, 0, 3.2)});
+  findRooms(map);
+  ASSERT_EQ(map.storeys.size(), 2u);
+  EXPECT_NEAR(map.storeys[0].ceiling.value(), 2.5, 1e-12);
+  EXPECT_NEAR(map.storeys[1].ceiling.value(), 3.2, 1e-12);
+  ASSERT_EQ(map.rooms.size(), 2u);
+  for (const auto& room : map.rooms)
+    EXPECT_NEAR(room.height.value(), 2.5, 1e-12);
+  // a scanner 0.9 m over the lower floor is over the upper one as well, in height
+  EXPECT_EQ(storeyAt(map, 0.9), 2u);
+  EXPECT_EQ(map.rooms[roomAt(map, {2, 1.5, 0.9}) - 1].storey, 1u);
+  EXPECT_EQ(map.rooms[roomAt(map, {6, 1.5, 1.6}) - 1].storey, 2u);
+  EXPECT_EQ(roomAt(map, {6, 1.5, 0.2}), 0u) << "below its floor";
+  EXPECT_EQ(roomAt(map, {9, 1.5, 0.9}), 0u);
+}

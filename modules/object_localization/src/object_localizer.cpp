@@ -19,8 +19,8 @@ constexpr double kRefinement = 0.5;
 /** Before the last step a pose need not agree as well, by this factor. */
 constexpr double kRoughAgreement = 0.6;
 /** Of a proposal: poses that are compared with the scan, and those made precise. */
-constexpr std::size_t kPlacings = 60;
-constexpr std::size_t kPlacingsRefined = 6;
+constexpr std::size_t kPlacings = 120;
+constexpr std::size_t kPlacingsRefined = 8;
 constexpr double kFieldReach = 3;        // elements
 constexpr double kPlacingGate = 3;       // elements
 constexpr double kClusterDistance = 0.1; // of the diameter

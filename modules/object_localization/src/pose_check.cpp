@@ -24,15 +24,9 @@ class RayCheck {
 public:
   RayCheck(const LocalizationScene& scene,
            const SceneSurface& surface,
-           const ModelSurface& model,
-           const Eigen::Isometry3d& T_scene_model,
+           double element,
            double tolerance)
-  : scene_(scene)
-  , surface_(surface)
-  , model_(model)
-  , T_model_scene_(T_scene_model.inverse())
-  , element_(model.element)
-  , tolerance_(tolerance)
+  : scene_(scene), surface_(surface), element_(element), tolerance_(tolerance)
   {}
 
   void
@@ -105,39 +99,40 @@ private:
       ++check_.misfit;
   }
 
-  /** Where no ray met the element: was there none, is something in front, or are rays
-   * so far apart? */
+  /** Where no ray met the element: was there none around, or are rays so far apart? Then
+   * nothing is known of it, and the others stand for it. */
   void
   addUnmet(const FacingElement& e)
   {
     const auto spacing = static_cast<float>(kNextRay * scene_.angularSpacing());
-    const Neighbour ray = surface_.directions.nearest((e.point / e.range).cast<float>(),
-                                                      spacing * spacing);
-    if (ray.index < 0) {
+    if (surface_.directions
+            .nearest((e.point / e.range).cast<float>(), spacing * spacing)
+            .index < 0)
       ++check_.unseen;
-      return;
-    }
-    const Eigen::Vector3f& point =
-        surface_.elements.points[static_cast<std::size_t>(ray.index)];
-    const auto reach = static_cast<float>(kApart * (tolerance_ + element_));
-    const bool is_own =
-        model_.tree
-            .nearest((T_model_scene_ * point.cast<double>()).cast<float>(),
-                     reach * reach)
-            .index >= 0;
-    if (!is_own && point.norm() < e.range - kApart * tolerance_ / e.cosine)
-      ++check_.occluded;
   }
 
   const LocalizationScene& scene_;
   const SceneSurface& surface_;
-  const ModelSurface& model_;
-  Eigen::Isometry3d T_model_scene_;
   double element_;
   double tolerance_;
   PoseCheck check_;
   double squares_ = 0;
 };
+
+/** Whether two elements side by side are of one surface: where normals are known, those of
+ * both agree and each is on the other's plane; else no step in range divides them. */
+bool
+areJoined(const Surfels& surfels, std::uint32_t a, std::uint32_t b, double tolerance)
+{
+  const Eigen::Vector3f way = surfels.points[b] - surfels.points[a];
+  if (surfels.smooth[a] && surfels.smooth[b])
+    return surfels.normals[b].dot(surfels.normals[a]) > kSmooth &&
+           std::abs(surfels.normals[a].dot(way)) < static_cast<float>(tolerance);
+  constexpr float kSlope = 1.5F; // of a surface that is not seen too steeply
+  const float depth = std::abs(surfels.points[a].normalized().dot(way));
+  const float aside = std::sqrt(std::max(way.squaredNorm() - depth * depth, 0.0F));
+  return depth < kSlope * aside;
+}
 
 /** Counts the supporting elements from where the surface goes on beyond the object. */
 void
@@ -153,12 +148,9 @@ checkContinuation(const SceneSurface& surface,
     const auto beyond = static_cast<float>(4 * near * near);
     const auto goesOn = [&](std::uint32_t next) {
       const Eigen::Vector3d place = T_model_scene * surfels.points[next].cast<double>();
-      if (model_tree.nearest(place.cast<float>(), beyond).index >= 0)
-        return false;
-      const Eigen::Vector3f& normal = surfels.normals[element];
-      const float off = normal.dot(surfels.points[next] - surfels.points[element]);
-      return surfels.normals[next].dot(normal) > kSmooth &&
-             std::abs(off) < static_cast<float>(near);
+      return !surface.large[next] &&
+             model_tree.nearest(place.cast<float>(), beyond).index < 0 &&
+             areJoined(surfels, element, next, near);
     };
     if (std::any_of(surfels.links.begin() + surfels.link_begin[element],
                     surfels.links.begin() + surfels.link_begin[element + 1],
@@ -175,7 +167,7 @@ checkPose(const LocalizationScene& scene,
           const Eigen::Isometry3d& T_scene_model,
           double tolerance)
 {
-  RayCheck rays(scene, surface, model, T_scene_model, tolerance);
+  RayCheck rays(scene, surface, model.element, tolerance);
   for (const FacingElement& e :
        facingElements(model.surface, T_scene_model, model.element))
     rays.add(e);

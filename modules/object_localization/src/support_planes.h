@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "plane_prism.h"
+
 #include <pcl6d/object_localization/object_proposals.h>
 
 #include <cstdint>
@@ -10,35 +12,6 @@
 /** \file What the planes of a scene are to the things in it. Internal to the module
  * object_localization. */
 namespace pcl6d {
-
-/** \brief The space over the hull of a plane, on the side that was seen. */
-class PlanePrism {
-public:
-  explicit PlanePrism(const PlaneSegment& segment);
-
-  /** \return the height [m] over the plane */
-  double
-  height(const Eigen::Vector3f& point) const
-  {
-    return side_.dot(point.cast<double>()) - offset_;
-  }
-
-  /** \return whether the point is over or under the hull grown by a margin [m] */
-  bool
-  covers(const Eigen::Vector3f& point, double margin) const;
-
-  /** \return the unit normal on the side that was seen */
-  const Eigen::Vector3d&
-  side() const
-  {
-    return side_;
-  }
-
-private:
-  Eigen::Vector3d side_;
-  double offset_;                      // [m] along side_
-  std::vector<Eigen::Vector4d> edges_; // outside where (n, -d).(p, 1) > 0
-};
 
 /** \brief What a plane is to things. */
 enum class PlaneRole {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "object_shape.h"
+#include "plan_hull.h"
 #include "storey_plan.h"
 
 #include <pcl6d/common/portable_math.h>
@@ -111,21 +112,44 @@ private:
       findCeiling(i);
   }
 
+  /** \return whether a floor of a storey is under the middle of a ceiling, or under it with
+   * its own middle */
+  bool
+  isOverFloor(const ScenePlane& ceiling, std::size_t storey) const
+  {
+    return std::any_of(
+        floors_of_[storey].begin(), floors_of_[storey].end(), [&](std::size_t i) {
+          const ScenePlane& floor = planes_[i];
+          return floor.centre.z() + kHeadroom < ceiling.centre.z() &&
+                 (PlanHull(floor).contains(ceiling.centre.head<2>()) ||
+                  PlanHull(ceiling).contains(floor.centre.head<2>()));
+        });
+  }
+
+  // Of a ceiling over no floor the heights tell; where floors are on two levels side by
+  // side, they do not.
+  bool
+  isCeilingOf(std::size_t plane, std::size_t storey) const
+  {
+    const ScenePlane& ceiling = planes_[plane];
+    if (!isLabelled(map_.planes[plane], PlaneLabel::kCeiling) ||
+        ceiling.centre.z() <= map_.storeys[storey].floor + kHeadroom)
+      return false;
+    std::size_t highest = map_.storeys.size(); // with a floor under it
+    for (std::size_t i = 0; i < map_.storeys.size(); ++i)
+      if (isOverFloor(ceiling, i))
+        highest = i;
+    if (highest < map_.storeys.size())
+      return storey == highest;
+    return ceiling.centre.z() < topOf(storey) + options_.storey_height;
+  }
+
   /** \return height of the next floor [m] */
   double
   topOf(std::size_t storey) const
   {
     return storey + 1 < map_.storeys.size() ? map_.storeys[storey + 1].floor
                                             : std::numeric_limits<double>::infinity();
-  }
-
-  bool
-  isCeilingOf(std::size_t plane, std::size_t storey) const
-  {
-    const double height = planes_[plane].centre.z();
-    return isLabelled(map_.planes[plane], PlaneLabel::kCeiling) &&
-           height > map_.storeys[storey].floor + kHeadroom &&
-           height < topOf(storey) + options_.storey_height;
   }
 
   void

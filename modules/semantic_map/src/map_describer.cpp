@@ -116,25 +116,30 @@ MapDescriber::both(const std::string& predicate, const Entity& entity) const
   return all;
 }
 
+MapDescriber::Things
+MapDescriber::storeyOf(const Things& rooms, const Eigen::Vector3d& position) const
+{
+  const std::size_t storey = rooms.empty() ? storeyAt(map_, map_.up.dot(position))
+                                           : map_.rooms[rooms.front().id - 1].storey;
+  return things(EntityKind::kStorey, {storey});
+}
+
 Properties
 MapDescriber::scan(std::size_t place) const
 {
   const MapScan& scan = map_.scans[place];
   const Eigen::Vector3d position = scan.T_world_scan.translation();
-  const std::size_t storey = storeyAt(map_, map_.up.dot(position));
   Things linked, rooms;
   for (const auto& link : map_.links)
     if (link.from == scan.id || link.to == scan.id)
       linked.push_back({EntityKind::kScan, link.from == scan.id ? link.to : link.from});
-  for (std::size_t i = 0; i < map_.rooms.size(); ++i)
-    if (map_.rooms[i].storey == storey && isInPlan(map_.rooms[i], map_.up, position))
-      rooms.push_back({EntityKind::kRoom, i + 1});
+  if (const std::size_t room = roomAt(map_, position))
+    rooms.push_back({EntityKind::kRoom, room});
   Properties properties{number("id", scan.id, kInTable),
                         text("file", scan.file, kInTable)};
   addPosition(properties, position);
   properties.push_back({"room", rooms, EntityKind::kRoom, kInTable});
-  properties.push_back(
-      {"storey", things(EntityKind::kStorey, {storey}), EntityKind::kStorey});
+  properties.push_back({"storey", storeyOf(rooms, position), EntityKind::kStorey});
   properties.push_back(
       {"seen", find(seen_, {EntityKind::kScan, scan.id}), EntityKind::kObject});
   properties.push_back({"linked", linked, EntityKind::kScan});
@@ -149,17 +154,15 @@ MapDescriber::plane(std::size_t place) const
   const Eigen::Vector3d centre = plane.hull.empty()
                                      ? Eigen::Vector3d(plane.offset * plane.normal)
                                      : meanOf(plane.hull);
-  const std::size_t storey = storeyAt(map_, map_.up.dot(centre));
+  const Things rooms = targets("belongs_to", self);
   Properties properties{number("id", self.id, kInTable),
                         text("label", plane.label, kInTable),
                         number("area", plane.area, kInTable),
                         number("inliers", plane.inliers, kInTable),
                         number("rms", plane.rms)};
   addPosition(properties, centre);
-  properties.push_back(
-      {"room", targets("belongs_to", self), EntityKind::kRoom, kInTable});
-  properties.push_back(
-      {"storey", things(EntityKind::kStorey, {storey}), EntityKind::kStorey});
+  properties.push_back({"room", rooms, EntityKind::kRoom, kInTable});
+  properties.push_back({"storey", storeyOf(rooms, centre), EntityKind::kStorey});
   for (const char* const predicate :
        {"parallel", "orthogonal", "equalheight", "onto", "touches"})
     properties.push_back({predicate, both(predicate, self), EntityKind::kPlane});
@@ -183,15 +186,12 @@ MapDescriber::object(std::size_t place) const
   const Eigen::Vector3d size = pose.box.sizes();
   const Things inside = targets("in", self);
   const Things rooms = ofKind(inside, EntityKind::kRoom, true);
-  const std::size_t storey = rooms.empty() ? storeyAt(map_, map_.up.dot(position))
-                                           : map_.rooms[rooms.front().id - 1].storey;
   Properties properties{number("id", self.id, kInTable),
                         text("class", pose.object_class, kInTable),
                         number("score", object.score, kInTable)};
   addPosition(properties, position);
   properties.push_back({"room", rooms, EntityKind::kRoom, kInTable});
-  properties.push_back(
-      {"storey", things(EntityKind::kStorey, {storey}), EntityKind::kStorey});
+  properties.push_back({"storey", storeyOf(rooms, position), EntityKind::kStorey});
   properties.push_back({"on", targets("on", self), EntityKind::kPlane, kInTable});
   properties.push_back(
       {"in", ofKind(inside, EntityKind::kRoom, false), EntityKind::kObject});

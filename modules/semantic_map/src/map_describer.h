@@ -42,6 +42,9 @@ private:
   sources(const std::string& predicate, const Entity& entity) const;
   Things
   both(const std::string& predicate, const Entity& entity) const;
+  /** \return the storey of the first room; without one that of the height */
+  Things
+  storeyOf(const Things& rooms, const Eigen::Vector3d& position) const;
 
   const SemanticMap& map_;
   std::map<std::string, Neighbours> forward_;  // predicate, first: seconds

@@ -32,6 +32,107 @@ extend(Reach& reach, double share)
   reach.low = std::min(reach.low, share);
   reach.high = std::max(reach.high, share);
 }
+
+/** Along a wall: where a floor was seen right behind its line, on either side. */
+class FloorSides {
+public:
+  /** \param[in] walls whose other faces end what counts as behind the line */
+  FloorSides(const PlanLine& line, const std::vector<PlanLine>& walls)
+  : line_(line), along_((line.to - line.from).normalized())
+  {
+    const auto steps = static_cast<std::size_t>(line.length() / kStep);
+    for (Side& side : sides_)
+      side.seen.assign(steps, false);
+    for (const auto& wall : walls)
+      endAt(wall);
+  }
+
+  void
+  add(const Eigen::Vector2d& point)
+  {
+    const Eigen::Vector2d way = point - line_.from;
+    const double aside = cross(along_, way), place = along_.dot(way) / kStep;
+    Side& side = sides_[aside > 0 ? 1 : 0];
+    if (std::abs(aside) >= kNear && std::abs(aside) <= side.depth && place >= 0 &&
+        place < static_cast<double>(side.seen.size()))
+      side.seen[static_cast<std::size_t>(place)] = true;
+  }
+
+  /** \return the pieces with a floor on both sides, as long as a door is wide */
+  std::vector<PlanLine>
+  openings(double max_door) const
+  {
+    std::vector<PlanLine> found;
+    for (int k = 0; k < 2; ++k)
+      for (const auto& [begin, end] : runs(sides_[k].seen)) {
+        const auto& other = sides_[1 - k].seen;
+        const auto at = [&](std::size_t step) {
+          return other.begin() + static_cast<std::ptrdiff_t>(step);
+        };
+        const auto common = std::count(at(begin), at(end), true);
+        const double length = static_cast<double>(end - begin) * kStep;
+        if (length >= kNarrowest && length <= max_door &&
+            kShare * common >= static_cast<std::ptrdiff_t>(end - begin))
+          found.push_back({placeOf(begin), placeOf(end)});
+      }
+    return found;
+  }
+
+private:
+  static constexpr double kStep = 0.1;      // [m]
+  static constexpr double kNear = 0.04;     // [m] to a wall its floor may be off
+  static constexpr double kDeepest = 0.16;  // [m] of what counts
+  static constexpr double kNarrowest = 0.5; // [m] of a door
+  static constexpr std::size_t kUnseen = 2; // steps between two points of a floor
+  static constexpr std::ptrdiff_t kShare =
+      3; // one step of so many is seen on both sides
+
+  struct Side {
+    std::vector<bool> seen; // at each step
+    double depth = kDeepest;
+  };
+
+  /** What is behind the other face of a wall is another room. */
+  void
+  endAt(const PlanLine& wall)
+  {
+    constexpr double kParallel = 0.1; // sine
+    const Eigen::Vector2d way = wall.at(0.5) - line_.from;
+    const double aside = cross(along_, way);
+    if (std::abs(cross(along_, wall.to - wall.from)) > kParallel * wall.length() ||
+        std::abs(along_.dot(way) - line_.length() / 2) >
+            (line_.length() + wall.length()) / 2)
+      return;
+    Side& side = sides_[aside > 0 ? 1 : 0];
+    if (std::abs(aside) > kNear)
+      side.depth = std::min(side.depth, std::abs(aside) - kNear);
+  }
+
+  /** \return begin and end of what was seen without longer breaks than kUnseen */
+  static std::vector<std::pair<std::size_t, std::size_t>>
+  runs(const std::vector<bool>& seen)
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> all;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (!seen[i])
+        continue;
+      if (all.empty() || i > all.back().second + kUnseen)
+        all.emplace_back(i, i);
+      all.back().second = i + 1;
+    }
+    return all;
+  }
+
+  Eigen::Vector2d
+  placeOf(std::size_t step) const
+  {
+    return line_.from + static_cast<double>(step) * kStep * along_;
+  }
+
+  PlanLine line_;
+  Eigen::Vector2d along_;
+  Side sides_[2]; // right, left
+};
 } // namespace
 
 PlanLine
@@ -99,6 +200,22 @@ doorways(const std::vector<PlanLine>& lines, double max_door)
         gaps.push_back({lines[i].to, start});
     }
   return gaps;
+}
+
+std::vector<PlanLine>
+openDoors(const std::vector<PlanLine>& lines,
+          const std::vector<Eigen::Vector2d>& floor,
+          double max_door)
+{
+  std::vector<PlanLine> doors;
+  for (const auto& line : lines) {
+    FloorSides sides(line, lines);
+    for (const auto& point : floor)
+      sides.add(point);
+    for (const auto& opening : sides.openings(max_door))
+      doors.push_back(opening);
+  }
+  return doors;
 }
 
 } // namespace pcl6d

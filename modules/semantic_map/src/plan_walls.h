@@ -42,4 +42,13 @@ joinCorners(std::vector<PlanLine>& lines, double max_gap);
 std::vector<PlanLine>
 doorways(const std::vector<PlanLine>& lines, double max_door);
 
+/** \return open doors in walls whose lines go on over them, as below a lintel: there the
+ * floor was seen inside the wall
+ * \param[in] floor points of it
+ * \param[in] max_door [m] what is wider is no door */
+std::vector<PlanLine>
+openDoors(const std::vector<PlanLine>& lines,
+          const std::vector<Eigen::Vector2d>& floor,
+          double max_door);
+
 } // namespace pcl6d

@@ -48,16 +48,9 @@ PointLabeller::PointLabeller(const SemanticMap& map, const PointLabelOptions& op
   };
   for (const auto& entry : map.planes) {
     const Plane& plane = entry.best();
-    Prism prism;
-    for (std::size_t i = 0; i < plane.hull.size(); ++i) {
-      const Eigen::Vector3d& corner = plane.hull[i];
-      const Eigen::Vector3d edge = plane.hull[(i + 1) % plane.hull.size()] - corner;
-      const Eigen::Vector3d out = edge.cross(plane.normal);
+    Prism prism{HullPrism(plane), {}};
+    for (const auto& corner : plane.hull)
       prism.bounds.extend(corner);
-      if (out.norm() > 0)
-        prism.sides.emplace_back() << out.normalized(),
-            out.normalized().dot(corner) + options_.plane_distance;
-    }
     if (!plane.hull.empty())
       prism.bounds = grown(prism.bounds, 2 * options_.plane_distance);
     prisms_.push_back(prism);
@@ -78,12 +71,8 @@ PointLabeller::planeOf(const Eigen::Vector3d& point, double& distance) const
     const Plane& plane = map_.planes[i].best();
     const double off = std::abs(plane.normal.dot(point) - plane.offset);
     if (off > distance || (nearest != 0 && off == distance) ||
-        !prisms_[i].bounds.contains(point))
-      continue;
-    const auto& sides = prisms_[i].sides;
-    if (!std::all_of(sides.begin(), sides.end(), [&](const Eigen::Vector4d& side) {
-          return side.head<3>().dot(point) <= side.w();
-        }))
+        !prisms_[i].bounds.contains(point) ||
+        !prisms_[i].hull.covers(point, options_.plane_distance))
       continue;
     nearest = i + 1;
     distance = off;

@@ -102,6 +102,22 @@ centreOf(const MapRoom& room, const Eigen::Vector3d& up)
 }
 
 std::size_t
+roomAt(const SemanticMap& map, const Eigen::Vector3d& point, double tolerance)
+{
+  const auto floorOf = [&](std::size_t room) {
+    return map.storeys[map.rooms[room - 1].storey - 1].floor;
+  };
+  const double height = map.up.dot(point);
+  std::size_t best = 0;
+  for (std::size_t id = 1; id <= map.rooms.size(); ++id)
+    if (floorOf(id) <= height + tolerance &&
+        (best == 0 || floorOf(id) > floorOf(best)) &&
+        isInPlan(map.rooms[id - 1], map.up, point))
+      best = id;
+  return best;
+}
+
+std::size_t
 storeyAt(const SemanticMap& map, double height, double tolerance)
 {
   std::size_t storey = map.storeys.empty() ? 0 : 1;

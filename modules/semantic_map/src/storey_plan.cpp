@@ -30,6 +30,8 @@ public:
     for (const auto& wall : storey.walls)
       walls_.push_back(planLine(wall.shape));
     doorways_ = doorways(walls_, options.max_door);
+    for (const auto& door : openDoors(walls_, storey.seen, options.max_door))
+      doorways_.push_back(door);
     joinCorners(walls_, options.max_gap);
     for (const auto& door : storey.doors)
       doors_.push_back(planLine(door.shape));
@@ -272,7 +274,7 @@ private:
   const RoomOptions& options_;
   PlanGrid grid_;
   std::vector<PlanLine> walls_;
-  std::vector<PlanLine> doorways_; // gaps of walls
+  std::vector<PlanLine> doorways_; // gaps of walls, and open doors in them
   std::vector<PlanLine> doors_;
   std::vector<PlanRoom> rooms_;
   std::vector<std::size_t> cells_; // of each room

@@ -31,7 +31,7 @@ struct LocalizerOptions {
   double min_agreement = 0.88;     ///< PoseCheck::agreement()
   double max_violation = 0.08;     ///< PoseCheck::freeSpaceViolation()
   double max_continuation = 0.4;   ///< PoseCheck::continuation(); >= 0
-  std::size_t min_support = 30;    ///< surface elements of the scan on the object; > 0
+  std::size_t min_support = 20;    ///< surface elements of the scan on the object; > 0
   double max_shared_support = 0.3; ///< of the weaker one of two objects
   unsigned int num_threads = 0;    ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */

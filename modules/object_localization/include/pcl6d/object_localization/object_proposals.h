@@ -49,7 +49,7 @@ struct ObjectProposal {
   Eigen::Isometry3d T_scene_box = Eigen::Isometry3d::Identity();
   Eigen::Vector3d size = Eigen::Vector3d::Zero(); ///< [m] along the axes of that frame
   std::size_t support = 0; ///< the plane it stands on, as a place in the list of planes
-  bool touches_border = false;        ///< ends where the view does: may be cut
+  bool touches_border = false;        ///< ends where the measurements do: may be cut
   std::optional<std::size_t> part_of; ///< the larger proposal that it is a piece of
 };
 

@@ -35,6 +35,7 @@ struct RoomOptions {
  * covers though no floor point was seen there. The plan is aligned with the walls.
  * Relations are added: planes belong_to the rooms that they bound, and rooms are
  * next_to each other if a door lies between: each door joins the two rooms nearest to it.
+ * A door is a plane with that label, a gap of a wall, or a piece of it with floor inside.
  * \param[in] floor_points [m] in the world less world_offset; empty: hulls alone count
  * \throws BadArgument an option breaks its rule \ingroup semantic_map */
 void

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/hull_prism.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
@@ -44,8 +45,8 @@ public:
   label(const Points& points, const Eigen::Isometry3d& T_world_points) const;
 
 private:
-  struct Prism { ///< the space about a hull, by half spaces n.p <= d
-    std::vector<Eigen::Vector4d> sides;
+  struct Prism { ///< the space about a hull
+    HullPrism hull;
     Eigen::AlignedBox3d bounds;
   };
 

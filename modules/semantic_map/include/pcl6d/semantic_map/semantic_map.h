@@ -123,8 +123,15 @@ isInPlan(const MapRoom& room, const Eigen::Vector3d& up, const Eigen::Vector3d& 
 Eigen::Vector3d
 centreOf(const MapRoom& room, const Eigen::Vector3d& up);
 
+/** \return the id of the room around a point: of those with it in plan the one whose floor
+ * is the highest not above it; 0 without one. Where floors differ by less than a storey,
+ * only the plan tells which one a point is over.
+ * \param[in] tolerance [m] so far a floor may be above */
+std::size_t
+roomAt(const SemanticMap& map, const Eigen::Vector3d& point, double tolerance = 0.3);
+
 /** \return the id of the storey whose floor is the highest not above a height along up
- * [m]; 0 without storeys, the lowest one below all floors
+ * [m], for what is in no room; 0 without storeys, the lowest one below all floors
  * \param[in] tolerance [m] so far a floor may be above */
 std::size_t
 storeyAt(const SemanticMap& map, double height, double tolerance = 0.3);

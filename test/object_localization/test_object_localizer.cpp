@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Upright objects of the store in a simulated room, at places that are known.
-#include "object_localization/detection_room.h"
-#include "object_localization/localization_cases.h"
+#include "object_localization/placed_objects.h"
 #include "support/bits.h"
-
-#include <pcl6d/common/error.h>
-#include <pcl6d/object_localization/model_store.h>
-#include <pcl6d/object_localization/object_localizer.h>
-#include <pcl6d/plane_segmentation/segment_planes.h>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -16,67 +10,8 @@
 
 namespace pcl6d {
 namespace {
+using namespace test;
 constexpr double kDegree = M_PI / 180;
-constexpr double kHeight = 0.8; // [m] of the scanner over the floor
-
-StoredModel
-stored(const std::string& name)
-{
-  return readStoredModel(std::filesystem::path(PCL6D_SOURCE_DIR) / "share/models" /
-                         name);
-}
-
-/** Objects in a room that is scanned from its middle. */
-class Room {
-public:
-  void
-  add(const TriangleMesh& mesh, const Eigen::Isometry3d& T_room_object)
-  {
-    addMesh(scene_, mesh, T_room_object, {});
-  }
-  void
-  addBlock(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
-  {
-    addBox(scene_, low, high, {});
-  }
-
-  Points
-  scan(double noise = 0) const
-  {
-    return test::scanOf(
-        scene_, scannerByName("rotating"), poseFromEuler({0, 0, kHeight}, {}), noise);
-  }
-
-private:
-  TriangleScene scene_ = test::room();
-};
-
-/** \return T_scene_object of what stands on the floor at a place of the room */
-Eigen::Isometry3d
-standing(double x, double y, double yaw)
-{
-  return poseFromEuler({x, y, -kHeight}, {0, 0, yaw});
-}
-
-/** \return T_room_object of the same */
-Eigen::Isometry3d
-inRoom(const Eigen::Isometry3d& T_scene_object)
-{
-  return Eigen::Translation3d(0, 0, kHeight) * T_scene_object;
-}
-
-std::vector<LocalizedObject>
-locate(const ObjectModel& model, const Points& points, unsigned int num_threads = 0)
-{
-  LocalizerOptions options;
-  options.num_threads = num_threads;
-  const LocalizationScene scene(points, num_threads);
-  const PlaneCloud cloud(scene.points(), num_threads);
-  ProposalOptions proposing;
-  proposing.num_threads = num_threads;
-  return ObjectLocalizer(model, options)
-      .locate(scene, proposeObjects(cloud, segmentPlanes(cloud), proposing));
-}
 
 /** \return how far the middle of the model's box is from its true place [m] */
 double
@@ -249,69 +184,11 @@ TEST(ObjectLocalizer, GivesTheSameBitsForAnyNumberOfThreads)
   for (const unsigned int threads : {2u, 8u}) {
     const auto several = locate(chair.model, points, threads);
     ASSERT_EQ(several.size(), 1u);
-    EXPECT_TRUE(test::sameBits(several[0].T_scene_object, one[0].T_scene_object));
-    EXPECT_TRUE(test::sameBits(*several[0].covariance, *one[0].covariance));
+    EXPECT_TRUE(sameBits(several[0].T_scene_object, one[0].T_scene_object));
+    EXPECT_TRUE(sameBits(*several[0].covariance, *one[0].covariance));
     EXPECT_EQ(several[0].score, one[0].score);
     EXPECT_EQ(several[0].points, one[0].points);
   }
-}
-
-TEST(ObjectLocalizer, LeavesOutPointsThatAreNotFinite)
-{
-  const StoredModel chair = stored("chair");
-  Room room;
-  room.add(chair.mesh, inRoom(standing(2, 0.3, 0.6)));
-  Points points = room.scan();
-  const auto clean = locate(chair.model, points);
-  points.emplace_back(NAN, 0.0F, 1.0F);
-  points.emplace_back(0.0F, INFINITY, 1.0F);
-  const auto found = locate(chair.model, points);
-  ASSERT_EQ(found.size(), clean.size());
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_TRUE(test::sameBits(found[0].T_scene_object, clean[0].T_scene_object));
-}
-
-TEST(ObjectLocalizer, FindsNothingWhereThereIsNothingToFind)
-{
-  const ObjectModel chair = stored("chair").model;
-  OrientedPoints floor;
-  test::addPatch(floor, {{-2, -2, -kHeight}, {4, 0, 0}, {0, 4, 0}}, 0.05);
-  EXPECT_TRUE(locate(chair, floor.points).empty());
-  EXPECT_TRUE(ObjectLocalizer(chair).locate(LocalizationScene(floor.points)).empty());
-  EXPECT_TRUE(
-      ObjectLocalizer(chair).locate(LocalizationScene(floor.points), {}).empty());
-  const Points one_place(20, {1, 0, 0});
-  EXPECT_TRUE(locate(chair, one_place).empty());
-  EXPECT_TRUE(ObjectLocalizer(chair).locate(LocalizationScene(one_place)).empty());
-  EXPECT_THROW(LocalizationScene(Points(9, {1, 0, 0})), BadArgument);
-  EXPECT_THROW(LocalizationScene(Points(50, {NAN, 0, 0})), BadArgument);
-}
-
-TEST(ObjectLocalizer, NamesTheOptionThatBreaksItsRule)
-{
-  const auto refusal = [](auto change) {
-    LocalizerOptions options;
-    change(options);
-    try {
-      options.validate();
-    } catch (const BadArgument& e) {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
-  const auto expectNamed = [&](const char* name, auto change) {
-    EXPECT_EQ(refusal(change).rfind(name, 0), 0u) << refusal(change);
-  };
-  EXPECT_EQ(refusal([](auto&) {}), "");
-  expectNamed("resolution", [](auto& o) { o.resolution = 0.01; });
-  expectNamed("max_candidates", [](auto& o) { o.max_candidates = 0; });
-  expectNamed("min_visible", [](auto& o) { o.min_visible = 1.1; });
-  expectNamed("min_facing", [](auto& o) { o.min_facing = -0.1; });
-  expectNamed("min_agreement", [](auto& o) { o.min_agreement = NAN; });
-  expectNamed("max_violation", [](auto& o) { o.max_violation = 2; });
-  expectNamed("max_continuation", [](auto& o) { o.max_continuation = -1; });
-  expectNamed("min_support", [](auto& o) { o.min_support = 0; });
-  expectNamed("max_shared_support", [](auto& o) { o.max_shared_support = -1; });
 }
 
 } // namespace pcl6d

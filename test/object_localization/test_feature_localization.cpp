@@ -21,7 +21,6 @@ table()
   TriangleScene scene;
   addBox(scene, {0.4, -1, -0.35}, {2.2, 1, -0.3}, {});
   addBox(scene, {2.2, -2, -2}, {2.3, 2, 2}, {});
-  addBox(scene, {1.3, 0.25, -0.3}, {1.5, 0.45, -0.05}, {});
   addBox(scene, {1.1, -0.55, -0.3}, {1.2, -0.35, -0.18}, {});
   addCylinder(scene, {1.5, -0.3, -0.3}, 0.06, 0.25, {});
   return scene;

@@ -95,6 +95,7 @@ private:
   LocalizerOptions options_;
   ObjectModel model_;
   double voxel_;            ///< [m] of the search
+  double spacing_;          ///< [m] of the model's points
   OrientedPoints coarse_;   ///< the model for votes
   std::shared_ptr<const ModelSurface> fine_; ///< for refinement
   std::size_t most_facing_; ///< points of fine_, from the best side

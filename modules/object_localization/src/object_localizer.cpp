@@ -79,6 +79,7 @@ LocalizerOptions::validate() const
   const auto isShare = [](double x) { return x >= 0 && x <= 1; };
   require(isShare(min_visible), "min_visible", min_visible, "0 to 1");
   require(isShare(min_facing), "min_facing", min_facing, "0 to 1");
+  require(isShare(min_seen), "min_seen", min_seen, "0 to 1");
   require(isShare(min_agreement), "min_agreement", min_agreement, "0 to 1");
   require(isShare(max_violation), "max_violation", max_violation, "0 to 1");
   require(max_continuation >= 0, "max_continuation", max_continuation, ">= 0");
@@ -156,6 +157,12 @@ ObjectLocalizer::locate(const LocalizationScene& scene) const
     candidates[i] = refinement.onPoints(
         candidates[i], model_.surface(), {fine_->element, spacing_});
   });
+  const double least = options_.min_seen * static_cast<double>(most_facing_);
+  const auto isTooCoarse = [&](const ObjectCandidate& c) {
+    return static_cast<double>(c.check.support.size()) < least;
+  };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isTooCoarse),
+                   candidates.end());
   return objectsOf(std::move(candidates));
 }
 

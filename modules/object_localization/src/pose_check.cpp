@@ -39,8 +39,10 @@ public:
     ++check_.elements;
     const double width =
         std::max(kRayWidth * element_ / e.range, kRaySpacing * scene_.angularSpacing());
-    const auto rays = surface_.directions.withinRadius(
-        (e.point / e.range).cast<float>(), static_cast<float>(width * width), kMostRays);
+    const auto rays =
+        surface_.directions.withinRadius((e.point / e.range).cast<float>(),
+                                         static_cast<float>(width * width),
+                                         kMostRays);
     if (rays.empty())
       return addUnmet(e);
     const auto core = static_cast<float>(kRayCore * element_ / e.range);
@@ -113,14 +115,15 @@ private:
     const Eigen::Vector3f direction = (e.point / e.range).cast<float>();
     const auto around = static_cast<float>(kNextRay * scene_.angularSpacing());
     const auto wide = static_cast<float>(kNextElement * element_ / e.range);
-    const Neighbour ray = surface_.directions.nearest(
-        direction, std::max(around * around, wide * wide));
+    const Neighbour ray =
+        surface_.directions.nearest(direction, std::max(around * around, wide * wide));
     if (ray.index < 0) {
       ++check_.unseen;
       return;
     }
-    const double range =
-        surface_.elements.points[static_cast<std::size_t>(ray.index)].cast<double>().norm();
+    const double range = surface_.elements.points[static_cast<std::size_t>(ray.index)]
+                             .cast<double>()
+                             .norm();
     const double cover = kRayWidth * element_ / range;
     if (ray.distance_sq < cover * cover &&
         range < e.range - kApart * tolerance_ / e.cosine)

@@ -22,8 +22,10 @@ constexpr double kRoughAgreement = 0.6;
 /** Of a proposal: poses that are compared with the scan, and those made precise. */
 constexpr std::size_t kPlacings = 120;
 constexpr std::size_t kPlacingsRefined = 8;
-constexpr double kFieldReach = 3;        // elements
-constexpr double kPlacingGate = 3;       // elements
+constexpr double kFieldReach = 3;  // elements
+constexpr double kPlacingGate = 3; // elements
+/** The same, of poses that the surface agrees with. */
+constexpr double kSurfaceGate = 2;
 constexpr double kClusterDistance = 0.1; // of the diameter
 constexpr double kClusterAngle = 0.35;   // [rad], 20 deg
 
@@ -155,7 +157,7 @@ ObjectLocalizer::locate(const LocalizationScene& scene) const
   candidates = strongest(std::move(candidates), options_.max_shared_support);
   parallelFor(candidates.size(), options_.num_threads, [&](std::size_t i) {
     candidates[i] = refinement.onPoints(
-        candidates[i], model_.surface(), {fine_->element, spacing_});
+        candidates[i], model_.surface(), {kSurfaceGate * fine_->element, spacing_});
   });
   const double least = options_.min_seen * static_cast<double>(most_facing_);
   const auto isTooCoarse = [&](const ObjectCandidate& c) {

@@ -29,7 +29,8 @@ readModels(const LocateSettings& s)
       if (models[i].model.objectClass() == models[j].model.objectClass())
         throw BadArgument("two models are of the class '" +
                           models[i].model.objectClass() +
-                          "'; give one of them alone, or another --class");
+                          "': give one of them alone, or another name to one: to a "
+                          "folder in its model.json, to a file by its own name");
   return models;
 }
 

@@ -135,11 +135,11 @@ interpret(const CommandLine& line, const Words& words, LocateSettings& s)
     checkObjectClass(words.object_class);
     s.file.object_class = words.object_class;
   }
-  require(s.min_range >= 0, "min-range", s.min_range, ">= 0");
+  require(s.min_range >= 0, "min_range", s.min_range, ">= 0");
   require(s.max_range == 0 || s.max_range > s.min_range,
-          "max-range",
+          "max_range",
           s.max_range,
-          "> min-range");
+          "0 or > --min-range");
   require(words.threads >= 0 && words.threads <= kMostThreads,
           "threads",
           words.threads,
@@ -149,8 +149,13 @@ interpret(const CommandLine& line, const Words& words, LocateSettings& s)
   s.finder.proposals = proposalMethodFromName(words.proposals);
   s.finder.use_range = words.rule != "reflectance";
   s.finder.use_reflectance = words.rule != "range";
-  if (s.finder.use_range && s.finder.use_reflectance)
+  if (s.finder.use_range && s.finder.use_reflectance) {
+    require(words.rule == "and" || words.rule == "or",
+            "rule",
+            words.rule,
+            "and, or, range or reflectance");
     s.finder.detector.rule = detectionRuleFromName(words.rule);
+  }
 }
 
 void

@@ -21,8 +21,10 @@ detectorOf(const StoredModel& stored, const FinderOptions& options)
   if (options.use_reflectance && stored.reflectance_cascade)
     cascades.push_back(readCascade(*stored.reflectance_cascade));
   if (cascades.empty())
-    throw BadArgument("the model of class '" + stored.model.objectClass() +
-                      "' has no cascade for that (train one, or take other proposals)");
+    throw BadArgument(
+        "the model of class '" + stored.model.objectClass() +
+        "' has no such cascade: train one with pcl_slam6d_objects train, or "
+        "take --proposals clusters");
   if (cascades.size() == 1)
     return ObjectDetector(std::move(cascades[0]), options.detector);
   return ObjectDetector(

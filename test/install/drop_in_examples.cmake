@@ -13,4 +13,5 @@ run(COMMAND ${work}/examples_build/coarse_start PRINTS "features: ok" "overlap: 
 run(COMMAND ${work}/examples_build/slam_in_memory PRINTS "7 of 7 scans matched")
 run(COMMAND ${work}/examples_build/loop_closing_drop_in PRINTS "with pcl6d::ELCH .ok.")
 run(COMMAND ${work}/examples_build/relaxation_drop_in PRINTS "pcl6d::LUM ok")
+run(COMMAND ${work}/examples_build/object_localization_drop_in PRINTS "the block is found")
 run(COMMAND ${work}/examples_build/plane_segmentation_drop_in PRINTS "three faces of the room")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "object_candidates.h"
 
+#include <pcl6d/common/median.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/object_localization/object_localizer.h>
@@ -21,10 +22,28 @@ constexpr double kRoughAgreement = 0.6;
 /** Of a proposal: poses that are compared with the scan, and those made precise. */
 constexpr std::size_t kPlacings = 120;
 constexpr std::size_t kPlacingsRefined = 8;
-constexpr double kFieldReach = 3;        // elements
-constexpr double kPlacingGate = 3;       // elements
+constexpr double kFieldReach = 3;  // elements
+constexpr double kPlacingGate = 3; // elements
+/** The same, of poses that the surface agrees with. */
+constexpr double kSurfaceGate = 2;
 constexpr double kClusterDistance = 0.1; // of the diameter
 constexpr double kClusterAngle = 0.35;   // [rad], 20 deg
+
+/** \return the median distance [m] of a point and its nearest neighbour */
+double
+spacingOf(const Points& points)
+{
+  constexpr std::size_t kSamples = 1000;
+  const PointTree tree(points);
+  const std::size_t stride = points.size() / kSamples + 1;
+  std::vector<double> spacings;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    Neighbour near[2];
+    if (tree.nearestK(points[i], 2, near) == 2)
+      spacings.push_back(std::sqrt(double{near[1].distance_sq}));
+  }
+  return upperMedian(std::move(spacings));
+}
 
 /** \return how many points face the scanner when the most do, over 26 directions */
 std::size_t
@@ -62,6 +81,7 @@ LocalizerOptions::validate() const
   const auto isShare = [](double x) { return x >= 0 && x <= 1; };
   require(isShare(min_visible), "min_visible", min_visible, "0 to 1");
   require(isShare(min_facing), "min_facing", min_facing, "0 to 1");
+  require(isShare(min_seen), "min_seen", min_seen, "0 to 1");
   require(isShare(min_agreement), "min_agreement", min_agreement, "0 to 1");
   require(isShare(max_violation), "max_violation", max_violation, "0 to 1");
   require(max_continuation >= 0, "max_continuation", max_continuation, ">= 0");
@@ -74,6 +94,7 @@ ObjectLocalizer::ObjectLocalizer(ObjectModel model, const LocalizerOptions& opti
 : options_((options.validate(), options))
 , model_(std::move(model))
 , voxel_(options_.resolution * model_.diameter())
+, spacing_(spacingOf(model_.surface().points))
 , coarse_(reduceOriented(model_.surface(), voxel_))
 , fine_(std::make_shared<const ModelSurface>(model_.surface(), kRefinement * voxel_))
 , most_facing_(mostFacing(fine_->surface))
@@ -135,9 +156,15 @@ ObjectLocalizer::locate(const LocalizationScene& scene) const
   removeRefused(candidates, kRoughAgreement * options_.min_agreement);
   candidates = strongest(std::move(candidates), options_.max_shared_support);
   parallelFor(candidates.size(), options_.num_threads, [&](std::size_t i) {
-    candidates[i] =
-        refinement.onPoints(candidates[i], model_.surface(), fine_->element);
+    candidates[i] = refinement.onPoints(
+        candidates[i], model_.surface(), {kSurfaceGate * fine_->element, spacing_});
   });
+  const double least = options_.min_seen * static_cast<double>(most_facing_);
+  const auto isTooCoarse = [&](const ObjectCandidate& c) {
+    return static_cast<double>(c.check.support.size()) < least;
+  };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isTooCoarse),
+                   candidates.end());
   return objectsOf(std::move(candidates));
 }
 
@@ -199,8 +226,8 @@ ObjectLocalizer::placed(const ObjectProposal& proposal,
       });
   candidates.resize(std::min(candidates.size(), kPlacingsRefined));
   for (auto& candidate : candidates)
-    candidate =
-        refinement.onPoints(candidate, model_.surface(), kPlacingGate * fine_->element);
+    candidate = refinement.onPoints(
+        candidate, model_.surface(), {kPlacingGate * fine_->element, spacing_});
   return candidates;
 }
 

@@ -112,8 +112,10 @@ ObjectRefinement::checked(const Eigen::Isometry3d& T_scene_model,
 ObjectCandidate
 ObjectRefinement::onPoints(const ObjectCandidate& candidate,
                            const OrientedPoints& dense,
-                           double gate) const
+                           const PairGate& gate) const
 {
+  const double least = std::clamp(gate.least, 0.1 * voxel_, voxel_);
+  double reach_of_pairs = gate.start;
   std::vector<std::uint32_t> places;
   const Points around = pointsAround(candidate.T_scene_model, dense, places);
   ObjectCandidate refined = candidate;
@@ -124,7 +126,7 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
     const IcpResult result = icp({target.part()},
                                  {&data, nullptr},
                                  refined.T_scene_model.inverse(),
-                                 pointIcp(gate));
+                                 pointIcp(reach_of_pairs));
     if (result.status == Status::kTooFewPairs || result.status == Status::kDiverged) {
       refined.check = {};
       return refined;
@@ -135,7 +137,7 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
                                                                result.T_target_source)
                                            : std::nullopt;
     refined.rms = result.residual;
-    gate = std::clamp(kGate * result.residual, 0.1 * voxel_, voxel_);
+    reach_of_pairs = std::clamp(kGate * result.residual, least, voxel_);
   }
   refined.points.clear();
   const PointTree placed(transformed(facingPart(dense, refined.T_scene_model).points,

@@ -20,6 +20,14 @@ struct ObjectCandidate {
   std::vector<std::uint32_t> points; ///< of the scan on the object, ascending
 };
 
+/** \brief [m] How far a point of the scan may be from the nearest one of the model. */
+struct PairGate {
+  double start = 0;
+  /** at the end, at least: the spacing of the model's points, between which those of the
+   * scan lie even if the pose is exact */
+  double least = 0;
+};
+
 /** \brief Makes poses of one model in one scan precise, and checks them. */
 class ObjectRefinement {
 public:
@@ -44,12 +52,11 @@ public:
   checked(const Eigen::Isometry3d& T_scene_model, const ModelSurface& model) const;
 
   /** \brief ICP of a model to all points around it; then a strict check. Where ICP fails,
-   * nothing supports the candidate. \param[in] dense the model with all its points
-   * \param[in] gate [m] of pairs at the start */
+   * nothing supports the candidate. \param[in] dense the model with all its points */
   ObjectCandidate
   onPoints(const ObjectCandidate& candidate,
            const OrientedPoints& dense,
-           double gate) const;
+           const PairGate& gate) const;
 
   const LocalizationScene&
   scene() const

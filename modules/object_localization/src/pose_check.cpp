@@ -14,6 +14,10 @@ constexpr float kSmooth = 0.94F;  // cosine of 20 deg
 /** A ray may meet an element within so many of its sizes, and certainly does closer. */
 constexpr double kRayWidth = 0.75;
 constexpr double kRayCore = 0.4;
+/** In a coarse scan the next ray speaks for it, within so many of its spacings. */
+constexpr double kRaySpacing = 0.6;
+/** An element in front is not wider than so many of those behind. */
+constexpr double kNextElement = 4;
 /** The next ray is not farther away than so many spacings. */
 constexpr double kNextRay = 2;
 /** Ranges differ by more than so many tolerances if they are of two surfaces. */
@@ -33,9 +37,12 @@ public:
   add(const FacingElement& e)
   {
     ++check_.elements;
-    const auto width = static_cast<float>(kRayWidth * element_ / e.range);
-    const auto rays = surface_.directions.withinRadius(
-        (e.point / e.range).cast<float>(), width * width, kMostRays);
+    const double width =
+        std::max(kRayWidth * element_ / e.range, kRaySpacing * scene_.angularSpacing());
+    const auto rays =
+        surface_.directions.withinRadius((e.point / e.range).cast<float>(),
+                                         static_cast<float>(width * width),
+                                         kMostRays);
     if (rays.empty())
       return addUnmet(e);
     const auto core = static_cast<float>(kRayCore * element_ / e.range);
@@ -99,15 +106,29 @@ private:
       ++check_.misfit;
   }
 
-  /** Where no ray met the element: was there none around, or are rays so far apart? Then
+  /** Where no ray met the element: is a piece of surface in front, which is wider than
+   * the element as it is nearer, or was there no ray around? Where rays are only far apart,
    * nothing is known of it, and the others stand for it. */
   void
   addUnmet(const FacingElement& e)
   {
-    const auto spacing = static_cast<float>(kNextRay * scene_.angularSpacing());
-    if (surface_.directions
-            .nearest((e.point / e.range).cast<float>(), spacing * spacing)
-            .index < 0)
+    const Eigen::Vector3f direction = (e.point / e.range).cast<float>();
+    const auto around = static_cast<float>(kNextRay * scene_.angularSpacing());
+    const auto wide = static_cast<float>(kNextElement * element_ / e.range);
+    const Neighbour ray =
+        surface_.directions.nearest(direction, std::max(around * around, wide * wide));
+    if (ray.index < 0) {
+      ++check_.unseen;
+      return;
+    }
+    const double range = surface_.elements.points[static_cast<std::size_t>(ray.index)]
+                             .cast<double>()
+                             .norm();
+    const double cover = kRayWidth * element_ / range;
+    if (ray.distance_sq < cover * cover &&
+        range < e.range - kApart * tolerance_ / e.cosine)
+      ++check_.occluded;
+    else if (ray.distance_sq >= around * around)
       ++check_.unseen;
   }
 

@@ -25,9 +25,12 @@ struct LocalizerOptions {
   double resolution = 0.05; ///< of the search, as a share of the model's diameter; in
                             ///< [0.02, 0.2]
   int max_candidates = 24;  ///< poses that are looked at closely; > 0
-  double min_visible = 0.3; ///< PoseCheck::visibleFraction() of an object
+  double min_visible = 0.35; ///< PoseCheck::visibleFraction() of an object
   double min_facing = 0.08;  ///< of the surface that faces the scanner where most of it
                             ///< does: an open shell is not believed from behind
+  /** Without proposals: support over the pieces of the model's best side. Where a scan is
+   * too coarse for it, pairs of points find what is not there. */
+  double min_seen = 0.2;
   double min_agreement = 0.88;     ///< PoseCheck::agreement()
   double max_violation = 0.08;     ///< PoseCheck::freeSpaceViolation()
   double max_continuation = 0.4;   ///< PoseCheck::continuation(); >= 0
@@ -95,6 +98,7 @@ private:
   LocalizerOptions options_;
   ObjectModel model_;
   double voxel_;            ///< [m] of the search
+  double spacing_;          ///< [m] of the model's points
   OrientedPoints coarse_;   ///< the model for votes
   std::shared_ptr<const ModelSurface> fine_; ///< for refinement
   std::size_t most_facing_; ///< points of fine_, from the best side

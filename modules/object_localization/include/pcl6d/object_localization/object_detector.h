@@ -28,8 +28,8 @@ struct DetectorOptions {
   double scale_factor = 1.1; ///< from one size of the window to the next, in (1, 2]
   /** overlapping windows that make a detection, >= 1. An object may be seen in two slices
    * of its ranges, but in one picture of its reflectances. */
-  int min_neighbours_range = 6;
-  int min_neighbours_reflectance = 3;
+  int min_neighbours_range = 8;
+  int min_neighbours_reflectance = 6;
   /** by which the size of a window may differ from that of the object at its distance, as
    * a factor; > 1 */
   double size_tolerance = kSizeTolerance;

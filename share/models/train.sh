@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Trains the cascades of share/models again: the same bytes on any x86-64 CPU, with any
+# Trains the cascades of share/models again: meant to give the same bytes with any
 # number of threads. Usage: train.sh [PROGRAMS [CLASS...]], where PROGRAMS is the folder
 # of pcl_slam6d_simulate and pcl_slam6d_objects, else build/release/bin. What is done is
 # kept in build/cascades: stopped, it goes on there.

@@ -164,6 +164,39 @@ TEST(SimulateScenes, LabelCorridorOnlyIfAsked)
   EXPECT_TRUE(contentOf(plain) == contentOf(labelled));
 }
 
+TEST(SimulateScenes, LeaveOutTheObjectsOfSomeClasses)
+{
+  const TempFolder folder;
+  const auto made = [&](const char* name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {
+        "rooms", "--scans", "1", "--quiet", "-o", (folder / name).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = simulate(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return folder / name;
+  };
+  const auto classesIn = [](const fs::path& run) {
+    std::map<std::string, int> classes;
+    const json truth = json::parse(readText(run / "objects_truth.json"));
+    for (const auto& object : truth["objects"])
+      ++classes[object["class"].get<std::string>()];
+    return classes;
+  };
+  const fs::path whole = made("whole", {});
+  const fs::path fewer = made("fewer", {"--without", "chair", "--without", "table"});
+  auto expected = classesIn(whole);
+  EXPECT_EQ(expected.erase("chair") + expected.erase("table"), 2u);
+  ASSERT_FALSE(expected.empty());
+  EXPECT_EQ(classesIn(fewer), expected);
+  EXPECT_EQ(json::parse(readText(fewer / "scene.json"))["without"],
+            json({"chair", "table"}));
+  EXPECT_FALSE(json::parse(readText(whole / "scene.json")).contains("without"));
+  EXPECT_NE(readText(fewer / "scan000.pcd"), readText(whole / "scan000.pcd"));
+  // A class that is not there changes no byte of the scan.
+  const fs::path same = made("same", {"--without", "unicorn"});
+  EXPECT_EQ(readText(same / "scan000.pcd"), readText(whole / "scan000.pcd"));
+}
+
 TEST(SimulateScenes, ReadADescription)
 {
   const TempFolder folder;

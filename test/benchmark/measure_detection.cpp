@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many objects the detectors of a model store find and how often they err, in
 // simulated flats in which all its models stand about (object_rooms.h). Usage:
-// measure_detection STORE [first seed] [last seed] [scans of each]
-// [min_neighbours]. Prints the table of
-// share/doc/objects.md.
+// measure_detection STORE [first seed] [last seed] [scans of each] [min_neighbours_range]
+// [min_neighbours_reflectance]. Prints the table of share/doc/objects.md.
 #include "object_rooms.h"
 
 #include <pcl6d/object_localization/cascade_file.h>
@@ -114,11 +113,8 @@ struct ClassTally {
 };
 
 std::vector<ClassTally>
-talliesOf(const std::vector<StoredModel>& models, int min_neighbours)
+talliesOf(const std::vector<StoredModel>& models, const DetectorOptions& either)
 {
-  DetectorOptions either;
-  either.min_neighbours = min_neighbours;
-  either.rule = DetectionRule::kOr;
   std::vector<ClassTally> tallies;
   for (std::size_t m = 0; m < models.size(); ++m)
     if (models[m].range_cascade && models[m].reflectance_cascade) {
@@ -131,10 +127,10 @@ talliesOf(const std::vector<StoredModel>& models, int min_neighbours)
   return tallies;
 }
 
-std::uint64_t
-number(int argc, char** argv, int place, std::uint64_t otherwise)
+int
+number(int argc, char** argv, int place, int otherwise)
 {
-  return argc > place ? std::strtoull(argv[place], nullptr, 10) : otherwise;
+  return argc > place ? std::atoi(argv[place]) : otherwise;
 }
 } // namespace
 
@@ -142,21 +138,24 @@ int
 main(int argc, char** argv)
 try {
   if (argc < 2)
-    return std::puts(
-               "usage: measure_detection STORE [FIRST] [LAST] [SCANS] [NEIGHBOURS]"),
+    return std::puts("usage: measure_detection STORE [FIRST] [LAST] [SCANS] "
+                     "[NEIGHBOURS_RANGE] [NEIGHBOURS_REFLECTANCE]"),
            2;
   std::vector<StoredModel> models;
   for (const auto& folder : listModels(argv[1]))
     models.push_back(readStoredModel(folder));
-  std::vector<ClassTally> tallies =
-      talliesOf(models,
-                static_cast<int>(number(
-                    argc, argv, 5, std::uint64_t(DetectorOptions().min_neighbours))));
+  DetectorOptions either;
+  either.rule = DetectionRule::kOr;
+  either.min_neighbours_range = number(argc, argv, 5, either.min_neighbours_range);
+  either.min_neighbours_reflectance =
+      number(argc, argv, 6, either.min_neighbours_reflectance);
+  std::vector<ClassTally> tallies = talliesOf(models, either);
   test::ObjectRoomOptions options;
-  options.scans = static_cast<int>(number(argc, argv, 4, 5));
-  const std::uint64_t last = number(argc, argv, 3, 30);
-  for (std::uint64_t seed = number(argc, argv, 2, 11); seed <= last; ++seed)
-    for (const auto& room : test::objectRooms(models, seed, options))
+  options.scans = number(argc, argv, 4, 5);
+  const int last = number(argc, argv, 3, 30);
+  for (int seed = number(argc, argv, 2, 11); seed <= last; ++seed)
+    for (const auto& room :
+         test::objectRooms(models, static_cast<std::uint64_t>(seed), options))
       for (auto& tally : tallies)
         tally.add(room, models[tally.model].model);
   std::puts("| class | detector | found | of | recall | false boxes per scan |\n"

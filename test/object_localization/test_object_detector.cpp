@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace pcl6d {
 namespace {
 /** Two small cascades that were trained in the room, made once. */
@@ -114,6 +117,43 @@ TEST(ObjectDetector, CombinesRangeAndReflectance)
     EXPECT_EQ(object.source, DetectionSource::kBoth);
 }
 
+// Boxes one before the other in a view are two objects: what a channel sees stays.
+TEST(ObjectDetector, CombinesOnlyWhatIsEquallyFar)
+{
+  constexpr double kSlice = 1; // [m]
+  HaarCascade range = test::randomCascade(20, 20, HaarFeatureSet::kAll, 1, 5);
+  for (auto& stage : range.stages)
+    stage.threshold = -100; // all windows pass that have contrast and can be the object
+  HaarCascade reflectance = range;
+  range.subject = CascadeSubject{ImageChannel::kRange, 0.8, 0.00873, kSlice};
+  reflectance.subject =
+      CascadeSubject{ImageChannel::kReflectance, 0.8, 0.00873, kSlice};
+  const BackgroundScan scan = scanWithFigure(2.0, 2.0);
+  DetectorOptions either;
+  either.rule = DetectionRule::kOr;
+  const auto seen = [&](const HaarCascade& a, std::optional<HaarCascade> b) {
+    return ObjectDetector(a, either, std::move(b))
+        .detect(scan.points, scan.reflectance);
+  };
+  const auto of_either = seen(range, reflectance);
+  const auto touch = [](const ImageRect& a, const ImageRect& b) {
+    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height &&
+           b.y < a.y + a.height;
+  };
+  for (const auto& alone : {seen(range, {}), seen(reflectance, {})}) {
+    EXPECT_GT(alone.size(), 20u);
+    for (const auto& object : alone)
+      EXPECT_TRUE(std::any_of(of_either.begin(),
+                              of_either.end(),
+                              [&](const DetectedObject& o) {
+                                return o.view == object.view &&
+                                       touch(o.box, object.box) &&
+                                       std::abs(o.range - object.range) <= kSlice / 2;
+                              }))
+          << "view " << object.view << ", range " << object.range;
+  }
+}
+
 TEST(ObjectDetector, FindsTheSameWithAnyNumberOfThreads)
 {
   const BackgroundScan scan = scanWithFigure(1.0, 2.0);
@@ -146,7 +186,10 @@ TEST(ObjectDetector, RefusesCascadesThatItCannotUse)
   EXPECT_THROW(ObjectDetector(unknown, {}, unknown), BadArgument);
   EXPECT_THROW(ObjectDetector(unknown).detect({{1, 2, 3}}), BadArgument);
   DetectorOptions options;
-  options.min_neighbours = 0;
+  options.min_neighbours_range = 0;
+  EXPECT_THROW(ObjectDetector(unknown, options), BadArgument);
+  options = {};
+  options.min_neighbours_reflectance = 0;
   EXPECT_THROW(ObjectDetector(unknown, options), BadArgument);
   unknown.stages.clear();
   EXPECT_THROW(ObjectDetector{unknown}, BadArgument);

@@ -72,7 +72,7 @@ TEST_P(ShippedCascade, FindsItsModelAllAroundTheScanner)
 
 INSTANTIATE_TEST_SUITE_P(Models,
                          ShippedCascade,
-                         testing::Values("chair", "person", "table"),
+                         testing::Values("bin", "box", "chair", "person", "table"),
                          [](const auto& model) { return std::string(model.param); });
 
 } // namespace pcl6d

@@ -95,7 +95,12 @@ DetectorOptions::validate() const
 {
   views.validate();
   WindowGrid{scale_factor, 0, 0}.validate();
-  require(min_neighbours >= 1, "min_neighbours", min_neighbours, ">= 1");
+  require(
+      min_neighbours_range >= 1, "min_neighbours_range", min_neighbours_range, ">= 1");
+  require(min_neighbours_reflectance >= 1,
+          "min_neighbours_reflectance",
+          min_neighbours_reflectance,
+          ">= 1");
   require(size_tolerance > 1, "size_tolerance", size_tolerance, "> 1");
 }
 
@@ -207,9 +212,12 @@ ObjectDetector::grouped(const std::vector<Hit>& hits,
     group->range += hit.range;
     ++group->count;
   }
+  const int fewest = source == DetectionSource::kRange
+                         ? options_.min_neighbours_range
+                         : options_.min_neighbours_reflectance;
   std::vector<DetectedObject> objects;
   for (const auto& g : groups)
-    if (g.count >= options_.min_neighbours) {
+    if (g.count >= fewest) {
       const auto mean = [&](double sum) {
         return static_cast<int>(std::floor(sum / g.count + 0.5));
       };
@@ -224,21 +232,31 @@ ObjectDetector::grouped(const std::vector<Hit>& hits,
   return objects;
 }
 
+bool
+ObjectDetector::areOne(const DetectedObject& a, const DetectedObject& b) const
+{
+  constexpr double kOverlap = 0.3; // the channels differ in where they see the edges
+  return overlap(a.box, b.box) >= kOverlap &&
+         std::abs(a.range - b.range) <= options_.views.slice_depth / 2;
+}
+
 std::vector<DetectedObject>
 ObjectDetector::combined(std::vector<DetectedObject> a,
                          const std::vector<DetectedObject>& b) const
 {
-  constexpr double kSameInBoth = 0.3; // the channels differ in where they see the edges
+  const std::size_t of_first = a.size();
   for (const auto& other : b) {
-    const auto same = std::find_if(a.begin(), a.end(), [&](const DetectedObject& o) {
-      return o.source != other.source && overlap(o.box, other.box) >= kSameInBoth;
-    });
-    if (same == a.end()) {
-      a.push_back(other);
-      continue;
+    DetectedObject* same = nullptr; // the one that overlaps most
+    for (std::size_t i = 0; i < of_first; ++i)
+      if (areOne(a[i], other) &&
+          (!same || overlap(a[i].box, other.box) > overlap(same->box, other.box)))
+        same = &a[i];
+    if (same) {
+      same->score += other.score;
+      same->source = DetectionSource::kBoth;
     }
-    same->score += other.score;
-    same->source = DetectionSource::kBoth;
+    else
+      a.push_back(other);
   }
   if (options_.rule == DetectionRule::kAnd)
     a.erase(std::remove_if(a.begin(),

@@ -26,7 +26,10 @@ struct DetectorOptions {
   DetectionViewOptions views; ///< pixel and slice_depth: those of the cascades count
   DetectionRule rule = DetectionRule::kAnd; ///< counts if there are two cascades
   double scale_factor = 1.1; ///< from one size of the window to the next, in (1, 2]
-  int min_neighbours = 3;    ///< overlapping windows that make a detection, >= 1
+  /** overlapping windows that make a detection, >= 1. An object may be seen in two slices
+   * of its ranges, but in one picture of its reflectances. */
+  int min_neighbours_range = 8;
+  int min_neighbours_reflectance = 6;
   /** by which the size of a window may differ from that of the object at its distance, as
    * a factor; > 1 */
   double size_tolerance = kSizeTolerance;
@@ -91,6 +94,8 @@ private:
          const HaarCascade& cascade) const;
   std::vector<DetectedObject>
   grouped(const std::vector<Hit>& hits, std::size_t view, DetectionSource source) const;
+  bool
+  areOne(const DetectedObject& a, const DetectedObject& b) const;
   std::vector<DetectedObject>
   combined(std::vector<DetectedObject> a, const std::vector<DetectedObject>& b) const;
 

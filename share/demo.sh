@@ -21,7 +21,7 @@ step "3/4 sample data: a robot drives through a corridor, rooms and over a ramp"
 "$bin/pcl_slam6d_simulate" corridor -o "$out/scans" --seed 1 --force
 
 step "4/4 register the scans"
-"$bin/pcl_slam6d" "$out/scans" -o "$out/map" --force
+"$bin/pcl_slam6d" "$out/scans" -o "$out/map" --force --report
 
 rms() { # position rms [m] without alignment of a trajectory against the truth, both KITTI rows
   paste -d ' ' "$1" "$out/scans/groundtruth.txt" |
@@ -35,6 +35,7 @@ cat <<TEXT
 poses:    $out/map/trajectory.kitti
 map:      $out/map/map.pcd   (pcl_viewer $out/map/scans/*.pcd shows the scans in place)
 picture:  $out/map/top_view.png
+report:   $out/map/report.html   (opens in any browser, from disk)
 summary:  $out/map/summary.json
 your own:  $bin/pcl_slam6d SCAN_DIR -o OUT_DIR
 position error (rms against the truth): $(printf '%.3f' "$before") m before, $(printf '%.3f' "$after") m after

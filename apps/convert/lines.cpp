@@ -76,7 +76,7 @@ describe(LinesSettings& s, CommandLine& line)
   line.group("Scanner").add_options() //
       ("drive",
        valueOf(s.drive)->value_name("NAME"),
-       "pitching (about y, positive looks up), rolling (about x), yawing (about z)") //
+       "pitching|rolling|yawing: about y (positive looks up), x or z") //
       ("continuous",
        po::bool_switch(&s.continuous),
        "the drive turns on during a line; without: it stands still") //

@@ -43,11 +43,12 @@ describe(CommandLine& line, Words& words, ScanSettings& s)
        "file or folder") //
       ("format",
        valueOf(words.format)->value_name("NAME"),
-       "pcd, ply, uos, uosr (uos with reflectance), kitti (bin), xyz; auto: by the "
-       "extension of OUT") //
+       "auto|pcd|ply|uos|uosr|kitti|xyz; auto: by the extension of OUT; uosr: uos with "
+       "reflectance, kitti: .bin") //
       ("encoding",
        valueOf(words.encoding)->value_name("NAME"),
-       "ascii, binary, binary_compressed (pcd only); auto: binary_compressed for pcd, "
+       "auto|ascii|binary|binary_compressed (pcd only); auto: binary_compressed for "
+       "pcd, "
        "binary for ply and with --full") //
       ("full",
        po::bool_switch(&s.full),

@@ -49,7 +49,7 @@ describe(StereoSettings& s, CommandLine& line)
           "unit", valueOf(s.unit)->value_name("M"), "[m] one unit of T");
   line.group("Matching")
       .add_options()(
-          "matcher", valueOf(s.matcher)->value_name("NAME"), "sgbm (dense), bm (fast)")(
+          "matcher", valueOf(s.matcher)->value_name("NAME"), "sgbm|bm: dense, or fast")(
           "min-disparity",
           valueOf(s.matching.min_disparity)->value_name("D"),
           "[px] of the farthest point; 0: at infinity")(

@@ -65,12 +65,13 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
        "file; a new folder for pose and frames") //
       ("format",
        valueOf(format)->value_name("NAME"),
-       "kitti, tum, g2o, pose, frames; auto: by the extension of OUT");
+       "auto|kitti|tum|g2o|pose|frames; auto: by the extension of OUT");
   line.group("Input").add_options() //
       ("input-format",
        valueOf(input_format)->value_name("NAME"),
-       "as --format; auto: .g2o by extension, rows by their columns, a folder by its "
-       "files");
+       "auto|kitti|tum|g2o|pose|frames; auto: .g2o by extension, rows by their "
+       "columns, "
+       "a folder by its files");
   if (!line.parse(arguments))
     return false;
   checkOptions([&] { s.input_format = trajectoryFormatFromName(input_format); },

@@ -57,16 +57,16 @@ describeMethods(CommandLine& line, Raw& raw)
       ("metric", wordsOf(raw.metrics, {"all"}), joined(metricNames(), "|").c_str()) //
       ("minimiser",
        wordsOf(raw.minimisers, {"quaternion", "helix", "small-angle", "euler"}),
-       ("of the metric point: " + joined(minimiserNames(), " | ")).c_str()) //
+       ("of the metric point: " + joined(minimiserNames(), "|")).c_str()) //
       ("plane-minimiser",
        wordsOf(raw.plane_minimisers, {"helix", "linear"}),
        ("of the metrics plane and gicp: " + joined(planeMinimiserNames(), "|"))
            .c_str()) //
       ("search",
        wordsOf(raw.searches, {"cached", "kdtree", "approximate"}),
-       (joined(searchMethodNames(), " | ") + ": all but approximate are exact and give "
-                                             "the same runs; brute-force takes hours "
-                                             "on large scans")
+       (joined(searchMethodNames(), "|") + ": all but approximate are exact and give "
+                                           "the same runs; brute-force takes hours "
+                                           "on large scans")
            .c_str()) //
       ("all-combinations",
        po::bool_switch(&raw.all_combinations),

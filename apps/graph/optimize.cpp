@@ -32,7 +32,7 @@ listed(const std::vector<std::string>& names)
 {
   std::string all;
   for (const auto& name : names)
-    all += (all.empty() ? "" : ", ") + name;
+    all += (all.empty() ? "" : "|") + name;
   return all;
 }
 
@@ -51,8 +51,9 @@ describe(OptimizeSettings& s, CommandLine& line)
        listed(graphMethodNames()).c_str()) //
       ("robust",
        valueOf(s.robust)->value_name("NAME"),
-       (listed(robustKernelNames()) + ", graduated (geman-mcclure, first wide, then "
-                                      "narrow: switches wrong links off)")
+       (listed(robustKernelNames()) + "|" + kGraduated +
+        "; graduated: geman-mcclure, first wide, then narrow, which switches wrong "
+        "links off")
            .c_str()) //
       ("robust-width",
        valueOf(options.robust_width)->value_name("R"),

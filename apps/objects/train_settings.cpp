@@ -104,10 +104,10 @@ describeTraining(TrainSettings& s, Words& words, CommandLine& line)
       ("max-false-alarm", valueOf(t.max_false_alarm), "of each stage") //
       ("target-false-alarm",
        valueOf(t.target_false_alarm),
-       "on the backgrounds; then it ends")                                      //
-      ("splits", valueOf(t.splits), "of each tree; 1: stumps")                  //
-      ("max-trees", valueOf(t.max_trees), "of a stage")                         //
-      ("features", valueOf(words.features), "upright, or all: tilted ones too") //
+       "on the backgrounds; then it ends")                                            //
+      ("splits", valueOf(t.splits), "of each tree; 1: stumps")                        //
+      ("max-trees", valueOf(t.max_trees), "of a stage")                               //
+      ("features", valueOf(words.features), "upright|all: with all, tilted ones too") //
       ("features-per-stage",
        valueOf(t.features_per_stage),
        "drawn from them for each stage") //

@@ -3,11 +3,9 @@
 #include "render/run_pictures.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/io/mesh_io.h>
 #include <pcl6d/visualization/before_after_view.h>
 #include <pcl6d/visualization/map_overlays.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace pcl6d::app {
@@ -29,12 +27,6 @@ isDoubtful(const RunSummary::ScanEntry& scan)
          scan.state == "pending";
 }
 
-Eigen::Isometry3d
-relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
-{
-  pose.translation() -= offset;
-  return pose;
-}
 /** The paths with room around: where something is to be seen of each pose. */
 Eigen::AlignedBox2d
 areaAround(const Trajectory& trajectory)
@@ -210,6 +202,7 @@ RunPictures::drawSlice()
   options.final_label = "path of the scanner";
   TopViewScene scene = topScene(options.colour);
   scene.initial.poses.clear();
+  scene.overlay = roomOverlay();
   return TopView(options).draw(scene).image;
 }
 
@@ -233,46 +226,6 @@ RunPictures::drawPanorama()
   options.width = settings_.width.value_or(2000);
   options.shading = 0.3; // near ground is seen under many angles
   return MapView(options).drawPanorama(scene, pose).image;
-}
-
-/** The mesh of a class, if there is one in --models. */
-std::vector<TriangleMesh>
-RunPictures::modelOf(const std::string& object_class) const
-{
-  if (settings_.models.empty())
-    return {};
-  for (const char* const extension : {".ply", ".obj", ".stl"}) {
-    const auto file =
-        std::filesystem::path(settings_.models) / (object_class + extension);
-    if (std::filesystem::exists(file))
-      return {readMesh(file)};
-  }
-  return {};
-}
-
-Image
-RunPictures::drawObjects()
-{
-  std::vector<ObjectPose> objects = run_.readObjects();
-  for (auto& object : objects)
-    object.T_world_object =
-        relativeTo(run_.summary().world_offset, object.T_world_object);
-  MapViewOptions options = mapOptions("objects", PointColour::kPlain);
-  options.draw_paths = false;
-  MapViewScene scene = mapScene(options.colour);
-  scene.overlay = objectOverlay(objects, options.background);
-  for (const auto& object : objects)
-    for (TriangleMesh& mesh : modelOf(object.object_class)) {
-      for (auto& vertex : mesh.vertices)
-        vertex = object.T_world_object * vertex;
-      const auto key = std::find_if(
-          scene.overlay.keys.begin(), scene.overlay.keys.end(), [&](const auto& entry) {
-            return entry.text == object.object_class;
-          });
-      scene.models.push_back({mesh, key->colour});
-    }
-  const MapView view(options);
-  return view.draw(scene, chosenCamera(view, scene)).image;
 }
 
 } // namespace pcl6d::app

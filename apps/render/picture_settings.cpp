@@ -109,19 +109,18 @@ describe(PictureSettings& s, Words& w, CommandLine& line)
       "PNG file for one view, or folder; by default RUN/pictures") //
       ("view",
        po::value(&w.views)->value_name("NAME,..."),
-       ("what to draw, by default all that suit the run:" + RunPictures::viewTable())
-           .c_str())                                                        //
+       "by their names, see above; by default all that suit the run")       //
       ("size", valueOf(w.size)->value_name("WxH"), "[px] 200 to 8192 each") //
       ("title", po::value(&s.title)->value_name("TEXT"), "top left");
   line.group("Look").add_options() //
       ("colour",
        valueOf(w.colour)->value_name("NAME"),
-       "of points: height, scan, reflectance, residual, label, plain; auto: what suits "
+       "auto|height|scan|reflectance|residual|label|plain: of points; auto: what suits "
        "the view") //
       ("colour-map",
        valueOf(w.colour_map)->value_name("NAME"),
-       "viridis, turbo, magma, grey")                                          //
-      ("background", valueOf(w.background)->value_name("NAME"), "dark, light") //
+       "auto|viridis|turbo|magma|grey")                                        //
+      ("background", valueOf(w.background)->value_name("NAME"), "dark|light")  //
       ("transparent", po::bool_switch(&s.transparent), "nothing in its place") //
       ("points",
        valueOf(s.points)->value_name("N"),
@@ -150,7 +149,8 @@ describe(PictureSettings& s, Words& w, CommandLine& line)
        "of the camera above the horizon") //
       ("models",
        po::value(&s.models)->value_name("DIR"),
-       "objects: meshes to draw, CLASS.ply, .obj or .stl [m]");
+       "objects: shapes to draw, CLASS.ply, .obj or .stl [m], or a store such as "
+       "share/models");
 }
 } // namespace
 
@@ -162,7 +162,8 @@ parsePictureSettings(const std::vector<std::string>& arguments,
       std::string("usage: ") + kRender +
       " picture RUN [-o PATH] [--view NAME,...] [options]\n"
       "Draws what a run of pcl_slam6d left in the folder RUN, as far as it "
-      "is there,\ninto PNG files. Needs no display.\n");
+      "is there,\ninto PNG files. Needs no display.\nViews:" +
+      RunPictures::viewTable() + "\n");
   Words words;
   line.positional("RUN", &settings.run);
   describe(settings, words, line);

@@ -14,7 +14,7 @@ namespace pcl6d::app {
 struct RunPictures::View {
   const char* name;
   const char* purpose;
-  /** files of the run without which it cannot be drawn; "map": map.pcd or scans/ */
+  /** files of the run without which it cannot be drawn; of "a|b" one will do */
   std::vector<std::string> needs;
   Image (RunPictures::*draw)();
 };
@@ -25,21 +25,30 @@ RunPictures::views()
   using R = RunPictures;
   static const std::vector<View> kViews = {
       {"top", "map and paths from above", {}, &R::drawTop},
-      {"perspective", "map from where most is seen", {"map"}, &R::drawPerspective},
-      {"before-after", "first and final poses", {"map"}, &R::drawBeforeAfter},
+      {"perspective",
+       "map from where most is seen",
+       {"map.pcd|scans"},
+       &R::drawPerspective},
+      {"before-after", "first and final poses", {"map.pcd|scans"}, &R::drawBeforeAfter},
       {"graph", "scans and their links", {"links.csv"}, &R::drawGraph},
       {"covariance",
        "how sure the positions are",
        {"summary.json"},
        &R::drawCovariance},
-      {"slice", "horizontal layer: a floor plan", {"map"}, &R::drawSlice},
+      {"slice",
+       "a horizontal layer, as in a floor plan",
+       {"map.pcd|scans"},
+       &R::drawSlice},
       {"panorama", "all around one scan", {"scans"}, &R::drawPanorama},
       {"convergence",
        "the way of one scan to its place",
        {"frames", "scans"},
        &R::drawConvergence},
       {"planes", "planes with hulls and labels", {"planes.json"}, &R::drawPlanes},
-      {"objects", "objects with boxes and models", {"objects.json"}, &R::drawObjects},
+      {"objects",
+       "objects with boxes and models",
+       {"objects.json|semantic_map.json"},
+       &R::drawObjects},
   };
   return kViews;
 }
@@ -74,7 +83,7 @@ RunPictures::viewTable()
 {
   std::string table;
   for (const View& view : views())
-    table += "\n" + std::string(view.name) + ": " + view.purpose;
+    table += "\n  " + std::string(view.name) + ": " + view.purpose;
   return table;
 }
 
@@ -89,10 +98,13 @@ RunPictures::RunPictures(const RunFolder& run, const PictureSettings& settings)
 std::string
 RunPictures::lackedBy(const std::string& view) const
 {
-  for (const std::string& needed : viewOf(view).needs)
-    if (needed == "map" ? !run_.has("map.pcd") && !run_.has("scans")
-                        : !run_.has(needed))
-      return needed == "map" ? "map.pcd" : needed;
+  for (const std::string& needed : viewOf(view).needs) {
+    const auto bar = needed.find('|');
+    const std::string first = needed.substr(0, bar);
+    if (!run_.has(first) &&
+        (bar == std::string::npos || !run_.has(needed.substr(bar + 1))))
+      return first;
+  }
   return "";
 }
 
@@ -146,37 +158,13 @@ RunPictures::map()
 }
 
 MapCloud
-RunPictures::labelledCloud() const
-{
-  RunPlanePoints planes = run_.readPlanePoints();
-  const auto known = run_.readPlanes();
-  MapCloud cloud;
-  cloud.points = std::move(planes.points);
-  cloud.label_names = {"none"};
-  std::vector<std::uint32_t> label_of(1, 0); // by plane id
-  for (const auto& plane : known) {
-    const auto name =
-        std::find(cloud.label_names.begin(), cloud.label_names.end(), plane.label);
-    label_of.push_back(static_cast<std::uint32_t>(name - cloud.label_names.begin()));
-    if (name == cloud.label_names.end())
-      cloud.label_names.push_back(plane.label);
-  }
-  for (const auto id : planes.plane_of)
-    cloud.labels.push_back(id < label_of.size() ? label_of[id] : 0);
-  return cloud;
-}
-
-MapCloud
 RunPictures::cloudFor(PointColour colour)
 {
   const auto refuse = [&](const std::string& reason) {
     throw IoFailed(run_.path().string() + ": " + reason);
   };
-  if (colour == PointColour::kLabel) {
-    if (!run_.has("planes.pcd") || !run_.has("planes.json"))
-      refuse("colour label needs planes.json and planes.pcd (pcl_slam6d --planes)");
+  if (colour == PointColour::kLabel)
     return labelledCloud();
-  }
   const RunMap& all = map();
   if (colour == PointColour::kReflectance && all.intensities.empty())
     refuse("colour reflectance, but the scans have no intensity");

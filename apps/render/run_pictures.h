@@ -80,6 +80,12 @@ private:
   map();
   MapCloud
   labelledCloud() const;
+  MapCloud
+  planeLabelledCloud() const;
+  std::vector<ObjectPose>
+  objects() const;
+  Overlay
+  roomOverlay() const;
   TopViewScene
   topScene(PointColour colour);
   MapViewScene
@@ -92,8 +98,6 @@ private:
   mostCorrected() const;
   TopViewScene
   sceneBefore(const TopViewScene& after, PointColour colour);
-  std::vector<TriangleMesh>
-  modelOf(const std::string& object_class) const;
 
   const RunFolder& run_;
   const PictureSettings& settings_;

@@ -43,11 +43,12 @@ VideoFile::VideoFile(const fs::path& path,
   if (!std::ofstream(path))
     throw IoFailed(name + ": cannot be written");
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  for (const auto& name : codecsFor(path.extension()))
-    if (writer_->video.open(path.string(),
-                            cv::VideoWriter::fourcc(name[0], name[1], name[2], name[3]),
-                            fps,
-                            cv::Size(width, height)))
+  for (const auto& codec : codecsFor(path.extension()))
+    if (writer_->video.open(
+            path.string(),
+            cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]),
+            fps,
+            cv::Size(width, height)))
       return;
   throw IoFailed(name + ": this OpenCV has no codec for " + path.extension().string());
 }

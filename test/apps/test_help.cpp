@@ -232,6 +232,12 @@ TEST(Completion, GivesJobsOptionsAndTheWordsOfAnOption)
   EXPECT_EQ(completed({"pcl_slam6d", "--quiet", "--seed", "1", "--quie"}),
             Words{"--quiet"});
   EXPECT_EQ(completed({"pcl_slam6d_simulate", "cor"}), Words{"corridor"});
+  EXPECT_EQ(completed({"pcl_slam6d_convert", "stereo", "--matcher", ""}),
+            (Words{"sgbm", "bm"}));
+  EXPECT_EQ(completed({"pcl_slam6d_render", "picture", "--background", ""}),
+            (Words{"dark", "light"}));
+  EXPECT_TRUE(
+      isIn("before-after", completed({"pcl_slam6d_render", "picture", "--view", ""})));
   EXPECT_TRUE(isIn("vlp16", completed({"pcl_slam6d_simulate", "--scanner", ""})));
 }
 

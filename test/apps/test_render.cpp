@@ -1,33 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_render picture as a user runs it, on a small run that is made here.
-#include "support/run_program.h"
-
-#include <pcl6d/common/pose.h>
-#include <pcl6d/io/object_io.h>
-#include <pcl6d/io/pcd_io.h>
-#include <pcl6d/io/plane_io.h>
-#include <pcl6d/io/run_folder.h>
-#include <pcl6d/io/scan_fields.h>
-#include <pcl6d/io/scan_name.h>
-#include <pcl6d/io/trajectory_io.h>
-
-#include <pcl/conversions.h>
-#include <pcl/point_types.h>
+#include "room_run.h"
 
 #include <boost/process.hpp>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <set>
 
 namespace {
 namespace fs = std::filesystem;
 using pcl6d::test::Outcome;
+using pcl6d::test::room;
+using pcl6d::test::roomCloud;
+using pcl6d::test::sizeOfPng;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
 
 constexpr const char* kName = "pcl_slam6d_render";
-constexpr int kRunScans = 3;
 
 Outcome
 picture(const fs::path& run, std::vector<std::string> more)
@@ -40,126 +29,6 @@ void
 expectError(const Outcome& outcome, int code, const std::vector<std::string>& words)
 {
   pcl6d::test::expectError(outcome, kName, code, words);
-}
-
-/** The walls and the floor of a room of 6 m x 4 m, seen from its middle. */
-pcl::PCLPointCloud2
-roomCloud(const std::vector<double>& shift_x)
-{
-  pcl::PointCloud<pcl::PointXYZ> cloud;
-  std::vector<double> scans, intensities;
-  for (std::size_t scan = 0; scan < shift_x.size(); ++scan)
-    for (float a = -3; a <= 3; a += 0.1F)
-      for (float b = -2; b <= 2; b += 0.1F) {
-        const auto shift = static_cast<float>(shift_x[scan]);
-        cloud.push_back({a - shift, b, -1});
-        cloud.push_back({a - shift, 2, b / 2});
-        for (int i = 0; i < 2; ++i) {
-          scans.push_back(static_cast<double>(scan));
-          intensities.push_back(a + b + 5);
-        }
-      }
-  pcl::PCLPointCloud2 result;
-  pcl::toPCLPointCloud2(cloud, result);
-  pcl6d::addField(result, "scan", pcl::PCLPointField::UINT32, scans);
-  pcl6d::addField(result, "intensity", pcl::PCLPointField::FLOAT32, intensities);
-  return result;
-}
-
-/** A whole run: three scans 1 m apart, two planes, an object. */
-struct RoomRun : TempFolder {
-  RoomRun()
-  {
-    pcl6d::RunSummary summary;
-    summary.generator = "pcl_slam6d";
-    pcl6d::Trajectory trajectory;
-    std::vector<pcl6d::RunLink> links;
-    fs::create_directories(*this / "run/frames");
-    fs::create_directories(*this / "run/scans");
-    for (int i = 0; i < kRunScans; ++i) {
-      pcl6d::RunSummary::ScanEntry scan;
-      scan.file = pcl6d::scanName(i) + ".pcd";
-      scan.index = i;
-      scan.T_world_scan = pcl6d::planarPose(i - 1, 0, 0);
-      scan.initial_pose = pcl6d::planarPose(i - 1, 0.3 * i, 0.1 * i);
-      scan.state = i == 2 ? "predicted" : "matched";
-      scan.correction = 0.1 * i;
-      scan.covariance = 1e-4 * Eigen::Matrix<double, 6, 6>::Identity();
-      summary.scans.push_back(scan);
-      trajectory.poses.push_back(scan.T_world_scan);
-      pcl6d::writeFrames(*this / ("run/frames/" + pcl6d::scanName(i) + ".frames"),
-                         {{scan.initial_pose, pcl6d::FrameKind::kInvalid},
-                          {scan.T_world_scan, pcl6d::FrameKind::kIcp}});
-      pcl6d::writePcd(*this / ("run/scans/" + pcl6d::scanName(i) + ".pcd"),
-                      roomCloud({i - 1.0}));
-    }
-    links.push_back({0, 1, "sequence", "used", "", 1, 9, 0.02, 0.9, 0.5, 1});
-    links.push_back({1, 2, "sequence", "refused", "few pairs", 1, 2, 0.4, 0.1, 0.5, 0});
-    pcl6d::writeRunSummary(run() / "summary.json", summary);
-    pcl6d::writeTrajectoryKitti(run() / "trajectory.kitti", trajectory);
-    pcl6d::writeRunLinks(run() / "links.csv", links);
-    writeText(run() / "graph.g2o", "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n");
-    pcl6d::writePcd(run() / "map.pcd", roomCloud({0, 0, 0}));
-    writePlanesAndObjects();
-  }
-
-  void
-  writePlanesAndObjects() const
-  {
-    pcl6d::Plane floor;
-    floor.normal = -Eigen::Vector3d::UnitZ();
-    floor.offset = 1;
-    floor.label = "floor";
-    floor.area = 24;
-    floor.hull = {{-3, -2, -1}, {-3, 2, -1}, {3, 2, -1}, {3, -2, -1}};
-    pcl6d::writePlanes(run() / "planes.json", {floor});
-    pcl::PCLPointCloud2 cloud = roomCloud({0});
-    std::vector<double> ids;
-    for (std::size_t i = 0; i < cloud.width; ++i)
-      ids.push_back(i % 2 == 0 ? 1 : 0);
-    pcl6d::addField(cloud, "plane_id", pcl::PCLPointField::UINT32, ids);
-    pcl6d::writePcd(run() / "planes.pcd", cloud);
-    pcl6d::ObjectPose chair;
-    chair.object_class = "chair";
-    chair.T_world_object = pcl6d::planarPose(1, 0, 0.4);
-    chair.box = Eigen::AlignedBox3d(Eigen::Vector3d(-0.3, -0.3, -1),
-                                    Eigen::Vector3d(0.3, 0.3, 0));
-    pcl6d::writeObjects(run() / "objects.json", {chair});
-  }
-
-  fs::path
-  run() const
-  {
-    return *this / "run";
-  }
-  std::string
-  out(const std::string& name) const
-  {
-    return *this / name;
-  }
-};
-
-const RoomRun&
-room()
-{
-  static const RoomRun run;
-  return run;
-}
-
-/** \return width and height of a PNG file, from its header */
-std::pair<unsigned int, unsigned int>
-sizeOfPng(const fs::path& file)
-{
-  const std::string bytes = pcl6d::test::readText(file);
-  if (bytes.size() < 26 || bytes.compare(1, 3, "PNG") != 0)
-    return {0, 0};
-  const auto number = [&](std::size_t at) {
-    unsigned int value = 0;
-    for (std::size_t i = at; i < at + 4; ++i)
-      value = 256 * value + static_cast<unsigned char>(bytes[i]);
-    return value;
-  };
-  return {number(16), number(20)};
 }
 
 constexpr const char* kAllViews[] = {"top",

@@ -124,6 +124,27 @@ TEST(RunFolder, GivesWhatARunLeft)
   EXPECT_TRUE(run.readObjects().empty());
 }
 
+TEST(RunFolder, GivesTheCloudOfAScan)
+{
+  const RunFiles files;
+  const RunFolder run(files.path());
+  const auto plain = run.readScanCloud(1);
+  EXPECT_EQ(plain.points, run.readScan(1));
+  EXPECT_EQ(plain.scans, std::vector<std::uint32_t>{3}) << "index, not place";
+  EXPECT_TRUE(plain.intensities.empty());
+  pcl::PCLPointCloud2 bright = cloudOf({{1, 2, 3}, {4, 5, 6}});
+  pcl6d::addField(bright, "intensity", pcl::PCLPointField::FLOAT32, {9, 8});
+  pcl6d::writePcd(files / "scans/scan003.pcd", bright);
+  const auto cloud = run.readScanCloud(1);
+  EXPECT_EQ(cloud.points[1], Eigen::Vector3f(4, 5, 6));
+  EXPECT_EQ(cloud.scans, (std::vector<std::uint32_t>{3, 3}));
+  EXPECT_EQ(cloud.intensities, (std::vector<float>{9, 8}));
+  std::filesystem::remove(files / "scans/scan003.pcd");
+  EXPECT_TRUE(run.readScanCloud(1).points.empty());
+  writeText(files / "scans/scan003.pcd", "rubbish");
+  EXPECT_THROW(run.readScanCloud(1), IoFailed);
+}
+
 TEST(RunFolder, GivesPlanesAndObjectsIfThereAreAny)
 {
   const RunFiles files;

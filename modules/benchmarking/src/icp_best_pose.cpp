@@ -12,7 +12,8 @@ std::string
 doubtOf(const IcpResult& best, const IcpBasinOptions& options)
 {
   const double largest_rms = options.max_rms_share * options.icp.max_distance;
-  std::ostringstream doubt;
+  std::ostringstream doubt; // read by people
+  doubt.precision(3);
   if (best.status == Status::kRankDeficient)
     doubt << "the pairs do not fix the pose (" << toString(best.status) << ")";
   else if (best.status != Status::kOk)

@@ -51,7 +51,8 @@ targetOf(const std::vector<NetworkScan>& scans,
 std::string
 doubtOf(const IcpResult& found, double consistency, const LoopDetectionOptions& options)
 {
-  std::ostringstream why;
+  std::ostringstream why; // read by people
+  why.precision(3);
   if (found.status != Status::kOk)
     why << "ICP: " << toString(found.status);
   else if (found.pairs < options.min_pairs)

@@ -82,7 +82,8 @@ agreementOver(const std::vector<ScanPair>& pairs,
 std::string
 StageAgreement::worse(const std::vector<bool>& counted) const
 {
-  std::ostringstream why;
+  std::ostringstream why; // read by people
+  why.precision(3);
   if (after.total < before.total - kTotalTolerance) {
     why << "agreement fell from " << before.total << " to " << after.total;
     return why.str();

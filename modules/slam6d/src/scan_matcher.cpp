@@ -167,7 +167,8 @@ ScanMatcher::doubt(const IcpResult& found,
                    double odometry_step) const
 {
   const double max_distance = parameters_.max_distance.value;
-  std::ostringstream reason;
+  std::ostringstream reason; // read by people
+  reason.precision(3);
   if (found.status != Status::kOk && found.status != Status::kMaxIterations)
     reason << "ICP: " << toString(found.status);
   else if (found.overlap < options_.min_overlap)
@@ -198,6 +199,7 @@ ScanMatcher::lossOfAgreement(const IcpTarget& target,
   };
   const auto loss = [](double at_start, double at_end, const char* of) {
     std::ostringstream reason;
+    reason.precision(3);
     reason << of << " fell from " << at_start << " to " << at_end;
     return reason.str();
   };

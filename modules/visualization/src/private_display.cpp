@@ -7,10 +7,13 @@
 
 #include <X11/Xlib.h>
 #include <chrono>
+#include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
+#include <future>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
@@ -36,15 +39,20 @@ openFiles()
   return files;
 }
 
-/** In the child before exec: no Ctrl-C from our terminal, none of our files. */
+/** In the child before exec: no Ctrl-C from our terminal, none of our files, and an end
+ * with the thread that started it, which may be killed before it is connected. */
 struct Detach : bp::extend::handler {
   std::vector<int> files = openFiles();
+  pid_t parent = ::getpid();
 
   template <typename Executor>
   void
   on_exec_setup(Executor&) const
   {
     ::setsid();
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (::getppid() != parent) // it has ended meanwhile
+      ::_exit(EXIT_FAILURE);
     for (const int file : files)
       if (file > STDERR_FILENO)
         ::fcntl(file, F_SETFD, FD_CLOEXEC);
@@ -100,7 +108,54 @@ launch(bp::pipe& answer)
 }
 } // namespace
 
+/** Runs the launch of a child on a thread that then lives until it is let go: the kernel
+ * ends the child when the thread that started it ends. */
+class LaunchThread {
+public:
+  LaunchThread() = default;
+  LaunchThread(const LaunchThread&) = delete;
+  LaunchThread&
+  operator=(const LaunchThread&) = delete;
+
+  bp::child
+  run(bp::pipe& answer)
+  {
+    std::promise<bp::child> launched;
+    auto child = launched.get_future();
+    thread_ = std::thread(
+        [&answer, launched = std::move(launched), over = over_.get_future()]() mutable {
+          try {
+            launched.set_value(launch(answer));
+          } catch (...) {
+            launched.set_exception(std::current_exception());
+          }
+          over.wait();
+        });
+    return child.get();
+  }
+
+  void
+  finish()
+  {
+    over_.set_value();
+    thread_.join();
+  }
+
+  /** In a fork of the process, which has no such thread. */
+  void
+  forget()
+  {
+    if (thread_.joinable())
+      thread_.detach();
+  }
+
+private:
+  std::promise<void> over_;
+  std::thread thread_;
+};
+
 struct PrivateDisplay::Server {
+  LaunchThread launcher;
   bp::child process;
   std::string name;
   Display* connection = nullptr;
@@ -116,7 +171,12 @@ PrivateDisplay::Server::Server()
 {
   const auto deadline = Clock::now() + kStartLimit;
   bp::pipe answer;
-  process = launch(answer);
+  try {
+    process = launcher.run(answer);
+  } catch (...) {
+    launcher.finish();
+    throw;
+  }
   const std::string number = readLine(answer.native_source(), deadline);
   if (!number.empty()) {
     name = ":" + number;
@@ -124,6 +184,7 @@ PrivateDisplay::Server::Server()
   }
   if (!connection) {
     process.terminate();
+    launcher.finish();
     throw IoFailed("cannot draw pictures: Xvfb did not start within " +
                    std::to_string(kStartLimit.count()) +
                    " s; try it by hand: Xvfb :99");
@@ -134,11 +195,13 @@ PrivateDisplay::Server::~Server()
 {
   if (::getpid() != owner) { // a fork: server and connection belong to the parent
     process.detach();
+    launcher.forget();
     return;
   }
   // Not XCloseDisplay: it would call into OpenGL libraries that may be gone by now.
   ::shutdown(ConnectionNumber(connection), SHUT_RDWR);
   waitForEnd();
+  launcher.finish();
 }
 
 void

@@ -41,6 +41,8 @@ public:
     std::filesystem::create_directories(run() / "scans");
     RunSummary summary;
     summary.generator = "pcl_slam6d";
+    summary.options = {{"min-range", "0.1", "default", ""},
+                       {"max-range", "50", "default", ""}};
     pcl::PointCloud<pcl::PointXYZ> map;
     std::vector<double> scan_of_point;
     for (int i = 0; i < kScans; ++i) {

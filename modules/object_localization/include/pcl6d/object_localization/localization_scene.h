@@ -2,15 +2,12 @@
 #pragma once
 
 #include <pcl6d/object_localization/oriented_points.h>
-#include <pcl6d/scanner/range_image.h>
 #include <pcl6d/search/point_tree.h>
-
-#include <memory>
 
 namespace pcl6d {
 
-/** \brief A scan prepared for the search for objects: all points, and how far the scanner
- * saw in each direction. The scanner is at the origin. \ingroup object_localization */
+/** \brief A scan prepared for the search for objects: all points, and how close its
+ * rays are. The scanner is at the origin. \ingroup object_localization */
 class LocalizationScene {
 public:
   /** \param[in] points [m] in the scan's frame; those that are not finite are left out
@@ -27,13 +24,6 @@ public:
   tree() const
   {
     return tree_;
-  }
-
-  /** \return the image of ranges, about two points of the scan wide a pixel */
-  const RangeImage&
-  ranges() const
-  {
-    return *ranges_;
   }
 
   /** \return whether it looks one way, as a camera does, and not all around */
@@ -55,7 +45,6 @@ private:
   PointTree tree_;
   double angular_spacing_;
   bool is_narrow_ = false;
-  std::unique_ptr<const RangeImage> ranges_;
 };
 
 } // namespace pcl6d

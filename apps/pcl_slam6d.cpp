@@ -84,7 +84,7 @@ public:
     }
     const bool complete = match();
     app::RunWriter writer(settings_, scans_, slam_.result(), out_, bar_, interrupt_);
-    const RunSummary& summary = writer.write(complete, log_);
+    const RunResult& summary = writer.write(complete, log_);
     const auto written = out_.publish();
     for (const auto& warning : summary.warnings)
       bar_.warn(warning);
@@ -183,7 +183,7 @@ private:
   }
 
   static void
-  printClosing(const RunSummary& summary,
+  printClosing(const RunResult& summary,
                const std::vector<std::filesystem::path>& written)
   {
     std::cout << summary.verdict << '\n';

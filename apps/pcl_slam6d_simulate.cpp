@@ -13,7 +13,7 @@
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/scanner/scanner_presets.h>
-#include <pcl6d/scanner/simulator.h>
+#include <pcl6d/simulation/simulator.h>
 
 #include <pcl/conversions.h>
 

@@ -13,11 +13,30 @@ macro(_pcl6d_check_arguments helper)
 endmacro()
 
 # Warnings and floating-point rules of every target; none of it reaches a user's code.
+# Headers that nearly every file needs are compiled once per kind of target
+# (cmake/Pcl6dPrecompiled.cmake).
 function(_pcl6d_compile_rules target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
     -ffp-contract=off # the same bits on every x86-64 CPU
     $<$<BOOL:${PCL6D_WERROR}>:-Werror>)
+endfunction()
+
+# Gives a library of the suite its headers, name, version and installation.
+function(_pcl6d_library_rules target module)
+  add_library(pcl6d::${target} ALIAS pcl6d_${target})
+  set_target_properties(pcl6d_${target} PROPERTIES
+    EXPORT_NAME ${target}
+    DEFINE_SYMBOL ""
+    CXX_VISIBILITY_PRESET hidden # shown: what public headers declare (export.h)
+    VISIBILITY_INLINES_HIDDEN ON
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  target_compile_features(pcl6d_${target} PUBLIC cxx_std_17)
+  _pcl6d_compile_rules(pcl6d_${target})
+  pcl6d_precompile(pcl6d_${target} library)
+  install(TARGETS pcl6d_${target} EXPORT pcl6d_${module}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${module})
 endfunction()
 
 # pcl6d_add_module(NAME FLOOR n SOURCES ... [DEPENDS module ...] [PCL_COMPONENTS ...]
@@ -29,18 +48,14 @@ function(pcl6d_add_module name)
   _pcl6d_check_arguments("pcl6d_add_module(${name})")
   set(target pcl6d_${name})
   add_library(${target} SHARED ${ARG_SOURCES})
-  add_library(pcl6d::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name}
-    VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-    PCL6D_FLOOR ${ARG_FLOOR})
-  target_compile_features(${target} PUBLIC cxx_std_17)
-  target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-    $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  _pcl6d_compile_rules(${target})
+  _pcl6d_library_rules(${name} ${name})
+  set_target_properties(${target} PROPERTIES PCL6D_FLOOR ${ARG_FLOOR})
+  target_include_directories(${target}
+    PUBLIC
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}/include>
+      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE src)
 
   foreach(module IN LISTS ARG_DEPENDS)
     if(NOT TARGET pcl6d_${module})
@@ -60,11 +75,31 @@ function(pcl6d_add_module name)
   set_property(GLOBAL APPEND PROPERTY PCL6D_MODULES ${name})
   set_property(GLOBAL PROPERTY PCL6D_${name}_DEPENDS ${ARG_DEPENDS})
   set_property(GLOBAL PROPERTY PCL6D_${name}_PCL_COMPONENTS ${ARG_PCL_COMPONENTS})
-  install(TARGETS ${target} EXPORT pcl6d_${name}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
   install(EXPORT pcl6d_${name} NAMESPACE pcl6d:: FILE module_${name}.cmake
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl6d COMPONENT ${name})
+endfunction()
+
+# pcl6d_add_pcl_classes(NAME SOURCES ... [PCL_COMPONENTS ...])
+# makes pcl6d::NAME_pcl: the PCL classes of the module NAME (its headers in .../pcl/) and
+# their explicit instances, so that the module's core compiles without PCL's templates.
+function(pcl6d_add_pcl_classes name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PCL_COMPONENTS" ${ARGN})
+  _pcl6d_check_arguments("pcl6d_add_pcl_classes(${name})")
+  set(target pcl6d_${name}_pcl)
+  add_library(${target} SHARED ${ARG_SOURCES})
+  _pcl6d_library_rules(${name}_pcl ${name})
+  target_include_directories(${target} PRIVATE src)
+  list(TRANSFORM ARG_PCL_COMPONENTS PREPEND pcl_ OUTPUT_VARIABLE pcl_targets)
+  target_link_libraries(${target} PUBLIC pcl6d_${name} ${pcl_targets})
+  get_property(depends GLOBAL PROPERTY PCL6D_${name}_DEPENDS)
+  foreach(module IN LISTS depends)
+    if(TARGET pcl6d_${module}_pcl)
+      target_link_libraries(${target} PUBLIC pcl6d_${module}_pcl)
+    endif()
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY
+    PCL6D_${name}_PCL_COMPONENTS ${ARG_PCL_COMPONENTS})
 endfunction()
 
 # pcl6d_add_app(NAME SOURCES ... [DEPENDS module ...] [LINK_PRIVATE targets ...])
@@ -74,6 +109,7 @@ function(pcl6d_add_app name)
   _pcl6d_check_arguments("pcl6d_add_app(${name})")
   add_executable(${name} ${ARG_SOURCES})
   _pcl6d_compile_rules(${name})
+  pcl6d_precompile(${name} program)
   list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
   target_link_libraries(${name} PRIVATE pcl6d_apps_common ${modules} ${ARG_LINK_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY PCL6D_APPS ${name})
@@ -89,6 +125,7 @@ function(pcl6d_add_test name)
   _pcl6d_check_arguments("pcl6d_add_test(${name})")
   add_executable(${name} ${ARG_SOURCES})
   _pcl6d_compile_rules(${name})
+  pcl6d_precompile(${name} test)
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test/bin)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)

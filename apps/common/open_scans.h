@@ -3,7 +3,7 @@
 
 #include "common/app.h"
 
-#include <pcl6d/io/registered_scans.h>
+#include <pcl6d/run/registered_scans.h>
 
 #include <optional>
 

@@ -4,8 +4,8 @@
 #include "convert/verbs.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/images/image_files.h>
 #include <pcl6d/io/scan_writer.h>
+#include <pcl6d/scanner/image_files.h>
 #include <pcl6d/scanner/stereo_calibration_file.h>
 #include <pcl6d/scanner/stereo_cloud.h>
 

@@ -3,10 +3,10 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
-#include <pcl6d/io/run_summary.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/run/run_summary.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 
@@ -27,7 +27,7 @@ MapFiles
 filesOfRun(const fs::path& run)
 {
   const fs::path file = run / "summary.json";
-  const RunSummary summary = readRunSummary(file);
+  const RunResult summary = readRunSummary(file);
   if (summary.generator != "pcl_slam6d")
     throw IoFailed(file.string() + ": is of '" + summary.generator +
                    "', not of pcl_slam6d");

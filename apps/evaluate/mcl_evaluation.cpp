@@ -2,10 +2,10 @@
 #include "evaluate/mcl_errors.h"
 #include "evaluate/mcl_evaluation.h"
 
-#include <pcl6d/benchmarking/levelling.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/localisation/levelling.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 

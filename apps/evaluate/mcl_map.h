@@ -3,7 +3,7 @@
 
 #include "evaluate/mcl_settings.h"
 
-#include <pcl6d/benchmarking/segment_map.h>
+#include <pcl6d/localisation/segment_map.h>
 
 #include <string>
 

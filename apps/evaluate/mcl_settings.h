@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/benchmarking/monte_carlo_localisation.h>
-#include <pcl6d/benchmarking/segment_cut.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/localisation/monte_carlo_localisation.h>
+#include <pcl6d/localisation/segment_cut.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 
 #include <optional>

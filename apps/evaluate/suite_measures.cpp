@@ -2,8 +2,8 @@
 #include "evaluate/suite_report.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/io/run_summary.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/run/run_summary.h>
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ medianOf(std::vector<double> values)
 
 /** \return the agreement of the poses that were written; none if it was not judged */
 std::optional<double>
-agreementOf(const RunSummary& summary)
+agreementOf(const RunResult& summary)
 {
   std::optional<double> agreement;
   for (const auto& stage : summary.graph_stages)
@@ -99,7 +99,7 @@ private:
   void
   addResult(const fs::path& folder, SuiteResult& result)
   try {
-    const RunSummary summary = readRunSummary(folder / "summary.json");
+    const RunResult summary = readRunSummary(folder / "summary.json");
     result.estimate = readTrajectory(folder / "trajectory.tum");
     result.row.agreement = agreementOf(summary);
     addOdometry(summary, result.estimate.stamps);
@@ -123,7 +123,7 @@ private:
 
   /** The initial poses are the same for all methods: the first result tells them. */
   void
-  addOdometry(const RunSummary& summary, const std::vector<double>& stamps)
+  addOdometry(const RunResult& summary, const std::vector<double>& stamps)
   {
     if (has_odometry_)
       return;

@@ -21,7 +21,7 @@ stateOf(const RunLink& link)
 
 /** Scans that are not to be trusted. */
 bool
-isDoubtful(const RunSummary::ScanEntry& scan)
+isDoubtful(const RunResult::ScanEntry& scan)
 {
   return scan.state == "predicted" || scan.state == "unconverged" ||
          scan.state == "pending";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/io/run_folder.h>
+#include <pcl6d/run/run_folder.h>
 
 namespace pcl6d::app {
 

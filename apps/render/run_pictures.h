@@ -3,7 +3,7 @@
 
 #include "render/picture_settings.h"
 
-#include <pcl6d/io/run_folder.h>
+#include <pcl6d/run/run_folder.h>
 #include <pcl6d/visualization/map_view.h>
 #include <pcl6d/visualization/top_view.h>
 

@@ -3,8 +3,8 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/pose_graph_io.h>
-#include <pcl6d/io/run_summary.h>
 #include <pcl6d/io/scan_name.h>
+#include <pcl6d/run/run_summary.h>
 
 #include <algorithm>
 #include <charconv>
@@ -116,7 +116,7 @@ informationOf(const fs::path& file)
 FinishedRun::FinishedRun(const fs::path& folder) : folder_(folder)
 {
   const fs::path file = folder / "summary.json";
-  const RunSummary summary = readRunSummary(file);
+  const RunResult summary = readRunSummary(file);
   if (!summary.complete)
     throw IoFailed(file.string() + ": the run was interrupted; run it again");
   world_offset_ = summary.world_offset;

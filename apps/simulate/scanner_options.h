@@ -3,7 +3,7 @@
 
 #include "common/command_line.h"
 
-#include <pcl6d/scanner/simulator.h>
+#include <pcl6d/simulation/simulator.h>
 
 #include <string>
 

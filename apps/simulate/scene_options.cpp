@@ -4,7 +4,7 @@
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/point_list_io.h>
-#include <pcl6d/scanner/scene_file.h>
+#include <pcl6d/simulation/scene_file.h>
 
 #include <nlohmann/json.hpp>
 
@@ -90,12 +90,11 @@ describeScene(CommandLine& line, SceneWords& words)
        "the last to the first")                                              //
       ("scale", valueOf(words.scale), "of a mesh: [m] per unit of the file") //
       ("up", valueOf(words.up), "of a mesh: y|z, the axis that points up")   //
-      (
-          "labels",
-          valueOf(words.labels),
-          "yes|no|auto: points carry plane_id, object_id and label, and "
-          "planes_truth.json and objects_truth.json are written; auto: not for "
-          "corridor") //
+      ("labels",
+       valueOf(words.labels),
+       "yes|no|auto: points carry plane_id, object_id and label, and "
+       "planes_truth.json and objects_truth.json are written; auto: not for "
+       "corridor") //
       ("without",
        po::value(&words.without)->value_name("CLASS")->composing(),
        "leaves out the objects of a class, such as chair; may be repeated");

@@ -3,7 +3,7 @@
 
 #include <pcl6d/io/object_io.h>
 #include <pcl6d/io/plane_io.h>
-#include <pcl6d/scanner/scene_truth.h>
+#include <pcl6d/simulation/scene_truth.h>
 
 namespace pcl6d::app {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "common/output_folder.h"
 
-#include <pcl6d/scanner/simulator.h>
-#include <pcl6d/scanner/truth_fields.h>
+#include <pcl6d/simulation/simulator.h>
+#include <pcl6d/simulation/truth_fields.h>
 
 namespace pcl6d::app {
 

@@ -25,7 +25,7 @@ EarlierRun::putBefore(ScanFolder& folder) const
 ScanResult
 EarlierRun::scan(std::size_t i) const
 {
-  const RunSummary::ScanEntry& entry = summary_.scans.at(i);
+  const RunResult::ScanEntry& entry = summary_.scans.at(i);
   ScanResult scan;
   scan.initial_pose = entry.initial_pose;
   scan.T_world_scan = entry.T_world_scan;

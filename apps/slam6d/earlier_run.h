@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/io/run_summary.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/run/run_summary.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <filesystem>
@@ -31,7 +31,7 @@ public:
 
 private:
   std::filesystem::path folder_;
-  RunSummary summary_;
+  RunResult summary_;
 };
 
 } // namespace pcl6d::app

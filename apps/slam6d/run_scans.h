@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/scanner/motion_correction.h>
 
 #include <optional>
 #include <string>

@@ -35,10 +35,10 @@ kindOf(ScanState state)
   return FrameKind::kInvalid;
 }
 
-RunSummary::ScanEntry
+RunResult::ScanEntry
 entryOf(const std::string& file, int index, const ScanResult& scan)
 {
-  RunSummary::ScanEntry entry;
+  RunResult::ScanEntry entry;
   entry.file = file;
   entry.index = index;
   entry.initial_pose = scan.initial_pose;
@@ -66,10 +66,10 @@ shortest(double value)
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
-std::vector<RunSummary::Option>
+std::vector<RunResult::Option>
 optionsOf(const Settings& settings, const Slam6DParameters& parameters)
 {
-  std::vector<RunSummary::Option> options;
+  std::vector<RunResult::Option> options;
   for (const auto& word : settings.words)
     options.push_back({word.name, word.value, word.given ? "given" : "default", ""});
   for (const auto& [name, parameter] : named(parameters)) {
@@ -82,7 +82,7 @@ optionsOf(const Settings& settings, const Slam6DParameters& parameters)
 }
 } // namespace
 
-StageTimer::StageTimer(const std::string& name, std::vector<RunSummary::Stage>& stages)
+StageTimer::StageTimer(const std::string& name, std::vector<RunResult::Stage>& stages)
 : name_(name), stages_(stages), start_(std::chrono::steady_clock::now())
 {}
 
@@ -105,8 +105,8 @@ runFolderRules(const Settings& settings)
   rules.files = std::regex("trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
                            "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|links\\.csv|"
                            "(summary|objects|semantic_map)\\.json|"
-                            "semantic_map\\.(pcd|ply)|"
-                            "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
+                           "semantic_map\\.(pcd|ply)|"
+                           "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
                            planeFilePattern());
   rules.force = settings.force;
   return rules;
@@ -127,7 +127,7 @@ RunWriter::RunWriter(const Settings& settings,
 , interrupt_(interrupt)
 {}
 
-const RunSummary&
+const RunResult&
 RunWriter::write(bool complete, const RunLog& log)
 {
   describe(complete, log);

@@ -8,7 +8,7 @@
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/trajectory.h>
-#include <pcl6d/io/run_summary.h>
+#include <pcl6d/run/run_summary.h>
 #include <pcl6d/slam6d/map_builder.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
@@ -25,13 +25,13 @@ runFolderRules(const Settings& settings);
 /** \brief What a run gathers on its way, for the summary. */
 struct RunLog {
   std::vector<std::size_t> dropped; ///< per scan: points that were not finite
-  std::vector<RunSummary::Stage> stages;
+  std::vector<RunResult::Stage> stages;
 };
 
 /** \brief Adds a stage with its time and memory at the end of its scope. */
 class StageTimer {
 public:
-  StageTimer(const std::string& name, std::vector<RunSummary::Stage>& stages);
+  StageTimer(const std::string& name, std::vector<RunResult::Stage>& stages);
   ~StageTimer();
   StageTimer(const StageTimer&) = delete;
   StageTimer&
@@ -39,7 +39,7 @@ public:
 
 private:
   std::string name_;
-  std::vector<RunSummary::Stage>& stages_;
+  std::vector<RunResult::Stage>& stages_;
   std::chrono::steady_clock::time_point start_;
 };
 
@@ -56,7 +56,7 @@ public:
 
   /** \brief Of an interrupted run, be it before (not complete) or now, only poses, history
    * and summary are written. \return the summary, as it stands in the file */
-  const RunSummary&
+  const RunResult&
   write(bool complete, const RunLog& log);
 
 private:
@@ -88,7 +88,7 @@ private:
   const OutputFolder& out_;
   ProgressBar& bar_;
   const Interrupt& interrupt_;
-  RunSummary summary_;
+  RunResult summary_;
 };
 
 } // namespace pcl6d::app

@@ -3,7 +3,7 @@
 #include "slam6d/run_writer.h"
 
 #include <pcl6d/io/pose_graph_io.h>
-#include <pcl6d/io/run_links_io.h>
+#include <pcl6d/run/run_links_io.h>
 
 namespace pcl6d::app {
 

@@ -6,8 +6,8 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/link_list_io.h>
-#include <pcl6d/io/run_summary.h>
 #include <pcl6d/registration/minimisers.h>
+#include <pcl6d/run/run_summary.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/scanner/motion_correction.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
@@ -25,9 +25,9 @@ struct Settings {
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
   bool deskew = false;    ///< undo the motion of the scanner during each scan
   MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
-  bool planes = false; ///< find and label the planes of the map
+  bool planes = false;    ///< find and label the planes of the map
   bool live_view = false; ///< show the map in a window while it grows
-  bool report = false; ///< write report.html
+  bool report = false;    ///< write report.html
   bool force = false;
   bool quiet = false;
   bool verbose = false;

@@ -11,7 +11,7 @@ namespace pcl6d::app {
 namespace {
 /** \return ": a.pcd, b.pcd and 3 more" for the scans in a state */
 std::string
-filesIn(const std::string& state, const RunSummary& summary)
+filesIn(const std::string& state, const RunResult& summary)
 {
   constexpr int kMost = 8;
   std::string text;
@@ -25,9 +25,9 @@ filesIn(const std::string& state, const RunSummary& summary)
 
 /** The worst numbers of the matched scans, so that a bad match shows without --verbose. */
 void
-describeQuality(const RunSummary& summary, std::ostream& text)
+describeQuality(const RunResult& summary, std::ostream& text)
 {
-  using Entry = RunSummary::ScanEntry;
+  using Entry = RunResult::ScanEntry;
   std::vector<const Entry*> matched;
   for (const auto& scan : summary.scans)
     if (scan.state == "matched")
@@ -57,7 +57,7 @@ counted(std::size_t count, const std::string& thing)
 
 /** A line on each stage after matching. */
 void
-describeStages(const RunSummary& summary, std::ostream& text)
+describeStages(const RunResult& summary, std::ostream& text)
 {
   text << std::fixed << std::setprecision(3);
   for (const auto& stage : summary.graph_stages) {
@@ -76,7 +76,7 @@ describeStages(const RunSummary& summary, std::ostream& text)
 } // namespace
 
 std::string
-verdictOf(const Slam6DResult& result, const RunSummary& summary)
+verdictOf(const Slam6DResult& result, const RunResult& summary)
 {
   const std::string all = counted(result.scans.size(), "scan");
   const std::size_t pending = result.count(ScanState::kPending);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/io/run_summary.h>
+#include <pcl6d/run/run_summary.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <string>
@@ -12,6 +12,6 @@ namespace pcl6d::app {
  * numbers, and what became of each stage
  * \param[in] summary of the result, all but its verdict */
 std::string
-verdictOf(const Slam6DResult& result, const RunSummary& summary);
+verdictOf(const Slam6DResult& result, const RunResult& summary);
 
 } // namespace pcl6d::app

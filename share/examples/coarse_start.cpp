@@ -5,8 +5,8 @@
 #include "synthetic.h"
 
 #include <pcl6d/registration/feature_alignment.h>
-#include <pcl6d/registration/icp6d.h>
 #include <pcl6d/registration/overlap_search.h>
+#include <pcl6d/registration/pcl/icp6d.h>
 
 #include <cstdio>
 

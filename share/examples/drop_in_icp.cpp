@@ -2,8 +2,8 @@
 // Shows: code that was written for PCL's ICP gets PCL6D by changing one class name,
 // and a PCL6D minimiser works inside PCL's own ICP.
 #include <pcl6d/common/pose.h>
-#include <pcl6d/registration/icp6d.h>
-#include <pcl6d/registration/transformation_estimation_quaternion.h>
+#include <pcl6d/registration/pcl/icp6d.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion.h>
 
 #include <pcl/common/transforms.h>
 #include <pcl/registration/icp.h>

@@ -2,10 +2,10 @@
 // Shows: what a scan passes before it is matched, each step a filter as PCL knows them.
 #include "synthetic.h"
 
-#include <pcl6d/filters/octree_reduction.h>
-#include <pcl6d/filters/range_gate.h>
-#include <pcl6d/filters/scan_line_median.h>
-#include <pcl6d/filters/scan_line_reduction.h>
+#include <pcl6d/filters/pcl/octree_reduction.h>
+#include <pcl6d/filters/pcl/range_gate.h>
+#include <pcl6d/filters/pcl/scan_line_median.h>
+#include <pcl6d/filters/pcl/scan_line_reduction.h>
 
 #include <cstdio>
 

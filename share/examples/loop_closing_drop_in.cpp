@@ -4,7 +4,7 @@
 // poses have drifted, and the room is 300 m from the origin of the world.
 #include "synthetic.h"
 
-#include <pcl6d/graph_relaxation/elch.h>
+#include <pcl6d/graph_relaxation/pcl/elch.h>
 
 #include <pcl/common/transforms.h>
 #include <pcl/registration/elch.h>

@@ -3,17 +3,17 @@
 // takes them. Those of planes need normals in the target.
 #include "synthetic.h"
 
-#include <pcl6d/registration/transformation_estimation_dual_quaternion.h>
-#include <pcl6d/registration/transformation_estimation_euler.h>
-#include <pcl6d/registration/transformation_estimation_helix.h>
-#include <pcl6d/registration/transformation_estimation_orthonormal.h>
-#include <pcl6d/registration/transformation_estimation_plane_helix.h>
-#include <pcl6d/registration/transformation_estimation_plane_linear.h>
-#include <pcl6d/registration/transformation_estimation_quaternion.h>
-#include <pcl6d/registration/transformation_estimation_quaternion_linear.h>
-#include <pcl6d/registration/transformation_estimation_scale_quaternion.h>
-#include <pcl6d/registration/transformation_estimation_small_angle.h>
-#include <pcl6d/registration/transformation_estimation_svd.h>
+#include <pcl6d/registration/pcl/transformation_estimation_dual_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_euler.h>
+#include <pcl6d/registration/pcl/transformation_estimation_helix.h>
+#include <pcl6d/registration/pcl/transformation_estimation_orthonormal.h>
+#include <pcl6d/registration/pcl/transformation_estimation_plane_helix.h>
+#include <pcl6d/registration/pcl/transformation_estimation_plane_linear.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion_linear.h>
+#include <pcl6d/registration/pcl/transformation_estimation_scale_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_small_angle.h>
+#include <pcl6d/registration/pcl/transformation_estimation_svd.h>
 
 #include <pcl/registration/icp.h>
 

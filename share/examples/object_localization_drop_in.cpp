@@ -2,7 +2,7 @@
 // Shows: code that was written for pcl::GeometricConsistencyGrouping or pcl::Hough3DGrouping
 // gets the poses of an object by recognize(), without key points, descriptors and
 // correspondences to make first. A stepped block on a table, seen by a camera.
-#include <pcl6d/object_localization/object_localization.h>
+#include <pcl6d/object_localization/pcl/object_localization.h>
 
 #include <cstdio>
 

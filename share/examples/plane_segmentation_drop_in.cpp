@@ -4,7 +4,7 @@
 // of a room.
 #include "synthetic.h"
 
-#include <pcl6d/plane_segmentation/plane_segmentation.h>
+#include <pcl6d/plane_segmentation/pcl/plane_segmentation.h>
 
 #include <pcl/segmentation/sac_segmentation.h>
 

@@ -4,7 +4,7 @@
 // given: they are estimated.
 #include "synthetic.h"
 
-#include <pcl6d/registration/icp6d.h>
+#include <pcl6d/registration/pcl/icp6d.h>
 
 #include <pcl/registration/correspondence_rejection_median_distance.h>
 

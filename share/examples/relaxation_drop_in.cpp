@@ -4,7 +4,7 @@
 // facing another way, where the Euler angles of PCL's class contradict each other.
 #include "synthetic.h"
 
-#include <pcl6d/graph_relaxation/lum.h>
+#include <pcl6d/graph_relaxation/pcl/lum.h>
 
 #include <pcl/common/transforms.h>
 #include <pcl/registration/correspondence_estimation.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shows: pcl6d::KdTree wherever PCL expects a pcl::search::Search, here in
 // pcl::NormalEstimation on points of a sphere, whose normals are known.
-#include <pcl6d/search/kd_tree.h>
+#include <pcl6d/search/pcl/kd_tree.h>
 
 #include <pcl/features/normal_3d.h>
 

@@ -7,10 +7,10 @@
 #include <pcl6d/io/object_io.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/plane_io.h>
-#include <pcl6d/io/run_folder.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/run/run_folder.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
@@ -52,14 +52,14 @@ struct RoomRun : TempFolder {
 
   RoomRun()
   {
-    RunSummary summary;
+    RunResult summary;
     summary.generator = "pcl_slam6d";
     Trajectory trajectory;
     std::vector<RunLink> links;
     std::filesystem::create_directories(*this / "run/frames");
     std::filesystem::create_directories(*this / "run/scans");
     for (int i = 0; i < kScans; ++i) {
-      RunSummary::ScanEntry scan;
+      RunResult::ScanEntry scan;
       scan.file = scanName(i) + ".pcd";
       scan.index = i;
       scan.T_world_scan = planarPose(i - 1, 0, 0);

@@ -4,11 +4,11 @@
 #include "support/run_program.h"
 
 #include <pcl6d/io/pcd_io.h>
-#include <pcl6d/io/run_summary.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/run/run_summary.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_cloud.h>
@@ -39,7 +39,7 @@ public:
                 "--quiet"});
     const Trajectory truth = readTrajectory(sim() / "groundtruth.txt");
     std::filesystem::create_directories(run() / "scans");
-    RunSummary summary;
+    RunResult summary;
     summary.generator = "pcl_slam6d";
     summary.options = {{"min-range", "0.1", "default", ""},
                        {"max-range", "50", "default", ""}};
@@ -50,7 +50,7 @@ public:
       const std::string name = scanName(i) + ".pcd";
       const Scan scan = readScan(sim() / name);
       writePcd(run() / "scans" / name, scan.cloud, pose);
-      RunSummary::ScanEntry& entry = summary.scans.emplace_back();
+      RunResult::ScanEntry& entry = summary.scans.emplace_back();
       entry.file = name;
       entry.index = i;
       entry.T_world_scan = pose;

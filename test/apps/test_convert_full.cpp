@@ -3,9 +3,9 @@
 #include "convert_test.h"
 #include "support/poses.h"
 
-#include <pcl6d/io/run_summary.h>
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/run/run_summary.h>
 
 #include <sys/resource.h>
 
@@ -24,7 +24,7 @@ struct RunFolder : TempFolder {
   RunFolder()
   {
     pcl6d::Random random(2);
-    pcl6d::RunSummary summary;
+    pcl6d::RunResult summary;
     summary.generator = "pcl_slam6d";
     summary.world_offset = kOffset;
     summary.options = {{"min-range", "0.5", "derived", ""},

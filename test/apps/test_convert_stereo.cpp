@@ -4,8 +4,8 @@
 #include "scanner/stereo_rig.h"
 #include "support/run_program.h"
 
-#include <pcl6d/images/image_files.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/scanner/image_files.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_cloud.h>

@@ -3,7 +3,7 @@
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/pose.h>
-#include <pcl6d/io/run_summary.h>
+#include <pcl6d/run/run_summary.h>
 
 #include <boost/process.hpp>
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class DrawnRun : public TempFolder {
 public:
   DrawnRun()
   {
-    pcl6d::RunSummary summary;
+    pcl6d::RunResult summary;
     summary.generator = "pcl_slam6d";
     std::string links =
         "from,to,kind,verdict,reason,distance,pairs,rms,overlap,condition,weight\n";

@@ -2,7 +2,7 @@
 #include "peer_ratio.h"
 #include "room_cloud.h"
 
-#include <pcl6d/filters/octree_reduction.h>
+#include <pcl6d/filters/pcl/octree_reduction.h>
 
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/search/kdtree.h>

@@ -3,7 +3,7 @@
 #include "recorded_pair.h"
 
 #include <pcl6d/common/pose.h>
-#include <pcl6d/registration/icp6d.h>
+#include <pcl6d/registration/pcl/icp6d.h>
 
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>

@@ -2,7 +2,7 @@
 #include "graph_relaxation/ring_graph.h"
 #include "peer_ratio.h"
 
-#include <pcl6d/graph_relaxation/lum.h>
+#include <pcl6d/graph_relaxation/pcl/lum.h>
 
 #include <chrono>
 #include <cstdio>

@@ -3,7 +3,7 @@
 #include "peer_ratio.h"
 #include "room_cloud.h"
 
-#include <pcl6d/search/kd_tree.h>
+#include <pcl6d/search/pcl/kd_tree.h>
 
 #include <limits>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays per second of scans of the built-in scenes.
 #include <pcl6d/scanner/driven_scanner.h>
-#include <pcl6d/scanner/simulator.h>
+#include <pcl6d/simulation/simulator.h>
 
 #include <benchmark/benchmark.h>
 

@@ -5,8 +5,9 @@
 #include <pcl6d/common/random.h>
 #include <pcl6d/object_localization/model_store.h>
 #include <pcl6d/scanner/scanner_presets.h>
-#include <pcl6d/scanner/scene_bodies.h>
-#include <pcl6d/scanner/simulator.h>
+#include <pcl6d/simulation/cast_scan.h>
+#include <pcl6d/simulation/scene_bodies.h>
+#include <pcl6d/simulation/simulator.h>
 
 #include <cmath>
 #include <optional>

@@ -4,8 +4,8 @@
 
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/scanner/scene_truth.h>
-#include <pcl6d/scanner/simulator.h>
+#include <pcl6d/simulation/scene_truth.h>
+#include <pcl6d/simulation/simulator.h>
 
 #include <cmath>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole of book 6.4 on a part of the simulated campus, whose truth is known.
-#include <pcl6d/benchmarking/levelling.h>
 #include <pcl6d/benchmarking/map_justification.h>
-#include <pcl6d/benchmarking/segment_cut.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
+#include <pcl6d/localisation/levelling.h>
+#include <pcl6d/localisation/segment_cut.h>
 #include <pcl6d/scanner/scanner_presets.h>
-#include <pcl6d/scanner/scene_truth.h>
-#include <pcl6d/scanner/simulator.h>
+#include <pcl6d/simulation/scene_truth.h>
+#include <pcl6d/simulation/simulator.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "support/points.h"
 #include "support/poses.h"
 
-#include <pcl6d/filters/octree_reduction.h>
+#include <pcl6d/filters/pcl/octree_reduction.h>
 
 #include <cmath>
 

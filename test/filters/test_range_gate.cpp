@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/points.h"
 
-#include <pcl6d/filters/range_gate.h>
+#include <pcl6d/filters/pcl/range_gate.h>
 #include <pcl6d/filters/range_statistics.h>
 
 using pcl6d::RangeGate;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/points.h"
 
-#include <pcl6d/filters/octree_reduction.h>
-#include <pcl6d/filters/range_gate.h>
-#include <pcl6d/filters/scan_line_median.h>
-#include <pcl6d/filters/scan_line_reduction.h>
+#include <pcl6d/filters/pcl/octree_reduction.h>
+#include <pcl6d/filters/pcl/range_gate.h>
+#include <pcl6d/filters/pcl/scan_line_median.h>
+#include <pcl6d/filters/pcl/scan_line_reduction.h>
 
 #include <cstring>
 

@@ -4,7 +4,7 @@
 #include "support/room.h"
 
 #include <pcl6d/common/random.h>
-#include <pcl6d/filters/octree_reduction.h>
+#include <pcl6d/filters/pcl/octree_reduction.h>
 
 #include <pcl/common/centroid.h>
 

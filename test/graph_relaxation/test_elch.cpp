@@ -3,8 +3,8 @@
 #include "support/points.h"
 #include "support/room.h"
 
-#include <pcl6d/graph_relaxation/elch.h>
-#include <pcl6d/registration/icp6d.h>
+#include <pcl6d/graph_relaxation/pcl/elch.h>
+#include <pcl6d/registration/pcl/icp6d.h>
 
 #include <pcl/common/io.h>
 

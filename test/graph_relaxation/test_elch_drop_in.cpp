@@ -16,7 +16,7 @@ __asan_default_options()
   return "detect_leaks=0";
 }
 #else
-#include <pcl6d/graph_relaxation/elch.h>
+#include <pcl6d/graph_relaxation/pcl/elch.h>
 namespace under_test = pcl6d;
 #endif
 

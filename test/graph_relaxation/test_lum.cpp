@@ -2,7 +2,7 @@
 #include "ring_graph.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/graph_relaxation/lum.h>
+#include <pcl6d/graph_relaxation/pcl/lum.h>
 
 #include <gtest/gtest.h>
 

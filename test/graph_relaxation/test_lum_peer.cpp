@@ -3,7 +3,7 @@
 // PCL's class diverges otherwise.
 #include "ring_graph.h"
 
-#include <pcl6d/graph_relaxation/lum.h>
+#include <pcl6d/graph_relaxation/pcl/lum.h>
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <pcl6d/object_localization/training_images.h>
-#include <pcl6d/scanner/scene_bodies.h>
-#include <pcl6d/scanner/scene_builder.h>
+#include <pcl6d/simulation/cast_scan.h>
+#include <pcl6d/simulation/scene_bodies.h>
+#include <pcl6d/simulation/scene_builder.h>
 
 #include <cmath>
 

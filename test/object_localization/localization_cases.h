@@ -5,7 +5,8 @@
 #include <pcl6d/common/triangle_mesh.h>
 #include <pcl6d/object_localization/oriented_points.h>
 #include <pcl6d/scanner/scanner_presets.h>
-#include <pcl6d/scanner/scene_builder.h>
+#include <pcl6d/simulation/cast_scan.h>
+#include <pcl6d/simulation/scene_builder.h>
 
 #include <cmath>
 

@@ -6,8 +6,9 @@
 #include <pcl6d/plane_segmentation/segment_planes.h>
 #include <pcl6d/scanner/camera_scanner.h>
 #include <pcl6d/scanner/scanner_presets.h>
-#include <pcl6d/scanner/scene_bodies.h>
-#include <pcl6d/scanner/scene_builder.h>
+#include <pcl6d/simulation/cast_scan.h>
+#include <pcl6d/simulation/scene_bodies.h>
+#include <pcl6d/simulation/scene_builder.h>
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 
 #include <pcl6d/common/random.h>
 #include <pcl6d/object_localization/object_localizer.h>
-#include <pcl6d/scanner/scene_bodies.h>
+#include <pcl6d/simulation/scene_bodies.h>
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/object_localization/model_store.h>
-#include <pcl6d/scanner/scene_bodies.h>
-#include <pcl6d/scanner/scene_builder.h>
-#include <pcl6d/scanner/simulation_scene.h>
+#include <pcl6d/simulation/scene_bodies.h>
+#include <pcl6d/simulation/scene_builder.h>
+#include <pcl6d/simulation/simulation_scene.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // The dominant planes of a recorded scan, listed by hand in test/data.
 #include "support/data_folder.h"
 
-#include <pcl6d/filters/range_gate.h>
+#include <pcl6d/filters/pcl/range_gate.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/plane_segmentation/segment_planes.h>

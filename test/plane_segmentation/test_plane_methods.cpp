@@ -2,7 +2,7 @@
 // Each method from the cloud to the finished planes.
 #include "plane_scenes.h"
 
-#include <pcl6d/plane_segmentation/plane_segmentation.h>
+#include <pcl6d/plane_segmentation/pcl/plane_segmentation.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "surfaces.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/plane_segmentation/plane_segmentation.h>
+#include <pcl6d/plane_segmentation/pcl/plane_segmentation.h>
 
 #include <gtest/gtest.h>
 

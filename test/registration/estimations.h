@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/registration/transformation_estimation_dual_quaternion.h>
-#include <pcl6d/registration/transformation_estimation_euler.h>
-#include <pcl6d/registration/transformation_estimation_helix.h>
-#include <pcl6d/registration/transformation_estimation_orthonormal.h>
-#include <pcl6d/registration/transformation_estimation_plane_helix.h>
-#include <pcl6d/registration/transformation_estimation_plane_linear.h>
-#include <pcl6d/registration/transformation_estimation_quaternion.h>
-#include <pcl6d/registration/transformation_estimation_quaternion_linear.h>
-#include <pcl6d/registration/transformation_estimation_quaternion_unconstrained.h>
-#include <pcl6d/registration/transformation_estimation_scale_quaternion.h>
-#include <pcl6d/registration/transformation_estimation_small_angle.h>
-#include <pcl6d/registration/transformation_estimation_svd.h>
+#include <pcl6d/registration/pcl/transformation_estimation_dual_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_euler.h>
+#include <pcl6d/registration/pcl/transformation_estimation_helix.h>
+#include <pcl6d/registration/pcl/transformation_estimation_orthonormal.h>
+#include <pcl6d/registration/pcl/transformation_estimation_plane_helix.h>
+#include <pcl6d/registration/pcl/transformation_estimation_plane_linear.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion_linear.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion_unconstrained.h>
+#include <pcl6d/registration/pcl/transformation_estimation_scale_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_small_angle.h>
+#include <pcl6d/registration/pcl/transformation_estimation_svd.h>
 
 #include <functional>
 #include <ostream>

@@ -4,8 +4,8 @@
 #include "support/bits.h"
 #include "support/points.h"
 
-#include <pcl6d/registration/icp6d.h>
-#include <pcl6d/search/core_search.h>
+#include <pcl6d/registration/pcl/icp6d.h>
+#include <pcl6d/search/pcl/core_search.h>
 
 #include <pcl/registration/icp.h>
 

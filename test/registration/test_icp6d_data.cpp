@@ -2,7 +2,7 @@
 #include "support/data_folder.h"
 
 #include <pcl6d/common/pose.h>
-#include <pcl6d/registration/icp6d.h>
+#include <pcl6d/registration/pcl/icp6d.h>
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/registration/icp.h>

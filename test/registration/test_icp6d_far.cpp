@@ -3,7 +3,7 @@
 // holds exactly there, so that the same run near the origin tells what is right.
 #include "icp6d_cases.h"
 
-#include <pcl6d/search/cached_kd_tree.h>
+#include <pcl6d/search/pcl/cached_kd_tree.h>
 
 using namespace pcl6d::test;
 using pcl6d::IcpIteration;

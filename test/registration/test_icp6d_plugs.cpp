@@ -2,8 +2,8 @@
 // PCL's estimations of correspondences and transformations, plugged into ICP6D.
 #include "icp6d_cases.h"
 
-#include <pcl6d/registration/transformation_estimation_plane_helix.h>
-#include <pcl6d/registration/transformation_estimation_svd.h>
+#include <pcl6d/registration/pcl/transformation_estimation_plane_helix.h>
+#include <pcl6d/registration/pcl/transformation_estimation_svd.h>
 
 #include <pcl/registration/correspondence_estimation_backprojection.h>
 #include <pcl/registration/correspondence_estimation_normal_shooting.h>

@@ -3,7 +3,7 @@
 #include "support/points.h"
 #include "support/room.h"
 
-#include <pcl6d/registration/icp6d.h>
+#include <pcl6d/registration/pcl/icp6d.h>
 
 using pcl6d::IcpIteration;
 using pcl6d::Points;

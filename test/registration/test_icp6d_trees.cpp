@@ -2,8 +2,8 @@
 // The search method of the target.
 #include "icp6d_cases.h"
 
-#include <pcl6d/search/approximate_kd_tree.h>
-#include <pcl6d/search/cached_kd_tree.h>
+#include <pcl6d/search/pcl/approximate_kd_tree.h>
+#include <pcl6d/search/pcl/cached_kd_tree.h>
 
 #include <pcl/registration/correspondence_rejection_distance.h>
 #include <pcl/registration/transformation_estimation_svd.h>

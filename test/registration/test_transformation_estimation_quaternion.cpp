@@ -3,7 +3,7 @@
 #include "support/points.h"
 #include "support/poses.h"
 
-#include <pcl6d/registration/transformation_estimation_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion.h>
 
 #include <pcl/common/transforms.h>
 #include <pcl/registration/icp.h>

@@ -4,7 +4,7 @@
 #include "support/points.h"
 #include "support/poses.h"
 
-#include <pcl6d/registration/icp6d.h>
+#include <pcl6d/registration/pcl/icp6d.h>
 
 #include <pcl/registration/icp.h>
 

@@ -4,7 +4,7 @@
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/random.h>
 #include <pcl6d/scanner/pinhole_camera.h>
-#include <pcl6d/scanner/ray_caster.h>
+#include <pcl6d/simulation/ray_caster.h>
 
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>

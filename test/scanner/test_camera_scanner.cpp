@@ -5,6 +5,7 @@
 #include <pcl6d/common/random.h>
 #include <pcl6d/scanner/measurement_principles.h>
 #include <pcl6d/scanner/tof_camera.h>
+#include <pcl6d/simulation/cast_scan.h>
 
 #include <gtest/gtest.h>
 

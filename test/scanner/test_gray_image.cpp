@@ -2,8 +2,8 @@
 #include "scanner/expect_refused.h"
 #include "support/temp_folder.h"
 
-#include <pcl6d/images/image_files.h>
 #include <pcl6d/scanner/gray_image.h>
+#include <pcl6d/scanner/image_files.h>
 
 #include <opencv2/core.hpp>
 

@@ -2,7 +2,8 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/scanner/line_assembly.h>
 #include <pcl6d/scanner/scanner_presets.h>
-#include <pcl6d/scanner/scene_builder.h>
+#include <pcl6d/simulation/cast_scan.h>
+#include <pcl6d/simulation/scene_builder.h>
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include <pcl6d/scanner/measurement_principles.h>
 #include <pcl6d/scanner/projection_scanner.h>
 #include <pcl6d/scanner/range_scan.h>
+#include <pcl6d/simulation/cast_scan.h>
 
 #include <gtest/gtest.h>
 

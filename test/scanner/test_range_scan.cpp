@@ -3,7 +3,8 @@
 #include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/measurement_principles.h>
 #include <pcl6d/scanner/range_scan.h>
-#include <pcl6d/scanner/scene_builder.h>
+#include <pcl6d/simulation/cast_scan.h>
+#include <pcl6d/simulation/scene_builder.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/scanner/scanner_presets.h>
-#include <pcl6d/scanner/scene_builder.h>
+#include <pcl6d/simulation/cast_scan.h>
+#include <pcl6d/simulation/scene_builder.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <pcl6d/io/mesh_io.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/scene_interpretation/labelled_files.h>
-#include <pcl6d/scene_interpretation/scene_interpreter.h>
+#include <pcl6d/scene_interpretation/pcl/scene_interpreter.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>

@@ -4,11 +4,11 @@
 #include "support/poses.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/search/approximate_kd_tree.h>
-#include <pcl6d/search/brute_force_search.h>
-#include <pcl6d/search/cached_kd_tree.h>
-#include <pcl6d/search/kd_tree.h>
-#include <pcl6d/search/octree_search.h>
+#include <pcl6d/search/pcl/approximate_kd_tree.h>
+#include <pcl6d/search/pcl/brute_force_search.h>
+#include <pcl6d/search/pcl/cached_kd_tree.h>
+#include <pcl6d/search/pcl/kd_tree.h>
+#include <pcl6d/search/pcl/octree_search.h>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/scanner/scanner_presets.h>
-#include <pcl6d/scanner/scene_truth.h>
-#include <pcl6d/scanner/simulator.h>
+#include <pcl6d/simulation/scene_truth.h>
+#include <pcl6d/simulation/simulator.h>
 
 #include <cmath>
 #include <cstdint>

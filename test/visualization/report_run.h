@@ -37,10 +37,10 @@ makeReportMap(std::uint32_t scans)
   return map;
 }
 
-inline RunSummary::ScanEntry
+inline RunResult::ScanEntry
 makeReportScan(int index)
 {
-  RunSummary::ScanEntry scan;
+  RunResult::ScanEntry scan;
   scan.file = "scan" + std::to_string(index) + ".pcd";
   scan.index = index;
   scan.initial_pose.translation() = kReportOffset + Eigen::Vector3d(2 * index, 9, 1);

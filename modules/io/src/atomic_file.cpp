@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "text.h"
-
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/text.h>
 
 #include <atomic>
 #include <cerrno>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hundredfold.h"
-#include "text.h"
+
+#include <pcl6d/io/text.h>
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "initial_poses.h"
-#include "text.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>

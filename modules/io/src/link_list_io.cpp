@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph_row.h"
-#include "text.h"
 
 #include <pcl6d/io/link_list_io.h>
 #include <pcl6d/io/pose_graph_io.h>
+#include <pcl6d/io/text.h>
 
 #include <string_view>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_formats.h"
-#include "text.h"
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/mesh_io.h>
+#include <pcl6d/io/text.h>
 
 #include <pcl/io/ply_io.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_formats.h"
-#include "text.h"
+
+#include <pcl6d/io/text.h>
 
 namespace pcl6d {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "json_numbers.h"
-#include "text.h"
-
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/plane_io.h>
+#include <pcl6d/io/text.h>
 
 #include <cmath>
 #include <ostream>

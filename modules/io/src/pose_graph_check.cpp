@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pose_graph_check.h"
-#include "text.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/information.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/io/text.h>
 
 #include <algorithm>
 #include <set>

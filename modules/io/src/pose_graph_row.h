@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "text.h"
-
 #include <pcl6d/common/pose_graph.h>
+#include <pcl6d/io/text.h>
 
 #include <string_view>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "text.h"
-
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/range_lines_io.h>
+#include <pcl6d/io/text.h>
 
 #include <cmath>
 #include <limits>

@@ -2,12 +2,12 @@
 #include "formats.h"
 #include "initial_poses.h"
 #include "natural_order.h"
-#include "text.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>
@@ -100,7 +100,7 @@ findScans(const fs::path& folder, ScanFormat format)
 
 /** \return the stamps of a run's scans, or nothing where indices stand for them */
 std::vector<double>
-stampsOf(const fs::path& run, const RunSummary& summary)
+stampsOf(const fs::path& run, const RunResult& summary)
 {
   const fs::path file = run / "trajectory.tum";
   std::vector<double> stamps = readTrajectory(file).stamps;
@@ -155,7 +155,7 @@ ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
 }
 
 void
-ScanFolder::continueRun(const fs::path& run, const RunSummary& summary)
+ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
 {
   std::vector<Entry> entries;
   std::set<std::string> known;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "formats.h"
 #include "point_field.h"
-#include "text.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/text.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "json_numbers.h"
 #include "segment_formats.h"
-#include "text.h"
+
+#include <pcl6d/io/json_numbers.h>
+#include <pcl6d/io/text.h>
 
 #include <algorithm>
 #include <cmath>

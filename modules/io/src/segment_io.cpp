@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "segment_formats.h"
-#include "text.h"
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/segment_io.h>
+#include <pcl6d/io/text.h>
 
 #include <algorithm>
 #include <cmath>

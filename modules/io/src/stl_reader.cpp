@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_formats.h"
-#include "text.h"
 
 #include <pcl6d/common/random.h>
+#include <pcl6d/io/text.h>
 
 #include <cmath>
 #include <cstring>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "text.h"
-
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/text.h>
 
 #include <cerrno>
 #include <cstring>

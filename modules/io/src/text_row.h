@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "text.h"
+#include <pcl6d/io/text.h>
 
 #include <pcl/PCLPointField.h>
 

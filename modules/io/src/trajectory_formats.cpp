@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "natural_order.h"
-#include "text.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/pose_graph_io.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_formats.h>
 #include <pcl6d/io/trajectory_io.h>
 

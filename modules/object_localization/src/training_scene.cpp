@@ -2,7 +2,8 @@
 #include "training_scene.h"
 
 #include <pcl6d/common/portable_math.h>
-#include <pcl6d/scanner/scene_bodies.h>
+#include <pcl6d/simulation/cast_scan.h>
+#include <pcl6d/simulation/scene_bodies.h>
 
 #include <algorithm>
 #include <cmath>

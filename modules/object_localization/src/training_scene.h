@@ -3,7 +3,7 @@
 
 #include <pcl6d/common/random.h>
 #include <pcl6d/object_localization/training_images.h>
-#include <pcl6d/scanner/ray_caster.h>
+#include <pcl6d/simulation/ray_caster.h>
 
 namespace pcl6d {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/search/core_search.h>
+#include <pcl6d/search/pcl/core_search.h>
 
 #include <algorithm>
 #include <cmath>

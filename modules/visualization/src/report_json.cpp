@@ -24,14 +24,14 @@ numbersOf(const Eigen::Vector3d& v)
 
 /** \return the root of the sum of the variances of x, y and z [m]; NaN: not known */
 double
-sigmaOf(const RunSummary::ScanEntry& scan)
+sigmaOf(const RunResult::ScanEntry& scan)
 {
   return scan.covariance ? std::sqrt(scan.covariance->diagonal().head<3>().sum())
                          : std::numeric_limits<double>::quiet_NaN();
 }
 
 Json
-toJson(const RunSummary::ScanEntry& scan, const Eigen::Vector3d& offset)
+toJson(const RunResult::ScanEntry& scan, const Eigen::Vector3d& offset)
 {
   const Eigen::Vector3d position = scan.T_world_scan.translation() - offset;
   const Eigen::Vector3d initial = scan.initial_pose.translation() - offset;
@@ -116,7 +116,7 @@ toJson(const ObjectPose& object, const Eigen::Vector3d& offset)
 }
 
 Json
-optionsOf(const RunSummary& summary)
+optionsOf(const RunResult& summary)
 {
   Json options = Json::array();
   for (const auto& option : summary.options)
@@ -128,7 +128,7 @@ optionsOf(const RunSummary& summary)
 }
 
 Json
-stagesOf(const RunSummary& summary)
+stagesOf(const RunResult& summary)
 {
   Json stages = Json::array();
   for (const auto& stage : summary.stages)
@@ -139,7 +139,7 @@ stagesOf(const RunSummary& summary)
 }
 
 Json
-graphStagesOf(const RunSummary& summary)
+graphStagesOf(const RunResult& summary)
 {
   Json stages = Json::array();
   for (const auto& stage : summary.graph_stages)
@@ -154,7 +154,7 @@ graphStagesOf(const RunSummary& summary)
 
 /** \return the way from each finite position to the next [m] */
 double
-lengthOf(const RunSummary& summary)
+lengthOf(const RunResult& summary)
 {
   double length = 0;
   for (std::size_t i = 1; i < summary.scans.size(); ++i) {
@@ -216,7 +216,7 @@ withoutMarkup(const std::string& json)
 std::string
 reportJson(const ReportData& data, const ReportOptions& options)
 {
-  const RunSummary& summary = data.summary;
+  const RunResult& summary = data.summary;
   const Eigen::Vector3d& offset = summary.world_offset;
   Json json{{"title", data.title},
             {"generator", summary.generator},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/benchmarking/icp_variant.h>
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/progress.h>
 
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The grid of starts about the best pose, and what counts as back there. */
 struct IcpBasinOptions {

@@ -3,10 +3,11 @@
 
 #include <pcl6d/benchmarking/error_statistics.h>
 #include <pcl6d/benchmarking/pose_matching.h>
+#include <pcl6d/common/export.h>
 
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The distance of the same two points in two sources [m], or each in a unit of
  * its own. */

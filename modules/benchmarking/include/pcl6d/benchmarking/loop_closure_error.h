@@ -2,12 +2,13 @@
 #pragma once
 
 #include <pcl6d/benchmarking/relative_error.h>
+#include <pcl6d/common/export.h>
 
 #include <cstddef>
 #include <utility>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief When the reference comes back to a place. \ingroup benchmarking */
 struct RevisitOptions {

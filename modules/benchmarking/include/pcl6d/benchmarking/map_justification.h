@@ -2,15 +2,16 @@
 #pragma once
 
 #include <pcl6d/benchmarking/error_statistics.h>
-#include <pcl6d/benchmarking/monte_carlo_localisation.h>
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
+#include <pcl6d/localisation/monte_carlo_localisation.h>
 #include <pcl6d/registration/icp_options.h>
 
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of justifyByIcp(). */
 struct JustificationOptions {

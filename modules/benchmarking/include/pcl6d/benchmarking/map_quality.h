@@ -4,6 +4,7 @@
 #include <pcl6d/benchmarking/map_entropy.h>
 #include <pcl6d/benchmarking/plane_thickness.h>
 #include <pcl6d/benchmarking/surface_distance.h>
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/progress.h>
 
 #include <Eigen/Geometry>
@@ -12,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of measureMap(). \ingroup benchmarking */
 struct MapQualityOptions {

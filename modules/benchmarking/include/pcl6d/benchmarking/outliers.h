@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Robust z-scores: (x - median) / (1.4826 MAD), where MAD is the median of
  * |x - median|. A spread below `least_spread` counts as that, so that equal values with one

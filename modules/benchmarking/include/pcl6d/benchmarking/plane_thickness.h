@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/filters/point_normals.h>
 #include <pcl6d/plane_segmentation/plane_segment.h>
@@ -8,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Points of a map with normals, and the scan that each came from. */
 struct MapPoints {

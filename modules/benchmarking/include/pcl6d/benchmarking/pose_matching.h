@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/trajectory.h>
 
 #include <cstddef>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How poses of two trajectories belong together. \ingroup benchmarking */
 struct PoseMatchingOptions {

@@ -3,8 +3,9 @@
 
 #include <pcl6d/benchmarking/error_statistics.h>
 #include <pcl6d/benchmarking/pose_matching.h>
+#include <pcl6d/common/export.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The error of a motion between two poses: that of
  * (T_ref_a^-1 T_ref_b)^-1 (T_est_a^-1 T_est_b). It does not depend on the worlds of the

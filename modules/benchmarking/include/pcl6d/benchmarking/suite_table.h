@@ -3,12 +3,13 @@
 
 #include <pcl6d/benchmarking/relative_error.h>
 #include <pcl6d/benchmarking/trajectory_error.h>
+#include <pcl6d/common/export.h>
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What came out of one method on one data set. \ingroup benchmarking */
 struct SuiteRow {

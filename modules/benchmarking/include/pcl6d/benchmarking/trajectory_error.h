@@ -6,11 +6,12 @@
 #include <pcl6d/benchmarking/loop_closure_error.h>
 #include <pcl6d/benchmarking/pose_matching.h>
 #include <pcl6d/benchmarking/relative_error.h>
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/status.h>
 
 #include <optional>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How far one pose is from its reference, measured in the reference's world. */
 struct PoseError {

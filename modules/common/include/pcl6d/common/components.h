@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The connected components of a graph, as its edges are told one by one
  * (union-find). \ingroup common */

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <pcl/exceptions.h>
 
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The caller's mistake: an option, a size, a null cloud. Thrown before any
  * work.

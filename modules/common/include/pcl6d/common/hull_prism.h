@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/plane.h>
 
 #include <Eigen/Core>
@@ -9,7 +10,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The space over and under the convex hull of a plane, without end.
  * \ingroup common */

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <algorithm>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The value in the middle: one of the values, the upper one of the middle two for an
  * even count. \param[in] values copied, as they are put in order \return 0 without values */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -9,7 +11,7 @@
  * Parallel loops whose results do not depend on the number of threads (book 4.1.6):
  * work is cut into blocks of fixed size, each block is summed by one thread, and the
  * partial sums are merged by a fixed binary tree. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \return the number of threads to use. \param[in] wanted 0: one per core */
 unsigned int

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <pcl/point_cloud.h>
 #include <pcl/types.h>
 
@@ -8,7 +10,7 @@
 
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The compiled core's view of a cloud: contiguous float x, y, z [m], in the
  * frame of the scan that they belong to. \ingroup common */

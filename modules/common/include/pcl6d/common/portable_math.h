@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 /** \file
  * Sine, cosine, arc tangent, arc cosine, logarithm and exponential from + - * / and sqrt
  * alone, which IEEE 754 fixes to the last bit. The C library's functions are as accurate but
@@ -17,7 +19,7 @@
  * AVX2_Usable and FMA_Usable) and compare the files. Few arguments differ, so this
  * shows little; the proof is that `nm -D --undefined-only` of each library lists none
  * of those functions. test/apps/test_same_bits.cpp does both. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 struct SinCos {
   double sin = 0;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/rotation.h>
 
 /** \file
  * Poses: `Eigen::Isometry3d T_world_scan` maps a scan's points [m] into the world. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The pose of a robot in the plane: heading yaw [rad], position (x, y) [m]. */
 Eigen::Isometry3d

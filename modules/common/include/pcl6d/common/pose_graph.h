@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <Eigen/Geometry>
 
 #include <cstddef>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A measurement of one pose seen from another. \ingroup common */
 struct PoseLink {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <cstdint>
 #include <random>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Seeded random numbers that are the same with every standard library and on
  * every CPU: the distributions of the standard are not, so they are spelled out here.

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/export.h>
 
 #include <sstream>
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Checks an option against its rule, with one wording for all of them.
  * \throws BadArgument "name = value, but must be rule" unless the rule is kept */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/require.h>
 
 #include <pcl/types.h>
@@ -8,7 +9,7 @@
 #include <cstddef>
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \throws BadArgument unless every index is that of one of num_points points */
 inline void

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <Eigen/Geometry>
 
 /** \file
  * Representations of rotations and the ways between them (book, Appendix A.1). One
  * Euler convention everywhere: R = Rz(yaw) Ry(pitch) Rx(roll), that of
  * pcl::getTransformation. Angles are in radians, frames right-handed. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Roll, pitch and yaw [rad] of R = Rz(yaw) Ry(pitch) Rx(roll). A positive pitch
  * turns the forward axis downwards. \ingroup common */

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <Eigen/Core>
 
 #include <cstdint>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The cell of a regular grid as one 64-bit number: 3 x 21 bits of
  * floor(p / voxel), each shifted to be non-negative. \ingroup common */

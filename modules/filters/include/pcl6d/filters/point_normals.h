@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/search/point_tree.h>
 
 #include <cstddef>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Unit normals, one per point; zero where a point has none. */
 using Normals = std::vector<Eigen::Vector3f>;

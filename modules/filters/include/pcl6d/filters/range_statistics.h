@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 
 #include <optional>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \throws BadArgument unless 0 <= min_range <= max_range */
 void

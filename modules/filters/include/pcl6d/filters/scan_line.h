@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 
 #include <cstddef>
@@ -10,7 +11,7 @@
  * Filters along the lines of a scan (book 4.1.5): points come in the order of their
  * acquisition, line_length of them a line; the last line may be shorter. Points that
  * are not finite are skipped, but have their place in the line. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of the scan-line median. */
 struct ScanLineMedianOptions {

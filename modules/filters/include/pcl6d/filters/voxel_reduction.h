@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/voxel_key.h>
 
@@ -8,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What stands for the points of an occupied voxel (book 4.1.5). */
 enum class ReductionMethod {

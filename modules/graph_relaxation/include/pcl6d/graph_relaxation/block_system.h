@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -8,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A sparse symmetric positive definite system A x = b of dense blocks, such as
  * the normal equations of a graph of poses: one diagonal block per pose, one

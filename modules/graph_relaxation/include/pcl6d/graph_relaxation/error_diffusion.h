@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/status.h>
 
 #include <Eigen/Geometry>
@@ -12,7 +13,7 @@
 /** \file
  * Error diffusion (book 5.1.3): what is left open when a loop closes is spread over its
  * poses by weights from 0, the first scan of the loop, to 1, its last. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How the error of a loop is spread. */
 enum class LoopClosing {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/pose_graph.h>
 
 /** \file
  * How far two poses are from what was measured between them. A pose is changed from the
  * right, T <- T [R(dr), dt]: small motions (dt [m], dr [rad]) are in its own axes. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/graph_relaxation/network_scan.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
 #include <pcl6d/registration/icp_options.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of detectLoops(). */
 struct LoopDetectionOptions {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/graph_relaxation/network_scan.h>
 
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How well the scans of a map agree: a word on poses without knowing the truth
  * (share/doc/run_folder.md). */

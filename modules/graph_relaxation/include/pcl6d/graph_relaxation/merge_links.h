@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/pose_graph.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Puts several links between the same two poses, in either direction, into one:
  * the motion that fits them best, weighted by their information, with their information

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/icp_model.h>
 #include <pcl6d/registration/seen_space.h>
 
@@ -11,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A scan as a member of a network: what finds its points, how far it reaches,
  * and what it saw through. \ingroup graph_relaxation */

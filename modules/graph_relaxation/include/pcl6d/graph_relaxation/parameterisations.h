@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/twist.h>
 
 #include <string>
@@ -13,7 +14,7 @@
  * the world, about the pose's own position t, as Z ~ Z - M (X_a - X_b): the scans move by
  * -X. Helix, Euler and quaternion solve the same system for X and differ only in the
  * finite motion that they make of it: they share one optimum. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How GraphSLAM describes the change of a pose. \ingroup graph_relaxation */
 enum class Relaxation {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/status.h>
 #include <pcl6d/graph_relaxation/link_error.h>
 #include <pcl6d/registration/icp_options.h>
@@ -8,7 +9,7 @@
 #include <memory>
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How steps are found. */
 enum class GraphMethod {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/localizability.h>
 
 #include <Eigen/Geometry>
@@ -9,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Where a link between two scans comes from. */
 enum class LinkKind {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/graph_relaxation/link_sums.h>
 #include <pcl6d/graph_relaxation/network_scan.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
@@ -9,7 +10,7 @@
 #include <set>
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Which scans are linked. */
 enum class LinkRule {

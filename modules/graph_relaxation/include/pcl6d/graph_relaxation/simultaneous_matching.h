@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/progress.h>
 #include <pcl6d/registration/icp_model.h>
 
 #include <memory>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of simultaneous matching. */
 struct SimultaneousMatchingOptions {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Writes a file so that a reader sees all of it or nothing: the content goes to
  * a temporary name in the same folder, which is then renamed. Whatever happens, no

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
@@ -10,7 +12,7 @@
 #include <string>
 
 /** \file Objects of a JSON file, read key by key. Who includes it links nlohmann-json. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief One object {...} of a JSON file: tells of what is missing, of another type or
  * not known, by file and JSON pointer. */

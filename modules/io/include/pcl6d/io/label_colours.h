@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <array>
 #include <cstdint>
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \return the colour (red, green, blue) in which every picture and file of the suite
  * shows a label: those of the book's labels and of share/rules are fixed, none is grey,

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <utility>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Reads which scans are linked: the edges of a pose graph (g2o or TORO, known by
  * its first word) by the ids of its vertices, or lines `a b` with the indices of two scans

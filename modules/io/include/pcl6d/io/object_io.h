@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/object_pose.h>
 
 #include <filesystem>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Writes objects as JSON (fields: share/doc/run_folder.md), atomically; the id
  * of an object is its place plus one. \throws IoFailed the file cannot be written

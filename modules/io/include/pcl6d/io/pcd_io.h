@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <pcl/PCLPointCloud2.h>
 
 #include <Eigen/Geometry>
 
 #include <filesystem>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 enum class PcdEncoding { kAscii, kBinary, kBinaryCompressed };
 

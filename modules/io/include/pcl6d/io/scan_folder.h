@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/run_result.h>
 #include <pcl6d/common/trajectory.h>
-#include <pcl6d/io/run_summary.h>
 #include <pcl6d/io/scan_reader.h>
 
 #include <filesystem>
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Which scans of a folder to take, and where their initial poses come from. */
 struct ScanFolderOptions {
@@ -49,7 +50,7 @@ public:
    * \param[in] summary of the run
    * \throws IoFailed a scan of the run is missing, or the folder holds no further one */
   void
-  continueRun(const std::filesystem::path& run, const RunSummary& summary);
+  continueRun(const std::filesystem::path& run, const RunResult& summary);
 
   /** \return how many scans, the first ones, a finished run has registered; else 0 */
   std::size_t

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_reader.h>
 
 #include <functional>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How a scan is written. */
 struct ScanWriterOptions {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/segment.h>
 
 #include <filesystem>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How the numbers of a plan become metres. */
 struct SegmentOptions {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/trajectory.h>
 
 #include <filesystem>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Reads a trajectory; the number of columns tells the format: 12 is KITTI (the
  * first three rows of T_world_scan, row by row), 8 is TUM (stamp tx ty tz qx qy qz qw).

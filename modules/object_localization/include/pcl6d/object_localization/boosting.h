@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/haar_cascade.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Windows of one size side by side: the value of a feature in all of them is
  * computed in one sweep, with the bits of CascadeEvaluator. */

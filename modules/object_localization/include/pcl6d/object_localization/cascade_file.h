@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/haar_cascade.h>
 
 #include <filesystem>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Writes a cascade as cv::CascadeClassifier of OpenCV 4 reads it (XML, type
  * opencv-cascade-classifier, features HAAR), whole or not at all. The subject goes into an

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/progress.h>
 #include <pcl6d/object_localization/haar_cascade.h>
 #include <pcl6d/object_localization/window_gate.h>
@@ -8,7 +9,7 @@
 #include <filesystem>
 #include <functional>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of trainCascade(). */
 struct CascadeTrainingOptions {

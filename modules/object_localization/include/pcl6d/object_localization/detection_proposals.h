@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/object_detector.h>
 #include <pcl6d/object_localization/object_proposals.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Where detections say that an object is (book 7.2.2, step 1): of the points in the
  * box of each, those that are on no floor or wall and not behind the first surface. A

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/integral_image.h>
 #include <pcl6d/scanner/gray_image.h>
 #include <pcl6d/scanner/range_image.h>
 
 #include <memory>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How a scan becomes the pictures that a detector looks at: perspective views all
  * around the scanner, each cut into slices of depth, so that 8 bits show an object. */

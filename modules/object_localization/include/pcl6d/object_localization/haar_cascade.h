@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/haar_features.h>
 #include <pcl6d/scanner/gray_image.h>
 
 #include <optional>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A classification and regression tree over features. With one node, a stump. */
 struct HaarTree {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/integral_image.h>
 
 #include <array>
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A rectangle of a feature. A tilted one starts at its upper corner (x, y), from
  * which its width runs down to the right and its height down to the left, at 45 deg. */

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/oriented_points.h>
 #include <pcl6d/search/point_tree.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A scan prepared for the search for objects: all points, and how close its
  * rays are. The scanner is at the origin. \ingroup object_localization */

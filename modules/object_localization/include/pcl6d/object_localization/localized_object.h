@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/status.h>
 #include <pcl6d/registration/pose_information.h>
 
@@ -11,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief An object found in a scan. */
 struct LocalizedObject {
@@ -21,9 +22,9 @@ struct LocalizedObject {
   Status status = Status::kOk;
   Eigen::Isometry3d T_scene_object = Eigen::Isometry3d::Identity();
   std::optional<PoseCovariance> covariance; ///< x y z roll pitch yaw [m, rad]
-  double score = 0;                  ///< visible fraction less free-space violation
-  double visible_fraction = 0;       ///< of the surface that faces the scanner
-  double rms = 0;                    ///< [m]
+  double score = 0;            ///< visible fraction less free-space violation
+  double visible_fraction = 0; ///< of the surface that faces the scanner
+  double rms = 0;              ///< [m]
   double evidence = 0; ///< points that it explains, less for what contradicts it
   std::vector<std::uint32_t> points; ///< of the scene that lie on it, ascending
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/triangle_mesh.h>
 #include <pcl6d/io/mesh_io.h>
 #include <pcl6d/object_localization/object_model.h>
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief An object that scans are searched for: its shape, what is known of it, and the
  * detectors that were trained for it. \ingroup object_localization */

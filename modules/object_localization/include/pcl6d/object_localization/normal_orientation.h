@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/filters/point_normals.h>
 #include <pcl6d/search/point_tree.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Turns normals round so that those of neighbours agree, and those of each
  * connected surface point away from its middle: the way to the outside for an object

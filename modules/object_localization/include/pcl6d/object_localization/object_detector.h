@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/detection_views.h>
 #include <pcl6d/object_localization/haar_cascade.h>
 #include <pcl6d/object_localization/window_gate.h>
@@ -9,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What two cascades together take for an object. */
 enum class DetectionRule {

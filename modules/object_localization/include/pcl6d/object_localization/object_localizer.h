@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/localization_scene.h>
 #include <pcl6d/object_localization/localized_object.h>
 #include <pcl6d/object_localization/object_model.h>
@@ -10,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 class DistanceField;
 class ObjectRefinement;
@@ -22,12 +23,12 @@ struct VotedPose;
 
 /** \brief Knobs of ObjectLocalizer. */
 struct LocalizerOptions {
-  double resolution = 0.05; ///< of the search, as a share of the model's diameter; in
-                            ///< [0.02, 0.2]
-  int max_candidates = 24;  ///< poses that are looked at closely; > 0
+  double resolution = 0.05;  ///< of the search, as a share of the model's diameter; in
+                             ///< [0.02, 0.2]
+  int max_candidates = 24;   ///< poses that are looked at closely; > 0
   double min_visible = 0.35; ///< PoseCheck::visibleFraction() of an object
   double min_facing = 0.08;  ///< of the surface that faces the scanner where most of it
-                            ///< does: an open shell is not believed from behind
+                             ///< does: an open shell is not believed from behind
   /** Without proposals: support over the pieces of the model's best side. Where a scan is
    * too coarse for it, pairs of points find what is not there. */
   double min_seen = 0.2;
@@ -97,11 +98,11 @@ private:
 
   LocalizerOptions options_;
   ObjectModel model_;
-  double voxel_;            ///< [m] of the search
-  double spacing_;          ///< [m] of the model's points
-  OrientedPoints coarse_;   ///< the model for votes
-  std::shared_ptr<const ModelSurface> fine_; ///< for refinement
-  std::size_t most_facing_; ///< points of fine_, from the best side
+  double voxel_;                               ///< [m] of the search
+  double spacing_;                             ///< [m] of the model's points
+  OrientedPoints coarse_;                      ///< the model for votes
+  std::shared_ptr<const ModelSurface> fine_;   ///< for refinement
+  std::size_t most_facing_;                    ///< points of fine_, from the best side
   std::shared_ptr<const DistanceField> field_; ///< of fine_
   PairFeatureTable table_;
 };

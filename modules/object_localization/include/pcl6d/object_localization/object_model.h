@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/triangle_mesh.h>
 #include <pcl6d/object_localization/object_symmetry.h>
 
@@ -8,7 +9,7 @@
 
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What an object looks like: its surface in its own frame, all around or as far as
  * it was seen. \ingroup object_localization */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/plane_segmentation/plane_cloud.h>
 #include <pcl6d/plane_segmentation/plane_segment.h>
 
@@ -11,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of proposeObjects(). Spacings are those of the scan at the range of the
  * object, so that the defaults suit a lidar as well as a depth camera. */

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/filters/point_normals.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Points of surfaces with unit normals that all point to the outside, or to the
  * sensor. \ingroup object_localization */

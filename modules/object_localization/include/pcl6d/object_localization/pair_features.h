@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/oriented_points.h>
 
 #include <Eigen/Geometry>
@@ -8,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of PairFeatureTable. */
 struct PairFeatureOptions {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/localization_scene.h>
 #include <pcl6d/object_localization/scene_surface.h>
 
@@ -10,12 +11,12 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What a scan says of an object at a pose: each point of the model's surface that
  * faces the scanner and that the object itself does not hide is one of five. */
 struct PoseCheck {
-  std::size_t elements = 0;  ///< of the model that face the scanner, met by a ray or not
+  std::size_t elements = 0; ///< of the model that face the scanner, met by a ray or not
   std::size_t supported = 0; ///< the scan has a surface there
   std::size_t refuted = 0;   ///< the scanner saw through
   std::size_t misfit = 0;    ///< there is a surface, but off or turned otherwise

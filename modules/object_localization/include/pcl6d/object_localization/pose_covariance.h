@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/pose_information.h>
 
 #include <Eigen/Geometry>
@@ -9,7 +10,7 @@
 
 /** \file
  * Covariances (x y z roll pitch yaw [m, rad]) of poses that are made of others. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \return that of T_b_a from that of T_a_b; none within 1e-3 of a pitch of a right angle
  * of either, where roll and yaw are not defined \ingroup object_localization */

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/oriented_points.h>
 #include <pcl6d/plane_segmentation/plane_cloud.h>
 
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The surface of a scan in elements of one size, what finds places on it, and
  * which of it lies on planes too large for an object: floor, walls, tables.
@@ -24,9 +25,9 @@ struct SceneSurface {
   withoutLargePlanes() const;
 
   PlaneCloud cloud;
-  OrientedPoints elements; ///< the surfels of the cloud
-  PointTree tree;          ///< over the elements
-  PointTree directions;    ///< over the unit vectors from the scanner to them
+  OrientedPoints elements;  ///< the surfels of the cloud
+  PointTree tree;           ///< over the elements
+  PointTree directions;     ///< over the unit vectors from the scanner to them
   std::vector<float> noise; ///< [m] per element: two standard deviations, averaged
   std::vector<char> large;  ///< per element: whether it is on a large plane
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/progress.h>
 #include <pcl6d/common/triangle_mesh.h>
 #include <pcl6d/object_localization/detection_views.h>
@@ -8,7 +9,7 @@
 #include <pcl6d/object_localization/window_gate.h>
 #include <pcl6d/scanner/scanner_presets.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \return a mesh of small squares on the points of a model, so that a cloud hides what is
  * behind it as the object would */

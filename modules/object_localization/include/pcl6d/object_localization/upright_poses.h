@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/object_symmetry.h>
 #include <pcl6d/object_localization/pose_votes.h>
 
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How far it is to a surface, in cells of a grid around it. \ingroup
  * object_localization */

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/cascade_evaluator.h>
 #include <pcl6d/object_localization/detection_views.h>
 
 #include <memory>
 #include <optional>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** By how much the size of a window may differ from the object's: that of the training
  * and of the detector should be the same. */

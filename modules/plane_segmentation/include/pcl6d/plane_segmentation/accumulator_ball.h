@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Directions in cells of nearly equal solid angle, to vote in for normals.
  *

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/filters/point_normals.h>
 #include <pcl6d/plane_segmentation/noise_model.h>
@@ -13,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Sets of points, disjoint, one per plane that a detector believes in; places
  * in PlaneCloud::points(). */

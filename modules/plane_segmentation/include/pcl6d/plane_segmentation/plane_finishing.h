@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/plane_segmentation/plane_cloud.h>
 #include <pcl6d/plane_segmentation/plane_segment.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What makes a plane; shared by all detectors. Distances in standard deviations
  * count the sensor's noise at the place of the point (PlaneCloud::noise()). */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/plane_segmentation/segment_planes.h>
 
 #include <Eigen/Geometry>
@@ -9,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of PlaneMap. */
 struct PlaneMapOptions {

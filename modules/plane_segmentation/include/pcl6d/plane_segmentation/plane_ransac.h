@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/plane_segmentation/plane_cloud.h>
 
 #include <cstddef>
 #include <cstdint>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of ransacCandidates(). */
 struct RansacPlaneOptions {

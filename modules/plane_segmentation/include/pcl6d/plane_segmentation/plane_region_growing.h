@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/plane_segmentation/plane_cloud.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of regionGrowingCandidates(). Distances count in standard deviations of
  * the sensor's noise where a point is (PlaneCloud::noise()), so that the defaults suit

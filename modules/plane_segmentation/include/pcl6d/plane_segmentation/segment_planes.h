@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/plane_segmentation/plane_finishing.h>
 #include <pcl6d/plane_segmentation/plane_hough.h>
 #include <pcl6d/plane_segmentation/plane_ransac.h>
@@ -8,7 +9,7 @@
 
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How planes are looked for (book 7.1.1). */
 enum class PlaneMethod { kRegionGrowing, kRansac, kHough };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/filters/point_normals.h>
 
@@ -8,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Elements of surface (after Pfister et al., SIGGRAPH 2000): the means of the
  * points in the voxels of a grid. Close to a scanner, where points are closer together

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/registration/coarse_estimate.h>
 
 #include <cstdint>
 #include <optional>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of alignByFeatures(). What is not given follows from the data. */
 struct FeatureAlignmentOptions {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/status.h>
 #include <pcl6d/filters/point_normals.h>
@@ -11,7 +12,7 @@
 
 #include <functional>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The data points of ICP; refers to what its maker owns. */
 struct IcpSource {

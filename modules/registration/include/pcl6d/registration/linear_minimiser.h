@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/rigid_minimiser.h>
 
 /** \file
@@ -18,7 +19,7 @@
  * \return kOk; kMaxIterations when 20 steps do not arrive or arrive at a half turn that
  * is not the minimum, as from pairs turned by just that; the cases of
  * degenerateEstimate(), which are the same as for the closed forms */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The matrix exponential of the twist, about the centroid. \note Source: M.
  * Hofer, H. Pottmann 2003. Book: 4.1.2. */

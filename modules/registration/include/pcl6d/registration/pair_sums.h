@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/status.h>
 
 #include <Eigen/Core>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief All that the closed-form minimisers need to know of matched points
  * (book 4.1.1): source (data) points d, target (model) points m, weights w, in one

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/status.h>
 #include <pcl6d/registration/plane_sums.h>
 
@@ -13,7 +14,7 @@
  * form; both steps solve the same normal equations and differ in the motion that they
  * make of the solution. Repeated with the sums of the moved points they converge to the
  * same minimum. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief From the sums of points and planes to the motion from source to target.
  * \return kOk; kRankDeficient when some motions leave all distances as they are (a

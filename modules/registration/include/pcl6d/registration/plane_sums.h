@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/twist.h>
 
 #include <cstddef>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief All that a step of the metrics with normals needs to know of its pairs: the
  * normal equations A u = b of sum w |m - d - v(d)|^2_N for a small motion v, the twist u

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/pair_sums.h>
 #include <pcl6d/registration/plane_sums.h>
 
 #include <optional>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Covariance of a pose (x, y, z, roll, pitch, yaw) [m, rad].  */
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;

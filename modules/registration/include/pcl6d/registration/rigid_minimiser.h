@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/pair_sums.h>
 
 #include <functional>
@@ -10,7 +11,7 @@
  * The closed forms of book 4.1.1: all minimise sum w |m - (R d + t)|^2 and differ in
  * rounding only. Each returns a proper rotation, also for planar and mirrored pairs.
  * S is the cross-covariance sum w d' m'^T [m^2] of the centred points. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief From the sums of matched points to the motion from source to target. */
 using RigidMinimiser = std::function<RigidEstimate(const PairSums&)>;

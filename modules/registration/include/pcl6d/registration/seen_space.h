@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How far a scan saw into each direction from its origin: six square images on
  * the faces of a cube, so that a direction needs no angle. \ingroup registration */

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/rotation.h>
 
 /** \file
  * Infinitesimal motions, and the ways from them to a finite one (book 4.1.2, 4.1.3). */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief An infinitesimal motion v(p) = xb + x x p: velocity xb of the origin [m], then
  * rotation x [rad], in the order of Lu and Milios. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/status.h>
 #include <pcl6d/scanner/pinhole_camera.h>
 
@@ -11,7 +12,7 @@ namespace cv {
 class Mat;
 }
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A board of dark and bright squares, described by the corners inside of it. */
 struct Chessboard {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/pinhole_camera.h>
 #include <pcl6d/scanner/scanner_model.h>
 
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A scanner that measures with every pixel of a camera at once: one line per
  * row, from the upper left. It looks along x; the camera's axes (z ahead, x right, y

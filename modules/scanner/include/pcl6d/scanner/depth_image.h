@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/pinhole_camera.h>
 
 #include <pcl/point_cloud.h>
@@ -12,7 +13,7 @@ namespace cv {
 class Mat;
 }
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What the values of a depth image mean. */
 enum class DepthKind {

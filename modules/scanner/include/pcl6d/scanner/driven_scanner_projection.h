@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/range_projection.h>
 
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Puts points back into the order in which a driven 2D scanner saw them: rows
  * are its lines, columns the samples of a line.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/range_image.h>
 
 #include <optional>
@@ -11,7 +12,7 @@ class Mat;
 
 /** \file Range images as pictures of OpenCV, for people, PNG files and detectors. Who
  * calls these includes opencv2/core.hpp. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What of a range image becomes grey. */
 enum class ImageChannel { kRange, kReflectance };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <Eigen/Core>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Where the light of a scanner comes from that looks from another place: the
  * projector of a triangulating scanner. A surface in its shadow gives no return.

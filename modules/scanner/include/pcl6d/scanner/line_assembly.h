@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/range_lines.h>
 #include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/range_scan.h>
 
 #include <limits>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How the 2D scanner sits on its drive. */
 struct LineAssemblyOptions {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <array>
 #include <vector>
 
@@ -11,7 +13,7 @@
  * zero range would lie on the sensor. RangeErrorModel is their sum as the simulator
  * uses it.
  * \ingroup scanner */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 constexpr double kSpeedOfLight = 299792458;       ///< [m/s] in vacuum
 constexpr double kRefractiveIndexOfAir = 1.00027; ///< at sea level, for near infrared

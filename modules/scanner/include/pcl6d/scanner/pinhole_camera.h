@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <Eigen/Core>
 
 #include <array>
 #include <optional>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What a calibration finds out about a camera. The centre of the upper left
  * pixel is (0, 0). Distortion as OpenCV writes it: radial k1 k2 k3 over k4 k5 k6 (zero

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/camera_scanner.h>
 #include <pcl6d/scanner/light_source.h>
 #include <pcl6d/scanner/scanner_model.h>
 
 #include <Eigen/Geometry>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A projector of stripes beside the camera. */
 struct StripeProjectorOptions {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/random.h>
-#include <pcl6d/scanner/ray_caster.h>
+#include <pcl6d/scanner/ray.h>
 
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The spot of light of one measurement; the defaults make it a point. */
 struct BeamOptions {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/scanner/ray_caster.h>
+#include <pcl6d/common/export.h>
+#include <pcl6d/scanner/ray.h>
 
 #include <Eigen/Geometry>
 
 #include <optional>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A place in a range image. Row 0 is the uppermost, or a scanner's first line.
  */

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/range_error_model.h>
 #include <pcl6d/scanner/scanner_model.h>
-#include <pcl6d/scanner/scene_view.h>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-#include <Eigen/Geometry>
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The samples of a scan in double, line by line. */
 struct RangeScan {
@@ -31,26 +29,6 @@ struct RangeScan {
                    static_cast<std::size_t>(sample)];
   }
 };
-
-/** \brief Scans what there is to see, each sample at its own time.
- * \param[in] scan_index number of the scan: each has noise of its own
- * \throws BadArgument see RangeOptions::validate() \ingroup scanner */
-RangeScan
-castScan(const SceneView& view,
-         const ScannerModel& scanner,
-         const RangeOptions& options = {},
-         std::uint64_t scan_index = 0);
-
-/** \brief Scans a scene from a place, standing still.
- * \param[in] T_scene_scan pose of the scanner
- * \param[in] scan_index number of the scan: each has noise of its own
- * \throws BadArgument see RangeOptions::validate() \ingroup scanner */
-RangeScan
-castScan(const RayCaster& caster,
-         const ScannerModel& scanner,
-         const Eigen::Isometry3d& T_scene_scan,
-         const RangeOptions& options = {},
-         std::uint64_t scan_index = 0);
 
 /** \return organized cloud in the scanner's frame, one row per line; a sample without
  * return is NaN, never zero. \throws BadArgument scan and scanner differ in size */

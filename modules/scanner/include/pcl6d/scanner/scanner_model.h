@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/light_source.h>
-#include <pcl6d/scanner/ray_caster.h>
+#include <pcl6d/scanner/ray.h>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What all scanners have in common: the way from (line, sample) to a ray in the
  * scanner's frame (x forward, y left, z up) and to the time of its measurement. An

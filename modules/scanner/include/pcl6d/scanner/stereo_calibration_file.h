@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/stereo_rectification.h>
 
 #include <filesystem>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Where a stereo calibration stands. OpenCV's stereo_calib sample leaves two
  * files: intrinsics.yml and extrinsics.yml. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/stereo_matching.h>
 #include <pcl6d/scanner/stereo_rectification.h>
 
@@ -9,7 +10,7 @@
 
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of stereoCloud(). */
 struct StereoCloudOptions {

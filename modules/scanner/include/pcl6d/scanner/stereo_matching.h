@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <string>
 #include <vector>
 
@@ -8,7 +10,7 @@ namespace cv {
 class Mat;
 }
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief OpenCV's matchers. */
 enum class StereoMatcher {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scanner/camera_scanner.h>
 #include <pcl6d/scanner/range_scan.h>
 
@@ -8,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Which pixels of a time-of-flight camera to believe; the defaults: all that
  * have a phase. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/status.h>
 #include <pcl6d/plane_segmentation/plane_segment.h>
@@ -13,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of interpretScene(). */
 struct InterpretationOptions {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/plane_segmentation/plane_segment.h>
 #include <pcl6d/scene_interpretation/label_rules.h>
@@ -9,7 +10,7 @@
 #include <vector>
 
 /** \file The outputs of an interpreted scene. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \return per point the place of its plane plus one; 0: on none
  * \throws BadArgument a place is not that of a point \ingroup scene_interpretation */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scene_interpretation/scene_plane.h>
 
 #include <optional>
@@ -10,7 +11,7 @@
 /** \file
  * Relations of two planes, the predicates of the book's constraint network (7.1.2), and
  * rules made of them. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How two planes i, j of one storey lie to each other; `z` is the height of a
  * plane's centre. Tolerances: RelationTolerances. */

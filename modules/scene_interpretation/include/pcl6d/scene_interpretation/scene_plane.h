@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/plane.h>
 
 #include <Eigen/Geometry>
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What the interpretation knows of a plane (book 7.1.2): a piece of surface in
  * a frame whose z points up, with its sizes. \ingroup scene_interpretation */

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/search/neighbour.h>
 
 #include <cstddef>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Search by looking at every point: the oracle of the others, and quick for a few
  * dozen points. \ingroup search */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -8,7 +10,7 @@
 #include <tuple>
 
 /** \file Names of what a semantic map holds: `plane:12`, `object:3`. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 enum class EntityKind { kScan, kPlane, kObject, kRoom, kStorey };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/export.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
 #include <cstddef>
@@ -24,7 +25,7 @@
  * key that names other things, such as `on`, `room` or `seen`, compares with an id
  * (`on=plane:1`, `room=2`), with a label or class (`on=floor`, `next_to=table`), or with
  * `*`, anything. In quotes a backslash keeps the next character. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A query that is none; the message names column, what was found and what was
  * expected. \ingroup semantic_map */

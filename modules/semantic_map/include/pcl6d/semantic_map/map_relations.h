@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/scene_interpretation/relations.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How exactly relations of a map are to hold. */
 struct MapRelationOptions {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/hull_prism.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/semantic_map/semantic_map.h>
@@ -8,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of PointLabeller. */
 struct PointLabelOptions {

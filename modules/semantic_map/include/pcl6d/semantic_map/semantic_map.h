@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/object_pose.h>
 #include <pcl6d/common/plane.h>
 #include <pcl6d/semantic_map/map_entity.h>
@@ -12,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A scan of a semantic map. */
 struct MapScan {
@@ -51,7 +52,7 @@ struct MapPlane {
 /** \brief An object and how well its pose is known. */
 struct MapObject {
   ObjectPose pose;
-  double score = 0; ///< in [0, 1]
+  double score = 0;            ///< in [0, 1]
   double visible_fraction = 0; ///< of the surface that faced the scanner, in [0, 1]
   double rms = 0;              ///< [m] distance of its points to the model
   /** of x y z roll pitch yaw of T_world_object [m, rad]; none if not known */

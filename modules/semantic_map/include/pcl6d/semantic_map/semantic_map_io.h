@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Writes a map as JSON (fields: share/doc/semantic_map.md), atomically. Numbers come
  * back to the last bit.

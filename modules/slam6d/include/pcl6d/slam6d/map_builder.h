@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/voxel_key.h>
 
@@ -13,7 +14,7 @@
 #include <unordered_set>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Joins registered scans into one reduced map: the first point in each voxel of
  * the world stays. Scans can be added one at a time, so that they need not be in memory

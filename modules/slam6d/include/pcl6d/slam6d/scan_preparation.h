@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 std::size_t
 countFinite(const Points& points);

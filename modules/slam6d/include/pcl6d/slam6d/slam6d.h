@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/progress.h>
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -11,7 +12,7 @@
 #include <memory>
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief 6D SLAM as a class (book, chapter 6.1): scans and rough poses in, a
  * consistent trajectory out.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/graph_relaxation/error_diffusion.h>
 #include <pcl6d/graph_relaxation/parameterisations.h>
 #include <pcl6d/graph_relaxation/scan_network.h>
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Where a scan's registration starts from. */
 enum class InitialGuess {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/pose_graph.h>
 #include <pcl6d/common/status.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
@@ -14,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A value that was given, or derived from the scans, and why. */
 struct Parameter {

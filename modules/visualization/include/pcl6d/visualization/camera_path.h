@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/trajectory.h>
 #include <pcl6d/visualization/camera.h>
 
@@ -8,7 +9,7 @@
 #include <vector>
 
 /** \file The ways of a camera through an animation. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Once around a scene, always looking at its middle from the same distance and
  * height. \param[in] first the camera of the first picture \param[in] middle of the scene

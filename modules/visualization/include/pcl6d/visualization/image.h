@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Red, green, blue; 0 to 255. */
 using Colour = std::array<std::uint8_t, 3>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/object_pose.h>
 #include <pcl6d/common/trajectory.h>
 #include <pcl6d/visualization/map_cloud.h>
@@ -11,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What became of a link between two scans. */
 enum class LinkState {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/visualization/image.h>
 
 #include <Eigen/Core>
@@ -8,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What is drawn over the points of a picture, in the world [m].
  * \ingroup visualization */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/visualization/map_cloud.h>
@@ -10,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of PlaneView. */
 struct PlaneViewOptions {

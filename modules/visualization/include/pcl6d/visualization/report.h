@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/io/run_folder.h>
+#include <pcl6d/common/export.h>
+#include <pcl6d/run/run_folder.h>
 
 #include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A picture on a report. */
 struct ReportPicture {
@@ -19,8 +20,8 @@ struct ReportPicture {
 
 /** \brief What a report tells of a run. \ingroup visualization */
 struct ReportData {
-  std::string title;  ///< any text; bytes that are no UTF-8 are replaced
-  RunSummary summary; ///< poses in full coordinates; NaN ones are left out
+  std::string title; ///< any text; bytes that are no UTF-8 are replaced
+  RunResult summary; ///< poses in full coordinates; NaN ones are left out
   std::vector<std::string> missing; ///< what is not there or broken, in words
   std::vector<RunLink> links;
   RunMap map;                      ///< relative to the world offset; NaN is left out

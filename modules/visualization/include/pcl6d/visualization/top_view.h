@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/trajectory.h>
 #include <pcl6d/visualization/height_cut.h>
 #include <pcl6d/visualization/map_cloud.h>
@@ -12,7 +13,7 @@
 #include <optional>
 #include <string>
 
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 class PixelScene;
 struct ColourScale;

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/instantiate.h>
+#include <pcl6d/registration/icp.h>
+#include <pcl6d/search/pcl/kd_tree.h>
+
+#include <pcl/registration/registration.h>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief ICP with six degrees of freedom as a drop-in pcl::Registration, which says
+ * honestly whether it converged.
+ *
+ * Where pcl::IterativeClosestPoint reports success at the iteration limit and on NaN,
+ * here hasConverged() is true only if the motion fell below both thresholds and the
+ * surfaces leave no motion open; result() says why not, and how well each is fixed. Runs
+ * in parallel with the same bits for any number of threads; all sums are in double, about
+ * a place near the target, so that UTM-sized coordinates lose nothing; but
+ * getFinalTransformation() of Scalar float does, so take result() there.
+ *
+ * Minimises the distance of points, of points to planes, or of planes (setMetric()).
+ * Normals are those of the point type if it has them and they are filled in, else they
+ * are estimated, towards the origin.
+ *
+ * PCL's setters are honoured: setMaximumIterations (100 unless set),
+ * setMaxCorrespondenceDistance (no limit unless set), setTransformationEpsilon (squared
+ * [m^2], as in PCL), setTransformationRotationEpsilon (cosine, as in PCL), setIndices,
+ * setTransformationEstimation (ours, points to points or to planes, which sets the metric;
+ * also PCL's), setCorrespondenceEstimation, addCorrespondenceRejector,
+ * setSearchMethodTarget. The target's tree is built once; FLANN never, unless it is given
+ * as search method. Without effect: setEuclideanFitnessEpsilon, the RANSAC settings,
+ * visualisation callbacks (see setObserver()). align() never throws on data, be they empty or
+ * NaN; not converged, getFinalTransformation() is the last good estimate or the guess. What a
+ * plugged class throws passes through.
+ * \code
+ * pcl6d::ICP6D<pcl::PointXYZ, pcl::PointXYZ> icp;
+ * icp.setInputSource(data);
+ * icp.setInputTarget(model);
+ * icp.setMaxCorrespondenceDistance(0.5);
+ * icp.align(aligned, guess);
+ * if (!icp.hasConverged())
+ *   std::cerr << pcl6d::toString(icp.result().status) << '\n';
+ * \endcode
+ * \note Source: P. J. Besl, N. D. McKay, "A method for registration of 3-D shapes",
+ * PAMI 1992. Book: 4.1. \ingroup registration */
+template <typename PointSource, typename PointTarget, typename Scalar = float>
+class ICP6D : public pcl::Registration<PointSource, PointTarget, Scalar> {
+public:
+  using Base = pcl::Registration<PointSource, PointTarget, Scalar>;
+  using typename Base::Matrix4;
+  using typename Base::PointCloudSource;
+  using typename Base::PointCloudTarget;
+  using Ptr = pcl::shared_ptr<ICP6D<PointSource, PointTarget, Scalar>>;
+  using ConstPtr = pcl::shared_ptr<const ICP6D<PointSource, PointTarget, Scalar>>;
+
+  ICP6D();
+
+  /** \brief Unlike PCL, takes an empty cloud, too: align() then says kTooFewPairs.
+   * \throws BadArgument the cloud is null, or has no point of a given index */
+  void
+  setInputSource(const typename Base::PointCloudSourceConstPtr& cloud) override;
+
+  /** \brief The same; whatever was made of the last target is made anew.
+   * \throws BadArgument the cloud is null */
+  void
+  setInputTarget(const typename Base::PointCloudTargetConstPtr& cloud) override;
+
+  using Base::setIndices;
+  /** \brief The points of the source that count. \throws BadArgument null, or a source is
+   * set and has no such point */
+  void
+  setIndices(const pcl::IndicesPtr& indices) override;
+  void
+  setIndices(const pcl::IndicesConstPtr& indices) override;
+  void
+  setIndices(const typename Base::PointIndicesConstPtr& indices) override;
+
+  /** \brief PCL's setters, which refuse null. \throws BadArgument it is null */
+  void
+  setSearchMethodTarget(const typename Base::KdTreePtr& tree,
+                        bool force_no_recompute = false);
+  void
+  setTransformationEstimation(
+      const typename Base::TransformationEstimationPtr& estimation);
+  void
+  addCorrespondenceRejector(const typename Base::CorrespondenceRejectorPtr& rejector);
+
+  /** \brief What is minimised; points to points unless set. */
+  void
+  setMetric(Metric metric)
+  {
+    options_.metric = metric;
+  }
+
+  /** \brief The number of nearest points that make a normal where none is given; 20
+   * unless set. \throws BadArgument by align(), if outside [3, 64] */
+  void
+  setNormalNeighbours(std::size_t neighbours)
+  {
+    normal_neighbours_ = neighbours;
+  }
+
+  /** \brief Less weight for pairs that are far apart; none unless set. */
+  void
+  setRobustKernel(RobustKernel kernel)
+  {
+    options_.robust = kernel;
+  }
+
+  /** \brief Only so large a share of the pairs, the closest ones, counts (trimmed ICP). */
+  void
+  setKeptShare(double share)
+  {
+    options_.kept_share = share;
+  }
+
+  /** \brief Only pairs that are each other's closest count. */
+  void
+  setUseReciprocalCorrespondences(bool reciprocal)
+  {
+    reciprocal_ = reciprocal;
+  }
+
+  /** \brief Limit of the pair distance at the start [m], which shrinks by a tenth per
+   * iteration to setMaxCorrespondenceDistance() (annealing, book 4.1.5). 0: off. */
+  void
+  setMaxCorrespondenceDistanceStart(double distance)
+  {
+    options_.max_distance_start = distance;
+  }
+
+  /** \brief Stop when a step is shorter [m] and turns less [rad]. */
+  void
+  setMotionEpsilon(double translation, double rotation);
+
+  /** \brief Threads for the tree and the pairs.
+   * \param[in] num_threads 0: one per core; never changes the result */
+  void
+  setNumberOfThreads(unsigned int num_threads);
+
+  /** \brief Called after every iteration; return false to stop. */
+  void
+  setObserver(IcpObserver observer);
+
+  /** \return what the last align() came to, in the frame of the target */
+  const IcpResult&
+  result() const
+  {
+    return result_;
+  }
+
+protected:
+  /** \throws BadArgument a setting breaks its rule, or the search method was built from
+   * another cloud than the target */
+  void
+  computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
+
+  IcpOptions options_; ///< what PCL's base class has no member for
+  std::size_t normal_neighbours_ = 20;
+
+private:
+  struct Target;
+  struct Sides;
+
+  IcpOptions
+  effectiveOptions() const;
+  void
+  makeTarget(const IcpOptions& options);
+  void
+  makeNormals(const IcpOptions& options);
+  Sides
+  sides(const IcpOptions& options);
+  IcpHooks
+  hooks(const Sides& sides, const IcpOptions& options);
+  void
+  store(const IcpResult& found,
+        const Eigen::Vector3d& origin,
+        PointCloudSource& output);
+
+  bool reciprocal_ = false;
+  IcpObserver observer_;
+  std::shared_ptr<Target> made_; ///< of the target; null: to be made
+  IcpResult result_;
+};
+
+/** \brief Generalized-ICP as a drop-in for pcl::GeneralizedIterativeClosestPoint: ICP6D
+ * with Metric::kGicp. Takes one Gauss-Newton step between two searches, so that PCL's
+ * settings of the inner optimizer have no counterpart.
+ * \note Source: A. Segal, D. Haehnel, S. Thrun, "Generalized-ICP", RSS 2009.
+ * \ingroup registration */
+template <typename PointSource, typename PointTarget, typename Scalar = float>
+class GICP6D : public ICP6D<PointSource, PointTarget, Scalar> {
+public:
+  using Ptr = pcl::shared_ptr<GICP6D<PointSource, PointTarget, Scalar>>;
+  using ConstPtr = pcl::shared_ptr<const GICP6D<PointSource, PointTarget, Scalar>>;
+
+  GICP6D()
+  {
+    this->reg_name_ = "GICP6D";
+    this->setMetric(Metric::kGicp);
+  }
+
+  /** \brief PCL's name for setNormalNeighbours(). */
+  void
+  setCorrespondenceRandomness(int neighbours)
+  {
+    this->setNormalNeighbours(neighbours > 0 ? neighbours : 0);
+  }
+};
+
+} // namespace pcl6d
+#include <pcl6d/registration/pcl/impl/icp6d.hpp>
+#include <pcl6d/registration/pcl/impl/icp6d_setters.hpp>
+namespace PCL6D_EXPORTS pcl6d {
+PCL6D_DECLARE_PAIR_INSTANCES(ICP6D)
+PCL6D_DECLARE_PAIR_INSTANCES(GICP6D)
+} // namespace pcl6d

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/registration/pcl/sums_estimation.h>
+#include <pcl6d/registration/plane_minimiser.h>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Rigid motion from points to planes by planeStepByLinear(), repeated with the
+ * same pairs until it rests (at most 20 passes over them).
+ *
+ * The target point type must have a normal; pairs whose normal is NaN or of no length
+ * are skipped. Drop-in for pcl::registration::TransformationEstimationPointToPlaneLLS.
+ *
+ * \throws BadArgument the two sides differ in size
+ * \throws ComputeFailed some motion leaves all distances as they are (a single plane, a
+ * corridor), or the passes do not come to rest \ingroup registration */
+template <typename PointSource, typename PointTarget, typename Scalar = float>
+class TransformationEstimationPlaneLinear
+: public PlaneEstimation<PointSource, PointTarget, Scalar> {
+public:
+  using Ptr = pcl::shared_ptr<
+      TransformationEstimationPlaneLinear<PointSource, PointTarget, Scalar>>;
+  using ConstPtr = pcl::shared_ptr<
+      const TransformationEstimationPlaneLinear<PointSource, PointTarget, Scalar>>;
+
+  RigidEstimate
+  minimise(const PlaneSums& sums) const override
+  {
+    return planeStepByLinear(sums);
+  }
+};
+
+PCL6D_DECLARE_PAIR_(TransformationEstimationPlaneLinear, pcl::PointNormal)
+PCL6D_DECLARE_PAIR_(TransformationEstimationPlaneLinear, pcl::PointXYZINormal)
+} // namespace pcl6d

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/registration/linear_minimiser.h>
+#include <pcl6d/registration/pcl/sums_estimation.h>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Rigid motion between matched points in the manner of Lu and Milios with a
+ * quaternion whose scale is held: minimiseByQuaternionLinear(); inside ICP6D one step
+ * per search.
+ *
+ * \throws BadArgument the two sides differ in size
+ * \throws ComputeFailed fewer than 3 pairs, all pairs on one line, or a turn of nearly
+ * half a circle \ingroup registration */
+template <typename PointSource, typename PointTarget, typename Scalar = float>
+class TransformationEstimationQuaternionLinear
+: public SumsEstimation<PointSource, PointTarget, Scalar> {
+public:
+  using Ptr = pcl::shared_ptr<
+      TransformationEstimationQuaternionLinear<PointSource, PointTarget, Scalar>>;
+  using ConstPtr = pcl::shared_ptr<
+      const TransformationEstimationQuaternionLinear<PointSource, PointTarget, Scalar>>;
+
+  RigidEstimate
+  minimise(const PairSums& sums) const override
+  {
+    return minimiseByQuaternionLinear(sums);
+  }
+
+  RigidEstimate
+  step(const PairSums& sums) const override
+  {
+    return stepByQuaternionLinear(sums);
+  }
+};
+
+PCL6D_DECLARE_PAIR_INSTANCES(TransformationEstimationQuaternionLinear)
+} // namespace pcl6d

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/registration/pcl/transformation_estimation_dual_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_euler.h>
+#include <pcl6d/registration/pcl/transformation_estimation_helix.h>
+#include <pcl6d/registration/pcl/transformation_estimation_orthonormal.h>
+#include <pcl6d/registration/pcl/transformation_estimation_plane_helix.h>
+#include <pcl6d/registration/pcl/transformation_estimation_plane_linear.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion_linear.h>
+#include <pcl6d/registration/pcl/transformation_estimation_quaternion_unconstrained.h>
+#include <pcl6d/registration/pcl/transformation_estimation_scale_quaternion.h>
+#include <pcl6d/registration/pcl/transformation_estimation_small_angle.h>
+#include <pcl6d/registration/pcl/transformation_estimation_svd.h>
+
+namespace pcl6d {
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationSVD)
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationQuaternion)
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationOrthonormal)
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationDualQuaternion)
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationScaleQuaternion)
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationHelix)
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationSmallAngle)
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationEuler)
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationQuaternionLinear)
+PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationQuaternionUnconstrained)
+PCL6D_DEFINE_PAIR_(TransformationEstimationPlaneLinear, pcl::PointNormal)
+PCL6D_DEFINE_PAIR_(TransformationEstimationPlaneLinear, pcl::PointXYZINormal)
+PCL6D_DEFINE_PAIR_(TransformationEstimationPlaneHelix, pcl::PointNormal)
+PCL6D_DEFINE_PAIR_(TransformationEstimationPlaneHelix, pcl::PointXYZINormal)
+} // namespace pcl6d

@@ -1,7 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/registration/icp6d.h>
-
-namespace pcl6d {
-PCL6D_DEFINE_PAIR_INSTANCES(ICP6D)
-PCL6D_DEFINE_PAIR_INSTANCES(GICP6D)
-} // namespace pcl6d

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/run_result.h>
+
+#include <filesystem>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Writes summary.json (fields: share/doc/run_folder.md), atomically.
+ * \throws IoFailed the file cannot be written \ingroup run */
+void
+writeRunSummary(const std::filesystem::path& path, const RunResult& result);
+
+/** \brief Inverse of writeRunSummary(). \throws IoFailed naming the file and what is
+ * missing or wrong in it: no JSON, another schema_version, a field of another kind
+ * \ingroup run */
+RunResult
+readRunSummary(const std::filesystem::path& path);
+
+} // namespace pcl6d

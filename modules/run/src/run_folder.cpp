@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/pose.h>
+#include <pcl6d/io/object_io.h>
+#include <pcl6d/io/plane_io.h>
+#include <pcl6d/io/scan_fields.h>
+#include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/scan_reader.h>
+#include <pcl6d/io/text.h>
+#include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/run/run_folder.h>
+
+namespace pcl6d {
+
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "pcl_slam6d";
+constexpr const char* kSummary = "summary.json";
+constexpr const char* kTrajectory = "trajectory.kitti";
+constexpr const char* kMap = "map.pcd";
+
+/** \return the values of a field; none if the cloud has no such field */
+template <typename T>
+std::vector<T>
+valuesOf(const pcl::PCLPointCloud2& cloud, const std::string& name)
+{
+  const auto field = fieldValues(cloud, name);
+  if (!field)
+    return {};
+  std::vector<T> values;
+  values.reserve(field->values.size());
+  for (const double value : field->values)
+    values.push_back(static_cast<T>(value));
+  return values;
+}
+
+std::string
+valueOf(const RunResult& summary, const std::string& option)
+{
+  for (const auto& candidate : summary.options)
+    if (candidate.name == option)
+      return candidate.value;
+  return {};
+}
+} // namespace
+
+RunFolder::RunFolder(const fs::path& path) : path_(path)
+{
+  std::error_code error;
+  if (!fs::is_directory(path, error))
+    text::fail(path, "there is no such folder");
+  has_summary_ = has(kSummary);
+  if (has_summary_) {
+    summary_ = readRunSummary(path / kSummary);
+    if (summary_.generator != kProgram)
+      text::fail(path / kSummary,
+                 "is of '" + summary_.generator + "', not of " + kProgram);
+    return;
+  }
+  if (!has(kTrajectory) && !has(kMap))
+    text::fail(path,
+               "holds no run of pcl_slam6d (neither summary.json, trajectory.kitti nor "
+               "map.pcd)");
+  summary_.complete = summary_.trusted = false;
+  summary_.verdict = "not known: summary.json is missing";
+  if (has(kTrajectory))
+    takeScansFromPoses();
+}
+
+void
+RunFolder::takeScansFromPoses()
+{
+  const Trajectory trajectory = readTrajectory(path_ / kTrajectory);
+  if (!trajectory.poses.empty())
+    summary_.world_offset = worldOffset(trajectory.poses.front());
+  for (std::size_t i = 0; i < trajectory.poses.size(); ++i) {
+    RunResult::ScanEntry& scan = summary_.scans.emplace_back();
+    scan.index = static_cast<int>(i);
+    scan.file = scanName(scan.index);
+    scan.initial_pose = scan.T_world_scan = trajectory.poses[i];
+    if (!fs::exists(framesFile(i)))
+      continue;
+    const auto frames = readFrames(framesFile(i));
+    if (!frames.empty())
+      scan.initial_pose = frames.front().T_world_scan;
+  }
+}
+
+bool
+RunFolder::has(const std::string& name) const
+{
+  std::error_code error;
+  return fs::exists(path_ / name, error);
+}
+
+std::vector<std::string>
+RunFolder::missing() const
+{
+  const bool interrupted = has_summary_ && !summary_.complete;
+  const bool no_graph = interrupted || (valueOf(summary_, "loop-closing") == "none" &&
+                                        valueOf(summary_, "relaxation") == "none");
+  std::vector<std::string> missing;
+  for (const std::string name : {kSummary, kTrajectory, "frames", "scans", kMap}) {
+    const bool left_out = interrupted && (name == "scans" || name == kMap);
+    if (!has(name))
+      missing.push_back(name + (left_out ? " (the run was interrupted)" : ""));
+  }
+  for (const std::string name : {"graph.g2o", "links.csv"})
+    if (!has(name) && !no_graph)
+      missing.push_back(name);
+  for (std::size_t i = 0; i < summary_.scans.size(); ++i) {
+    if (has("scans") && !fs::exists(scanFile(i)))
+      missing.push_back("scans/" + scanFile(i).filename().string());
+    if (has("frames") && !fs::exists(framesFile(i)))
+      missing.push_back("frames/" + framesFile(i).filename().string());
+  }
+  return missing;
+}
+
+fs::path
+RunFolder::scanFile(std::size_t place) const
+{
+  return path_ / "scans" / (scanName(summary_.scans.at(place).index) + ".pcd");
+}
+
+fs::path
+RunFolder::framesFile(std::size_t place) const
+{
+  return path_ / "frames" / (scanName(summary_.scans.at(place).index) + ".frames");
+}
+
+Eigen::Isometry3d
+RunFolder::relative(Eigen::Isometry3d pose) const
+{
+  pose.translation() -= summary_.world_offset;
+  return pose;
+}
+
+Trajectory
+RunFolder::trajectory() const
+{
+  Trajectory trajectory;
+  for (const auto& scan : summary_.scans)
+    trajectory.poses.push_back(relative(scan.T_world_scan));
+  return trajectory;
+}
+
+Trajectory
+RunFolder::initialTrajectory() const
+{
+  Trajectory trajectory;
+  for (const auto& scan : summary_.scans)
+    trajectory.poses.push_back(relative(scan.initial_pose));
+  return trajectory;
+}
+
+std::vector<std::vector<Frame>>
+RunFolder::readHistory() const
+{
+  std::vector<std::vector<Frame>> history(summary_.scans.size());
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    if (!fs::exists(framesFile(i)))
+      continue;
+    history[i] = readFrames(framesFile(i));
+    for (Frame& frame : history[i])
+      frame.T_world_scan = relative(frame.T_world_scan);
+  }
+  return history;
+}
+
+RunMap
+RunFolder::readMap() const
+{
+  RunMap map;
+  if (!has(kMap))
+    return map;
+  Scan scan = pcl6d::readScan(path_ / kMap);
+  map.points = std::move(scan.points);
+  map.scans = valuesOf<std::uint32_t>(scan.cloud, "scan");
+  map.intensities = valuesOf<float>(scan.cloud, "intensity");
+  return map;
+}
+
+RunMap
+RunFolder::readScanCloud(std::size_t place) const
+{
+  RunMap map;
+  const fs::path file = scanFile(place);
+  if (!fs::exists(file))
+    return map;
+  Scan scan = pcl6d::readScan(file);
+  map.points = std::move(scan.points);
+  map.scans.assign(map.points.size(),
+                   static_cast<std::uint32_t>(summary_.scans[place].index));
+  map.intensities = valuesOf<float>(scan.cloud, "intensity");
+  return map;
+}
+
+Points
+RunFolder::readScan(std::size_t place) const
+{
+  const fs::path file = scanFile(place);
+  return fs::exists(file) ? pcl6d::readScan(file).points : Points();
+}
+
+std::vector<RunLink>
+RunFolder::readLinks() const
+{
+  return has("links.csv") ? readRunLinks(path_ / "links.csv") : std::vector<RunLink>();
+}
+
+std::vector<Plane>
+RunFolder::readPlanes() const
+{
+  return has("planes.json") ? pcl6d::readPlanes(path_ / "planes.json")
+                            : std::vector<Plane>();
+}
+
+RunPlanePoints
+RunFolder::readPlanePoints() const
+{
+  RunPlanePoints result;
+  const fs::path file = path_ / "planes.pcd";
+  if (!has("planes.pcd"))
+    return result;
+  Scan scan = pcl6d::readScan(file);
+  result.points = std::move(scan.points);
+  result.plane_of = valuesOf<std::uint32_t>(scan.cloud, "plane_id");
+  if (result.plane_of.size() != result.points.size())
+    text::fail(file, "has no field plane_id");
+  return result;
+}
+
+std::vector<ObjectPose>
+RunFolder::readObjects() const
+{
+  return has("objects.json") ? pcl6d::readObjects(path_ / "objects.json")
+                             : std::vector<ObjectPose>();
+}
+
+} // namespace pcl6d

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/scanner/image_files.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+namespace pcl6d {
+namespace {
+[[noreturn]] void
+fail(const std::filesystem::path& path, const std::string& message)
+{
+  throw IoFailed(path.string() + ": " + message);
+}
+
+/** \brief Reads by bytes, as imread() tells no reason and prints warnings. */
+cv::Mat
+readImage(const std::filesystem::path& path, int flags)
+{
+  constexpr std::size_t kMostPixels = 100000000;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path))
+    fail(path, "cannot be read");
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  cv::Mat image;
+  try {
+    if (!bytes.empty())
+      image = cv::imdecode(bytes, flags);
+  } catch (const cv::Exception& e) {
+    fail(path, "is no image that OpenCV can read: " + e.err);
+  }
+  if (image.empty())
+    fail(path, "is no image that OpenCV can read");
+  if (image.total() > kMostPixels)
+    fail(path,
+         "has " + std::to_string(image.cols) + " x " + std::to_string(image.rows) +
+             " pixels, but must have at most 1e8");
+  return image;
+}
+} // namespace
+
+cv::Mat
+readGrayImage(const std::filesystem::path& path)
+{
+  return readImage(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+}
+
+cv::Mat
+readDepthImage(const std::filesystem::path& path)
+{
+  cv::Mat image = readImage(path, cv::IMREAD_UNCHANGED);
+  if (image.type() != CV_16UC1)
+    fail(path,
+         "has " + std::to_string(image.channels()) + " channels of " +
+             std::to_string(8 * image.elemSize1()) +
+             " bits, but a depth image has 1 of 16 bits");
+  return image;
+}
+
+void
+writePng(const std::filesystem::path& path, const cv::Mat& image)
+{
+  const int type = image.type();
+  if (image.empty() || (type != CV_8UC1 && type != CV_16UC1 && type != CV_8UC3))
+    throw BadArgument("image is empty or of type " + std::to_string(type) +
+                      ", but must be CV_8UC1, CV_16UC1 or CV_8UC3");
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", image, bytes);
+  writeFileAtomically(path, [&](std::ostream& stream) {
+    stream.write(reinterpret_cast<const char*>(bytes.data()),
+                 static_cast<std::streamsize>(bytes.size()));
+  });
+}
+
+} // namespace pcl6d

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/instantiate.h>
+#include <pcl6d/search/pcl/core_search.h>
+#include <pcl6d/search/point_list.h>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Looks at every point: the oracle of the other searches. \ingroup search */
+template <typename PointT>
+class BruteForceSearch
+: public CoreSearch<PointT, PointList, pcl::search::Search<PointT>> {
+public:
+  using Ptr = pcl::shared_ptr<BruteForceSearch<PointT>>;
+
+  BruteForceSearch()
+  : CoreSearch<PointT, PointList, pcl::search::Search<PointT>>(
+        "pcl6d::BruteForceSearch")
+  {}
+
+protected:
+  std::shared_ptr<const PointList>
+  build(const Points& points) override
+  {
+    return std::make_shared<PointList>(points);
+  }
+};
+
+PCL6D_DECLARE_INSTANCES(BruteForceSearch)
+} // namespace pcl6d

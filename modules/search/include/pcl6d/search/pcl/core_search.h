@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/points.h>
+#include <pcl6d/search/neighbour.h>
+
+#include <pcl/search/kdtree.h>
+#include <pcl/search/search.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Where coordinates of some points are best counted from: zero, unless nearly all
+ * points lie farther than 8 km from it and within 8 km of each other; then a place near them (their
+ * median) in whole kilobinary metres (1024 m), which float subtracts without rounding. So
+ * distances to points in UTM coordinates keep the digits that a query of double has. */
+Eigen::Vector3f
+localOrigin(const Points& points);
+
+/** \brief The seam between PCL's interface of searches and our cores.
+ *
+ * Converts clouds, indices and results; a class for one structure adds build() and what
+ * else differs. Distances are those of the coordinates x, y, z [m]; point
+ * representations of the base class are not used. Results are always sorted, ties by
+ * index. Indices refer to the input cloud, also when only some of its points are
+ * searched. Searches of one object may run in parallel.
+ * \tparam Core structure free of point types, such as PointTree
+ * \tparam Base pcl::search::KdTree<PointT>, the only type that pcl::Registration accepts
+ * (its FLANN part stays empty), or pcl::search::Search<PointT> \ingroup search */
+template <typename PointT, typename Core, typename Base>
+class CoreSearch : public Base {
+public:
+  using Base::nearestKSearch;
+  using Base::radiusSearch;
+  using PointCloudConstPtr = typename pcl::PointCloud<PointT>::ConstPtr;
+
+  /** \brief Builds the structure. \param[in] indices the points to search; null: all
+   * \throws BadArgument the cloud is null, or an index is not that of a point */
+  void
+  setInputCloud(const PointCloudConstPtr& cloud,
+                const pcl::IndicesConstPtr& indices = nullptr) override;
+
+  /** \return the number of neighbours found: k, or all points if there are fewer. If it is
+   * 0, the vectors hold one entry all the same, index -1 and an infinite distance, as PCL's
+   * own callers read it without looking */
+  int
+  nearestKSearch(const PointT& point,
+                 int k,
+                 pcl::Indices& k_indices,
+                 std::vector<float>& k_sqr_distances) const override;
+
+  /** \return the number of points nearer than radius [m]
+   * \param[in] max_nn keep only so many of the nearest; 0: all */
+  int
+  radiusSearch(const PointT& point,
+               double radius,
+               pcl::Indices& k_indices,
+               std::vector<float>& k_sqr_distances,
+               unsigned int max_nn = 0) const override;
+
+  /** \return the place that the core's coordinates are relative to [m], see localOrigin() */
+  const Eigen::Vector3f&
+  origin() const
+  {
+    return origin_;
+  }
+
+  /** \brief Limited search: the nearest point within a distance, without vectors.
+   * \param[in] max_distance [m]; a point at exactly this distance is not accepted
+   * \return index in the input cloud, -1: none */
+  Neighbour
+  nearest(const PointT& point, double max_distance) const;
+
+protected:
+  /** \param[in] name as getName() returns it */
+  explicit CoreSearch(const std::string& name)
+  {
+    this->name_ = name;
+    this->sorted_results_ = true;
+  }
+
+  /** \return the structure over the points to be searched */
+  virtual std::shared_ptr<const Core>
+  build(const Points& points) = 0;
+
+  // The points found are places in those of build().
+  virtual Neighbour
+  findNearest(const Eigen::Vector3f& query, float max_distance_sq) const
+  {
+    return core_->nearest(query, max_distance_sq);
+  }
+  virtual std::vector<Neighbour>
+  findK(const Eigen::Vector3f& query, std::size_t k) const
+  {
+    return core_->nearestK(query, k);
+  }
+
+  /** \return the same with the index of the input cloud */
+  Neighbour
+  inCloud(Neighbour found) const
+  {
+    if (this->indices_ && found.index >= 0)
+      found.index = (*this->indices_)[found.index];
+    return found;
+  }
+
+  /** \brief Writes the result of a search for k points as PCL's callers expect it. */
+  int
+  toPcl(const Neighbour& found,
+        pcl::Indices& indices,
+        std::vector<float>& sqr_distances) const;
+  int
+  toPcl(const std::vector<Neighbour>& found,
+        pcl::Indices& indices,
+        std::vector<float>& sqr_distances) const;
+
+  /** \return the coordinates of a point as the core counts them */
+  Eigen::Vector3f
+  local(const PointT& point) const
+  {
+    return point.getVector3fMap() - origin_;
+  }
+
+  Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
+  std::shared_ptr<const Core> core_ = std::make_shared<Core>(); ///< at first empty
+};
+
+/** \return the square of a distance [m] for the cores; infinite if float ends before; 0, within
+ * which nothing lies, for a distance that is negative or NaN */
+inline float
+squaredLimit(double distance)
+{
+  constexpr float kMost = std::numeric_limits<float>::max();
+  const double sq = distance > 0 ? distance * distance : 0;
+  return sq > kMost ? std::numeric_limits<float>::infinity() : static_cast<float>(sq);
+}
+
+} // namespace pcl6d
+#include <pcl6d/search/pcl/impl/core_search.hpp>

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/instantiate.h>
+#include <pcl6d/search/pcl/core_search.h>
+#include <pcl6d/search/point_octree.h>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Octree search (book 4.1.4) as a pcl::search::Search; exact. \ingroup search */
+template <typename PointT>
+class OctreeSearch
+: public CoreSearch<PointT, PointOctree, pcl::search::Search<PointT>> {
+public:
+  using Ptr = pcl::shared_ptr<OctreeSearch<PointT>>;
+
+  /** \param[in] num_threads for building; 0: one per core */
+  explicit OctreeSearch(unsigned int num_threads = 0)
+  : CoreSearch<PointT, PointOctree, pcl::search::Search<PointT>>("pcl6d::OctreeSearch")
+  , num_threads_(num_threads)
+  {}
+
+protected:
+  std::shared_ptr<const PointOctree>
+  build(const Points& points) override
+  {
+    return std::make_shared<PointOctree>(points, num_threads_);
+  }
+
+private:
+  unsigned int num_threads_;
+};
+
+PCL6D_DECLARE_INSTANCES(OctreeSearch)
+} // namespace pcl6d

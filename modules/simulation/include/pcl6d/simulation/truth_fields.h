@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/scanner/range_scan.h>
+
+#include <pcl/PCLPointCloud2.h>
+
+#include <vector>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Appends the fields `plane_id`, `object_id` and `label` (uint32, 0: none) to
+ * the cloud of a scan: what each point lies on. \param[in] cloud one point per sample
+ * \throws BadArgument cloud and scan differ in size \ingroup simulation */
+void
+addTruthFields(pcl::PCLPointCloud2& cloud,
+               const RangeScan& scan,
+               const TriangleScene& scene);
+
+/** \brief How many points lie on what, by id; the size of a vector is the largest id
+ * plus one. */
+struct TruthCounts {
+  std::vector<std::size_t> planes;
+  std::vector<std::size_t> objects;
+
+  /** \brief Adds the points of a scan. */
+  void
+  add(const RangeScan& scan, const TriangleScene& scene);
+};
+
+} // namespace pcl6d

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/random.h>
+#include <pcl6d/simulation/terrain.h>
+
+/** \file Houses on uneven ground. Internal to the module scanner. */
+namespace pcl6d {
+
+/** \brief A rectangle along the axes, seen from above [m]. */
+struct Footprint {
+  Eigen::Vector2d low, high;
+};
+
+/** \return a rectangle within another one, each side up to a quarter of it farther in */
+Footprint
+randomFootprint(const Eigen::Vector2d& low,
+                const Eigen::Vector2d& high,
+                Random& random);
+
+/** \brief Adds a house with pilasters and a flat roof, founded below the lowest corner
+ * of its ground. \param[in] height [m] above the highest corner */
+void
+addHouse(TriangleScene& scene,
+         const Terrain& terrain,
+         const Footprint& plan,
+         double height,
+         Random& random);
+
+} // namespace pcl6d

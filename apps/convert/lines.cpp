@@ -4,6 +4,7 @@
 #include "convert/verbs.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/io/pcd_io.h>
@@ -105,13 +106,10 @@ describe(LinesSettings& s, CommandLine& line)
 Drive
 driveFromName(const std::string& name)
 {
-  require(name == "pitching" || name == "rolling" || name == "yawing",
-          "drive",
-          name,
-          "pitching, rolling or yawing");
-  return name == "pitching"  ? Drive::kPitching
-         : name == "rolling" ? Drive::kRolling
-                             : Drive::kYawing;
+  constexpr Named<Drive> kDrives[] = {{Drive::kPitching, "pitching"},
+                                      {Drive::kRolling, "rolling"},
+                                      {Drive::kYawing, "yawing"}};
+  return fromName(kDrives, "drive", name, WordList::kOr);
 }
 
 /** Moves the words into the library's options. */

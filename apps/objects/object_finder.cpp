@@ -2,6 +2,7 @@
 #include "objects/object_finder.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/object_localization/cascade_file.h>
 #include <pcl6d/object_localization/detection_proposals.h>
 #include <pcl6d/object_localization/pose_covariance.h>
@@ -35,16 +36,11 @@ detectorOf(const StoredModel& stored, const FinderOptions& options)
 ProposalMethod
 proposalMethodFromName(const std::string& name)
 {
-  if (name == "auto")
-    return ProposalMethod::kAuto;
-  if (name == "clusters")
-    return ProposalMethod::kClusters;
-  if (name == "features")
-    return ProposalMethod::kFeatures;
-  if (name == "cascade")
-    return ProposalMethod::kCascade;
-  throw BadArgument("proposals = " + name +
-                    ", but must be auto, clusters, features or cascade");
+  constexpr Named<ProposalMethod> kMethods[] = {{ProposalMethod::kAuto, "auto"},
+                                                {ProposalMethod::kClusters, "clusters"},
+                                                {ProposalMethod::kFeatures, "features"},
+                                                {ProposalMethod::kCascade, "cascade"}};
+  return fromName(kMethods, "proposals", name, WordList::kOr);
 }
 
 ObjectFinder::ObjectFinder(std::vector<StoredModel> models,

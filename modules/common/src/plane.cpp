@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/plane.h>
 
 #include <Eigen/Geometry>
@@ -42,19 +43,7 @@ appendChain(Iterator begin, Iterator end, double tolerance, std::vector<Corner>&
 const char*
 toString(PlaneLabel label)
 {
-  switch (label) {
-  case PlaneLabel::kFloor:
-    return "floor";
-  case PlaneLabel::kCeiling:
-    return "ceiling";
-  case PlaneLabel::kWall:
-    return "wall";
-  case PlaneLabel::kDoor:
-    return "door";
-  case PlaneLabel::kNone:
-    break;
-  }
-  return "none";
+  return nameOf(kPlaneLabels, label, "none");
 }
 
 void

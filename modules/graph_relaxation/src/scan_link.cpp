@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
 
 namespace pcl6d {
@@ -6,31 +7,20 @@ namespace pcl6d {
 const char*
 toString(LinkKind kind)
 {
-  switch (kind) {
-  case LinkKind::kSequence:
-    return "sequence";
-  case LinkKind::kNetwork:
-    return "network";
-  case LinkKind::kLoop:
-    return "loop";
-  case LinkKind::kGiven:
-    return "given";
-  }
-  return "unknown";
+  constexpr Named<LinkKind> kKinds[] = {{LinkKind::kSequence, "sequence"},
+                                        {LinkKind::kNetwork, "network"},
+                                        {LinkKind::kLoop, "loop"},
+                                        {LinkKind::kGiven, "given"}};
+  return nameOf(kKinds, kind);
 }
 
 const char*
 toString(LinkVerdict verdict)
 {
-  switch (verdict) {
-  case LinkVerdict::kUsed:
-    return "used";
-  case LinkVerdict::kOdometry:
-    return "odometry";
-  case LinkVerdict::kRefused:
-    return "refused";
-  }
-  return "unknown";
+  constexpr Named<LinkVerdict> kVerdicts[] = {{LinkVerdict::kUsed, "used"},
+                                              {LinkVerdict::kOdometry, "odometry"},
+                                              {LinkVerdict::kRefused, "refused"}};
+  return nameOf(kVerdicts, verdict);
 }
 
 } // namespace pcl6d

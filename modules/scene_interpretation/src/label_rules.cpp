@@ -2,7 +2,7 @@
 #include "rule_reader.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/require.h>
+#include <pcl6d/common/name_table.h>
 
 #include <algorithm>
 #include <array>
@@ -62,10 +62,8 @@ labelNumber(const LabelRules& rules, const std::string& label)
 {
   constexpr auto kLast = static_cast<unsigned int>(PlaneLabel::kDoor);
   const auto bookNumber = [](const std::string& name) {
-    for (unsigned int i = 0; i <= kLast; ++i)
-      if (name == toString(static_cast<PlaneLabel>(i)))
-        return i;
-    return kLast + 1;
+    const auto known = findNamed(kPlaneLabels, name);
+    return known ? static_cast<unsigned int>(*known) : kLast + 1;
   };
   unsigned int number = bookNumber(label);
   if (number <= kLast)

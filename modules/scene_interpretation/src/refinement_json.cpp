@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/scene_interpretation/model_refinement.h>
 
@@ -37,15 +38,9 @@ toJson(const PlaneChange& change, std::size_t id, const Plane& plane)
 const char*
 toString(RefinedKind kind)
 {
-  switch (kind) {
-  case RefinedKind::kHorizontal:
-    return "horizontal";
-  case RefinedKind::kVertical:
-    return "vertical";
-  case RefinedKind::kUnchanged:
-    break;
-  }
-  return "unchanged";
+  constexpr Named<RefinedKind> kKinds[] = {{RefinedKind::kHorizontal, "horizontal"},
+                                           {RefinedKind::kVertical, "vertical"}};
+  return nameOf(kKinds, kind, "unchanged");
 }
 
 void

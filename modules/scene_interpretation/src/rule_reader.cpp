@@ -2,6 +2,7 @@
 #include "rule_reader.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/name_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -98,22 +99,24 @@ Orientation
 readOrientation(const Json& json, const RulePlace& place)
 {
   const std::string name = word(json, place);
-  if (name == "horizontal")
-    return Orientation::kHorizontal;
-  if (name == "vertical")
-    return Orientation::kVertical;
-  place.fail("unknown orientation '" + name + "', but must be horizontal or vertical");
+  constexpr Named<Orientation> kNames[] = {{Orientation::kHorizontal, "horizontal"},
+                                           {Orientation::kVertical, "vertical"}};
+  if (const auto orientation = findNamed(kNames, name))
+    return *orientation;
+  place.fail("unknown orientation '" + name + "', but must be " +
+             listed(kNames, WordList::kOr));
 }
 
 SeenFrom
 readSeenFrom(const Json& json, const RulePlace& place)
 {
   const std::string name = word(json, place);
-  if (name == "above")
-    return SeenFrom::kAbove;
-  if (name == "below")
-    return SeenFrom::kBelow;
-  place.fail("unknown side '" + name + "', but must be above or below");
+  constexpr Named<SeenFrom> kNames[] = {{SeenFrom::kAbove, "above"},
+                                        {SeenFrom::kBelow, "below"}};
+  if (const auto side = findNamed(kNames, name))
+    return *side;
+  place.fail("unknown side '" + name + "', but must be " +
+             listed(kNames, WordList::kOr));
 }
 
 LabelRule

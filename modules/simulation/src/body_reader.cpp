@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body_reader.h"
 
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/mesh_io.h>
 #include <pcl6d/simulation/scene_bodies.h>
@@ -13,14 +14,10 @@ readLabel(JsonObject& json)
 {
   std::string name = "none";
   json.read("label", name);
-  for (const auto label : {PlaneLabel::kNone,
-                           PlaneLabel::kFloor,
-                           PlaneLabel::kCeiling,
-                           PlaneLabel::kWall,
-                           PlaneLabel::kDoor})
-    if (name == toString(label))
-      return label;
-  json.fail("label", "'" + name + "', but must be none, floor, ceiling, wall or door");
+  if (const auto label = findNamed(kPlaneLabels, name))
+    return *label;
+  json.fail("label",
+            "'" + name + "', but must be " + listed(kPlaneLabels, WordList::kOr));
 }
 
 MeshOptions

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body_reader.h"
 
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/simulation/scene_bodies.h>
 #include <pcl6d/simulation/scene_file.h>
 #include <pcl6d/simulation/scene_truth.h>
@@ -20,13 +21,12 @@ readEnd(JsonObject& json)
 {
   std::string end = "return";
   json.read("end", end);
-  if (end == "return")
-    return WayEnd::kReturn;
-  if (end == "closed")
-    return WayEnd::kClosed;
-  if (end != "stop")
-    json.fail("end", "'" + end + "', but must be stop, return or closed");
-  return WayEnd::kStop;
+  constexpr Named<WayEnd> kEnds[] = {{WayEnd::kStop, "stop"},
+                                     {WayEnd::kReturn, "return"},
+                                     {WayEnd::kClosed, "closed"}};
+  if (const auto known = findNamed(kEnds, end))
+    return *known;
+  json.fail("end", "'" + end + "', but must be " + listed(kEnds, WordList::kOr));
 }
 
 void

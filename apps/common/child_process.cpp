@@ -3,15 +3,20 @@
 
 #include <pcl6d/common/error.h>
 
-#include <array>
+#include <boost/process.hpp>
+#include <boost/process/extend.hpp>
+
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
-#include <fcntl.h>
+#include <memory>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+namespace bp = boost::process;
 
 namespace pcl6d::app {
 
@@ -22,77 +27,49 @@ secondsOf(const timeval& time)
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/** Closes its file at the end of its scope. */
-struct File {
-  File(const char* path, int flags) : number(::open(path, flags | O_CLOEXEC, 0666)) {}
-  ~File()
+struct CloseFile {
+  void
+  operator()(std::FILE* file) const
   {
-    if (number >= 0)
-      ::close(number);
+    std::fclose(file);
   }
-  File(const File&) = delete;
-  File&
-  operator=(const File&) = delete;
-  int number;
 };
 
-std::vector<char*>
-wordsOf(const ProcessStart& start)
-{
-  std::vector<char*> words = {const_cast<char*>(start.program.c_str())};
-  for (const auto& argument : start.arguments)
-    words.push_back(const_cast<char*>(argument.c_str()));
-  words.push_back(nullptr);
-  return words;
-}
+/** In the child before exec: a process group of its own, an end with this process, and
+ * the usual answers to signals. */
+struct OwnGroup : bp::extend::handler {
+  pid_t parent = ::getpid();
 
-/** In the child, where only calls that are safe in a signal handler are allowed.
- * \param[in] answer gets errno if the program cannot be run */
-[[noreturn]] void
-becomeProgram(char* const* words, pid_t parent, int input, int log, int answer)
-{
-  ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) // it ended before the line above
-    ::_exit(127);
-  ::dup2(input, STDIN_FILENO);
-  ::dup2(log, STDOUT_FILENO);
-  ::dup2(log, STDERR_FILENO);
-  for (const int number : {SIGPIPE, SIGINT, SIGTERM, SIGHUP})
-    ::signal(number, SIG_DFL);
-  ::execv(words[0], words);
-  const int error = errno;
-  [[maybe_unused]] const auto written = ::write(answer, &error, sizeof error);
-  ::_exit(127);
-}
+  template <typename Executor>
+  void
+  on_exec_setup(Executor&) const
+  {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) // it ended before the line above
+      ::_exit(127);
+    for (const int number : {SIGPIPE, SIGINT, SIGTERM, SIGHUP})
+      ::signal(number, SIG_DFL);
+  }
+};
 } // namespace
 
 ChildProcess::ChildProcess(const ProcessStart& start) : time_limit_(start.time_limit)
 {
-  const File log(start.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
-  if (log.number < 0)
+  const std::unique_ptr<std::FILE, CloseFile> log(
+      std::fopen(start.log.c_str(), "we")); // 'e': not for other programs
+  if (!log)
     throw IoFailed(start.log.string() + ": cannot write: " + std::strerror(errno));
-  const File input("/dev/null", O_RDONLY);
-  std::array<int, 2> answer{}; // closed by a successful exec, which then says nothing
-  if (::pipe2(answer.data(), O_CLOEXEC) != 0)
-    throw IoFailed(start.program.string() + ": cannot run: " + std::strerror(errno));
-  const auto words = wordsOf(start);
-  const pid_t parent = ::getpid();
   begin_ = Clock::now();
-  pid_ = ::fork();
-  if (pid_ == 0)
-    becomeProgram(words.data(), parent, input.number, log.number, answer[1]);
-  int error = pid_ < 0 ? errno : 0;
-  ::close(answer[1]);
-  if (pid_ > 0) {
-    ::setpgid(pid_, pid_); // whoever of the two comes first
-    if (::read(answer[0], &error, sizeof error) > 0)
-      ::waitpid(pid_, nullptr, 0);
-  }
-  ::close(answer[0]);
-  if (error != 0) {
-    pid_ = -1;
-    throw IoFailed(start.program.string() + ": cannot run: " + std::strerror(error));
+  try {
+    bp::child child(start.program.string(),
+                    bp::args(start.arguments),
+                    bp::std_in<bp::null, (bp::std_out & bp::std_err)> log.get(),
+                    OwnGroup());
+    pid_ = child.id();
+    child.detach(); // poll() waits for it, and asks what it has used
+  } catch (const bp::process_error& error) {
+    throw IoFailed(start.program.string() + ": cannot run: " + error.code().message());
   }
 }
 

@@ -3,6 +3,7 @@
 #include "common/command_line.h"
 #include "convert/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
@@ -22,8 +23,6 @@ namespace pcl6d::app {
 
 namespace {
 namespace po = boost::program_options;
-constexpr double kDegree = M_PI / 180;
-
 /** \brief Three numbers in one word: 0.1,0,-0.05 */
 struct Triple {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate/icp_report.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/visualization/convergence_map.h>
 
@@ -86,7 +87,7 @@ sceneOfYaws(const IcpSettings& settings,
   for (const double yaw : gridValues(e.options.offset_yaw, e.options.steps_yaw)) {
     char title[32];
     std::snprintf(
-        title, sizeof title, yaw == 0 ? "yaw 0" : "yaw %+.3g deg", 180 / M_PI * yaw);
+        title, sizeof title, yaw == 0 ? "yaw 0" : "yaw %+.3g deg", degrees(yaw));
     scene.panels.push_back({title, std::vector<double>(places, 0.0)});
   }
   for (const IcpBasinRow* row : rows)

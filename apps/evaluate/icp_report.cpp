@@ -2,9 +2,11 @@
 #include "evaluate/icp_report.h"
 #include "evaluate/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 
 #include <nlohmann/json.hpp>
 
@@ -17,8 +19,6 @@ namespace pcl6d::app {
 
 namespace {
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180 / M_PI;
 
 std::vector<std::pair<const char*, Parameter>>
 named(const Slam6DParameters& p)
@@ -78,7 +78,7 @@ printHeader(const IcpSettings& settings, const IcpEvaluation& e)
               icpStarts(o).size(),
               icpStarts(o).size() == 1 ? "run" : "runs",
               axisText(o.offset_xy, "m", o.steps_xy).c_str(),
-              axisText(kDegrees * o.offset_yaw, "deg", o.steps_yaw).c_str());
+              axisText(degrees(o.offset_yaw), "deg", o.steps_yaw).c_str());
   for (const IcpBestPose& best : e.basin.best)
     if (best.doubt.empty()) {
       const Eigen::Vector3d t = best.result.T_target_source.translation();
@@ -91,7 +91,7 @@ printHeader(const IcpSettings& settings, const IcpEvaluation& e)
                   best.result.rms,
                   best.result.overlap,
                   best.sigma_position,
-                  kDegrees * best.sigma_orientation);
+                  degrees(best.sigma_orientation));
     }
 }
 
@@ -108,12 +108,12 @@ printRow(const IcpBasinRow& row)
               toString(row.variant.search),
               100 * s.success,
               mean(1000 * s.position_rms, 3).c_str(),
-              mean(kDegrees * s.orientation_rms, 4).c_str(),
+              mean(degrees(s.orientation_rms), 4).c_str(),
               mean(s.rms, 5).c_str(),
               mean(s.iterations, 3).c_str(),
               mean(1000 * s.seconds, 2).c_str(),
               orDash(s.reach_xy, 1, 2).c_str(),
-              orDash(s.reach_yaw, kDegrees, 1).c_str());
+              orDash(s.reach_yaw, degrees(1), 1).c_str());
 }
 
 /** Numbers that can be read back to the last bit; nothing for "none". */
@@ -282,9 +282,7 @@ writeIcpFiles(const OutputFolder& out,
   writeFileAtomically(out / "icp_runs.csv",
                       [&](std::ostream& stream) { writeRuns(stream, e.basin); });
   // File names need not be UTF-8, but JSON must be.
-  const std::string json =
-      toJson(settings, e).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-  writeFileAtomically(out / "icp.json", [&](std::ostream& stream) { stream << json; });
+  writeJson(out / "icp.json", toJson(settings, e), 2);
 }
 
 } // namespace pcl6d::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate/map_report.h"
 
+#include <pcl6d/io/json_numbers.h>
+
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -94,7 +96,7 @@ toJson(const MapReport& report)
   json["planes"] = std::move(planes);
   json["scans"] = std::move(scans);
   // File names need not be UTF-8, but JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return jsonFileText(json, 2);
 }
 
 void

@@ -2,10 +2,12 @@
 #include "evaluate/mcl_report.h"
 #include "evaluate/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/visualization/top_view.h>
 
@@ -19,8 +21,6 @@ namespace pcl6d::app {
 
 namespace {
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180 / M_PI;
 
 void
 printErrors(const char* title, const ErrorStatistics& errors, double unit)
@@ -45,9 +45,9 @@ printErrors(const std::string& title, const MclErrors& errors)
               "median",
               "max");
   printErrors("2D position [m]", errors.position_2d, 1);
-  printErrors("yaw [deg]", errors.yaw, kDegrees);
+  printErrors("yaw [deg]", errors.yaw, degrees(1));
   printErrors("position [m]", errors.position, 1);
-  printErrors("orientation [deg]", errors.orientation, kDegrees);
+  printErrors("orientation [deg]", errors.orientation, degrees(1));
 }
 
 void
@@ -68,8 +68,8 @@ printJustification(const std::vector<JustificationRow>& rows)
                 row.failed,
                 row.position.rms,
                 row.position.max,
-                kDegrees * row.yaw.rms,
-                kDegrees * row.yaw.max);
+                degrees(row.yaw.rms),
+                degrees(row.yaw.max));
 }
 
 /** \return the poses in the world of the given ones */
@@ -102,18 +102,6 @@ writeRows(std::ostream& stream, const MclEvaluation& e)
            << m.agreement << ',' << m.particles << ',' << m.trusted() << ','
            << toString(m.doubt) << '\n';
   }
-}
-
-template <typename Matrix>
-std::vector<double>
-rowByRow(const Matrix& matrix)
-{
-  const Eigen::Matrix<double,
-                      Matrix::RowsAtCompileTime,
-                      Matrix::ColsAtCompileTime,
-                      Eigen::RowMajor>
-      rows = matrix;
-  return {rows.data(), rows.data() + rows.size()};
 }
 
 Json
@@ -257,9 +245,7 @@ writeMclFiles(const OutputFolder& out, const MclSettings& s, const MclEvaluation
   writeFileAtomically(out / "mcl.csv",
                       [&](std::ostream& stream) { writeRows(stream, e); });
   // File names need not be UTF-8, but JSON must be.
-  const std::string json =
-      toJson(s, e).dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
-  writeFileAtomically(out / "mcl.json", [&](std::ostream& stream) { stream << json; });
+  writeJson(out / "mcl.json", toJson(s, e));
 }
 
 void

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate/trajectory_report.h"
 
+#include <pcl6d/io/json_numbers.h>
+
 #include <nlohmann/json.hpp>
 
 #include <limits>
@@ -140,7 +142,7 @@ toJson(const TrajectoryReport& report)
   json["length_ratios"]["count"] = evaluation.length_ratios.ratio.count;
   json["length_ratios"]["scale"] = evaluation.length_ratios.scale;
   // File names need not be UTF-8, but JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return jsonFileText(json, 2);
 }
 
 void

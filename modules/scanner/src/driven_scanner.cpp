@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan_size.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
@@ -12,7 +13,6 @@
 
 namespace pcl6d {
 namespace {
-constexpr double kDegree = M_PI / 180;
 constexpr double kLargestDriveAngle = 200 * M_PI; // [rad] counters may run on
 
 Eigen::Matrix3d

@@ -188,8 +188,8 @@ BodyReader::readRevolved(JsonObject& json, TriangleScene& geometry)
   body.foot = json.get<Eigen::Vector3d>("foot");
   json.require("profile");
   body.profile.clear();
-  json.each("profile", [&](const JsonObject::Json& row, const std::string& pointer) {
-    const std::vector<double> values = jsonNumbers(file_, row, pointer);
+  json.each("profile", [&](const JsonValue& row) {
+    const std::vector<double> values = row.numbers();
     if (values.size() != 2)
       json.fail("profile", "a point that is not (radius, height)");
     body.profile.emplace_back(values[0], values[1]);
@@ -279,8 +279,8 @@ std::vector<Eigen::Vector3d>
 BodyReader::places(JsonObject& json, const std::string& key)
 {
   std::vector<Eigen::Vector3d> list;
-  json.each(key, [&](const JsonObject::Json& row, const std::string& pointer) {
-    list.push_back(place(json, key, jsonNumbers(file_, row, pointer)));
+  json.each(key, [&](const JsonValue& row) {
+    list.push_back(place(json, key, row.numbers()));
   });
   return list;
 }

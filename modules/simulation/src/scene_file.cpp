@@ -47,8 +47,8 @@ readMoving(JsonObject& json, BodyReader& reader, SimulationScene& scene)
 SimulationScene
 readScene(const std::filesystem::path& path)
 {
-  const JsonObject::Json json = readJson(path);
-  JsonObject root(path, json, "");
+  const JsonValue json = readJson(path);
+  JsonObject root(json);
   BodyReader reader(path);
   SimulationScene scene;
   scene.name = path.stem().string();

@@ -159,10 +159,33 @@ function(pcl6d_add_benchmark name)
     ${modules} ${ARG_LINK_PRIVATE} benchmark::benchmark)
 endfunction()
 
+# Headers that have moved keep their former path for one version, as a header that says so
+# and includes the new one: cmake/former_headers.txt has a line `former new` for each.
+function(pcl6d_install_former_headers)
+  set(table ${PROJECT_SOURCE_DIR}/cmake/former_headers.txt)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
+  file(STRINGS ${table} rows)
+  foreach(row IN LISTS rows)
+    string(REPLACE " " ";" row "${row}")
+    list(GET row 0 former)
+    list(GET row 1 new)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/former/pcl6d/${former} @ONLY CONTENT
+"// SPDX-License-Identifier: BSD-3-Clause
+// Moved to <pcl6d/@new@>; this path goes with the next version.
+#pragma once
+#pragma message(\"pcl6d/@former@ has moved: include pcl6d/@new@\")
+#include <pcl6d/@new@>
+")
+  endforeach()
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/former/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    COMPONENT common)
+endfunction()
+
 # Installs pcl6dConfig.cmake, which knows every module and what it needs.
 function(pcl6d_install_package)
   get_property(PCL6D_MODULES GLOBAL PROPERTY PCL6D_MODULES)
   set(PCL6D_MODULE_TABLE "")
+  pcl6d_install_former_headers()
   foreach(module IN LISTS PCL6D_MODULES)
     get_property(depends GLOBAL PROPERTY PCL6D_${module}_DEPENDS)
     get_property(components GLOBAL PROPERTY PCL6D_${module}_PCL_COMPONENTS)

@@ -39,11 +39,13 @@ function(_pcl6d_library_rules target module)
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${module})
 endfunction()
 
-# pcl6d_add_module(NAME FLOOR n SOURCES ... [DEPENDS module ...] [PCL_COMPONENTS ...]
-#                  [LINK public targets ...] [LINK_PRIVATE targets ...])
-# makes the shared library pcl6d::NAME. A module may depend only on lower floors.
+# pcl6d_add_module(NAME BOOK chapters HOLDS text FLOOR n SOURCES ... [DEPENDS module ...]
+#                  [PCL_COMPONENTS ...] [LINK public targets ...]
+#                  [LINK_PRIVATE targets ...])
+# makes the shared library pcl6d::NAME. A module may depend only on lower floors. BOOK and
+# HOLDS are for the map of the rooms (CONTRIBUTING.md).
 function(pcl6d_add_module name)
-  cmake_parse_arguments(ARG "" "FLOOR"
+  cmake_parse_arguments(ARG "" "BOOK;HOLDS;FLOOR"
     "SOURCES;DEPENDS;PCL_COMPONENTS;LINK;LINK_PRIVATE" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_module(${name})")
   set(target pcl6d_${name})
@@ -73,6 +75,9 @@ function(pcl6d_add_module name)
     PUBLIC ${pcl_targets} ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
 
   set_property(GLOBAL APPEND PROPERTY PCL6D_MODULES ${name})
+  string(JOIN " " below ${ARG_DEPENDS})
+  set_property(GLOBAL APPEND_STRING PROPERTY PCL6D_ROOMS
+    "| ${ARG_FLOOR} | [${name}](modules/${name}) | ${ARG_BOOK} | ${ARG_HOLDS} | ${below} |\n")
   set_property(GLOBAL PROPERTY PCL6D_${name}_DEPENDS ${ARG_DEPENDS})
   set_property(GLOBAL PROPERTY PCL6D_${name}_PCL_COMPONENTS ${ARG_PCL_COMPONENTS})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
@@ -203,4 +208,22 @@ function(pcl6d_install_package)
     ${PROJECT_BINARY_DIR}/pcl6dConfig.cmake
     ${PROJECT_BINARY_DIR}/pcl6dConfigVersion.cmake
     DESTINATION ${destination} COMPONENT common)
+endfunction()
+
+# The map of the rooms in CONTRIBUTING.md, between two comments: the target `rooms` writes
+# it anew, the test house.rooms compares.
+function(pcl6d_add_rooms)
+  get_property(rooms GLOBAL PROPERTY PCL6D_ROOMS)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/rooms.md @ONLY CONTENT
+"| floor | module | book | what lives there | builds on |
+|---|---|---|---|---|
+@rooms@")
+  set(script ${CMAKE_COMMAND} -D TABLE=${PROJECT_BINARY_DIR}/rooms.md
+    -D DOCUMENT=${PROJECT_SOURCE_DIR}/CONTRIBUTING.md)
+  add_custom_target(rooms
+    COMMAND ${script} -P ${PROJECT_SOURCE_DIR}/cmake/rooms.cmake)
+  if(PCL6D_BUILD_TESTS)
+    add_test(NAME house.rooms
+      COMMAND ${script} -D CHECK=ON -P ${PROJECT_SOURCE_DIR}/cmake/rooms.cmake)
+  endif()
 endfunction()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "polygons.h"
-
 #include <pcl6d/common/name_table.h>
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/scene_interpretation/scene_plane.h>
 

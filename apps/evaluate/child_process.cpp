@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/child_process.h"
+#include "evaluate/child_process.h"
 
 #include <pcl6d/common/error.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planes/plane_step.h"
+#include "common/plane_files.h"
 #include "slam6d/run_writer.h"
 #include "slam6d/verdict.h"
 
@@ -107,7 +107,7 @@ runFolderRules(const Settings& settings)
                            "(summary|objects|semantic_map)\\.json|"
                            "semantic_map\\.(pcd|ply)|"
                            "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
-                           planeFilePattern());
+                           kPlaneFilePattern);
   rules.force = settings.force;
   return rules;
 }

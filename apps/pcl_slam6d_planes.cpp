@@ -99,7 +99,7 @@ outputRules(const PlaneSettings& settings)
   rules.inputs = {settings.input, settings.folder.poses_file};
   rules.program = app::kPlanes;
   rules.marker = "planes.json";
-  rules.files = std::regex(app::kPlaneFilePattern);
+  rules.files = std::regex(app::planeFilePattern());
   rules.force = settings.force;
   return rules;
 }

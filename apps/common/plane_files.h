@@ -14,10 +14,14 @@
 
 namespace pcl6d::app {
 
-/** \brief The names of the files that writePlaneFiles() leaves, as a regular expression. */
-constexpr const char* kPlaneFilePattern =
-    "(planes\\.(json|pcd|png)|hulls\\.ply|labels\\.json|refined\\.pcd|"
-    "refinement\\.json)";
+/** \return the names of the files that writePlaneFiles() leaves, as a regular expression
+ */
+inline std::string
+planeFilePattern()
+{
+  return "(planes\\.(json|pcd|png)|hulls\\.ply|labels\\.json|refined\\.pcd|"
+         "refinement\\.json)";
+}
 
 /** \brief Writes what PlaneFinder::write() writes, and planes.png.
  * \return warnings: that there is no display to draw on, or nothing to draw */

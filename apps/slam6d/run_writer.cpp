@@ -107,7 +107,7 @@ runFolderRules(const Settings& settings)
                            "(summary|objects|semantic_map)\\.json|"
                            "semantic_map\\.(pcd|ply)|"
                            "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
-                           kPlaneFilePattern);
+                           planeFilePattern());
   rules.force = settings.force;
   return rules;
 }

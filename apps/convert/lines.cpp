@@ -4,7 +4,6 @@
 #include "convert/verbs.h"
 
 #include <pcl6d/common/angle.h>
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
@@ -191,8 +190,7 @@ runLines(const std::vector<std::string>& arguments)
               cloud.height,
               cloud.width,
               returns);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   return kDone;
 }
 

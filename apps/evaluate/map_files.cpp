@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate/map_report.h"
+#include "evaluate/result_json.h"
 
 #include <pcl6d/io/json_numbers.h>
-
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <ostream>
@@ -11,7 +10,6 @@
 namespace pcl6d::app {
 
 namespace {
-using Json = nlohmann::ordered_json; // writes NaN as null
 
 Json
 toJson(const DistanceStatistics& s)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/result_json.h"
 #include "evaluate/run_record.h"
 
 #include <pcl6d/common/error.h>
@@ -19,7 +20,6 @@ namespace pcl6d::app {
 
 namespace {
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /** FNV-1a with 64 bits, eight bytes at a time: to notice changes, not attackers. */
 class Hash {

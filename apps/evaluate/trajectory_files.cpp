@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/result_json.h"
 #include "evaluate/trajectory_report.h"
 
 #include <pcl6d/io/json_numbers.h>
-
-#include <nlohmann/json.hpp>
 
 #include <limits>
 #include <ostream>
@@ -11,21 +10,10 @@
 namespace pcl6d::app {
 
 namespace {
-using Json = nlohmann::ordered_json;
-
-Json
-toJson(const ErrorStatistics& errors)
-{
-  return {{"rms", errors.rms},
-          {"mean", errors.mean},
-          {"median", errors.median},
-          {"max", errors.max}};
-}
-
 Json
 toJson(const ErrorStatistics& errors, const PoseMatching& matching)
 {
-  Json json = toJson(errors);
+  Json json = statisticsJson(errors);
   json["pose_of_max"] = matching.pairs[errors.index_of_max].estimate;
   return json;
 }
@@ -58,7 +46,7 @@ toJson(const RelativeErrors& errors, const PoseMatching& matching)
   if (errors.motions.empty())
     return json;
   const auto withEnd = [&](const ErrorStatistics& kind) {
-    Json one = toJson(kind);
+    Json one = statisticsJson(kind);
     one["pose_of_max"] = matching.pairs[errors.motions[kind.index_of_max].to].estimate;
     return one;
   };
@@ -138,7 +126,7 @@ toJson(const TrajectoryReport& report)
   json["steps"] = toJson(evaluation.steps, matching);
   json["drift"] = toJson(evaluation.drift, matching);
   json["loop_closure"] = loopsToJson(evaluation);
-  json["length_ratios"] = toJson(evaluation.length_ratios.ratio);
+  json["length_ratios"] = statisticsJson(evaluation.length_ratios.ratio);
   json["length_ratios"]["count"] = evaluation.length_ratios.ratio.count;
   json["length_ratios"]["scale"] = evaluation.length_ratios.scale;
   // File names need not be UTF-8, but JSON must be.

@@ -35,6 +35,22 @@ readMeshOptions(JsonObject& json)
   options.up = up == "y" ? UpAxis::kY : UpAxis::kZ;
   return options;
 }
+
+// What ramps and stairs have in common.
+template <typename Slope>
+Slope
+readSlope(JsonObject& json)
+{
+  Slope slope;
+  slope.from = json.get<Eigen::Vector2d>("from");
+  slope.to = json.get<Eigen::Vector2d>("to");
+  json.read("width", slope.width);
+  json.read("bottom", slope.bottom);
+  json.read("from_height", slope.from_height);
+  json.read("to_height", slope.to_height);
+  return slope;
+}
+
 // A closed door in the middle of its wall.
 void
 addLeaf(const Wall& wall,
@@ -150,26 +166,14 @@ BodyReader::readWall(JsonObject& json, TriangleScene& geometry)
 void
 BodyReader::readRamp(JsonObject& json, TriangleScene& geometry)
 {
-  Ramp ramp;
-  ramp.from = json.get<Eigen::Vector2d>("from");
-  ramp.to = json.get<Eigen::Vector2d>("to");
-  json.read("width", ramp.width);
-  json.read("bottom", ramp.bottom);
-  json.read("from_height", ramp.from_height);
-  json.read("to_height", ramp.to_height);
+  const Ramp ramp = readSlope<Ramp>(json);
   addRamp(geometry, ramp, material(json));
 }
 
 void
 BodyReader::readStairs(JsonObject& json, TriangleScene& geometry)
 {
-  Stairs stairs;
-  stairs.from = json.get<Eigen::Vector2d>("from");
-  stairs.to = json.get<Eigen::Vector2d>("to");
-  json.read("width", stairs.width);
-  json.read("bottom", stairs.bottom);
-  json.read("from_height", stairs.from_height);
-  json.read("to_height", stairs.to_height);
+  Stairs stairs = readSlope<Stairs>(json);
   json.read("steps", stairs.steps);
   addStairs(geometry, stairs, material(json));
 }

@@ -2,6 +2,7 @@
 #include <pcl6d/benchmarking/plane_thickness.h>
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 
@@ -68,22 +69,6 @@ private:
   Rings hull_;                       ///< one ring
   Rings outline_;                    ///< outer rings and holes
 };
-
-/** \return whether a ray from p crosses the rings an odd number of times */
-bool
-isInside(const std::vector<std::vector<Eigen::Vector2d>>& rings,
-         const Eigen::Vector2d& p)
-{
-  bool inside = false;
-  for (const auto& ring : rings)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      if ((a.y() > p.y()) != (b.y() > p.y()) &&
-          p.x() - a.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-        inside = !inside;
-    }
-  return inside;
-}
 
 PlanePatch::PlanePatch(const PlaneSegment& segment, double gate, double max_angle)
 : given_(segment.plane)

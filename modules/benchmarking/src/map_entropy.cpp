@@ -16,6 +16,13 @@
 #include <limits>
 #include <vector>
 
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define PCL6D_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define PCL6D_SIMD_CLONES
+#endif
+#define PCL6D_INLINE __attribute__((always_inline)) inline
+
 namespace pcl6d {
 namespace {
 /** \brief Sums over the points around a place, about that place. */

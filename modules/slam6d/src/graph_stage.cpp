@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 Poses
 posesOf(const Slam6DResult& result)
@@ -214,4 +214,4 @@ GraphStage::run(Slam6DResult& result, const Observer& observer)
   return true;
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 namespace {
 /** How far odometry is off in a step: the part of its length, and what is always there. */
@@ -155,4 +155,4 @@ GraphStage::take(const GraphSlamResult& relaxed,
   result.links.insert(result.links.end(), links.begin(), links.end());
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

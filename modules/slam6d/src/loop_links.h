@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 /** \brief A closed loop is one link: candidates that the network knows are taken over
  * into its links, with their matched pose, and are candidates no more.
@@ -27,4 +27,4 @@ takeLoops(std::vector<ScanLink>& links, std::vector<ScanLink>& candidates)
   }
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

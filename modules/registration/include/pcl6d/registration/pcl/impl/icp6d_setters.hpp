@@ -4,7 +4,7 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/require_indices.h>
 #include <pcl6d/registration/pcl/icp6d.h>
-#include <pcl6d/registration/pcl/impl/icp6d_plugs.hpp>
+#include <pcl6d/registration/pcl/impl/icp6d_adapters.hpp>
 
 #include <utility>
 
@@ -15,7 +15,7 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::setInputSource(
     const typename Base::PointCloudSourceConstPtr& cloud)
 {
-  plugs::requireGiven(cloud, "the input source");
+  registration::requireGiven(cloud, "the input source");
   if (this->use_indices_ && this->indices_)
     requireIndices(*this->indices_, cloud->size());
   this->source_cloud_updated_ = true;
@@ -27,7 +27,7 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::setInputTarget(
     const typename Base::PointCloudTargetConstPtr& cloud)
 {
-  plugs::requireGiven(cloud, "the input target");
+  registration::requireGiven(cloud, "the input target");
   this->target_ = cloud;
   this->target_cloud_updated_ = true;
   made_.reset();
@@ -37,7 +37,7 @@ template <typename PointSource, typename PointTarget, typename Scalar>
 void
 ICP6D<PointSource, PointTarget, Scalar>::setIndices(const pcl::IndicesPtr& indices)
 {
-  plugs::requireGiven(indices, "the indices");
+  registration::requireGiven(indices, "the indices");
   if (this->input_)
     requireIndices(*indices, this->input_->size());
   Base::setIndices(indices);
@@ -47,7 +47,7 @@ template <typename PointSource, typename PointTarget, typename Scalar>
 void
 ICP6D<PointSource, PointTarget, Scalar>::setIndices(const pcl::IndicesConstPtr& indices)
 {
-  plugs::requireGiven(indices, "the indices");
+  registration::requireGiven(indices, "the indices");
   if (this->input_)
     requireIndices(*indices, this->input_->size());
   Base::setIndices(indices);
@@ -58,7 +58,7 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::setIndices(
     const typename Base::PointIndicesConstPtr& indices)
 {
-  plugs::requireGiven(indices, "the indices");
+  registration::requireGiven(indices, "the indices");
   if (this->input_)
     requireIndices(indices->indices, this->input_->size());
   Base::setIndices(indices);
@@ -70,7 +70,7 @@ ICP6D<PointSource, PointTarget, Scalar>::setSearchMethodTarget(
     const typename Base::KdTreePtr& tree,
     bool force_no_recompute)
 {
-  plugs::requireGiven(tree, "the search method");
+  registration::requireGiven(tree, "the search method");
   Base::setSearchMethodTarget(tree, force_no_recompute);
 }
 
@@ -79,7 +79,7 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::setTransformationEstimation(
     const typename Base::TransformationEstimationPtr& estimation)
 {
-  plugs::requireGiven(estimation, "the transformation estimation");
+  registration::requireGiven(estimation, "the transformation estimation");
   Base::setTransformationEstimation(estimation);
 }
 
@@ -88,7 +88,7 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::addCorrespondenceRejector(
     const typename Base::CorrespondenceRejectorPtr& rejector)
 {
-  plugs::requireGiven(rejector, "the correspondence rejector");
+  registration::requireGiven(rejector, "the correspondence rejector");
   Base::addCorrespondenceRejector(rejector);
 }
 

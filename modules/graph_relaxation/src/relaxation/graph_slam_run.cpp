@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relaxation/graph_slam_run.h"
+
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/pose.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d::graph_relaxation {
+
+namespace {
+constexpr double kGrowth = 10;        ///< of the squared error, over the best so far
+constexpr double kLeastError = 1e-12; ///< [m^2] below, growth is rounding
+
+bool
+allFinite(const GraphSlam::Poses& poses)
+{
+  return std::all_of(poses.begin(), poses.end(), [](const Eigen::Isometry3d& pose) {
+    return pose.matrix().allFinite();
+  });
+}
+
+LinkReport
+reportOf(const LinkPairs& pairs, const LinkSums& sums)
+{
+  LinkReport report;
+  report.from = pairs.from;
+  report.to = pairs.to;
+  report.pairs = sums.count;
+  report.rms = sums.rms();
+  return report;
+}
+} // namespace
+
+GraphSlamRun::GraphSlamRun(const GraphSlamOptions& options,
+                           const std::vector<PoseLink>& measured,
+                           const GraphSlam::Observer& observer)
+: options_(options)
+, measured_(measured)
+, observer_(observer)
+, step_(makeRelaxationStep(options.relaxation))
+, switch_(options.switch_scale, std::max(1, options.max_iterations / 2))
+{
+  round_.by_variance = options.weights == LinkWeights::kVariance;
+  round_.least_variance = options.least_deviation * options.least_deviation;
+  round_.num_threads = options.num_threads;
+}
+
+GraphSlamResult
+GraphSlamRun::run(const GraphSlam::Poses& start, const Pairs& pairs_at)
+{
+  round_.poses = start;
+  const std::vector<LinkPairs>* pairs = nullptr;
+  for (int iteration = 1; iteration <= options_.max_iterations; ++iteration) {
+    pairs = &pairs_at(round_.poses);
+    measure(*pairs);
+    if (iteration == 1)
+      result_.rms_before = std::sqrt(error_);
+    if (round_.links.empty() || hasDiverged())
+      break;
+    result_.converged = advance(iteration);
+    if (failed_ || stopped_ || result_.converged)
+      break;
+  }
+  if (failed_)
+    round_.poses = start;
+  switch_moves_ = false;
+  measure(*pairs);
+  result_.status = finish();
+  result_.poses = round_.poses;
+  result_.component = round_.layout.component;
+  result_.rms = std::sqrt(error_);
+  return std::move(result_);
+}
+
+void
+GraphSlamRun::measure(const std::vector<LinkPairs>& pairs)
+{
+  const std::vector<LinkSums> sums =
+      sumLinks(pairs, round_.poses, options_.robust, options_.num_threads);
+  const std::vector<LinkReport> before = std::move(result_.links);
+  result_.links.clear();
+  round_.links.clear();
+  report_of_link_.clear();
+  trusted_.clear();
+  for (std::size_t l = 0; l < pairs.size(); ++l) {
+    result_.links.push_back(reportOf(pairs[l], sums[l]));
+    if (!switch_moves_)
+      result_.links[l].switch_weight = before[l].switch_weight;
+    if (sums[l].count < options_.min_pairs)
+      continue;
+    round_.links.push_back({pairs[l].from, pairs[l].to, sums[l], nullptr, {}, 1});
+    report_of_link_.push_back(l);
+    trusted_.push_back(pairs[l].trusted);
+  }
+  for (const PoseLink& link : measured_)
+    round_.links.push_back({link.from, link.to, {}, &link, {}, 1});
+  parallelBlocks(
+      round_.links.size(), 64, options_.num_threads, [&](const Block& block) {
+        for (std::size_t l = block.begin; l < block.end; ++l) {
+          RoundLink& link = round_.links[l];
+          link.equation = link.measured
+                              ? equationOf<6>(*link.measured,
+                                              round_.poses[link.from],
+                                              round_.poses[link.to])
+                              : equationOf<6>(link.sums, round_.least_variance);
+        }
+      });
+  round_.layout = GraphLayout(round_.poses.size(), round_.links);
+  weigh();
+}
+
+bool
+GraphSlamRun::hasDiverged()
+{
+  const double error = links_alike_ ? link_error_ : error_;
+  failed_ =
+      !std::isfinite(error) || error > kGrowth * std::max(best_error_, kLeastError);
+  best_error_ = std::min(best_error_, error);
+  return failed_;
+}
+
+bool
+GraphSlamRun::advance(int iteration)
+{
+  const GraphSlam::Poses before = round_.poses;
+  if (!step_->advance(round_, damping_)) {
+    damping_ = 1e3 * kLeastDamping; // the last resort
+    if (!step_->advance(round_, damping_))
+      failed_ = true;
+  }
+  failed_ = failed_ || !allFinite(round_.poses);
+  return !failed_ && atRest(before, iteration);
+}
+
+bool
+GraphSlamRun::atRest(const GraphSlam::Poses& before, int iteration)
+{
+  MotionSize largest;
+  for (std::size_t j = 0; j < before.size(); ++j) {
+    const MotionSize size = distanceBetween(before[j], round_.poses[j]);
+    largest.translation = std::max(largest.translation, size.translation);
+    largest.rotation = std::max(largest.rotation, size.rotation);
+  }
+  result_.iterations = iteration;
+  if (observer_)
+    stopped_ = !observer_(
+        {iteration, std::sqrt(error_), largest.translation, largest.rotation});
+  if (options_.switch_links && !switch_.settled())
+    return false;
+  const bool no_motion = largest.translation <= options_.translation_epsilon &&
+                         largest.rotation <= options_.rotation_epsilon;
+  const bool no_change =
+      iteration > 1 && options_.error_epsilon > 0 &&
+      std::abs(last_error_ - error_) <= options_.error_epsilon * last_error_;
+  return no_motion || (no_change && last_error_ > kLeastError);
+}
+
+Status
+GraphSlamRun::finish()
+{
+  const std::size_t size = round_.poses.size();
+  result_.covariances.assign(size, Eigen::Matrix<double, 6, 6>::Zero());
+  result_.open_direction.assign(size, false);
+  if (failed_)
+    return Status::kDiverged;
+  if (round_.links.empty())
+    return Status::kTooFewPairs;
+  fillCovariances();
+  if (!result_.converged)
+    return Status::kMaxIterations;
+  const auto& open = result_.open_direction; // of all that float, too
+  const bool held = std::count(open.begin(), open.end(), true) == 0;
+  return held ? Status::kOk : Status::kRankDeficient;
+}
+
+void
+GraphSlamRun::fillCovariances()
+{
+  const double variance = round_.by_variance ? 1 : commonVariance();
+  auto inverses = step_->inverses(round_, damping_);
+  if (inverses.empty()) {
+    damping_ = 1e3 * kLeastDamping;
+    inverses = step_->inverses(round_, damping_);
+  }
+  // Only what the damping holds follows it.
+  const auto damped = damping_ > 0 ? step_->inverses(round_, 10 * damping_) : inverses;
+  for (std::size_t j = 0; j < round_.poses.size(); ++j) {
+    const std::size_t i = round_.layout.unknown[j];
+    const bool floats = round_.layout.component[j] != 0;
+    if (i == GraphLayout::kFixed && !floats)
+      continue;
+    if (floats || inverses.empty() || damped.empty()) {
+      result_.open_direction[j] = true;
+      continue;
+    }
+    result_.covariances[j] = variance * inverses[i];
+    result_.open_direction[j] = inverses[i].trace() > 2 * damped[i].trace();
+  }
+}
+
+} // namespace pcl6d::graph_relaxation

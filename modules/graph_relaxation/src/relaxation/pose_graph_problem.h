@@ -2,13 +2,67 @@
 #pragma once
 
 #include "links/link_terms.h"
-#include "relaxation/graph_components.h"
-#include "relaxation/robust_cost.h"
 
+#include <pcl6d/common/portable_math.h>
+#include <pcl6d/common/pose_graph.h>
 #include <pcl6d/graph_relaxation/block_system.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
+#include <pcl6d/registration/icp_options.h>
+
+#include <cmath>
 
 namespace pcl6d::graph_relaxation {
+
+/** \brief The poses and links of a connected part of a graph, ascending. Internal to
+ * the module graph_relaxation. */
+struct GraphPart {
+  std::vector<std::size_t> poses;
+  std::vector<std::size_t> links; ///< without those that carry no information
+};
+
+/** \return the parts of a graph in the order of their first poses */
+std::vector<GraphPart>
+connectedParts(const PoseGraph& graph);
+
+/** \brief rho(s) of a link's squared error s, and its slope, the link's weight.
+ * Internal to the module graph_relaxation. */
+struct RobustCost {
+  RobustKernel kernel = RobustKernel::kNone;
+  double width_sq = 1; ///< of the s at which the kernel sets in
+
+  double
+  cost(double s) const
+  {
+    switch (kernel) {
+    case RobustKernel::kHuber:
+      return s <= width_sq ? s : 2 * std::sqrt(width_sq * s) - width_sq;
+    case RobustKernel::kCauchy:
+      return width_sq * portableLog(1 + s / width_sq);
+    case RobustKernel::kGemanMcClure:
+      return s * width_sq / (s + width_sq);
+    case RobustKernel::kNone:
+      break;
+    }
+    return s;
+  }
+
+  double
+  weight(double s) const
+  {
+    const double share = width_sq / (s + width_sq);
+    switch (kernel) {
+    case RobustKernel::kHuber:
+      return s <= width_sq ? 1 : std::sqrt(width_sq / s);
+    case RobustKernel::kCauchy:
+      return share;
+    case RobustKernel::kGemanMcClure:
+      return share * share;
+    case RobustKernel::kNone:
+      break;
+    }
+    return 1;
+  }
+};
 
 /** \brief The least squares problem of a connected part of a graph: unknown i is pose
  * i + 1 of the part, as the first one is fixed. Internal to the module

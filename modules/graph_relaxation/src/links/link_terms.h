@@ -3,7 +3,7 @@
 
 #include <pcl6d/graph_relaxation/link_error.h>
 
-/** \file The error of a link, fast. Internal to the module graph_relaxation. */
+/** \file The error of a link, fast. */
 namespace pcl6d::graph_relaxation {
 
 /** \brief A pose as quaternion and translation, which stays rigid under many steps. */

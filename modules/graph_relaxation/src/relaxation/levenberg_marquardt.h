@@ -16,8 +16,7 @@ struct GraphDescent {
   Status status = Status::kOk;
 };
 
-/** \brief Minimises a problem from the given poses. Internal to the module
- * graph_relaxation. */
+/** \brief Minimises a problem from the given poses. */
 GraphDescent
 descend(PoseGraphProblem& problem,
         const PoseGraphProblem::Poses& poses,

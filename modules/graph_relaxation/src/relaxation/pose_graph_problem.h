@@ -13,8 +13,7 @@
 
 namespace pcl6d::graph_relaxation {
 
-/** \brief The poses and links of a connected part of a graph, ascending. Internal to
- * the module graph_relaxation. */
+/** \brief The poses and links of a connected part of a graph, ascending. */
 struct GraphPart {
   std::vector<std::size_t> poses;
   std::vector<std::size_t> links; ///< without those that carry no information
@@ -24,8 +23,7 @@ struct GraphPart {
 std::vector<GraphPart>
 connectedParts(const PoseGraph& graph);
 
-/** \brief rho(s) of a link's squared error s, and its slope, the link's weight.
- * Internal to the module graph_relaxation. */
+/** \brief rho(s) of a link's squared error s, and its slope, the link's weight. */
 struct RobustCost {
   RobustKernel kernel = RobustKernel::kNone;
   double width_sq = 1; ///< of the s at which the kernel sets in
@@ -65,8 +63,7 @@ struct RobustCost {
 };
 
 /** \brief The least squares problem of a connected part of a graph: unknown i is pose
- * i + 1 of the part, as the first one is fixed. Internal to the module
- * graph_relaxation. */
+ * i + 1 of the part, as the first one is fixed. */
 class PoseGraphProblem {
 public:
   using Poses = std::vector<QuaternionPose>;

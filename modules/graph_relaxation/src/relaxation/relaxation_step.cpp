@@ -46,16 +46,16 @@ GraphLayout::GraphLayout(std::size_t num_poses, const std::vector<RoundLink>& li
 namespace {
 constexpr double kLargestTurn = 1; ///< [rad] of a pose in a round
 
-/** \brief The system of all unknowns at once (5.2.2): symmetric, a block per pose and per
+/** \brief The coupled system of all unknowns (5.2.2): symmetric, a block per pose and per
  * pair of linked poses. \tparam Size of the motion of a pose */
 template <int Size>
-class JointStep : public RelaxationStep {
+class CoupledStep : public RelaxationStep {
 public:
   using Matrix = Eigen::Matrix<double, Size, Size>;
   using Vector = Eigen::Matrix<double, Size, 1>;
   using Move = Eigen::Isometry3d (*)(const Eigen::Isometry3d&, const Vector&);
 
-  explicit JointStep(Move move) : move_(move) {}
+  explicit CoupledStep(Move move) : move_(move) {}
 
   bool
   advance(Round& round, double damping) override
@@ -221,17 +221,17 @@ makeRelaxationStep(Relaxation relaxation)
 {
   switch (relaxation) {
   case Relaxation::kEuler:
-    return std::make_unique<JointStep<6>>(&moveByEuler);
+    return std::make_unique<CoupledStep<6>>(&moveByEuler);
   case Relaxation::kQuaternion:
-    return std::make_unique<JointStep<6>>(&moveByQuaternion);
+    return std::make_unique<CoupledStep<6>>(&moveByQuaternion);
   case Relaxation::kQuaternionPublished:
-    return std::make_unique<JointStep<7>>(&moveByScaledQuaternion);
+    return std::make_unique<CoupledStep<7>>(&moveByScaledQuaternion);
   case Relaxation::kSmallAngle:
     return makeSmallAngleStep();
   case Relaxation::kHelix:
     break;
   }
-  return std::make_unique<JointStep<6>>(&moveByHelix);
+  return std::make_unique<CoupledStep<6>>(&moveByHelix);
 }
 
 } // namespace pcl6d::graph_relaxation

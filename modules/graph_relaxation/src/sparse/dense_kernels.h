@@ -10,7 +10,7 @@
  * holds rows 8 s .. 8 s + 7, column after column, so that entry (i, j) of a matrix with
  * n columns stands at (i / 8 * n + j) * 8 + i % 8. Rows that fill up the last slab are
  * zero. Each entry is summed in an order that depends on nothing but its place, so that
- * slabs may be handed to threads at will. Internal to the module graph_relaxation. */
+ * slabs may be handed to threads at will. */
 namespace pcl6d::graph_relaxation::slabs {
 
 constexpr std::size_t kRows = 8;

@@ -8,7 +8,7 @@
 #include <vector>
 
 /** \file The structure of a sparse Cholesky factor, found before any number is known.
- * Everything counts in blocks. Internal to the module graph_relaxation. */
+ * Everything counts in blocks. */
 namespace pcl6d::graph_relaxation {
 
 constexpr std::size_t kNoSupernode = static_cast<std::size_t>(-1);

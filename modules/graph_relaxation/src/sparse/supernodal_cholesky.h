@@ -8,7 +8,7 @@ namespace pcl6d::graph_relaxation {
 
 /** \brief Sparse Cholesky factor of a symmetric matrix of dense square blocks by the
  * multifrontal method: each supernode is a dense front, into which its own blocks and
- * what its children pass up are summed. Internal to the module graph_relaxation.
+ * what its children pass up are summed.
  *
  * \note Source: J. W. H. Liu, "The multifrontal method for sparse matrix solution:
  * theory and practice", SIAM Review 34(1), 1992. */

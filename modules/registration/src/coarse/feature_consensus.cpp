@@ -194,16 +194,7 @@ keepDistinct(std::vector<Hypothesis> hypotheses,
   std::stable_sort(hypotheses.begin(),
                    hypotheses.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
-  std::vector<Hypothesis> kept;
-  for (const auto& h : hypotheses) {
-    if (kept.size() == max_count)
-      break;
-    if (std::none_of(kept.begin(), kept.end(), [&](const auto& k) {
-          return distance(h.T_target_source, k.T_target_source) <= min_distance;
-        }))
-      kept.push_back(h);
-  }
-  return kept;
+  return firstDistinct(hypotheses, distance, min_distance, max_count);
 }
 
 std::vector<Hypothesis>

@@ -202,16 +202,10 @@ private:
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
       return a.score > b.score || (a.score == b.score && a.motion_sq < b.motion_sq);
     });
-    std::vector<Candidate> kept;
-    for (const auto& c : found) {
-      if (kept.size() == static_cast<std::size_t>(o_.max_candidates))
-        break;
-      if (std::none_of(kept.begin(), kept.end(), [&](const auto& k) {
-            return distance_(c.T_target_source, k.T_target_source) <= scale_.first_cube;
-          }))
-        kept.push_back(c);
-    }
-    return kept;
+    return firstDistinct(found,
+                         distance_,
+                         scale_.first_cube,
+                         static_cast<std::size_t>(o_.max_candidates));
   }
 
   CoarseEstimate

@@ -3,6 +3,9 @@
 
 #include <pcl6d/common/points.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace pcl6d::registration {
 
 /** \brief How far two placements of the same points are apart: the root mean square of
@@ -20,5 +23,27 @@ private:
   Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
 };
+
+/** \return the first of the placements that are close to each other, at most max_count,
+ * any two farther apart than min_distance [m]
+ * \tparam Placement has T_target_source \param[in] placements best first */
+template <typename Placement>
+std::vector<Placement>
+firstDistinct(const std::vector<Placement>& placements,
+              const PlacementDistance& distance,
+              double min_distance,
+              std::size_t max_count)
+{
+  std::vector<Placement> kept;
+  for (const auto& p : placements) {
+    if (kept.size() == max_count)
+      break;
+    if (std::none_of(kept.begin(), kept.end(), [&](const auto& k) {
+          return distance(p.T_target_source, k.T_target_source) <= min_distance;
+        }))
+      kept.push_back(p);
+  }
+  return kept;
+}
 
 } // namespace pcl6d::registration

@@ -81,7 +81,7 @@ odometryBetween(const ScanResult& before, const ScanResult& scan, const ScanLink
 }
 
 bool
-before(const ScanLink& a, const ScanLink& b)
+comesBefore(const ScanLink& a, const ScanLink& b)
 {
   return ScanPair(a.from, a.to) < ScanPair(b.from, b.to);
 }
@@ -296,8 +296,8 @@ GraphStage::take(const GraphSlamResult& relaxed,
     ScanLink place;
     place.from = report.from;
     place.to = report.to;
-    const auto link = std::lower_bound(links.begin(), links.end(), place, before);
-    if (link == links.end() || before(place, *link))
+    const auto link = std::lower_bound(links.begin(), links.end(), place, comesBefore);
+    if (link == links.end() || comesBefore(place, *link))
       continue;
     judge(report, *link);
     if (link->verdict == LinkVerdict::kUsed)
@@ -313,8 +313,9 @@ GraphStage::take(const GraphSlamResult& relaxed,
   for (const std::size_t i : result.floating)
     result.scans[i].covariance.reset();
   for (const ScanLink& link : odometry) {
-    const auto refused = std::lower_bound(links.begin(), links.end(), link, before);
-    if (refused != links.end() && !before(link, *refused))
+    const auto refused =
+        std::lower_bound(links.begin(), links.end(), link, comesBefore);
+    if (refused != links.end() && !comesBefore(link, *refused))
       *refused = link; // its few pairs do not count
     else
       links.insert(refused, link);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/graph_relaxation/loop_detection.h>

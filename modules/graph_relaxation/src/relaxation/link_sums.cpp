@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
@@ -14,7 +13,7 @@ namespace {
 constexpr std::size_t kBlockSize = 4096;
 constexpr double kLeastScale = 1e-6; // [m] finer than any scanner: exact copies
 
-/** \brief What is added up pair by pair, about an origin that all blocks of a link share,
+/** What is added up pair by pair, about an origin that all blocks of a link share,
  * so that merging is adding. */
 struct PairMoments {
   using Vector6 = Eigen::Matrix<double, 6, 1>;

@@ -41,4 +41,8 @@ void
 checkOptions(const std::function<void()>& check,
              const std::map<std::string, std::string>& words = {});
 
+/** \brief As checkOptions(), of one option, whatever the library calls it. */
+void
+checkOption(const std::string& option, const std::function<void()>& check);
+
 } // namespace pcl6d::app

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "evaluate/result_file.h"
 #include "evaluate/verbs.h"
 
@@ -119,7 +119,7 @@ int
 runLengths(const std::vector<std::string>& arguments)
 {
   std::string file, output;
-  CommandLine line(
+  OptionTable table(
       std::string("usage: ") + kEvaluate +
       " lengths FILE [options]\n"
       "Compares ratios of lengths in a map with those in a reference, such "
@@ -129,15 +129,13 @@ runLengths(const std::vector<std::string>& arguments)
       "map and in the reference (2 numbers), two points of the map and the "
       "length (7), or\n"
       "two points of each (12).\n");
-  line.positional("FILE", &file);
-  line.group("Evaluation")
-      .add_options()("output,o",
-                     boost::program_options::value(&output)->value_name("FILE"),
-                     "write the numbers (.json)");
-  if (!line.parse(arguments))
+  table.positional("FILE", &file);
+  table.group("Evaluation");
+  table.add("output,o FILE", &output).help("write the numbers (.json)");
+  if (!table.parse(arguments))
     return kDone;
   requireExtension("--output", output, {".json"});
-  refuseInput("--output", output, {file});
+  refuseInputs(output, {file});
   const std::vector<LengthPair> lengths = readLengths(file);
   const LengthRatioErrors errors = lengthRatioErrors(lengths);
   print(file, lengths, errors);

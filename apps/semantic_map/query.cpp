@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "semantic_map/verbs.h"
 
 #include <pcl6d/semantic_map/map_query.h>
@@ -32,14 +32,13 @@ runMapQuery(const std::vector<std::string>& arguments)
   std::string file;
   std::string text;
   bool as_json = false;
-  CommandLine line(std::string("usage: ") + kSemanticMap + kQueryUsage);
-  line.positional("MAP", &file);
-  line.positional("QUERY", &text);
-  line.group("Output").add_options()(
-      "json",
-      boost::program_options::bool_switch(&as_json),
-      "print JSON with all properties in place of a table");
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kSemanticMap + kQueryUsage);
+  table.positional("MAP", &file);
+  table.positional("QUERY", &text);
+  table.group("Output");
+  table.add("json", &as_json)
+      .help("print JSON with all properties in place of a table");
+  if (!table.parse(arguments))
     return kDone;
   const SemanticMap map = readSemanticMap(mapFile(file));
   QueryResult result;

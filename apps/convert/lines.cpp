@@ -123,20 +123,17 @@ applyWords(LinesSettings& s)
 bool
 parse(const std::vector<std::string>& arguments, LinesSettings& s)
 {
-  OptionTable table(
-      std::string("usage: ") + kConvert +
-      " lines LINES.csv -o OUT.pcd [options]\n"
-      "Puts the lines of a 2D scanner on a drive together to an organized scan, a row\n"
-      "per line, in metres: x ahead, y left, z up.\n"
-      "A row of LINES.csv: the drive's angle [deg] and the ranges [m], separated by\n"
-      "commas, semicolons or blanks. Rows that start with # are comments. The first "
-      "row\n"
-      "may name the columns: angle,range..., or angle,time,range... where the second\n"
-      "column is the time [s] at which a line starts; then each point gets its time, "
-      "t\n"
-      "[s] since the first line. A range that is empty, nan, inf or 0 is no return "
-      "and\n"
-      "becomes a point of NaN.\n");
+  OptionTable table(std::string("usage: ") + kConvert +
+                    R"( lines LINES.csv -o OUT.pcd [options]
+Puts the lines of a 2D scanner on a drive together to an organized scan, a row
+per line, in metres: x ahead, y left, z up.
+A row of LINES.csv: the drive's angle [deg] and the ranges [m], separated by
+commas, semicolons or blanks. Rows that start with # are comments. The first row
+may name the columns: angle,range..., or angle,time,range... where the second
+column is the time [s] at which a line starts; then each point gets its time, t
+[s] since the first line. A range that is empty, nan, inf or 0 is no return and
+becomes a point of NaN.
+)");
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;

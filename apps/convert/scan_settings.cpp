@@ -8,17 +8,14 @@ namespace pcl6d::app {
 
 namespace {
 constexpr const char* kUsageText =
-    " scans IN -o OUT [options]\n"
-    "Writes scans in another format: a scan (OUT is a file), the scans of a folder "
-    "(OUT\n"
-    "is a new folder; the poses go along, as .pose files for uos and uosr, as "
-    "VIEWPOINT\n"
-    "for pcd, else as poses.txt) or, with --full, all of them joined at their poses "
-    "(OUT\n"
-    "is a file). IN may be the folder of a pcl_slam6d run: its scans and final poses.\n"
-    "Right-handed metres; uos and uosr: 3DTK's left-handed centimetres. Numbers keep "
-    "all\n"
-    "digits; what the format cannot hold is told line by line.\n";
+    R"( scans IN -o OUT [options]
+Writes scans in another format: a scan (OUT is a file), the scans of a folder (OUT
+is a new folder; the poses go along, as .pose files for uos and uosr, as VIEWPOINT
+for pcd, else as poses.txt) or, with --full, all of them joined at their poses (OUT
+is a file). IN may be the folder of a pcl_slam6d run: its scans and final poses.
+Right-handed metres; uos and uosr: 3DTK's left-handed centimetres. Numbers keep all
+digits; what the format cannot hold is told line by line.
+)";
 
 void
 addOptions(OptionTable& table, ScanSettings& s)

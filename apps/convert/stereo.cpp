@@ -62,14 +62,13 @@ addOptions(OptionTable& table, StereoSettings& s)
 bool
 parse(const std::vector<std::string>& arguments, StereoSettings& s)
 {
-  OptionTable table(
-      std::string("usage: ") + kConvert +
-      " stereo LEFT RIGHT CALIB -o FILE [options]\n"
-      "Triangulates the pictures of two cameras. CALIB: YAML, XML or JSON of OpenCV\n"
-      "with M1 D1 M2 D2 R T, as its sample stereo_calib writes (in two files:\n"
-      "--extrinsics). The points are in the left camera's place, x forward, y left, z\n"
-      "up; fields x y z, intensity (0 to 1), depth_error (its standard deviation "
-      "[m]).\n");
+  OptionTable table(std::string("usage: ") + kConvert +
+                    R"( stereo LEFT RIGHT CALIB -o FILE [options]
+Triangulates the pictures of two cameras. CALIB: YAML, XML or JSON of OpenCV
+with M1 D1 M2 D2 R T, as its sample stereo_calib writes (in two files:
+--extrinsics). The points are in the left camera's place, x forward, y left, z
+up; fields x y z, intensity (0 to 1), depth_error (its standard deviation [m]).
+)");
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;

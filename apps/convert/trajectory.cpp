@@ -26,13 +26,12 @@ struct TrajectorySettings {
 };
 
 constexpr const char* kUsageText =
-    " trajectory IN -o OUT [options]\n"
-    "Writes poses in another format: rows of KITTI (T_world_scan) or TUM (stamp, "
-    "position,\n"
-    "quaternion), the vertices of a g2o graph, or a folder with a 3DTK .pose or "
-    ".frames\n"
-    "file per scan (left-handed centimetres; of .frames the last line counts). Right-\n"
-    "handed metres, 17 digits.\n";
+    R"( trajectory IN -o OUT [options]
+Writes poses in another format: rows of KITTI (T_world_scan) or TUM (stamp, position,
+quaternion), the vertices of a g2o graph, or a folder with a 3DTK .pose or .frames
+file per scan (left-handed centimetres; of .frames the last line counts). Right-
+handed metres, 17 digits.
+)";
 
 /** \return the format to write, as given or by the extension of OUT */
 TrajectoryFormat

@@ -31,29 +31,22 @@ std::string
 usage()
 {
   return std::string("usage: ") + kEvaluate +
-         " icp SCAN_A SCAN_B [options]\n"
-         "The basin of convergence of ICP: registers scan B onto scan A from a grid "
-         "of\n"
-         "starts about the best pose, once for each method, and prints how often, how\n"
-         "precisely, in how many iterations and how fast it finds back. Distances are "
-         "in\n"
-         "metres, angles of options in degrees, angles in files in radians.\n"
-         "\n"
-         "The best pose of a metric is where ICP comes to rest from the unperturbed "
-         "start\n"
-         "(first minimiser, exact search). A run is correct if it ends within 3 sigma "
-         "of\n"
-         "it, in position and in orientation. The table's errors, rms (of the pairs),\n"
-         "iterations and ms (processor time on one thread, without the making of "
-         "trees)\n"
-         "are means of the correct runs; reach is how far every start is correct, "
-         "shifted\n"
-         "without a turn and turned without a shift.\n"
-         "Exit code 3: a best pose is in doubt, because ICP fails from the unperturbed "
-         "start\n"
-         "or does not stay at the pose found (the metric then has no rows), or because "
-         "the\n"
-         "best poses of two metrics are far apart.\n";
+         R"( icp SCAN_A SCAN_B [options]
+The basin of convergence of ICP: registers scan B onto scan A from a grid of
+starts about the best pose, once for each method, and prints how often, how
+precisely, in how many iterations and how fast it finds back. Distances are in
+metres, angles of options in degrees, angles in files in radians.
+
+The best pose of a metric is where ICP comes to rest from the unperturbed start
+(first minimiser, exact search). A run is correct if it ends within 3 sigma of
+it, in position and in orientation. The table's errors, rms (of the pairs),
+iterations and ms (processor time on one thread, without the making of trees)
+are means of the correct runs; reach is how far every start is correct, shifted
+without a turn and turned without a shift.
+Exit code 3: a best pose is in doubt, because ICP fails from the unperturbed start
+or does not stay at the pose found (the metric then has no rows), or because the
+best poses of two metrics are far apart.
+)";
 }
 
 /** \return the names, "all" replaced by those that are not there yet; each once */
@@ -107,9 +100,8 @@ addInput(OptionTable& table, IcpSettings& s)
   const auto takeGuess = [&s](const auto& text) { s.guess = poseFromText(text); };
   table.addWord("guess \"X Y Z R P Y\"", "", takeGuess)
       .help("start: pose of B in the frame of A, [m] and roll pitch yaw [deg]; by "
-            "default "
-            "from the poses that belong to the files (*.pose, odometry.txt, poses.txt, "
-            "PCD VIEWPOINT or identity, the first that is there)");
+            "default from the poses that belong to the files (*.pose, odometry.txt, "
+            "poses.txt, PCD VIEWPOINT or identity, the first that is there)");
   table.add("format", &s.format, scanFormatFromName).help("auto|pcd|ply|uos|kitti|xyz");
   table.group("Range gate and reduction");
   table.addAuto("min-range", &s.slam.min_range)
@@ -167,8 +159,7 @@ addMatching(OptionTable& table, IcpSettings& s)
   table.addAuto("sigma-orientation", &s.basin.sigma_orientation, kRadians)
       .above(0, "finite and > 0 degrees", kFinite)
       .help("[deg] or auto: from the covariance of the best pose; at least the angle "
-            "that "
-            "moves a point at the median range by voxel / 10");
+            "that moves a point at the median range by voxel / 10");
 }
 
 void

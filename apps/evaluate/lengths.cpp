@@ -82,9 +82,10 @@ print(const std::string& file,
       const std::vector<LengthPair>& lengths,
       const LengthRatioErrors& errors)
 {
-  std::printf("%s: %zu lengths, %zu ratios\n"
-              "  ratios are off by %.3f %% rms, %.3f %% mean, %.3f %% at most\n"
-              "  scale (median of map / reference): %.6f\n",
+  std::printf(R"(%s: %zu lengths, %zu ratios
+  ratios are off by %.3f %% rms, %.3f %% mean, %.3f %% at most
+  scale (median of map / reference): %.6f
+)",
               file.c_str(),
               lengths.size(),
               errors.ratio.count,
@@ -119,16 +120,13 @@ int
 runLengths(const std::vector<std::string>& arguments)
 {
   std::string file, output;
-  OptionTable table(
-      std::string("usage: ") + kEvaluate +
-      " lengths FILE [options]\n"
-      "Compares ratios of lengths in a map with those in a reference, such "
-      "as a plan or\n"
-      "an aerial picture, whose scale need not be known. A row of FILE "
-      "is a length in the\n"
-      "map and in the reference (2 numbers), two points of the map and the "
-      "length (7), or\n"
-      "two points of each (12).\n");
+  OptionTable table(std::string("usage: ") + kEvaluate +
+                    R"( lengths FILE [options]
+Compares ratios of lengths in a map with those in a reference, such as a plan or
+an aerial picture, whose scale need not be known. A row of FILE is a length in the
+map and in the reference (2 numbers), two points of the map and the length (7), or
+two points of each (12).
+)");
   table.positional("FILE", &file);
   table.group("Evaluation");
   table.add("output,o FILE", &output).help("write the numbers (.json)");

@@ -23,10 +23,11 @@ struct MapSettings {
 };
 
 constexpr const char* kUsageText =
-    " map RUN_DIR [options]\n"
-    "How good a map is, without a reference path: how well its scans agree, how sharp\n"
-    "walls are, and which scans stand out. RUN_DIR is the output of pcl_slam6d, or a\n"
-    "folder of scans with poses. What the measures mean: share/doc/measures.md.\n";
+    R"( map RUN_DIR [options]
+How good a map is, without a reference path: how well its scans agree, how sharp
+walls are, and which scans stand out. RUN_DIR is the output of pcl_slam6d, or a
+folder of scans with poses. What the measures mean: share/doc/measures.md.
+)";
 
 void
 addOptions(OptionTable& table, MapSettings& s)

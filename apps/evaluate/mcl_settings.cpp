@@ -21,25 +21,22 @@ std::string
 usage()
 {
   return std::string("usage: ") + kEvaluate +
-         " mcl SCAN_DIR --map FILE [-o OUT_DIR] [options]\n"
-         "A reference path for a drive through a place whose plan is known: Monte "
-         "Carlo\n"
-         "localisation of virtual 2D scans in a map of walls. Marks the scans whose\n"
-         "pose is not to be trusted, and invents nothing there.\n"
-         "\n"
-         "MAP is a plan (.csv rows x1,y1,x2,y2; .geojson in a planar system; .svg of\n"
-         "straight lines), the planes of a scene or run (.json: its walls), a cloud\n"
-         "(.pcd, .ply: what stands upright between two heights), or a mesh (.obj, "
-         ".stl,\n"
-         ".ply: cut half way between them). It is in the world of the poses unless\n"
-         "--start says where in it the first scan was taken.\n"
-         "\n"
-         "Roll and pitch of a scan come from the walls that it sees; z is carried "
-         "along\n"
-         "by odometry and slope. Distances are in metres, angles of options in "
-         "degrees,\n"
-         "angles in files in radians.\n"
-         "Exit code 3: part of the way is not to be trusted.\n";
+         R"( mcl SCAN_DIR --map FILE [-o OUT_DIR] [options]
+A reference path for a drive through a place whose plan is known: Monte Carlo
+localisation of virtual 2D scans in a map of walls. Marks the scans whose
+pose is not to be trusted, and invents nothing there.
+
+MAP is a plan (.csv rows x1,y1,x2,y2; .geojson in a planar system; .svg of
+straight lines), the planes of a scene or run (.json: its walls), a cloud
+(.pcd, .ply: what stands upright between two heights), or a mesh (.obj, .stl,
+.ply: cut half way between them). It is in the world of the poses unless
+--start says where in it the first scan was taken.
+
+Roll and pitch of a scan come from the walls that it sees; z is carried along
+by odometry and slope. Distances are in metres, angles of options in degrees,
+angles in files in radians.
+Exit code 3: part of the way is not to be trusted.
+)";
 }
 
 /** \return the numbers of an option's text \throws UsageError it holds others */

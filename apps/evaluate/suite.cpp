@@ -67,15 +67,13 @@ addOptions(OptionTable& table, SuiteSettings& s)
 bool
 parse(const std::vector<std::string>& arguments, SuiteSettings& s)
 {
-  OptionTable table(
-      std::string("usage: ") + kEvaluate +
-      " suite SUITE.json [-o OUT_DIR] [options]\n"
-      "Runs pcl_slam6d with several sets of options over several data sets, each in a\n"
-      "process of its own, and compares the results: table.md, table.csv, table.json "
-      "and\n"
-      "plots. Goes on where it was interrupted: a run that has ended is not repeated\n"
-      "unless programs, options or data have changed. Suite files: "
-      "share/doc/benchmark.md.\n");
+  OptionTable table(std::string("usage: ") + kEvaluate +
+                    R"( suite SUITE.json [-o OUT_DIR] [options]
+Runs pcl_slam6d with several sets of options over several data sets, each in a
+process of its own, and compares the results: table.md, table.csv, table.json and
+plots. Goes on where it was interrupted: a run that has ended is not repeated
+unless programs, options or data have changed. Suite files: share/doc/benchmark.md.
+)");
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;

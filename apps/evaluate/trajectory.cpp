@@ -29,17 +29,16 @@ struct TrajectorySettings {
 };
 
 constexpr const char* kUsageText =
-    " trajectory ESTIMATE REFERENCE [options]\n"
-    "Position and orientation errors of a trajectory against a reference, first\n"
-    "without alignment, then after the rigid motion that fits the positions best "
-    "(ATE);\n"
-    "errors of the motions per step and per distance (RPE), drift, errors across "
-    "loops\n"
-    "and of length ratios.\n"
-    "Files: KITTI (12 numbers a row) or TUM (8 numbers a row). Poses are matched by\n"
-    "time if both files have stamps (TUM), else by their index. If one file is TUM\n"
-    "and all its stamps are whole numbers within the rows of the other, these are\n"
-    "indices: so give trajectory.tum of a run of selected scans (--first, --every).\n";
+    R"( trajectory ESTIMATE REFERENCE [options]
+Position and orientation errors of a trajectory against a reference, first
+without alignment, then after the rigid motion that fits the positions best (ATE);
+errors of the motions per step and per distance (RPE), drift, errors across loops
+and of length ratios.
+Files: KITTI (12 numbers a row) or TUM (8 numbers a row). Poses are matched by
+time if both files have stamps (TUM), else by their index. If one file is TUM
+and all its stamps are whole numbers within the rows of the other, these are
+indices: so give trajectory.tum of a run of selected scans (--first, --every).
+)";
 
 void
 addOptions(OptionTable& table, TrajectorySettings& s)

@@ -42,12 +42,12 @@ int
 runInfo(const std::vector<std::string>& arguments)
 {
   std::string input;
-  OptionTable table(
-      std::string("usage: ") + kGraph +
-      " info IN\n"
-      "Tells what a pose graph (g2o or TORO) holds: poses, edges, connected "
-      "components,\nedges per pose, chi2 (the sum of e^T information e) and "
-      "the length of the way from\neach pose to the next.\n");
+  OptionTable table(std::string("usage: ") + kGraph +
+                    R"( info IN
+Tells what a pose graph (g2o or TORO) holds: poses, edges, connected components,
+edges per pose, chi2 (the sum of e^T information e) and the length of the way from
+each pose to the next.
+)");
   table.positional("IN", &input);
   if (!table.parse(arguments))
     return kDone;

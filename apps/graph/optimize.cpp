@@ -53,15 +53,14 @@ addOptions(OptionTable& table, OptimizeSettings& s)
 bool
 parse(const std::vector<std::string>& arguments, OptimizeSettings& s)
 {
-  OptionTable table(
-      std::string("usage: ") + kGraph +
-      " optimize IN -o OUT.g2o [options]\n"
-      "Finds the poses that fit the links of a pose graph best and writes "
-      "the graph with\nthem. IN: g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT) or "
-      "TORO (VERTEX3, EDGE3); without\nvertices the chain of links gives "
-      "the first poses. The first pose of each component\nkeeps its place. "
-      "chi2 is the sum of e^T information e over all links, before and\n"
-      "after.\n");
+  OptionTable table(std::string("usage: ") + kGraph +
+                    R"( optimize IN -o OUT.g2o [options]
+Finds the poses that fit the links of a pose graph best and writes the graph with
+them. IN: g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT) or TORO (VERTEX3, EDGE3); without
+vertices the chain of links gives the first poses. The first pose of each component
+keeps its place. chi2 is the sum of e^T information e over all links, before and
+after.
+)");
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;

@@ -12,13 +12,12 @@ std::string
 usage()
 {
   return std::string("usage: ") + kObjects +
-         " locate INPUT --model MODEL... -o OUT_DIR [options]\n"
-         "Finds objects of known shape in a scan, in each scan of a folder with poses, "
-         "or of a\nrun of pcl_slam6d, and their poses in six degrees of freedom. A "
-         "MODEL "
-         "is a mesh (.ply,\n.obj, .stl), a cloud (.pcd, ...) or a folder of the model "
-         "store (share/models); a single\nmodel and no training are enough. Writes "
-         "objects.json and the scans with object_id.\n";
+         R"( locate INPUT --model MODEL... -o OUT_DIR [options]
+Finds objects of known shape in a scan, in each scan of a folder with poses, or of a
+run of pcl_slam6d, and their poses in six degrees of freedom. A MODEL is a mesh (.ply,
+.obj, .stl), a cloud (.pcd, ...) or a folder of the model store (share/models); a single
+model and no training are enough. Writes objects.json and the scans with object_id.
+)";
 }
 
 void

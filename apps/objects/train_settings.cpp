@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/option_table.h"
 #include "objects/train_settings.h"
 #include "objects/verbs.h"
 
@@ -25,16 +26,13 @@ std::string
 usage()
 {
   return std::string("usage: ") + kObjects +
-         " train MODEL... --background SCANS -o CASCADE.xml [options]\n"
-         "Trains a detector for one class of objects. The models (meshes .ply, .obj, "
-         ".stl,\nclouds, or folders of a model store) stand upright in free places of "
-         "the background scans, "
-         "which "
-         "must not hold\nthe object, and are measured there by a simulated scanner. "
-         "CASCADE.xml is read by\nthe job locate and by OpenCV 4 "
-         "(cv::CascadeClassifier). "
-         "What is done is kept in the\nstate folder: the same command goes on where it "
-         "was stopped.\n";
+         R"( train MODEL... --background SCANS -o CASCADE.xml [options]
+Trains a detector for one class of objects. The models (meshes .ply, .obj, .stl,
+clouds, or folders of a model store) stand upright in free places of the background scans, which must not hold
+the object, and are measured there by a simulated scanner. CASCADE.xml is read by
+the job locate and by OpenCV 4 (cv::CascadeClassifier). What is done is kept in the
+state folder: the same command goes on where it was stopped.
+)";
 }
 
 void

@@ -103,14 +103,13 @@ judgeUse(const OptionTable& table, PlaneSettings& s)
 bool
 parsePlaneSettings(const std::vector<std::string>& arguments, PlaneSettings& settings)
 {
-  OptionTable table(
-      std::string("usage: ") + kPlanes +
-      " INPUT -o OUT_DIR [options]\n"
-      "Finds the planes in a scan, in a folder of scans with poses, or in a run of\n"
-      "pcl_slam6d, and says what they are: floor, ceiling, wall, door. Writes\n"
-      "planes.json, planes.pcd (points with plane_id and label), hulls.ply and a "
-      "picture.\n"
-      "A scan is taken in its own frame, a folder in that of its poses.\n");
+  OptionTable table(std::string("usage: ") + kPlanes +
+                    R"( INPUT -o OUT_DIR [options]
+Finds the planes in a scan, in a folder of scans with poses, or in a run of
+pcl_slam6d, and says what they are: floor, ceiling, wall, door. Writes
+planes.json, planes.pcd (points with plane_id and label), hulls.ply and a picture.
+A scan is taken in its own frame, a folder in that of its poses.
+)");
   Words words;
   addOptions(table, settings, words);
   if (!table.parse(arguments))

@@ -14,10 +14,11 @@ namespace pcl6d::app {
 
 namespace {
 constexpr const char* kUsageText =
-    " animation RUN --kind KIND -o OUT [options]\n"
-    "Shows a run of pcl_slam6d as a film. OUT is a folder, which gets a PNG file per\n"
-    "frame and a video if there is a codec for it, or one video file (.mp4, .avi,\n"
-    ".mkv, .webm). Growth and relaxation need the run's scans/ and frames/.\n";
+    R"( animation RUN --kind KIND -o OUT [options]
+Shows a run of pcl_slam6d as a film. OUT is a folder, which gets a PNG file per
+frame and a video if there is a codec for it, or one video file (.mp4, .avi,
+.mkv, .webm). Growth and relaxation need the run's scans/ and frames/.
+)";
 
 /** A size in pixels, "1280x720". */
 struct PixelSize {

@@ -127,12 +127,12 @@ bool
 parsePictureSettings(const std::vector<std::string>& arguments,
                      PictureSettings& settings)
 {
-  OptionTable table(
-      std::string("usage: ") + kRender +
-      " picture RUN [-o PATH] [--view NAME,...] [options]\n"
-      "Draws what a run of pcl_slam6d left in the folder RUN, as far as it "
-      "is there,\ninto PNG files. Needs no display.\nViews:" +
-      RunPictures::viewTable() + "\n");
+  OptionTable table(std::string("usage: ") + kRender +
+                    R"( picture RUN [-o PATH] [--view NAME,...] [options]
+Draws what a run of pcl_slam6d left in the folder RUN, as far as it is there,
+into PNG files. Needs no display.
+Views:)" + RunPictures::viewTable() +
+                    "\n");
   std::vector<std::string> views;
   table.positional("RUN", &settings.run);
   addOutput(table, settings, views);

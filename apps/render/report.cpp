@@ -23,12 +23,12 @@ struct ReportSettings {
 bool
 parse(const std::vector<std::string>& arguments, ReportSettings& s)
 {
-  OptionTable table(
-      std::string("usage: ") + kRender +
-      " report RUN [options]\n"
-      "Writes one page for a browser, which needs no network: whether the "
-      "map is to be\ntrusted, the map in three dimensions, plots, tables, "
-      "pictures and options of the run.\nWhat the run lacks is named on it.\n");
+  OptionTable table(std::string("usage: ") + kRender +
+                    R"( report RUN [options]
+Writes one page for a browser, which needs no network: whether the map is to be
+trusted, the map in three dimensions, plots, tables, pictures and options of the run.
+What the run lacks is named on it.
+)");
   table.positional("RUN", &s.run);
   table.group("Output");
   table.add("output,o FILE.html", &s.output).help("default: RUN/report.html");

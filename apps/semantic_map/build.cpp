@@ -92,11 +92,11 @@ checkOutputs(const BuildSettings& s)
 bool
 parse(const std::vector<std::string>& arguments, BuildSettings& s)
 {
-  OptionTable table(
-      std::string("usage: ") + kSemanticMap +
-      " build RUN_DIR [options]\nMakes the semantic map of a finished run "
-      "of pcl_slam6d: its scans and links, planes\nwith labels, objects, "
-      "rooms, how they lie to each other, and what each point is.\n");
+  OptionTable table(std::string("usage: ") + kSemanticMap +
+                    R"( build RUN_DIR [options]
+Makes the semantic map of a finished run of pcl_slam6d: its scans and links, planes
+with labels, objects, rooms, how they lie to each other, and what each point is.
+)");
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;

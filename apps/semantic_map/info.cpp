@@ -56,11 +56,11 @@ int
 runMapInfo(const std::vector<std::string>& arguments)
 {
   std::string file;
-  OptionTable table(
-      std::string("usage: ") + kSemanticMap +
-      " info MAP\nTells what a semantic map holds: scans, planes by label, "
-      "objects by class, rooms,\nrelations. MAP: semantic_map.json, or a "
-      "folder that holds it.\n");
+  OptionTable table(std::string("usage: ") + kSemanticMap +
+                    R"( info MAP
+Tells what a semantic map holds: scans, planes by label, objects by class, rooms,
+relations. MAP: semantic_map.json, or a folder that holds it.
+)");
   table.positional("MAP", &file);
   if (!table.parse(arguments))
     return kDone;

@@ -11,19 +11,19 @@
 namespace pcl6d::app {
 namespace {
 constexpr const char* kQueryUsage =
-    " query MAP \"SUBJECT CONDITION...\" [options]\n"
-    "Finds things in a semantic map. MAP: semantic_map.json, or a folder that holds "
-    "it.\n"
-    "SUBJECT: objects, planes, rooms, storeys, scans, links, relations.\n"
-    "CONDITION: [not] KEY OP VALUE[,VALUE...] with OP one of = != < <= > >=.\n"
-    "All conditions must hold, of the values one. VALUE: a number, a word, text in\n"
-    "quotes, a thing such as plane:12, or * for anything. Keys: share/doc/"
-    "semantic_map.md.\n\n"
-    "  objects class=chair on=floor room=2\n"
-    "  planes label=wall area>4 parallel=12\n"
-    "  objects class='waste bin' not next_to=table\n"
-    "  scans seen=object:3\n"
-    "  rooms has=bed,sofa\n";
+    R"( query MAP "SUBJECT CONDITION..." [options]
+Finds things in a semantic map. MAP: semantic_map.json, or a folder that holds it.
+SUBJECT: objects, planes, rooms, storeys, scans, links, relations.
+CONDITION: [not] KEY OP VALUE[,VALUE...] with OP one of = != < <= > >=.
+All conditions must hold, of the values one. VALUE: a number, a word, text in
+quotes, a thing such as plane:12, or * for anything. Keys: share/doc/semantic_map.md.
+
+  objects class=chair on=floor room=2
+  planes label=wall area>4 parallel=12
+  objects class='waste bin' not next_to=table
+  scans seen=object:3
+  rooms has=bed,sofa
+)";
 } // namespace
 
 int

@@ -76,8 +76,7 @@ addScene(OptionTable& table, SceneSettings& s)
   table.group("Scene");
   table.add("path FILE", &s.path)
       .help("of a mesh: lines x y z, the waypoints of the robot on the floor, closed "
-            "from "
-            "the last to the first");
+            "from the last to the first");
   table.add("scale", &s.scale)
       .above(0, "> 0")
       .help("of a mesh: [m] per unit of the file");

@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 
 namespace {
 constexpr const char* kUsageText =
-    "usage: pcl_slam6d SCAN_DIR -o OUT_DIR [options]\n"
-    "Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one "
-    "map\n"
-    "and writes poses, map, picture and summary. Distances are in metres.\n";
+    R"(usage: pcl_slam6d SCAN_DIR -o OUT_DIR [options]
+Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one map
+and writes poses, map, picture and summary. Distances are in metres.
+)";
 
 int
 metascanFromText(const std::string& text)
@@ -117,8 +117,7 @@ addMatching(OptionTable& table, Settings& s)
       .help("share of points with a partner below which a match is not believed");
   table.add("max-correction", &s.slam.max_correction)
       .help("share of the odometry's step by which a match may move a scan; beyond, it "
-            "is "
-            "not believed (inf: always). 1.5 x max-distance is always allowed; not "
+            "is not believed (inf: always). 1.5 x max-distance is always allowed; not "
             "applied to --initial-guess overlap and features");
 }
 

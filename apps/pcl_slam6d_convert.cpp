@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Turns files of one format into another. The first argument says what to convert.
-#include "common/verb_table.h"
 #include "convert/verbs.h"
 
 int
@@ -10,13 +9,13 @@ main(int argc, char** argv)
   return runVerbs(
       {kConvert,
        "WHAT ...",
-       "Turns files of one format into another.",
        "convert",
+       "Turns files of one format into another.",
        38,
-       {{"lines LINES.csv -o OUT.pcd", "2D lines on a drive as a 3D scan", runLines},
-        {"scans IN -o OUT", "scans in another format", runScans},
-        {"stereo LEFT RIGHT CALIB -o OUT", "two pictures to a scan", runStereo},
-        {"trajectory IN -o OUT", "poses in another format", runTrajectory}}},
+       {{"lines", "LINES.csv -o OUT.pcd", "2D lines on a drive as a 3D scan", runLines},
+        {"scans", "IN -o OUT", "scans in another format", runScans},
+        {"stereo", "LEFT RIGHT CALIB -o OUT", "two pictures to a scan", runStereo},
+        {"trajectory", "IN -o OUT", "poses in another format", runTrajectory}}},
       argc,
       argv);
 }

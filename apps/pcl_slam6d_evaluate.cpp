@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Turns results of the suite into numbers. The first argument says which.
-#include "common/verb_table.h"
 #include "evaluate/verbs.h"
 
 int
@@ -10,15 +9,15 @@ main(int argc, char** argv)
   return runVerbs(
       {kEvaluate,
        "WHAT ...",
-       "Measures results against a reference, or without one.",
        "evaluate",
+       "Measures results against a reference, or without one.",
        32,
-       {{"trajectory ESTIMATE REFERENCE", "errors of a trajectory", runTrajectory},
-        {"icp SCAN_A SCAN_B", "from how far off ICP finds the pose of B", runIcp},
-        {"lengths FILE", "ratios of lengths", runLengths},
-        {"map RUN_DIR", "how good a map is, without a reference", runMap},
-        {"mcl SCAN_DIR --map FILE", "a reference path in a known plan", runMcl},
-        {"suite SUITE.json", "several methods over several data sets", runSuite}}},
+       {{"trajectory", "ESTIMATE REFERENCE", "errors of a trajectory", runTrajectory},
+        {"icp", "SCAN_A SCAN_B", "from how far off ICP finds the pose of B", runIcp},
+        {"lengths", "FILE", "ratios of lengths", runLengths},
+        {"map", "RUN_DIR", "how good a map is, without a reference", runMap},
+        {"mcl", "SCAN_DIR --map FILE", "a reference path in a known plan", runMcl},
+        {"suite", "SUITE.json", "several methods over several data sets", runSuite}}},
       argc,
       argv);
 }

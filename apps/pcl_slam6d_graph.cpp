@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Works on pose graphs without scans. The first argument says what to do.
-#include "common/verb_table.h"
 #include "graph/verbs.h"
 
 int
 main(int argc, char** argv)
 {
   using namespace pcl6d::app;
-  return runVerbs(
-      {kGraph,
-       "JOB ...",
-       "Works on pose graphs (g2o or TORO files).",
-       "do",
-       21,
-       {{"optimize IN -o OUT", "find the poses that fit the links best", runOptimize},
-        {"info IN", "tell what a graph holds", runInfo}}},
-      argc,
-      argv);
+  return runVerbs({kGraph,
+                   "JOB ...",
+                   "do",
+                   "Works on pose graphs (g2o or TORO files).",
+                   21,
+                   {{"optimize",
+                     "IN -o OUT",
+                     "find the poses that fit the links best",
+                     runOptimize},
+                    {"info", "IN", "tell what a graph holds", runInfo}}},
+                  argc,
+                  argv);
 }

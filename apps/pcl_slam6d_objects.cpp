@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds objects in scans and learns what they look like. The first argument says what to
 // do.
-#include "common/verb_table.h"
 #include "objects/verbs.h"
 
 int
@@ -10,13 +9,15 @@ main(int argc, char** argv)
   using namespace pcl6d::app;
   return runVerbs({kObjects,
                    "JOB ...",
-                   "Finds objects in scans and learns what they look like.",
                    "do",
+                   "Finds objects in scans and learns what they look like.",
                    51,
-                   {{"locate INPUT --model MODEL... -o OUT_DIR",
+                   {{"locate",
+                     "INPUT --model MODEL... -o OUT_DIR",
                      "objects and their poses",
                      runLocate},
-                    {"train MODEL... --background SCANS -o CASCADE.xml",
+                    {"train",
+                     "MODEL... --background SCANS -o CASCADE.xml",
                      "a detector from models",
                      runTrain}}},
                   argc,

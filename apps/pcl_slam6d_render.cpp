@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shows what a run of pcl_slam6d left. The first argument says how.
-#include "common/verb_table.h"
 #include "render/verbs.h"
 
 int
@@ -10,16 +9,19 @@ main(int argc, char** argv)
   return runVerbs(
       {kRender,
        "JOB RUN ...",
-       "Shows what a run of pcl_slam6d left in the folder RUN. Needs no display.",
        "do",
+       "Shows what a run of pcl_slam6d left in the folder RUN. Needs no display.",
        11,
        {{"animation",
+         "",
          "the map growing, relaxing, turning or flown through, as frames and a video",
          runAnimation},
         {"picture",
+         "",
          "views of the map, the poses and the links as PNG files",
          runPicture},
         {"report",
+         "",
          "one page for a browser: verdict, map, plots, tables, pictures",
          runReport}}},
       argc,

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <regex>
 
@@ -80,6 +81,13 @@ void
 checkOption(const std::string& option, const std::function<void()>& check)
 {
   checkRenamed(check, [&](const std::string&) { return option; });
+}
+
+void
+flushOutput()
+{
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw IoFailed("cannot write to the standard output");
 }
 
 } // namespace pcl6d::app

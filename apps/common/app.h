@@ -45,4 +45,8 @@ checkOptions(const std::function<void()>& check,
 void
 checkOption(const std::string& option, const std::function<void()>& check);
 
+/** \brief Makes sure that what was printed has arrived. \throws IoFailed it has not */
+void
+flushOutput();
+
 } // namespace pcl6d::app

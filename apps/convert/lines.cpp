@@ -3,7 +3,6 @@
 #include "common/option_table.h"
 #include "convert/verbs.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/io/pcd_io.h>
@@ -165,8 +164,7 @@ runLines(const std::vector<std::string>& arguments)
               cloud.height,
               cloud.width,
               returns);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   return kDone;
 }
 

@@ -66,7 +66,7 @@ addInput(OptionTable& table, LocateSettings& s)
 
 /** Which of a model's cascades are asked, and how their answers are joined. */
 void
-takeRule(const std::string& rule, FinderOptions& finder)
+takeRule(const std::string& rule, ObjectFinderOptions& finder)
 {
   finder.use_range = rule != "reflectance";
   finder.use_reflectance = rule != "range";

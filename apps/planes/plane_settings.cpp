@@ -39,7 +39,7 @@ addInput(OptionTable& table, PlaneSettings& s)
 void
 addPlanes(OptionTable& table, PlaneSettings& s, Words& words)
 {
-  PlaneStepOptions& step = s.step;
+  PlaneFinderOptions& step = s.step;
   table.group("Planes");
   table.add("method", &step.method, planeMethodFromName)
       .help("region-growing|ransac|hough");
@@ -79,7 +79,7 @@ addOptions(OptionTable& table, PlaneSettings& s, Words& words)
   addInput(table, s);
   addPlanes(table, s, words);
   table.group("Run");
-  table.addAs<int>("threads", &s.num_threads)
+  table.addAs<int>("threads", &s.step.num_threads)
       .within(0, 1024, "0 to 1024")
       .help("0: one per core; never changes the result");
   table.add("quiet", &s.quiet).help("print warnings and errors only");

@@ -3,7 +3,6 @@
 #include "common/option_table.h"
 #include "semantic_map/verbs.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
 #include <cstdio>
@@ -65,8 +64,7 @@ relations. MAP: semantic_map.json, or a folder that holds it.
   if (!table.parse(arguments))
     return kDone;
   printMap(readSemanticMap(mapFile(file)));
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   return kDone;
 }
 

@@ -3,6 +3,7 @@
 #include "common/option_table.h"
 #include "convert/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/io/pcd_io.h>
@@ -19,8 +20,6 @@
 namespace pcl6d::app {
 
 namespace {
-constexpr double kDegree = M_PI / 180;
-
 /** \brief Three numbers in one word: 0.1,0,-0.05 */
 struct Triple {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();

@@ -4,6 +4,7 @@
 #include "evaluate/icp_settings.h"
 #include "evaluate/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/registration/minimisers.h>
 
@@ -15,8 +16,6 @@ namespace pcl6d::app {
 
 namespace {
 using Words = std::vector<std::string>;
-
-constexpr double kRadians = M_PI / 180;
 
 /** Names of methods as they are typed, with "all" among them. */
 struct Methods {
@@ -88,7 +87,7 @@ poseFromText(const std::string& text)
   if (!(stream >> std::ws).eof())
     throw UsageError("--guess \"" + text + "\": more than six numbers");
   return poseFromEuler({v[0], v[1], v[2]},
-                       {kRadians * v[3], kRadians * v[4], kRadians * v[5]});
+                       {radians(v[3]), radians(v[4]), radians(v[5])});
 }
 
 void
@@ -148,7 +147,7 @@ addMatching(OptionTable& table, IcpSettings& s)
   table.addAuto("offset-xy", &s.offset_xy)
       .help("[m] or auto: starts reach so far in +-x and +-y; auto: 1.5 x "
             "--max-distance-start");
-  table.addAuto("offset-yaw", &s.offset_yaw, kRadians)
+  table.addAuto("offset-yaw", &s.offset_yaw, kDegree)
       .above(0, "in (0, 180] degrees", 180)
       .help("[deg] or auto: and so far in +-yaw; auto: the angle that moves a point at "
             "the median range by --max-distance-start");
@@ -156,7 +155,7 @@ addMatching(OptionTable& table, IcpSettings& s)
   table.add("steps-yaw", &s.basin.steps_yaw).help("values of yaw, odd");
   table.addAuto("sigma-position", &s.basin.sigma_position)
       .help("[m] or auto: from the covariance of the best pose, voxel / 10 at least");
-  table.addAuto("sigma-orientation", &s.basin.sigma_orientation, kRadians)
+  table.addAuto("sigma-orientation", &s.basin.sigma_orientation, kDegree)
       .above(0, "finite and > 0 degrees", kFinite)
       .help("[deg] or auto: from the covariance of the best pose; at least the angle "
             "that moves a point at the median range by voxel / 10");

@@ -4,6 +4,7 @@
 #include "evaluate/mcl_settings.h"
 #include "evaluate/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 
@@ -13,7 +14,6 @@
 namespace pcl6d::app {
 
 namespace {
-constexpr double kRadians = M_PI / 180;
 constexpr int kMostParticles = 10000000;
 constexpr const char* kMoreThanParticles = "in [--particles, 10000000]";
 
@@ -63,7 +63,7 @@ takeStart(const std::string& text, MclSettings& s)
   }
   const auto v = numbersOf("start", text, 3);
   s.start = MclStart::kGiven;
-  s.start_pose = {v[0], v[1], wrapAngle(kRadians * v[2])};
+  s.start_pose = {v[0], v[1], wrapAngle(radians(v[2]))};
 }
 
 void

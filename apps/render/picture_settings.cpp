@@ -5,6 +5,8 @@
 #include "render/run_pictures.h"
 #include "render/verbs.h"
 
+#include <pcl6d/common/angle.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -97,7 +99,6 @@ addLook(OptionTable& table, PictureSettings& s)
 void
 addViews(OptionTable& table, PictureSettings& s)
 {
-  constexpr double kDegree = M_PI / 180;
   const auto takeScan = [&s](const std::string& word) {
     if (word != "auto")
       s.scan = wholeNumber("scan", word);

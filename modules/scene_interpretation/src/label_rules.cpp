@@ -10,6 +10,8 @@
 #include <iterator>
 
 namespace pcl6d {
+using namespace scene_interpretation;
+
 namespace {
 using Json = nlohmann::ordered_json;
 

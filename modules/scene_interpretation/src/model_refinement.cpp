@@ -15,6 +15,8 @@
 #include <cstdio>
 
 namespace pcl6d {
+using namespace scene_interpretation;
+
 namespace {
 using Kind = ExactDirection::Kind;
 constexpr double kDegree = 0.017453292519943295; // [rad]

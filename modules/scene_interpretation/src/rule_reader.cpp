@@ -7,7 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 namespace {
 using Json = nlohmann::ordered_json;
 constexpr double kDegree = 0.017453292519943295; // [rad]
@@ -235,4 +235,4 @@ addRules(const Json& json, const RulePlace& place, LabelRules& rules)
   });
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

@@ -8,7 +8,7 @@
 #include <string>
 
 /** \file Reading of LabelRules. Internal to the module scene_interpretation. */
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 
 /** \brief A place in a file of rules, for messages. */
 struct RulePlace {
@@ -44,4 +44,4 @@ addRules(const nlohmann::ordered_json& json, const RulePlace& place, LabelRules&
 void
 checkRules(const LabelRules& rules, const std::string& file);
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

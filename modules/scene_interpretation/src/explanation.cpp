@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "label_network.h"
 
+#include <pcl6d/common/angle.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,8 +11,6 @@ namespace pcl6d {
 using namespace scene_interpretation;
 
 namespace {
-constexpr double kDegree = 0.017453292519943295; // [rad]
-
 std::string
 rounded(double value)
 {

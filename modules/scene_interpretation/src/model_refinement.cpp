@@ -2,6 +2,7 @@
 #include "manhattan_frames.h"
 #include "plane_fit.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
@@ -19,8 +20,6 @@ using namespace scene_interpretation;
 
 namespace {
 using Kind = ExactDirection::Kind;
-constexpr double kDegree = 0.017453292519943295; // [rad]
-
 std::string
 rounded(double value)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "json/map_objects_json.h"
 
+#include <pcl6d/io/text.h>
 #include <pcl6d/semantic_map/map_relations.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
@@ -14,7 +15,7 @@ using namespace semantic_map;
 
 namespace {
 Eigen::Vector3d
-unitFrom(const JsonPlace& place)
+unitFrom(const JsonValue& place)
 {
   constexpr double kTolerance = 1e-6; // as readPlanes()
   const Eigen::Vector3d vector = place.vector3();
@@ -23,7 +24,7 @@ unitFrom(const JsonPlace& place)
 }
 
 std::optional<double>
-numberFrom(const JsonPlace& place, const std::string& key)
+numberFrom(const JsonValue& place, const std::string& key)
 {
   if (const auto number = place.find(key))
     return number->number();
@@ -31,7 +32,7 @@ numberFrom(const JsonPlace& place, const std::string& key)
 }
 
 MapScan
-scanFrom(const JsonPlace& place)
+scanFrom(const JsonValue& place)
 {
   return {(place / "id").count(),
           (place / "file").text(),
@@ -40,7 +41,7 @@ scanFrom(const JsonPlace& place)
 }
 
 Plane
-planeFrom(const JsonPlace& place)
+planeFrom(const JsonValue& place)
 {
   Plane plane;
   plane.normal = unitFrom(place / "normal");
@@ -54,7 +55,7 @@ planeFrom(const JsonPlace& place)
 }
 
 MapPlane
-mapPlaneFrom(const JsonPlace& place)
+mapPlaneFrom(const JsonValue& place)
 {
   MapPlane plane;
   plane.measured = planeFrom(place);
@@ -65,7 +66,7 @@ mapPlaneFrom(const JsonPlace& place)
 }
 
 MapStorey
-storeyFrom(const JsonPlace& place)
+storeyFrom(const JsonValue& place)
 {
   return {(place / "floor").number(),
           numberFrom(place, "ceiling"),
@@ -73,7 +74,7 @@ storeyFrom(const JsonPlace& place)
 }
 
 MapRoom
-roomFrom(const JsonPlace& place)
+roomFrom(const JsonValue& place)
 {
   return {(place / "storey").count(),
           (place / "area").number(),
@@ -84,14 +85,14 @@ roomFrom(const JsonPlace& place)
 /** The elements of a list whose ids are 1, 2, ... */
 template <typename Read>
 auto
-numbered(const JsonPlace& list, Read read)
+numbered(const JsonValue& list, Read read)
 {
   std::vector<decltype(read(list))> elements;
-  list.forEach([&](const JsonPlace& place) {
+  for (const JsonValue& place : list.elements()) {
     const std::size_t id = elements.size() + 1;
     (place / "id").require((place / "id").count() == id, std::to_string(id));
     elements.push_back(read(place));
-  });
+  }
   return elements;
 }
 
@@ -101,23 +102,21 @@ public:
   explicit ReferenceReader(const SemanticMap& map) : map_(map) {}
 
   void
-  requireThing(const JsonPlace& place, const Entity& entity) const
+  requireThing(const JsonValue& place, const Entity& entity) const
   {
     place.require(map_.placeOf(entity).has_value(), "in this map");
   }
 
   void
-  requireScans(const JsonPlace& list) const
+  requireScans(const JsonValue& list) const
   {
-    list.forEach([&](const JsonPlace& element) {
-      (element / "scans").forEach([&](const JsonPlace& scan) {
+    for (const JsonValue& element : list.elements())
+      for (const JsonValue& scan : (element / "scans").elements())
         requireThing(scan, {EntityKind::kScan, scan.count()});
-      });
-    });
   }
 
   MapLink
-  link(const JsonPlace& place) const
+  link(const JsonValue& place) const
   {
     requireThing(place / "from", {EntityKind::kScan, (place / "from").count()});
     requireThing(place / "to", {EntityKind::kScan, (place / "to").count()});
@@ -130,7 +129,7 @@ public:
   }
 
   MapRelation
-  relation(const JsonPlace& place) const
+  relation(const JsonValue& place) const
   {
     std::istringstream words(place.text());
     const std::vector<std::string> parts{std::istream_iterator<std::string>(words), {}};
@@ -149,21 +148,21 @@ private:
 };
 
 std::vector<MapScan>
-scansFrom(const JsonPlace& list)
+scansFrom(const JsonValue& list)
 {
   std::vector<MapScan> scans;
-  list.forEach([&](const JsonPlace& place) {
+  for (const JsonValue& place : list.elements()) {
     scans.push_back(scanFrom(place));
     const std::size_t before = scans.size() - 1;
     (place / "id")
         .require(before == 0 || scans[before - 1].id < scans[before].id,
                  "larger than the id before");
-  });
+  }
   return scans;
 }
 
 SemanticMap
-mapFrom(const JsonPlace& json)
+mapFrom(const JsonValue& json)
 {
   SemanticMap map;
   (json / "schema_version")
@@ -177,18 +176,15 @@ mapFrom(const JsonPlace& json)
   map.storeys = numbered(json / "storeys", storeyFrom);
   map.rooms = numbered(json / "rooms", roomFrom);
   const ReferenceReader references(map);
-  (json / "rooms").forEach([&](const JsonPlace& room) {
+  for (const JsonValue& room : (json / "rooms").elements())
     references.requireThing(room / "storey",
                             {EntityKind::kStorey, (room / "storey").count()});
-  });
   references.requireScans(json / "planes");
   references.requireScans(json / "objects");
-  (json / "links").forEach([&](const JsonPlace& place) {
+  for (const JsonValue& place : (json / "links").elements())
     map.links.push_back(references.link(place));
-  });
-  (json / "relations").forEach([&](const JsonPlace& place) {
+  for (const JsonValue& place : (json / "relations").elements())
     map.relations.push_back(references.relation(place));
-  });
   return map;
 }
 } // namespace
@@ -196,9 +192,7 @@ mapFrom(const JsonPlace& json)
 SemanticMap
 readSemanticMap(const std::filesystem::path& path)
 {
-  SemanticMap map;
-  readJson(path.string(), [&](const JsonPlace& json) { map = mapFrom(json); });
-  return map;
+  return mapFrom(parseJson(text::readFile(path), path.string()));
 }
 
 } // namespace pcl6d

@@ -2,11 +2,10 @@
 #include "point_grid.h"
 
 #include <pcl6d/benchmarking/map_entropy.h>
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -27,9 +26,8 @@ spreadOf(const PointMoments& moments, std::size_t min_points)
   spread.entropy = spread.variance = std::numeric_limits<double>::quiet_NaN();
   if (moments.count < min_points)
     return spread;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments.covariance(),
-                                                              Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d values = solver.eigenvalues().cwiseMax(kLeastVariance);
+  const Eigen::Vector3d values =
+      symmetricEigenvalues<3>(moments.covariance()).cwiseMax(kLeastVariance);
   spread.variance = values[0];
   spread.entropy = 1.5 * (kLogTwoPi + 1) + 0.5 * portableLog(values.prod());
   return spread;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plane_patch.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/portable_math.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -96,8 +95,8 @@ PlanePatch::fit(const Points& points, const std::vector<std::size_t>& members)
     const Eigen::Vector3d d = points[i].cast<double>() - mean;
     scatter += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  const auto eigen = symmetricEigen<3>(scatter);
+  const Eigen::Vector3d normal = eigen.vectors.col(0);
   normal_ = normal.dot(normal_) < 0 ? Eigen::Vector3d(-normal) : normal;
   offset_ = normal_.dot(mean);
 }

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "point_grid.h"
 
+#include <pcl6d/common/simd_clones.h>
 #include <pcl6d/filters/voxel_reduction.h>
 
 #include <algorithm>
 #include <cmath>
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PCL6D_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define PCL6D_SIMD_CLONES
-#endif
-#define PCL6D_INLINE __attribute__((always_inline)) inline
 
 namespace pcl6d {
 

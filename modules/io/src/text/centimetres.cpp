@@ -79,7 +79,7 @@ appendCentimetres(std::string& text, float value)
   if (static_cast<float>(read / 100) == value)
     return;
   text.resize(start);
-  appendNumber(text, 100 * static_cast<double>(value)); // exact in double
+  text::appendNumber(text, 100 * static_cast<double>(value)); // exact in double
 }
 
 void

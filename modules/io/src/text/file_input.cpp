@@ -13,7 +13,7 @@ constexpr std::size_t kLargeBlock = 1 << 24; // [byte] where the size is not kno
 } // namespace
 
 FileInput::FileInput(const std::filesystem::path& path)
-: path_(path), stream_(open(path))
+: path_(path), stream_(text::open(path))
 {}
 
 FileInput::FileInput(std::ifstream stream,
@@ -37,7 +37,7 @@ FileInput::fill()
   stream_.read(buffer_.data() + end_,
                static_cast<std::streamsize>(buffer_.size() - end_));
   if (stream_.bad())
-    fail(path_, systemReason("cannot be read"));
+    text::fail(path_, text::systemReason("cannot be read"));
   end_ += static_cast<std::size_t>(stream_.gcount());
   return stream_.gcount() > 0;
 }
@@ -85,7 +85,7 @@ FileInput::read(std::uint8_t* target, std::size_t size)
   stream_.read(reinterpret_cast<char*>(target + buffered),
                static_cast<std::streamsize>(size - buffered));
   if (stream_.bad())
-    fail(path_, systemReason("cannot be read"));
+    text::fail(path_, text::systemReason("cannot be read"));
   return buffered + static_cast<std::size_t>(stream_.gcount());
 }
 

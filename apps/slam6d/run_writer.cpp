@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planes/plane_step.h"
+#include "common/plane_files.h"
 #include "slam6d/run_writer.h"
 #include "slam6d/verdict.h"
 

@@ -8,8 +8,8 @@
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/trajectory.h>
+#include <pcl6d/filters/map_builder.h>
 #include <pcl6d/run/run_summary.h>
-#include <pcl6d/slam6d/map_builder.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <chrono>

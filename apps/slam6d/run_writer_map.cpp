@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of RunWriter that needs the scans again: scans/, map.pcd and the picture.
-#include "planes/plane_step.h"
+#include "common/plane_files.h"
 #include "slam6d/run_writer.h"
 
 #include <pcl6d/common/error.h>
@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 namespace pcl6d::app {
 
@@ -61,17 +60,6 @@ intensitiesOf(const pcl::PCLPointCloud2& cloud)
   return {};
 }
 
-/** Points outside the range gate are no surfaces; the map leaves out what is NaN. */
-Points
-gated(Points points, const Slam6DParameters& p)
-{
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (auto& point : points)
-    if (!isWithinRange(point, p.min_range.value, p.max_range.value))
-      point.setConstant(nan);
-  return points;
-}
-
 Eigen::Isometry3d
 relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
 {
@@ -103,7 +91,10 @@ RunWriter::writeScansAndMap(MapBuilder& map, MapBuilder* fine_map)
     });
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = begin + k;
-      const Points points = gated(std::move(batch[k].points), result_.parameters);
+      Points& points = batch[k].points;
+      maskOutOfRange(result_.parameters.min_range.value,
+                     result_.parameters.max_range.value,
+                     points);
       const Eigen::Isometry3d& pose = result_.scans[i].T_world_scan;
       map.addScan(points,
                   intensitiesOf(batch[k].cloud),
@@ -125,11 +116,12 @@ RunWriter::writePlanesOf(const MapBuilder& map)
   std::vector<Eigen::Isometry3d> poses;
   for (const ScanResult& scan : result_.scans)
     poses.push_back(scan.T_world_scan);
-  const PlaneStepCloud cloud = planeCloudOf(map, poses, summary_.world_offset);
-  const PlaneStepOptions options;
-  const PlaneStepResult planes = findPlanes(cloud, options, settings_.slam.num_threads);
+  const SceneCloud cloud = sceneCloudOf(map, poses, summary_.world_offset);
+  PlaneFinderOptions options;
+  options.num_threads = settings_.slam.num_threads;
+  const PlaneFinder finder(options);
   const auto warnings =
-      writePlaneFiles(out_, cloud, planes, options, summary_.generator);
+      writePlaneFiles(out_, finder, cloud, finder.find(cloud), summary_.generator);
   summary_.warnings.insert(summary_.warnings.end(), warnings.begin(), warnings.end());
 }
 

@@ -20,7 +20,7 @@ namespace PCL6D_EXPORTS pcl6d {
  * the world stays. Scans can be added one at a time, so that they need not be in memory
  * together. The voxels are counted from the whole metres of the first scan's position,
  * so that a small object is mapped as finely far from the origin as near it.
- * \ingroup slam6d */
+ * \ingroup filters */
 class MapBuilder {
 public:
   /** \param[in] voxel [m] finite and > 0

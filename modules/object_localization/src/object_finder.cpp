@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "objects/object_finder.h"
-
 #include <pcl6d/common/error.h>
 #include <pcl6d/object_localization/cascade_file.h>
 #include <pcl6d/object_localization/detection_proposals.h>
-#include <pcl6d/object_localization/pose_covariance.h>
+#include <pcl6d/object_localization/object_finder.h>
 #include <pcl6d/plane_segmentation/segment_planes.h>
 
 #include <algorithm>
+#include <iterator>
 
-namespace pcl6d::app {
+namespace pcl6d {
 
 namespace {
 ObjectDetector
-detectorOf(const StoredModel& stored, const FinderOptions& options)
+detectorOf(const StoredModel& stored, const ObjectFinderOptions& options)
 {
   std::vector<HaarCascade> cascades;
   if (options.use_range && stored.range_cascade)
@@ -48,7 +47,7 @@ proposalMethodFromName(const std::string& name)
 }
 
 ObjectFinder::ObjectFinder(std::vector<StoredModel> models,
-                           const FinderOptions& options)
+                           const ObjectFinderOptions& options)
 : models_(std::move(models)), options_(options)
 {
   options_.detector.validate();
@@ -102,31 +101,4 @@ ObjectFinder::find(const Points& points, const std::vector<float>& reflectance) 
   return strongestObjects(std::move(objects), options_.max_shared);
 }
 
-MapObject
-ObjectFinder::mapObject(const LocalizedObject& object,
-                        const Eigen::Isometry3d& T_world_scan,
-                        std::size_t scan_id) const
-{
-  const auto stored =
-      std::find_if(models_.begin(), models_.end(), [&](const StoredModel& m) {
-        return m.model.objectClass() == object.object_class;
-      });
-  MapObject made;
-  made.pose.object_class = object.object_class;
-  made.pose.T_world_object = T_world_scan * object.T_scene_object;
-  if (stored != models_.end()) {
-    made.pose.box = stored->model.box();
-    made.symmetry = stored->model.symmetry().turns;
-  }
-  made.pose.points = object.points.size();
-  made.score = object.score;
-  made.visible_fraction = object.visible_fraction;
-  made.rms = object.rms;
-  if (object.covariance)
-    made.covariance =
-        movedCovariance(*object.covariance, T_world_scan, object.T_scene_object);
-  made.scans = {scan_id};
-  return made;
-}
-
-} // namespace pcl6d::app
+} // namespace pcl6d

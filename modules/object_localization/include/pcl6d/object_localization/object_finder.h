@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/points.h>
 #include <pcl6d/object_localization/localized_object.h>
 #include <pcl6d/object_localization/model_store.h>
 #include <pcl6d/object_localization/object_detector.h>
 #include <pcl6d/object_localization/object_localizer.h>
-#include <pcl6d/semantic_map/semantic_map.h>
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace pcl6d::app {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Where objects are looked for. */
 enum class ProposalMethod {
@@ -25,7 +26,8 @@ enum class ProposalMethod {
 ProposalMethod
 proposalMethodFromName(const std::string& name);
 
-struct FinderOptions {
+/** \brief Knobs of ObjectFinder. */
+struct ObjectFinderOptions {
   ProposalMethod proposals = ProposalMethod::kAuto;
   LocalizerOptions localizer;
   DetectorOptions detector;
@@ -35,24 +37,24 @@ struct FinderOptions {
   double max_shared = 0.3; ///< of the points of the smaller of two objects
 };
 
-/** \brief Finds objects of several models in scans. */
+/** \brief Finds objects of several models in scans (book 7.2): proposals, poses, and of
+ * objects that explain the same points the one that explains most. \code
+ * const pcl6d::ObjectFinder finder({pcl6d::readStoredModel("share/models/chair")});
+ * for (const auto& found : finder.find(points)) // [m], the scanner at the origin
+ *   use(found.object_class, found.T_scene_object);
+ * \endcode \ingroup object_localization */
 class ObjectFinder {
 public:
   /** \throws BadArgument an option breaks its rule, or kCascade is asked for and a model has
    * no cascade that is to be used \throws IoFailed a cascade cannot be read */
-  ObjectFinder(std::vector<StoredModel> models, const FinderOptions& options);
+  explicit ObjectFinder(std::vector<StoredModel> models,
+                        const ObjectFinderOptions& options = {});
 
   /** \param[in] points [m] finite, in the scan's frame, the scanner at the origin
    * \param[in] reflectance one per point, or empty
    * \return most evidence first \throws BadArgument fewer than 10 points */
   std::vector<LocalizedObject>
-  find(const Points& points, const std::vector<float>& reflectance) const;
-
-  /** \return an object of a scan as one of the map */
-  MapObject
-  mapObject(const LocalizedObject& object,
-            const Eigen::Isometry3d& T_world_scan,
-            std::size_t scan_id) const;
+  find(const Points& points, const std::vector<float>& reflectance = {}) const;
 
   const std::vector<StoredModel>&
   models() const
@@ -68,9 +70,9 @@ private:
            const std::vector<float>& reflectance) const;
 
   std::vector<StoredModel> models_;
-  FinderOptions options_;
+  ObjectFinderOptions options_;
   std::vector<ObjectLocalizer> localizers_;
   std::vector<std::optional<ObjectDetector>> detectors_;
 };
 
-} // namespace pcl6d::app
+} // namespace pcl6d

@@ -2,7 +2,7 @@
 #include "support/points.h"
 #include "support/poses.h"
 
-#include <pcl6d/slam6d/map_builder.h>
+#include <pcl6d/filters/map_builder.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/require.h>
-#include <pcl6d/slam6d/map_builder.h>
+#include <pcl6d/filters/map_builder.h>
 
 #include <cmath>
 #include <cstring>

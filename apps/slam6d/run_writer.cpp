@@ -7,11 +7,11 @@
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/visualization/report.h>
 
 #include <algorithm>
-#include <charconv>
 #include <sys/resource.h>
 
 namespace pcl6d::app {
@@ -58,14 +58,6 @@ entryOf(const std::string& file, int index, const ScanResult& scan)
   return entry;
 }
 
-/** \return the number in as few digits as tell it from all others */
-std::string
-shortest(double value)
-{
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
 std::vector<RunResult::Option>
 optionsOf(const Settings& settings, const Slam6DParameters& parameters)
 {
@@ -74,7 +66,7 @@ optionsOf(const Settings& settings, const Slam6DParameters& parameters)
     options.push_back({word.name, word.value, word.given ? "given" : "default", ""});
   for (const auto& [name, parameter] : named(parameters)) {
     options.push_back({name,
-                       shortest(parameter.value),
+                       text::shortest(parameter.value),
                        parameter.given ? "given" : "derived",
                        parameter.why});
   }

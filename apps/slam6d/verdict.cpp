@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam6d/verdict.h"
 
+#include <pcl6d/io/text.h>
+
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
@@ -49,12 +51,6 @@ describeQuality(const RunResult& summary, std::ostream& text)
        << rms->rms << " m (" << rms->file << ")";
 }
 
-std::string
-counted(std::size_t count, const std::string& thing)
-{
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
 /** A line on each stage after matching. */
 void
 describeStages(const RunResult& summary, std::ostream& text)
@@ -78,7 +74,7 @@ describeStages(const RunResult& summary, std::ostream& text)
 std::string
 verdictOf(const Slam6DResult& result, const RunResult& summary)
 {
-  const std::string all = counted(result.scans.size(), "scan");
+  const std::string all = text::counted(result.scans.size(), "scan");
   const std::size_t pending = result.count(ScanState::kPending);
   std::ostringstream text;
   if (pending > 0)
@@ -95,17 +91,17 @@ verdictOf(const Slam6DResult& result, const RunResult& summary)
   else
     text << result.count(ScanState::kMatched) + 1 << " of " << all << " registered";
   if (const auto failed = result.count(ScanState::kPredicted))
-    text << "\nNOT TO BE TRUSTED: " << counted(failed, "scan")
+    text << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
          << " could not be matched, predicted pose kept"
          << filesIn("predicted", summary);
   if (const auto limit = result.count(ScanState::kUnconverged))
     text
-        << "\nNOT TO BE TRUSTED: " << counted(limit, "scan")
+        << "\nNOT TO BE TRUSTED: " << text::counted(limit, "scan")
         << " did not converge (bad initial pose, little overlap, --metascan too small?)"
         << filesIn("unconverged", summary);
   if (!summary.floating.empty())
     text << "\nNOT TO BE TRUSTED: no link joins "
-         << counted(summary.floating.size(), "scan")
+         << text::counted(summary.floating.size(), "scan")
          << " to the first one: " << summary.floating.front()
          << (summary.floating.size() > 1 ? ", ..." : "");
   describeQuality(summary, text);

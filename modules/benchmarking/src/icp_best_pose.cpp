@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icp_best_pose.h"
 
+#include <pcl6d/common/angle.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-namespace pcl6d::detail {
+namespace pcl6d::benchmarking {
 
 namespace {
 std::string
@@ -81,7 +83,7 @@ doubtOfReturn(const IcpBestPose& best,
   std::ostringstream doubt;
   doubt.precision(3);
   doubt << "ICP started in the pose found leaves it by " << distance.translation
-        << " m and " << 180 / M_PI * distance.rotation << " deg";
+        << " m and " << degrees(distance.rotation) << " deg";
   return doubt.str();
 }
 
@@ -105,4 +107,4 @@ disagreementsOf(const std::vector<IcpBestPose>& best, const IcpBasinOptions& opt
   return found;
 }
 
-} // namespace pcl6d::detail
+} // namespace pcl6d::benchmarking

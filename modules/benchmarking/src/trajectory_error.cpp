@@ -11,6 +11,7 @@
 #include <cmath>
 
 namespace pcl6d {
+using namespace benchmarking;
 
 namespace {
 ErrorStatistics

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -9,35 +10,28 @@
 
 namespace pcl6d {
 
+namespace {
+constexpr Named<InitialGuess> kGuesses[] = {{InitialGuess::kOdometry, "odometry"},
+                                            {InitialGuess::kOverlap, "overlap"},
+                                            {InitialGuess::kFeatures, "features"}};
+} // namespace
+
 std::vector<std::string>
 initialGuessNames()
 {
-  return {"odometry", "overlap", "features"};
+  return namesOf(kGuesses);
 }
 
 InitialGuess
 initialGuessFromName(const std::string& name)
 {
-  for (const auto guess :
-       {InitialGuess::kOdometry, InitialGuess::kOverlap, InitialGuess::kFeatures})
-    if (name == toString(guess))
-      return guess;
-  require(false, "initial guess", name, "odometry|overlap|features");
-  return InitialGuess::kOdometry;
+  return fromName(kGuesses, "initial guess", name);
 }
 
 const char*
 toString(InitialGuess guess)
 {
-  switch (guess) {
-  case InitialGuess::kOdometry:
-    return "odometry";
-  case InitialGuess::kOverlap:
-    return "overlap";
-  case InitialGuess::kFeatures:
-    return "features";
-  }
-  return "unknown";
+  return nameOf(kGuesses, guess);
 }
 
 void

@@ -1,39 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <algorithm>
 
 namespace pcl6d {
 
+namespace {
+constexpr Named<ScanState> kStates[] = {{ScanState::kPending, "pending"},
+                                        {ScanState::kFixed, "fixed"},
+                                        {ScanState::kMatched, "matched"},
+                                        {ScanState::kUnconverged, "unconverged"},
+                                        {ScanState::kPredicted, "predicted"}};
+} // namespace
+
 const char*
 toString(ScanState state)
 {
-  switch (state) {
-  case ScanState::kPending:
-    return "pending";
-  case ScanState::kFixed:
-    return "fixed";
-  case ScanState::kMatched:
-    return "matched";
-  case ScanState::kUnconverged:
-    return "unconverged";
-  case ScanState::kPredicted:
-    return "predicted";
-  }
-  return "unknown";
+  return nameOf(kStates, state);
 }
 
 ScanState
 scanStateFromName(const std::string& name)
 {
-  for (const ScanState state : {ScanState::kPending,
-                                ScanState::kFixed,
-                                ScanState::kMatched,
-                                ScanState::kUnconverged,
-                                ScanState::kPredicted})
-    if (name == toString(state))
-      return state;
+  if (const auto state = findNamed(kStates, name))
+    return *state;
   throw BadArgument("no state of a scan is called '" + name + "'");
 }
 

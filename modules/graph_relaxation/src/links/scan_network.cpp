@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/pose.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/graph_relaxation/scan_network.h>
+#include <pcl6d/registration/plane_sums.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+constexpr double kHysteresis = 0.1; ///< share by which a link may fall short
+/** Links are chosen anew when a pose has moved by so much of max_distance, or turned. */
+constexpr double kMoved = 0.2, kTurned = 0.01; // [rad]
+
+/** Finds the partner in scan a of points of scan b. */
+class PartnerSearch {
+public:
+  PartnerSearch(const NetworkScan& a,
+                const NetworkScan& b,
+                const Eigen::Isometry3d& T_a_b,
+                double max_distance)
+  : a_(a.model())
+  , b_(b.model())
+  , T_a_b_(T_a_b)
+  , limit_sq_(static_cast<float>(max_distance * max_distance))
+  {}
+
+  /** \return the index of the partner of b's i-th point, -1: none */
+  int
+  operator()(std::size_t i) const
+  {
+    const Eigen::Vector3f p = (T_a_b_ * b_.points()[i].cast<double>()).cast<float>();
+    return a_.tree().nearest(p, limit_sq_).index;
+  }
+
+private:
+  const IcpModel& a_;
+  const IcpModel& b_;
+  Eigen::Isometry3d T_a_b_;
+  float limit_sq_;
+};
+
+/** The norm of a pair in the axes of the world, by the normals of both points. */
+Eigen::Matrix3d
+normOf(Metric metric,
+       const Eigen::Vector3d& normal_a,
+       const Eigen::Vector3d& normal_b,
+       double epsilon)
+{
+  if (metric == Metric::kGicp)
+    return planeToPlane(normal_a, normal_b, epsilon);
+  return normal_a * normal_a.transpose();
+}
+
+std::size_t
+strideFor(std::size_t points, std::size_t wanted)
+{
+  return std::max<std::size_t>(1, (points + wanted - 1) / wanted);
+}
+
+constexpr Named<LinkRule> kRules[] = {{LinkRule::kOverlap, "overlap"},
+                                      {LinkRule::kDistance, "distance"}};
+} // namespace
+
+std::vector<std::string>
+linkRuleNames()
+{
+  return namesOf(kRules);
+}
+
+LinkRule
+linkRuleFromName(const std::string& name)
+{
+  return fromName(kRules, "links", name);
+}
+
+const char*
+toString(LinkRule rule)
+{
+  return nameOf(kRules, rule);
+}
+
+void
+ScanNetworkOptions::validate() const
+{
+  require(max_distance > 0, "max_distance", max_distance, "> 0");
+  require(
+      min_overlap >= 0 && min_overlap <= 1, "min_overlap", min_overlap, "in [0, 1]");
+  require(link_distance > 0, "link_distance", link_distance, "> 0");
+  require(points_per_link > 0, "points_per_link", points_per_link, "> 0");
+  require(
+      gicp_epsilon > 0 && gicp_epsilon <= 1, "gicp_epsilon", gicp_epsilon, "in (0, 1]");
+}
+
+ScanNetwork::ScanNetwork(const std::vector<NetworkScan>& scans,
+                         std::vector<bool> usable,
+                         const ScanNetworkOptions& options)
+: scans_(scans), usable_(std::move(usable)), options_(options)
+{
+  options_.validate();
+  require(usable_.size() == scans_.size(), "usable", usable_.size(), "one per scan");
+  for (const NetworkScan& scan : scans_)
+    require(options_.metric == Metric::kPoint ||
+                scan.model().normals().size() == scan.model().points().size(),
+            "normals of a scan",
+            scan.model().normals().size(),
+            "one per point, for metrics of planes");
+}
+
+void
+ScanNetwork::keep(std::size_t a, std::size_t b, LinkKind kind, bool trusted)
+{
+  require(a < scans_.size(), "scan of a link", a, "below the number of scans");
+  require(b < scans_.size(), "scan of a link", b, "below the number of scans");
+  require(a != b, "link of a scan to itself", a, "between two scans");
+  const ScanPair link = std::minmax(a, b);
+  const auto known = kept_.find(link);
+  if (known == kept_.end())
+    kept_[link] = {kind, trusted};
+}
+
+/** \return the share of min_overlap that a link needs, the multiple of link_distance */
+double
+ScanNetwork::slack(const ScanPair& link) const
+{
+  return chosen_.count(link) > 0 ? kHysteresis : 0;
+}
+
+std::set<ScanPair>
+ScanNetwork::byOverlap(const Poses& poses) const
+{
+  const auto found = overlappingPairs(
+      scans_,
+      poses,
+      1.2 * options_.max_distance, // some still come nearer
+      [&](const ScanPair& link) { return (1 - slack(link)) * options_.min_overlap; },
+      options_.num_threads);
+  return {found.begin(), found.end()};
+}
+
+std::set<ScanPair>
+ScanNetwork::byDistance(const Poses& poses) const
+{
+  std::set<ScanPair> links;
+  for (std::size_t b = 0; b < scans_.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a) {
+      const double apart = (poses[a].translation() - poses[b].translation()).norm();
+      if (apart < (1 + slack({a, b})) * options_.link_distance)
+        links.insert({a, b});
+    }
+  return links;
+}
+
+void
+ScanNetwork::choose(const Poses& poses)
+{
+  const bool as_before =
+      chosen_at_.size() == poses.size() &&
+      std::equal(poses.begin(),
+                 poses.end(),
+                 chosen_at_.begin(),
+                 [&](const Eigen::Isometry3d& now, const Eigen::Isometry3d& then) {
+                   const MotionSize moved = distanceBetween(then, now);
+                   return moved.translation < kMoved * options_.max_distance &&
+                          moved.rotation < kTurned;
+                 });
+  if (as_before)
+    return;
+  chosen_at_ = poses;
+  std::set<ScanPair> chosen;
+  for (const ScanPair& link :
+       options_.rule == LinkRule::kOverlap ? byOverlap(poses) : byDistance(poses))
+    if (usable_[link.first] && usable_[link.second])
+      chosen.insert(link);
+  for (const auto& [link, kept] : kept_)
+    if (usable_[link.first] && usable_[link.second])
+      chosen.insert(link);
+  chosen_ = std::move(chosen);
+}
+
+LinkPairs
+ScanNetwork::pairsOf(const ScanPair& link, const Poses& poses) const
+{
+  const auto [a, b] = link;
+  LinkPairs pairs;
+  pairs.from = a;
+  pairs.to = b;
+  const auto kept = kept_.find(link);
+  pairs.trusted = kept != kept_.end() && kept->second.trusted;
+  const IcpModel &from = scans_[a].model(), &to = scans_[b].model();
+  const PartnerSearch partnerOf(
+      scans_[a], scans_[b], poses[a].inverse() * poses[b], options_.max_distance);
+  const std::size_t stride = strideFor(to.points().size(), options_.points_per_link);
+  for (std::size_t i = 0; i < to.points().size(); i += stride) {
+    const int partner = partnerOf(i);
+    if (partner < 0)
+      continue;
+    if (options_.metric != Metric::kPoint) {
+      const Eigen::Vector3d n =
+          poses[a].linear() * from.normals()[partner].cast<double>();
+      const Eigen::Vector3d m = poses[b].linear() * to.normals()[i].cast<double>();
+      if (options_.metric == Metric::kPlane && n.isZero(0))
+        continue;
+      pairs.norms.push_back(normOf(options_.metric, n, m, options_.gicp_epsilon));
+    }
+    pairs.points_from.push_back(from.points()[partner]);
+    pairs.points_to.push_back(to.points()[i]);
+  }
+  return pairs;
+}
+
+std::vector<LinkPairs>
+ScanNetwork::pairs(const Poses& poses)
+{
+  require(poses.size() == scans_.size(), "poses", poses.size(), "one per scan");
+  choose(poses);
+  const std::vector<ScanPair> links(chosen_.begin(), chosen_.end());
+  std::vector<LinkPairs> found(links.size());
+  parallelFor(links.size(), options_.num_threads, [&](std::size_t k) {
+    found[k] = pairsOf(links[k], poses);
+  });
+  return found;
+}
+
+ScanLink
+ScanNetwork::describeLink(const ScanPair& pair, const Poses& poses) const
+{
+  const auto [a, b] = pair;
+  ScanLink link;
+  link.from = a;
+  link.to = b;
+  const auto kept = kept_.find(pair);
+  link.kind = kept != kept_.end() ? kept->second.kind : LinkKind::kNetwork;
+  link.distance = (poses[a].translation() - poses[b].translation()).norm();
+  if (!usable_[a] || !usable_[b]) {
+    link.verdict = LinkVerdict::kRefused;
+    link.reason = "one of its scans could not be matched";
+    return link;
+  }
+  const IcpModel &from = scans_[a].model(), &to = scans_[b].model();
+  const Eigen::Isometry3d T_a_b = poses[a].inverse() * poses[b];
+  const PartnerSearch partnerOf(scans_[a], scans_[b], T_a_b, options_.max_distance);
+  const std::size_t stride = strideFor(to.points().size(), options_.points_per_link);
+  PlaneAccumulator planes;
+  double sum_sq = 0;
+  std::size_t looked = 0;
+  for (std::size_t i = 0; i < to.points().size(); i += stride, ++looked) {
+    const int partner = partnerOf(i);
+    if (partner < 0)
+      continue;
+    const Eigen::Vector3d p = T_a_b * to.points()[i].cast<double>();
+    const Eigen::Vector3d m = from.points()[partner].cast<double>();
+    ++link.pairs;
+    sum_sq += (p - m).squaredNorm();
+    if (!from.normals().empty())
+      planes.add(p, m, from.normals()[partner].cast<double>());
+  }
+  if (link.pairs > 0) {
+    link.overlap = static_cast<double>(link.pairs) / static_cast<double>(looked);
+    link.rms = std::sqrt(sum_sq / static_cast<double>(link.pairs));
+  }
+  if (planes.sums().count >= 6)
+    link.condition = localizabilityOf(planes.sums()).eigenvalues.minCoeff();
+  return link;
+}
+
+std::vector<ScanLink>
+ScanNetwork::describe(const Poses& poses) const
+{
+  std::set<ScanPair> all = chosen_;
+  for (const auto& [link, kept] : kept_)
+    all.insert(link);
+  const std::vector<ScanPair> links(all.begin(), all.end());
+  std::vector<ScanLink> described(links.size());
+  parallelFor(links.size(), options_.num_threads, [&](std::size_t k) {
+    described[k] = describeLink(links[k], poses);
+  });
+  return described;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
+#include <pcl6d/filters/voxel_reduction.h>
+#include <pcl6d/registration/icp_model.h>
+#include <pcl6d/search/point_list.h>
+#include <pcl6d/search/point_octree.h>
+
+#include <utility>
+
+namespace pcl6d {
+
+namespace {
+constexpr double kApproximation = 0.1; ///< epsilon of the approximate search
+
+constexpr Named<SearchMethod> kMethods[] = {{SearchMethod::kKdTree, "kdtree"},
+                                            {SearchMethod::kCached, "cached"},
+                                            {SearchMethod::kApproximate, "approximate"},
+                                            {SearchMethod::kOctree, "octree"},
+                                            {SearchMethod::kBruteForce, "brute-force"}};
+
+/** \return the plain search of a structure that is made here */
+template <typename Structure>
+std::function<Neighbour(const Eigen::Vector3f&, float)>
+searchOf(const Points& points)
+{
+  return [structure = std::make_shared<const Structure>(points)](
+             const Eigen::Vector3f& query, float max_distance_sq) {
+    return structure->nearest(query, max_distance_sq);
+  };
+}
+} // namespace
+
+std::vector<std::string>
+searchMethodNames()
+{
+  return namesOf(kMethods);
+}
+
+SearchMethod
+searchMethodFromName(const std::string& name)
+{
+  return fromName(kMethods, "search", name);
+}
+
+const char*
+toString(SearchMethod method)
+{
+  return nameOf(kMethods, method);
+}
+
+IcpModel::IcpModel(Points points, const Options& options)
+: points_(std::move(points)), has_normals_(options.normals)
+{
+  build(options);
+  if (options.normals)
+    normals_ = makeNormals(options);
+}
+
+IcpModel::IcpModel(Points points, Normals normals, const Options& options)
+: points_(std::move(points)), normals_(std::move(normals)), has_normals_(true)
+{
+  require(
+      normals_.size() == points_.size(), "normals", normals_.size(), "one per point");
+  build(options);
+}
+
+Normals
+IcpModel::makeNormals(const Options& options) const
+{
+  if (options.normal_voxel == 0)
+    return estimateNormals(points_, *tree_, options.neighbours, options.num_threads);
+  ReductionOptions reduction;
+  reduction.voxel = options.normal_voxel;
+  const Points patches = reducePoints(points_, reduction);
+  return estimateNormals(points_,
+                         patches,
+                         PointTree(patches, options.num_threads),
+                         options.neighbours,
+                         options.num_threads);
+}
+
+void
+IcpModel::build(const Options& options)
+{
+  tree_ = std::make_shared<const PointTree>(points_, options.num_threads);
+  switch (options.search) {
+  case SearchMethod::kCached:
+    break;
+  case SearchMethod::kKdTree:
+    search_ = [tree = tree_](const Eigen::Vector3f& query, float max_distance_sq) {
+      return tree->nearest(query, max_distance_sq);
+    };
+    break;
+  case SearchMethod::kApproximate:
+    search_ = [tree = tree_](const Eigen::Vector3f& query, float max_distance_sq) {
+      return tree->nearestApproximate(query, max_distance_sq, kApproximation);
+    };
+    break;
+  case SearchMethod::kOctree:
+    search_ = searchOf<PointOctree>(points_);
+    break;
+  case SearchMethod::kBruteForce:
+    search_ = searchOf<PointList>(points_);
+    break;
+  }
+}
+
+IcpSource
+IcpModel::source() const
+{
+  return {&points_, has_normals_ ? &normals_ : nullptr};
+}
+
+IcpTargetPart
+IcpModel::part(const Eigen::Isometry3d& T_target_part) const
+{
+  return {tree_.get(),
+          &points_,
+          has_normals_ ? &normals_ : nullptr,
+          T_target_part,
+          search_};
+}
+
+} // namespace pcl6d

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
+#include <pcl6d/common/random.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/scanner/driven_scanner.h>
+#include <pcl6d/simulation/cast_scan.h>
+#include <pcl6d/simulation/path_check.h>
+#include <pcl6d/simulation/simulator.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace pcl6d {
+namespace {
+constexpr double kTopSpeed = 50;   // [m/s]
+constexpr double kUsualSpeed = 1;  // [m/s]
+constexpr double kSpareTime = 0.9; // share of the time from scan to scan that one takes
+
+// What the seed is split for, so that more scans do not change the odometry's noise.
+enum Stream : std::uint64_t { kRangeStream = 1, kOdometryStream = 2 };
+
+std::uint64_t
+streamSeed(std::uint64_t seed, Stream stream)
+{
+  return mixBits(mixBits(seed) ^ stream);
+}
+
+Trajectory
+odometryOf(const Trajectory& truth, const SimulationOptions& options)
+{
+  const std::uint64_t seed = streamSeed(options.seed, kOdometryStream);
+  switch (options.odometry_kind) {
+  case OdometryKind::kVisualInertial:
+    return visualInertialOdometry(truth, options.visual_inertial, seed);
+  case OdometryKind::kExact:
+    return truth;
+  case OdometryKind::kWheel:
+    break;
+  }
+  return wheelOdometry(truth, options.odometry, seed);
+}
+} // namespace
+
+ScanMotion
+scanMotionFromName(const std::string& name)
+{
+  constexpr Named<ScanMotion> kMotions[] = {{ScanMotion::kStop, "stop"},
+                                            {ScanMotion::kContinuous, "continuous"}};
+  return fromName(kMotions, "motion", name, WordList::kOr);
+}
+
+OdometryKind
+odometryKindFromName(const std::string& name)
+{
+  constexpr Named<OdometryKind> kKinds[] = {
+      {OdometryKind::kWheel, "wheel"},
+      {OdometryKind::kVisualInertial, "visual-inertial"},
+      {OdometryKind::kExact, "exact"}};
+  return fromName(kKinds, "odometry", name, WordList::kOr);
+}
+
+void
+SimulationOptions::validate() const
+{
+  require(
+      num_scans >= 1 && num_scans <= 100000, "num_scans", num_scans, "in [1, 100000]");
+  require(!speed || (*speed > 0 && *speed <= kTopSpeed),
+          "speed",
+          speed.value_or(0),
+          "in (0, 50] m/s");
+  range.validate();
+  robot.validate();
+  odometry.validate();
+  visual_inertial.validate();
+}
+
+Simulator::Simulator(SimulationScene scene, const SimulationOptions& options)
+: scene_(std::move(scene.geometry), std::move(scene.moving)), options_(options)
+{
+  options.validate();
+  if (!options_.scanner)
+    options_.scanner = std::make_shared<DrivenScanner>();
+  options_.range.seed = streamSeed(options.seed, kRangeStream);
+  const RobotPath path(scene.waypoints, options.robot);
+  requireFreePath(caster(), path, options.num_scans);
+  if (options.motion == ScanMotion::kStop)
+    stopAndScan(path);
+  else
+    scanOnTheMove(path);
+  odometry_ = odometryOf(truth_, options_);
+}
+
+void
+Simulator::stopAndScan(const RobotPath& path)
+{
+  speed_ = options_.speed.value_or(kUsualSpeed);
+  T_scene_world_ = path.sensorPose(caster(), 0);
+  for (int i = 0; i < options_.num_scans; ++i) {
+    const double way = path.length() * i / options_.num_scans;
+    const Eigen::Isometry3d T_scene_scan = path.sensorPose(caster(), way);
+    truth_.poses.push_back(i == 0 ? Eigen::Isometry3d::Identity()
+                                  : T_scene_world_.inverse() * T_scene_scan);
+    truth_.stamps.push_back(way / speed_ + i * scanner().duration());
+  }
+}
+
+void
+Simulator::scanOnTheMove(const RobotPath& path)
+{
+  const double step = path.length() / options_.num_scans;
+  const double limit = step / scanner().duration();
+  speed_ = options_.speed.value_or(std::min(kUsualSpeed, kSpareTime * limit));
+  require(speed_ <= limit,
+          "speed",
+          speed_,
+          "at most " + std::to_string(limit) + " m/s: a scan takes " +
+              std::to_string(scanner().duration()) + " s, and the next one starts " +
+              std::to_string(step) + " m on");
+  motion_.emplace(path, caster(), speed_);
+  T_scene_world_ = motion_->poseAt(0);
+  for (int i = 0; i < options_.num_scans; ++i) {
+    truth_.stamps.push_back(step * i / speed_);
+    truth_.poses.push_back(i == 0 ? Eigen::Isometry3d::Identity()
+                                  : T_scene_world_.inverse() *
+                                        motion_->poseAt(truth_.stamps.back()));
+  }
+}
+
+Eigen::Isometry3d
+Simulator::scanPose(std::size_t i, double time) const
+{
+  require(i < size(), "scan", i, "below the number of scans");
+  return motion_ ? T_scene_world_.inverse() * motion_->poseAt(truth_.stamps[i] + time)
+                 : truth_.poses[i];
+}
+
+RangeScan
+Simulator::rangeScan(std::size_t i) const
+{
+  require(i < size(), "scan", i, "below the number of scans");
+  const Eigen::Isometry3d standing = T_scene_world_ * truth_.poses[i];
+  const auto pose_at = [&](double time) {
+    return motion_ ? motion_->poseAt(time) : standing;
+  };
+  const MovingView view(scene_, pose_at, truth_.stamps[i]);
+  return castScan(view, scanner(), options_.range, i);
+}
+
+pcl::PointCloud<pcl::PointXYZI>
+Simulator::scan(std::size_t i) const
+{
+  return toPointCloud(rangeScan(i), scanner());
+}
+
+} // namespace pcl6d

@@ -3,6 +3,8 @@
 #include <pcl6d/io/json_numbers.h>
 #include <pcl6d/run/run_summary.h>
 
+#include <nlohmann/json.hpp>
+
 #include <ostream>
 
 namespace pcl6d {

@@ -3,6 +3,8 @@
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/run_summary.h>
 
+#include <nlohmann/json.hpp>
+
 namespace pcl6d {
 
 namespace {

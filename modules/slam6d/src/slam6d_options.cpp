@@ -20,37 +20,6 @@ requirePositive(const std::optional<double>& option, const char* name)
 }
 } // namespace
 
-std::vector<std::string>
-initialGuessNames()
-{
-  return {"odometry", "overlap", "features"};
-}
-
-InitialGuess
-initialGuessFromName(const std::string& name)
-{
-  for (const auto guess :
-       {InitialGuess::kOdometry, InitialGuess::kOverlap, InitialGuess::kFeatures})
-    if (name == toString(guess))
-      return guess;
-  require(false, "initial guess", name, "odometry|overlap|features");
-  return InitialGuess::kOdometry;
-}
-
-const char*
-toString(InitialGuess guess)
-{
-  switch (guess) {
-  case InitialGuess::kOdometry:
-    return "odometry";
-  case InitialGuess::kOverlap:
-    return "overlap";
-  case InitialGuess::kFeatures:
-    return "features";
-  }
-  return "unknown";
-}
-
 void
 Slam6DOptions::validate() const
 {

@@ -39,11 +39,13 @@ function(_pcl6d_library_rules target module)
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${module})
 endfunction()
 
-# pcl6d_add_module(NAME FLOOR n SOURCES ... [DEPENDS module ...] [PCL_COMPONENTS ...]
-#                  [LINK public targets ...] [LINK_PRIVATE targets ...])
-# makes the shared library pcl6d::NAME. A module may depend only on lower floors.
+# pcl6d_add_module(NAME BOOK chapters HOLDS text FLOOR n SOURCES ... [DEPENDS module ...]
+#                  [PCL_COMPONENTS ...] [LINK public targets ...]
+#                  [LINK_PRIVATE targets ...])
+# makes the shared library pcl6d::NAME. A module may depend only on lower floors. BOOK and
+# HOLDS are for the map of the rooms (CONTRIBUTING.md).
 function(pcl6d_add_module name)
-  cmake_parse_arguments(ARG "" "FLOOR"
+  cmake_parse_arguments(ARG "" "BOOK;HOLDS;FLOOR"
     "SOURCES;DEPENDS;PCL_COMPONENTS;LINK;LINK_PRIVATE" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_module(${name})")
   set(target pcl6d_${name})
@@ -73,6 +75,9 @@ function(pcl6d_add_module name)
     PUBLIC ${pcl_targets} ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
 
   set_property(GLOBAL APPEND PROPERTY PCL6D_MODULES ${name})
+  string(JOIN " " below ${ARG_DEPENDS})
+  set_property(GLOBAL APPEND_STRING PROPERTY PCL6D_ROOMS
+    "| ${ARG_FLOOR} | [${name}](modules/${name}) | ${ARG_BOOK} | ${ARG_HOLDS} | ${below} |\n")
   set_property(GLOBAL PROPERTY PCL6D_${name}_DEPENDS ${ARG_DEPENDS})
   set_property(GLOBAL PROPERTY PCL6D_${name}_PCL_COMPONENTS ${ARG_PCL_COMPONENTS})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
@@ -159,10 +164,33 @@ function(pcl6d_add_benchmark name)
     ${modules} ${ARG_LINK_PRIVATE} benchmark::benchmark)
 endfunction()
 
+# Headers that have moved keep their former path for one version, as a header that says so
+# and includes the new one: cmake/former_headers.txt has a line `former new` for each.
+function(pcl6d_install_former_headers)
+  set(table ${PROJECT_SOURCE_DIR}/cmake/former_headers.txt)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
+  file(STRINGS ${table} rows)
+  foreach(row IN LISTS rows)
+    string(REPLACE " " ";" row "${row}")
+    list(GET row 0 former)
+    list(GET row 1 new)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/former/pcl6d/${former} @ONLY CONTENT
+"// SPDX-License-Identifier: BSD-3-Clause
+// Moved to <pcl6d/@new@>; this path goes with the next version.
+#pragma once
+#pragma message(\"pcl6d/@former@ has moved: include pcl6d/@new@\")
+#include <pcl6d/@new@>
+")
+  endforeach()
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/former/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    COMPONENT common)
+endfunction()
+
 # Installs pcl6dConfig.cmake, which knows every module and what it needs.
 function(pcl6d_install_package)
   get_property(PCL6D_MODULES GLOBAL PROPERTY PCL6D_MODULES)
   set(PCL6D_MODULE_TABLE "")
+  pcl6d_install_former_headers()
   foreach(module IN LISTS PCL6D_MODULES)
     get_property(depends GLOBAL PROPERTY PCL6D_${module}_DEPENDS)
     get_property(components GLOBAL PROPERTY PCL6D_${module}_PCL_COMPONENTS)
@@ -180,4 +208,22 @@ function(pcl6d_install_package)
     ${PROJECT_BINARY_DIR}/pcl6dConfig.cmake
     ${PROJECT_BINARY_DIR}/pcl6dConfigVersion.cmake
     DESTINATION ${destination} COMPONENT common)
+endfunction()
+
+# The map of the rooms in CONTRIBUTING.md, between two comments: the target `rooms` writes
+# it anew, the test house.rooms compares.
+function(pcl6d_add_rooms)
+  get_property(rooms GLOBAL PROPERTY PCL6D_ROOMS)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/rooms.md @ONLY CONTENT
+"| floor | module | book | what lives there | builds on |
+|---|---|---|---|---|
+@rooms@")
+  set(script ${CMAKE_COMMAND} -D TABLE=${PROJECT_BINARY_DIR}/rooms.md
+    -D DOCUMENT=${PROJECT_SOURCE_DIR}/CONTRIBUTING.md)
+  add_custom_target(rooms
+    COMMAND ${script} -P ${PROJECT_SOURCE_DIR}/cmake/rooms.cmake)
+  if(PCL6D_BUILD_TESTS)
+    add_test(NAME house.rooms
+      COMMAND ${script} -D CHECK=ON -P ${PROJECT_SOURCE_DIR}/cmake/rooms.cmake)
+  endif()
 endfunction()

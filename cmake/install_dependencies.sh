@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Installs what the suite needs to build, test and run, on Debian and Ubuntu. Does nothing
 # where everything is there. On another system it lists the packages and exits with 1.
-# usage: cmake/install_dependencies.sh [--tests]
+# usage: cmake/install_dependencies.sh [--tests] [--checks]
 #   --tests: also what only some tests need, which skip without it: a browser and npm
+#   --checks: also the checkers of sources, in the version that the sources follow
 set -euo pipefail
 
 # Per line: the Debian package, then a file or program that it gives. A package is only
@@ -34,6 +35,18 @@ needs_of_tests=(
   "npm npm"
 )
 
+needs_of_checks=(
+  "clang-format-14 clang-format-14"
+  "clang-tidy-14 clang-tidy-14"
+)
+for option in "$@"; do
+  case $option in
+    --tests) tests=yes ;;
+    --checks) needs+=("${needs_of_checks[@]}") ;;
+    *) echo "error: unknown option $option (usage: $0 [--tests] [--checks])" >&2; exit 2 ;;
+  esac
+done
+
 given() { # what: a program's name, or a file pattern with an absolute path
   case $1 in
     /*) compgen -G "$1" >/dev/null ;;
@@ -52,7 +65,7 @@ missing_of() {
 
 missing=$(missing_of "${needs[@]}")
 missing_of_tests=""
-if [ "${1:-}" = "--tests" ]; then
+if [ "${tests:-}" = yes ]; then
   missing_of_tests=$(missing_of "${needs_of_tests[@]}")
 fi
 if [ -z "$missing$missing_of_tests" ]; then

@@ -8,6 +8,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+using RunSummary = RunResult; ///< its name in the last version
+
 /** \brief Writes summary.json (fields: share/doc/run_folder.md), atomically.
  * \throws IoFailed the file cannot be written \ingroup run */
 void

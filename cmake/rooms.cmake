@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Puts the TABLE between the comments "rooms" of the DOCUMENT; CHECK: only compares.
+file(READ ${TABLE} table)
+file(READ ${DOCUMENT} text)
+set(first "<!-- rooms -->\n")
+set(last "<!-- end of rooms -->")
+string(FIND "${text}" "${first}" begin)
+string(FIND "${text}" "${last}" end)
+if(begin EQUAL -1 OR end LESS begin)
+  message(FATAL_ERROR "${DOCUMENT} has no place for the map of the rooms")
+endif()
+string(LENGTH "${first}" length)
+math(EXPR begin "${begin} + ${length}")
+string(SUBSTRING "${text}" 0 ${begin} head)
+string(SUBSTRING "${text}" ${end} -1 tail)
+string(JOIN "" wanted "${head}" "${table}" "${tail}")
+if(CHECK AND NOT wanted STREQUAL text)
+  message(FATAL_ERROR "${DOCUMENT}: its map of the rooms is not CMake's; "
+    "cmake --build build/release --target rooms writes it")
+elseif(NOT wanted STREQUAL text)
+  file(WRITE ${DOCUMENT} "${wanted}")
+endif()

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/run_result.h>
 
 /** \file The fields of the records of a run, each listed once: under their names and in the
  * order of summary.json, links.csv and reports. A visitor is called with the name and the
  * value of each. */
-namespace pcl6d {
+namespace PCL6D_EXPORTS pcl6d {
 
 /** \param[in] scan a ScanResult, const or not */
 template <typename Scan, typename Visit>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/hull_prism.h>
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/random.h>
 

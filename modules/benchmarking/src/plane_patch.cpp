@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plane_patch.h"
 
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/common/portable_math.h>
 
 #include <Eigen/Eigenvalues>
@@ -9,24 +10,6 @@
 #include <cmath>
 
 namespace pcl6d {
-
-namespace {
-/** \return whether a ray from p crosses the rings an odd number of times */
-bool
-isInside(const std::vector<std::vector<Eigen::Vector2d>>& rings,
-         const Eigen::Vector2d& p)
-{
-  bool inside = false;
-  for (const auto& ring : rings)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      if ((a.y() > p.y()) != (b.y() > p.y()) &&
-          p.x() - a.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-        inside = !inside;
-    }
-  return inside;
-}
-} // namespace
 
 PlanePatch::PlanePatch(const PlaneSegment& segment, double gate, double max_angle)
 : given_(segment.plane)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/polygon_triangulation.h>
+#include <pcl6d/common/polygon.h>
 
 #include <Eigen/Geometry>
 
@@ -15,20 +15,12 @@ struct Corner {
 
 using Ring = std::vector<Corner>;
 
-// Twice the signed area of the triangle; positive if it turns to the left.
-double
-turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
-{
-  const Eigen::Vector2d u = b - a, v = c - a;
-  return u.x() * v.y() - u.y() * v.x();
-}
-
 double
 signedArea(const Ring& ring)
 {
   double sum = 0;
   for (std::size_t i = 2; i < ring.size(); ++i)
-    sum += turn(ring[0].at, ring[i - 1].at, ring[i].at);
+    sum += leftTurn(ring[0].at, ring[i - 1].at, ring[i].at);
   return sum / 2;
 }
 
@@ -38,7 +30,7 @@ isInTriangle(const Eigen::Vector2d& p,
              const Eigen::Vector2d& b,
              const Eigen::Vector2d& c)
 {
-  return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+  return leftTurn(a, b, p) >= 0 && leftTurn(b, c, p) >= 0 && leftTurn(c, a, p) >= 0;
 }
 
 // Whether the way from a corner to a point starts inside the ring. Of the copies of a
@@ -49,10 +41,10 @@ startsInside(const Ring& ring, std::size_t i, const Eigen::Vector2d& point)
   const Eigen::Vector2d& a = ring[(i + ring.size() - 1) % ring.size()].at;
   const Eigen::Vector2d& b = ring[i].at;
   const Eigen::Vector2d& c = ring[(i + 1) % ring.size()].at;
-  const bool is_left_before = turn(a, b, point) >= 0;
-  const bool is_left_after = turn(b, c, point) >= 0;
-  return turn(a, b, c) > 0 ? is_left_before && is_left_after
-                           : is_left_before || is_left_after;
+  const bool is_left_before = leftTurn(a, b, point) >= 0;
+  const bool is_left_after = leftTurn(b, c, point) >= 0;
+  return leftTurn(a, b, c) > 0 ? is_left_before && is_left_after
+                               : is_left_before || is_left_after;
 }
 
 // The corner of the ring that a point sees best: that of the nearest edge to its right,
@@ -119,7 +111,7 @@ isEar(const Ring& ring, std::size_t i)
   const Eigen::Vector2d& a = ring[(i + n - 1) % n].at;
   const Eigen::Vector2d& b = ring[i].at;
   const Eigen::Vector2d& c = ring[(i + 1) % n].at;
-  if (turn(a, b, c) <= 0)
+  if (leftTurn(a, b, c) <= 0)
     return false;
   const Eigen::Vector2d low = a.cwiseMin(b).cwiseMin(c);
   const Eigen::Vector2d high = a.cwiseMax(b).cwiseMax(c);

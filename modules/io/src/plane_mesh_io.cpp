@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/polygon_triangulation.h>
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/label_colours.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "footprint_box.h"
 
-#include <pcl6d/common/plane.h>
+#include <pcl6d/common/polygon.h>
 
 #include <algorithm>
 #include <limits>

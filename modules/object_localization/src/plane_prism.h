@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/common/hull_prism.h>
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/plane_segmentation/plane_segment.h>
 
 #include <Eigen/Geometry>

@@ -2,7 +2,7 @@
 #include "view_border.h"
 
 #include <pcl6d/common/median.h>
-#include <pcl6d/common/plane.h>
+#include <pcl6d/common/polygon.h>
 
 #include <algorithm>
 #include <array>

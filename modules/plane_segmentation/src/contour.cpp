@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contour.h"
 
+#include <pcl6d/common/polygon.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -10,12 +12,6 @@ namespace pcl6d {
 
 namespace {
 constexpr std::uint32_t kNone = 0xffffffff;
-
-double
-cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /** The crossings of a level with the edges between neighbouring cells, and how they
  * follow each other. The edge from cell i to the right has the number 2 i, the one
@@ -117,28 +113,7 @@ keepBetween(const Ring& ring,
   keepBetween(ring, first, corner, tolerance, kept);
   keepBetween(ring, corner, last, tolerance, kept);
 }
-
-bool
-contains(const Ring& ring, const Eigen::Vector2d& p)
-{
-  bool inside = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-    if ((ring[i].y() > p.y()) != (ring[j].y() > p.y()) &&
-        p.x() < ring[i].x() + (ring[j].x() - ring[i].x()) * (p.y() - ring[i].y()) /
-                                  (ring[j].y() - ring[i].y()))
-      inside = !inside;
-  return inside;
-}
 } // namespace
-
-double
-signedArea(const Ring& ring)
-{
-  double twice = 0;
-  for (std::size_t i = 2; i < ring.size(); ++i)
-    twice += cross(ring[i - 1] - ring[0], ring[i] - ring[0]);
-  return twice / 2;
-}
 
 std::vector<Ring>
 contours(const Raster<float>& field, float level)
@@ -178,7 +153,7 @@ nested(std::vector<Ring> rings)
     result.push_back(*island);
     for (auto lake = lakes; lake != rings.end(); ++lake) {
       char& done = placed[static_cast<std::size_t>(lake - rings.begin())];
-      if (!done && contains(*island, lake->front())) {
+      if (!done && isInside(*island, lake->front())) {
         result.push_back(*lake);
         done = 1;
       }

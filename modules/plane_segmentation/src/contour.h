@@ -11,10 +11,6 @@ namespace pcl6d {
 
 using Ring = std::vector<Eigen::Vector2d>;
 
-/** \return twice the area inside, halved: positive if counter-clockwise */
-double
-signedArea(const Ring& ring);
-
 /** \brief The lines along which a raster has a value: closed rings with the larger
  * values on their left, so that islands run counter-clockwise and lakes clockwise.
  * Marching squares; two islands that touch by a corner stay apart. \return in cells,

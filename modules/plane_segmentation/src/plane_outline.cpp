@@ -2,6 +2,8 @@
 #include "contour.h"
 #include "plane_outline.h"
 
+#include <pcl6d/common/polygon.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>

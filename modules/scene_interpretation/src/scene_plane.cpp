@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "polygons.h"
-
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/scene_interpretation/scene_plane.h>
 

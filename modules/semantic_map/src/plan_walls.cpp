@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plan_walls.h"
 
+#include <pcl6d/common/polygon.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace pcl6d {
 namespace {
-double
-cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /** So far a line is to reach beyond its ends, as shares of its length. */
 struct Reach {
   double low = 0;

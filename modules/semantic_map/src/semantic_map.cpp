@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
 #include <algorithm>
@@ -69,17 +70,10 @@ bool
 isInPlan(const MapRoom& room, const Eigen::Vector3d& up, const Eigen::Vector3d& point)
 {
   const Eigen::Vector3d x = up.unitOrthogonal(), y = up.cross(x);
-  bool inside = false; // crossings of a ray along x, even or odd
-  for (std::size_t i = 0; i < room.outline.size(); ++i) {
-    const Eigen::Vector3d a = room.outline[i] - point;
-    const Eigen::Vector3d b = room.outline[(i + 1) % room.outline.size()] - point;
-    const double ay = y.dot(a), by = y.dot(b);
-    if ((ay > 0) == (by > 0))
-      continue;
-    if (x.dot(a) + ay / (ay - by) * (x.dot(b) - x.dot(a)) > 0)
-      inside = !inside;
-  }
-  return inside;
+  std::vector<Eigen::Vector2d> ring; // about the point
+  for (const auto& corner : room.outline)
+    ring.emplace_back(x.dot(corner - point), y.dot(corner - point));
+  return isInside(ring, Eigen::Vector2d::Zero());
 }
 
 Eigen::Vector3d

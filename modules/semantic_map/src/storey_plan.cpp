@@ -2,6 +2,8 @@
 #include "plan_hull.h"
 #include "storey_plan.h"
 
+#include <pcl6d/common/polygon.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,11 +16,8 @@ double
 areaOf(const std::vector<Eigen::Vector2d>& outline)
 {
   double twice = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Eigen::Vector2d& a = outline[i];
-    const Eigen::Vector2d& b = outline[(i + 1) % outline.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    twice += cross(outline[i], outline[(i + 1) % outline.size()]);
   return twice / 2;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/polygon.h>
 
 #include <Eigen/Core>
 
@@ -36,13 +37,5 @@ struct Plane {
  * normal other than 0 becomes positive. The hull is turned with it. */
 void
 orientPlane(Plane& plane);
-
-/** \return the convex hull of points on a plane, counter-clockwise as seen from where
- * the normal points to; corners on an edge are left out
- * \param[in] normal unit normal of the plane
- * \note Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two
- * dimensions", Information Processing Letters 9(5), 1979. */
-std::vector<Eigen::Vector3d>
-convexHull(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& normal);
 
 } // namespace pcl6d

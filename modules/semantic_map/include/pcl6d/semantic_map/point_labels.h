@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
-#include <pcl6d/common/hull_prism.h>
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "polygons.h"
+#include <pcl6d/common/plane.h>
+#include <pcl6d/common/polygon.h>
 
 #include <Eigen/Geometry>
 
@@ -17,7 +18,8 @@ struct Interval {
 };
 
 Interval
-intervalAlong(const Corners& corners, const Eigen::Vector3d& direction)
+intervalAlong(const std::vector<Eigen::Vector3d>& corners,
+              const Eigen::Vector3d& direction)
 {
   Interval interval;
   for (const auto& corner : corners) {
@@ -28,8 +30,8 @@ intervalAlong(const Corners& corners, const Eigen::Vector3d& direction)
 }
 
 bool
-apartAlong(const Corners& a,
-           const Corners& b,
+apartAlong(const std::vector<Eigen::Vector3d>& a,
+           const std::vector<Eigen::Vector3d>& b,
            const Eigen::Vector3d& direction,
            double margin)
 {
@@ -58,7 +60,7 @@ segmentDistance(const Eigen::Vector3d& p,
 
 // Whether the edge crosses the inside of the polygon.
 bool
-crosses(const Corners& polygon,
+crosses(const std::vector<Eigen::Vector3d>& polygon,
         const Eigen::Vector3d& normal,
         const Eigen::Vector3d& from,
         const Eigen::Vector3d& to)
@@ -71,7 +73,7 @@ crosses(const Corners& polygon,
 }
 
 double
-distanceToInside(const Corners& polygon,
+distanceToInside(const std::vector<Eigen::Vector3d>& polygon,
                  const Eigen::Vector3d& normal,
                  const Eigen::Vector3d& point)
 {
@@ -79,17 +81,71 @@ distanceToInside(const Corners& polygon,
              ? std::abs(normal.dot(point - polygon.front()))
              : kInfinity;
 }
+struct Corner {
+  Eigen::Vector2d flat; // in the basis of the plane
+  std::size_t index;
+};
+
+// One side of the hull of sorted corners, its last corner left to the other side.
+template <typename Iterator>
+void
+appendChain(Iterator begin, Iterator end, double tolerance, std::vector<Corner>& hull)
+{
+  const std::size_t first = hull.size();
+  for (auto corner = begin; corner != end; ++corner) {
+    while (hull.size() >= first + 2 &&
+           leftTurn(hull[hull.size() - 2].flat, hull.back().flat, corner->flat) <=
+               tolerance)
+      hull.pop_back();
+    hull.push_back(*corner);
+  }
+  hull.pop_back();
+}
 } // namespace
 
 double
-extentAlong(const Corners& corners, const Eigen::Vector3d& direction)
+signedArea(const std::vector<Eigen::Vector2d>& ring)
+{
+  double twice = 0;
+  for (std::size_t i = 2; i < ring.size(); ++i)
+    twice += leftTurn(ring[0], ring[i - 1], ring[i]);
+  return twice / 2;
+}
+
+bool
+isInside(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& p)
+{
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() - a.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+bool
+isInside(const std::vector<std::vector<Eigen::Vector2d>>& rings,
+         const Eigen::Vector2d& p)
+{
+  return std::count_if(rings.begin(),
+                       rings.end(),
+                       [&](const auto& ring) { return isInside(ring, p); }) %
+             2 !=
+         0;
+}
+
+double
+extentAlong(const std::vector<Eigen::Vector3d>& corners,
+            const Eigen::Vector3d& direction)
 {
   const Interval interval = intervalAlong(corners, direction);
   return corners.empty() ? 0 : interval.high - interval.low;
 }
 
 Eigen::Vector3d
-centreOfArea(const Corners& corners)
+centreOfArea(const std::vector<Eigen::Vector3d>& corners)
 {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
@@ -106,7 +162,9 @@ centreOfArea(const Corners& corners)
 }
 
 bool
-apartAcrossEdgesOf(const Corners& a, const Corners& b, double margin)
+apartAcrossEdgesOf(const std::vector<Eigen::Vector3d>& a,
+                   const std::vector<Eigen::Vector3d>& b,
+                   double margin)
 {
   for (std::size_t i = 0; i < a.size(); ++i) {
     Eigen::Vector3d along = a[(i + 1) % a.size()] - a[i];
@@ -122,7 +180,9 @@ apartAcrossEdgesOf(const Corners& a, const Corners& b, double margin)
 }
 
 double
-hullToHull(const Corners& a, const Eigen::Vector3d& normal, const Corners& b)
+hullToHull(const std::vector<Eigen::Vector3d>& a,
+           const Eigen::Vector3d& normal,
+           const std::vector<Eigen::Vector3d>& b)
 {
   double smallest = kInfinity;
   for (std::size_t j = 0; j < b.size(); ++j) {
@@ -139,7 +199,7 @@ hullToHull(const Corners& a, const Eigen::Vector3d& normal, const Corners& b)
 }
 
 bool
-isInside(const Corners& polygon,
+isInside(const std::vector<Eigen::Vector3d>& polygon,
          const Eigen::Vector3d& normal,
          const Eigen::Vector3d& point,
          double margin)
@@ -154,6 +214,44 @@ isInside(const Corners& polygon,
     is_right = is_right && side <= margin;
   }
   return polygon.size() > 2 && (is_left || is_right);
+}
+
+std::vector<Eigen::Vector3d>
+convexHull(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& normal)
+{
+  if (points.empty())
+    return {};
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
+  std::vector<Corner> corners;
+  double size = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d p = points[i] - points[0];
+    corners.push_back({{u.dot(p), v.dot(p)}, i});
+    size = std::max(size, p.norm());
+  }
+  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return a.flat.x() != b.flat.x() ? a.flat.x() < b.flat.x() : a.flat.y() < b.flat.y();
+  });
+  const double tolerance = 1e-12 * size * size; // of rounding
+  std::vector<Corner> hull;
+  appendChain(corners.begin(), corners.end(), tolerance, hull);
+  appendChain(corners.rbegin(), corners.rend(), tolerance, hull);
+  std::vector<Eigen::Vector3d> result;
+  for (const auto& corner : hull)
+    result.push_back(points[corner.index]);
+  return result;
+}
+
+HullPrism::HullPrism(const Plane& plane)
+{
+  for (std::size_t i = 0; i < plane.hull.size(); ++i) {
+    const Eigen::Vector3d& corner = plane.hull[i];
+    const Eigen::Vector3d edge = plane.hull[(i + 1) % plane.hull.size()] - corner;
+    const Eigen::Vector3d out = edge.cross(plane.normal);
+    if (out.norm() > 0)
+      sides_.emplace_back() << out.normalized(), -out.normalized().dot(corner);
+  }
 }
 
 } // namespace pcl6d

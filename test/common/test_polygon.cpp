@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/polygon_triangulation.h>
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/common/random.h>
 
 #include <Eigen/Geometry>
@@ -118,4 +118,33 @@ TEST(Triangulate, EndsOnRingsThatCrossThemselves)
   for (int i = 0; i < 200; ++i)
     ring.emplace_back(random.uniform(), random.uniform(), 0);
   EXPECT_LE(pcl6d::triangulate({ring}, Eigen::Vector3d::UnitZ()).size(), 198u);
+}
+
+TEST(Polygon, AreaAndInside)
+{
+  const std::vector<Eigen::Vector2d> island{{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}};
+  const std::vector<Eigen::Vector2d> lake{{1, 0.5}, {1, 1}, {2, 0.5}};
+  EXPECT_DOUBLE_EQ(pcl6d::signedArea(island), 10);
+  EXPECT_DOUBLE_EQ(pcl6d::signedArea(lake), -0.25);
+  EXPECT_TRUE(pcl6d::isInside(island, {0.5, 2}));
+  EXPECT_FALSE(pcl6d::isInside(island, {2, 2})) << "between the horns";
+  EXPECT_TRUE(pcl6d::isInside(island, {1.2, 0.7}));
+  EXPECT_FALSE(pcl6d::isInside({island, lake}, {1.2, 0.7})) << "in the lake";
+  EXPECT_TRUE(pcl6d::isInside({island, lake}, {3, 0.5}));
+  EXPECT_GT(pcl6d::leftTurn({0, 0}, {1, 0}, {1, 1}), 0);
+}
+
+TEST(Polygon, ConvexOneInSpaceGrownByAMargin)
+{
+  const std::vector<Eigen::Vector3d> square{{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  EXPECT_TRUE(pcl6d::isInside(square, up, {1, 1, 7}, 0));
+  EXPECT_FALSE(pcl6d::isInside(square, up, {2.1, 1, 1}, 0));
+  EXPECT_TRUE(pcl6d::isInside(square, up, {2.1, 1, 1}, 0.2));
+  EXPECT_EQ(pcl6d::centreOfArea(square), Eigen::Vector3d(1, 1, 1));
+  EXPECT_DOUBLE_EQ(pcl6d::extentAlong(square, Eigen::Vector3d::UnitX()), 2);
+  const std::vector<Eigen::Vector3d> over{{3, 0, 2}, {4, 0, 2}, {4, 1, 2}};
+  EXPECT_DOUBLE_EQ(pcl6d::hullToHull(square, up, over), std::sqrt(2.0));
+  EXPECT_TRUE(pcl6d::apartAcrossEdgesOf(square, over, 0.9));
+  EXPECT_FALSE(pcl6d::apartAcrossEdgesOf(square, over, 1.1));
 }

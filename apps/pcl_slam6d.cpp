@@ -3,6 +3,7 @@
 // files.
 #include "common/app.h"
 #include "common/interrupt.h"
+#include "common/open_scans.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "slam6d/live_window.h"
@@ -205,12 +206,8 @@ private:
   void
   printParameters()
   {
-    for (const auto& [name, parameter] : app::named(slam_.result().parameters)) {
-      std::ostringstream line;
-      line << "  " << name << " = " << parameter.value << " m ("
-           << (parameter.given ? "given" : "auto: " + parameter.why) << ")";
-      bar_.say(line.str());
-    }
+    for (const auto& [name, parameter] : app::named(slam_.result().parameters))
+      bar_.say(app::parameterLine(name, parameter));
   }
 
   void

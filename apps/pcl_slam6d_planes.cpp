@@ -1,18 +1,98 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scan or a map in, its planes out: options, then the plane step, then files.
+// A scan or a map in, its planes out: options, then PlaneFinder, then files.
 #include "common/app.h"
-#include "common/interrupt.h"
-#include "common/output_folder.h"
-#include "common/progress_bar.h"
-#include "planes/plane_input.h"
+#include "common/folder_job.h"
+#include "common/open_scans.h"
+#include "common/plane_files.h"
+#include "planes/plane_settings.h"
 
+#include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_fields.h>
+#include <pcl6d/io/scan_reader.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <iostream>
 
 namespace {
 using namespace pcl6d;
+using app::PlaneSettings;
+
+/** The points of a PCD file with all those without a measurement, which keep an organized
+ * one on its grid. \return nothing for other files, and for one without coordinates */
+std::optional<SceneCloud>
+readGrid(const PlaneSettings& s)
+{
+  const ScanFormat format = s.folder.format == ScanFormat::kAuto
+                                ? scanFormatOfExtension(s.input)
+                                : s.folder.format;
+  if (format != ScanFormat::kPcd)
+    return {};
+  const pcl::PCLPointCloud2 file = readPcd(s.input);
+  const auto x = fieldValues(file, "x");
+  const auto y = fieldValues(file, "y");
+  const auto z = fieldValues(file, "z");
+  if (!x || !y || !z)
+    return {};
+  SceneCloud cloud;
+  cloud.width = file.height > 1 ? file.width : 0;
+  for (std::size_t i = 0; i < x->values.size(); ++i)
+    cloud.points.push_back(
+        Eigen::Vector3d(x->values[i], y->values[i], z->values[i]).cast<float>());
+  return cloud;
+}
+
+void
+sayGate(const ScanParameters& parameters, app::ProgressBar& bar)
+{
+  bar.say(app::parameterLine("min-range", parameters.min_range));
+  bar.say(app::parameterLine("max-range", parameters.max_range));
+}
+
+/** A scan as it is, without what lies outside the range gate. */
+SceneCloud
+readOne(const PlaneSettings& s,
+        const ScanParameterOptions& given,
+        app::ProgressBar& bar)
+{
+  SceneCloud cloud;
+  if (auto grid = readGrid(s))
+    cloud = *std::move(grid);
+  else
+    cloud.points = readScan(s.input, s.folder.format).points;
+  const ScanParameters parameters = deriveScanParameters(given, {cloud.points});
+  sayGate(parameters, bar);
+  const double min_range = parameters.min_range.value;
+  const double max_range = parameters.max_range.value;
+  if (cloud.width > 1)
+    maskOutOfRange(min_range, max_range, cloud.points);
+  else
+    cloud.points = gateByRange(cloud.points, min_range, max_range);
+  return cloud;
+}
+
+/** Of a folder one point per voxel of the map.
+ * \throws UsageError an option breaks its rule \throws Interrupted */
+SceneCloud
+readInput(const PlaneSettings& s, app::FolderJob& job)
+{
+  const ScanParameterOptions given{s.min_range, s.max_range, s.voxel};
+  app::checkOptions([&] { given.validate(); });
+  if (!std::filesystem::is_directory(s.input))
+    return readOne(s, given, job.bar);
+  const RegisteredScans scans = app::openScans(s.input, s.folder, job.bar);
+  const ScanParameters parameters =
+      sceneParameters(scans, given, app::watched(job.interrupt));
+  if (!scans.summary())
+    sayGate(parameters, job.bar);
+  job.bar.say(app::parameterLine("voxel", parameters.voxel));
+  return joinScans(scans, parameters, app::watched(job.bar, job.interrupt));
+}
 
 app::OutputRules
-outputRules(const app::PlaneSettings& settings)
+outputRules(const PlaneSettings& settings)
 {
   app::OutputRules rules;
   rules.folder = settings.out;
@@ -25,44 +105,66 @@ outputRules(const app::PlaneSettings& settings)
 }
 
 void
-explain(const app::PlaneStepResult& result)
+explain(const FoundPlanes& found)
 {
-  for (std::size_t i = 0; i < result.segments.planes.size(); ++i)
-    std::cout << "plane " << i + 1 << ": " << explanationText(result.interpretation, i)
+  for (std::size_t i = 0; i < found.segments.planes.size(); ++i)
+    std::cout << "plane " << i + 1 << ": " << explanationText(found.interpretation, i)
               << '\n';
+}
+
+/** For people: the largest 40. */
+void
+printTable(const FoundPlanes& found)
+{
+  constexpr std::size_t kMostRows = 40;
+  const auto& planes = found.segments.planes;
+  std::printf("%zu planes in %.3f s, %zu points on none\n",
+              planes.size(),
+              found.seconds,
+              found.segments.unassigned.size());
+  if (!planes.empty())
+    std::printf("   id  label       area [m^2]   points  rms [m]  normal\n");
+  for (std::size_t i = 0; i < std::min(planes.size(), kMostRows); ++i) {
+    const Plane& p = planes[i].plane;
+    std::printf("%5zu  %-10s %11.3f %8zu  %7.4f  %6.3f %6.3f %6.3f\n",
+                i + 1,
+                p.label.c_str(),
+                p.area,
+                p.inliers,
+                p.rms,
+                p.normal.x(),
+                p.normal.y(),
+                p.normal.z());
+  }
+  if (planes.size() > kMostRows)
+    std::printf("  ... and %zu smaller ones in planes.json\n",
+                planes.size() - kMostRows);
 }
 
 int
 run(const std::vector<std::string>& arguments)
 {
-  app::PlaneSettings settings;
-  if (!app::parsePlaneSettings(arguments, settings))
+  PlaneSettings s;
+  if (!app::parsePlaneSettings(arguments, s))
     return app::kDone;
-  const app::Interrupt interrupt;
-  app::ProgressBar bar(settings.quiet);
-  if (!settings.without_effect.empty())
-    bar.warn(settings.without_effect);
-  app::OutputFolder out(outputRules(settings));
-  const auto cloud = app::readPlaneInput(settings, bar, interrupt);
-  if (!cloud) {
-    bar.say("interrupted while reading; nothing is written");
+  app::FolderJob job(s.quiet, s.without_effect, outputRules(s));
+  try {
+    const SceneCloud cloud = readInput(s, job);
+    const PlaneFinder finder(s.step);
+    const FoundPlanes found = finder.find(cloud);
+    for (const auto& warning :
+         app::writePlaneFiles(*job.out, finder, cloud, found, app::kPlanes))
+      job.bar.warn(warning);
+    job.publish([&] {
+      if (s.verbose && s.step.labels)
+        explain(found);
+      printTable(found);
+    });
+    return app::kDone;
+  } catch (const app::Interrupted&) {
+    job.bar.say("interrupted while reading; nothing is written");
     return app::kInterrupted;
   }
-  const app::PlaneStepResult result =
-      app::findPlanes(*cloud, settings.step, settings.num_threads);
-  for (const auto& warning :
-       app::writePlaneFiles(out, *cloud, result, settings.step, app::kPlanes))
-    bar.warn(warning);
-  const auto written = out.publish();
-  if (settings.quiet)
-    return app::kDone;
-  if (settings.verbose && settings.step.labels)
-    explain(result);
-  std::cout << app::planeTable(result);
-  for (const auto& path : written)
-    std::cout << "  " << path.string() << '\n';
-  std::cout << std::flush;
-  return app::kDone;
 }
 } // namespace
 

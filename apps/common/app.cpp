@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <regex>
 
@@ -63,6 +64,13 @@ try {
     option = word->second;
   std::replace(option.begin(), option.end(), '_', '-');
   throw UsageError("--" + option + match[2].str());
+}
+
+void
+flushOutput()
+{
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw IoFailed("cannot write to the standard output");
 }
 
 } // namespace pcl6d::app

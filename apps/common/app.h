@@ -41,4 +41,8 @@ void
 checkOptions(const std::function<void()>& check,
              const std::map<std::string, std::string>& words = {});
 
+/** \brief Makes sure that what was printed has arrived. \throws IoFailed it has not */
+void
+flushOutput();
+
 } // namespace pcl6d::app

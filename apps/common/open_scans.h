@@ -2,10 +2,14 @@
 #pragma once
 
 #include "common/app.h"
+#include "common/progress_bar.h"
 
+#include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/run/registered_scans.h>
 
 #include <optional>
+#include <sstream>
+#include <string>
 
 namespace pcl6d::app {
 
@@ -18,6 +22,28 @@ openScans(const std::filesystem::path& path, const ScanFolderOptions& options)
   std::optional<RegisteredScans> scans;
   checkOptions([&] { scans.emplace(path, options); }, {{"poses_file", "poses"}});
   return *std::move(scans);
+}
+
+/** \brief The same, and says how many there are and where the poses come from. */
+inline RegisteredScans
+openScans(const std::filesystem::path& path,
+          const ScanFolderOptions& options,
+          ProgressBar& bar)
+{
+  RegisteredScans scans = openScans(path, options);
+  bar.say(std::to_string(scans.folder().size()) + " scans, poses from " +
+          scans.poseSource());
+  return scans;
+}
+
+/** \return "  voxel = 0.1 m (auto: 2 x spacing)" */
+inline std::string
+parameterLine(const std::string& name, const Parameter& parameter)
+{
+  std::ostringstream line;
+  line << "  " << name << " = " << parameter.value << " m ("
+       << (parameter.given ? "given" : "auto: " + parameter.why) << ")";
+  return line.str();
 }
 
 } // namespace pcl6d::app

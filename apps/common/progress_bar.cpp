@@ -202,4 +202,22 @@ ProgressBar::show(const Progress& progress)
     end();
 }
 
+ProgressCallback
+watched(const Interrupt& interrupt)
+{
+  return [&interrupt](const Progress&) {
+    if (interrupt.requested())
+      throw Interrupted();
+  };
+}
+
+ProgressCallback
+watched(ProgressBar& bar, const Interrupt& interrupt)
+{
+  return [&bar, watch = watched(interrupt)](const Progress& progress) {
+    watch(progress);
+    bar.show(progress);
+  };
+}
+
 } // namespace pcl6d::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/interrupt.h"
+
 #include <pcl6d/common/progress.h>
 
 #include <chrono>
@@ -82,5 +84,17 @@ private:
   StepRate::Clock::time_point drawn_; ///< the last time
   int quarter_ = -1;                  ///< last one printed, where there is no terminal
 };
+
+/** \brief What watched() throws. */
+struct Interrupted {};
+
+/** \return a callback for the library that shows how far it is, and stops it by throwing
+ * Interrupted once a signal came in; keeps references to both */
+ProgressCallback
+watched(ProgressBar& bar, const Interrupt& interrupt);
+
+/** \return the same without showing anything */
+ProgressCallback
+watched(const Interrupt& interrupt);
 
 } // namespace pcl6d::app

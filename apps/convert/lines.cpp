@@ -3,7 +3,6 @@
 #include "common/command_line.h"
 #include "convert/verbs.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/io/pcd_io.h>
@@ -194,8 +193,7 @@ runLines(const std::vector<std::string>& arguments)
               cloud.height,
               cloud.width,
               returns);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   return kDone;
 }
 

@@ -191,8 +191,7 @@ runScans(const std::vector<std::string>& arguments)
   const int code = settings.full                      ? joinScans(settings)
                    : fs::is_directory(settings.input) ? convertFolder(settings)
                                                       : convertFile(settings);
-  if (!std::cout.flush())
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   return code;
 }
 

@@ -185,8 +185,7 @@ runStereo(const std::vector<std::string>& arguments)
   printResult(rectification, stereo.depth_error);
   for (const auto& what : lost)
     std::printf("%s\n", what.c_str());
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   return kDone;
 }
 

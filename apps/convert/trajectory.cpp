@@ -5,7 +5,6 @@
 #include "convert/loss_tally.h"
 #include "convert/verbs.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/pose_graph.h>
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/pose_graph_io.h>
@@ -146,8 +145,7 @@ describe(const TrajectorySettings& s, const TrajectoryFiles& input)
     std::cout << "stamps kept\n";
   if (!has_stamps && holdsStamps(s.format))
     std::cout << "stamps made from the indices: 0, 1, ...\n";
-  if (!std::cout.flush())
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
 }
 } // namespace
 

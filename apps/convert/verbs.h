@@ -1,31 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "common/verbs.h"
 
 namespace pcl6d::app {
 
 constexpr const char* kConvert = "pcl_slam6d_convert"; ///< the program's name
 
-/** \brief `lines LINES.csv -o OUT.pcd`: raw 2D lines and drive angles as a 3D scan.
- * \param[in] arguments after the verb \return the exit code */
+/** \file What the verbs do stands in the table of pcl_slam6d_convert.cpp. */
 int
-runLines(const std::vector<std::string>& arguments);
-
-/** \brief `scans IN -o OUT`: a scan or a folder of scans in another format.
- * \param[in] arguments after the verb \return the exit code */
+runLines(const Arguments& arguments);
 int
-runScans(const std::vector<std::string>& arguments);
-
-/** \brief `stereo LEFT RIGHT CALIB -o OUT`: a scan from the pictures of two cameras.
- * \param[in] arguments after the verb \return the exit code */
+runScans(const Arguments& arguments);
 int
-runStereo(const std::vector<std::string>& arguments);
-
-/** \brief `trajectory IN -o OUT`: poses in another format.
- * \param[in] arguments after the verb \return the exit code */
+runStereo(const Arguments& arguments);
 int
-runTrajectory(const std::vector<std::string>& arguments);
+runTrajectory(const Arguments& arguments);
 
 } // namespace pcl6d::app

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/interrupt.h"
+#include "common/folder_job.h"
 #include "evaluate/icp_report.h"
 #include "evaluate/verbs.h"
 
@@ -147,21 +147,6 @@ warnOfDoubts(const IcpSettings& s, const IcpEvaluation& e, ProgressBar& bar)
            return best.doubt.empty();
          });
 }
-
-void
-writeFiles(OutputFolder& out,
-           const IcpSettings& s,
-           const IcpEvaluation& e,
-           ProgressBar& bar)
-{
-  writeIcpFiles(out, s, e);
-  drawIcpBasins(out, s, e, bar);
-  const auto written = out.publish();
-  if (s.quiet)
-    return;
-  for (const auto& path : written)
-    std::printf("  %s\n", path.c_str());
-}
 } // namespace
 
 int
@@ -170,22 +155,18 @@ runIcp(const std::vector<std::string>& arguments)
   IcpSettings s;
   if (!parseIcpSettings(arguments, s))
     return kDone;
-  const Interrupt interrupt;
-  ProgressBar bar(s.quiet);
-  if (!s.without_effect.empty())
-    bar.warn(s.without_effect);
-  std::optional<OutputFolder> out;
-  if (!s.out.empty())
-    out.emplace(icpFolderRules(s));
-  const IcpEvaluation e = evaluate(s, bar, interrupt);
+  FolderJob job(s.quiet, s.without_effect, icpFolderRules(s));
+  const IcpEvaluation e = evaluate(s, job.bar, job.interrupt);
   printIcpTable(s, e);
-  if (out)
-    writeFiles(*out, s, e, bar);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
-  const bool trusted = warnOfDoubts(s, e, bar);
+  if (job.out) {
+    writeIcpFiles(*job.out, s, e);
+    drawIcpBasins(*job.out, s, e, job.bar);
+    job.publish();
+  }
+  flushOutput();
+  const bool trusted = warnOfDoubts(s, e, job.bar);
   if (!e.basin.complete) {
-    bar.warn("interrupted; the table holds the methods that were finished");
+    job.bar.warn("interrupted; the table holds the methods that were finished");
     return kInterrupted;
   }
   return trusted ? kDone : kDoubtful;

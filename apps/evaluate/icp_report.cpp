@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/open_scans.h"
 #include "evaluate/icp_report.h"
+#include "evaluate/result_json.h"
 #include "evaluate/verbs.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/visualization/convergence_map.h>
 
-#include <nlohmann/json.hpp>
-
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iomanip>
 #include <sstream>
 
 namespace pcl6d::app {
 
 namespace {
-using Json = nlohmann::ordered_json;
-
 constexpr double kDegrees = 180 / M_PI;
 
 std::vector<std::pair<const char*, Parameter>>
@@ -28,12 +29,6 @@ named(const Slam6DParameters& p)
           {"voxel", p.voxel},
           {"max-distance", p.max_distance},
           {"max-distance-start", p.max_distance_start}};
-}
-
-std::string
-meaningOf(const Parameter& parameter)
-{
-  return parameter.given ? "given" : "auto: " + parameter.why;
 }
 
 std::string
@@ -70,8 +65,7 @@ printHeader(const IcpSettings& settings, const IcpEvaluation& e)
               e.points_b,
               e.points_a);
   for (const auto& [name, parameter] : named(e.parameters))
-    std::printf(
-        "  %s = %g m (%s)\n", name, parameter.value, meaningOf(parameter).c_str());
+    std::printf("%s\n", parameterLine(name, parameter).c_str());
   const IcpBasinOptions& o = e.options;
   std::printf("start from %s; %zu %s each: x, y%s, yaw%s\n",
               e.pose_source.c_str(),
@@ -176,20 +170,13 @@ writeRuns(std::ostream& stream, const IcpBasin& basin)
                       << toString(run.stop) << run.seconds;
 }
 
-std::vector<double>
-rowsOf(const Eigen::Isometry3d& pose)
-{
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = pose.matrix();
-  return {rows.data(), rows.data() + rows.size()};
-}
-
 Json
 toJson(const IcpBestPose& best)
 {
   return {{"metric", toString(best.metric)},
           {"believed", best.doubt.empty()},
           {"doubt", best.doubt},
-          {"T_a_b", rowsOf(best.result.T_target_source)},
+          {"T_a_b", rowByRow(best.result.T_target_source.matrix())},
           {"status", toString(best.result.status)},
           {"iterations", best.result.iterations},
           {"pairs", best.result.pairs},
@@ -203,21 +190,22 @@ Json
 toJson(const IcpSettings& settings, const IcpEvaluation& e)
 {
   const IcpBasinOptions& o = e.options;
-  Json json = {{"schema_version", 1},
-               {"generator", kEvaluate},
-               {"version", PCL6D_VERSION},
-               {"complete", e.basin.complete},
-               {"scan_a", settings.scan_a},
-               {"scan_b", settings.scan_b},
-               {"points_a", e.points_a},
-               {"points_b", e.points_b},
-               {"start", {{"source", e.pose_source}, {"T_a_b", rowsOf(e.guess)}}},
-               {"x", gridValues(o.offset_xy, o.steps_xy)},
-               {"y", gridValues(o.offset_xy, o.steps_xy)},
-               {"yaw", gridValues(o.offset_yaw, o.steps_yaw)},
-               {"sigmas", o.sigmas},
-               {"robust", toString(o.icp.robust)},
-               {"iterations", o.icp.max_iterations}};
+  Json json = {
+      {"schema_version", 1},
+      {"generator", kEvaluate},
+      {"version", PCL6D_VERSION},
+      {"complete", e.basin.complete},
+      {"scan_a", settings.scan_a},
+      {"scan_b", settings.scan_b},
+      {"points_a", e.points_a},
+      {"points_b", e.points_b},
+      {"start", {{"source", e.pose_source}, {"T_a_b", rowByRow(e.guess.matrix())}}},
+      {"x", gridValues(o.offset_xy, o.steps_xy)},
+      {"y", gridValues(o.offset_xy, o.steps_xy)},
+      {"yaw", gridValues(o.offset_yaw, o.steps_yaw)},
+      {"sigmas", o.sigmas},
+      {"robust", toString(o.icp.robust)},
+      {"iterations", o.icp.max_iterations}};
   for (const auto& [name, parameter] : named(e.parameters))
     json["parameters"].push_back({{"name", name},
                                   {"value", parameter.value},
@@ -231,6 +219,93 @@ toJson(const IcpSettings& settings, const IcpEvaluation& e)
                                      {"position", d.distance.translation},
                                      {"orientation", d.distance.rotation}});
   return json;
+}
+
+using Rows = std::vector<const IcpBasinRow*>;
+
+/** \return the name of a file without its folder */
+std::string
+nameOf(const std::string& scan)
+{
+  return std::filesystem::path(scan).filename().string();
+}
+
+Rows
+rowsOf(Metric metric, const IcpBasin& basin)
+{
+  Rows rows;
+  for (const IcpBasinRow& row : basin.rows)
+    if (row.variant.metric == metric)
+      rows.push_back(&row);
+  return rows;
+}
+
+ConvergenceMapScene
+emptyScene(const IcpSettings& settings, const IcpEvaluation& e, Metric metric)
+{
+  ConvergenceMapScene scene;
+  scene.title = nameOf(settings.scan_b) + " onto " + nameOf(settings.scan_a) +
+                ", metric " + toString(metric);
+  scene.x = scene.y = gridValues(e.options.offset_xy, e.options.steps_xy);
+  return scene;
+}
+
+/** Adds what a run has to say to the share of its place in x and y. */
+void
+count(const IcpBasinRun& run, std::size_t place, double weight, ConvergencePanel& panel)
+{
+  panel.shares.at(place) =
+      std::min(panel.shares.at(place) + (run.correct ? weight : 0.0), 1.0);
+}
+
+/** One panel per method: the share of the turns from which it finds back. */
+ConvergenceMapScene
+sceneOfMethods(const IcpSettings& settings,
+               const IcpEvaluation& e,
+               Metric metric,
+               const Rows& rows)
+{
+  ConvergenceMapScene scene = emptyScene(settings, e, metric);
+  const std::size_t places = scene.x.size() * scene.y.size();
+  scene.share_label = "correct runs over the yaws";
+  for (const IcpBasinRow* row : rows) {
+    char percent[32];
+    std::snprintf(percent, sizeof percent, "%.1f %%", 100 * row->summary.success);
+    ConvergencePanel panel{row->variant.minimiser + ", " +
+                               toString(row->variant.search) + ": " + percent,
+                           std::vector<double>(places, 0.0)};
+    for (std::size_t i = 0; i < row->runs.size(); ++i)
+      count(row->runs[i], i % places, 1.0 / e.options.steps_yaw, panel);
+    scene.panels.push_back(std::move(panel));
+  }
+  return scene;
+}
+
+/** One panel per turn: the share of the methods that find back. */
+ConvergenceMapScene
+sceneOfYaws(const IcpSettings& settings,
+            const IcpEvaluation& e,
+            Metric metric,
+            const Rows& rows)
+{
+  ConvergenceMapScene scene = emptyScene(settings, e, metric);
+  const std::size_t places = scene.x.size() * scene.y.size();
+  scene.title +=
+      ": " + std::to_string(rows.size()) + (rows.size() == 1 ? " method" : " methods");
+  scene.share_label = "correct runs over the methods";
+  for (const double yaw : gridValues(e.options.offset_yaw, e.options.steps_yaw)) {
+    char title[32];
+    std::snprintf(
+        title, sizeof title, yaw == 0 ? "yaw 0" : "yaw %+.3g deg", 180 / M_PI * yaw);
+    scene.panels.push_back({title, std::vector<double>(places, 0.0)});
+  }
+  for (const IcpBasinRow* row : rows)
+    for (std::size_t i = 0; i < row->runs.size(); ++i)
+      count(row->runs[i],
+            i % places,
+            1.0 / static_cast<double>(rows.size()),
+            scene.panels[i / places]);
+  return scene;
 }
 } // namespace
 
@@ -281,10 +356,29 @@ writeIcpFiles(const OutputFolder& out,
                       [&](std::ostream& stream) { writeRows(stream, e.basin); });
   writeFileAtomically(out / "icp_runs.csv",
                       [&](std::ostream& stream) { writeRuns(stream, e.basin); });
-  // File names need not be UTF-8, but JSON must be.
-  const std::string json =
-      toJson(settings, e).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  const std::string json = jsonText(toJson(settings, e));
   writeFileAtomically(out / "icp.json", [&](std::ostream& stream) { stream << json; });
+}
+
+void
+drawIcpBasins(const OutputFolder& out,
+              const IcpSettings& settings,
+              const IcpEvaluation& e,
+              ProgressBar& bar)
+{
+  try {
+    for (const IcpBestPose& best : e.basin.best) {
+      const Rows rows = rowsOf(best.metric, e.basin);
+      if (rows.empty())
+        continue;
+      const std::string name = std::string("icp_basin_") + toString(best.metric);
+      const ConvergenceMap map;
+      map.write(out / (name + ".png"), sceneOfMethods(settings, e, best.metric, rows));
+      map.write(out / (name + "_yaw.png"), sceneOfYaws(settings, e, best.metric, rows));
+    }
+  } catch (const pcl::PCLException& error) { // no display, or too many panels
+    bar.warn("no picture: " + std::string(error.what()));
+  }
 }
 
 } // namespace pcl6d::app

@@ -2,6 +2,7 @@
 #include "common/app.h"
 #include "common/command_line.h"
 #include "evaluate/result_file.h"
+#include "evaluate/result_json.h"
 #include "evaluate/verbs.h"
 
 #include <pcl6d/benchmarking/length_ratio.h>
@@ -9,7 +10,6 @@
 #include <pcl6d/io/atomic_file.h>
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -19,7 +19,6 @@
 namespace pcl6d::app {
 
 namespace {
-using Json = nlohmann::ordered_json;
 
 /** \throws IoFailed unless the row holds 2 or 7 finite numbers, or 12 */
 LengthPair
@@ -109,9 +108,7 @@ write(const std::string& output,
                      {"median", errors.ratio.median},
                      {"max", errors.ratio.max},
                      {"scale", errors.scale}};
-  writeFileAtomically(output, [&](std::ostream& stream) {
-    stream << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-  });
+  writeFileAtomically(output, [&](std::ostream& stream) { stream << jsonText(json); });
 }
 } // namespace
 
@@ -141,8 +138,7 @@ runLengths(const std::vector<std::string>& arguments)
   const std::vector<LengthPair> lengths = readLengths(file);
   const LengthRatioErrors errors = lengthRatioErrors(lengths);
   print(file, lengths, errors);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   if (!output.empty())
     write(output, file, lengths, errors);
   return kDone;

@@ -110,8 +110,7 @@ void
 write(const MapSettings& s, const MapReport& report)
 {
   printTable(report, s.rows);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   if (s.output.empty())
     return;
   writeFileAtomically(s.output, [&](std::ostream& stream) {

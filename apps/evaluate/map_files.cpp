@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate/map_report.h"
-
-#include <nlohmann/json.hpp>
+#include "evaluate/result_json.h"
 
 #include <cmath>
 #include <ostream>
@@ -9,7 +8,6 @@
 namespace pcl6d::app {
 
 namespace {
-using Json = nlohmann::ordered_json; // writes NaN as null
 
 Json
 toJson(const DistanceStatistics& s)
@@ -94,7 +92,7 @@ toJson(const MapReport& report)
   json["planes"] = std::move(planes);
   json["scans"] = std::move(scans);
   // File names need not be UTF-8, but JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return jsonText(json); // NaN as null
 }
 
 void

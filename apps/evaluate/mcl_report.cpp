@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate/mcl_report.h"
+#include "evaluate/result_json.h"
 #include "evaluate/verbs.h"
 
 #include <pcl6d/common/error.h>
@@ -9,8 +10,6 @@
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/visualization/top_view.h>
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -18,8 +17,6 @@
 namespace pcl6d::app {
 
 namespace {
-using Json = nlohmann::ordered_json;
-
 constexpr double kDegrees = 180 / M_PI;
 
 void
@@ -76,13 +73,13 @@ printJustification(const std::vector<JustificationRow>& rows)
 Trajectory
 referenceOf(const MclEvaluation& e, bool only_trusted)
 {
-  const Eigen::Isometry3d T_world_map = e.T_map_world.inverse();
+  const Eigen::Isometry3d T_world_map = e.drive.T_map_world.inverse();
   Trajectory reference;
   for (std::size_t i = 0; i < e.scans.size(); ++i) {
-    if (only_trusted && !e.estimates[i].trusted())
+    if (only_trusted && !e.drive.estimates[i].trusted())
       continue;
-    reference.poses.push_back(T_world_map * e.scans[i].T_map_scan);
-    reference.stamps.push_back(e.stamps.empty() ? e.scans[i].index : e.stamps[i]);
+    reference.poses.push_back(T_world_map * e.drive.T_map_scan[i]);
+    reference.stamps.push_back(e.stamps.empty() ? e.indices[i] : e.stamps[i]);
   }
   return reference;
 }
@@ -94,8 +91,8 @@ writeRows(std::ostream& stream, const MclEvaluation& e)
             "reason\n"
          << std::setprecision(17);
   for (std::size_t i = 0; i < e.scans.size(); ++i) {
-    const MclEstimate& m = e.estimates[i];
-    stream << e.scans[i].index << ',' << m.pose.x() + e.map.offset().x() << ','
+    const MclEstimate& m = e.drive.estimates[i];
+    stream << e.indices[i] << ',' << m.pose.x() + e.map.offset().x() << ','
            << m.pose.y() + e.map.offset().y() << ',' << m.pose.z() << ','
            << std::sqrt(m.covariance(0, 0)) << ',' << std::sqrt(m.covariance(1, 1))
            << ',' << std::sqrt(m.covariance(2, 2)) << ',' << m.walls << ','
@@ -104,35 +101,14 @@ writeRows(std::ostream& stream, const MclEvaluation& e)
   }
 }
 
-template <typename Matrix>
-std::vector<double>
-rowByRow(const Matrix& matrix)
-{
-  const Eigen::Matrix<double,
-                      Matrix::RowsAtCompileTime,
-                      Matrix::ColsAtCompileTime,
-                      Eigen::RowMajor>
-      rows = matrix;
-  return {rows.data(), rows.data() + rows.size()};
-}
-
-Json
-toJson(const ErrorStatistics& errors)
-{
-  return {{"rms", errors.rms},
-          {"mean", errors.mean},
-          {"median", errors.median},
-          {"max", errors.max}};
-}
-
 Json
 toJson(const MclErrors& errors)
 {
   return {{"scans", errors.compared},
-          {"position_2d", toJson(errors.position_2d)},
-          {"yaw", toJson(errors.yaw)},
-          {"position", toJson(errors.position)},
-          {"orientation", toJson(errors.orientation)}};
+          {"position_2d", statisticsJson(errors.position_2d)},
+          {"yaw", statisticsJson(errors.yaw)},
+          {"position", statisticsJson(errors.position)},
+          {"orientation", statisticsJson(errors.orientation)}};
 }
 
 Json
@@ -140,13 +116,13 @@ scansToJson(const MclEvaluation& e)
 {
   Json scans = Json::array();
   for (std::size_t i = 0; i < e.scans.size(); ++i) {
-    Eigen::Isometry3d T_map_scan = e.scans[i].T_map_scan;
+    Eigen::Isometry3d T_map_scan = e.drive.T_map_scan[i];
     T_map_scan.translation().head<2>() += e.map.offset();
-    scans.push_back({{"index", e.scans[i].index},
-                     {"file", e.scans[i].name},
+    scans.push_back({{"index", e.indices[i]},
+                     {"file", e.names[i]},
                      {"T_map_scan", rowByRow(T_map_scan.matrix())},
-                     {"covariance", rowByRow(e.estimates[i].covariance)},
-                     {"trusted", e.estimates[i].trusted()}});
+                     {"covariance", rowByRow(e.drive.estimates[i].covariance)},
+                     {"trusted", e.drive.estimates[i].trusted()}});
   }
   return scans;
 }
@@ -154,7 +130,7 @@ scansToJson(const MclEvaluation& e)
 Json
 toJson(const MclSettings& s, const MclEvaluation& e)
 {
-  Eigen::Isometry3d T_map_world = e.T_map_world;
+  Eigen::Isometry3d T_map_world = e.drive.T_map_world;
   T_map_world.translation().head<2>() += e.map.offset();
   Json json = {{"schema_version", 1},
                {"generator", kEvaluate},
@@ -170,12 +146,12 @@ toJson(const MclSettings& s, const MclEvaluation& e)
                {"hit_sigma", s.mcl.hit_sigma},
                {"seed", s.mcl.seed},
                {"scans", e.scans.size()},
-               {"trusted", e.numTrusted()},
+               {"trusted", e.drive.numTrusted()},
                {"doubtful", Json::array()}};
-  for (const MclInterval& interval : e.doubtfulIntervals())
-    json["doubtful"].push_back({{"first", interval.first},
-                                {"last", interval.last},
-                                {"reason", interval.reason}});
+  for (const DoubtfulStretch& stretch : e.drive.doubtfulStretches())
+    json["doubtful"].push_back({{"first", e.indices[stretch.first]},
+                                {"last", e.indices[stretch.last]},
+                                {"reason", toString(stretch.doubt)}});
   if (e.all)
     json["errors"] = {{"reference", s.reference},
                       {"all", toJson(*e.all)},
@@ -184,8 +160,8 @@ toJson(const MclSettings& s, const MclEvaluation& e)
     json["justification"].push_back({{"method", row.method},
                                      {"scans", row.position.count},
                                      {"failed", row.failed},
-                                     {"position", toJson(row.position)},
-                                     {"yaw", toJson(row.yaw)}});
+                                     {"position", statisticsJson(row.position)},
+                                     {"yaw", statisticsJson(row.yaw)}});
   json["poses_in_map"] = scansToJson(e);
   return json;
 }
@@ -234,12 +210,13 @@ printMcl(const MclSettings& s, const MclEvaluation& e)
                 s.map.c_str(),
                 e.map.segments().size(),
                 e.map_source.c_str());
-  std::printf("%zu of %zu scans are to be trusted\n", e.numTrusted(), e.scans.size());
-  for (const MclInterval& interval : e.doubtfulIntervals())
+  std::printf(
+      "%zu of %zu scans are to be trusted\n", e.drive.numTrusted(), e.scans.size());
+  for (const DoubtfulStretch& stretch : e.drive.doubtfulStretches())
     std::printf("  not scans %d to %d: %s\n",
-                interval.first,
-                interval.last,
-                interval.reason.c_str());
+                e.indices[stretch.first],
+                e.indices[stretch.last],
+                toString(stretch.doubt));
   if (e.all && e.all->compared > e.trusted->compared)
     printErrors("all", *e.all);
   if (e.trusted)
@@ -252,13 +229,11 @@ void
 writeMclFiles(const OutputFolder& out, const MclSettings& s, const MclEvaluation& e)
 {
   writeTrajectoryKitti(out / "reference.kitti", referenceOf(e, false));
-  if (e.numTrusted() > 0)
+  if (e.drive.numTrusted() > 0)
     writeTrajectoryTum(out / "reference.tum", referenceOf(e, true));
   writeFileAtomically(out / "mcl.csv",
                       [&](std::ostream& stream) { writeRows(stream, e); });
-  // File names need not be UTF-8, but JSON must be.
-  const std::string json =
-      toJson(s, e).dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+  const std::string json = jsonText(toJson(s, e), 1);
   writeFileAtomically(out / "mcl.json", [&](std::ostream& stream) { stream << json; });
 }
 
@@ -271,10 +246,9 @@ drawMcl(const OutputFolder& out, const MclEvaluation& e, ProgressBar& bar)
   options.initial_label = "odometry";
   TopViewScene scene;
   scene.points = drawnWalls(e.map);
-  for (const MclScan& scan : e.scans) {
-    scene.trajectory.poses.push_back(scan.T_map_scan);
-    scene.initial.poses.push_back(e.T_map_world * scan.odometry);
-  }
+  scene.trajectory.poses = e.drive.T_map_scan;
+  for (const DriveScan& scan : e.scans)
+    scene.initial.poses.push_back(e.drive.T_map_world * scan.odometry);
   try {
     TopView(options).write(out / "mcl.png", scene);
   } catch (const IoFailed& error) {

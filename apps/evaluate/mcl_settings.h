@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/localisation/monte_carlo_localisation.h>
+#include <pcl6d/localisation/drive_localisation.h>
 #include <pcl6d/localisation/segment_cut.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 
@@ -11,13 +11,6 @@
 #include <vector>
 
 namespace pcl6d::app {
-
-/** \brief Where the first scan was taken. */
-enum class MclStart {
-  kPoses,   ///< as the poses say: the map is in their world
-  kGiven,   ///< MclSettings::start
-  kAnywhere ///< to be found
-};
 
 /** \brief The command line of `pcl_slam6d_evaluate mcl`. */
 struct MclSettings {

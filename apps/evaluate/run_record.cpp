@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/result_json.h"
 #include "evaluate/run_record.h"
 
 #include <pcl6d/common/error.h>
@@ -17,7 +18,6 @@ namespace pcl6d::app {
 
 namespace {
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /** FNV-1a with 64 bits, eight bytes at a time: to notice changes, not attackers. */
 class Hash {
@@ -123,8 +123,8 @@ writeRunRecord(const fs::path& file, const RunRecord& record)
                      {"cpu_seconds", record.end.cpu_seconds},
                      {"peak_memory_mb", record.end.peak_memory_mb},
                      {"message", record.message}};
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
-  writeFileAtomically(file, [&](std::ostream& stream) { stream << text << '\n'; });
+  const std::string text = jsonText(json);
+  writeFileAtomically(file, [&](std::ostream& stream) { stream << text; });
 }
 
 std::optional<RunRecord>

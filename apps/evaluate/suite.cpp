@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/command_line.h"
+#include "evaluate/result_json.h"
 #include "evaluate/suite_check.h"
 #include "evaluate/suite_report.h"
 #include "evaluate/verbs.h"
@@ -23,7 +24,6 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kMarker = "suite.json"; // only folders of ours have it
 
@@ -187,9 +187,9 @@ private:
     const Json json = {{"schema_version", 1},
                        {"generator", kEvaluate},
                        {"suite", suite.file.string()}};
-    const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+    const std::string text = jsonText(json);
     writeFileAtomically(folder_ / kMarker,
-                        [&](std::ostream& stream) { stream << text << '\n'; });
+                        [&](std::ostream& stream) { stream << text; });
   }
 
   fs::path folder_;
@@ -218,8 +218,7 @@ writeReport(const SuiteSettings& s,
     putIntoDocument(s.document, suite.name, document);
   const std::string table = suiteMarkdown(rows);
   std::fputs(table.c_str(), stdout);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   try {
     drawSuite(out, results);
   } catch (const pcl::PCLException& e) {

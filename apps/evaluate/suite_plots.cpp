@@ -41,6 +41,19 @@ addPath(const Trajectory& path, ChartSeries series, LineChartScene& scene)
   scene.series.push_back(std::move(series));
 }
 
+LineChartScene
+emptyScene(const DataResults& data,
+           const std::string& title,
+           const std::string& x,
+           const std::string& y)
+{
+  LineChartScene scene;
+  scene.title = data.data + ": " + title;
+  scene.x.title = x;
+  scene.y.title = y;
+  return scene;
+}
+
 /** \return the part of the reference that some estimate is compared with */
 Trajectory
 comparedReference(const DataResults& data)
@@ -62,10 +75,7 @@ comparedReference(const DataResults& data)
 LineChartScene
 pathsOf(const DataResults& data)
 {
-  LineChartScene scene;
-  scene.title = data.data + ": paths";
-  scene.x.title = "x [m]";
-  scene.y.title = "y [m]";
+  LineChartScene scene = emptyScene(data, "paths", "x [m]", "y [m]");
   scene.equal_aspect = true;
   for (const SuiteResult& result : data.results)
     addPath(result.estimate, namedSeries(result), scene);
@@ -79,10 +89,7 @@ pathsOf(const DataResults& data)
 LineChartScene
 errorsOf(const DataResults& data)
 {
-  LineChartScene scene;
-  scene.title = data.data + ": position error";
-  scene.x.title = "scan";
-  scene.y.title = "error [m]";
+  LineChartScene scene = emptyScene(data, "position error", "scan", "error [m]");
   scene.y.logarithmic = true;
   for (const SuiteResult& result : data.results) {
     if (!result.row.errors)
@@ -102,10 +109,8 @@ errorsOf(const DataResults& data)
 LineChartScene
 timesOf(const DataResults& data)
 {
-  LineChartScene scene;
-  scene.title = data.data + ": what the time is spent for";
-  scene.x.title = "time [s]";
-  scene.y.title = "position rms [m]";
+  LineChartScene scene =
+      emptyScene(data, "what the time is spent for", "time [s]", "position rms [m]");
   scene.x.logarithmic = scene.y.logarithmic = true;
   for (const SuiteResult& result : data.results) {
     if (!result.row.errors || !result.row.seconds)

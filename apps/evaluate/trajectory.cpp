@@ -140,8 +140,7 @@ write(const TrajectorySettings& s, const TrajectoryReport& report)
     std::fputs(toJson(report).c_str(), stdout);
   else
     printTable(report);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   const auto writeJson = [&](std::ostream& stream) { stream << toJson(report); };
   if (!s.json.empty() && s.json != "-")
     writeFileAtomically(s.json, writeJson);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/result_json.h"
 #include "evaluate/trajectory_report.h"
-
-#include <nlohmann/json.hpp>
 
 #include <limits>
 #include <ostream>
@@ -9,21 +8,10 @@
 namespace pcl6d::app {
 
 namespace {
-using Json = nlohmann::ordered_json;
-
-Json
-toJson(const ErrorStatistics& errors)
-{
-  return {{"rms", errors.rms},
-          {"mean", errors.mean},
-          {"median", errors.median},
-          {"max", errors.max}};
-}
-
 Json
 toJson(const ErrorStatistics& errors, const PoseMatching& matching)
 {
-  Json json = toJson(errors);
+  Json json = statisticsJson(errors);
   json["pose_of_max"] = matching.pairs[errors.index_of_max].estimate;
   return json;
 }
@@ -56,7 +44,7 @@ toJson(const RelativeErrors& errors, const PoseMatching& matching)
   if (errors.motions.empty())
     return json;
   const auto withEnd = [&](const ErrorStatistics& kind) {
-    Json one = toJson(kind);
+    Json one = statisticsJson(kind);
     one["pose_of_max"] = matching.pairs[errors.motions[kind.index_of_max].to].estimate;
     return one;
   };
@@ -136,11 +124,11 @@ toJson(const TrajectoryReport& report)
   json["steps"] = toJson(evaluation.steps, matching);
   json["drift"] = toJson(evaluation.drift, matching);
   json["loop_closure"] = loopsToJson(evaluation);
-  json["length_ratios"] = toJson(evaluation.length_ratios.ratio);
+  json["length_ratios"] = statisticsJson(evaluation.length_ratios.ratio);
   json["length_ratios"]["count"] = evaluation.length_ratios.ratio.count;
   json["length_ratios"]["scale"] = evaluation.length_ratios.scale;
   // File names need not be UTF-8, but JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return jsonText(json);
 }
 
 void

@@ -1,41 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "common/verbs.h"
 
 namespace pcl6d::app {
 
 constexpr const char* kEvaluate = "pcl_slam6d_evaluate"; ///< the program's name
 
-/** \brief `trajectory ESTIMATE REFERENCE`: errors of a trajectory against a reference.
- * \param[in] arguments after the verb \return the exit code */
+/** \file What the verbs do stands in the table of pcl_slam6d_evaluate.cpp. */
 int
-runTrajectory(const std::vector<std::string>& arguments);
-
-/** \brief `icp SCAN_A SCAN_B`: the basin of convergence of ICP.
- * \param[in] arguments after the verb \return the exit code */
+runTrajectory(const Arguments& arguments);
 int
-runIcp(const std::vector<std::string>& arguments);
-
-/** \brief `lengths FILE`: ratios of lengths in a map against those in a reference.
- * \param[in] arguments after the verb \return the exit code */
+runIcp(const Arguments& arguments);
 int
-runLengths(const std::vector<std::string>& arguments);
-
-/** \brief `map RUN_DIR`: how good a map is, without a reference path.
- * \param[in] arguments after the verb \return the exit code */
+runLengths(const Arguments& arguments);
 int
-runMap(const std::vector<std::string>& arguments);
-
-/** \brief `mcl SCAN_DIR --map FILE`: a reference path by localisation in a known plan.
- * \param[in] arguments after the verb \return the exit code */
+runMap(const Arguments& arguments);
 int
-runMcl(const std::vector<std::string>& arguments);
-
-/** \brief `suite SUITE.json`: several methods over several data sets.
- * \param[in] arguments after the verb \return the exit code */
+runMcl(const Arguments& arguments);
 int
-runSuite(const std::vector<std::string>& arguments);
+runSuite(const Arguments& arguments);
 
 } // namespace pcl6d::app

@@ -3,7 +3,6 @@
 #include "common/command_line.h"
 #include "graph/verbs.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 #include <pcl6d/io/pose_graph_io.h>
 
@@ -64,8 +63,7 @@ runInfo(const std::vector<std::string>& arguments)
               *most);
   std::printf("chi2 %.10g\n", chi2Of(graph));
   std::printf("length %.2f m\n", lengthOf(graph, parts.result()));
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   return kDone;
 }
 

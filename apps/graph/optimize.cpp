@@ -3,7 +3,6 @@
 #include "common/command_line.h"
 #include "graph/verbs.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 #include <pcl6d/io/pose_graph_io.h>
 
@@ -111,8 +110,7 @@ printResult(const PoseGraph& graph, const PoseGraphResult& result, double second
                                  [](double weight) { return weight < 0.1; });
   if (off > 0)
     std::printf("edges of weight below 0.1: %td\n", off);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
 }
 } // namespace
 

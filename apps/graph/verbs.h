@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "common/verbs.h"
 
 namespace pcl6d::app {
 
 constexpr const char* kGraph = "pcl_slam6d_graph"; ///< the program's name
 
-/** \brief `optimize IN -o OUT`: the poses that fit the links of a pose graph best.
- * \param[in] arguments after the verb \return the exit code */
+/** \file What the verbs do stands in the table of pcl_slam6d_graph.cpp. */
 int
-runOptimize(const std::vector<std::string>& arguments);
-
-/** \brief `info IN`: what a pose graph holds.
- * \param[in] arguments after the verb \return the exit code */
+runOptimize(const Arguments& arguments);
 int
-runInfo(const std::vector<std::string>& arguments);
+runInfo(const Arguments& arguments);
 
 } // namespace pcl6d::app

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/output_folder.h"
-#include "objects/locate_scans.h"
+#include "common/folder_job.h"
+#include "common/open_scans.h"
+#include "objects/locate_settings.h"
 #include "objects/verbs.h"
 
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_writer.h>
 #include <pcl6d/semantic_map/object_fusion.h>
+#include <pcl6d/semantic_map/object_observations.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
 #include <cstdio>
@@ -15,6 +17,32 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
+/** \throws Interrupted */
+ObjectObservations
+observe(const LocateSettings& s, FolderJob& job)
+{
+  const ObjectFinder finder(readModels(s.models, s.store, s.file), s.finder);
+  const ObservationRange given{s.min_range, s.max_range};
+  if (fs::is_directory(s.input))
+    return observeObjects(finder,
+                          openScans(s.input, s.folder, job.bar),
+                          given,
+                          watched(job.bar, job.interrupt));
+  ObservationRange range;
+  range.min_range = given.min_range;
+  if (given.max_range > 0)
+    range.max_range = given.max_range;
+  ObjectObservations found;
+  observeObjects(finder,
+                 readScan(s.input, s.folder.format),
+                 s.input,
+                 Eigen::Isometry3d::Identity(),
+                 0,
+                 range,
+                 found);
+  return found;
+}
+
 /** The objects of the input, and of each observation which one it is of. */
 struct Joined {
   std::vector<MapObject> objects;
@@ -22,7 +50,7 @@ struct Joined {
 };
 
 Joined
-join(const Located& located, bool fuse)
+join(const ObjectObservations& located, bool fuse)
 {
   Joined joined;
   joined.id_of_observation.resize(located.observations.size());
@@ -45,7 +73,7 @@ join(const Located& located, bool fuse)
 void
 writeLabelledScans(const OutputFolder& out,
                    const LocateSettings& s,
-                   const Located& located,
+                   const ObjectObservations& located,
                    const Joined& joined)
 {
   const bool is_folder = fs::is_directory(s.input);
@@ -66,7 +94,7 @@ writeLabelledScans(const OutputFolder& out,
 }
 
 void
-printTable(const Located& located, const std::vector<MapObject>& objects)
+printTable(const ObjectObservations& located, const std::vector<MapObject>& objects)
 {
   std::printf("%zu objects in %zu scans, %.3f s\n",
               objects.size(),
@@ -112,26 +140,19 @@ runLocate(const std::vector<std::string>& arguments)
   LocateSettings s;
   if (!parseLocate(arguments, s))
     return kDone;
-  const Interrupt interrupt;
-  ProgressBar bar(s.quiet);
-  if (!s.without_effect.empty())
-    bar.warn(s.without_effect);
-  OutputFolder out(outputRules(s));
-  const auto located = locateScans(s, bar, interrupt);
-  if (!located) {
-    bar.say("interrupted; nothing is written");
+  FolderJob job(s.quiet, s.without_effect, outputRules(s));
+  try {
+    const ObjectObservations located = observe(s, job);
+    const Joined joined = join(located, s.fuse);
+    writeMapObjects(
+        *job.out / "objects.json", joined.objects, {located.seconds, kObjects});
+    writeLabelledScans(*job.out, s, located, joined);
+    job.publish([&] { printTable(located, joined.objects); });
+  } catch (const Interrupted&) {
+    job.bar.say("interrupted; nothing is written");
     return kInterrupted;
   }
-  const Joined joined = join(*located, s.fuse);
-  writeMapObjects(out / "objects.json", joined.objects, {located->seconds, kObjects});
-  writeLabelledScans(out, s, *located, joined);
-  const auto written = out.publish();
-  if (s.quiet)
-    return kDone;
-  printTable(*located, joined.objects);
-  for (const auto& path : written)
-    std::printf("  %s\n", path.c_str());
-  return std::fflush(stdout) == 0 ? kDone : kFailed;
+  return s.quiet || std::fflush(stdout) == 0 ? kDone : kFailed;
 }
 
 } // namespace pcl6d::app

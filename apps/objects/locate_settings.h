@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "objects/object_finder.h"
-
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/object_localization/object_finder.h>
 
 #include <string>
 #include <vector>
@@ -18,7 +17,7 @@ struct LocateSettings {
   ModelFileOptions file;
   std::string out;
   ScanFolderOptions folder;
-  FinderOptions finder;
+  ObjectFinderOptions finder;
   double min_range = 0;
   double max_range = 0; ///< 0: all
   bool fuse = true;     ///< what several scans saw

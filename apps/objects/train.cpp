@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/interrupt.h"
 #include "common/progress_bar.h"
 #include "objects/train_settings.h"
 #include "objects/verbs.h"
@@ -18,8 +17,6 @@
 namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
-
-struct Interrupted {};
 
 /** A folder of the store, or a file. */
 TriangleMesh
@@ -87,8 +84,7 @@ finish(const TrainSettings& s, CascadeTraining& training, double seconds)
               training.cascade.height,
               hits,
               seconds);
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   if (training.stages.empty())
     throw ComputeFailed(
         "nothing in the pictures tells the object from the backgrounds");
@@ -145,14 +141,7 @@ runTrain(const std::vector<std::string>& arguments)
   const Interrupt interrupt;
   ProgressBar bar(s.quiet);
   try {
-    return train(
-        s,
-        [&](const Progress& progress) {
-          if (interrupt.requested())
-            throw Interrupted();
-          bar.show(progress);
-        },
-        bar);
+    return train(s, watched(bar, interrupt), bar);
   } catch (const Interrupted&) {
     bar.warn("interrupted; the same command goes on with what is in " + s.state);
     return kInterrupted;

@@ -143,8 +143,8 @@ interpret(const CommandLine& line, const Words& words, PlaneSettings& s)
           "threads",
           words.threads,
           "0 to 1024");
-  s.num_threads = static_cast<unsigned int>(words.threads);
-  PlaneStepOptions& step = s.step;
+  s.step.num_threads = static_cast<unsigned int>(words.threads);
+  PlaneFinderOptions& step = s.step;
   step.method = planeMethodFromName(words.method);
   step.noise = lengthOf(words.noise);
   require(!step.noise || *step.noise > 0, "noise", words.noise.value, "> 0");

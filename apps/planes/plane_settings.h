@@ -2,9 +2,7 @@
 #pragma once
 
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/plane_segmentation/segment_planes.h>
-#include <pcl6d/scene_interpretation/interpretation.h>
-#include <pcl6d/scene_interpretation/model_refinement.h>
+#include <pcl6d/scene_interpretation/plane_finder.h>
 
 #include <optional>
 #include <string>
@@ -12,18 +10,6 @@
 namespace pcl6d::app {
 
 constexpr const char* kPlanes = "pcl_slam6d_planes"; ///< the program's name
-
-/** \brief How planes are found, labelled and refined. */
-struct PlaneStepOptions {
-  PlaneMethod method = PlaneMethod::kRegionGrowing;
-  PlaneSegmentationOptions segmentation;
-  std::optional<double> noise; ///< [m] of a point; none: estimated
-  bool labels = true;
-  LabelRules rules = bookRules();
-  InterpretationOptions interpretation;
-  bool refine = false;
-  RefinementOptions refinement;
-};
 
 /** \brief The command line of pcl_slam6d_planes. */
 struct PlaneSettings {
@@ -33,8 +19,7 @@ struct PlaneSettings {
   std::optional<double> min_range; ///< [m] none: derived
   std::optional<double> max_range; ///< [m] none: derived
   std::optional<double> voxel;     ///< [m] of the map of a folder; none: derived
-  PlaneStepOptions step;
-  unsigned int num_threads = 0; ///< 0: one per core
+  PlaneFinderOptions step;
   bool force = false;
   bool quiet = false;
   bool verbose = false;       ///< explain the labels

@@ -42,36 +42,6 @@ areaAround(const Trajectory& trajectory)
 }
 } // namespace
 
-TopViewOptions
-RunPictures::topOptions(const std::string& of, PointColour usual) const
-{
-  TopViewOptions options;
-  options.width = settings_.width.value_or(options.width);
-  options.height = settings_.height;
-  options.colour = settings_.colour.value_or(usual);
-  options.colour_map = settings_.colour_map;
-  options.background = settings_.background;
-  options.transparent = settings_.transparent;
-  options.title = title(of);
-  options.max_points = settings_.points;
-  return options;
-}
-
-MapViewOptions
-RunPictures::mapOptions(const std::string& of, PointColour usual) const
-{
-  MapViewOptions options;
-  options.width = settings_.width.value_or(options.width);
-  options.height = settings_.height;
-  options.colour = settings_.colour.value_or(usual);
-  options.colour_map = settings_.colour_map;
-  options.background = settings_.background;
-  options.transparent = settings_.transparent;
-  options.title = title(of);
-  options.max_points = settings_.points;
-  return options;
-}
-
 TopViewScene
 RunPictures::topScene(PointColour colour)
 {
@@ -94,7 +64,7 @@ RunPictures::mapScene(PointColour colour)
 Image
 RunPictures::drawTop()
 {
-  TopViewOptions options = topOptions("", PointColour::kHeight);
+  TopViewOptions options = optionsOf<TopViewOptions>("", PointColour::kHeight);
   options.shading = 0.4;
   return TopView(options).draw(topScene(options.colour)).image;
 }
@@ -114,7 +84,7 @@ RunPictures::chosenCamera(const MapView& view, const MapViewScene& scene) const
 Image
 RunPictures::drawPerspective()
 {
-  MapViewOptions options = mapOptions("", PointColour::kHeight);
+  MapViewOptions options = optionsOf<MapViewOptions>("", PointColour::kHeight);
   options.final_label = "path of the scanner";
   const MapViewScene scene = mapScene(options.colour);
   const MapView view(options);
@@ -145,7 +115,7 @@ RunPictures::sceneBefore(const TopViewScene& after, PointColour colour)
 Image
 RunPictures::drawBeforeAfter()
 {
-  TopViewOptions options = topOptions("before", PointColour::kScan);
+  TopViewOptions options = optionsOf<TopViewOptions>("before", PointColour::kScan);
   options.width = settings_.width.value_or(2000);
   options.final_label = options.initial_label = ""; // the titles tell
   TopViewScene after = topScene(options.colour);
@@ -157,7 +127,8 @@ RunPictures::drawBeforeAfter()
 Image
 RunPictures::drawGraph()
 {
-  TopViewOptions options = topOptions("links of the scans", PointColour::kPlain);
+  TopViewOptions options =
+      optionsOf<TopViewOptions>("links of the scans", PointColour::kPlain);
   TopViewScene scene = topScene(options.colour);
   std::vector<ViewLink> links;
   for (const RunLink& link : run_.readLinks())
@@ -177,7 +148,8 @@ RunPictures::drawGraph()
 Image
 RunPictures::drawCovariance()
 {
-  TopViewOptions options = topOptions("covariances", PointColour::kPlain);
+  TopViewOptions options =
+      optionsOf<TopViewOptions>("covariances", PointColour::kPlain);
   TopViewScene scene = topScene(options.colour);
   std::vector<std::optional<Eigen::Matrix3d>> covariances;
   for (const auto& scan : run_.summary().scans) {
@@ -194,7 +166,7 @@ RunPictures::drawCovariance()
 Image
 RunPictures::drawSlice()
 {
-  TopViewOptions options = topOptions("slice", PointColour::kScan);
+  TopViewOptions options = optionsOf<TopViewOptions>("slice", PointColour::kScan);
   options.cut.slice = HeightSlice{std::nullopt, settings_.slice_thickness};
   if (!settings_.slice_height.is_auto)
     options.cut.slice->height =
@@ -220,7 +192,7 @@ RunPictures::drawPanorama()
   scene.points = transformed(own.points, pose);
   scene.scans = own.scans;
   scene.reflectances = own.intensities;
-  MapViewOptions options = mapOptions(
+  MapViewOptions options = optionsOf<MapViewOptions>(
       "panorama of scan " + std::to_string(scans[place].index),
       own.intensities.empty() ? PointColour::kHeight : PointColour::kReflectance);
   options.width = settings_.width.value_or(2000);

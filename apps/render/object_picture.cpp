@@ -26,7 +26,7 @@ RunPictures::drawObjects()
   std::vector<ObjectPose> found = objects();
   for (auto& object : found)
     object.T_world_object.translation() -= run_.summary().world_offset;
-  MapViewOptions options = mapOptions("objects", PointColour::kPlain);
+  MapViewOptions options = optionsOf<MapViewOptions>("objects", PointColour::kPlain);
   options.draw_paths = false;
   MapViewScene scene = mapScene(options.colour);
   scene.overlay = objectOverlay(found, options.background);

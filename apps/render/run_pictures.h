@@ -70,10 +70,22 @@ private:
 
   std::string
   title(const std::string& of) const;
-  TopViewOptions
-  topOptions(const std::string& of, PointColour usual) const;
-  MapViewOptions
-  mapOptions(const std::string& of, PointColour usual) const;
+  /** Of TopView or MapView. */
+  template <typename Options>
+  Options
+  optionsOf(const std::string& of, PointColour usual) const
+  {
+    Options options;
+    options.width = settings_.width.value_or(options.width);
+    options.height = settings_.height;
+    options.colour = settings_.colour.value_or(usual);
+    options.colour_map = settings_.colour_map;
+    options.background = settings_.background;
+    options.transparent = settings_.transparent;
+    options.title = title(of);
+    options.max_points = settings_.points;
+    return options;
+  }
   MapCloud
   cloudFor(PointColour colour);
   const RunMap&

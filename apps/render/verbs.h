@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "common/verbs.h"
 
 namespace pcl6d::app {
 
 constexpr const char* kRender = "pcl_slam6d_render"; ///< the program's name
 
-/** \brief `animation RUN`: the run as frames and a video.
- * \param[in] arguments after the verb \return the exit code */
+/** \file What the verbs do stands in the table of pcl_slam6d_render.cpp. */
 int
-runAnimation(const std::vector<std::string>& arguments);
-
-/** \brief `picture RUN`: views of a run as PNG files.
- * \param[in] arguments after the verb \return the exit code */
+runAnimation(const Arguments& arguments);
 int
-runPicture(const std::vector<std::string>& arguments);
-
-/** \brief `report RUN`: a page that tells all of a run.
- * \param[in] arguments after the verb \return the exit code */
+runPicture(const Arguments& arguments);
 int
-runReport(const std::vector<std::string>& arguments);
+runReport(const Arguments& arguments);
 
 } // namespace pcl6d::app

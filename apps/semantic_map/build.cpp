@@ -2,16 +2,16 @@
 #include "common/app.h"
 #include "common/command_line.h"
 #include "common/interrupt.h"
+#include "common/open_scans.h"
 #include "common/progress_bar.h"
-#include "semantic_map/labelled_clouds.h"
-#include "semantic_map/scene_parts.h"
+#include "semantic_map/finished_run.h"
 #include "semantic_map/verbs.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
-#include <pcl6d/semantic_map/find_rooms.h>
-#include <pcl6d/semantic_map/map_relations.h>
-#include <pcl6d/semantic_map/object_fusion.h>
+#include <pcl6d/io/plane_io.h>
+#include <pcl6d/io/scan_writer.h>
+#include <pcl6d/semantic_map/object_observations.h>
+#include <pcl6d/semantic_map/semantic_map_builder.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
 #include <cstdio>
@@ -123,55 +123,65 @@ parse(const std::vector<std::string>& arguments, BuildSettings& s)
   return true;
 }
 
-/** \return the objects of a list, each once */
-std::vector<MapObject>
-fused(const std::vector<MapObject>& observations)
+/** The file that an option names, else that of the run; empty if there is none. */
+fs::path
+fileOf(const std::string& option, const fs::path& of_run)
 {
-  std::vector<MapObject> objects;
-  for (const auto& found : fuseObjects(observations))
-    objects.push_back(found.object);
-  return objects;
+  return option.empty() && fs::exists(of_run) ? of_run : fs::path(option);
 }
 
-/** \throws IoFailed an object was seen by a scan that is not of the run */
-void
-checkScans(const SemanticMap& map, const std::string& source)
+/** Objects of the given file, those of the models that are found in the scans, as
+ * pcl_slam6d_objects does, or those of objects.json in the folder of the run.
+ * \return where they come from, for people \throws Interrupted */
+std::string
+addObjects(const BuildSettings& s,
+           ProgressBar& bar,
+           const Interrupt& interrupt,
+           SemanticMapBuilder& builder)
 {
-  for (std::size_t i = 0; i < map.objects.size(); ++i)
-    for (const auto id : map.objects[i].scans)
-      if (!map.placeOf({EntityKind::kScan, id}))
-        throw IoFailed(source + ": object " + std::to_string(i + 1) + ": scan " +
-                       std::to_string(id) + ", but the run has no such scan");
+  if (!s.models.empty() || !s.store.empty()) {
+    ObjectFinderOptions options;
+    options.localizer.num_threads = static_cast<unsigned int>(s.threads);
+    const ObjectFinder finder(readModels(s.models, s.store), options);
+    const auto found = observeObjects(
+        finder, openScans(s.run, {}, bar), {0, 0}, watched(bar, interrupt));
+    builder.setObjects(found.observations);
+    return "found in the scans";
+  }
+  const fs::path file = fileOf(s.objects, fs::path(s.run) / "objects.json");
+  if (file.empty())
+    return "none given";
+  builder.setObjects(readMapObjects(file), file.string());
+  return file.string();
 }
 
-/** Finds objects, each once, and planes. \return false if interrupted */
-bool
-addParts(const FinishedRun& run,
-         const BuildSettings& s,
-         ProgressBar& bar,
-         SemanticMap& map)
+/** Planes of the given file, of planes.json in the folder of the run, or found in its
+ * scans, labelled and refined (book 7.1), as pcl_slam6d_planes does.
+ * \return where they come from, for people \throws Interrupted */
+std::string
+addPlanes(const BuildSettings& s,
+          ProgressBar& bar,
+          const Interrupt& interrupt,
+          SemanticMapBuilder& builder)
 {
-  const Interrupt interrupt;
-  const ScenePartsOptions options{s.planes,
-                                  s.objects,
-                                  s.models,
-                                  s.store,
-                                  s.rules,
-                                  static_cast<unsigned int>(s.threads)};
-  const auto objects = findObjects(run, options, bar, interrupt);
-  if (!objects)
-    return false;
-  map.objects = objects->parts;
-  checkScans(map, objects->source);
-  if (!s.keep_observations)
-    map.objects = fused(map.objects);
-  const auto planes = findPlanes(run, options, bar, interrupt);
-  if (!planes)
-    return false;
-  map.planes = planes->parts;
-  bar.say("planes: " + planes->source);
-  bar.say("objects: " + objects->source);
-  return true;
+  const auto rules = [&s] {
+    return s.rules.empty() ? bookRules() : readLabelRules(s.rules);
+  };
+  const fs::path file = fileOf(s.planes, fs::path(s.run) / "planes.json");
+  if (!file.empty()) {
+    builder.setPlanes(readPlanes(file), rules);
+    return file.string();
+  }
+  PlaneFinderOptions options;
+  options.rules = rules();
+  options.refine = true;
+  options.num_threads = static_cast<unsigned int>(s.threads);
+  const RegisteredScans scans = openScans(s.run, {}, bar);
+  const ScanParameters parameters = sceneParameters(scans, {}, watched(interrupt));
+  bar.say(parameterLine("voxel", parameters.voxel));
+  const SceneCloud cloud = joinScans(scans, parameters, watched(bar, interrupt));
+  builder.setPlanes(PlaneFinder(options).find(cloud), cloud.world_offset);
+  return "found in the scans";
 }
 
 void
@@ -185,8 +195,7 @@ printResult(const SemanticMap& map, const BuildSettings& s)
               map.rooms.size(),
               map.relations.size());
   std::printf("written: %s %s\n", s.output.c_str(), s.cloud.c_str());
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
 }
 } // namespace
 
@@ -198,27 +207,31 @@ runMapBuild(const std::vector<std::string>& arguments)
     return kDone;
   ProgressBar bar(s.quiet);
   const FinishedRun run(s.run);
-  SemanticMap map;
-  map.scans = run.scans();
-  map.links = run.readLinks();
-  map.world_offset = run.worldOffset();
-  const Scan cloud = run.readMap();
-  if (!addParts(run, s, bar, map)) {
+  SemanticMap scans;
+  scans.scans = run.scans();
+  scans.links = run.readLinks();
+  scans.world_offset = run.worldOffset();
+  Scan cloud = run.readMap();
+  SemanticMapBuilderOptions options;
+  options.fuse = !s.keep_observations;
+  options.num_threads = static_cast<unsigned int>(s.threads);
+  SemanticMapBuilder builder(std::move(scans), options);
+  try {
+    const Interrupt interrupt;
+    const std::string objects = addObjects(s, bar, interrupt, builder);
+    bar.say("planes: " + addPlanes(s, bar, interrupt, builder));
+    bar.say("objects: " + objects);
+  } catch (const Interrupted&) {
     bar.say("interrupted while reading; nothing is written");
     return kInterrupted;
   }
-
-  PointLabelOptions label_options;
-  label_options.num_threads = static_cast<unsigned int>(s.threads);
-  const PointLabeller labeller(map, label_options);
-  findScansOfParts(run, labeller, bar, map);
-  Eigen::Isometry3d T_world_map = Eigen::Isometry3d::Identity();
-  T_world_map.translation() = map.world_offset;
-  const PointLabels labels = labeller.label(cloud.points, T_world_map);
-  findRooms(map, floorPoints(cloud.points, labels));
-  map.relations = findRelations(map);
-
-  writeLabelledMap(s.cloud, cloud, labels, map.labelNames());
+  builder.build(
+      cloud.points,
+      [&run](std::size_t i) { return run.readScan(i).points; },
+      [&bar](const Progress& progress) { bar.show(progress); });
+  const SemanticMap& map = builder.map();
+  addLabelFields(builder.labels(), map.labelNames(), cloud.cloud);
+  writeScan(s.cloud, cloud.cloud);
   writeSemanticMap(s.output, map);
   if (!s.quiet)
     printResult(map, s);

@@ -3,7 +3,6 @@
 #include "common/command_line.h"
 #include "semantic_map/verbs.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
 #include <cstdio>
@@ -65,8 +64,7 @@ runMapInfo(const std::vector<std::string>& arguments)
   if (!line.parse(arguments))
     return kDone;
   printMap(readSemanticMap(mapFile(file)));
-  if (std::fflush(stdout) != 0)
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   return kDone;
 }
 

@@ -55,8 +55,7 @@ runMapQuery(const std::vector<std::string>& arguments)
     writeTable(std::cout, result);
     std::cout << result.rows.size() << (result.rows.size() == 1 ? " row\n" : " rows\n");
   }
-  if (!std::cout.flush())
-    throw IoFailed("cannot write to the standard output");
+  flushOutput();
   return kDone;
 }
 

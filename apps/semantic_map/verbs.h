@@ -1,29 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/verbs.h"
+
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace pcl6d::app {
 
 constexpr const char* kSemanticMap = "pcl_slam6d_semantic_map"; ///< the program's name
 constexpr const char* kMapFile = "semantic_map.json"; ///< in the folder of a run
 
-/** \brief `build RUN_DIR`: the semantic map of a finished run.
- * \param[in] arguments after the verb \return the exit code */
+/** \file What the verbs do stands in the table of pcl_slam6d_semantic_map.cpp. */
 int
-runMapBuild(const std::vector<std::string>& arguments);
-
-/** \brief `query MAP "..."`: what of a map meets conditions.
- * \param[in] arguments after the verb \return the exit code */
+runMapBuild(const Arguments& arguments);
 int
-runMapQuery(const std::vector<std::string>& arguments);
-
-/** \brief `info MAP`: what a map holds.
- * \param[in] arguments after the verb \return the exit code */
+runMapQuery(const Arguments& arguments);
 int
-runMapInfo(const std::vector<std::string>& arguments);
+runMapInfo(const Arguments& arguments);
 
 /** \return the file of a map: the argument, or kMapFile in it if it is a folder */
 inline std::filesystem::path

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planes/plane_step.h"
+#include "common/plane_files.h"
 #include "slam6d/run_output.h"
 
 #include <pcl6d/common/error.h>
@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <sys/resource.h>
 #include <utility>
 
@@ -22,17 +21,6 @@ namespace pcl6d::app {
 
 namespace {
 constexpr const char* kProgram = "pcl_slam6d";
-
-/** Points outside the range gate are no surfaces; the map leaves out what is NaN. */
-Points
-gated(Points points, const Slam6DParameters& p)
-{
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (auto& point : points)
-    if (!isWithinRange(point, p.min_range.value, p.max_range.value))
-      point.setConstant(nan);
-  return points;
-}
 
 /** \return the values of the field "intensity", whatever its type, or nothing */
 std::vector<float>
@@ -220,7 +208,10 @@ RunOutput::writeScans(std::vector<pcl::PCLPointCloud2>& clouds,
     });
     for (std::size_t i = begin; i < end; ++i) {
       const pcl::PCLPointCloud2 cloud = std::exchange(clouds[i], {});
-      const Points points = gated(coordinatesOf(cloud), result_.parameters);
+      Points points = coordinatesOf(cloud);
+      maskOutOfRange(result_.parameters.min_range.value,
+                     result_.parameters.max_range.value,
+                     points);
       const ScanResult& scan = run_.scans[i];
       map.addScan(points,
                   intensitiesOf(cloud),
@@ -242,12 +233,14 @@ RunOutput::writePlanesOf(const MapBuilder& map)
   std::vector<Eigen::Isometry3d> poses;
   for (const ScanResult& scan : run_.scans)
     poses.push_back(scan.T_world_scan);
-  const PlaneStepCloud cloud = planeCloudOf(map, poses, run_.world_offset);
-  const PlaneStepOptions options;
-  const PlaneStepResult found = findPlanes(cloud, options, settings_.slam.num_threads);
-  const auto warnings = writePlaneFiles(out_, cloud, found, options, run_.generator);
+  const SceneCloud cloud = sceneCloudOf(map, poses, run_.world_offset);
+  PlaneFinderOptions options;
+  options.num_threads = settings_.slam.num_threads;
+  const PlaneFinder finder(options);
+  const FoundPlanes found = finder.find(cloud);
+  const auto warnings = writePlaneFiles(out_, finder, cloud, found, run_.generator);
   run_.warnings.insert(run_.warnings.end(), warnings.begin(), warnings.end());
-  return worldPlanes(found.segments.planes, run_.world_offset);
+  return worldPlanes(found.best(), run_.world_offset);
 }
 
 /** Without a display the run goes on and says so. */

@@ -8,8 +8,8 @@
 
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/run_result.h>
+#include <pcl6d/filters/map_builder.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/slam6d/map_builder.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <pcl/PCLPointCloud2.h>

@@ -3,7 +3,7 @@
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/slam6d/map_builder.h>
+#include <pcl6d/filters/map_builder.h>
 #include <pcl6d/slam6d/slam6d.h>
 
 #include <iostream>

@@ -46,7 +46,7 @@ nearestDifference(const Image& image,
 
 /** \return the number of pixels in a box that differ from a colour */
 inline int
-drawnPixels(const Image& image, const PixelBox& box, const Colour& background)
+drawnPixels(const Image& image, const PictureBox& box, const Colour& background)
 {
   int count = 0;
   for (int row = static_cast<int>(box.top); row < static_cast<int>(box.bottom); ++row)

@@ -10,7 +10,7 @@ namespace {
 using namespace pcl6d;
 using Eigen::Vector3d;
 
-const PixelBox kBox{0, 0, 800, 600};
+const PictureBox kBox{0, 0, 800, 600};
 
 Vector3d
 placeOf(const Camera& camera)

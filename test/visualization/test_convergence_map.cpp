@@ -16,7 +16,7 @@ using pcl6d::ConvergenceMap;
 using pcl6d::ConvergenceMapOptions;
 using pcl6d::ConvergenceMapPicture;
 using pcl6d::ConvergenceMapScene;
-using pcl6d::PixelBox;
+using pcl6d::PictureBox;
 
 namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -43,7 +43,7 @@ colourAt(const ConvergenceMapPicture& picture, std::size_t panel, double x, doub
 }
 
 bool
-isInside(const PixelBox& box, const ConvergenceMapPicture& picture)
+isInside(const PictureBox& box, const ConvergenceMapPicture& picture)
 {
   return box.left >= 0 && box.top >= 0 && box.right <= picture.image.width &&
          box.bottom <= picture.image.height;
@@ -51,7 +51,7 @@ isInside(const PixelBox& box, const ConvergenceMapPicture& picture)
 
 /** \return the pixels of a region that are darker than half */
 int
-darkPixels(const ConvergenceMapPicture& picture, const PixelBox& box)
+darkPixels(const ConvergenceMapPicture& picture, const PictureBox& box)
 {
   int count = 0;
   for (int row = static_cast<int>(box.top); row < box.bottom; ++row)
@@ -126,9 +126,9 @@ TEST(ConvergenceMap, WritesTitlesTicksAndColourBar)
 {
   const auto picture = ConvergenceMap().draw(makeScene());
   const auto& layout = picture.layout;
-  const PixelBox& panel = layout.panels[0];
+  const PictureBox& panel = layout.panels[0];
   const auto above = [&](double from, double to) {
-    return PixelBox{panel.left, panel.top - to, panel.right, panel.top - from};
+    return PictureBox{panel.left, panel.top - to, panel.right, panel.top - from};
   };
   EXPECT_GT(darkPixels(picture, above(2, 1.5 * layout.text_size)), 20)
       << "panel's title";
@@ -140,7 +140,7 @@ TEST(ConvergenceMap, WritesTitlesTicksAndColourBar)
       << "labels of x";
   EXPECT_GT(darkPixels(picture, {24, panel.top, panel.left - 5, panel.bottom}), 20)
       << "labels of y";
-  const PixelBox& bar = layout.colour_bar;
+  const PictureBox& bar = layout.colour_bar;
   const int row = static_cast<int>(0.5 * (bar.top + bar.bottom));
   EXPECT_EQ(picture.image.at(static_cast<int>(bar.left), row), kNothing);
   EXPECT_EQ(picture.image.at(static_cast<int>(bar.right) - 1, row), kAll);

@@ -17,7 +17,7 @@ using pcl6d::LineChart;
 using pcl6d::LineChartOptions;
 using pcl6d::LineChartPicture;
 using pcl6d::LineChartScene;
-using pcl6d::PixelBox;
+using pcl6d::PictureBox;
 
 namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -45,7 +45,7 @@ colourAt(const LineChartPicture& picture, double x, double y)
 
 /** \return how many pixels of a region have a colour */
 int
-count(const LineChartPicture& picture, const PixelBox& box, const Colour& colour)
+count(const LineChartPicture& picture, const PictureBox& box, const Colour& colour)
 {
   int found = 0;
   for (int row = static_cast<int>(box.top); row < box.bottom; ++row)
@@ -56,7 +56,7 @@ count(const LineChartPicture& picture, const PixelBox& box, const Colour& colour
 
 /** \return the pixels of a region that are darker than half */
 int
-darkPixels(const LineChartPicture& picture, const PixelBox& box)
+darkPixels(const LineChartPicture& picture, const PictureBox& box)
 {
   int found = 0;
   for (int row = static_cast<int>(box.top); row < box.bottom; ++row)
@@ -140,7 +140,7 @@ TEST(LineChart, WritesTitlesLabelsAndALegendOutsideThePlot)
   scene.series.push_back({"", {1, 2}, {1, 2}}); // not in the legend
   const auto picture = LineChart().draw(scene);
   const auto& layout = picture.layout;
-  const PixelBox& plot = layout.plot;
+  const PictureBox& plot = layout.plot;
   ASSERT_EQ(layout.legend.size(), 2u);
   EXPECT_GT(count(picture, layout.legend[0], kRed), 20);
   EXPECT_GT(count(picture, layout.legend[1], kBlue), 20);

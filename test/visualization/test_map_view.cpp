@@ -139,7 +139,7 @@ TEST(MapView, NamesTheLabels)
 {
   const auto picture = MapView(byLabel()).draw(corner(), alongY());
   const auto& layout = picture.layout;
-  const pcl6d::PixelBox below{320, layout.map.bottom + 10, 640, 400};
+  const pcl6d::PictureBox below{320, layout.map.bottom + 10, 640, 400};
   int floor = 0, wall = 0;
   for (int row = static_cast<int>(below.top); row < 400; ++row)
     for (int column = 320; column < 640; ++column) {

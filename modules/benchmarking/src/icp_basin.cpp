@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icp_best_pose.h"
 
+#include <pcl6d/benchmarking/icp_basin.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
@@ -13,6 +14,7 @@
 #include <memory>
 
 namespace pcl6d {
+using namespace benchmarking;
 
 namespace {
 /** \return the processor time of this thread [s] */
@@ -108,7 +110,7 @@ public:
     for (const IcpVariant& variant : variants_)
       if (!findBest(variant.metric))
         basin_.best.push_back(bestPose(variant, guess));
-    basin_.disagreements = detail::disagreementsOf(basin_.best, o_);
+    basin_.disagreements = disagreementsOf(basin_.best, o_);
     std::vector<IcpVariant> believed;
     for (const IcpVariant& variant : variants_)
       if (findBest(variant.metric)->doubt.empty())
@@ -167,10 +169,10 @@ private:
   bestPose(IcpVariant variant, const Eigen::Isometry3d& guess) const
   {
     variant.search = SearchMethod::kCached;
-    IcpBestPose best = detail::judgedBestPose(
-        variant.metric, match(variant, guess, o_.num_threads), o_);
+    IcpBestPose best =
+        judgedBestPose(variant.metric, match(variant, guess, o_.num_threads), o_);
     if (best.doubt.empty())
-      best.doubt = detail::doubtOfReturn(
+      best.doubt = doubtOfReturn(
           best, match(variant, best.result.T_target_source, o_.num_threads), o_);
     return best;
   }
@@ -217,7 +219,7 @@ private:
     const MotionSize error = distanceBetween(goal, run.T_target_source);
     run.position_error = error.translation;
     run.orientation_error = error.rotation;
-    run.correct = detail::isWithin(o_.sigmas, best, error);
+    run.correct = isWithin(o_.sigmas, best, error);
     return run;
   }
 
@@ -231,6 +233,32 @@ private:
   std::size_t done_ = 0;
   std::size_t total_ = 0;
 };
+
+void
+requirePositive(const char* name, double value)
+{
+  require(std::isfinite(value) && value > 0, name, value, "finite and > 0");
+}
+
+void
+requireSteps(const char* name, int steps)
+{
+  require(steps >= 1 && steps % 2 == 1,
+          name,
+          steps,
+          "odd, so that 0 is among the offsets, and >= 1");
+}
+
+void
+requireSmall(int steps_xy, int steps_yaw)
+{
+  constexpr double kMostStarts = 1e5; // they are kept
+  const double starts = 1.0 * steps_xy * steps_xy * steps_yaw;
+  require(starts <= kMostStarts,
+          "steps_xy",
+          steps_xy,
+          "so small that there are at most 100000 starts");
+}
 } // namespace
 
 IcpBasin
@@ -247,6 +275,59 @@ evaluateIcpBasin(const Points& target,
     withVariant({}, variant); // is there such a minimiser?
   require(isRigid(guess), "guess", "not rigid", "a rigid motion");
   return BasinMeasurement(target, source, variants, options, observer).measure(guess);
+}
+
+void
+IcpBasinOptions::validate() const
+{
+  requirePositive("offset_xy", offset_xy);
+  require(offset_yaw > 0 && offset_yaw <= M_PI, "offset_yaw", offset_yaw, "in (0, pi]");
+  requireSteps("steps_xy", steps_xy);
+  requireSteps("steps_yaw", steps_yaw);
+  requireSmall(steps_xy, steps_yaw);
+  requirePositive("sigmas", sigmas);
+  requirePositive("disagreement_sigmas", disagreement_sigmas);
+  requirePositive("min_sigma_position", min_sigma_position);
+  requirePositive("min_sigma_orientation", min_sigma_orientation);
+  requirePositive("sigma_position", sigma_position.value_or(1));
+  requirePositive("sigma_orientation", sigma_orientation.value_or(1));
+  require(
+      min_overlap >= 0 && min_overlap <= 1, "min_overlap", min_overlap, "in [0, 1]");
+  require(max_rms_share > 0, "max_rms_share", max_rms_share, "> 0");
+  require(normal_neighbours >= 3 && normal_neighbours <= 64,
+          "normal_neighbours",
+          normal_neighbours,
+          "in [3, 64]");
+  icp.validate();
+}
+
+std::vector<double>
+gridValues(double offset, int steps)
+{
+  std::vector<double> values(static_cast<std::size_t>(steps), 0.0);
+  for (int i = 0; i < steps && steps > 1; ++i) // exactly 0 and +-offset
+    values[static_cast<std::size_t>(i)] = offset * (2 * i - (steps - 1)) / (steps - 1);
+  return values;
+}
+
+std::vector<IcpStart>
+icpStarts(const IcpBasinOptions& options)
+{
+  std::vector<IcpStart> starts;
+  for (const double yaw : gridValues(options.offset_yaw, options.steps_yaw))
+    for (const double y : gridValues(options.offset_xy, options.steps_xy))
+      for (const double x : gridValues(options.offset_xy, options.steps_xy))
+        starts.push_back({x, y, yaw});
+  return starts;
+}
+
+Eigen::Isometry3d
+perturbed(const Eigen::Isometry3d& best, const IcpStart& start)
+{
+  Eigen::Isometry3d pose = best;
+  pose.linear() = rotationFromEuler({0, 0, start.yaw}) * best.linear();
+  pose.translation() += Eigen::Vector3d(start.x, start.y, 0);
+  return pose;
 }
 
 } // namespace pcl6d

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace pcl6d::detail {
+namespace pcl6d::benchmarking {
 
 namespace {
 std::string
@@ -105,4 +105,4 @@ disagreementsOf(const std::vector<IcpBestPose>& best, const IcpBasinOptions& opt
   return found;
 }
 
-} // namespace pcl6d::detail
+} // namespace pcl6d::benchmarking

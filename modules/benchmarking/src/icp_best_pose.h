@@ -4,7 +4,7 @@
 
 #include <pcl6d/benchmarking/icp_basin.h>
 
-namespace pcl6d::detail {
+namespace pcl6d::benchmarking {
 
 /** \return the best pose that a run ended in, with its sigma and what that run says
  * against it */
@@ -26,4 +26,4 @@ doubtOfReturn(const IcpBestPose& best,
 std::vector<IcpDisagreement>
 disagreementsOf(const std::vector<IcpBestPose>& best, const IcpBasinOptions& options);
 
-} // namespace pcl6d::detail
+} // namespace pcl6d::benchmarking

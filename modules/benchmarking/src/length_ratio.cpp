@@ -8,6 +8,7 @@
 #include <cmath>
 
 namespace pcl6d {
+using namespace benchmarking;
 
 LengthRatioErrors
 lengthRatioErrors(const std::vector<LengthPair>& lengths)

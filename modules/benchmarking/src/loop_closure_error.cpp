@@ -9,6 +9,7 @@
 #include <string>
 
 namespace pcl6d {
+using namespace benchmarking;
 
 void
 RevisitOptions::validate() const

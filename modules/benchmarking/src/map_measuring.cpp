@@ -1,21 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_measuring.h"
-#include "scan_planes.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/points.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/graph_relaxation/map_agreement.h>
+#include <pcl6d/plane_segmentation/plane_segment.h>
+#include <pcl6d/plane_segmentation/segment_planes.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
-namespace pcl6d {
-
+namespace pcl6d::benchmarking {
 namespace {
+/** \return the planes of one scan, laid into the world
+ * \param[in] points [m] finite, in the scan's frame, the scanner at the origin */
+std::vector<PlaneSegment>
+planesOfScan(const Points& points, const Eigen::Isometry3d& T_world_scan)
+{
+  std::vector<PlaneSegment> segments = segmentPlanes(PlaneCloud(points, 1)).planes;
+  for (PlaneSegment& segment : segments) {
+    Plane& plane = segment.plane;
+    const Eigen::Vector3d on_plane = T_world_scan * (plane.offset * plane.normal);
+    plane.normal = T_world_scan.linear() * plane.normal;
+    plane.offset = plane.normal.dot(on_plane);
+    segment.seen_from = T_world_scan.linear() * segment.seen_from;
+    for (auto& corner : plane.hull)
+      corner = T_world_scan * corner;
+    for (auto& ring : segment.outline)
+      for (auto& corner : ring)
+        corner = T_world_scan * corner;
+    segment.points.clear(); // places in a scan say nothing of the map
+  }
+  return segments;
+}
+
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kPairSample = 200;     ///< points that measure a pair, each way
 constexpr std::size_t kEntropySample = 1000; ///< places of a scan
@@ -270,4 +294,4 @@ MapMeasuring::measureReference(const Points& reference, MapQuality& quality) con
   quality.reference = all.statistics(within());
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::benchmarking

@@ -5,7 +5,7 @@
 
 #include <pcl6d/graph_relaxation/network_scan.h>
 
-namespace pcl6d {
+namespace pcl6d::benchmarking {
 
 /** \brief The scans of a map, prepared once, and its measures one after the other. The
  * world is moved by whole metres so that the first scan is near its origin. */
@@ -57,4 +57,4 @@ private:
   std::vector<ScanPair> pairs_;
 };
 
-} // namespace pcl6d
+} // namespace pcl6d::benchmarking

@@ -15,6 +15,7 @@
 #include <sstream>
 
 namespace pcl6d {
+using namespace benchmarking;
 
 namespace {
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();

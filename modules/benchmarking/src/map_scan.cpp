@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace pcl6d {
+namespace pcl6d::benchmarking {
 
 namespace {
 constexpr std::size_t kSample = 2000;
@@ -103,4 +103,4 @@ distancesBetween(const MapScan& scan,
   return result;
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::benchmarking

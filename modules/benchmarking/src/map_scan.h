@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl6d {
+namespace pcl6d::benchmarking {
 
 /** \brief A cloud made ready to be measured, in its own frame. */
 struct MapScan {
@@ -59,4 +59,4 @@ distancesBetween(const MapScan& scan,
                  std::size_t most,
                  Faces faces);
 
-} // namespace pcl6d
+} // namespace pcl6d::benchmarking

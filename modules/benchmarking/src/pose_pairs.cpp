@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace pcl6d {
+namespace pcl6d::benchmarking {
 
 void
 checkPairs(const Trajectory& estimate,
@@ -33,4 +33,4 @@ pathsTo(const Trajectory& reference, const std::vector<PosePair>& pairs)
   return paths;
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::benchmarking

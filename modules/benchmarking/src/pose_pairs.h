@@ -3,7 +3,7 @@
 
 #include <pcl6d/benchmarking/pose_matching.h>
 
-namespace pcl6d {
+namespace pcl6d::benchmarking {
 
 /** \throws BadArgument a pair points outside its trajectories */
 void
@@ -15,4 +15,4 @@ checkPairs(const Trajectory& estimate,
 std::vector<double>
 pathsTo(const Trajectory& reference, const std::vector<PosePair>& pairs);
 
-} // namespace pcl6d
+} // namespace pcl6d::benchmarking

@@ -8,6 +8,7 @@
 #include <cmath>
 
 namespace pcl6d {
+using namespace benchmarking;
 
 namespace {
 /** The stretches of one length from every pose that has one. */

@@ -12,6 +12,7 @@
 #include <cmath>
 
 namespace pcl6d {
+using namespace benchmarking;
 
 namespace {
 ErrorStatistics

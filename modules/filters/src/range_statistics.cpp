@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <sstream>
 
 namespace pcl6d {
@@ -50,6 +51,14 @@ gateByRange(const Points& points, double min_range, double max_range)
     if (isWithinRange(p, min_range, max_range))
       kept.push_back(p);
   return kept;
+}
+
+void
+maskOutOfRange(double min_range, double max_range, Points& points)
+{
+  for (auto& p : points)
+    if (!isWithinRange(p, min_range, max_range))
+      p.setConstant(std::numeric_limits<float>::quiet_NaN());
 }
 
 std::optional<double>

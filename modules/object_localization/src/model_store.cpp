@@ -246,4 +246,27 @@ listModels(const fs::path& store)
   return models;
 }
 
+std::vector<StoredModel>
+readModels(const std::vector<std::string>& paths,
+           const std::filesystem::path& store,
+           const ModelFileOptions& options)
+{
+  std::vector<StoredModel> models;
+  for (const auto& path : paths)
+    models.push_back(std::filesystem::is_directory(path)
+                         ? readStoredModel(path)
+                         : readModelFile(path, options));
+  if (!store.empty())
+    for (const auto& folder : listModels(store))
+      models.push_back(readStoredModel(folder));
+  for (std::size_t i = 0; i < models.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (models[i].model.objectClass() == models[j].model.objectClass())
+        throw BadArgument("two models are of the class '" +
+                          models[i].model.objectClass() +
+                          "': give one of them alone, or another name to one: to a "
+                          "folder in its model.json, to a file by its own name");
+  return models;
+}
+
 } // namespace pcl6d

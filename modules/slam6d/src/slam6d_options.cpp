@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/require.h>
-#include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 
 #include <cmath>
@@ -9,24 +9,14 @@
 
 namespace pcl6d {
 
-namespace {
-void
-requirePositive(const std::optional<double>& option, const char* name)
-{
-  require(!option || (*option > 0 && std::isfinite(*option)),
-          name,
-          option.value_or(0),
-          "finite and > 0");
-}
-} // namespace
-
 void
 Slam6DOptions::validate() const
 {
-  validateRangeLimits(min_range.value_or(0),
-                      max_range.value_or(std::numeric_limits<double>::infinity()));
-  requirePositive(voxel, "voxel");
-  requirePositive(max_distance, "max_distance");
+  ScanParameterOptions{min_range, max_range, voxel}.validate();
+  require(!max_distance || (*max_distance > 0 && std::isfinite(*max_distance)),
+          "max_distance",
+          max_distance.value_or(0),
+          "finite and > 0");
   require(!max_distance_start ||
               (*max_distance_start >= 0 && std::isfinite(*max_distance_start)),
           "max_distance_start",

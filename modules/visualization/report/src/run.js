@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run that the library wrote into the page (modules/visualization/src/report_json.cpp).
+// The run that the library wrote into the page (modules/visualization/src/report/report_json.cpp).
 
 function bytesOf(base64) {
   const text = atob(base64);

@@ -21,6 +21,11 @@ isWithinRange(const Eigen::Vector3f& p, double min_range, double max_range);
 Points
 gateByRange(const Points& points, double min_range, double max_range);
 
+/** \brief Makes points outside [min_range, max_range] of the origin NaN, so that the others
+ * keep their places */
+void
+maskOutOfRange(double min_range, double max_range, Points& points);
+
 /** \brief The range [m] that a scanner writes when no echo came back: the largest range
  * of a scan if more than 0.5 % of its points share it to within 1 mm per 10 m, while
  * more than half lie well inside it, nearer than 0.9 of it. Such points are no

@@ -61,6 +61,14 @@ readStoredModel(const std::filesystem::path& path);
 std::vector<std::filesystem::path>
 listModels(const std::filesystem::path& store);
 
+/** \brief Reads models that are to be looked for together: files, folders of the store, and
+ * all models of a store, which may be empty for none.
+ * \throws IoFailed as the readers \throws BadArgument two are of one class */
+std::vector<StoredModel>
+readModels(const std::vector<std::string>& paths,
+           const std::filesystem::path& store = {},
+           const ModelFileOptions& options = {});
+
 /** \brief Classes are words of queries and names in files: 1 to 64 letters (of any
  * language, in UTF-8), digits, '-', '_' and '.', the first a letter or a digit.
  * \throws BadArgument it is none */

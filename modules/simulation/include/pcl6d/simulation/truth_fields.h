@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/scanner/range_scan.h>
+#include <pcl6d/simulation/triangle_scene.h>
 
 #include <pcl/PCLPointCloud2.h>
 

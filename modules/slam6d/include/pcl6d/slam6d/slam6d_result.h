@@ -4,6 +4,7 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/pose_graph.h>
 #include <pcl6d/common/run_result.h>
+#include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 
@@ -13,18 +14,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A value that was given, or derived from the scans, and why. */
-struct Parameter {
-  double value = 0;
-  bool given = false; ///< by the user, not derived
-  std::string why;    ///< of a derived value: the numbers that it follows from
-};
-
 /** \brief The values that a run works with. */
-struct Slam6DParameters {
-  Parameter min_range;          ///< [m]
-  Parameter max_range;          ///< [m] infinite only if given so
-  Parameter voxel;              ///< [m]
+struct Slam6DParameters : ScanParameters {
   Parameter max_distance;       ///< [m]
   Parameter max_distance_start; ///< [m]
 };

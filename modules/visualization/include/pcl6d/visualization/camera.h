@@ -65,13 +65,13 @@ struct Camera {
  * \param[in] azimuth [rad] of the camera seen from the points, from x to y
  * \param[in] elevation [rad] of the camera above the horizon */
 Camera
-cameraOn(const Points& points, double azimuth, double elevation, const PixelBox& box);
+cameraOn(const Points& points, double azimuth, double elevation, const PictureBox& box);
 
 /** \brief The cameras from which most is seen, best first: they fill the picture and hide
  * few points behind others. Their azimuths lie at least 60 degrees apart.
  * \param[in] points [m] finite, at least one \param[in] count how many, 1 to 4 */
 std::vector<Camera>
-goodViewpoints(const Points& points, const PixelBox& box, std::size_t count);
+goodViewpoints(const Points& points, const PictureBox& box, std::size_t count);
 
 /** \brief A panorama around a scan that shows the elevations at which its points lie, in
  * the width of the box: all around, with x of the scan in the middle, unless there is
@@ -80,6 +80,6 @@ goodViewpoints(const Points& points, const PixelBox& box, std::size_t count);
 Camera
 panoramaFrom(const Eigen::Isometry3d& T_world_scan,
              const Points& points,
-             PixelBox& box);
+             PictureBox& box);
 
 } // namespace pcl6d

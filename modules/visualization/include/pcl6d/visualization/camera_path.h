@@ -37,7 +37,7 @@ struct FlyThroughOptions {
  * \ingroup visualization */
 std::vector<Camera>
 flyThrough(const Trajectory& trajectory,
-           const PixelBox& box,
+           const PictureBox& box,
            const FlyThroughOptions& options = {});
 
 } // namespace pcl6d

@@ -43,9 +43,9 @@ struct ConvergenceMapLayout {
   int width = 0;  ///< [px] of the picture
   int height = 0; ///< [px]
   int columns = 1;
-  double text_size = 15;        ///< [px]
-  std::vector<PixelBox> panels; ///< their cells
-  PixelBox colour_bar;
+  double text_size = 15;          ///< [px]
+  std::vector<PictureBox> panels; ///< their cells
+  PictureBox colour_bar;
   Eigen::Vector2d low{0, 0};   ///< [m] x, y at the lower left corner of a panel
   double metres_per_pixel = 1; ///< the same in x and y, and in all panels
 

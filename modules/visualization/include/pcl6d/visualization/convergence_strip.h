@@ -45,7 +45,7 @@ struct ConvergenceStripLayout {
   int height = 0; ///< [px]
   int columns = 1;
   double text_size = 15; ///< [px]
-  std::vector<PixelBox> panels;
+  std::vector<PictureBox> panels;
   Eigen::Vector2d centre{0, 0}; ///< [m] of the world in the middle of each panel
   double metres_per_pixel = 1;  ///< the same in all panels
 
@@ -53,7 +53,7 @@ struct ConvergenceStripLayout {
   Eigen::Vector2d
   toPixel(std::size_t panel, const Eigen::Vector2d& world) const
   {
-    const PixelBox& box = panels[panel];
+    const PictureBox& box = panels[panel];
     const Eigen::Vector2d offset = (world - centre) / metres_per_pixel;
     return {0.5 * (box.left + box.right) + offset.x(),
             0.5 * (box.top + box.bottom) - offset.y()};

@@ -69,9 +69,9 @@ struct LineChartLayout {
   int width = 0;         ///< [px] of the picture
   int height = 0;        ///< [px]
   double text_size = 15; ///< [px]
-  PixelBox plot;         ///< all points are in it
+  PictureBox plot;       ///< all points are in it
   ChartScale x, y;
-  std::vector<PixelBox>
+  std::vector<PictureBox>
       legend;                  ///< the samples of the series that have a name, in order
   std::vector<Colour> colours; ///< of the series
 

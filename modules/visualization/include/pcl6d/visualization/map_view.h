@@ -15,9 +15,6 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-class PixelScene;
-struct ColourScale;
-
 /** \brief Knobs of MapView. */
 struct MapViewOptions {
   int width = 1600;          ///< [px] 200 to 8192
@@ -62,7 +59,7 @@ struct MapViewScene : MapCloud {
 struct MapViewLayout {
   int width = 0;  ///< [px]
   int height = 0; ///< [px]
-  PixelBox map;   ///< between title and colour bar
+  PictureBox map; ///< between title and colour bar
   double text_size = 12;
   Camera camera;
   double lowest_colour = 0;  ///< value at the lower end of the colours
@@ -95,7 +92,7 @@ public:
   explicit MapView(const MapViewOptions& options = MapViewOptions());
 
   /** \return the box of the picture that cameras should fill */
-  PixelBox
+  PictureBox
   box() const;
 
   /** \brief Draws what a camera sees; by default the first of goodViewpoints().
@@ -127,12 +124,6 @@ private:
   drawShown(const MapViewScene& scene,
             const ShownPoints& shown,
             MapViewLayout layout) const;
-  void
-  annotate(const MapViewScene& scene,
-           const ColourScale& scale,
-           const MapViewLayout& layout,
-           PixelScene& canvas) const;
-
   MapViewOptions options_;
 };
 

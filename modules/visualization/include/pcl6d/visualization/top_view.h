@@ -15,9 +15,6 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-class PixelScene;
-struct ColourScale;
-
 /** \brief Knobs of TopView; the defaults suit maps of a room as well as of a campus. */
 struct TopViewOptions {
   int width = 1600;          ///< [px] 200 to 8192
@@ -87,12 +84,6 @@ public:
   write(const std::filesystem::path& path, const TopViewScene& scene) const;
 
 private:
-  void
-  annotate(const TopViewScene& scene,
-           const ColourScale& scale,
-           const TopViewLayout& layout,
-           PixelScene& canvas) const;
-
   TopViewOptions options_;
 };
 

@@ -10,7 +10,7 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A rectangle of pixels; columns from the left, rows from the top. */
-struct PixelBox {
+struct PictureBox {
   double left = 0;
   double top = 0;
   double right = 0;
@@ -28,7 +28,7 @@ struct PixelBox {
 struct TopViewLayout {
   int width = 0;                ///< [px] of the picture
   int height = 0;               ///< [px]
-  PixelBox map;                 ///< nothing of the map lies outside
+  PictureBox map;               ///< nothing of the map lies outside
   double metres_per_pixel = 1;  ///< the same in x and y
   Eigen::AlignedBox2d area;     ///< [m] of the world that is to be seen
   Eigen::Vector2d centre{0, 0}; ///< [m] world x, y in the middle of the map's box

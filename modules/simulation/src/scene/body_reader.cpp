@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/body_reader.h"
+
+#include <pcl6d/common/pose.h>
+#include <pcl6d/io/mesh_io.h>
+#include <pcl6d/simulation/scene_bodies.h>
+#include <pcl6d/simulation/scene_builder.h>
+
+namespace pcl6d::simulation {
+namespace {
+PlaneLabel
+readLabel(JsonObject& json)
+{
+  std::string name = "none";
+  json.read("label", name);
+  for (const auto label : {PlaneLabel::kNone,
+                           PlaneLabel::kFloor,
+                           PlaneLabel::kCeiling,
+                           PlaneLabel::kWall,
+                           PlaneLabel::kDoor})
+    if (name == toString(label))
+      return label;
+  json.fail("label", "'" + name + "', but must be none, floor, ceiling, wall or door");
+}
+
+MeshOptions
+readMeshOptions(JsonObject& json)
+{
+  MeshOptions options;
+  json.read("scale", options.scale);
+  std::string up = "z";
+  json.read("up", up);
+  if (up != "y" && up != "z")
+    json.fail("up", "'" + up + "', but must be y or z");
+  options.up = up == "y" ? UpAxis::kY : UpAxis::kZ;
+  return options;
+}
+
+// What ramps and stairs have in common.
+template <typename Slope>
+Slope
+readSlope(JsonObject& json)
+{
+  Slope slope;
+  slope.from = json.get<Eigen::Vector2d>("from");
+  slope.to = json.get<Eigen::Vector2d>("to");
+  json.read("width", slope.width);
+  json.read("bottom", slope.bottom);
+  json.read("from_height", slope.from_height);
+  json.read("to_height", slope.to_height);
+  return slope;
+}
+
+// A closed door in the middle of its wall.
+void
+addLeaf(const Wall& wall,
+        const Opening& hole,
+        const Surface& surface,
+        TriangleScene& geometry)
+{
+  constexpr double kRim = 0.01; // [m] by which it reaches into the wall
+  const Eigen::Vector2d ahead = (wall.to - wall.from).normalized();
+  Wall leaf;
+  leaf.from = wall.from + (hole.begin - kRim) * ahead;
+  leaf.to = wall.from + (hole.end + kRim) * ahead;
+  leaf.thickness = wall.thickness / 3;
+  leaf.bottom = hole.low;
+  leaf.top = hole.high + kRim;
+  addWall(geometry, leaf, surface);
+}
+} // namespace
+
+void
+BodyReader::readMaterials(JsonObject& json)
+{
+  JsonObject materials = json.object("materials");
+  for (const auto& name : materials.keys()) {
+    JsonObject material = materials.object(name);
+    Surface surface;
+    surface.name = name;
+    material.read("reflectance", surface.reflectance);
+    if (!(surface.reflectance >= 0 && surface.reflectance <= 1))
+      material.fail("reflectance",
+                    std::to_string(surface.reflectance) + ", but must be in [0, 1]");
+    surface.label = readLabel(material);
+    material.finish();
+    materials_[name] = surface;
+  }
+}
+
+Surface
+BodyReader::material(JsonObject& json, const std::string& key)
+{
+  if (!json.has(key))
+    return {};
+  const auto name = json.get<std::string>(key);
+  const auto known = materials_.find(name);
+  if (known == materials_.end())
+    json.fail(key, "no material '" + name + "' in /materials");
+  return known->second;
+}
+
+void
+BodyReader::readBodies(JsonObject& json, TriangleScene& geometry)
+{
+  json.eachObject("bodies", [&](JsonObject& body) { readBody(body, geometry); });
+}
+
+void
+BodyReader::readBody(JsonObject& json, TriangleScene& geometry)
+{
+  using Reader = void (BodyReader::*)(JsonObject&, TriangleScene&);
+  static const std::map<std::string, Reader> kTypes = {
+      {"box", &BodyReader::readBox},
+      {"wall", &BodyReader::readWall},
+      {"ramp", &BodyReader::readRamp},
+      {"stairs", &BodyReader::readStairs},
+      {"cylinder", &BodyReader::readCylinder},
+      {"revolved", &BodyReader::readRevolved},
+      {"terrain", &BodyReader::readTerrain},
+      {"model", &BodyReader::readModel}};
+  const auto type = json.get<std::string>("type");
+  const auto reader = kTypes.find(type);
+  if (reader == kTypes.end())
+    json.fail("type",
+              "'" + type +
+                  "', but must be box, wall, ramp, stairs, cylinder, revolved, "
+                  "terrain or model");
+  (this->*reader->second)(json, geometry);
+}
+
+void
+BodyReader::readBox(JsonObject& json, TriangleScene& geometry)
+{
+  Box box;
+  box.centre = json.get<Eigen::Vector3d>("centre");
+  box.size = json.get<Eigen::Vector3d>("size");
+  json.read("yaw", box.yaw);
+  addBox(geometry, box, material(json));
+}
+
+void
+BodyReader::readWall(JsonObject& json, TriangleScene& geometry)
+{
+  Wall wall;
+  wall.from = json.get<Eigen::Vector2d>("from");
+  wall.to = json.get<Eigen::Vector2d>("to");
+  json.read("thickness", wall.thickness);
+  json.read("bottom", wall.bottom);
+  json.read("top", wall.top);
+  const Surface surface = material(json);
+  json.eachObject("openings", [&](JsonObject& opening) {
+    Opening hole;
+    hole.begin = opening.get<double>("begin");
+    hole.end = opening.get<double>("end");
+    hole.low = wall.bottom;
+    opening.read("low", hole.low);
+    opening.read("high", hole.high);
+    wall.openings.push_back(hole);
+    if (opening.has("leaf"))
+      addLeaf(wall, hole, material(opening, "leaf"), geometry);
+  });
+  addWall(geometry, wall, surface);
+}
+
+void
+BodyReader::readRamp(JsonObject& json, TriangleScene& geometry)
+{
+  const Ramp ramp = readSlope<Ramp>(json);
+  addRamp(geometry, ramp, material(json));
+}
+
+void
+BodyReader::readStairs(JsonObject& json, TriangleScene& geometry)
+{
+  Stairs stairs = readSlope<Stairs>(json);
+  json.read("steps", stairs.steps);
+  addStairs(geometry, stairs, material(json));
+}
+
+void
+BodyReader::readCylinder(JsonObject& json, TriangleScene& geometry)
+{
+  addCylinder(geometry,
+              json.get<Eigen::Vector3d>("foot"),
+              json.get<double>("radius"),
+              json.get<double>("height"),
+              material(json));
+}
+
+void
+BodyReader::readRevolved(JsonObject& json, TriangleScene& geometry)
+{
+  Revolved body;
+  body.foot = json.get<Eigen::Vector3d>("foot");
+  json.require("profile");
+  body.profile.clear();
+  json.each("profile", [&](const JsonObject::Json& row, const std::string& pointer) {
+    const std::vector<double> values = jsonNumbers(file_, row, pointer);
+    if (values.size() != 2)
+      json.fail("profile", "a point that is not (radius, height)");
+    body.profile.emplace_back(values[0], values[1]);
+  });
+  json.read("segments", body.segments);
+  addRevolved(geometry, body, material(json));
+}
+
+void
+BodyReader::readTerrain(JsonObject& json, TriangleScene& geometry)
+{
+  TerrainOptions options;
+  options.low = json.get<Eigen::Vector2d>("low");
+  options.high = json.get<Eigen::Vector2d>("high");
+  json.read("cell", options.cell);
+  json.read("height", options.height);
+  json.read("slope", options.slope);
+  json.read("amplitude", options.amplitude);
+  json.read("wavelength", options.wavelength);
+  json.read("seed", options.seed);
+  terrains_.emplace_back(options);
+  terrains_.back().addTo(geometry, material(json));
+}
+
+void
+BodyReader::readModel(JsonObject& json, TriangleScene& geometry)
+{
+  Surface surface = material(json);
+  surface.is_solid = false; // who knows
+  const MeshOptions options = readMeshOptions(json);
+  const Eigen::Isometry3d pose = readPose(json);
+  const std::filesystem::path name = json.get<std::string>("file");
+  addMesh(geometry, readMesh(file_.parent_path() / name, options), pose, surface);
+}
+
+// Several bodies, or a mesh, in a frame of their own.
+TriangleScene
+BodyReader::readShape(JsonObject& json)
+{
+  TriangleScene shape;
+  if (json.has("bodies")) {
+    readBodies(json, shape);
+    return shape;
+  }
+  if (!json.has("file"))
+    json.fail("", "neither 'bodies' nor 'file'");
+  Surface surface = material(json);
+  surface.is_solid = false;
+  const MeshOptions options = readMeshOptions(json);
+  const std::filesystem::path name = json.get<std::string>("file");
+  addMesh(shape,
+          readMesh(file_.parent_path() / name, options),
+          Eigen::Isometry3d::Identity(),
+          surface);
+  return shape;
+}
+
+Eigen::Isometry3d
+BodyReader::readPose(JsonObject& json)
+{
+  EulerAngles angles;
+  json.read("roll", angles.roll);
+  json.read("pitch", angles.pitch);
+  json.read("yaw", angles.yaw);
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  if (json.has("position"))
+    position = place(json, "position", json.numbers("position"));
+  return poseFromEuler(position, angles);
+}
+
+// Two numbers lie on the terrain.
+Eigen::Vector3d
+BodyReader::place(JsonObject& json,
+                  const std::string& key,
+                  const std::vector<double>& values)
+{
+  if (values.size() == 3)
+    return {values[0], values[1], values[2]};
+  if (values.size() != 2)
+    json.fail(key, "expected 3 numbers, got " + std::to_string(values.size()));
+  if (terrains_.empty())
+    json.fail(key, "2 numbers are a place on the terrain, but there is no terrain");
+  return {values[0], values[1], terrains_.back().height({values[0], values[1]})};
+}
+
+std::vector<Eigen::Vector3d>
+BodyReader::places(JsonObject& json, const std::string& key)
+{
+  std::vector<Eigen::Vector3d> list;
+  json.each(key, [&](const JsonObject::Json& row, const std::string& pointer) {
+    list.push_back(place(json, key, jsonNumbers(file_, row, pointer)));
+  });
+  return list;
+}
+
+} // namespace pcl6d::simulation

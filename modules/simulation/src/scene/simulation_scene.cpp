@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "built_in/built_in_scenes.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/simulation/scene_bodies.h>
+#include <pcl6d/simulation/scene_truth.h>
+#include <pcl6d/simulation/simulation_scene.h>
+
+#include <algorithm>
+#include <array>
+
+namespace pcl6d {
+using namespace simulation;
+
+namespace {
+struct Entry {
+  const char* name;
+  const char* description;
+  SimulationScene (*make)(std::uint64_t seed);
+};
+constexpr std::array<Entry, 5> kScenes = {
+    {{"corridor",
+      "four furnished rooms, four corridors, two ramps; a loop of 55 m",
+      corridorScene},
+     {"campus",
+      "streets between houses on hilly ground, with trees, parked cars, people and "
+      "lamps; a way of 1 km with five loops",
+      campusScene},
+     {"mine",
+      "a drift with rough rock, timber supports and boulders; a loop of 130 m that "
+      "climbs and falls",
+      mineScene},
+     {"multilevel",
+      "two storeys, joined by a ramp and by stairs; a loop of 120 m over both",
+      multilevelScene},
+     {"rooms",
+      "a flat: rooms with tables, chairs and shelves along a hall, doors open and "
+      "closed; another seed is another flat",
+      roomsScene}}};
+
+const Entry&
+entryOf(const std::string& name)
+{
+  std::string known;
+  for (const auto& scene : kScenes) {
+    if (name == scene.name)
+      return scene;
+    known += std::string(known.empty() ? "" : ", ") + scene.name;
+  }
+  throw BadArgument("no scene '" + name + "'; known: " + known);
+}
+
+/** Which objects stay: their new ids by their old ones, both from 1; 0: it is gone. */
+using NewIds = std::vector<std::uint32_t>;
+
+bool
+isGone(const Surface& surface, const NewIds& ids)
+{
+  return surface.object != 0 && ids[surface.object] == 0;
+}
+
+/** \return the triangles and surfaces that stay; unused vertices hurt nobody */
+TriangleScene
+subset(const TriangleScene& scene, const NewIds& ids)
+{
+  TriangleScene left;
+  left.vertices = scene.vertices;
+  std::vector<std::uint32_t> place(scene.surfaces.size(), 0);
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    if (isGone(scene.surfaces[i], ids))
+      continue;
+    place[i] = left.addSurface(scene.surfaces[i]);
+    left.surfaces.back().object = ids[scene.surfaces[i].object];
+  }
+  for (const auto& triangle : scene.triangles)
+    if (!isGone(scene.surfaces[triangle.surface], ids))
+      left.triangles.push_back({triangle.vertices, place[triangle.surface]});
+  return left;
+}
+} // namespace
+
+namespace {
+ObjectPose
+objectPose(const std::string& object_class,
+           const TriangleScene& shape,
+           const Eigen::Isometry3d& T_scene_object)
+{
+  ObjectPose object;
+  object.object_class = object_class;
+  object.T_world_object = T_scene_object;
+  object.box.setEmpty();
+  for (const auto& vertex : shape.vertices)
+    object.box.extend(vertex);
+  return object;
+}
+} // namespace
+
+std::uint32_t
+SimulationScene::addObject(const std::string& object_class,
+                           const TriangleScene& shape,
+                           const Eigen::Isometry3d& T_scene_object)
+{
+  objects.push_back(objectPose(object_class, shape, T_scene_object));
+  const auto id = static_cast<std::uint32_t>(objects.size());
+  const std::size_t first = geometry.surfaces.size();
+  addModel(geometry, shape, T_scene_object, id);
+  for (std::size_t i = first; i < geometry.surfaces.size(); ++i)
+    if (geometry.surfaces[i].name == Surface().name) // errors name what is in the way
+      geometry.surfaces[i].name = object_class;
+  return id;
+}
+
+std::uint32_t
+SimulationScene::addMoving(MovingBody body)
+{
+  body.validate();
+  objects.push_back(objectPose(body.name, body.shape, body.poseAt(0)));
+  objects.back().moves = true;
+  const auto id = static_cast<std::uint32_t>(objects.size());
+  for (auto& surface : body.shape.surfaces)
+    surface.object = id;
+  moving.push_back(std::move(body));
+  return id;
+}
+
+std::vector<ObjectPose>
+sceneObjects(const SimulationScene& scene, const Eigen::Isometry3d& T_scene_world)
+{
+  std::vector<ObjectPose> objects = scene.objects;
+  for (auto& object : objects)
+    object.T_world_object = T_scene_world.inverse() * object.T_world_object;
+  return objects;
+}
+
+std::vector<std::string>
+builtInSceneNames()
+{
+  std::vector<std::string> names;
+  for (const auto& scene : kScenes)
+    names.emplace_back(scene.name);
+  return names;
+}
+
+std::string
+builtInSceneDescription(const std::string& name)
+{
+  return entryOf(name).description;
+}
+
+SimulationScene
+builtInScene(const std::string& name, std::uint64_t seed)
+{
+  SimulationScene scene = entryOf(name).make(seed);
+  numberPlanes(scene.geometry);
+  return scene;
+}
+
+SimulationScene
+withoutObjects(const SimulationScene& scene, const std::vector<std::string>& classes)
+{
+  SimulationScene left = scene;
+  left.objects.clear();
+  NewIds ids{0};
+  for (const auto& object : scene.objects) {
+    const bool stays =
+        std::find(classes.begin(), classes.end(), object.object_class) == classes.end();
+    if (stays)
+      left.objects.push_back(object);
+    ids.push_back(stays ? static_cast<std::uint32_t>(left.objects.size()) : 0);
+  }
+  left.geometry = subset(scene.geometry, ids);
+  numberPlanes(left.geometry);
+  left.moving.clear();
+  for (auto body : scene.moving) {
+    body.shape = subset(body.shape, ids);
+    if (!body.shape.triangles.empty())
+      left.moving.push_back(std::move(body));
+  }
+  return left;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "drawing/offscreen.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/visualization/private_display.h>
+
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringOutputWindow.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXOpenGLRenderWindow.h>
+
+#include <algorithm>
+#include <mutex>
+#include <string>
+
+namespace pcl6d::visualization {
+
+namespace {
+/** Catches what VTK has to say for the length of its scope. */
+class CaughtMessages {
+public:
+  CaughtMessages() : before_(vtkOutputWindow::GetInstance())
+  {
+    vtkOutputWindow::SetInstance(caught_);
+  }
+  ~CaughtMessages() { vtkOutputWindow::SetInstance(before_); }
+  CaughtMessages(const CaughtMessages&) = delete;
+  CaughtMessages&
+  operator=(const CaughtMessages&) = delete;
+
+  /** \return the text of the first error, on one line; empty if there was none */
+  std::string
+  firstError()
+  {
+    std::string text = caught_->GetOutput();
+    const auto begin = text.find("ERROR:");
+    if (begin == std::string::npos)
+      return {};
+    text = text.substr(begin, text.find("\n\n", begin) - begin);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+  }
+
+private:
+  vtkNew<vtkStringOutputWindow> caught_;
+  vtkSmartPointer<vtkOutputWindow> before_;
+};
+
+PixelLayer
+readPixels(vtkRenderWindow* window, int width, int height)
+{
+  vtkNew<vtkUnsignedCharArray> pixels;
+  window->GetRGBACharPixelData(0, 0, width - 1, height - 1, /*front=*/0, pixels);
+  PixelLayer layer(width, height);
+  const std::size_t row_bytes = 4 * static_cast<std::size_t>(width);
+  const std::size_t size = layer.rgba.size();
+  if (static_cast<std::size_t>(pixels->GetNumberOfValues()) != size)
+    throw IoFailed("cannot draw pictures: OpenGL gave no pixels");
+  const std::uint8_t* source = pixels->GetPointer(0); // rows from below
+  for (std::size_t begin = 0; begin < size; begin += row_bytes)
+    std::copy_n(source + begin, row_bytes, &layer.rgba[size - row_bytes - begin]);
+  return layer;
+}
+} // namespace
+
+PixelLayer
+drawOffscreen(vtkRenderer* renderer, int width, int height)
+{
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  CaughtMessages messages;
+  vtkNew<vtkXOpenGLRenderWindow> window;
+  window->SetDisplayId(PrivateDisplay::instance().connection());
+  window->SetShowWindow(false);
+  window->SetUseOffScreenBuffers(true);
+  window->SetMultiSamples(4);
+  window->SetAlphaBitPlanes(1);
+  window->SetSize(width, height);
+  window->AddRenderer(renderer);
+  window->Render();
+  PixelLayer layer = readPixels(window, width, height);
+  window->RemoveRenderer(renderer);
+  const std::string error = messages.firstError();
+  if (!error.empty())
+    throw IoFailed("cannot draw pictures: VTK says: " + error);
+  return layer;
+}
+
+} // namespace pcl6d::visualization

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "drawing/pixel_layer.h"
+
+class vtkRenderer;
+
+namespace pcl6d::visualization {
+
+/** \brief Draws a VTK scene on the private display, on nothing: the renderer's background
+ * must be black and without alpha. One call at a time; others wait.
+ * VTK's own messages are caught: errors are thrown, warnings dropped.
+ * \throws IoFailed no private display, or OpenGL refused */
+PixelLayer
+drawOffscreen(vtkRenderer* renderer, int width, int height);
+
+} // namespace pcl6d::visualization

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/visualization/map_cloud.h>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace pcl6d::visualization {
+
+/** \brief How the colours of points are chosen. */
+struct PaintRule {
+  PointColour colour = PointColour::kHeight;
+  std::optional<ColourMap> map; ///< by default one that suits the colour
+  Background background = Background::kDark;
+  std::optional<std::array<double, 2>> range = {}; ///< values at the ends; by default
+                                                   ///< they follow the points
+};
+
+/** \brief What the colours mean. */
+struct ColourScale {
+  std::string title;       ///< with the unit; empty: nothing to tell
+  double lowest = 0;       ///< value at the lower end of the colours
+  double highest = 0;      ///< value at the upper end
+  bool is_integer = false; ///< values are whole numbers
+  std::function<Colour(double share)> colourOf;
+  std::vector<std::pair<std::string, Colour>> keys; ///< of names in place of a range
+};
+
+struct PointPaint {
+  std::vector<Colour> colours; ///< of the chosen points, in their order
+  ColourScale scale;
+};
+
+/** \param[in] indices of the points that are drawn; may be empty
+ * \throws BadArgument as MapCloud::validate() */
+PointPaint
+paintPoints(const MapCloud& cloud,
+            const std::vector<std::size_t>& indices,
+            const PaintRule& rule);
+
+} // namespace pcl6d::visualization

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/visualization/map_cloud.h>
+
+namespace pcl6d::visualization {
+
+/** \brief The colours of everything but the points. */
+struct Theme {
+  Colour background; ///< also around lines that lie on points
+  Colour text;
+  Colour plain;   ///< points whose colour tells nothing
+  Colour initial; ///< poses before the run
+  Colour final;   ///< poses after it
+};
+
+inline Theme
+themeOf(Background background)
+{
+  if (background == Background::kLight)
+    return {
+        {255, 255, 255}, {40, 40, 40}, {170, 174, 182}, {240, 120, 20}, {200, 0, 70}};
+  return {
+      {12, 13, 18}, {225, 225, 225}, {92, 97, 108}, {255, 130, 70}, {255, 255, 255}};
+}
+
+} // namespace pcl6d::visualization

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/report_json.h"
+#include "report/report_page.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/visualization/report.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <string_view>
+#include <utility>
+
+namespace pcl6d {
+using namespace visualization;
+
+namespace {
+namespace fs = std::filesystem;
+
+/** What is broken is told in the report, which shows the rest. */
+template <typename Read>
+auto
+readOrTell(const Read& read, std::vector<std::string>& missing) -> decltype(read())
+{
+  try {
+    return read();
+  } catch (const IoFailed& error) {
+    missing.push_back(error.what());
+    return {};
+  }
+}
+
+std::string
+titleOf(const std::string& name)
+{
+  if (name == "top_view.png")
+    return "The map and both trajectories from above";
+  if (name == "planes.png")
+    return "Planes and their labels";
+  std::string title = fs::path(name).stem().string();
+  std::replace(title.begin(), title.end(), '_', ' ');
+  return title;
+}
+
+/** \return the pictures of a run by their paths in its folder, the top view first */
+std::vector<std::string>
+pictureNames(const fs::path& run)
+{
+  std::vector<std::string> names;
+  for (const auto& folder : {run, run / "pictures"}) {
+    std::error_code error; // a folder that cannot be listed has no pictures
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == ".png" && entry.is_regular_file(error))
+        names.push_back(entry.path().lexically_relative(run).string());
+  }
+  std::sort(names.begin(), names.end(), [](const auto& a, const auto& b) {
+    return std::make_pair(a != "top_view.png", a) <
+           std::make_pair(b != "top_view.png", b);
+  });
+  return names;
+}
+
+bool
+isPng(const std::string& bytes)
+{
+  return bytes.rfind("\x89PNG\r\n\x1a\n", 0) == 0;
+}
+
+void
+gatherPictures(const fs::path& folder, std::size_t budget, ReportData& data)
+{
+  for (const auto& name : pictureNames(folder)) {
+    std::error_code error;
+    const auto size = fs::file_size(folder / name, error);
+    if (error || size > budget) {
+      data.missing.push_back(name + " is too large for this page");
+      continue;
+    }
+    std::ifstream stream(folder / name, std::ios::binary);
+    std::string png{std::istreambuf_iterator<char>(stream), {}};
+    if (!isPng(png)) {
+      data.missing.push_back(name + " is no picture");
+      continue;
+    }
+    budget -= png.size();
+    data.pictures.push_back({name, titleOf(name), std::move(png)});
+  }
+}
+
+void
+check(const RunMap& map)
+{
+  for (const auto& [count, what] : {std::pair(map.scans.size(), "scan indices"),
+                                    std::pair(map.intensities.size(), "intensities")})
+    if (count != 0 && count != map.points.size())
+      throw BadArgument("a map of " + std::to_string(map.points.size()) +
+                        " points with " + std::to_string(count) + ' ' + what);
+}
+} // namespace
+
+void
+ReportOptions::validate() const
+{
+  require(max_points > 0, "max_points", max_points, "> 0");
+}
+
+ReportData
+gatherReport(const RunFolder& run,
+             const std::string& title,
+             const ReportOptions& options)
+{
+  ReportData data;
+  std::error_code error;
+  data.title =
+      title.empty() ? fs::canonical(run.path(), error).filename().string() : title;
+  data.summary = run.summary();
+  auto& missing = data.missing;
+  data.summary.links = readOrTell([&] { return run.readLinks(); }, missing);
+  data.map = readOrTell([&] { return run.readMap(); }, missing);
+  data.planes = readOrTell([&] { return run.readPlanes(); }, missing);
+  data.objects = readOrTell([&] { return run.readObjects(); }, missing);
+  addFolder(run, data, options);
+  return data;
+}
+
+void
+addFolder(const RunFolder& run, ReportData& data, const ReportOptions& options)
+{
+  const std::vector<std::string> broken = std::exchange(data.missing, {});
+  for (const auto& name : run.missing())
+    data.missing.push_back("missing: " + name);
+  data.missing.insert(data.missing.end(), broken.begin(), broken.end());
+  gatherPictures(run.path(), options.max_picture_bytes, data);
+}
+
+void
+writeReport(const fs::path& path, const ReportData& data, const ReportOptions& options)
+{
+  options.validate();
+  check(data.map);
+  const std::string json = reportJson(data, options);
+  const std::string_view page = kReportPage;
+  const std::size_t place = page.find(kReportPlace);
+  writeFileAtomically(path, [&](std::ostream& stream) {
+    stream << page.substr(0, place) << json
+           << page.substr(place + std::string_view(kReportPlace).size());
+  });
+}
+
+} // namespace pcl6d

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/visualization/report.h>
+
+#include <string>
+
+namespace pcl6d::visualization {
+
+/** \return the data of a report as JSON that may stand inside a script element: pure
+ * ASCII, without `<`. The page reads it in report/src/run.js. Numbers that are not finite
+ * are null. */
+std::string
+reportJson(const ReportData& data, const ReportOptions& options);
+
+} // namespace pcl6d::visualization

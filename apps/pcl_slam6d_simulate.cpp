@@ -8,7 +8,7 @@
 #include "simulate/truth_files.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
@@ -77,8 +77,7 @@ writeSceneFile(const fs::path& path,
   if (s.simulation.range.max_range != RangeOptions().max_range)
     json["max_range"] = s.simulation.range.max_range;
   app::describeScene(s.scene, scene, json);
-  writeFileAtomically(path,
-                      [&](std::ostream& stream) { stream << json.dump(2) << '\n'; });
+  writeJson(path, json, 2);
 }
 
 /** \return false when a signal came in before the last scan */

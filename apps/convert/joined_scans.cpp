@@ -10,6 +10,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/io/text.h>
 
 #include <algorithm>
 #include <iostream>
@@ -129,8 +130,8 @@ private:
   describe(const std::vector<std::string>& losses)
   {
     const Eigen::Vector3d offset = source_.worldOffset();
-    std::cout << counted(source_.folder().size(), "scan") << ", "
-              << counted(points_, "point") << ": "
+    std::cout << text::counted(source_.folder().size(), "scan") << ", "
+              << text::counted(points_, "point") << ": "
               << toString(source_.folder().format()) << " to "
               << toString(settings_.writer.format) << '\n'
               << "poses from " << source_.poseSource() << '\n'
@@ -138,7 +139,7 @@ private:
               << std::llround(offset.y()) << ' ' << std::llround(offset.z())
               << ": subtracted from all points [m]\n";
     if (out_of_range_ > 0)
-      std::cout << "dropped " << counted(out_of_range_, "point")
+      std::cout << "dropped " << text::counted(out_of_range_, "point")
                 << " outside the ranges of the run, " << source_.minRange() << " to "
                 << source_.maxRange() << " m\n";
     for (const auto& loss : layout_.losses())

@@ -3,6 +3,8 @@
 #include "common/command_line.h"
 #include "convert/verbs.h"
 
+#include <pcl6d/common/angle.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/io/pcd_io.h>
@@ -20,8 +22,6 @@ namespace pcl6d::app {
 
 namespace {
 namespace po = boost::program_options;
-constexpr double kDegree = M_PI / 180;
-
 /** \brief Three numbers in one word: 0.1,0,-0.05 */
 struct Triple {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
@@ -104,13 +104,10 @@ describe(LinesSettings& s, CommandLine& line)
 Drive
 driveFromName(const std::string& name)
 {
-  require(name == "pitching" || name == "rolling" || name == "yawing",
-          "drive",
-          name,
-          "pitching, rolling or yawing");
-  return name == "pitching"  ? Drive::kPitching
-         : name == "rolling" ? Drive::kRolling
-                             : Drive::kYawing;
+  constexpr Named<Drive> kDrives[] = {{Drive::kPitching, "pitching"},
+                                      {Drive::kRolling, "rolling"},
+                                      {Drive::kYawing, "yawing"}};
+  return fromName(kDrives, "drive", name, WordList::kOr);
 }
 
 /** Moves the words into the library's options. */

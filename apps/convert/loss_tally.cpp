@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "convert/loss_tally.h"
 
+#include <pcl6d/io/text.h>
+
 #include <algorithm>
 #include <iostream>
 
@@ -39,22 +41,16 @@ void
 LossTally::print() const
 {
   if (dropped_points_ > 0)
-    std::cout << "dropped " << counted(dropped_points_, "point")
+    std::cout << "dropped " << text::counted(dropped_points_, "point")
               << " whose x, y or z is not finite\n";
   for (const auto& [loss, count] : of_scans_) {
     std::cout << loss;
     if (scans_ > 1)
-      std::cout << " (" << count << " of " << counted(scans_, "scan") << ')';
+      std::cout << " (" << count << " of " << text::counted(scans_, "scan") << ')';
     std::cout << '\n';
   }
   for (const auto& loss : others_)
     std::cout << loss << '\n';
-}
-
-std::string
-counted(std::size_t count, const std::string& thing)
-{
-  return std::to_string(count) + ' ' + thing + (count == 1 ? "" : "s");
 }
 
 } // namespace pcl6d::app

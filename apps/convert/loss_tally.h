@@ -34,8 +34,4 @@ private:
   std::vector<std::string> others_;
 };
 
-/** \return "1 point", "2 points" */
-std::string
-counted(std::size_t count, const std::string& thing);
-
 } // namespace pcl6d::app

@@ -9,6 +9,7 @@
 #include "convert/verbs.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 
 #include <iostream>
@@ -64,8 +65,8 @@ public:
     }
     writePoses();
     out_.publish();
-    std::cout << counted(source_.folder().size(), "scan") << ", "
-              << counted(points_, "point") << ": "
+    std::cout << text::counted(source_.folder().size(), "scan") << ", "
+              << text::counted(points_, "point") << ": "
               << toString(source_.folder().format()) << " to "
               << toString(settings_.writer.format) << '\n';
     describePoses();
@@ -170,7 +171,7 @@ convertFile(const ScanSettings& settings)
     losses.add("dropped the pose");
   if (!settings.without_effect.empty())
     ProgressBar(settings.quiet).warn(settings.without_effect);
-  std::cout << counted(std::size_t{scan.cloud.width} * scan.cloud.height, "point")
+  std::cout << text::counted(std::size_t{scan.cloud.width} * scan.cloud.height, "point")
             << " to " << toString(format) << '\n';
   losses.print();
   return kDone;

@@ -9,6 +9,7 @@
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/pose_graph_io.h>
 #include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_formats.h>
 #include <pcl6d/io/trajectory_io.h>
 
@@ -134,7 +135,7 @@ write(const TrajectorySettings& s, const TrajectoryFiles& input)
 void
 describe(const TrajectorySettings& s, const TrajectoryFiles& input)
 {
-  std::cout << counted(input.trajectory.poses.size(), "pose") << ": "
+  std::cout << text::counted(input.trajectory.poses.size(), "pose") << ": "
             << toString(input.format) << " to " << toString(s.format) << '\n';
   for (const auto& thing : input.left_out)
     std::cout << "did not read " << thing << '\n';

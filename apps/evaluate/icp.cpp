@@ -4,6 +4,7 @@
 #include "evaluate/icp_report.h"
 #include "evaluate/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/scan_folder.h>
@@ -133,7 +134,7 @@ warnOfDoubts(const IcpSettings& s, const IcpEvaluation& e, ProgressBar& bar)
                   sizeof distance,
                   "%.3f m and %.2f deg",
                   d.distance.translation,
-                  180 / M_PI * d.distance.rotation);
+                  degrees(d.distance.rotation));
     bar.warn(std::string("the best poses of ") + toString(d.a) + " and " +
              toString(d.b) + " are " + distance +
              " apart, far more than their sigma: one at least is wrong, and its runs "

@@ -4,9 +4,11 @@
 #include "evaluate/result_json.h"
 #include "evaluate/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/visualization/convergence_map.h>
 
 #include <algorithm>
@@ -19,7 +21,6 @@
 namespace pcl6d::app {
 
 namespace {
-constexpr double kDegrees = 180 / M_PI;
 
 std::vector<std::pair<const char*, Parameter>>
 named(const Slam6DParameters& p)
@@ -72,7 +73,7 @@ printHeader(const IcpSettings& settings, const IcpEvaluation& e)
               icpStarts(o).size(),
               icpStarts(o).size() == 1 ? "run" : "runs",
               axisText(o.offset_xy, "m", o.steps_xy).c_str(),
-              axisText(kDegrees * o.offset_yaw, "deg", o.steps_yaw).c_str());
+              axisText(degrees(o.offset_yaw), "deg", o.steps_yaw).c_str());
   for (const IcpBestPose& best : e.basin.best)
     if (best.doubt.empty()) {
       const Eigen::Vector3d t = best.result.T_target_source.translation();
@@ -85,7 +86,7 @@ printHeader(const IcpSettings& settings, const IcpEvaluation& e)
                   best.result.rms,
                   best.result.overlap,
                   best.sigma_position,
-                  kDegrees * best.sigma_orientation);
+                  degrees(best.sigma_orientation));
     }
 }
 
@@ -102,12 +103,12 @@ printRow(const IcpBasinRow& row)
               toString(row.variant.search),
               100 * s.success,
               mean(1000 * s.position_rms, 3).c_str(),
-              mean(kDegrees * s.orientation_rms, 4).c_str(),
+              mean(degrees(s.orientation_rms), 4).c_str(),
               mean(s.rms, 5).c_str(),
               mean(s.iterations, 3).c_str(),
               mean(1000 * s.seconds, 2).c_str(),
               orDash(s.reach_xy, 1, 2).c_str(),
-              orDash(s.reach_yaw, kDegrees, 1).c_str());
+              orDash(s.reach_yaw, degrees(1), 1).c_str());
 }
 
 /** Numbers that can be read back to the last bit; nothing for "none". */
@@ -296,7 +297,7 @@ sceneOfYaws(const IcpSettings& settings,
   for (const double yaw : gridValues(e.options.offset_yaw, e.options.steps_yaw)) {
     char title[32];
     std::snprintf(
-        title, sizeof title, yaw == 0 ? "yaw 0" : "yaw %+.3g deg", 180 / M_PI * yaw);
+        title, sizeof title, yaw == 0 ? "yaw 0" : "yaw %+.3g deg", degrees(yaw));
     scene.panels.push_back({title, std::vector<double>(places, 0.0)});
   }
   for (const IcpBasinRow* row : rows)
@@ -356,8 +357,7 @@ writeIcpFiles(const OutputFolder& out,
                       [&](std::ostream& stream) { writeRows(stream, e.basin); });
   writeFileAtomically(out / "icp_runs.csv",
                       [&](std::ostream& stream) { writeRuns(stream, e.basin); });
-  const std::string json = jsonText(toJson(settings, e));
-  writeFileAtomically(out / "icp.json", [&](std::ostream& stream) { stream << json; });
+  writeJson(out / "icp.json", toJson(settings, e), 2);
 }
 
 void

@@ -2,6 +2,7 @@
 #include "common/app.h"
 #include "evaluate/icp_command_line.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/registration/minimisers.h>
@@ -17,8 +18,6 @@ using Words = std::vector<std::string>;
 using Raw = RawIcpSettings;
 
 constexpr int kMostThreads = 1024;
-constexpr double kRadians = M_PI / 180;
-
 /** \return the names, "all" replaced by those that are not there yet; each once */
 Words
 expanded(const Words& given, const Words& all)
@@ -58,7 +57,7 @@ poseFromText(const std::string& text)
   if (!(stream >> std::ws).eof())
     throw UsageError("--guess \"" + text + "\": more than six numbers");
   return poseFromEuler({v[0], v[1], v[2]},
-                       {kRadians * v[3], kRadians * v[4], kRadians * v[5]});
+                       {radians(v[3]), radians(v[4]), radians(v[5])});
 }
 
 std::optional<double>
@@ -97,8 +96,8 @@ interpretAngles(const Raw& raw, IcpSettings& s)
           "sigma_orientation",
           sigma.value,
           "finite and > 0 degrees");
-  s.offset_yaw = toOptional(offset, kRadians);
-  s.basin.sigma_orientation = toOptional(sigma, kRadians);
+  s.offset_yaw = toOptional(offset, kDegree);
+  s.basin.sigma_orientation = toOptional(sigma, kDegree);
 }
 
 void

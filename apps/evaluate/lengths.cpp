@@ -7,7 +7,7 @@
 
 #include <pcl6d/benchmarking/length_ratio.h>
 #include <pcl6d/common/error.h>
-#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 
 #include <Eigen/Core>
 
@@ -108,7 +108,7 @@ write(const std::string& output,
                      {"median", errors.ratio.median},
                      {"max", errors.ratio.max},
                      {"scale", errors.scale}};
-  writeFileAtomically(output, [&](std::ostream& stream) { stream << jsonText(json); });
+  writeJson(output, json, 2);
 }
 } // namespace
 

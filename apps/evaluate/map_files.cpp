@@ -2,6 +2,8 @@
 #include "evaluate/map_report.h"
 #include "evaluate/result_json.h"
 
+#include <pcl6d/io/json_numbers.h>
+
 #include <cmath>
 #include <ostream>
 
@@ -92,7 +94,7 @@ toJson(const MapReport& report)
   json["planes"] = std::move(planes);
   json["scans"] = std::move(scans);
   // File names need not be UTF-8, but JSON must be.
-  return jsonText(json); // NaN as null
+  return jsonFileText(json, 2);
 }
 
 void

@@ -3,10 +3,12 @@
 #include "evaluate/result_json.h"
 #include "evaluate/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/visualization/top_view.h>
 
@@ -17,7 +19,6 @@
 namespace pcl6d::app {
 
 namespace {
-constexpr double kDegrees = 180 / M_PI;
 
 void
 printErrors(const char* title, const ErrorStatistics& errors, double unit)
@@ -42,9 +43,9 @@ printErrors(const std::string& title, const MclErrors& errors)
               "median",
               "max");
   printErrors("2D position [m]", errors.position_2d, 1);
-  printErrors("yaw [deg]", errors.yaw, kDegrees);
+  printErrors("yaw [deg]", errors.yaw, degrees(1));
   printErrors("position [m]", errors.position, 1);
-  printErrors("orientation [deg]", errors.orientation, kDegrees);
+  printErrors("orientation [deg]", errors.orientation, degrees(1));
 }
 
 void
@@ -65,8 +66,8 @@ printJustification(const std::vector<JustificationRow>& rows)
                 row.failed,
                 row.position.rms,
                 row.position.max,
-                kDegrees * row.yaw.rms,
-                kDegrees * row.yaw.max);
+                degrees(row.yaw.rms),
+                degrees(row.yaw.max));
 }
 
 /** \return the poses in the world of the given ones */
@@ -233,8 +234,7 @@ writeMclFiles(const OutputFolder& out, const MclSettings& s, const MclEvaluation
     writeTrajectoryTum(out / "reference.tum", referenceOf(e, true));
   writeFileAtomically(out / "mcl.csv",
                       [&](std::ostream& stream) { writeRows(stream, e); });
-  const std::string json = jsonText(toJson(s, e), 1);
-  writeFileAtomically(out / "mcl.json", [&](std::ostream& stream) { stream << json; });
+  writeJson(out / "mcl.json", toJson(s, e));
 }
 
 void

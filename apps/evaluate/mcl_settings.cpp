@@ -4,6 +4,7 @@
 #include "evaluate/mcl_settings.h"
 #include "evaluate/verbs.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 
@@ -16,8 +17,6 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr int kMostThreads = 1024;
-constexpr double kRadians = M_PI / 180;
-
 /** Values that the command line knows in another form than the library. */
 struct Raw {
   std::string format = "auto";
@@ -167,7 +166,7 @@ interpretStart(const Raw& raw, MclSettings& s)
   }
   const auto v = numbersOf("start", raw.start, 3);
   s.start = MclStart::kGiven;
-  s.start_pose = {v[0], v[1], wrapAngle(kRadians * v[2])};
+  s.start_pose = {v[0], v[1], wrapAngle(radians(v[2]))};
 }
 
 std::optional<double>

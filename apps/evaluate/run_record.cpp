@@ -4,7 +4,9 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/version.h>
-#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -123,8 +125,7 @@ writeRunRecord(const fs::path& file, const RunRecord& record)
                      {"cpu_seconds", record.end.cpu_seconds},
                      {"peak_memory_mb", record.end.peak_memory_mb},
                      {"message", record.message}};
-  const std::string text = jsonText(json);
-  writeFileAtomically(file, [&](std::ostream& stream) { stream << text; });
+  writeJson(file, json, 2);
 }
 
 std::optional<RunRecord>

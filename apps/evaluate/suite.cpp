@@ -9,6 +9,9 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -184,12 +187,11 @@ private:
   void
   writeMarker(const Suite& suite) const
   {
-    const Json json = {{"schema_version", 1},
-                       {"generator", kEvaluate},
-                       {"suite", suite.file.string()}};
-    const std::string text = jsonText(json);
-    writeFileAtomically(folder_ / kMarker,
-                        [&](std::ostream& stream) { stream << text; });
+    writeJson(folder_ / kMarker,
+              {{"schema_version", 1},
+               {"generator", kEvaluate},
+               {"suite", suite.file.string()}},
+              2);
   }
 
   fs::path folder_;

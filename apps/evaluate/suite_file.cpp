@@ -2,6 +2,11 @@
 #include "common/app.h"
 #include "evaluate/suite_file.h"
 
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/json_object.h>
+
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -56,138 +61,88 @@ private:
   std::vector<Object> open_;
 };
 
-/** A value in the file, with its place. */
-class Node {
-public:
-  Node(const fs::path& file, const Json& json, std::string place = "")
-  : file_(file), json_(json), place_(std::move(place))
-  {}
+/** \throws IoFailed the object has other members than these */
+void
+allow(const JsonValue& node, const std::set<std::string>& names)
+{
+  std::string known;
+  for (const auto& name : names)
+    known += (known.empty() ? "" : ", ") + name;
+  for (const auto& key : node.keys())
+    if (names.count(key) == 0)
+      node.fail("'" + key + "' is not known; there are " + known);
+}
 
-  [[noreturn]] void
-  refuse(const std::string& what) const
-  {
-    refuseSuite(file_, place_.empty() ? "/" : place_, what);
+double
+number(const JsonValue& node, double least, const std::string& rule)
+{
+  node.require(node.isNumber() && node.number() >= least, rule);
+  return node.number();
+}
+
+/** An object of options, without those in `besides`. */
+SuiteOptions
+optionsOf(const JsonValue& node, const std::set<std::string>& besides = {})
+{
+  SuiteOptions options = SuiteOptions::object();
+  for (const auto& name : node.keys()) {
+    const JsonValue option = node / name;
+    if (besides.count(name) > 0)
+      continue;
+    if (option.json().is_structured())
+      option.fail("expected a number, a text, true, false or null");
+    options[name] = option.json();
   }
+  return options;
+}
 
-  const Json&
-  object() const
-  {
-    if (!json_.is_object())
-      refuse("expected an object, got " + json_.dump());
-    return json_;
+/** An object of options, which may be missing. */
+SuiteOptions
+optionsIn(const JsonValue& node, const std::string& name)
+{
+  return node.has(name) ? optionsOf(node / name) : SuiteOptions(SuiteOptions::object());
+}
+
+/** Calls for every member of the object, whose names become names of folders. */
+template <typename Take>
+void
+forEachNamed(const JsonValue& node, const Take& take)
+{
+  const std::vector<std::string> names = node.keys();
+  for (const auto& name : names) {
+    const bool unsafe = std::any_of(name.begin(), name.end(), [](unsigned char c) {
+      return c < ' ' || c == '/' || c == '|' || c == '"';
+    });
+    if (name.empty() || name.front() == '.' || name.size() > 100 || unsafe)
+      node.fail("'" + name +
+                "' is no name: 1 to 100 characters, none of / | \", no dot in front");
+    take(name, node / name);
   }
-
-  bool
-  has(const std::string& name) const
-  {
-    return object().contains(name);
-  }
-
-  Node
-  at(const std::string& name) const
-  {
-    if (!has(name))
-      refuse("'" + name + "' is missing");
-    return {file_, json_.at(name), place_ + '/' + name};
-  }
-
-  void
-  allow(const std::set<std::string>& names) const
-  {
-    std::string known;
-    for (const auto& name : names)
-      known += (known.empty() ? "" : ", ") + name;
-    for (const auto& item : object().items())
-      if (names.count(item.key()) == 0)
-        refuse("'" + item.key() + "' is not known; there are " + known);
-  }
-
-  std::string
-  text() const
-  {
-    if (!json_.is_string())
-      refuse("expected a text, got " + json_.dump());
-    return json_.get<std::string>();
-  }
-
-  double
-  number(double least, const std::string& rule) const
-  {
-    if (!json_.is_number() || !(json_.get<double>() >= least))
-      refuse(json_.dump() + ", but must be " + rule);
-    return json_.get<double>();
-  }
-
-  bool
-  truth() const
-  {
-    if (!json_.is_boolean())
-      refuse(json_.dump() + ", but must be true or false");
-    return json_.get<bool>();
-  }
-
-  /** An object of options, without those in `besides`. */
-  SuiteOptions
-  options(const std::set<std::string>& besides = {}) const
-  {
-    SuiteOptions options = SuiteOptions::object();
-    for (const auto& [name, value] : object().items()) {
-      if (besides.count(name) > 0)
-        continue;
-      if (value.is_structured())
-        at(name).refuse("expected a number, a text, true, false or null");
-      options[name] = value;
-    }
-    return options;
-  }
-
-  /** Calls for every member of the object, whose names become names of folders. */
-  template <typename Take>
-  void
-  forEachNamed(const Take& take) const
-  {
-    for (const auto& item : object().items()) {
-      const std::string& name = item.key();
-      const bool unsafe = std::any_of(name.begin(), name.end(), [](unsigned char c) {
-        return c < ' ' || c == '/' || c == '|' || c == '"';
-      });
-      if (name.empty() || name.front() == '.' || name.size() > 100 || unsafe)
-        refuse("'" + name +
-               "' is no name: 1 to 100 characters, none of / | \", no dot in front");
-      take(name, at(name));
-    }
-    if (object().empty())
-      refuse("is empty, but at least one is needed");
-  }
-
-private:
-  const fs::path& file_;
-  const Json& json_;
-  std::string place_;
-};
+  if (names.empty())
+    node.fail("is empty, but at least one is needed");
+}
 
 SuiteData
-dataFrom(const std::string& name, const Node& node)
+dataFrom(const std::string& name, const JsonValue& node)
 {
-  node.allow({"simulate", "folder", "reference", "options"});
+  allow(node, {"simulate", "folder", "reference", "options"});
   if (node.has("simulate") == node.has("folder"))
-    node.refuse("needs either 'simulate' or 'folder'");
+    node.fail("needs either 'simulate' or 'folder'");
   SuiteData data;
   data.name = name;
   if (node.has("simulate")) {
-    const Node simulate = node.at("simulate");
-    data.scene = simulate.at("scene").text();
-    data.simulation = simulate.options({"scene"});
+    const JsonValue simulate = node / "simulate";
+    data.scene = (simulate / "scene").text();
+    data.simulation = optionsOf(simulate, {"scene"});
     if (node.has("reference"))
-      node.at("reference").refuse("simulated scans have their own");
+      (node / "reference").fail("simulated scans have their own");
   }
   else {
-    data.folder = node.at("folder").text();
+    data.folder = (node / "folder").text();
   }
   if (node.has("reference"))
-    data.reference = node.at("reference").text();
-  data.options = node.has("options") ? node.at("options").options()
-                                     : SuiteOptions(SuiteOptions::object());
+    data.reference = (node / "reference").text();
+  data.options = optionsIn(node, "options");
   return data;
 }
 
@@ -209,24 +164,55 @@ parseFile(const fs::path& file)
 }
 
 void
-readValues(const Node& root, Suite& suite)
+readValues(const JsonValue& root, Suite& suite)
 {
-  suite.title = root.has("title") ? root.at("title").text() : suite.name;
+  suite.title = root.has("title") ? (root / "title").text() : suite.name;
   if (root.has("description"))
-    suite.description = root.at("description").text();
-  suite.defaults = root.has("defaults") ? root.at("defaults").options()
-                                        : SuiteOptions(SuiteOptions::object());
+    suite.description = (root / "description").text();
+  suite.defaults = optionsIn(root, "defaults");
   if (root.has("time_limit"))
-    suite.time_limit = root.at("time_limit").number(1e-3, "seconds > 0");
+    suite.time_limit = number(root / "time_limit", 1e-3, "seconds > 0");
   if (root.has("repetitions")) {
-    const Node node = root.at("repetitions");
-    const double count = node.number(1, "a whole number from 1 to 100");
+    const JsonValue node = root / "repetitions";
+    const double count = number(node, 1, "a whole number from 1 to 100");
     if (count > 100 || count != std::floor(count))
-      node.refuse("expected a whole number from 1 to 100");
+      node.fail("expected a whole number from 1 to 100");
     suite.repetitions = static_cast<int>(count);
   }
   if (root.has("keep_scans"))
-    suite.keep_scans = root.at("keep_scans").truth();
+    suite.keep_scans = (root / "keep_scans").boolean();
+}
+
+Suite
+suiteFrom(const JsonValue& root, const fs::path& file)
+{
+  allow(root,
+        {"schema_version",
+         "title",
+         "description",
+         "time_limit",
+         "repetitions",
+         "keep_scans",
+         "defaults",
+         "data",
+         "methods"});
+  const JsonValue version = root / "schema_version";
+  version.require(version.isNumber() && version.number() == 1, "1");
+  Suite suite;
+  suite.file = fs::absolute(file);
+  suite.name = file.stem().string();
+  readValues(root, suite);
+  forEachNamed(root / "data", [&](const std::string& name, const JsonValue& node) {
+    suite.data.push_back(dataFrom(name, node));
+  });
+  forEachNamed(root / "methods", [&](const std::string& name, const JsonValue& node) {
+    if (name == "odometry")
+      node.fail("the name stands for the initial poses, which are always compared");
+    if ((root / "data").has(name))
+      node.fail("a data set has the same name");
+    suite.methods.push_back({name, optionsOf(node)});
+  });
+  return suite;
 }
 } // namespace
 
@@ -238,36 +224,10 @@ refuseSuite(const fs::path& file, const std::string& place, const std::string& w
 
 Suite
 readSuite(const fs::path& file)
-{
-  const Json json = parseFile(file);
-  const Node root(file, json);
-  root.allow({"schema_version",
-              "title",
-              "description",
-              "time_limit",
-              "repetitions",
-              "keep_scans",
-              "defaults",
-              "data",
-              "methods"});
-  const Node version = root.at("schema_version");
-  if (json["schema_version"] != 1)
-    version.refuse(json["schema_version"].dump() + ", but must be 1");
-  Suite suite;
-  suite.file = fs::absolute(file);
-  suite.name = file.stem().string();
-  readValues(root, suite);
-  root.at("data").forEachNamed([&](const std::string& name, const Node& node) {
-    suite.data.push_back(dataFrom(name, node));
-  });
-  root.at("methods").forEachNamed([&](const std::string& name, const Node& node) {
-    if (name == "odometry")
-      node.refuse("the name stands for the initial poses, which are always compared");
-    if (root.at("data").has(name))
-      node.refuse("a data set has the same name");
-    suite.methods.push_back({name, node.options()});
-  });
-  return suite;
+try {
+  return suiteFrom(JsonValue(file.string(), parseFile(file)), file);
+} catch (const IoFailed& error) { // a suite is a kind of command line
+  throw UsageError(error.what());
 }
 
 SuiteOptions

@@ -2,6 +2,8 @@
 #include "evaluate/result_json.h"
 #include "evaluate/trajectory_report.h"
 
+#include <pcl6d/io/json_numbers.h>
+
 #include <limits>
 #include <ostream>
 
@@ -128,7 +130,7 @@ toJson(const TrajectoryReport& report)
   json["length_ratios"]["count"] = evaluation.length_ratios.ratio.count;
   json["length_ratios"]["scale"] = evaluation.length_ratios.scale;
   // File names need not be UTF-8, but JSON must be.
-  return jsonText(json);
+  return jsonFileText(json, 2);
 }
 
 void

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate/trajectory_report.h"
 
+#include <pcl6d/common/angle.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,8 +10,6 @@
 namespace pcl6d::app {
 
 namespace {
-constexpr double kDegrees = 180 / M_PI;
-
 void
 printHead(const std::string& title, const char* last)
 {
@@ -47,9 +47,9 @@ printErrors(const std::string& title,
   };
   printHead(title, "max at pose");
   row("position [m]", errors.position, 1);
-  row("orientation [deg]", errors.orientation, kDegrees);
+  row("orientation [deg]", errors.orientation, degrees(1));
   row("2D position [m]", errors.position_2d, 1);
-  row("yaw [deg]", errors.yaw, kDegrees);
+  row("yaw [deg]", errors.yaw, degrees(1));
   if (evaluation.path_length > 0)
     std::printf("  position rms is %.2f %% of the path\n",
                 100 * errors.position.rms / evaluation.path_length);
@@ -66,7 +66,7 @@ printMotions(const std::string& title,
   };
   printHead(title, "max at pose");
   printRow("translation [m]", errors.translation, 1, end(errors.translation));
-  printRow("rotation [deg]", errors.rotation, kDegrees, end(errors.rotation));
+  printRow("rotation [deg]", errors.rotation, degrees(1), end(errors.rotation));
 }
 
 void
@@ -84,14 +84,14 @@ printDrift(const DriftErrors& drift)
                   one.length,
                   one.errors.translation.rms,
                   100 * one.translation_per_metre,
-                  kDegrees * one.rotation_per_metre,
+                  degrees(one.rotation_per_metre),
                   one.errors.motions.size());
   if (drift.stretches > 0)
     std::printf("  %-18s%12s%12.4f%12.5f%12zu\n",
                 "all",
                 "",
                 100 * drift.translation_per_metre,
-                kDegrees * drift.rotation_per_metre,
+                degrees(drift.rotation_per_metre),
                 drift.stretches);
   else
     std::printf("  no stretch is shorter than the path of %.2f m\n", drift.path);

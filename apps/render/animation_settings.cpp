@@ -4,6 +4,7 @@
 #include "render/animation_settings.h"
 #include "render/verbs.h"
 
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 
 #include <filesystem>
@@ -45,16 +46,15 @@ operator<<(std::ostream& stream, const PixelSize& size)
 AnimationKind
 kindFromName(const std::string& name)
 {
-  if (name == "flythrough")
-    return AnimationKind::kFlyThrough;
-  if (name == "turntable")
-    return AnimationKind::kTurntable;
-  if (name == "growth")
-    return AnimationKind::kGrowth;
-  if (name == "relaxation")
-    return AnimationKind::kRelaxation;
-  throw UsageError("--kind = " + name +
-                   ", but must be flythrough, turntable, growth or relaxation");
+  constexpr Named<AnimationKind> kKinds[] = {
+      {AnimationKind::kFlyThrough, "flythrough"},
+      {AnimationKind::kTurntable, "turntable"},
+      {AnimationKind::kGrowth, "growth"},
+      {AnimationKind::kRelaxation, "relaxation"}};
+  if (const auto kind = findNamed(kKinds, name))
+    return *kind;
+  throw UsageError("--kind = " + name + ", but must be " +
+                   listed(kKinds, WordList::kOr));
 }
 
 void

@@ -4,6 +4,8 @@
 #include "render/run_pictures.h"
 #include "render/verbs.h"
 
+#include <pcl6d/common/angle.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -93,7 +95,6 @@ checkNumbers(PictureSettings& s)
   if (s.viewpoint < 1 || s.viewpoint > 4)
     throw UsageError("--viewpoint = " + std::to_string(s.viewpoint) +
                      ", but must be 1 to 4");
-  constexpr double kDegree = M_PI / 180;
   for (AutoDouble* angle : {&s.azimuth, &s.elevation})
     angle->value *= kDegree;
   if (!s.elevation.is_auto && !(s.elevation.value > 0 && s.elevation.value < M_PI / 2))

@@ -7,13 +7,13 @@
 #include <pcl6d/common/version.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/scan_fields.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/run/run_folder.h>
 #include <pcl6d/run/run_writer.h>
 #include <pcl6d/visualization/report.h>
 #include <pcl6d/visualization/top_view.h>
 
 #include <algorithm>
-#include <charconv>
 #include <sys/resource.h>
 #include <utility>
 
@@ -39,14 +39,6 @@ relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
   return pose;
 }
 
-/** \return the number in as few digits as tell it from all others */
-std::string
-shortest(double value)
-{
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
 std::vector<RunResult::Option>
 optionsOf(const Settings& settings, const Slam6DParameters& parameters)
 {
@@ -55,7 +47,7 @@ optionsOf(const Settings& settings, const Slam6DParameters& parameters)
     options.push_back({word.name, word.value, word.given ? "given" : "default", ""});
   for (const auto& [name, parameter] : named(parameters)) {
     options.push_back({name,
-                       shortest(parameter.value),
+                       text::shortest(parameter.value),
                        parameter.given ? "given" : "derived",
                        parameter.why});
   }

@@ -136,10 +136,10 @@ TEST(SemanticMapIo, NamesFileAndPlaceOfWhatIsWrong)
     const char* words;
   };
   const std::vector<Case> cases = {
-      {[](json& m) { m = 3; }, "", "an object"},
+      {[](json& m) { m = 3; }, "/: ", "no object"},
       {[](json& m) { m["schema_version"] = 2; }, "/schema_version", "must be 1"},
-      {[](json& m) { m.erase("planes"); }, "", "has no 'planes'"},
-      {[](json& m) { m["planes"] = 1; }, "/planes: ", "an array"},
+      {[](json& m) { m.erase("planes"); }, "", "key 'planes' is missing"},
+      {[](json& m) { m["planes"] = 1; }, "/planes: ", "no array"},
       {[](json& m) { m["planes"][3].erase("offset"); }, "/planes/3", "'offset'"},
       {[](json& m) { m["planes"][3]["area"] = "big"; }, "/planes/3/area", "\"big\""},
       {[](json& m) { m["planes"][3]["id"] = 9; }, "/planes/3/id", "must be 4"},
@@ -151,7 +151,7 @@ TEST(SemanticMapIo, NamesFileAndPlaceOfWhatIsWrong)
        "expected 3 numbers, got 4"},
       {[](json& m) { m["planes"][0]["refined"]["hull"][1][2] = nullptr; },
        "/planes/0/refined/hull/1/2",
-       "a finite number"},
+       "not a number"},
       {[](json& m) { m["planes"][0]["scans"][1] = 1; },
        "/planes/0/scans/1",
        "1, but must be in this map"},
@@ -240,8 +240,9 @@ TEST(SemanticMapIo, ReadsListsOfObjects)
     readMapObjects(folder / "broken.json");
     FAIL();
   } catch (const IoFailed& error) {
-    EXPECT_NE(std::string(error.what()).find("/objects/0: has no 'T_world_object'"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("/objects/0: key 'T_world_object' is missing"),
+        std::string::npos)
         << error.what();
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icp_best_pose.h"
 
+#include <pcl6d/common/angle.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -81,7 +83,7 @@ doubtOfReturn(const IcpBestPose& best,
   std::ostringstream doubt;
   doubt.precision(3);
   doubt << "ICP started in the pose found leaves it by " << distance.translation
-        << " m and " << 180 / M_PI * distance.rotation << " deg";
+        << " m and " << degrees(distance.rotation) << " deg";
   return doubt.str();
 }
 

@@ -127,7 +127,7 @@ MapMeasuring::MapMeasuring(const std::vector<Points>& scans,
 double
 MapMeasuring::within() const
 {
-  return options_.within.value_or(std::max(0.03, options_.voxel / 2.5));
+  return options_.within.value_or(agreementDistance(options_.voxel));
 }
 
 double

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/benchmarking/suite_table.h>
+#include <pcl6d/common/angle.h>
 
 #include <nlohmann/json.hpp>
 
@@ -22,8 +23,6 @@ struct Column {
   int digits;        ///< behind the point, in Markdown
   std::function<Number(const SuiteRow&)> value;
 };
-
-constexpr double kDegrees = 180 / M_PI;
 
 /** A column of one number of the errors. */
 Column
@@ -84,23 +83,32 @@ columns()
                   1,
                   &Errors::position_2d,
                   &Statistics::max),
+      errorColumn("sigma_yaw_rad",
+                  "sigma yaw [deg]",
+                  degrees(1),
+                  &Errors::yaw,
+                  &Statistics::rms),
       errorColumn(
-          "sigma_yaw_rad", "sigma yaw [deg]", kDegrees, &Errors::yaw, &Statistics::rms),
-      errorColumn(
-          "max_yaw_rad", "max yaw [deg]", kDegrees, &Errors::yaw, &Statistics::max),
+          "max_yaw_rad", "max yaw [deg]", degrees(1), &Errors::yaw, &Statistics::max),
       errorColumn(
           "rms_position_m", "3D rms [m]", 1, &Errors::position, &Statistics::rms),
       errorColumn("max_position_m", "", 1, &Errors::position, &Statistics::max),
-      errorColumn(
-          "rms_orientation_rad", "", kDegrees, &Errors::orientation, &Statistics::rms),
-      errorColumn(
-          "max_orientation_rad", "", kDegrees, &Errors::orientation, &Statistics::max),
+      errorColumn("rms_orientation_rad",
+                  "",
+                  degrees(1),
+                  &Errors::orientation,
+                  &Statistics::rms),
+      errorColumn("max_orientation_rad",
+                  "",
+                  degrees(1),
+                  &Errors::orientation,
+                  &Statistics::max),
       stepColumn("rpe_step_rms_m", "RPE/step [m]", 1, &RelativeErrors::translation),
-      stepColumn("rpe_step_rms_rad", "", kDegrees, &RelativeErrors::rotation),
+      stepColumn("rpe_step_rms_rad", "", degrees(1), &RelativeErrors::rotation),
       driftColumn(
           "drift_per_metre", "drift [%]", 100, &DriftErrors::translation_per_metre),
       driftColumn(
-          "drift_rad_per_metre", "", kDegrees, &DriftErrors::rotation_per_metre),
+          "drift_rad_per_metre", "", degrees(1), &DriftErrors::rotation_per_metre),
       {"agreement", "agreement", 1, 3, [](const auto& row) { return row.agreement; }},
       {"seconds", "time [s]", 1, 1, [](const auto& row) { return row.seconds; }},
       {"cpu_seconds", "", 1, 1, [](const auto& row) { return row.cpu_seconds; }},

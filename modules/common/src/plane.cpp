@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/plane.h>
 
 #include <algorithm>
@@ -8,19 +9,7 @@ namespace pcl6d {
 const char*
 toString(PlaneLabel label)
 {
-  switch (label) {
-  case PlaneLabel::kFloor:
-    return "floor";
-  case PlaneLabel::kCeiling:
-    return "ceiling";
-  case PlaneLabel::kWall:
-    return "wall";
-  case PlaneLabel::kDoor:
-    return "door";
-  case PlaneLabel::kNone:
-    break;
-  }
-  return "none";
+  return nameOf(kPlaneLabels, label, "none");
 }
 
 void

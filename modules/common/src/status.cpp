@@ -1,34 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/error.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/status.h>
 
+namespace pcl6d {
+
+namespace {
+constexpr Named<Status> kStatuses[] = {{Status::kOk, "ok"},
+                                       {Status::kRankDeficient, "rank-deficient"},
+                                       {Status::kTooFewPairs, "too-few-pairs"},
+                                       {Status::kMaxIterations, "max-iterations"},
+                                       {Status::kDiverged, "diverged"}};
+} // namespace
+
 const char*
-pcl6d::toString(Status status)
+toString(Status status)
 {
-  switch (status) {
-  case Status::kOk:
-    return "ok";
-  case Status::kRankDeficient:
-    return "rank-deficient";
-  case Status::kTooFewPairs:
-    return "too-few-pairs";
-  case Status::kMaxIterations:
-    return "max-iterations";
-  case Status::kDiverged:
-    return "diverged";
-  }
-  return "unknown";
+  return nameOf(kStatuses, status);
 }
 
-pcl6d::Status
-pcl6d::statusFromName(const std::string& name)
+Status
+statusFromName(const std::string& name)
 {
-  for (const Status status : {Status::kOk,
-                              Status::kRankDeficient,
-                              Status::kTooFewPairs,
-                              Status::kMaxIterations,
-                              Status::kDiverged})
-    if (name == toString(status))
-      return status;
+  if (const auto status = findNamed(kStatuses, name))
+    return *status;
   throw BadArgument("no status is called '" + name + "'");
 }
+
+} // namespace pcl6d

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
@@ -88,9 +89,9 @@ timeField(const pcl::PCLPointCloud2& cloud)
 MotionInterpolation
 motionInterpolationFromName(const std::string& name)
 {
-  const bool is_cubic = name == "cubic";
-  require(is_cubic || name == "linear", "interpolation", name, "linear or cubic");
-  return is_cubic ? MotionInterpolation::kCubic : MotionInterpolation::kLinear;
+  constexpr Named<MotionInterpolation> kInterpolations[] = {
+      {MotionInterpolation::kLinear, "linear"}, {MotionInterpolation::kCubic, "cubic"}};
+  return fromName(kInterpolations, "interpolation", name, WordList::kOr);
 }
 
 MotionCorrection::MotionCorrection(const Trajectory& odometry,

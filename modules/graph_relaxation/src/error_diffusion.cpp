@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop_checks.h"
 
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/pose.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <utility>
@@ -13,11 +13,10 @@ namespace pcl6d {
 
 namespace {
 constexpr double kHalfTurn = M_PI - 1e-3; ///< [rad] beyond, the axis may be either way
-constexpr std::array<std::pair<LoopClosing, const char*>, 4> kMethods{
-    {{LoopClosing::kElch, "elch"},
-     {LoopClosing::kUniform, "uniform"},
-     {LoopClosing::kPath, "path"},
-     {LoopClosing::kNone, "none"}}};
+constexpr Named<LoopClosing> kMethods[] = {{LoopClosing::kElch, "elch"},
+                                           {LoopClosing::kUniform, "uniform"},
+                                           {LoopClosing::kPath, "path"},
+                                           {LoopClosing::kNone, "none"}};
 
 /** \return weights that rise with the steps from first to last; uniform if all are 0
  * \param[in] step of the i-th pose to the next */
@@ -164,32 +163,19 @@ applyWeights(const Loop& loop,
 std::vector<std::string>
 loopClosingNames()
 {
-  std::vector<std::string> names;
-  for (const auto& method : kMethods)
-    names.emplace_back(method.second);
-  return names;
+  return namesOf(kMethods);
 }
 
 LoopClosing
 loopClosingFromName(const std::string& name)
 {
-  std::string rule;
-  for (const auto& method : kMethods) {
-    if (name == method.second)
-      return method.first;
-    rule += (rule.empty() ? "" : "|") + std::string(method.second);
-  }
-  require(false, "loop-closing", name, rule);
-  return LoopClosing::kNone;
+  return fromName(kMethods, "loop-closing", name);
 }
 
 const char*
 toString(LoopClosing method)
 {
-  for (const auto& known : kMethods)
-    if (known.first == method)
-      return known.second;
-  return "unknown";
+  return nameOf(kMethods, method);
 }
 
 PerDimension

@@ -2,18 +2,18 @@
 #include "relaxer.h"
 
 #include <pcl6d/common/information.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 
 namespace pcl6d {
 
 namespace {
-constexpr std::array<std::pair<LinkWeights, const char*>, 2> kWeights{
-    {{LinkWeights::kUnit, "unit"}, {LinkWeights::kVariance, "variance"}}};
+constexpr Named<LinkWeights> kWeights[] = {{LinkWeights::kUnit, "unit"},
+                                           {LinkWeights::kVariance, "variance"}};
 
 void
 requireLink(std::size_t from, std::size_t to, std::size_t num_poses)
@@ -61,26 +61,19 @@ checkedLinks(std::vector<PoseLink> links, std::size_t num_poses)
 std::vector<std::string>
 linkWeightsNames()
 {
-  std::vector<std::string> names;
-  for (const auto& entry : kWeights)
-    names.emplace_back(entry.second);
-  return names;
+  return namesOf(kWeights);
 }
 
 LinkWeights
 linkWeightsFromName(const std::string& name)
 {
-  for (const auto& [weights, known] : kWeights)
-    if (name == known)
-      return weights;
-  require(false, "weights", name, "unit|variance");
-  return {};
+  return fromName(kWeights, "weights", name);
 }
 
 const char*
 toString(LinkWeights weights)
 {
-  return kWeights[weights == LinkWeights::kUnit ? 0 : 1].second;
+  return nameOf(kWeights, weights);
 }
 
 void

@@ -19,12 +19,13 @@ constexpr std::size_t kSample = 700;
 constexpr double kTotalTolerance = 0.005;
 constexpr double kScanTolerance = 0.05;
 
+} // namespace
+
 double
 agreementDistance(double voxel)
 {
   return std::max(0.03, voxel / 2.5);
 }
-} // namespace
 
 std::vector<ScanPair>
 visiblePairs(const std::vector<NetworkScan>& scans,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/require.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/graph_relaxation/parameterisations.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,12 +11,12 @@ namespace {
 constexpr double kGimbalCosine = 0.1;
 constexpr double kLargestChange = 0.5; ///< [rad] of the angles at once
 
-constexpr std::array<std::pair<Relaxation, const char*>, 5> kRelaxations{
-    {{Relaxation::kHelix, "helix"},
-     {Relaxation::kEuler, "euler"},
-     {Relaxation::kQuaternion, "quaternion"},
-     {Relaxation::kQuaternionPublished, "quaternion-published"},
-     {Relaxation::kSmallAngle, "small-angle"}}};
+constexpr Named<Relaxation> kRelaxations[] = {
+    {Relaxation::kHelix, "helix"},
+    {Relaxation::kEuler, "euler"},
+    {Relaxation::kQuaternion, "quaternion"},
+    {Relaxation::kQuaternionPublished, "quaternion-published"},
+    {Relaxation::kSmallAngle, "small-angle"}};
 
 Eigen::Isometry3d
 poseAt(const Eigen::Vector3d& t, const Eigen::Quaterniond& q)
@@ -32,32 +31,19 @@ poseAt(const Eigen::Vector3d& t, const Eigen::Quaterniond& q)
 std::vector<std::string>
 relaxationNames()
 {
-  std::vector<std::string> names;
-  for (const auto& entry : kRelaxations)
-    names.emplace_back(entry.second);
-  return names;
+  return namesOf(kRelaxations);
 }
 
 Relaxation
 relaxationFromName(const std::string& name)
 {
-  std::string rule;
-  for (const auto& [relaxation, known] : kRelaxations) {
-    if (name == known)
-      return relaxation;
-    rule += (rule.empty() ? "" : "|") + std::string(known);
-  }
-  require(false, "relaxation", name, rule);
-  return {};
+  return fromName(kRelaxations, "relaxation", name);
 }
 
 const char*
 toString(Relaxation relaxation)
 {
-  for (const auto& entry : kRelaxations)
-    if (entry.first == relaxation)
-      return entry.second;
-  return "unknown";
+  return nameOf(kRelaxations, relaxation);
 }
 
 Eigen::Isometry3d

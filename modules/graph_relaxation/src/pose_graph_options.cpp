@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 
@@ -7,35 +8,27 @@
 namespace pcl6d {
 
 namespace {
-constexpr GraphMethod kMethods[] = {GraphMethod::kGaussNewton,
-                                    GraphMethod::kLevenbergMarquardt};
+constexpr Named<GraphMethod> kMethods[] = {
+    {GraphMethod::kGaussNewton, "gauss-newton"},
+    {GraphMethod::kLevenbergMarquardt, "levenberg-marquardt"}};
 } // namespace
 
 const char*
 toString(GraphMethod method)
 {
-  return method == GraphMethod::kGaussNewton ? "gauss-newton" : "levenberg-marquardt";
+  return nameOf(kMethods, method);
 }
 
 std::vector<std::string>
 graphMethodNames()
 {
-  std::vector<std::string> names;
-  for (const GraphMethod method : kMethods)
-    names.emplace_back(toString(method));
-  return names;
+  return namesOf(kMethods);
 }
 
 GraphMethod
 graphMethodFromName(const std::string& name)
 {
-  std::string all;
-  for (const GraphMethod method : kMethods) {
-    if (name == toString(method))
-      return method;
-    all += (all.empty() ? "" : ", ") + std::string(toString(method));
-  }
-  throw BadArgument("method = " + name + ", but must be one of " + all);
+  return fromName(kMethods, "method", name, WordList::kOneOf);
 }
 
 void

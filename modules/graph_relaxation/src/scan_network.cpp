@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
@@ -60,28 +61,27 @@ strideFor(std::size_t points, std::size_t wanted)
 {
   return std::max<std::size_t>(1, (points + wanted - 1) / wanted);
 }
+
+constexpr Named<LinkRule> kRules[] = {{LinkRule::kOverlap, "overlap"},
+                                      {LinkRule::kDistance, "distance"}};
 } // namespace
 
 std::vector<std::string>
 linkRuleNames()
 {
-  return {"overlap", "distance"};
+  return namesOf(kRules);
 }
 
 LinkRule
 linkRuleFromName(const std::string& name)
 {
-  for (const auto rule : {LinkRule::kOverlap, LinkRule::kDistance})
-    if (name == toString(rule))
-      return rule;
-  require(false, "links", name, "overlap|distance");
-  return LinkRule::kOverlap;
+  return fromName(kRules, "links", name);
 }
 
 const char*
 toString(LinkRule rule)
 {
-  return rule == LinkRule::kOverlap ? "overlap" : "distance";
+  return nameOf(kRules, rule);
 }
 
 void

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_numbers.h>
+#include <pcl6d/io/json_object.h>
 #include <pcl6d/io/plane_io.h>
 #include <pcl6d/io/text.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
-#include <ostream>
 
 namespace pcl6d {
 
@@ -29,21 +30,21 @@ toJson(const Plane& plane, std::size_t id)
 }
 
 Plane
-toPlane(const Json& json)
+planeOf(const JsonValue& json)
 {
   Plane plane;
-  fill(json.at("normal"), "normal", plane.normal);
-  json.at("offset").get_to(plane.offset);
-  json.at("label").get_to(plane.label);
-  json.at("area").get_to(plane.area);
-  json.at("inliers").get_to(plane.inliers);
-  plane.rms = json.value("rms", 0.0);
-  for (const Json& corner : json.at("hull"))
-    fill(corner, "hull", plane.hull.emplace_back());
+  (json / "normal").fill(plane.normal);
+  plane.offset = (json / "offset").number();
+  plane.label = (json / "label").text();
+  plane.area = (json / "area").number();
+  plane.inliers = (json / "inliers").count();
+  if (const auto rms = json.find("rms"))
+    plane.rms = rms->number();
+  plane.hull = (json / "hull").points();
   if (!(std::abs(plane.normal.norm() - 1) <= 1e-6))
-    throw std::invalid_argument("normal has length " +
-                                std::to_string(plane.normal.norm()) +
-                                ", but must be of length 1");
+    (json / "normal")
+        .fail("has length " + std::to_string(plane.normal.norm()) +
+              ", but must be of length 1");
   return plane;
 }
 } // namespace
@@ -62,27 +63,16 @@ writePlanes(const std::filesystem::path& path,
   if (origin.seconds)
     json["seconds"] = *origin.seconds;
   json["planes"] = list;
-  writeFileAtomically(path,
-                      [&](std::ostream& stream) { stream << json.dump(1) << '\n'; });
+  writeJson(path, json);
 }
 
 std::vector<Plane>
 readPlanes(const std::filesystem::path& path)
 {
-  const std::string content = text::readFile(path);
   std::vector<Plane> planes;
-  std::string place = "is no list of planes: ";
-  try {
-    const Json list = Json::parse(content).at("planes");
-    for (const Json& json : list) {
-      place = "plane " + std::to_string(planes.size() + 1) + ": ";
-      planes.push_back(toPlane(json));
-    }
-  } catch (const Json::exception& error) {
-    text::fail(path, place + reasonOf(error));
-  } catch (const std::invalid_argument& error) {
-    text::fail(path, place + error.what());
-  }
+  const JsonValue list = parseJson(text::readFile(path), path.string());
+  for (const JsonValue& json : (list / "planes").elements())
+    planes.push_back(planeOf(json));
   return planes;
 }
 

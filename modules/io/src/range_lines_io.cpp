@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/range_lines_io.h>
 #include <pcl6d/io/text.h>
@@ -10,8 +11,6 @@ namespace pcl6d {
 namespace {
 namespace fs = std::filesystem;
 using Cells = std::vector<std::string_view>;
-constexpr double kDegree = M_PI / 180;
-
 std::string_view
 trimmed(std::string_view cell)
 {

@@ -4,6 +4,8 @@
 #include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/text.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 

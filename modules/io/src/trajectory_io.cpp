@@ -2,6 +2,7 @@
 #include "left_handed.h"
 #include "rigid_row.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/io/atomic_file.h>
@@ -16,8 +17,6 @@ namespace {
 
 constexpr std::size_t kKittiColumns = 12;
 constexpr std::size_t kTumColumns = 8;
-constexpr double kDegree = M_PI / 180;
-
 Eigen::Isometry3d
 poseFromKitti(const std::filesystem::path& path,
               std::size_t line,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/point_normals.h>
 #include <pcl6d/filters/voxel_reduction.h>
@@ -12,8 +13,6 @@
 namespace pcl6d {
 
 namespace {
-constexpr double kDegree = M_PI / 180;
-
 /** One step of the weighted least squares: how up moves in its horizontal plane. */
 struct TiltSums {
   Eigen::Matrix2d A = Eigen::Matrix2d::Zero();

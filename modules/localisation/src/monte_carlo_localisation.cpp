@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
@@ -315,19 +316,11 @@ MclOptions::validate() const
 const char*
 toString(MclDoubt doubt)
 {
-  switch (doubt) {
-  case MclDoubt::kNone:
-    return "";
-  case MclDoubt::kFewWalls:
-    return "few walls";
-  case MclDoubt::kDisagreement:
-    return "off the map";
-  case MclDoubt::kSpread:
-    return "spread";
-  case MclDoubt::kShortStretch:
-    return "short stretch";
-  }
-  return "";
+  constexpr Named<MclDoubt> kDoubts[] = {{MclDoubt::kFewWalls, "few walls"},
+                                         {MclDoubt::kDisagreement, "off the map"},
+                                         {MclDoubt::kSpread, "spread"},
+                                         {MclDoubt::kShortStretch, "short stretch"}};
+  return nameOf(kDoubts, doubt, "");
 }
 
 Eigen::Vector3d

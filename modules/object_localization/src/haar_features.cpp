@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/object_localization/haar_features.h>
 
@@ -81,10 +82,9 @@ appendFeatures(const Pattern& pattern,
 HaarFeatureSet
 haarFeatureSetFromName(const std::string& name)
 {
-  if (name == "upright")
-    return HaarFeatureSet::kUpright;
-  require(name == "all", "features", name, "upright or all");
-  return HaarFeatureSet::kAll;
+  constexpr Named<HaarFeatureSet> kSets[] = {{HaarFeatureSet::kUpright, "upright"},
+                                             {HaarFeatureSet::kAll, "all"}};
+  return fromName(kSets, "features", name, WordList::kOr);
 }
 
 std::vector<HaarFeature>

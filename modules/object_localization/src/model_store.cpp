@@ -67,10 +67,7 @@ try {
 class ModelReader {
 public:
   explicit ModelReader(const fs::path& folder)
-  : folder_(folder)
-  , file_(folder / kModelFile)
-  , content_(readJson(file_))
-  , json_(file_, content_, "")
+  : folder_(folder), json_(readJson(folder / kModelFile))
   {}
 
   StoredModel
@@ -165,21 +162,9 @@ private:
     json_.fail("symmetry", message.str());
   }
 
-  fs::path folder_, file_;
-  JsonObject::Json content_;
+  fs::path folder_;
   JsonObject json_;
 };
-
-bool
-isUtf8(const std::string& text)
-{
-  try {
-    JsonObject::Json(text).dump();
-    return true;
-  } catch (const JsonObject::Json::exception&) {
-    return false;
-  }
-}
 } // namespace
 
 void
@@ -198,11 +183,8 @@ checkObjectClass(const std::string& object_class)
                        std::all_of(object_class.begin(), object_class.end(), isPart);
   if (is_name && isUtf8(object_class))
     return;
-  const std::string shown =
-      JsonObject::Json(object_class.substr(0, kLongest))
-          .dump(-1, ' ', true, JsonObject::Json::error_handler_t::replace);
   throw BadArgument(
-      "class = " + shown +
+      "class = " + jsonText(object_class.substr(0, kLongest)) +
       ", but must be 1 to 64 letters, digits, '-', '_' and '.', the first "
       "a letter or a digit");
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/object_localization/cascade_evaluator.h>
@@ -84,10 +85,9 @@ viewsOf(const HaarCascade& cascade, DetectionViewOptions views)
 DetectionRule
 detectionRuleFromName(const std::string& name)
 {
-  if (name == "and")
-    return DetectionRule::kAnd;
-  require(name == "or", "rule", name, "and or or");
-  return DetectionRule::kOr;
+  constexpr Named<DetectionRule> kRules[] = {{DetectionRule::kAnd, "and"},
+                                             {DetectionRule::kOr, "or"}};
+  return fromName(kRules, "rule", name, WordList::kOr);
 }
 
 void

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/object_localization/cascade_file.h>
 #include <pcl6d/object_localization/detection_proposals.h>
 #include <pcl6d/object_localization/object_finder.h>
@@ -34,16 +35,11 @@ detectorOf(const StoredModel& stored, const ObjectFinderOptions& options)
 ProposalMethod
 proposalMethodFromName(const std::string& name)
 {
-  if (name == "auto")
-    return ProposalMethod::kAuto;
-  if (name == "clusters")
-    return ProposalMethod::kClusters;
-  if (name == "features")
-    return ProposalMethod::kFeatures;
-  if (name == "cascade")
-    return ProposalMethod::kCascade;
-  throw BadArgument("proposals = " + name +
-                    ", but must be auto, clusters, features or cascade");
+  constexpr Named<ProposalMethod> kMethods[] = {{ProposalMethod::kAuto, "auto"},
+                                                {ProposalMethod::kClusters, "clusters"},
+                                                {ProposalMethod::kFeatures, "features"},
+                                                {ProposalMethod::kCascade, "cascade"}};
+  return fromName(kMethods, "proposals", name, WordList::kOr);
 }
 
 ObjectFinder::ObjectFinder(std::vector<StoredModel> models,

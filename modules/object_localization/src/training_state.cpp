@@ -4,13 +4,14 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/random.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_object.h>
 #include <pcl6d/object_localization/cascade_file.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
 
 namespace pcl6d {
 namespace {
@@ -69,14 +70,14 @@ of(const CascadeTrainingOptions& o)
 }
 
 StageReport
-reportOf(const Json& json)
+reportOf(const JsonValue& json)
 {
-  return {json.at("trees").get<std::size_t>(),
-          json.at("positives").get<std::size_t>(),
-          json.at("negatives").get<std::size_t>(),
-          json.at("hit_rate").get<double>(),
-          json.at("false_alarm").get<double>(),
-          json.at("background").get<double>()};
+  return {(json / "trees").count(),
+          (json / "positives").count(),
+          (json / "negatives").count(),
+          (json / "hit_rate").number(),
+          (json / "false_alarm").number(),
+          (json / "background").number()};
 }
 
 Json
@@ -114,25 +115,21 @@ TrainingState::load(CascadeTraining& training) const
   const std::filesystem::path file = folder_ / "training.json";
   if (folder_.empty() || !std::filesystem::exists(file))
     return;
-  try {
-    const Json json = Json::parse(std::ifstream(file));
-    if (json.at("fingerprint").get<std::string>() != fingerprint_)
-      throw IoFailed(file.string() +
-                     ": of a training with other images or options; remove its folder "
-                     "or name another one");
-    std::vector<StageReport> reports;
-    for (const auto& stage : json.at("stages"))
-      reports.push_back(reportOf(stage));
-    HaarCascade cascade = readCascade(folder_ / "cascade.xml");
-    // A cascade may be ahead by one stage, if the second file was not written any more.
-    cascade.stages.resize(std::min(cascade.stages.size(), reports.size()));
-    reports.resize(cascade.stages.size());
-    training.cascade = std::move(cascade);
-    training.stages = std::move(reports);
-    training.resumed_stages = training.stages.size();
-  } catch (const Json::exception& e) {
-    throw IoFailed(file.string() + ": " + e.what());
-  }
+  const JsonValue json = readJson(file);
+  if ((json / "fingerprint").text() != fingerprint_)
+    throw IoFailed(file.string() +
+                   ": of a training with other images or options; remove its folder "
+                   "or name another one");
+  std::vector<StageReport> reports;
+  for (const auto& stage : (json / "stages").elements())
+    reports.push_back(reportOf(stage));
+  HaarCascade cascade = readCascade(folder_ / "cascade.xml");
+  // A cascade may be ahead by one stage, if the second file was not written any more.
+  cascade.stages.resize(std::min(cascade.stages.size(), reports.size()));
+  reports.resize(cascade.stages.size());
+  training.cascade = std::move(cascade);
+  training.stages = std::move(reports);
+  training.resumed_stages = training.stages.size();
 }
 
 void

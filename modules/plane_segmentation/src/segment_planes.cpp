@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/require.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/plane_segmentation/segment_planes.h>
 
 namespace pcl6d {
 
 namespace {
+constexpr Named<PlaneMethod> kMethods[] = {
+    {PlaneMethod::kRegionGrowing, "region-growing"},
+    {PlaneMethod::kRansac, "ransac"},
+    {PlaneMethod::kHough, "hough"}};
+
 PlaneCandidates
 candidatesBy(const PlaneCloud& cloud,
              PlaneMethod method,
@@ -27,26 +32,13 @@ candidatesBy(const PlaneCloud& cloud,
 PlaneMethod
 planeMethodFromName(const std::string& name)
 {
-  for (const auto method :
-       {PlaneMethod::kRegionGrowing, PlaneMethod::kRansac, PlaneMethod::kHough})
-    if (name == toString(method))
-      return method;
-  throw BadArgument("plane method = " + name +
-                    ", but must be one of region-growing, ransac, hough");
+  return fromName(kMethods, "plane method", name, WordList::kOneOf);
 }
 
 std::string
 toString(PlaneMethod method)
 {
-  switch (method) {
-  case PlaneMethod::kRansac:
-    return "ransac";
-  case PlaneMethod::kHough:
-    return "hough";
-  case PlaneMethod::kRegionGrowing:
-    break;
-  }
-  return "region-growing";
+  return nameOf(kMethods, method, kMethods[0].name);
 }
 
 void

@@ -3,6 +3,7 @@
 #include "pair_finder.h"
 #include "pair_geometry.h"
 
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/icp.h>
@@ -251,19 +252,12 @@ requireUsable(const IcpTarget& target,
 const char*
 toString(IcpStop stop)
 {
-  switch (stop) {
-  case IcpStop::kAtRest:
-    return "at rest";
-  case IcpStop::kIterationLimit:
-    return "iteration limit";
-  case IcpStop::kObserver:
-    return "observer";
-  case IcpStop::kTooFewPairs:
-    return "too few pairs";
-  case IcpStop::kDiverged:
-    return "diverged";
-  }
-  return "unknown";
+  constexpr Named<IcpStop> kStops[] = {{IcpStop::kAtRest, "at rest"},
+                                       {IcpStop::kIterationLimit, "iteration limit"},
+                                       {IcpStop::kObserver, "observer"},
+                                       {IcpStop::kTooFewPairs, "too few pairs"},
+                                       {IcpStop::kDiverged, "diverged"}};
+  return nameOf(kStops, stop);
 }
 
 IcpResult

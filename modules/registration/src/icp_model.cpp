@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "name_table.h"
-
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/registration/icp_model.h>
 #include <pcl6d/search/point_list.h>
@@ -13,12 +12,11 @@ namespace pcl6d {
 namespace {
 constexpr double kApproximation = 0.1; ///< epsilon of the approximate search
 
-constexpr NameTable<SearchMethod, 5> kMethods{
-    {{SearchMethod::kKdTree, "kdtree"},
-     {SearchMethod::kCached, "cached"},
-     {SearchMethod::kApproximate, "approximate"},
-     {SearchMethod::kOctree, "octree"},
-     {SearchMethod::kBruteForce, "brute-force"}}};
+constexpr Named<SearchMethod> kMethods[] = {{SearchMethod::kKdTree, "kdtree"},
+                                            {SearchMethod::kCached, "cached"},
+                                            {SearchMethod::kApproximate, "approximate"},
+                                            {SearchMethod::kOctree, "octree"},
+                                            {SearchMethod::kBruteForce, "brute-force"}};
 
 /** \return the plain search of a structure that is made here */
 template <typename Structure>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "name_table.h"
-
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/registration/icp_options.h>
 
 #include <cmath>
@@ -8,13 +7,14 @@
 namespace pcl6d {
 
 namespace {
-constexpr NameTable<Metric, 3> kMetrics{
-    {{Metric::kPoint, "point"}, {Metric::kPlane, "plane"}, {Metric::kGicp, "gicp"}}};
-constexpr NameTable<RobustKernel, 4> kKernels{
-    {{RobustKernel::kNone, "none"},
-     {RobustKernel::kHuber, "huber"},
-     {RobustKernel::kCauchy, "cauchy"},
-     {RobustKernel::kGemanMcClure, "geman-mcclure"}}};
+constexpr Named<Metric> kMetrics[] = {{Metric::kPoint, "point"},
+                                      {Metric::kPlane, "plane"},
+                                      {Metric::kGicp, "gicp"}};
+constexpr Named<RobustKernel> kKernels[] = {
+    {RobustKernel::kNone, "none"},
+    {RobustKernel::kHuber, "huber"},
+    {RobustKernel::kCauchy, "cauchy"},
+    {RobustKernel::kGemanMcClure, "geman-mcclure"}};
 } // namespace
 
 std::vector<std::string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/require.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/registration/plane_minimiser.h>
 
 #include <Eigen/Eigenvalues>
@@ -11,6 +11,10 @@ namespace pcl6d {
 namespace {
 /** Ratio of eigenvalues, squares of lengths, below which a motion counts as free. */
 constexpr double kRankTolerance = 1e-12;
+
+constexpr Named<RigidEstimate (*)(const PlaneSums&)> kPlaneMinimisers[] = {
+    {planeStepByLinear, "linear"},
+    {planeStepByHelix, "helix"}};
 
 struct TwistEstimate {
   Status status = Status::kTooFewPairs;
@@ -76,14 +80,13 @@ planeStepByHelix(const PlaneSums& sums)
 std::vector<std::string>
 planeMinimiserNames()
 {
-  return {"linear", "helix"};
+  return namesOf(kPlaneMinimisers);
 }
 
 PlaneMinimiser
 planeMinimiserFromName(const std::string& name)
 {
-  require(name == "linear" || name == "helix", "plane minimiser", name, "linear|helix");
-  return name == "linear" ? planeStepByLinear : planeStepByHelix;
+  return fromName(kPlaneMinimisers, "plane minimiser", name);
 }
 
 } // namespace pcl6d

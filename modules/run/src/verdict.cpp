@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/io/text.h>
 #include <pcl6d/run/run_writer.h>
 
 #include <algorithm>
@@ -48,12 +49,6 @@ describeQuality(const RunResult& run, std::ostream& text)
        << rms->rms << " m (" << rms->file << ")";
 }
 
-std::string
-counted(std::size_t count, const std::string& thing)
-{
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
 /** A line on each stage after matching. */
 void
 describeStages(const RunResult& run, std::ostream& text)
@@ -77,7 +72,7 @@ describeStages(const RunResult& run, std::ostream& text)
 std::string
 verdictOf(const RunResult& run)
 {
-  const std::string all = counted(run.scans.size(), "scan");
+  const std::string all = text::counted(run.scans.size(), "scan");
   const std::size_t pending = countScans(run.scans, ScanState::kPending);
   std::ostringstream text;
   if (pending > 0)
@@ -96,17 +91,17 @@ verdictOf(const RunResult& run)
     text << countScans(run.scans, ScanState::kMatched) + 1 << " of " << all
          << " registered";
   if (const auto failed = countScans(run.scans, ScanState::kPredicted))
-    text << "\nNOT TO BE TRUSTED: " << counted(failed, "scan")
+    text << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
          << " could not be matched, predicted pose kept"
          << filesIn(ScanState::kPredicted, run);
   if (const auto limit = countScans(run.scans, ScanState::kUnconverged))
     text
-        << "\nNOT TO BE TRUSTED: " << counted(limit, "scan")
+        << "\nNOT TO BE TRUSTED: " << text::counted(limit, "scan")
         << " did not converge (bad initial pose, little overlap, --metascan too small?)"
         << filesIn(ScanState::kUnconverged, run);
   if (!run.floating.empty())
     text << "\nNOT TO BE TRUSTED: no link joins "
-         << counted(run.floating.size(), "scan")
+         << text::counted(run.floating.size(), "scan")
          << " to the first one: " << run.floating.front()
          << (run.floating.size() > 1 ? ", ..." : "");
   describeQuality(run, text);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "label_network.h"
 
+#include <pcl6d/common/angle.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 namespace pcl6d {
 namespace {
-constexpr double kDegree = 0.017453292519943295; // [rad]
-
 std::string
 rounded(double value)
 {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/scene_interpretation/interpretation.h>
 
 #include <nlohmann/json.hpp>
-
-#include <ostream>
 
 namespace pcl6d {
 namespace {
@@ -37,7 +35,6 @@ void
 writeInterpretation(const std::filesystem::path& path,
                     const Interpretation& interpretation)
 {
-  const Eigen::Vector3d& up = interpretation.up;
   Json storeys = Json::array(), planes = Json::array();
   for (const auto& storey : interpretation.storeys)
     storeys.push_back({{"id", storeys.size() + 1},
@@ -49,11 +46,10 @@ writeInterpretation(const std::filesystem::path& path,
   const Json json = {{"schema_version", 1},
                      {"status", toString(interpretation.status)},
                      {"nodes", interpretation.nodes},
-                     {"up", {up.x(), up.y(), up.z()}},
+                     {"up", rowByRow(interpretation.up)},
                      {"storeys", storeys},
                      {"planes", planes}};
-  writeFileAtomically(path,
-                      [&](std::ostream& stream) { stream << json.dump(1) << '\n'; });
+  writeJson(path, json);
 }
 
 } // namespace pcl6d

@@ -2,48 +2,27 @@
 #include "rule_reader.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/require.h>
+#include <pcl6d/common/name_table.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <iterator>
 
 namespace pcl6d {
 namespace {
-using Json = nlohmann::ordered_json;
-
-Json
-parseJson(const std::string& text, const std::string& name)
-{
-  try {
-    return Json::parse(text, nullptr, true, true); // comments are allowed
-  } catch (const Json::parse_error& e) {
-    const auto end =
-        text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
-    const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw IoFailed(name + ": line " + std::to_string(line) +
-                   ": not the syntax of JSON");
-  } catch (const Json::exception& e) {
-    throw IoFailed(name + ": " + e.what());
-  }
-}
-
 void
-checkHeader(const Json& json, const RulePlace& place)
+checkHeader(const JsonValue& json)
 {
-  constexpr std::array<const char*, 6> kKeys = {
-      "schema_version", "name", "extends", "labels", "constraints", "needs"};
-  if (!json.is_object())
-    place.fail("no object {...} of rules");
-  for (const auto& entry : json.items())
-    if (std::find(kKeys.begin(), kKeys.end(), entry.key()) == kKeys.end())
-      place.fail("unknown key '" + entry.key() + "'");
-  if (json.value("schema_version", Json(1)) != 1)
-    (place / "schema_version").fail(json["schema_version"].dump() + ", but must be 1");
+  if (!json.isObject())
+    json.fail("no object {...} of rules");
+  json.allow({"schema_version", "name", "extends", "labels", "constraints", "needs"});
+  if (json.has("schema_version")) {
+    const JsonValue version = json / "schema_version";
+    version.require(version.isNumber() && version.number() == 1, "1");
+  }
   for (const char* key : {"name", "extends"})
-    if (json.contains(key) && !json[key].is_string())
-      (place / key).fail(json[key].dump() + " is not a text \"...\"");
+    if (json.has(key))
+      (json / key).text();
 }
 
 } // namespace
@@ -62,10 +41,8 @@ labelNumber(const LabelRules& rules, const std::string& label)
 {
   constexpr auto kLast = static_cast<unsigned int>(PlaneLabel::kDoor);
   const auto bookNumber = [](const std::string& name) {
-    for (unsigned int i = 0; i <= kLast; ++i)
-      if (name == toString(static_cast<PlaneLabel>(i)))
-        return i;
-    return kLast + 1;
+    const auto known = findNamed(kPlaneLabels, name);
+    return known ? static_cast<unsigned int>(*known) : kLast + 1;
   };
   unsigned int number = bookNumber(label);
   if (number <= kLast)
@@ -92,17 +69,15 @@ readLabelRules(const std::filesystem::path& path)
 LabelRules
 parseLabelRules(const std::string& text, const std::string& name)
 {
-  const Json json = parseJson(text, name);
-  const RulePlace place{name, ""};
-  checkHeader(json, place);
+  const JsonValue json = parseJson(text, name);
+  checkHeader(json);
   LabelRules rules;
-  if (json.contains("extends")) {
-    if (json["extends"] != "book")
-      (place / "extends").fail(json["extends"].dump() + ", but must be \"book\"");
+  if (json.has("extends")) {
+    (json / "extends").require((json / "extends").text() == "book", "\"book\"");
     rules = bookRules();
   }
-  rules.name = json.value("name", name);
-  addRules(json, place, rules);
+  rules.name = json.has("name") ? (json / "name").text() : name;
+  addRules(json, rules);
   checkRules(rules, name);
   return rules;
 }

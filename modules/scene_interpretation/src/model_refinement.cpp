@@ -2,6 +2,7 @@
 #include "manhattan_frames.h"
 #include "plane_fit.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
@@ -17,8 +18,6 @@
 namespace pcl6d {
 namespace {
 using Kind = ExactDirection::Kind;
-constexpr double kDegree = 0.017453292519943295; // [rad]
-
 std::string
 rounded(double value)
 {

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/common/name_table.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/scene_interpretation/model_refinement.h>
 
 #include <nlohmann/json.hpp>
 
-#include <ostream>
-
 namespace pcl6d {
 namespace {
 using Json = nlohmann::ordered_json;
-
-Json
-toJson(const Eigen::Vector3d& v)
-{
-  return {v.x(), v.y(), v.z()};
-}
 
 Json
 toJson(const PlaneChange& change, std::size_t id, const Plane& plane)
@@ -37,15 +30,9 @@ toJson(const PlaneChange& change, std::size_t id, const Plane& plane)
 const char*
 toString(RefinedKind kind)
 {
-  switch (kind) {
-  case RefinedKind::kHorizontal:
-    return "horizontal";
-  case RefinedKind::kVertical:
-    return "vertical";
-  case RefinedKind::kUnchanged:
-    break;
-  }
-  return "unchanged";
+  constexpr Named<RefinedKind> kKinds[] = {{RefinedKind::kHorizontal, "horizontal"},
+                                           {RefinedKind::kVertical, "vertical"}};
+  return nameOf(kKinds, kind, "unchanged");
 }
 
 void
@@ -53,16 +40,15 @@ writeRefinement(const std::filesystem::path& path, const RefinedModel& model)
 {
   Json headings = Json::array(), planes = Json::array();
   for (const auto& heading : model.headings)
-    headings.push_back(toJson(heading));
+    headings.push_back(rowByRow(heading));
   for (std::size_t i = 0; i < model.changes.size(); ++i)
     planes.push_back(toJson(model.changes[i], i + 1, model.planes[i].plane));
   const Json json = {{"schema_version", 1},
                      {"status", toString(model.status)},
-                     {"up", toJson(model.up)},
+                     {"up", rowByRow(model.up)},
                      {"headings", headings},
                      {"planes", planes}};
-  writeFileAtomically(path,
-                      [&](std::ostream& stream) { stream << json.dump(1) << '\n'; });
+  writeJson(path, json);
 }
 
 } // namespace pcl6d

@@ -1,32 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/polygon.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scene_interpretation/relations.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace pcl6d {
 namespace {
-struct RelationName {
-  Relation relation;
-  const char* name;
-};
-
-constexpr std::array<RelationName, 11> kRelations{
-    {{Relation::kParallel, "parallel"},
-     {Relation::kOrthogonal, "orthogonal"},
-     {Relation::kAbove, "above"},
-     {Relation::kUnder, "under"},
-     {Relation::kEqualHeight, "equalheight"},
-     {Relation::kOnto, "onto"},
-     {Relation::kRecessed, "recessed"},
-     {Relation::kHinged, "hinged"},
-     {Relation::kStep, "step"},
-     {Relation::kTouches, "touches"},
-     {Relation::kApart, "apart"}}};
+constexpr Named<Relation> kRelations[] = {{Relation::kParallel, "parallel"},
+                                          {Relation::kOrthogonal, "orthogonal"},
+                                          {Relation::kAbove, "above"},
+                                          {Relation::kUnder, "under"},
+                                          {Relation::kEqualHeight, "equalheight"},
+                                          {Relation::kOnto, "onto"},
+                                          {Relation::kRecessed, "recessed"},
+                                          {Relation::kHinged, "hinged"},
+                                          {Relation::kStep, "step"},
+                                          {Relation::kTouches, "touches"},
+                                          {Relation::kApart, "apart"}};
 
 bool
 areParallel(const ScenePlane& i, const ScenePlane& j, double tau)
@@ -92,28 +86,19 @@ isStep(const ScenePlane& i, const ScenePlane& j, const RelationTolerances& t)
 const char*
 toString(Relation relation)
 {
-  for (const auto& entry : kRelations)
-    if (entry.relation == relation)
-      return entry.name;
-  return "unknown";
+  return nameOf(kRelations, relation);
 }
 
 std::optional<Relation>
 relationFromName(const std::string& name)
 {
-  for (const auto& entry : kRelations)
-    if (name == entry.name)
-      return entry.relation;
-  return {};
+  return findNamed(kRelations, name);
 }
 
 std::string
 relationNames()
 {
-  std::string names;
-  for (const auto& entry : kRelations)
-    names += (names.empty() ? "" : ", ") + std::string(entry.name);
-  return names;
+  return listed(kRelations, WordList::kCommas);
 }
 
 void

@@ -124,7 +124,7 @@ private:
   [[noreturn]] void
   fail(const std::string& message) const
   {
-    RulePlace{file_, ""}.fail("rules contradict each other: " + message);
+    throw IoFailed(file_ + ": /: rules contradict each other: " + message);
   }
 
   const std::string&

@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/polygon.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/scene_interpretation/scene_plane.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace pcl6d {
 namespace {
-struct MeasureName {
-  Measure measure;
-  const char* name;
-};
-
-constexpr std::array<MeasureName, 8> kMeasures{
-    {{Measure::kArea, "area"},
-     {Measure::kWidth, "width"},
-     {Measure::kLength, "length"},
-     {Measure::kHeight, "height"},
-     {Measure::kInclination, "inclination"},
-     {Measure::kBottom, "bottom"},
-     {Measure::kTop, "top"},
-     {Measure::kGapToCeiling, "gap_to_ceiling"}}};
+constexpr Named<Measure> kMeasures[] = {{Measure::kArea, "area"},
+                                        {Measure::kWidth, "width"},
+                                        {Measure::kLength, "length"},
+                                        {Measure::kHeight, "height"},
+                                        {Measure::kInclination, "inclination"},
+                                        {Measure::kBottom, "bottom"},
+                                        {Measure::kTop, "top"},
+                                        {Measure::kGapToCeiling, "gap_to_ceiling"}};
 
 // Extents along the horizontal line in the plane, and across it.
 void
@@ -89,19 +83,13 @@ levelledPlane(const Plane& plane,
 const char*
 toString(Measure measure)
 {
-  for (const auto& entry : kMeasures)
-    if (entry.measure == measure)
-      return entry.name;
-  return "unknown";
+  return nameOf(kMeasures, measure);
 }
 
 std::optional<Measure>
 measureFromName(const std::string& name)
 {
-  for (const auto& entry : kMeasures)
-    if (name == entry.name)
-      return entry.measure;
-  return {};
+  return findNamed(kMeasures, name);
 }
 
 std::optional<double>

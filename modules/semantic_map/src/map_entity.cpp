@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/semantic_map/map_entity.h>
 
-#include <array>
 #include <charconv>
 
 namespace pcl6d {
 namespace {
-constexpr std::array<const char*, 5> kKinds{"scan",
-                                            "plane",
-                                            "object",
-                                            "room",
-                                            "storey"}; // in the order of EntityKind
+constexpr Named<EntityKind> kKinds[] = {{EntityKind::kScan, "scan"},
+                                        {EntityKind::kPlane, "plane"},
+                                        {EntityKind::kObject, "object"},
+                                        {EntityKind::kRoom, "room"},
+                                        {EntityKind::kStorey, "storey"}};
 } // namespace
 
 const char*
 toString(EntityKind kind)
 {
-  return kKinds[static_cast<std::size_t>(kind)];
+  return nameOf(kKinds, kind);
 }
 
 std::optional<EntityKind>
 entityKindFromName(std::string_view name)
 {
-  for (std::size_t i = 0; i < kKinds.size(); ++i)
-    if (name == kKinds[i])
-      return static_cast<EntityKind>(i);
-  return {};
+  return findNamed(kKinds, name);
 }
 
 std::string

@@ -2,10 +2,10 @@
 #include "map_objects_json.h"
 
 #include <pcl6d/common/information.h>
-#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
-#include <ostream>
+#include <nlohmann/json.hpp>
 
 namespace pcl6d {
 
@@ -21,7 +21,7 @@ matrixOrNull(const std::optional<Eigen::Matrix<double, 6, 6>>& matrix)
 }
 
 std::optional<Eigen::Matrix<double, 6, 6>>
-matrix6From(const JsonPlace& place, const std::string& key)
+matrix6From(const JsonValue& place, const std::string& key)
 {
   if (const auto matrix = place.find(key))
     return matrix->matrix6();
@@ -50,7 +50,7 @@ toJson(const MapObject& object, std::size_t id)
 namespace {
 /** By its corners, which keep all bits, or by extent and centre. */
 Eigen::AlignedBox3d
-boxFrom(const JsonPlace& place)
+boxFrom(const JsonValue& place)
 {
   Eigen::AlignedBox3d box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
   if (place.find("box_min")) {
@@ -71,7 +71,7 @@ boxFrom(const JsonPlace& place)
 } // namespace
 
 MapObject
-objectFrom(const JsonPlace& place)
+objectFrom(const JsonValue& place)
 {
   MapObject object;
   object.pose.object_class = (place / "class").text();
@@ -114,22 +114,16 @@ writeMapObjects(const std::filesystem::path& path,
                      {"generator", origin.generator},
                      {"seconds", origin.seconds},
                      {"objects", list}};
-  writeFileAtomically(path,
-                      [&](std::ostream& stream) {
-                        stream << json.dump(1, ' ', false, Json::error_handler_t::replace)
-                               << '\n';
-                      });
+  writeJson(path, json);
 }
 
 std::vector<MapObject>
 readMapObjects(const std::filesystem::path& path)
 {
   std::vector<MapObject> objects;
-  readJson(path.string(), [&](const JsonPlace& list) {
-    (list / "objects").forEach([&](const JsonPlace& place) {
-      objects.push_back(objectFrom(place));
-    });
-  });
+  const JsonValue list = parseJson(text::readFile(path), path.string());
+  for (const JsonValue& object : (list / "objects").elements())
+    objects.push_back(objectFrom(object));
   return objects;
 }
 

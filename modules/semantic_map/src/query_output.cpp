@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "json_place.h"
-
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/semantic_map/map_query.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 
 namespace pcl6d {
 namespace {
+using Json = nlohmann::ordered_json;
 using Things = std::vector<Entity>;
 
 std::string
@@ -117,7 +119,7 @@ writeJson(std::ostream& stream, const QueryResult& result)
                      {"subject", result.subject},
                      {"count", result.rows.size()},
                      {"results", rows}};
-  stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+  stream << jsonFileText(json);
 }
 
 } // namespace pcl6d

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_objects_json.h"
 
+#include <pcl6d/io/text.h>
 #include <pcl6d/semantic_map/map_relations.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
@@ -12,7 +13,7 @@
 namespace pcl6d {
 namespace {
 Eigen::Vector3d
-unitFrom(const JsonPlace& place)
+unitFrom(const JsonValue& place)
 {
   constexpr double kTolerance = 1e-6; // as readPlanes()
   const Eigen::Vector3d vector = place.vector3();
@@ -21,7 +22,7 @@ unitFrom(const JsonPlace& place)
 }
 
 std::optional<double>
-numberFrom(const JsonPlace& place, const std::string& key)
+numberFrom(const JsonValue& place, const std::string& key)
 {
   if (const auto number = place.find(key))
     return number->number();
@@ -29,7 +30,7 @@ numberFrom(const JsonPlace& place, const std::string& key)
 }
 
 MapScan
-scanFrom(const JsonPlace& place)
+scanFrom(const JsonValue& place)
 {
   return {(place / "id").count(),
           (place / "file").text(),
@@ -38,7 +39,7 @@ scanFrom(const JsonPlace& place)
 }
 
 Plane
-planeFrom(const JsonPlace& place)
+planeFrom(const JsonValue& place)
 {
   Plane plane;
   plane.normal = unitFrom(place / "normal");
@@ -52,7 +53,7 @@ planeFrom(const JsonPlace& place)
 }
 
 MapPlane
-mapPlaneFrom(const JsonPlace& place)
+mapPlaneFrom(const JsonValue& place)
 {
   MapPlane plane;
   plane.measured = planeFrom(place);
@@ -63,7 +64,7 @@ mapPlaneFrom(const JsonPlace& place)
 }
 
 MapStorey
-storeyFrom(const JsonPlace& place)
+storeyFrom(const JsonValue& place)
 {
   return {(place / "floor").number(),
           numberFrom(place, "ceiling"),
@@ -71,7 +72,7 @@ storeyFrom(const JsonPlace& place)
 }
 
 MapRoom
-roomFrom(const JsonPlace& place)
+roomFrom(const JsonValue& place)
 {
   return {(place / "storey").count(),
           (place / "area").number(),
@@ -82,14 +83,14 @@ roomFrom(const JsonPlace& place)
 /** The elements of a list whose ids are 1, 2, ... */
 template <typename Read>
 auto
-numbered(const JsonPlace& list, Read read)
+numbered(const JsonValue& list, Read read)
 {
   std::vector<decltype(read(list))> elements;
-  list.forEach([&](const JsonPlace& place) {
+  for (const JsonValue& place : list.elements()) {
     const std::size_t id = elements.size() + 1;
     (place / "id").require((place / "id").count() == id, std::to_string(id));
     elements.push_back(read(place));
-  });
+  }
   return elements;
 }
 
@@ -99,23 +100,21 @@ public:
   explicit ReferenceReader(const SemanticMap& map) : map_(map) {}
 
   void
-  requireThing(const JsonPlace& place, const Entity& entity) const
+  requireThing(const JsonValue& place, const Entity& entity) const
   {
     place.require(map_.placeOf(entity).has_value(), "in this map");
   }
 
   void
-  requireScans(const JsonPlace& list) const
+  requireScans(const JsonValue& list) const
   {
-    list.forEach([&](const JsonPlace& element) {
-      (element / "scans").forEach([&](const JsonPlace& scan) {
+    for (const JsonValue& element : list.elements())
+      for (const JsonValue& scan : (element / "scans").elements())
         requireThing(scan, {EntityKind::kScan, scan.count()});
-      });
-    });
   }
 
   MapLink
-  link(const JsonPlace& place) const
+  link(const JsonValue& place) const
   {
     requireThing(place / "from", {EntityKind::kScan, (place / "from").count()});
     requireThing(place / "to", {EntityKind::kScan, (place / "to").count()});
@@ -128,7 +127,7 @@ public:
   }
 
   MapRelation
-  relation(const JsonPlace& place) const
+  relation(const JsonValue& place) const
   {
     std::istringstream words(place.text());
     const std::vector<std::string> parts{std::istream_iterator<std::string>(words), {}};
@@ -147,21 +146,21 @@ private:
 };
 
 std::vector<MapScan>
-scansFrom(const JsonPlace& list)
+scansFrom(const JsonValue& list)
 {
   std::vector<MapScan> scans;
-  list.forEach([&](const JsonPlace& place) {
+  for (const JsonValue& place : list.elements()) {
     scans.push_back(scanFrom(place));
     const std::size_t before = scans.size() - 1;
     (place / "id")
         .require(before == 0 || scans[before - 1].id < scans[before].id,
                  "larger than the id before");
-  });
+  }
   return scans;
 }
 
 SemanticMap
-mapFrom(const JsonPlace& json)
+mapFrom(const JsonValue& json)
 {
   SemanticMap map;
   (json / "schema_version")
@@ -175,18 +174,15 @@ mapFrom(const JsonPlace& json)
   map.storeys = numbered(json / "storeys", storeyFrom);
   map.rooms = numbered(json / "rooms", roomFrom);
   const ReferenceReader references(map);
-  (json / "rooms").forEach([&](const JsonPlace& room) {
+  for (const JsonValue& room : (json / "rooms").elements())
     references.requireThing(room / "storey",
                             {EntityKind::kStorey, (room / "storey").count()});
-  });
   references.requireScans(json / "planes");
   references.requireScans(json / "objects");
-  (json / "links").forEach([&](const JsonPlace& place) {
+  for (const JsonValue& place : (json / "links").elements())
     map.links.push_back(references.link(place));
-  });
-  (json / "relations").forEach([&](const JsonPlace& place) {
+  for (const JsonValue& place : (json / "relations").elements())
     map.relations.push_back(references.relation(place));
-  });
   return map;
 }
 } // namespace
@@ -194,9 +190,7 @@ mapFrom(const JsonPlace& json)
 SemanticMap
 readSemanticMap(const std::filesystem::path& path)
 {
-  SemanticMap map;
-  readJson(path.string(), [&](const JsonPlace& json) { map = mapFrom(json); });
-  return map;
+  return mapFrom(parseJson(text::readFile(path), path.string()));
 }
 
 } // namespace pcl6d

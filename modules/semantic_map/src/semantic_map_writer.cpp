@@ -2,11 +2,11 @@
 #include "map_objects_json.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
-#include <ostream>
 
 namespace pcl6d {
 namespace {
@@ -132,9 +132,7 @@ writeSemanticMap(const std::filesystem::path& path, const SemanticMap& map)
     json["relations"].push_back(toString(relation.first) + ' ' + relation.predicate +
                                 ' ' + toString(relation.second));
   requireFinite(json, "");
-  writeFileAtomically(path, [&](std::ostream& stream) {
-    stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
-  });
+  writeJson(path, json);
 }
 
 } // namespace pcl6d

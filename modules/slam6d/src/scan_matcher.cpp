@@ -2,6 +2,8 @@
 #include "agreement.h"
 #include "scan_matcher.h"
 
+#include <pcl6d/graph_relaxation/map_agreement.h>
+
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -193,7 +195,7 @@ ScanMatcher::lossOfAgreement(const IcpTarget& target,
                              const Eigen::Isometry3d& to,
                              const Eigen::Vector3d& origin) const
 {
-  const double distance = std::max(0.03, parameters_.voxel.value / 2.5);
+  const double distance = agreementDistance(parameters_.voxel.value);
   const auto share = [&](const Eigen::Isometry3d& T) {
     return agreementOf(target, points.points(), T, distance, options_.num_threads);
   };

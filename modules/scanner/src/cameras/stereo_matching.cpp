@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/stereo_matching.h>
 
@@ -10,6 +11,9 @@
 
 namespace pcl6d {
 namespace {
+constexpr Named<StereoMatcher> kMatchers[] = {{StereoMatcher::kSemiGlobal, "sgbm"},
+                                              {StereoMatcher::kBlock, "bm"}};
+
 cv::Ptr<cv::StereoMatcher>
 makeMatcher(const StereoMatchingOptions& options)
 {
@@ -103,16 +107,13 @@ StereoMatchingOptions::validate() const
 StereoMatcher
 stereoMatcherFromName(const std::string& name)
 {
-  for (const auto matcher : {StereoMatcher::kSemiGlobal, StereoMatcher::kBlock})
-    if (name == toString(matcher))
-      return matcher;
-  throw BadArgument("matcher = " + name + ", but must be sgbm or bm");
+  return fromName(kMatchers, "matcher", name, WordList::kOr);
 }
 
 std::string
 toString(StereoMatcher matcher)
 {
-  return matcher == StereoMatcher::kBlock ? "bm" : "sgbm";
+  return nameOf(kMatchers, matcher);
 }
 
 cv::Mat

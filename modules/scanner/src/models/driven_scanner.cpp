@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "size_limits.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
@@ -14,7 +15,6 @@ namespace pcl6d {
 using namespace scanner;
 
 namespace {
-constexpr double kDegree = M_PI / 180;
 constexpr double kLargestDriveAngle = 200 * M_PI; // [rad] counters may run on
 
 Eigen::Matrix3d

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "size_limits.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/measurement_principles.h>
@@ -16,8 +17,6 @@ using namespace scanner;
 
 namespace {
 using Resolution = std::optional<double>; // [rad]
-constexpr double kDegree = M_PI / 180;
-
 struct Entry {
   const char* name;
   const char* description;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "size_limits.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/spinning_lidar.h>
@@ -41,7 +42,6 @@ SpinningLidarOptions::validate() const
 SpinningLidarOptions
 vlp16Lidar()
 {
-  constexpr double kDegree = M_PI / 180;
   constexpr double kShot = 2.304e-6; // [s] from one laser to the next
   SpinningLidarOptions options;
   // Lower and upper half fire in turns: -15, 1, -13, 3, ... -1, 15 deg.

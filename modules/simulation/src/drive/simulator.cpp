@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/driven_scanner.h>
@@ -43,22 +44,19 @@ odometryOf(const Trajectory& truth, const SimulationOptions& options)
 ScanMotion
 scanMotionFromName(const std::string& name)
 {
-  const bool is_continuous = name == "continuous";
-  require(is_continuous || name == "stop", "motion", name, "stop or continuous");
-  return is_continuous ? ScanMotion::kContinuous : ScanMotion::kStop;
+  constexpr Named<ScanMotion> kMotions[] = {{ScanMotion::kStop, "stop"},
+                                            {ScanMotion::kContinuous, "continuous"}};
+  return fromName(kMotions, "motion", name, WordList::kOr);
 }
 
 OdometryKind
 odometryKindFromName(const std::string& name)
 {
-  if (name == "wheel")
-    return OdometryKind::kWheel;
-  const bool is_exact = name == "exact";
-  require(is_exact || name == "visual-inertial",
-          "odometry",
-          name,
-          "wheel, visual-inertial or exact");
-  return is_exact ? OdometryKind::kExact : OdometryKind::kVisualInertial;
+  constexpr Named<OdometryKind> kKinds[] = {
+      {OdometryKind::kWheel, "wheel"},
+      {OdometryKind::kVisualInertial, "visual-inertial"},
+      {OdometryKind::kExact, "exact"}};
+  return fromName(kKinds, "odometry", name, WordList::kOr);
 }
 
 void

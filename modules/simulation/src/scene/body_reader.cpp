@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/body_reader.h"
 
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/mesh_io.h>
 #include <pcl6d/simulation/scene_bodies.h>
@@ -13,14 +14,10 @@ readLabel(JsonObject& json)
 {
   std::string name = "none";
   json.read("label", name);
-  for (const auto label : {PlaneLabel::kNone,
-                           PlaneLabel::kFloor,
-                           PlaneLabel::kCeiling,
-                           PlaneLabel::kWall,
-                           PlaneLabel::kDoor})
-    if (name == toString(label))
-      return label;
-  json.fail("label", "'" + name + "', but must be none, floor, ceiling, wall or door");
+  if (const auto label = findNamed(kPlaneLabels, name))
+    return *label;
+  json.fail("label",
+            "'" + name + "', but must be " + listed(kPlaneLabels, WordList::kOr));
 }
 
 MeshOptions
@@ -195,8 +192,8 @@ BodyReader::readRevolved(JsonObject& json, TriangleScene& geometry)
   body.foot = json.get<Eigen::Vector3d>("foot");
   json.require("profile");
   body.profile.clear();
-  json.each("profile", [&](const JsonObject::Json& row, const std::string& pointer) {
-    const std::vector<double> values = jsonNumbers(file_, row, pointer);
+  json.each("profile", [&](const JsonValue& row) {
+    const std::vector<double> values = row.numbers();
     if (values.size() != 2)
       json.fail("profile", "a point that is not (radius, height)");
     body.profile.emplace_back(values[0], values[1]);
@@ -286,8 +283,8 @@ std::vector<Eigen::Vector3d>
 BodyReader::places(JsonObject& json, const std::string& key)
 {
   std::vector<Eigen::Vector3d> list;
-  json.each(key, [&](const JsonObject::Json& row, const std::string& pointer) {
-    list.push_back(place(json, key, jsonNumbers(file_, row, pointer)));
+  json.each(key, [&](const JsonValue& row) {
+    list.push_back(place(json, key, row.numbers()));
   });
   return list;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/body_reader.h"
 
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/simulation/scene_bodies.h>
 #include <pcl6d/simulation/scene_file.h>
 #include <pcl6d/simulation/scene_truth.h>
@@ -22,13 +23,12 @@ readEnd(JsonObject& json)
 {
   std::string end = "return";
   json.read("end", end);
-  if (end == "return")
-    return WayEnd::kReturn;
-  if (end == "closed")
-    return WayEnd::kClosed;
-  if (end != "stop")
-    json.fail("end", "'" + end + "', but must be stop, return or closed");
-  return WayEnd::kStop;
+  constexpr Named<WayEnd> kEnds[] = {{WayEnd::kStop, "stop"},
+                                     {WayEnd::kReturn, "return"},
+                                     {WayEnd::kClosed, "closed"}};
+  if (const auto known = findNamed(kEnds, end))
+    return *known;
+  json.fail("end", "'" + end + "', but must be " + listed(kEnds, WordList::kOr));
 }
 
 void
@@ -49,8 +49,8 @@ readMoving(JsonObject& json, BodyReader& reader, SimulationScene& scene)
 SimulationScene
 readScene(const std::filesystem::path& path)
 {
-  const JsonObject::Json json = readJson(path);
-  JsonObject root(path, json, "");
+  const JsonValue json = readJson(path);
+  JsonObject root(json);
   BodyReader reader(path);
   SimulationScene scene;
   scene.name = path.stem().string();

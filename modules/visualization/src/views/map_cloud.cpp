@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/visualization/map_cloud.h>
 
@@ -7,19 +8,19 @@
 namespace pcl6d {
 
 namespace {
-/** \return the place of a name in a list of words with commas between */
-std::size_t
-placeOf(const char* what,
-        const std::string& name,
-        const std::vector<std::string>& names)
-{
-  const auto found = std::find(names.begin(), names.end(), name);
-  std::string all;
-  for (const auto& each : names)
-    all += (all.empty() ? "" : ", ") + each;
-  require(found != names.end(), what, name, "one of " + all);
-  return static_cast<std::size_t>(found - names.begin());
-}
+constexpr Named<PointColour> kPointColours[] = {
+    {PointColour::kHeight, "height"},
+    {PointColour::kScan, "scan"},
+    {PointColour::kReflectance, "reflectance"},
+    {PointColour::kResidual, "residual"},
+    {PointColour::kLabel, "label"},
+    {PointColour::kPlain, "plain"}};
+constexpr Named<ColourMap> kColourMaps[] = {{ColourMap::kViridis, "viridis"},
+                                            {ColourMap::kTurbo, "turbo"},
+                                            {ColourMap::kMagma, "magma"},
+                                            {ColourMap::kGrey, "grey"}};
+constexpr Named<Background> kBackgrounds[] = {{Background::kDark, "dark"},
+                                              {Background::kLight, "light"}};
 
 void
 requireOnePerPoint(std::size_t count, std::size_t points, bool needed, const char* what)
@@ -33,21 +34,19 @@ requireOnePerPoint(std::size_t count, std::size_t points, bool needed, const cha
 PointColour
 pointColourFromName(const std::string& name)
 {
-  return static_cast<PointColour>(placeOf(
-      "colour", name, {"height", "scan", "reflectance", "residual", "label", "plain"}));
+  return fromName(kPointColours, "colour", name, WordList::kOneOf);
 }
 
 ColourMap
 colourMapFromName(const std::string& name)
 {
-  return static_cast<ColourMap>(
-      placeOf("colour_map", name, {"viridis", "turbo", "magma", "grey"}));
+  return fromName(kColourMaps, "colour_map", name, WordList::kOneOf);
 }
 
 Background
 backgroundFromName(const std::string& name)
 {
-  return static_cast<Background>(placeOf("background", name, {"dark", "light"}));
+  return fromName(kBackgrounds, "background", name, WordList::kOneOf);
 }
 
 void

@@ -21,8 +21,7 @@ struct MapQualityOptions {
   std::optional<double> radius; ///< [m] of the entropy, > 0; none: 2 voxels
   std::optional<double>
       max_distance; ///< [m] beyond which points do not belong together, > 0; none: 3 voxels
-  std::optional<double>
-      within; ///< [m] of share_within, > 0; none: max(3 cm, voxel / 2.5)
+  std::optional<double> within; ///< [m] of share_within, > 0; none: agreementDistance()
   std::optional<std::size_t>
       revisit_gap;      ///< scans so far apart in their order meet again; >= 2; none: a
                         ///< quarter of all, at least 5

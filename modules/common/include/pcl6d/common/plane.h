@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/polygon.h>
 
 #include <Eigen/Core>
@@ -18,6 +19,13 @@ namespace PCL6D_EXPORTS pcl6d {
 enum class PlaneLabel { kNone = 0, kFloor = 1, kCeiling = 2, kWall = 3, kDoor = 4 };
 
 /** \return "none", "floor", "ceiling", "wall" or "door" */
+/** The words of the labels, in their order. */
+inline constexpr Named<PlaneLabel> kPlaneLabels[] = {{PlaneLabel::kNone, "none"},
+                                                     {PlaneLabel::kFloor, "floor"},
+                                                     {PlaneLabel::kCeiling, "ceiling"},
+                                                     {PlaneLabel::kWall, "wall"},
+                                                     {PlaneLabel::kDoor, "door"}};
+
 const char*
 toString(PlaneLabel label);
 

@@ -3,7 +3,7 @@
 
 #include <pcl6d/common/export.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>

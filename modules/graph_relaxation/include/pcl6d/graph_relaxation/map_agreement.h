@@ -39,8 +39,13 @@ visiblePairs(const std::vector<NetworkScan>& scans,
              double voxel,
              unsigned int num_threads = 0);
 
+/** \return the distance [m] within which a point lies on a surface that was reduced to
+ * this voxel [m]: max(3 cm, voxel / 2.5) */
+double
+agreementDistance(double voxel);
+
 /** \return how well scans agree at some poses, over given pairs of them: the share of
- * points of each within max(3 cm, voxel / 2.5) of the other, less those that lie where it
+ * points of each within agreementDistance() of the other, less those that lie where it
  * looked through
  * \throws BadArgument not one pose per scan, or a pair is not of them */
 MapAgreement
@@ -53,7 +58,7 @@ agreementOver(const std::vector<ScanPair>& pairs,
 /** \brief Judges a stage by the poses before and after it: the share of points of each
  * scan within a distance of each other scan that sees the same places, less those that
  * lie where that scan looked through.
- * \param[in] voxel [m] of the reduction; points agree within max(3 cm, voxel / 2.5)
+ * \param[in] voxel [m] of the reduction; points agree within agreementDistance()
  * \param[in] num_threads 0: one per core; never changes the result
  * \throws BadArgument not one pose per scan \ingroup graph_relaxation */
 StageAgreement

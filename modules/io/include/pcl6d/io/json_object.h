@@ -3,31 +3,168 @@
 
 #include <pcl6d/common/export.h>
 
-#include <Eigen/Core>
-#include <nlohmann/json.hpp>
+#include <Eigen/Geometry>
+#include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
-/** \file Objects of a JSON file, read key by key. Who includes it links nlohmann-json. */
+/** \file JSON files, read so that every error names the file and the place in it. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief One object {...} of a JSON file: tells of what is missing, of another type or
- * not known, by file and JSON pointer. */
-class JsonObject {
+/** \brief A value of a JSON document and where it stands; it keeps the document alive.
+ * What is missing or of another type: IoFailed "file: /planes/3/area: ..." */
+class JsonValue {
 public:
   using Json = nlohmann::ordered_json;
 
-  /** \param[in] file, json are kept by reference \param[in] pointer place in the file
-   * \throws IoFailed json is no object */
-  JsonObject(const std::filesystem::path& file, const Json& json, std::string pointer);
+  /** \brief The whole of a document. \param[in] file its name, for messages */
+  JsonValue(std::string file, Json json);
+
+  /** \throws IoFailed "file: /pointer: message" */
+  [[noreturn]] void
+  fail(const std::string& message) const;
+
+  /** \throws IoFailed "... value, but must be rule" unless the rule is kept */
+  void
+  require(bool kept, const std::string& rule) const;
+
+  bool
+  isObject() const;
+  bool
+  isArray() const;
+  bool
+  isText() const;
+  bool
+  isNull() const;
+
+  /** \return whether it is a finite number */
+  bool
+  isNumber() const;
+
+  /** \return whether it is an array of two */
+  bool
+  isPair() const;
+
+  /** \return the member of an object, which must be there */
+  JsonValue
+  operator/(const std::string& key) const;
+
+  bool
+  has(const std::string& key) const;
+
+  /** \return the member of an object, if it is there and not null */
+  std::optional<JsonValue>
+  find(const std::string& key) const;
+
+  /** \return the keys of an object, in the order of the file */
+  std::vector<std::string>
+  keys() const;
+
+  /** \throws IoFailed an object has another key than these */
+  void
+  allow(std::initializer_list<const char*> known) const;
+
+  /** \return the elements of an array */
+  std::vector<JsonValue>
+  elements() const;
+
+  /** \return the elements of the array of that name, which may be missing */
+  std::vector<JsonValue>
+  elements(const std::string& key) const;
+
+  /** \return a finite number */
+  double
+  number() const;
+
+  /** \return a whole number >= 0 */
+  std::size_t
+  count() const;
+
+  /** \return a whole number up to a million */
+  int
+  integer() const;
+  bool
+  boolean() const;
+  std::string
+  text() const;
+  std::vector<std::size_t>
+  counts() const;
+
+  /** \return the numbers of an array; an error names the array */
+  std::vector<double>
+  numbers() const;
+
+  /** \brief Takes as many numbers as the matrix has, row by row; rows may be arrays. */
+  void
+  fill(Eigen::Ref<Eigen::MatrixXd> matrix) const;
+
+  Eigen::Vector3d
+  vector3() const;
+  std::vector<Eigen::Vector3d>
+  points() const;
+
+  /** \return 16 numbers, row by row, that are a rigid motion */
+  Eigen::Isometry3d
+  pose() const;
+
+  /** \return six rows of six numbers */
+  Eigen::Matrix<double, 6, 6>
+  matrix6() const;
+
+  /** \return the value as JSON, shortened */
+  std::string
+  excerpt() const;
+
+  /** \return the whole value as JSON \throws nlohmann's exceptions it holds no UTF-8 */
+  std::string
+  dump() const;
+
+  const Json&
+  json() const
+  {
+    return *json_;
+  }
+
+  /** \return "file: /pointer" */
+  std::string
+  place() const;
+
+private:
+  friend class JsonObject;
+  JsonValue(std::shared_ptr<const std::string> file,
+            std::shared_ptr<const Json> json,
+            std::string pointer);
+
+  /** \return what the value holds, under the same owner */
+  JsonValue
+  part(const Json& json, const std::string& name) const;
+  void
+  appendNumbers(std::vector<double>& values) const;
+
+  std::shared_ptr<const std::string> file_;
+  std::shared_ptr<const Json> json_; ///< shares the document
+  std::string pointer_;
+};
+
+/** \brief One object {...} of a JSON file, read key by key: tells as well of a key that
+ * nobody asked for. */
+class JsonObject {
+public:
+  /** \throws IoFailed it is no object */
+  JsonObject(JsonValue value);
 
   bool
   has(const std::string& key) const
   {
-    return json_.contains(key);
+    return value_.has(key);
   }
 
   /** \brief Reads a number, if it is there. \throws IoFailed it is something else */
@@ -59,11 +196,9 @@ public:
   std::vector<double>
   numbers(const std::string& key);
 
-  /** \brief Calls f with each element of an array, which may be missing, and with its
-   * place. */
+  /** \brief Calls f with each element of an array, which may be missing. */
   void
-  each(const std::string& key,
-       const std::function<void(const Json&, const std::string&)>& f);
+  each(const std::string& key, const std::function<void(const JsonValue&)>& f);
 
   /** \brief Calls f with each object of an array, which may be missing, and makes sure
    * that f knows all its keys. */
@@ -76,7 +211,10 @@ public:
 
   /** \return all keys */
   std::vector<std::string>
-  keys() const;
+  keys() const
+  {
+    return value_.keys();
+  }
 
   /** \throws IoFailed a key was never read */
   void
@@ -90,30 +228,28 @@ public:
   [[noreturn]] void
   fail(const std::string& key, const std::string& message) const;
 
-  const std::filesystem::path&
-  file() const
-  {
-    return file_;
-  }
-
 private:
-  const Json*
-  find(const std::string& key);
+  std::optional<JsonValue>
+  member(const std::string& key);
 
-  const std::filesystem::path& file_;
-  const Json& json_;
-  std::string pointer_;
+  JsonValue value_;
   std::set<std::string> read_;
 };
 
-/** \return the numbers of a JSON array \throws IoFailed it holds something else */
-std::vector<double>
-jsonNumbers(const std::filesystem::path& file,
-            const JsonObject::Json& json,
-            const std::string& pointer);
+/** \return the document; comments are allowed \param[in] name of its file, for messages
+ * \throws IoFailed naming file and line */
+JsonValue
+parseJson(const std::string& text, const std::string& name);
 
 /** \return the content of a JSON file \throws IoFailed naming file and line */
-JsonObject::Json
+JsonValue
 readJson(const std::filesystem::path& file);
+
+/** \return the text as JSON writes it, in ASCII; what is no UTF-8 is replaced */
+std::string
+jsonText(const std::string& text);
+
+bool
+isUtf8(const std::string& text);
 
 } // namespace pcl6d

@@ -175,5 +175,15 @@ appendNumber(std::string& text, T value)
   text.append(buffer, result.ptr);
 }
 
+/** \return the shortest text that reads back to the same bits */
+template <typename T>
+std::string
+shortest(T value)
+{
+  std::string text;
+  appendNumber(text, value);
+  return text;
+}
+
 } // namespace text
 } // namespace pcl6d

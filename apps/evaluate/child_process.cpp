@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/child_process.h"
+
+#include <pcl6d/common/error.h>
+
+#include <boost/process.hpp>
+#include <boost/process/extend.hpp>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace bp = boost::process;
+
+namespace pcl6d::app {
+
+namespace {
+double
+secondsOf(const timeval& time)
+{
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+struct CloseFile {
+  void
+  operator()(std::FILE* file) const
+  {
+    std::fclose(file);
+  }
+};
+
+/** In the child before exec: a process group of its own, an end with this process, and
+ * the usual answers to signals. */
+struct OwnGroup : bp::extend::handler {
+  pid_t parent = ::getpid();
+
+  template <typename Executor>
+  void
+  on_exec_setup(Executor&) const
+  {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) // it ended before the line above
+      ::_exit(127);
+    for (const int number : {SIGPIPE, SIGINT, SIGTERM, SIGHUP})
+      ::signal(number, SIG_DFL);
+  }
+};
+} // namespace
+
+ChildProcess::ChildProcess(const ProcessStart& start) : time_limit_(start.time_limit)
+{
+  const std::unique_ptr<std::FILE, CloseFile> log(
+      std::fopen(start.log.c_str(), "we")); // 'e': not for other programs
+  if (!log)
+    throw IoFailed(start.log.string() + ": cannot write: " + std::strerror(errno));
+  begin_ = Clock::now();
+  try {
+    bp::child child(start.program.string(),
+                    bp::args(start.arguments),
+                    bp::std_in<bp::null, (bp::std_out & bp::std_err)> log.get(),
+                    OwnGroup());
+    pid_ = child.id();
+    child.detach(); // poll() waits for it, and asks what it has used
+  } catch (const bp::process_error& error) {
+    throw IoFailed(start.program.string() + ": cannot run: " + error.code().message());
+  }
+}
+
+ChildProcess::~ChildProcess()
+{
+  if (pid_ <= 0)
+    return;
+  ::kill(-pid_, SIGKILL);
+  ::waitpid(pid_, nullptr, 0);
+}
+
+void
+ChildProcess::stop()
+{
+  if (pid_ <= 0 || asked_)
+    return;
+  asked_ = Clock::now();
+  ::kill(-pid_, SIGTERM);
+}
+
+std::optional<ProcessEnd>
+ChildProcess::poll()
+{
+  int status = 0;
+  rusage used{};
+  const pid_t ended = ::wait4(pid_, &status, WNOHANG, &used);
+  const auto now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - begin_).count();
+  if (ended != pid_) {
+    if (time_limit_ > 0 && seconds > time_limit_ && !asked_) {
+      timed_out_ = true;
+      stop();
+    }
+    if (asked_ && now - *asked_ > kGrace)
+      ::kill(-pid_, SIGKILL);
+    return std::nullopt;
+  }
+  pid_ = -1;
+  ProcessEnd end;
+  end.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+  end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  end.timed_out = timed_out_;
+  end.seconds = seconds;
+  end.cpu_seconds = secondsOf(used.ru_utime) + secondsOf(used.ru_stime);
+  end.peak_memory_mb = 1024e-6 * static_cast<double>(used.ru_maxrss); // of KiB
+  return end;
+}
+
+} // namespace pcl6d::app

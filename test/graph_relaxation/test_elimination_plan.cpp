@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The order of elimination changes no result, only what it costs.
-#include "elimination_plan.h"
+#include "sparse/elimination_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,8 @@ std::size_t
 storedBlocks(std::size_t size, const Couplings& couplings)
 {
   std::size_t blocks = 0;
-  for (const auto& node : pcl6d::planElimination(size, couplings).supernodes)
+  for (const auto& node :
+       pcl6d::graph_relaxation::planElimination(size, couplings).supernodes)
     blocks += node.numColumns() * (node.numColumns() + 1) / 2 +
               node.numColumns() * node.rows.size();
   return blocks;
@@ -48,7 +49,7 @@ TEST(EliminationPlan, CoversEveryBlockAndSupernodeOnce)
   Couplings chain;
   for (std::size_t i = 0; i + 1 < 50; ++i)
     chain.emplace_back(i, i + 1);
-  const auto plan = pcl6d::planElimination(50, chain);
+  const auto plan = pcl6d::graph_relaxation::planElimination(50, chain);
   std::vector<int> seen(50, 0), nodes(plan.supernodes.size(), 0);
   for (std::size_t place = 0; place < 50; ++place) {
     ++seen[plan.block_at[place]];

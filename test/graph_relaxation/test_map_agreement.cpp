@@ -77,8 +77,9 @@ TEST(AgreementOver, IsTheHalfOfAStage)
   EXPECT_EQ(agreement.total, stage.before.total);
   EXPECT_EQ(agreement.scans, stage.before.scans);
   EXPECT_EQ(pcl6d::agreementOver({}, scans, moved, kVoxel).total, 0);
-  const std::string outside = badArgumentOf(
-      [&] { pcl6d::agreementOver({{0, 6}}, scans, moved, kVoxel); });
+  const std::string outside = badArgumentOf([&] {
+    pcl6d::agreementOver({{0, 6}}, scans, moved, kVoxel);
+  });
   EXPECT_NE(outside.find("scan of a pair = 6"), std::string::npos) << outside;
 }
 

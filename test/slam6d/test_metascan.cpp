@@ -14,6 +14,7 @@
 #include <set>
 
 using namespace pcl6d; // NOLINT: the whole API of ICP
+using slam6d::Metascan;
 using test::kInfinity;
 
 namespace {

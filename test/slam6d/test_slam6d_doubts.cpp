@@ -120,10 +120,10 @@ TEST(Agreement, IsTheShareOfPointsThatHaveAPointNear)
                          {pcl6d::test::kNan, 0, 0}}; // does not count
   const Eigen::Isometry3d T = pcl6d::poseFromEuler({1, 0, 0}, {});
   for (const unsigned int threads : {1u, 2u, 8u})
-    EXPECT_EQ(pcl6d::agreementOf(target, points, T, 0.1, threads), 0.5);
-  EXPECT_EQ(pcl6d::agreementOf(target, points, T, 0.3, 1), 0.75);
-  EXPECT_EQ(pcl6d::agreementOf(target, Points(), T, 0.3, 1), 0);
-  EXPECT_EQ(pcl6d::agreementOf({}, points, T, 0.3, 1), 0);
+    EXPECT_EQ(pcl6d::slam6d::agreementOf(target, points, T, 0.1, threads), 0.5);
+  EXPECT_EQ(pcl6d::slam6d::agreementOf(target, points, T, 0.3, 1), 0.75);
+  EXPECT_EQ(pcl6d::slam6d::agreementOf(target, Points(), T, 0.3, 1), 0);
+  EXPECT_EQ(pcl6d::slam6d::agreementOf({}, points, T, 0.3, 1), 0);
 }
 
 TEST(Agreement, OfManyPointsIsThatOfASample)
@@ -136,9 +136,11 @@ TEST(Agreement, OfManyPointsIsThatOfASample)
     if (random.uniform(0, 1) < 0.25)
       p.x() += 100;
   const pcl6d::IcpModel model(cube, {});
-  const double share = pcl6d::agreementOf({model.part()}, points, kIdentity, 0.01, 1);
+  const double share =
+      pcl6d::slam6d::agreementOf({model.part()}, points, kIdentity, 0.01, 1);
   EXPECT_NEAR(share, 0.75, 0.02);
   for (const unsigned int threads : {2u, 3u, 8u})
-    EXPECT_EQ(pcl6d::agreementOf({model.part()}, points, kIdentity, 0.01, threads),
-              share);
+    EXPECT_EQ(
+        pcl6d::slam6d::agreementOf({model.part()}, points, kIdentity, 0.01, threads),
+        share);
 }

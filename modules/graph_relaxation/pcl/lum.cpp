@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "link_equation.h"
+#include "relaxation/link_equation.h"
 
 #include <pcl6d/graph_relaxation/pcl/lum.h>
 
@@ -22,7 +22,7 @@ lumEdge(const LinkReport& link,
         Eigen::Matrix<float, 6, 1>& moment)
 {
   const Eigen::Matrix<double, 6, 6> S =
-      originShift<6>(Eigen::Vector3d::Zero(), link.centre);
+      graph_relaxation::originShift<6>(Eigen::Vector3d::Zero(), link.centre);
   const Eigen::Matrix<double, 6, 6> SK = S.transpose() * link.information;
   // PCL's class has the turns in the order x, z, y.
   const Eigen::PermutationMatrix<6> order(

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 namespace {
 constexpr std::size_t kBlockSize = 512; // points
@@ -81,4 +81,4 @@ agreementOf(const MeasuredScan& a,
   return 0.5 * (oneWay(a, b, T_a_b) + oneWay(b, a, T_a_b.inverse()));
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

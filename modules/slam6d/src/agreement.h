@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/icp.h>
 
 #include <optional>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 /** \return the share of the finite points (of many, a sample) that have a point of the
  * target within a distance [m], in [0, 1]; 0 without a finite point. The same for any
  * number of threads. */
-double
+PCL6D_EXPORTS double // shown to its test
 agreementOf(const IcpTarget& target,
             const Points& points,
             const Eigen::Isometry3d& T_target_points,
@@ -46,4 +47,4 @@ agreementOf(const MeasuredScan& a,
             double distance,
             unsigned int num_threads);
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

@@ -10,7 +10,7 @@
 #include <deque>
 #include <functional>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 /** \return T_world_scan of all scans */
 Poses
@@ -80,4 +80,4 @@ private:
   std::vector<NetworkScan> scans_;
 };
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

@@ -4,7 +4,7 @@
 #include <pcl6d/registration/feature_alignment.h>
 #include <pcl6d/registration/overlap_search.h>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 namespace {
 /** So many of the last scans are tried in turn: one that sees the same surfaces is usually
@@ -60,4 +60,4 @@ startingPose(const Slam6DOptions& options,
   return start;
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

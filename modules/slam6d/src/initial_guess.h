@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 /** \brief A scan whose match is believed. */
 struct BelievedScan {
@@ -33,4 +33,4 @@ startingPose(const Slam6DOptions& options,
              const Eigen::Isometry3d& predicted,
              bool has_odometry);
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

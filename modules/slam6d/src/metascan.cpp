@@ -7,7 +7,7 @@
 #include <limits>
 #include <unordered_set>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 namespace {
 /** Points and normals, one per voxel: the first that comes. */
@@ -107,4 +107,4 @@ Metascan::node(const Place& place)
   return nodes_.emplace(place, Node{origin, std::move(model)}).first->second;
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/registration/icp_model.h>
 
 #include <map>
 #include <utility>
 #include <vector>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 /** \brief The union of registered scans against which a new one is matched
  * (book 4.1.5).
@@ -18,7 +19,7 @@ namespace pcl6d {
  * anew, and a point takes part in log2(number of scans) k-d trees. Leaves stay in their
  * scan's frame; a node has an origin near its first scan, so that float coordinates stay
  * small wherever the world's origin is. */
-class Metascan {
+class PCL6D_EXPORTS Metascan { // shown to its test
 public:
   /** \param[in] voxel [m] a node keeps one point per voxel
    * \param[in] max_scans use only the last so many scans; 0: all
@@ -55,4 +56,4 @@ private:
   std::map<Place, Node> nodes_; ///< of level 1 and up
 };
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 namespace {
 /** So much must be gained, or the poses stay: what is less is the noise of closest points.
@@ -46,4 +46,4 @@ whyNotTaken(const GraphSlamResult& relaxed, const StageResult& stage)
   return gainOf(relaxed, stage) < kLeastGain ? "the links agreed already" : "";
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 /** \return why a relaxation is not taken that the agreement has nothing against: it found
  * no answer, its links close no cycle, or little is gained; empty: it is taken
@@ -14,4 +14,4 @@ namespace pcl6d {
 std::string
 whyNotTaken(const GraphSlamResult& relaxed, const StageResult& stage);
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

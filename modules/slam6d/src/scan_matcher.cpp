@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 namespace {
 /** A match is not believed if the rms of its pairs is a larger share of max_distance.
@@ -248,4 +248,4 @@ ScanMatcher::icpOptions(std::size_t num_points) const
   return icp;
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

@@ -10,7 +10,7 @@
 
 #include <string>
 
-namespace pcl6d {
+namespace pcl6d::slam6d {
 
 /** \brief Sequential matching (book 4.1.5, 5.1.1): one reduced scan after the other
  * against the union of those before, and whether the match is to be believed. */
@@ -91,4 +91,4 @@ private:
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero(); ///< position of the first scan [m]
 };
 
-} // namespace pcl6d
+} // namespace pcl6d::slam6d

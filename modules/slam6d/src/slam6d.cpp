@@ -16,6 +16,7 @@
 #include <utility>
 
 namespace pcl6d {
+using namespace slam6d;
 
 namespace {
 /** So many scans are held back in full, until the parameters are derived from them. */

@@ -212,7 +212,6 @@ public:
 
 } // namespace pcl6d
 #include <pcl6d/registration/pcl/impl/icp6d.hpp>
-#include <pcl6d/registration/pcl/impl/icp6d_setters.hpp>
 namespace PCL6D_EXPORTS pcl6d {
 PCL6D_DECLARE_PAIR_INSTANCES(ICP6D)
 PCL6D_DECLARE_PAIR_INSTANCES(GICP6D)

@@ -4,8 +4,9 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/portable_math.h>
+#include <pcl6d/common/require_indices.h>
 #include <pcl6d/registration/pcl/icp6d.h>
-#include <pcl6d/registration/pcl/impl/icp6d_plugs.hpp>
+#include <pcl6d/registration/pcl/impl/icp6d_adapters.hpp>
 #include <pcl6d/registration/pcl/transformation_estimation_quaternion.h>
 
 #include <pcl/common/transforms.h>
@@ -47,6 +48,115 @@ ICP6D<PointSource, PointTarget, Scalar>::ICP6D()
   this->tree_.reset(new KdTree<PointTarget>);
   this->transformation_estimation_.reset(
       new TransformationEstimationQuaternion<PointSource, PointTarget, Scalar>);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setInputSource(
+    const typename Base::PointCloudSourceConstPtr& cloud)
+{
+  registration::requireGiven(cloud, "the input source");
+  if (this->use_indices_ && this->indices_)
+    requireIndices(*this->indices_, cloud->size());
+  this->source_cloud_updated_ = true;
+  pcl::PCLBase<PointSource>::setInputCloud(cloud);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setInputTarget(
+    const typename Base::PointCloudTargetConstPtr& cloud)
+{
+  registration::requireGiven(cloud, "the input target");
+  this->target_ = cloud;
+  this->target_cloud_updated_ = true;
+  made_.reset();
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setIndices(const pcl::IndicesPtr& indices)
+{
+  registration::requireGiven(indices, "the indices");
+  if (this->input_)
+    requireIndices(*indices, this->input_->size());
+  Base::setIndices(indices);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setIndices(const pcl::IndicesConstPtr& indices)
+{
+  registration::requireGiven(indices, "the indices");
+  if (this->input_)
+    requireIndices(*indices, this->input_->size());
+  Base::setIndices(indices);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setIndices(
+    const typename Base::PointIndicesConstPtr& indices)
+{
+  registration::requireGiven(indices, "the indices");
+  if (this->input_)
+    requireIndices(indices->indices, this->input_->size());
+  Base::setIndices(indices);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setSearchMethodTarget(
+    const typename Base::KdTreePtr& tree,
+    bool force_no_recompute)
+{
+  registration::requireGiven(tree, "the search method");
+  Base::setSearchMethodTarget(tree, force_no_recompute);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setTransformationEstimation(
+    const typename Base::TransformationEstimationPtr& estimation)
+{
+  registration::requireGiven(estimation, "the transformation estimation");
+  Base::setTransformationEstimation(estimation);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::addCorrespondenceRejector(
+    const typename Base::CorrespondenceRejectorPtr& rejector)
+{
+  registration::requireGiven(rejector, "the correspondence rejector");
+  Base::addCorrespondenceRejector(rejector);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setMotionEpsilon(double translation,
+                                                          double rotation)
+{
+  options_.translation_epsilon = translation;
+  options_.rotation_epsilon = rotation;
+  this->transformation_epsilon_ = 0; // the last setter wins
+  this->transformation_rotation_epsilon_ = 0;
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setNumberOfThreads(unsigned int num_threads)
+{
+  options_.num_threads = num_threads;
+  if (const auto tree = std::dynamic_pointer_cast<KdTree<PointTarget>>(this->tree_))
+    tree->setNumberOfThreads(num_threads);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::setObserver(IcpObserver observer)
+{
+  observer_ = std::move(observer);
 }
 
 /** PCL's setters are not virtual and write members of the base; they are read here. */
@@ -99,7 +209,7 @@ ICP6D<PointSource, PointTarget, Scalar>::makeTarget(const IcpOptions& options)
   made_ = std::make_shared<Target>();
   made_->made_from = this->tree_;
   made_->searched = searched;
-  made_->indices = searched ? *searched : plugs::allOf(*this->target_);
+  made_->indices = searched ? *searched : registration::allOf(*this->target_);
   if (ours)
     made_->origin = ours->origin().template cast<double>();
   made_->points = toPoints(*this->target_, made_->indices);
@@ -109,7 +219,7 @@ ICP6D<PointSource, PointTarget, Scalar>::makeTarget(const IcpOptions& options)
     made_->tree = ours->tree();
   }
   else { // a tree of ours all the same, which judges how well the surfaces fix the pose
-    made_->search = plugs::searchOf<PointTarget>(this->tree_);
+    made_->search = registration::searchOf<PointTarget>(this->tree_);
     made_->tree = std::make_shared<PointTree>(made_->points, options.num_threads);
   }
 }
@@ -121,12 +231,12 @@ ICP6D<PointSource, PointTarget, Scalar>::makeNormals(const IcpOptions& options)
 {
   if (made_->normal_neighbours == normal_neighbours_)
     return;
-  made_->normals = plugs::normalsOf(*this->target_,
-                                    made_->indices,
-                                    made_->points,
-                                    made_->tree.get(),
-                                    normal_neighbours_,
-                                    options);
+  made_->normals = registration::normalsOf(*this->target_,
+                                           made_->indices,
+                                           made_->points,
+                                           made_->tree.get(),
+                                           normal_neighbours_,
+                                           options);
   made_->normal_neighbours = normal_neighbours_;
 }
 
@@ -141,12 +251,12 @@ ICP6D<PointSource, PointTarget, Scalar>::sides(const IcpOptions& options)
   sides.target = made_;
   sides.source = toPoints(*this->input_, *this->indices_);
   if (options.metric == Metric::kGicp)
-    sides.source_normals = plugs::normalsOf(*this->input_,
-                                            *this->indices_,
-                                            sides.source,
-                                            nullptr,
-                                            normal_neighbours_,
-                                            options);
+    sides.source_normals = registration::normalsOf(*this->input_,
+                                                   *this->indices_,
+                                                   sides.source,
+                                                   nullptr,
+                                                   normal_neighbours_,
+                                                   options);
   return sides;
 }
 
@@ -155,7 +265,7 @@ IcpHooks
 ICP6D<PointSource, PointTarget, Scalar>::hooks(const Sides& sides,
                                                const IcpOptions& options)
 {
-  using Plugs = plugs::PclPlugs<PointSource, PointTarget, Scalar>;
+  using Adapter = registration::PclAdapter<PointSource, PointTarget, Scalar>;
   IcpHooks hooks;
   if (observer_)
     hooks.observer = [this, &sides](const IcpIteration& centred) {
@@ -163,21 +273,21 @@ ICP6D<PointSource, PointTarget, Scalar>::hooks(const Sides& sides,
       seen.T_target_source.pretranslate(sides.target->origin);
       return observer_(seen);
     };
-  const auto plugged = std::make_shared<Plugs>(
+  const auto adapter = std::make_shared<Adapter>(
       this->input_, this->indices_, this->target_, this->tree_, sides.target->origin);
   if (this->correspondence_estimation_)
-    hooks.find = plugged->finder(this->correspondence_estimation_, reciprocal_);
-  std::vector<plugs::Rejector> rejectors;
+    hooks.find = adapter->finder(this->correspondence_estimation_, reciprocal_);
+  std::vector<registration::Rejector> rejectors;
   if (reciprocal_ && !this->correspondence_estimation_)
-    rejectors.push_back(
-        plugs::reciprocal(sides.source, sides.target->points, options.num_threads));
+    rejectors.push_back(registration::reciprocal(
+        sides.source, sides.target->points, options.num_threads));
   for (const auto& rejector : this->correspondence_rejectors_)
-    rejectors.push_back(plugged->rejector(rejector));
+    rejectors.push_back(adapter->rejector(rejector));
   if (!rejectors.empty())
-    hooks.reject = plugs::inTurn(std::move(rejectors));
-  if (!plugs::isOurs<PointSource, PointTarget, Scalar>(
+    hooks.reject = registration::inTurn(std::move(rejectors));
+  if (!registration::isOurs<PointSource, PointTarget, Scalar>(
           *this->transformation_estimation_))
-    hooks.minimise = plugged->minimiser(this->transformation_estimation_);
+    hooks.minimise = adapter->minimiser(this->transformation_estimation_);
   return hooks;
 }
 
@@ -187,10 +297,10 @@ ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource&
                                                                const Matrix4& guess)
 {
   result_ = IcpResult();
-  plugs::requireGiven(this->transformation_estimation_,
-                      "the transformation estimation");
+  registration::requireGiven(this->transformation_estimation_,
+                             "the transformation estimation");
   for (const auto& rejector : this->correspondence_rejectors_)
-    plugs::requireGiven(rejector, "a correspondence rejector");
+    registration::requireGiven(rejector, "a correspondence rejector");
   const IcpOptions options = effectiveOptions();
   options.validate();
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();

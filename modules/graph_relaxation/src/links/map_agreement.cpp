@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/graph_relaxation/map_agreement.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace pcl6d {
+
+namespace {
+/** Scans see each other if so large a share of the points of one has a partner. */
+constexpr double kLeastOverlap = 0.05;
+/** Partners are so many voxels apart at most. */
+constexpr double kPartnerVoxels = 2;
+/** So many points of a scan tell what it says of another. */
+constexpr std::size_t kSample = 700;
+
+constexpr double kTotalTolerance = 0.005;
+constexpr double kScanTolerance = 0.05;
+} // namespace
+
+} // namespace
+
+double
+agreementDistance(double voxel)
+{
+  return std::max(0.03, voxel / 2.5);
+}
+
+std::vector<ScanPair>
+visiblePairs(const std::vector<NetworkScan>& scans,
+             const Poses& poses,
+             double voxel,
+             unsigned int num_threads)
+{
+  require(poses.size() == scans.size(), "poses", poses.size(), "one per scan");
+  return overlappingPairs(
+      scans,
+      poses,
+      kPartnerVoxels * voxel,
+      [](const ScanPair&) { return kLeastOverlap; },
+      num_threads);
+}
+
+MapAgreement
+agreementOver(const std::vector<ScanPair>& pairs,
+              const std::vector<NetworkScan>& scans,
+              const Poses& poses,
+              double voxel,
+              unsigned int num_threads)
+{
+  require(poses.size() == scans.size(), "poses", poses.size(), "one per scan");
+  for (const ScanPair& pair : pairs)
+    require(std::max(pair.first, pair.second) < scans.size(),
+            "scan of a pair",
+            std::max(pair.first, pair.second),
+            "one of the scans");
+  const double distance = agreementDistance(voxel);
+  std::vector<PointVotes> votes(pairs.size());
+  parallelFor(pairs.size(), num_threads, [&](std::size_t k) {
+    const auto [a, b] = pairs[k];
+    const Eigen::Isometry3d T_a_b = poses[a].inverse() * poses[b];
+    const auto stride = [&](std::size_t scan) {
+      return std::max<std::size_t>(1, scans[scan].model().points().size() / kSample);
+    };
+    votes[k] = votesOf(scans[b], scans[a], T_a_b, distance, stride(b));
+    votes[k] += votesOf(scans[a], scans[b], T_a_b.inverse(), distance, stride(a));
+  });
+  MapAgreement agreement;
+  PointVotes all;
+  std::vector<PointVotes> of_scan(scans.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    all += votes[k];
+    of_scan[pairs[k].first] += votes[k];
+    of_scan[pairs[k].second] += votes[k];
+  }
+  agreement.total = all.share();
+  for (const PointVotes& one : of_scan)
+    agreement.scans.push_back(one.share());
+  return agreement;
+}
+
+std::string
+StageAgreement::worse(const std::vector<bool>& counted) const
+{
+  std::ostringstream why; // read by people
+  why.precision(3);
+  if (after.total < before.total - kTotalTolerance) {
+    why << "agreement fell from " << before.total << " to " << after.total;
+    return why.str();
+  }
+  for (std::size_t i = 0; i < after.scans.size(); ++i)
+    if ((counted.empty() || counted[i]) &&
+        after.scans[i] < before.scans[i] - kScanTolerance) {
+      why << "agreement of scan " << i << " fell from " << before.scans[i] << " to "
+          << after.scans[i];
+      return why.str();
+    }
+  return "";
+}
+
+StageAgreement
+judgeStage(const std::vector<NetworkScan>& scans,
+           const Poses& before,
+           const Poses& after,
+           double voxel,
+           unsigned int num_threads)
+{
+  require(before.size() == scans.size(), "poses before", before.size(), "one per scan");
+  require(after.size() == scans.size(), "poses after", after.size(), "one per scan");
+  const std::vector<ScanPair> pairs = visiblePairs(scans, before, voxel, num_threads),
+                              others = visiblePairs(scans, after, voxel, num_threads);
+  std::vector<ScanPair> all;
+  std::set_union(pairs.begin(),
+                 pairs.end(),
+                 others.begin(),
+                 others.end(),
+                 std::back_inserter(all),
+                 [](const ScanPair& a, const ScanPair& b) {
+                   return a.second != b.second ? a.second < b.second
+                                               : a.first < b.first;
+                 });
+  StageAgreement stage;
+  stage.pairs = all.size();
+  stage.before = agreementOver(all, scans, before, voxel, num_threads);
+  stage.after = agreementOver(all, scans, after, voxel, num_threads);
+  return stage;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relaxation/link_equation.h"
+
+#include <pcl6d/common/portable_math.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d::graph_relaxation {
+
+namespace {
+/** How much stronger a measurement holds the scale than it does the rest. */
+constexpr double kScaleHold = 1e6;
+
+/** A square root of B: motions in units of the way that they move the points. */
+template <int Size>
+struct Whitening {
+  using Matrix = Eigen::Matrix<double, Size, Size>;
+  Matrix root = Matrix::Identity();    ///< B^1/2
+  Matrix inverse = Matrix::Identity(); ///< B^-1/2
+};
+
+template <int Size>
+Whitening<Size>
+whiteningOf(const LinkSums& sums)
+{
+  constexpr double kThickness_sq = 0.01; // see kOpenDirection
+  const double squares = sums.scatter.trace();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> turning(
+      squares * Eigen::Matrix3d::Identity() - sums.scatter);
+  const double largest = turning.eigenvalues()(2);
+  const double least = largest > 0 ? kThickness_sq * largest : sums.weight;
+  const Eigen::Vector3d sizes = turning.eigenvalues().cwiseMax(least).cwiseSqrt();
+  const Eigen::Matrix3d& V = turning.eigenvectors();
+  Whitening<Size> whitening;
+  whitening.root *= std::sqrt(sums.weight);
+  if (Size == 7)
+    whitening.root(3, 3) = std::sqrt(squares > 0 ? squares : sums.weight);
+  whitening.inverse.diagonal() = whitening.root.diagonal().cwiseInverse();
+  whitening.root.template bottomRightCorner<3, 3>() =
+      V * sizes.asDiagonal() * V.transpose();
+  whitening.inverse.template bottomRightCorner<3, 3>() =
+      V * sizes.cwiseInverse().asDiagonal() * V.transpose();
+  return whitening;
+}
+
+template <int Size>
+Eigen::Matrix<double, Size, Size>
+matrixOf(const LinkSums& sums)
+{
+  if constexpr (Size == 7) {
+    return sums.A;
+  }
+  else {
+    Eigen::Matrix<double, 6, 6> A;
+    A << sums.A.topLeftCorner<3, 3>(), sums.A.topRightCorner<3, 3>(),
+        sums.A.bottomLeftCorner<3, 3>(), sums.A.bottomRightCorner<3, 3>();
+    return A;
+  }
+}
+
+template <int Size>
+Eigen::Matrix<double, Size, 1>
+vectorOf(const LinkSums& sums)
+{
+  if constexpr (Size == 7)
+    return sums.b;
+  else
+    return (Eigen::Matrix<double, 6, 1>() << sums.b.head<3>(), sums.b.tail<3>())
+        .finished();
+}
+
+/** \return the inverse of the left Jacobian of SE(3): e' = e + J^-1 D for the twist e' of
+ * exp(D) exp(e), to first order in D */
+Eigen::Matrix<double, 6, 6>
+inverseJacobian(const Twist& e)
+{
+  Eigen::Matrix<double, 6, 6> ad = Eigen::Matrix<double, 6, 6>::Zero();
+  ad.topLeftCorner<3, 3>() = ad.bottomRightCorner<3, 3>() = skew(e.tail<3>());
+  ad.topRightCorner<3, 3>() = skew(e.head<3>());
+  // J = sum ad^n / (n + 1)!; |x| <= pi, so the series falls quickly.
+  constexpr int kTerms = 32;
+  Eigen::Matrix<double, 6, 6> term = Eigen::Matrix<double, 6, 6>::Identity();
+  Eigen::Matrix<double, 6, 6> J = term;
+  for (int n = 1; n < kTerms; ++n) {
+    term = (term * ad / (n + 1)).eval();
+    J += term;
+    if (term.squaredNorm() < 1e-36 * J.squaredNorm())
+      break;
+  }
+  return J.inverse();
+}
+
+/** A six-dimensional equation as it is, or with a scale of its own. */
+template <int Size>
+LinkEquation<Size>
+withScale(const LinkEquation<6>& rigid)
+{
+  if constexpr (Size == 6) {
+    return rigid;
+  }
+  else {
+    LinkEquation<7> equation;
+    equation.centre = rigid.centre;
+    equation.variance = rigid.variance;
+    equation.K.topLeftCorner<3, 3>() = rigid.K.topLeftCorner<3, 3>();
+    equation.K.topRightCorner<3, 3>() = rigid.K.topRightCorner<3, 3>();
+    equation.K.bottomLeftCorner<3, 3>() = rigid.K.bottomLeftCorner<3, 3>();
+    equation.K.bottomRightCorner<3, 3>() = rigid.K.bottomRightCorner<3, 3>();
+    equation.K(3, 3) = kScaleHold * rigid.K.trace();
+    equation.g << rigid.g.head<3>(), 0, rigid.g.tail<3>();
+    equation.D << rigid.D.head<3>(), 0, rigid.D.tail<3>();
+    return equation;
+  }
+}
+} // namespace
+
+template <int Size>
+LinkEquation<Size>
+equationOf(const LinkSums& sums, double least_variance)
+{
+  using Matrix = typename LinkEquation<Size>::Matrix;
+  using Vector = typename LinkEquation<Size>::Vector;
+  LinkEquation<Size> equation;
+  equation.centre = sums.centre;
+  equation.K = matrixOf<Size>(sums);
+  equation.g = vectorOf<Size>(sums);
+  const Whitening<Size> white = whiteningOf<Size>(sums);
+  const Matrix resistance = white.inverse * equation.K * white.inverse;
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(resistance);
+  const Matrix& V = solver.eigenvectors();
+  Vector values = solver.eigenvalues(), inverses = Vector::Zero();
+  for (int i = 0; i < Size; ++i) {
+    const bool open = !(values(i) >= kOpenDirection);
+    equation.open_directions += open;
+    inverses(i) = open ? 0 : 1 / values(i);
+    values(i) = open ? 0 : values(i);
+  }
+  const Vector asked = V.transpose() * white.inverse * equation.g;
+  equation.D = white.inverse * V * inverses.cwiseProduct(asked);
+  if (equation.open_directions > 0) {
+    const Matrix back = white.root * V;
+    equation.K = back * values.asDiagonal() * back.transpose();
+    equation.g = back * values.cwiseProduct(inverses.cwiseProduct(asked));
+  }
+  const double rest = sums.residual_sq - asked.dot(inverses.cwiseProduct(asked));
+  equation.variance =
+      std::max(rest / std::max(1.0, sums.equations - Size), least_variance);
+  return equation;
+}
+
+template <int Size>
+LinkEquation<Size>
+equationOf(const PoseLink& link,
+           const Eigen::Isometry3d& T_world_from,
+           const Eigen::Isometry3d& T_world_to)
+{
+  // The error e, in the axes of the measured b, changes by J^-1 R^T (X_a - X_b).
+  const Eigen::Isometry3d measured = T_world_from * link.T_from_to;
+  const Twist e = twistFromMotion(measured.inverse() * T_world_to);
+  Eigen::Matrix<double, 6, 6> axes = Eigen::Matrix<double, 6, 6>::Zero();
+  axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() =
+      measured.linear().transpose();
+  const Eigen::Matrix<double, 6, 6> P = inverseJacobian(e) * axes;
+  LinkEquation<6> equation;
+  equation.centre = measured.translation();
+  equation.K = P.transpose() * link.information * P;
+  equation.g = -P.transpose() * link.information * e;
+  equation.D = -axes.transpose() * e;
+  equation.variance = 1;
+  return withScale<Size>(equation);
+}
+
+Twist
+twistFromMotion(const Eigen::Isometry3d& motion)
+{
+  // V^-1 = I - [x]x / 2 + q [x]x^2, where q = (1 - n/2 cot(n/2)) / n^2.
+  const Eigen::Vector3d x = rotationVector(motion.linear());
+  const double n = x.norm();
+  double q = 1.0 / 12 + n * n / 720;
+  if (n > 1e-2) {
+    const auto [sine, cosine] = portableSinCos(0.5 * n);
+    q = (1 - 0.5 * n * cosine / sine) / (n * n);
+  }
+  const Eigen::Vector3d& t = motion.translation();
+  Twist twist;
+  twist << t - 0.5 * x.cross(t) + q * x.cross(x.cross(t)), x;
+  return twist;
+}
+
+template LinkEquation<6>
+equationOf<6>(const LinkSums&, double);
+template LinkEquation<7>
+equationOf<7>(const LinkSums&, double);
+template LinkEquation<6>
+equationOf<6>(const PoseLink&, const Eigen::Isometry3d&, const Eigen::Isometry3d&);
+template LinkEquation<7>
+equationOf<7>(const PoseLink&, const Eigen::Isometry3d&, const Eigen::Isometry3d&);
+
+} // namespace pcl6d::graph_relaxation

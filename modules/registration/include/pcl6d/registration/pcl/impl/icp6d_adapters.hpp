@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/export.h>
+#include <pcl6d/registration/icp.h>
+#include <pcl6d/registration/pcl/sums_estimation.h>
+#include <pcl6d/search/pcl/core_search.h>
+
+#include <pcl/common/transforms.h>
+#include <pcl/conversions.h>
+#include <pcl/registration/correspondence_estimation.h>
+#include <pcl/registration/correspondence_rejection.h>
+#include <pcl/registration/registration.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+
+/** \file
+ * What PCL's users may plug into a registration, as hooks of the core. */
+namespace PCL6D_EXPORTS pcl6d {
+namespace registration {
+
+using Rejector =
+    std::function<std::vector<IcpPair>(const Eigen::Isometry3d&, std::vector<IcpPair>)>;
+
+/** \return one rejector that applies some in turn */
+Rejector
+inTurn(std::vector<Rejector> rejectors);
+
+/** \return a rejector that leaves pairs which are each other's closest
+ * \param[in] target is kept by reference */
+Rejector
+reciprocal(const Points& source, const Points& target, unsigned int num_threads);
+
+/** \throws BadArgument the pointer is null */
+template <typename Pointer>
+void
+requireGiven(const Pointer& pointer, const std::string& name)
+{
+  if (!pointer)
+    throw BadArgument("ICP6D: " + name + " is null");
+}
+
+/** \return given normals, or those estimated if none is of any length
+ * \param[in] tree over the points; null: made here */
+Normals
+givenOrEstimated(Normals given,
+                 const Points& points,
+                 const PointTree* tree,
+                 std::size_t neighbours,
+                 const IcpOptions& options);
+
+template <typename PointT>
+pcl::Indices
+allOf(const pcl::PointCloud<PointT>& cloud)
+{
+  pcl::Indices all(cloud.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/** \return the normals of chosen points of a cloud, whose coordinates are points */
+template <typename PointT>
+Normals
+normalsOf(const pcl::PointCloud<PointT>& cloud,
+          const pcl::Indices& indices,
+          const Points& points,
+          const PointTree* tree,
+          std::size_t neighbours,
+          const IcpOptions& options)
+{
+  Normals given;
+  if constexpr (pcl::traits::has_normal<PointT>::value) {
+    given.reserve(indices.size());
+    for (const auto index : indices)
+      given.emplace_back(cloud[index].getNormalVector3fMap());
+  }
+  return givenOrEstimated(std::move(given), points, tree, neighbours, options);
+}
+
+/** \return the place of each point of a cloud among the searched ones, -1: not searched;
+ * empty if all are \param[in] searched null: all */
+std::vector<int>
+placesIn(const pcl::IndicesConstPtr& searched, std::size_t cloud_size);
+
+/** \return the indices of the points that are finite */
+template <typename PointT>
+pcl::IndicesPtr
+finiteOf(const pcl::PointCloud<PointT>& cloud)
+{
+  const pcl::IndicesPtr finite(new pcl::Indices);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (cloud[i].getVector3fMap().allFinite())
+      finite->push_back(static_cast<int>(i));
+  return finite;
+}
+
+/** \return the search of any class of PCL's, which gives places among searched points */
+template <typename PointT>
+std::function<Neighbour(const Eigen::Vector3f&, float)>
+searchOf(const typename pcl::search::KdTree<PointT>::Ptr& tree)
+{
+  const auto place = placesIn(tree->getIndices(), tree->getInputCloud()->size());
+  return
+      [tree, place](const Eigen::Vector3f& query, float max_distance_sq) -> Neighbour {
+        if (!query.allFinite() || tree->getInputCloud()->empty())
+          return {};
+        PointT point;
+        point.getVector3fMap() = query;
+        pcl::Indices index(1, -1);
+        std::vector<float> distance_sq(1);
+        if (tree->nearestKSearch(point, 1, index, distance_sq) < 1 ||
+            !(distance_sq[0] < max_distance_sq))
+          return {};
+        return {place.empty() ? index[0] : place.at(index[0]), distance_sq[0]};
+      };
+}
+
+/** \return whether icp() itself can do what an estimation does */
+template <typename PointSource,
+          typename PointTarget,
+          typename Scalar,
+          typename Estimation>
+bool
+isOurs(const Estimation& estimation)
+{
+  if constexpr (pcl::traits::has_normal<PointTarget>::value)
+    if (dynamic_cast<const PlaneEstimation<PointSource, PointTarget, Scalar>*>(
+            &estimation))
+      return true;
+  return dynamic_cast<const SumsEstimation<PointSource, PointTarget, Scalar>*>(
+      &estimation);
+}
+
+/** \brief Calls PCL's classes with the source as it lies at a pose. */
+template <typename PointSource, typename PointTarget, typename Scalar>
+class PclAdapter
+: public std::enable_shared_from_this<PclAdapter<PointSource, PointTarget, Scalar>> {
+public:
+  using Registration = pcl::Registration<PointSource, PointTarget, Scalar>;
+  using SourceCloud = pcl::PointCloud<PointSource>;
+  using TargetCloud = pcl::PointCloud<PointTarget>;
+
+  /** \param[in] origin of the core's coordinates [m] */
+  PclAdapter(const typename SourceCloud::ConstPtr& source,
+             const pcl::IndicesConstPtr& indices,
+             const typename TargetCloud::ConstPtr& target,
+             const typename pcl::search::KdTree<PointTarget>::Ptr& tree,
+             const Eigen::Vector3d& origin)
+  : source_(new SourceCloud(*source, *indices))
+  , finite_(finiteOf(*source_))
+  , target_(target)
+  , tree_(tree)
+  , origin_(origin)
+  , place_(placesIn(tree->getIndices(), target->size()))
+  {}
+
+  std::function<std::vector<IcpPair>(const Eigen::Isometry3d&, double)>
+  finder(const typename Registration::CorrespondenceEstimationPtr& estimation,
+         bool reciprocal)
+  {
+    return [self = this->shared_from_this(), estimation, reciprocal](
+               const Eigen::Isometry3d& T, double limit) {
+      self->moveTo(T);
+      estimation->setInputTarget(self->target_);
+      estimation->setSearchMethodTarget(self->tree_, true);
+      estimation->setInputSource(self->moved_);
+      if (self->finite_->size() < self->moved_->size()) // PCL's own search NaN, too
+        estimation->setIndicesSource(self->finite_);
+      if constexpr (pcl::traits::has_normal<PointSource>::value)
+        if (estimation->requiresSourceNormals())
+          estimation->setSourceNormals(self->blob(*self->moved_));
+      if constexpr (pcl::traits::has_normal<PointTarget>::value)
+        if (estimation->requiresTargetNormals())
+          estimation->setTargetNormals(self->blob(*self->target_));
+      pcl::Correspondences found;
+      if (reciprocal)
+        estimation->determineReciprocalCorrespondences(found, limit);
+      else
+        estimation->determineCorrespondences(found, limit);
+      return self->toPairs(found);
+    };
+  }
+
+  Rejector
+  rejector(const typename Registration::CorrespondenceRejectorPtr& rejector)
+  {
+    return [self = this->shared_from_this(),
+            rejector](const Eigen::Isometry3d& T, const std::vector<IcpPair>& pairs) {
+      self->moveTo(T);
+      if (rejector->requiresSourcePoints())
+        rejector->setSourcePoints(self->blob(*self->moved_));
+      if (rejector->requiresTargetPoints())
+        rejector->setTargetPoints(self->blob(*self->target_));
+      if constexpr (pcl::traits::has_normal<PointSource>::value)
+        if (rejector->requiresSourceNormals())
+          rejector->setSourceNormals(self->blob(*self->moved_));
+      if constexpr (pcl::traits::has_normal<PointTarget>::value)
+        if (rejector->requiresTargetNormals())
+          rejector->setTargetNormals(self->blob(*self->target_));
+      rejector->setInputCorrespondences(
+          pcl::make_shared<const pcl::Correspondences>(self->toPcl(pairs)));
+      pcl::Correspondences kept;
+      rejector->getCorrespondences(kept);
+      return self->toPairs(kept);
+    };
+  }
+
+  std::function<RigidEstimate(const Eigen::Isometry3d&, const std::vector<IcpPair>&)>
+  minimiser(const typename Registration::TransformationEstimationPtr& estimation)
+  {
+    return [self = this->shared_from_this(),
+            estimation](const Eigen::Isometry3d& T, const std::vector<IcpPair>& pairs) {
+      self->moveTo(T);
+      // Some estimations of PCL print what they miss, and leave the motion as it was.
+      typename Registration::Matrix4 motion =
+          Registration::Matrix4::Constant(std::numeric_limits<Scalar>::quiet_NaN());
+      estimation->estimateRigidTransformation(
+          *self->moved_, *self->target_, self->toPcl(pairs), motion);
+      RigidEstimate step{Status::kOk, Eigen::Isometry3d::Identity()};
+      step.transform.matrix() = motion.template cast<double>();
+      step.transform.translate(self->origin_);
+      step.transform.pretranslate(-self->origin_);
+      return step;
+    };
+  }
+
+private:
+  /** Moves the source to a pose of the core. */
+  void
+  moveTo(const Eigen::Isometry3d& T)
+  {
+    Eigen::Isometry3d T_target = T;
+    T_target.pretranslate(origin_);
+    moved_.reset(new SourceCloud);
+    if constexpr (pcl::traits::has_normal<PointSource>::value)
+      pcl::transformPointCloudWithNormals(*source_, *moved_, T_target.matrix());
+    else
+      pcl::transformPointCloud(*source_, *moved_, T_target.matrix());
+  }
+
+  template <typename PointT>
+  static pcl::PCLPointCloud2::Ptr
+  blob(const pcl::PointCloud<PointT>& cloud)
+  {
+    const pcl::PCLPointCloud2::Ptr blob(new pcl::PCLPointCloud2);
+    pcl::toPCLPointCloud2(cloud, *blob);
+    return blob;
+  }
+
+  pcl::Correspondences
+  toPcl(const std::vector<IcpPair>& pairs) const
+  {
+    const auto searched = tree_->getIndices();
+    pcl::Correspondences found;
+    found.reserve(pairs.size());
+    for (const auto& pair : pairs)
+      found.emplace_back(pair.source,
+                         searched ? (*searched)[pair.target] : pair.target,
+                         pair.distance_sq);
+    return found;
+  }
+
+  /** Pairs with points that are not searched are left out. */
+  std::vector<IcpPair>
+  toPairs(const pcl::Correspondences& found) const
+  {
+    std::vector<IcpPair> pairs;
+    pairs.reserve(found.size());
+    for (const auto& pair : found) {
+      const int target =
+          place_.empty() ? pair.index_match : place_.at(pair.index_match);
+      if (pair.index_query >= 0 && target >= 0)
+        pairs.push_back({pair.index_query, target, pair.distance});
+    }
+    return pairs;
+  }
+
+  typename SourceCloud::Ptr source_; ///< the chosen points
+  pcl::IndicesPtr finite_;           ///< of them
+  typename SourceCloud::Ptr moved_;
+  typename TargetCloud::ConstPtr target_;
+  typename pcl::search::KdTree<PointTarget>::Ptr tree_;
+  Eigen::Vector3d origin_;
+  std::vector<int> place_; ///< in the tree, of each target point; empty: its index
+};
+
+} // namespace registration
+} // namespace pcl6d

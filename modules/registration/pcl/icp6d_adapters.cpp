@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/registration/pcl/impl/icp6d_adapters.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace pcl6d {
+namespace registration {
+
+Rejector
+inTurn(std::vector<Rejector> rejectors)
+{
+  return [rejectors = std::move(rejectors)](const Eigen::Isometry3d& T,
+                                            std::vector<IcpPair> pairs) {
+    for (const auto& rejector : rejectors)
+      pairs = rejector(T, std::move(pairs));
+    return pairs;
+  };
+}
+
+Rejector
+reciprocal(const Points& source, const Points& target, unsigned int num_threads)
+{
+  const auto tree = std::make_shared<const PointTree>(source, num_threads);
+  return [tree, &target](const Eigen::Isometry3d& T, std::vector<IcpPair> pairs) {
+    const Eigen::Isometry3d T_source_target = T.inverse();
+    const auto denied = [&](const IcpPair& pair) {
+      const Eigen::Vector3d p = T_source_target * target[pair.target].cast<double>();
+      return tree->nearest(p.cast<float>(), std::numeric_limits<float>::infinity())
+                 .index != pair.source;
+    };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), denied), pairs.end());
+    return pairs;
+  };
+}
+
+std::vector<int>
+placesIn(const pcl::IndicesConstPtr& searched, std::size_t cloud_size)
+{
+  if (!searched)
+    return {};
+  std::vector<int> places(cloud_size, -1);
+  for (std::size_t i = 0; i < searched->size(); ++i)
+    places.at((*searched)[i]) = static_cast<int>(i);
+  return places;
+}
+
+Normals
+givenOrEstimated(Normals given,
+                 const Points& points,
+                 const PointTree* tree,
+                 std::size_t neighbours,
+                 const IcpOptions& options)
+{
+  const bool are_given = std::any_of(given.begin(), given.end(), [](const auto& n) {
+    return n.allFinite() && !n.isZero(0);
+  });
+  if (are_given)
+    return given;
+  if (tree)
+    return estimateNormals(points, *tree, neighbours, options.num_threads);
+  return estimateNormals(
+      points, PointTree(points, options.num_threads), neighbours, options.num_threads);
+}
+
+} // namespace registration
+} // namespace pcl6d

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coarse/feature_scan.h"
+
+#include <array>
+#include <vector>
+
+namespace pcl6d::registration {
+
+constexpr std::size_t kFpfhSize = 33;
+using Fpfh = std::array<float, kFpfhSize>;
+
+/** \brief Describes points by PCL's fast point feature histograms, of which every third
+ * sums up to 100. PCL computes the histograms; the neighbours come from our tree, in a
+ * fixed order, and the work from our threads. \param[in] radius [m] of the surroundings
+ * \return one per point; zeros for a point without normal or neighbours
+ * \note Source: R. B. Rusu, N. Blodow, M. Beetz, "Fast point feature histograms (FPFH)
+ * for 3D registration", ICRA 2009. */
+std::vector<Fpfh>
+computeFpfh(const FeatureScan& scan, double radius, unsigned int num_threads);
+
+} // namespace pcl6d::registration

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/registration/icp.h>
+
+#include <vector>
+
+namespace pcl6d::registration {
+
+/** What a source point knows of its neighbour in the target; one cache line. */
+struct alignas(64) Partner {
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< the neighbour, target's frame
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< there, of unit length, for the
+                                                    ///< metrics with normals
+  Eigen::Vector3f searched_at = Eigen::Vector3f::Constant(
+      std::numeric_limits<float>::infinity()); ///< where the source point was then
+  float others = 0; ///< [m] all other points were no nearer to searched_at than this
+  int index = -1;   ///< of the neighbour in its part; -1: none within others
+  int part = -1;
+  float distance_sq = 0; ///< [m^2] at the last pose
+  float weight = 0;      ///< of the pair at the last pose; 0: no pair
+  bool usable = false;   ///< the neighbour and its normal are what the metric needs
+};
+
+/** The closest pairs at one pose after the other. Whether another point has become the
+ * nearest is known without a search as long as the source point has not moved half-way from
+ * its neighbour to the next one: exact. */
+class CorrespondenceSearch {
+public:
+  static constexpr std::size_t kBlockSize = 256; ///< source points
+
+  CorrespondenceSearch(const IcpTarget& target,
+                       const IcpSource& source,
+                       const IcpOptions& options);
+
+  /** Finds the pairs at a pose.
+   * \param[in] limit [m] largest distance of a pair, exclusive
+   * \param[in] next_motion [m] how far points are likely to move in further iterations
+   * \param[in] stride only every n-th source point is looked at */
+  void
+  update(const Eigen::Isometry3d& T_target_source,
+         double limit,
+         double next_motion,
+         int stride);
+
+  /** Takes the pairs of a caller instead. \throws BadArgument an index is out of range */
+  void
+  setPairs(const std::vector<IcpPair>& pairs);
+
+  /** \return the pairs that count */
+  std::vector<IcpPair>
+  pairs() const;
+
+  std::vector<Partner>&
+  partners()
+  {
+    return partners_;
+  }
+
+  /** \return their number */
+  std::size_t
+  count() const;
+
+  /** \return the number of searches in the last update() */
+  std::size_t
+  searched() const;
+
+private:
+  /** A pose, and what is needed to look for neighbours there. */
+  struct Look;
+  std::size_t
+  updateBlock(const Look& look, const Block& block);
+  void
+  search(const Look& look, std::size_t i, const Eigen::Vector3f& p, float own);
+  /** \return whether best is now a point of the part; a candidate is one */
+  bool
+  searchPart(const Look& look,
+             std::size_t i,
+             int place,
+             int candidate,
+             TwoNearest& best) const;
+  void
+  setPartner(std::size_t i, int part, int index);
+  bool
+  isUsable(std::size_t i) const;
+  bool
+  facesAlike(const Look& look, std::size_t i) const;
+
+  const IcpTarget& target_;
+  const Points& source_;
+  const Normals* source_normals_; ///< null unless the metric needs them
+  const IcpOptions& options_;
+  float frames_ =
+      0; ///< [m] largest distance of a part's origin from that of the target
+  std::vector<char> is_identity_; ///< T_target_part, per part
+  std::vector<Partner> partners_;
+  std::vector<std::size_t> searched_; ///< per block
+};
+
+} // namespace pcl6d::registration

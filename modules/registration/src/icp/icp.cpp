@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icp/correspondence_search.h"
+#include "icp/icp_metric.h"
+
+#include <pcl6d/common/name_table.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/common/rotation.h>
+#include <pcl6d/registration/icp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace pcl6d {
+using namespace registration;
+
+namespace {
+/** Makes an accumulated motion exactly rigid again, so that rounding does not add up. */
+Eigen::Isometry3d
+rigid(Eigen::Isometry3d T)
+{
+  T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
+  return T;
+}
+
+std::size_t
+countFinite(const Points& points)
+{
+  return std::count_if(
+      points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
+}
+
+/** \return the largest coordinate of the source points [m]: turns move them by about so
+ * much */
+double
+extentOf(const Points& points)
+{
+  float largest = 0;
+  for (const auto& p : points)
+    if (p.allFinite())
+      largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+constexpr std::size_t kSample = 400; ///< pairs: a few per cent of error, under 1 ms
+constexpr std::size_t kNeighbours = 10;
+
+/** \return the k-th of count places in [0, size): multiples of the golden section, which
+ * keep no step with scan lines or faces that take turns; all places if count is size */
+std::size_t
+spread(std::size_t k, std::size_t count, std::size_t size)
+{
+  if (count == size)
+    return k;
+  constexpr double kGolden = 0.6180339887498949;
+  const double share = kGolden * static_cast<double>(k);
+  return static_cast<std::size_t>((share - std::floor(share)) *
+                                  static_cast<double>(size));
+}
+
+/** \return the normal at a partner, in the target's frame */
+Eigen::Vector3d
+normalOf(const IcpTargetPart& part, const Partner& partner)
+{
+  const Eigen::Vector3f& point = (*part.points)[partner.index];
+  const Eigen::Vector3f normal =
+      part.normals ? (*part.normals)[partner.index]
+                   : normalAt(point, *part.tree, *part.points, kNeighbours);
+  return part.T_target_part.linear() * normal.cast<double>();
+}
+
+/** Localizability from a sample of the pairs; normals that the target lacks are
+ * estimated at the sampled points.
+ * \return none without a pair, or if a part with a sampled point has neither normals nor
+ * a tree */
+std::optional<Localizability>
+localizabilityOf(const IcpTarget& target,
+                 const Points& source,
+                 const Eigen::Isometry3d& T_target_source,
+                 const std::vector<Partner>& partners)
+{
+  std::vector<std::size_t> paired;
+  for (std::size_t i = 0; i < partners.size(); ++i)
+    if (partners[i].weight > 0)
+      paired.push_back(i);
+  const std::size_t count = std::min(kSample, paired.size());
+  PlaneAccumulator sums;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = paired[spread(k, count, paired.size())];
+    const Partner& partner = partners[i];
+    const IcpTargetPart& part = target[partner.part];
+    if (!part.normals && !part.tree)
+      return std::nullopt;
+    sums.add(T_target_source * source[i].cast<double>(),
+             partner.point.cast<double>(),
+             normalOf(part, partner));
+  }
+  if (sums.sums().count == 0)
+    return std::nullopt;
+  return localizabilityOf(sums.sums());
+}
+
+class IcpRun {
+public:
+  IcpRun(const IcpTarget& target,
+         const IcpSource& source,
+         const IcpOptions& options,
+         const IcpHooks& hooks)
+  : target_(target)
+  , source_(*source.points)
+  , o_(options)
+  , hooks_(hooks)
+  , finder_(target, source, options)
+  , problem_(source, options)
+  , extent_(extentOf(*source.points))
+  {}
+
+  IcpResult
+  run(const Eigen::Isometry3d& guess)
+  {
+    result_.T_target_source = guess;
+    result_.stop = IcpStop::kIterationLimit;
+    double limit = std::max(o_.max_distance, o_.max_distance_start);
+    for (int i = 1; i <= o_.max_iterations; ++i) {
+      result_.iterations = i;
+      if (const auto stop = iterate(limit)) {
+        result_.stop = *stop;
+        break;
+      }
+      limit = std::max(o_.max_distance, o_.distance_decay * limit);
+    }
+    result_.status = statusOf(result_.stop);
+    if (result_.status == Status::kTooFewPairs || result_.status == Status::kDiverged)
+      result_.T_target_source = guess;
+    finish();
+    return result_;
+  }
+
+private:
+  /** One step. \return why to stop, if so */
+  std::optional<IcpStop>
+  iterate(double limit)
+  {
+    findPairs(limit);
+    MetricStep step = problem_.step(result_.T_target_source, finder_.partners());
+    if (hooks_.minimise && step.pairs >= 3)
+      step.motion = hooks_.minimise(result_.T_target_source, finder_.pairs());
+    if (step.pairs < 3 || step.motion.status == Status::kTooFewPairs)
+      return IcpStop::kTooFewPairs;
+    const Eigen::Isometry3d& motion = step.motion.transform;
+    if (step.motion.status == Status::kDiverged || !motion.matrix().allFinite() ||
+        hasGrown(step, limit))
+      return IcpStop::kDiverged;
+    is_unique_ = step.motion.status == Status::kOk;
+    result_.T_target_source = rigid(motion * result_.T_target_source);
+    return observe(step, limit);
+  }
+
+  void
+  findPairs(double limit)
+  {
+    const Eigen::Isometry3d& T = result_.T_target_source;
+    if (hooks_.find)
+      finder_.setPairs(hooks_.find(T, limit));
+    else
+      finder_.update(
+          T, limit, next_motion_, limit > o_.max_distance ? o_.shrinking_stride : 1);
+    if (hooks_.reject)
+      finder_.setPairs(hooks_.reject(T, finder_.pairs()));
+    pairs_found_ = finder_.count();
+    problem_.weigh(T, finder_.partners());
+  }
+
+  /** Whether the error is more than three times its best at this limit, with no more pairs
+   * to show for it, and more than rounding. */
+  bool
+  hasGrown(const MetricStep& step, double limit)
+  {
+    if (limit > o_.max_distance)
+      return false;
+    const double rounding = 0.01 * std::min(o_.max_distance, extent_);
+    if (step.residual > 3 * least_residual_ && step.residual > rounding &&
+        step.pairs <= pairs_at_least_)
+      return true;
+    if (step.residual < least_residual_) {
+      least_residual_ = step.residual;
+      pairs_at_least_ = step.pairs;
+    }
+    return false;
+  }
+
+  /** Tells the observer. \return why to stop, if so */
+  std::optional<IcpStop>
+  observe(const MetricStep& step, double limit)
+  {
+    IcpIteration seen;
+    seen.number = result_.iterations;
+    seen.pairs = step.pairs;
+    seen.rms = step.rms;
+    seen.max_distance = limit;
+    // The length of the step is that of the points' centroid: it does not depend on
+    // where the origin is, as the translation part of the motion would.
+    seen.translation = (step.motion.transform * step.centroid - step.centroid).norm();
+    seen.rotation = rotationAngle(step.motion.transform.linear());
+    seen.searched = finder_.searched();
+    seen.T_target_source = result_.T_target_source;
+    next_motion_ = likelyMotion(seen);
+    if (hooks_.observer && !hooks_.observer(seen))
+      return IcpStop::kObserver;
+    if (limit <= o_.max_distance && seen.translation <= o_.translation_epsilon &&
+        seen.rotation <= o_.rotation_epsilon)
+      return IcpStop::kAtRest;
+    return std::nullopt;
+  }
+
+  /** \return how far points will move before they are at rest, [m]; 0 while that is so far
+   * that to remember neighbours does not pay: for speed only */
+  double
+  likelyMotion(const IcpIteration& last) const
+  {
+    const double motion = last.translation + last.rotation * extent_;
+    return motion > last.rms ? 0 : std::min(4 * motion, last.rms);
+  }
+
+  Status
+  statusOf(IcpStop stop) const
+  {
+    switch (stop) {
+    case IcpStop::kAtRest:
+      return is_unique_ ? Status::kOk : Status::kRankDeficient;
+    case IcpStop::kIterationLimit:
+    case IcpStop::kObserver:
+      return Status::kMaxIterations;
+    case IcpStop::kDiverged:
+      return Status::kDiverged;
+    case IcpStop::kTooFewPairs:
+      break;
+    }
+    return Status::kTooFewPairs;
+  }
+
+  /** Rates the final pose. */
+  void
+  finish()
+  {
+    next_motion_ = 0;
+    findPairs(o_.max_distance);
+    const std::size_t finite = countFinite(source_);
+    result_.overlap = finite > 0 ? static_cast<double>(pairs_found_) / finite : 0;
+    problem_.rate(finder_.partners(), result_);
+    result_.localizability =
+        localizabilityOf(target_, source_, result_.T_target_source, finder_.partners());
+    if (result_.status == Status::kOk && result_.localizability &&
+        result_.localizability->openDirections() > 0)
+      result_.status = Status::kRankDeficient;
+    if (result_.status == Status::kRankDeficient)
+      result_.covariance.reset();
+  }
+
+  const IcpTarget& target_;
+  const Points& source_;
+  const IcpOptions& o_;
+  const IcpHooks& hooks_;
+  CorrespondenceSearch finder_;
+  IcpMetric problem_;
+  double extent_;
+  IcpResult result_;
+  bool is_unique_ = true; ///< of the last step: the pairs fixed it
+  double next_motion_ = 0;
+  std::size_t pairs_found_ = 0; ///< before trimming
+  double least_residual_ = std::numeric_limits<double>::infinity();
+  std::size_t pairs_at_least_ = 0;
+};
+
+void
+requireNormals(const Normals* normals, const Points& points, const char* whose)
+{
+  require(normals && normals->size() == points.size(),
+          whose,
+          normals ? normals->size() : 0,
+          "one per point for this metric");
+}
+
+void
+requireUsable(const IcpTarget& target,
+              const IcpSource& source,
+              const IcpOptions& options,
+              const IcpHooks& hooks)
+{
+  options.validate();
+  require(source.points != nullptr, "source points", "null", "given");
+  if (options.metric == Metric::kGicp)
+    requireNormals(source.normals, *source.points, "source normals");
+  for (const auto& part : target) {
+    require(part.points && (part.tree || part.search || hooks.find),
+            "target part",
+            "null",
+            "points with a tree or a search");
+    if (part.normals || options.metric != Metric::kPoint)
+      requireNormals(part.normals, *part.points, "target normals");
+  }
+  require(target.size() == 1 || !(hooks.find || hooks.reject || hooks.minimise),
+          "parts of the target",
+          target.size(),
+          "1 with hooks of pairs");
+}
+} // namespace
+
+const char*
+toString(IcpStop stop)
+{
+  constexpr Named<IcpStop> kStops[] = {{IcpStop::kAtRest, "at rest"},
+                                       {IcpStop::kIterationLimit, "iteration limit"},
+                                       {IcpStop::kObserver, "observer"},
+                                       {IcpStop::kTooFewPairs, "too few pairs"},
+                                       {IcpStop::kDiverged, "diverged"}};
+  return nameOf(kStops, stop);
+}
+
+IcpResult
+icp(const IcpTarget& target,
+    const IcpSource& source,
+    const Eigen::Isometry3d& guess,
+    const IcpOptions& options,
+    const IcpHooks& hooks)
+{
+  requireUsable(target, source, options, hooks);
+  return IcpRun(target, source, options, hooks).run(guess);
+}
+
+IcpResult
+icp(const PointTree& target,
+    const Points& target_points,
+    const Points& source,
+    const Eigen::Isometry3d& guess,
+    const IcpOptions& options,
+    const RigidMinimiser& minimiser,
+    const IcpObserver& observer)
+{
+  IcpOptions of_points = options;
+  of_points.metric = Metric::kPoint;
+  of_points.minimiser = minimiser;
+  IcpTargetPart part;
+  part.tree = &target;
+  part.points = &target_points;
+  IcpHooks hooks;
+  hooks.observer = observer;
+  return icp({part}, {&source}, guess, of_points, hooks);
+}
+
+} // namespace pcl6d

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "icp/correspondence_search.h"
+
+namespace pcl6d::registration {
+
+/** \brief The pairs of one pose, summed up, and the step that follows from them. */
+struct MetricStep {
+  std::size_t pairs = 0;
+  double rms = 0;      ///< [m] distance of the pairs
+  double residual = 0; ///< [m] rms of what the metric minimises
+  Eigen::Vector3d centroid =
+      Eigen::Vector3d::Zero(); ///< of the moved source points [m]
+  RigidEstimate motion;        ///< in the target's frame, to be put before the pose
+};
+
+/** \brief One metric over the pairs of a CorrespondenceSearch. */
+class IcpMetric {
+public:
+  IcpMetric(const IcpSource& source, const IcpOptions& options)
+  : source_(source), options_(options)
+  {}
+
+  /** Applies trimming and robust weights to the pairs, if they are asked for. */
+  void
+  weigh(const Eigen::Isometry3d& T, std::vector<Partner>& partners) const;
+
+  /** \return the best step from a pose */
+  MetricStep
+  step(const Eigen::Isometry3d& T, const std::vector<Partner>& partners) const;
+
+  /** Fills in how well the pairs fix the pose. */
+  void
+  rate(const std::vector<Partner>& partners, IcpResult& result) const;
+
+private:
+  PairSums
+  pairSums(const Eigen::Isometry3d& T, const std::vector<Partner>& partners) const;
+  PlaneSums
+  planeSums(const Eigen::Isometry3d& T, const std::vector<Partner>& partners) const;
+
+  /** N of a pair, for kGicp. */
+  Eigen::Matrix3d
+  normOf(const Eigen::Isometry3d& T, const Partner& partner, std::size_t i) const;
+
+  const IcpSource& source_;
+  const IcpOptions& options_;
+};
+
+} // namespace pcl6d::registration

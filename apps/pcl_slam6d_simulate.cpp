@@ -65,14 +65,17 @@ writeSceneFile(const fs::path& path,
   nlohmann::ordered_json json = {{"schema_version", 1},
                                  {"generator", kSimulate},
                                  {"scene", s.scene.name},
-                                 {"seed", s.seed},
+                                 {"seed", s.simulation.seed},
                                  {"scans", s.simulation.num_scans},
-                                 {"scanner", s.scanner.name},
+                                 {"scanner", s.scanner},
                                  {"noise", s.simulation.range.noise}};
-  json.update(app::describedDrive(s.drive, simulator));
-  if (!s.scanner.resolution.is_auto)
-    json["resolution"] = s.scanner.resolution.value;
-  if (s.scanner.exact)
+  if (s.simulation.motion == ScanMotion::kContinuous)
+    json["motion"] = {{"kind", "continuous"}, {"speed", simulator.speed()}};
+  if (s.odometry != SimulateSettings().odometry)
+    json["odometry"] = s.odometry;
+  if (s.resolution)
+    json["resolution"] = *s.resolution;
+  if (s.exact)
     json["exact"] = true;
   if (s.simulation.range.max_range != RangeOptions().max_range)
     json["max_range"] = s.simulation.range.max_range;
@@ -136,7 +139,7 @@ printSummary(const SimulateSettings& s, const Simulator& simulator)
               "written to %s: scan*.pcd odometry.txt groundtruth.txt %s%s%s\n",
               s.scene.name.c_str(),
               simulator.size(),
-              static_cast<long long>(s.seed),
+              static_cast<long long>(s.simulation.seed),
               std::sqrt(sum_sq / static_cast<double>(simulator.size())),
               largest,
               s.out.c_str(),
@@ -152,7 +155,9 @@ run(const std::vector<std::string>& arguments)
   if (!app::parseSettings(arguments, s))
     return app::kDone;
   const SimulationScene scene = app::sceneOf(s);
-  const Simulator simulator = app::startDrive(scene, s.simulation);
+  std::optional<Simulator> drive;
+  app::checkOptions([&] { drive.emplace(scene, s.simulation); });
+  const Simulator& simulator = *drive;
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))
     throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");

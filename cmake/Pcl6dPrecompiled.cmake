@@ -28,7 +28,7 @@ function(_pcl6d_add_precompiled owner kind)
     <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <iostream>
     <map> <memory> <optional> <set> <sstream> <string> <utility> <vector>
     <Eigen/Core> <Eigen/Geometry>
-    <pcl/exceptions.h> <pcl/point_cloud.h> <pcl/point_types.h> <pcl/types.h>)
+    <pcl/exceptions.h> <pcl/point_cloud.h> <pcl/types.h>)
   if(kind STREQUAL "library")
     set_target_properties(${owner} PROPERTIES
       POSITION_INDEPENDENT_CODE ON

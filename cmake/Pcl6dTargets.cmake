@@ -30,6 +30,8 @@ function(_pcl6d_library_rules target module)
     DEFINE_SYMBOL ""
     CXX_VISIBILITY_PRESET hidden # shown: what public headers declare (export.h)
     VISIBILITY_INLINES_HIDDEN ON
+    UNITY_BUILD ${PCL6D_UNITY_BUILD}
+    UNITY_BUILD_BATCH_SIZE 8
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(pcl6d_${target} PUBLIC cxx_std_17)
@@ -39,17 +41,19 @@ function(_pcl6d_library_rules target module)
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${module})
 endfunction()
 
-# pcl6d_add_module(NAME BOOK chapters HOLDS text FLOOR n SOURCES ... [DEPENDS module ...]
-#                  [PCL_COMPONENTS ...] [LINK public targets ...]
+# pcl6d_add_module(NAME BOOK chapters HOLDS text FLOOR n SOURCES ... [ALONE sources ...]
+#                  [DEPENDS module ...] [PCL_COMPONENTS ...] [LINK public targets ...]
 #                  [LINK_PRIVATE targets ...])
 # makes the shared library pcl6d::NAME. A module may depend only on lower floors. BOOK and
 # HOLDS are for the map of the rooms (CONTRIBUTING.md).
 function(pcl6d_add_module name)
   cmake_parse_arguments(ARG "" "BOOK;HOLDS;FLOOR"
-    "SOURCES;DEPENDS;PCL_COMPONENTS;LINK;LINK_PRIVATE" ${ARGN})
+    "SOURCES;ALONE;DEPENDS;PCL_COMPONENTS;LINK;LINK_PRIVATE" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_module(${name})")
   set(target pcl6d_${name})
   add_library(${target} SHARED ${ARG_SOURCES})
+  # Sources whose own names (of unnamed namespaces) are also names of others beside them.
+  set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   _pcl6d_library_rules(${name} ${name})
   set_target_properties(${target} PROPERTIES PCL6D_FLOOR ${ARG_FLOOR})
   target_include_directories(${target}

@@ -47,9 +47,12 @@ try {
   return report(name, e.what(), kFailed);
 }
 
+namespace {
+/** \brief Calls check and turns its BadArgument into a UsageError about the option that
+ * stands for the name that the library gives. */
 void
-checkOptions(const std::function<void()>& check,
-             const std::map<std::string, std::string>& words)
+checkRenamed(const std::function<void()>& check,
+             const std::function<std::string(const std::string&)>& optionOf)
 try {
   check();
 } catch (const BadArgument& e) {
@@ -58,12 +61,26 @@ try {
   std::smatch match;
   if (!std::regex_match(message, match, kRule))
     throw UsageError(message);
-  std::string option = match[1];
-  const auto word = words.find(option);
-  if (word != words.end())
-    option = word->second;
-  std::replace(option.begin(), option.end(), '_', '-');
-  throw UsageError("--" + option + match[2].str());
+  throw UsageError("--" + optionOf(match[1]) + match[2].str());
+}
+} // namespace
+
+void
+checkOptions(const std::function<void()>& check,
+             const std::map<std::string, std::string>& words)
+{
+  checkRenamed(check, [&](const std::string& field) {
+    const auto word = words.find(field);
+    std::string option = word == words.end() ? field : word->second;
+    std::replace(option.begin(), option.end(), '_', '-');
+    return option;
+  });
+}
+
+void
+checkOption(const std::string& option, const std::function<void()>& check)
+{
+  checkRenamed(check, [&](const std::string&) { return option; });
 }
 
 void

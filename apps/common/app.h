@@ -41,6 +41,10 @@ void
 checkOptions(const std::function<void()>& check,
              const std::map<std::string, std::string>& words = {});
 
+/** \brief As checkOptions(), of one option, whatever the library calls it. */
+void
+checkOption(const std::string& option, const std::function<void()>& check);
+
 /** \brief Makes sure that what was printed has arrived. \throws IoFailed it has not */
 void
 flushOutput();

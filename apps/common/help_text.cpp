@@ -82,7 +82,7 @@ helpColumns()
 }
 
 std::string
-optionTable(const po::options_description& options, int columns)
+helpLines(const po::options_description& options, int columns)
 {
   const auto width = static_cast<std::size_t>(columns);
   std::size_t longest = 0;

@@ -17,6 +17,6 @@ helpColumns();
  * behind the bars of a list of words, with the continuation below the description; two
  * spaces or more in front of that */
 std::string
-optionTable(const boost::program_options::options_description& options, int columns);
+helpLines(const boost::program_options::options_description& options, int columns);
 
 } // namespace pcl6d::app

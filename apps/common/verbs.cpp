@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "common/verbs.h"
 
 #include <iomanip>
@@ -45,7 +45,7 @@ run(const VerbProgram& program, const Arguments& arguments)
     if (word == verb.name)
       return verb.run({arguments.begin() + 1, arguments.end()});
   if (word == "--version")
-    CommandLine("").parse({word});
+    OptionTable("").parse({word});
   else if (word == "--help" || word == "-h")
     printHelp(program);
   else

@@ -2,6 +2,7 @@
 #include "common/app.h"
 #include "common/interrupt.h"
 #include "common/open_scans.h"
+#include "common/option_table.h"
 #include "common/progress_bar.h"
 #include "convert/joined_layout.h"
 #include "convert/loss_tally.h"
@@ -33,8 +34,8 @@ public:
   , bar_(settings.quiet)
   {
     for (std::size_t i = 0; i < source_.folder().size(); ++i)
-      refuseAsOutput(source_.folder().file(i));
-    refuseAsOutput(settings.folder.poses_file);
+      refuseInputs(settings_.output, {source_.folder().file(i).string()});
+    refuseInputs(settings.output, {settings.folder.poses_file.string()});
   }
 
   int
@@ -58,15 +59,6 @@ public:
   }
 
 private:
-  void
-  refuseAsOutput(const fs::path& input) const
-  {
-    std::error_code missing;
-    if (fs::equivalent(settings_.output, input, missing))
-      throw UsageError("--output = " + settings_.output.string() +
-                       ", but that is an input");
-  }
-
   void
   advance(const char* stage, std::size_t i)
   {

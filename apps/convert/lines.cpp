@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "convert/verbs.h"
 
 #include <pcl6d/common/angle.h>
-#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/io/pcd_io.h>
@@ -16,12 +15,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
+#include <optional>
 
 namespace pcl6d::app {
 
 namespace {
-namespace po = boost::program_options;
 /** \brief Three numbers in one word: 0.1,0,-0.05 */
 struct Triple {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
@@ -49,65 +47,57 @@ struct LinesSettings {
   std::string input;
   std::string angles;
   std::string output;
-  std::string drive = "pitching";
   bool continuous = false;
-  double beam_first = -90; // [deg]
-  double beam_last = 90;   // [deg]
-  Triple mounting;         // [deg]
-  bool has_mounting = false;
+  double beam_first = -90;         // [deg]
+  double beam_last = 90;           // [deg]
+  std::optional<Triple> mounting;  // [deg] none: as suits the drive
   Triple lever_arm, axis_position; // [m]
   double range_unit = 1;           // [m]
   LineAssemblyOptions options;
 };
 
 void
-describe(LinesSettings& s, CommandLine& line)
+addOptions(OptionTable& table, LinesSettings& s)
 {
-  line.group("Files").add_options() //
-      ("angles",
-       po::value(&s.angles)->value_name("FILE"),
-       "CSV of the drive: angle [deg] and, if there is a second column, time [s]; "
-       "LINES.csv then holds ranges only") //
-      ("range-unit",
-       valueOf(s.range_unit)->value_name("M"),
-       "[m] of one unit of the ranges; 0.001 for millimetres") //
-      ("output,o", po::value(&s.output)->value_name("FILE")->required(), "PCD file");
-  line.group("Scanner").add_options() //
-      ("drive",
-       valueOf(s.drive)->value_name("NAME"),
-       "pitching|rolling|yawing: about y (positive looks up), x or z") //
-      ("continuous",
-       po::bool_switch(&s.continuous),
-       "the drive turns on during a line; without: it stands still") //
-      ("beam-first",
-       valueOf(s.beam_first)->value_name("DEG"),
-       "[deg] direction of the first range in the 2D scanner's plane, from its x axis "
-       "to its y axis")                                                               //
-      ("beam-last", valueOf(s.beam_last)->value_name("DEG"), "[deg] of the last one") //
-      ("mounting",
-       po::value(&s.mounting)->value_name("R,P,Y"),
-       "[deg] roll, pitch, yaw of the 2D scanner on the drive; default 0,0,0, for a "
-       "yawing drive 90,0,0: its fan stands upright") //
-      ("lever-arm",
-       valueOf(s.lever_arm)->value_name("X,Y,Z"),
-       "[m] from the drive's axis to the 2D scanner's centre, turning with the "
-       "drive") //
-      ("axis-position",
-       valueOf(s.axis_position)->value_name("X,Y,Z"),
-       "[m] of the axis in the frame of the scan")(
-          "min-range",
-          valueOf(s.options.min_range),
-          "[m] shorter ranges are no return") //
-      ("max-range", valueOf(s.options.max_range), "[m] longer ranges are no return");
-}
-
-Drive
-driveFromName(const std::string& name)
-{
-  constexpr Named<Drive> kDrives[] = {{Drive::kPitching, "pitching"},
-                                      {Drive::kRolling, "rolling"},
-                                      {Drive::kYawing, "yawing"}};
-  return fromName(kDrives, "drive", name, WordList::kOr);
+  DrivenScannerOptions& scanner = s.options.scanner;
+  table.positional("LINES.csv", &s.input);
+  table.group("Files");
+  table.add("angles FILE", &s.angles)
+      .help("CSV of the drive: angle [deg] and, if there is a second column, time [s]; "
+            "LINES.csv then holds ranges only");
+  table.add("range-unit M", &s.range_unit)
+      .above(0, "> 0 and finite", kFinite)
+      .help("[m] of one unit of the ranges; 0.001 for millimetres");
+  table.add("output,o FILE", &s.output).required().help("PCD file");
+  table.group("Scanner");
+  scanner.drive = Drive::kPitching;
+  table
+      .add("drive NAME",
+           &scanner.drive,
+           {{"pitching", Drive::kPitching},
+            {"rolling", Drive::kRolling},
+            {"yawing", Drive::kYawing}})
+      .help("pitching|rolling|yawing: about y (positive looks up), x or z");
+  table.add("continuous", &s.continuous)
+      .help("the drive turns on during a line; without: it stands still");
+  table.add("beam-first DEG", &s.beam_first)
+      .within(-360, 360, "within a full turn")
+      .help("[deg] direction of the first range in the 2D scanner's plane, from its x "
+            "axis to its y axis");
+  table.add("beam-last DEG", &s.beam_last)
+      .within(-360, 360, "within a full turn")
+      .help("[deg] of the last one");
+  table.add("mounting R,P,Y", &s.mounting)
+      .help(
+          "[deg] roll, pitch, yaw of the 2D scanner on the drive; default 0,0,0, for a "
+          "yawing drive 90,0,0: its fan stands upright");
+  table.add("lever-arm X,Y,Z", &s.lever_arm)
+      .help("[m] from the drive's axis to the 2D scanner's centre, turning with the "
+            "drive");
+  table.add("axis-position X,Y,Z", &s.axis_position)
+      .help("[m] of the axis in the frame of the scan");
+  table.add("min-range", &s.options.min_range).help("[m] shorter ranges are no return");
+  table.add("max-range", &s.options.max_range).help("[m] longer ranges are no return");
 }
 
 /** Moves the words into the library's options. */
@@ -115,21 +105,13 @@ void
 applyWords(LinesSettings& s)
 {
   DrivenScannerOptions& scanner = s.options.scanner;
-  scanner.drive = driveFromName(s.drive);
   scanner.motion = s.continuous ? DriveMotion::kContinuous : DriveMotion::kStepped;
-  require(s.range_unit > 0 && std::isfinite(s.range_unit),
-          "range_unit",
-          s.range_unit,
-          "> 0 and finite");
-  for (const auto& [name, value] :
-       {std::pair("beam_first", s.beam_first), std::pair("beam_last", s.beam_last)})
-    require(std::abs(value) <= 360, name, value, "within a full turn");
   scanner.beam.first = s.beam_first * kDegree;
   scanner.beam.last = s.beam_last * kDegree;
-  if (!s.has_mounting && scanner.drive == Drive::kYawing)
-    s.mounting.value = {90, 0, 0};
-  require(s.mounting.value.allFinite(), "mounting", s.mounting, "finite");
-  const Eigen::Vector3d angles = s.mounting.value * kDegree;
+  const bool upright = scanner.drive == Drive::kYawing;
+  const Triple mounting = s.mounting.value_or(Triple{{upright ? 90. : 0., 0, 0}});
+  require(mounting.value.allFinite(), "mounting", mounting, "finite");
+  const Eigen::Vector3d angles = mounting.value * kDegree;
   scanner.mounting = rotationFromEuler({angles.x(), angles.y(), angles.z()});
   scanner.lever_arm = s.lever_arm.value;
   scanner.axis_position = s.axis_position.value;
@@ -139,31 +121,22 @@ applyWords(LinesSettings& s)
 bool
 parse(const std::vector<std::string>& arguments, LinesSettings& s)
 {
-  CommandLine line(
-      std::string("usage: ") + kConvert +
-      " lines LINES.csv -o OUT.pcd [options]\n"
-      "Puts the lines of a 2D scanner on a drive together to an organized scan, a row\n"
-      "per line, in metres: x ahead, y left, z up.\n"
-      "A row of LINES.csv: the drive's angle [deg] and the ranges [m], separated by\n"
-      "commas, semicolons or blanks. Rows that start with # are comments. The first "
-      "row\n"
-      "may name the columns: angle,range..., or angle,time,range... where the second\n"
-      "column is the time [s] at which a line starts; then each point gets its time, "
-      "t\n"
-      "[s] since the first line. A range that is empty, nan, inf or 0 is no return "
-      "and\n"
-      "becomes a point of NaN.\n");
-  line.positional("LINES.csv", &s.input);
-  describe(s, line);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kConvert +
+                    R"( lines LINES.csv -o OUT.pcd [options]
+Puts the lines of a 2D scanner on a drive together to an organized scan, a row
+per line, in metres: x ahead, y left, z up.
+A row of LINES.csv: the drive's angle [deg] and the ranges [m], separated by
+commas, semicolons or blanks. Rows that start with # are comments. The first row
+may name the columns: angle,range..., or angle,time,range... where the second
+column is the time [s] at which a line starts; then each point gets its time, t
+[s] since the first line. A range that is empty, nan, inf or 0 is no return and
+becomes a point of NaN.
+)");
+  addOptions(table, s);
+  if (!table.parse(arguments))
     return false;
-  s.has_mounting = line.given("mounting");
   checkOptions([&] { applyWords(s); });
-  for (const auto& input : {s.input, s.angles}) {
-    std::error_code missing; // a missing file is no input
-    if (!input.empty() && std::filesystem::equivalent(s.output, input, missing))
-      throw UsageError("--output = " + s.output + ", but that is an input");
-  }
+  refuseInputs(s.output, {s.input, s.angles});
   return true;
 }
 } // namespace

@@ -4,7 +4,6 @@
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/scan_writer.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,11 +11,12 @@ namespace pcl6d::app {
 
 /** \brief The command line of `convert scans`, interpreted. */
 struct ScanSettings {
-  std::filesystem::path input;  ///< a file or a folder
-  std::filesystem::path output; ///< a file; a folder for a folder
-  ScanWriterOptions writer;     ///< with its format
-  ScanFolderOptions folder;     ///< format of a file, too
-  bool full = false;            ///< join the scans of a folder into one file
+  std::string input;        ///< a file or a folder
+  std::string output;       ///< a file; a folder for a folder
+  ScanWriterOptions writer; ///< with its format
+  ScanFolderOptions folder; ///< format of a file, too
+  std::string encoding = "auto";
+  bool full = false; ///< join the scans of a folder into one file
   bool quiet = false;
   std::string without_effect; ///< options that do not count here, in words
 };

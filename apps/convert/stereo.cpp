@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "convert/verbs.h"
 
 #include <pcl6d/common/error.h>
@@ -20,90 +20,67 @@
 namespace pcl6d::app {
 
 namespace {
-namespace fs = std::filesystem;
-namespace po = boost::program_options;
 
 struct StereoSettings {
   std::string left, right, output;
   std::string intrinsics, extrinsics;
   double unit = StereoCalibrationSource().unit;
-  std::string matcher;
   StereoMatchingOptions matching;
   StereoCloudOptions cloud;
   bool organized = false;
 };
 
 void
-describe(StereoSettings& s, CommandLine& line)
+addOptions(OptionTable& table, StereoSettings& s)
 {
-  s.matcher = toString(s.matching.matcher);
-  line.group("Output").add_options()(
-      "output,o", po::value(&s.output)->value_name("FILE")->required(), "scan file")(
-      "organized",
-      po::bool_switch(&s.organized),
-      "one point per pixel of the rectified left image, NaN where there is none");
-  line.group("Calibration")
-      .add_options()("extrinsics",
-                     po::value(&s.extrinsics)->value_name("FILE"),
-                     "holds R and T, if CALIB does not")(
-          "unit", valueOf(s.unit)->value_name("M"), "[m] one unit of T");
-  line.group("Matching")
-      .add_options()(
-          "matcher", valueOf(s.matcher)->value_name("NAME"), "sgbm|bm: dense, or fast")(
-          "min-disparity",
-          valueOf(s.matching.min_disparity)->value_name("D"),
-          "[px] of the farthest point; 0: at infinity")(
-          "disparities",
-          valueOf(s.matching.num_disparities)->value_name("N"),
-          "[px] a multiple of 16; more see nearer")(
-          "block-size", valueOf(s.matching.block_size)->value_name("N"), "[px] odd")(
-          "uniqueness",
-          valueOf(s.matching.uniqueness)->value_name("P"),
-          "[%] by which the best match beats the second");
-  line.group("Points").add_options()(
-      "max-depth", valueOf(s.cloud.max_depth)->value_name("M"), "[m]")(
-      "sigma",
-      valueOf(s.cloud.sigma_disparity)->value_name("PX"),
-      "[px] standard deviation of a disparity, for the depth error");
-}
-
-void
-checkOutput(const StereoSettings& s)
-{
-  for (const auto& input : {s.left, s.right, s.intrinsics, s.extrinsics}) {
-    std::error_code missing; // a missing file is no input
-    if (fs::equivalent(s.output, input, missing))
-      throw UsageError("--output = " + s.output + ", but that is an input");
-  }
+  table.positional("LEFT", &s.left);
+  table.positional("RIGHT", &s.right);
+  table.positional("CALIB", &s.intrinsics);
+  table.group("Output");
+  table.add("output,o FILE", &s.output).required().help("scan file");
+  table.add("organized", &s.organized)
+      .help("one point per pixel of the rectified left image, NaN where there is none");
+  table.group("Calibration");
+  table.add("extrinsics FILE", &s.extrinsics).help("holds R and T, if CALIB does not");
+  table.add("unit M", &s.unit).help("[m] one unit of T");
+  table.group("Matching");
+  table.add("matcher NAME", &s.matching.matcher, stereoMatcherFromName)
+      .help("sgbm|bm: dense, or fast");
+  table.add("min-disparity D", &s.matching.min_disparity)
+      .help("[px] of the farthest point; 0: at infinity");
+  table.add("disparities N", &s.matching.num_disparities)
+      .help("[px] a multiple of 16; more see nearer");
+  table.add("block-size N", &s.matching.block_size).help("[px] odd");
+  table.add("uniqueness P", &s.matching.uniqueness)
+      .help("[%] by which the best match beats the second");
+  table.group("Points");
+  table.add("max-depth M", &s.cloud.max_depth).help("[m]");
+  table.add("sigma PX", &s.cloud.sigma_disparity)
+      .help("[px] standard deviation of a disparity, for the depth error");
 }
 
 bool
 parse(const std::vector<std::string>& arguments, StereoSettings& s)
 {
-  CommandLine line(
-      std::string("usage: ") + kConvert +
-      " stereo LEFT RIGHT CALIB -o FILE [options]\n"
-      "Triangulates the pictures of two cameras. CALIB: YAML, XML or JSON of OpenCV\n"
-      "with M1 D1 M2 D2 R T, as its sample stereo_calib writes (in two files:\n"
-      "--extrinsics). The points are in the left camera's place, x forward, y left, z\n"
-      "up; fields x y z, intensity (0 to 1), depth_error (its standard deviation "
-      "[m]).\n");
-  line.positional("LEFT", &s.left);
-  line.positional("RIGHT", &s.right);
-  line.positional("CALIB", &s.intrinsics);
-  describe(s, line);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kConvert +
+                    R"( stereo LEFT RIGHT CALIB -o FILE [options]
+Triangulates the pictures of two cameras. CALIB: YAML, XML or JSON of OpenCV
+with M1 D1 M2 D2 R T, as its sample stereo_calib writes (in two files:
+--extrinsics). The points are in the left camera's place, x forward, y left, z
+up; fields x y z, intensity (0 to 1), depth_error (its standard deviation [m]).
+)");
+  addOptions(table, s);
+  if (!table.parse(arguments))
     return false;
   checkOptions(
       [&] {
-        s.matching.matcher = stereoMatcherFromName(s.matcher);
         s.matching.validate();
         s.cloud.validate();
         if (!(s.unit > 0 && std::isfinite(s.unit)))
           throw BadArgument("unit = " + std::to_string(s.unit) + ", but must be > 0");
       },
       {{"num_disparities", "disparities"}, {"sigma_disparity", "sigma"}});
-  checkOutput(s);
+  refuseInputs(s.output, {s.left, s.right, s.intrinsics, s.extrinsics});
   return true;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "common/output_folder.h"
 #include "convert/loss_tally.h"
 #include "convert/verbs.h"
@@ -18,9 +18,6 @@
 namespace pcl6d::app {
 
 namespace {
-namespace po = boost::program_options;
-namespace fs = std::filesystem;
-
 struct TrajectorySettings {
   std::string input;
   std::string output;
@@ -29,57 +26,47 @@ struct TrajectorySettings {
 };
 
 constexpr const char* kUsageText =
-    " trajectory IN -o OUT [options]\n"
-    "Writes poses in another format: rows of KITTI (T_world_scan) or TUM (stamp, "
-    "position,\n"
-    "quaternion), the vertices of a g2o graph, or a folder with a 3DTK .pose or "
-    ".frames\n"
-    "file per scan (left-handed centimetres; of .frames the last line counts). Right-\n"
-    "handed metres, 17 digits.\n";
+    R"( trajectory IN -o OUT [options]
+Writes poses in another format: rows of KITTI (T_world_scan) or TUM (stamp, position,
+quaternion), the vertices of a g2o graph, or a folder with a 3DTK .pose or .frames
+file per scan (left-handed centimetres; of .frames the last line counts). Right-
+handed metres, 17 digits.
+)";
 
-/** \return the format to write, from its name or the extension of OUT */
+/** \return the format to write, as given or by the extension of OUT */
 TrajectoryFormat
-outputFormat(const std::string& name, const std::string& output)
+outputFormat(const TrajectorySettings& s)
 {
-  const TrajectoryFormat named = trajectoryFormatFromName(name);
-  const TrajectoryFormat of_file = trajectoryFormatOfExtension(output);
-  if (named == TrajectoryFormat::kAuto && of_file == TrajectoryFormat::kAuto)
-    throw UsageError("--format is missing, as the extension of " + output +
+  const TrajectoryFormat of_file = trajectoryFormatOfExtension(s.output);
+  if (s.format == TrajectoryFormat::kAuto && of_file == TrajectoryFormat::kAuto)
+    throw UsageError("--format is missing, as the extension of " + s.output +
                      " is that of none: kitti, tum, g2o, pose or frames");
-  if (named != TrajectoryFormat::kAuto && of_file != TrajectoryFormat::kAuto &&
-      named != of_file)
-    throw UsageError("--format = " + name + ", but " + output +
-                     " has the extension of " + toString(of_file));
-  return named == TrajectoryFormat::kAuto ? of_file : named;
+  if (s.format != TrajectoryFormat::kAuto && of_file != TrajectoryFormat::kAuto &&
+      s.format != of_file)
+    throw UsageError(std::string("--format = ") + toString(s.format) + ", but " +
+                     s.output + " has the extension of " + toString(of_file));
+  return s.format == TrajectoryFormat::kAuto ? of_file : s.format;
 }
 
 bool
 parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
 {
-  CommandLine line(std::string("usage: ") + kConvert + kUsageText);
-  std::string format = "auto", input_format = "auto";
-  line.positional("IN", &s.input);
-  line.group("Output").add_options() //
-      ("output,o",
-       po::value(&s.output)->value_name("OUT")->required(),
-       "file; a new folder for pose and frames") //
-      ("format",
-       valueOf(format)->value_name("NAME"),
-       "auto|kitti|tum|g2o|pose|frames; auto: by the extension of OUT");
-  line.group("Input").add_options() //
-      ("input-format",
-       valueOf(input_format)->value_name("NAME"),
-       "auto|kitti|tum|g2o|pose|frames; auto: .g2o by extension, rows by their "
-       "columns, "
-       "a folder by its files");
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kConvert + kUsageText);
+  table.positional("IN", &s.input);
+  table.group("Output");
+  table.add("output,o OUT", &s.output)
+      .required()
+      .help("file; a new folder for pose and frames");
+  table.add("format NAME", &s.format, trajectoryFormatFromName)
+      .help("auto|kitti|tum|g2o|pose|frames; auto: by the extension of OUT");
+  table.group("Input");
+  table.add("input-format NAME", &s.input_format, trajectoryFormatFromName)
+      .help("auto|kitti|tum|g2o|pose|frames; auto: .g2o by extension, rows by their "
+            "columns, a folder by its files");
+  if (!table.parse(arguments))
     return false;
-  checkOptions([&] { s.input_format = trajectoryFormatFromName(input_format); },
-               {{"format", "input-format"}});
-  checkOptions([&] { s.format = outputFormat(format, s.output); });
-  std::error_code missing; // a missing file is no input
-  if (fs::equivalent(s.output, s.input, missing))
-    throw UsageError("--output = " + s.output + ", but that is the input");
+  s.format = outputFormat(s);
+  refuseInputs(s.output, {s.input}, "the input");
   return true;
 }
 

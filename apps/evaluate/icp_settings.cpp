@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "evaluate/icp_command_line.h"
+#include "common/option_table.h"
+#include "evaluate/icp_settings.h"
+#include "evaluate/verbs.h"
 
 #include <pcl6d/common/angle.h>
 #include <pcl6d/common/pose.h>
-#include <pcl6d/common/require.h>
 #include <pcl6d/registration/minimisers.h>
 
 #include <algorithm>
@@ -15,9 +16,38 @@ namespace pcl6d::app {
 
 namespace {
 using Words = std::vector<std::string>;
-using Raw = RawIcpSettings;
 
-constexpr int kMostThreads = 1024;
+/** Names of methods as they are typed, with "all" among them. */
+struct Methods {
+  Words metrics = {"all"};
+  Words minimisers = {"quaternion", "helix", "small-angle", "euler"};
+  Words plane_minimisers = {"helix", "linear"};
+  Words searches = {"cached", "kdtree", "approximate"};
+  bool all_combinations = false;
+};
+
+std::string
+usage()
+{
+  return std::string("usage: ") + kEvaluate +
+         R"( icp SCAN_A SCAN_B [options]
+The basin of convergence of ICP: registers scan B onto scan A from a grid of
+starts about the best pose, once for each method, and prints how often, how
+precisely, in how many iterations and how fast it finds back. Distances are in
+metres, angles of options in degrees, angles in files in radians.
+
+The best pose of a metric is where ICP comes to rest from the unperturbed start
+(first minimiser, exact search). A run is correct if it ends within 3 sigma of
+it, in position and in orientation. The table's errors, rms (of the pairs),
+iterations and ms (processor time on one thread, without the making of trees)
+are means of the correct runs; reach is how far every start is correct, shifted
+without a turn and turned without a shift.
+Exit code 3: a best pose is in doubt, because ICP fails from the unperturbed start
+or does not stay at the pose found (the metric then has no rows), or because the
+best poses of two metrics are far apart.
+)";
+}
+
 /** \return the names, "all" replaced by those that are not there yet; each once */
 Words
 expanded(const Words& given, const Words& all)
@@ -60,83 +90,115 @@ poseFromText(const std::string& text)
                        {radians(v[3]), radians(v[4]), radians(v[5])});
 }
 
-std::optional<double>
-toOptional(const AutoDouble& value, double unit = 1)
+void
+addInput(OptionTable& table, IcpSettings& s)
 {
-  return value.is_auto ? std::nullopt : std::optional<double>(unit * value.value);
+  table.positional("SCAN_A", &s.scan_a);
+  table.positional("SCAN_B", &s.scan_b);
+  table.group("Input");
+  const auto takeGuess = [&s](const auto& text) { s.guess = poseFromText(text); };
+  table.addWord("guess \"X Y Z R P Y\"", "", takeGuess)
+      .help("start: pose of B in the frame of A, [m] and roll pitch yaw [deg]; by "
+            "default from the poses that belong to the files (*.pose, odometry.txt, "
+            "poses.txt, PCD VIEWPOINT or identity, the first that is there)");
+  table.add("format", &s.format, scanFormatFromName).help("auto|pcd|ply|uos|kitti|xyz");
+  table.group("Range gate and reduction");
+  table.addAuto("min-range", &s.slam.min_range)
+      .help("[m] or auto: nearer points are dropped");
+  table.addAuto("max-range", &s.slam.max_range)
+      .help("[m] or auto: farther points are dropped; auto drops no-return codes");
+  table.addAuto("voxel", &s.slam.voxel)
+      .help("[m] or auto: edge length of the octree reduction");
 }
 
 void
-interpretMethods(const Raw& raw, IcpSettings& s)
+addMethods(OptionTable& table, Methods& methods)
 {
-  s.methods.metrics = valuesOf(expanded(raw.metrics, metricNames()), metricFromName);
-  s.methods.minimisers = expanded(raw.minimisers, minimiserNames());
-  s.methods.plane_minimisers = expanded(raw.plane_minimisers, planeMinimiserNames());
+  table.group(
+      "Methods; each NAME may be repeated or all, the first is the standard one");
+  table.add("metric NAME", &methods.metrics).help(joined(metricNames()));
+  table.add("minimiser NAME", &methods.minimisers)
+      .help("of the metric point: " + joined(minimiserNames()));
+  table.add("plane-minimiser NAME", &methods.plane_minimisers)
+      .help("of the metrics plane and gicp: " + joined(planeMinimiserNames()));
+  table.add("search NAME", &methods.searches)
+      .help(joined(searchMethodNames()) +
+            ": all but approximate are exact and give the same runs; brute-force takes "
+            "hours on large scans");
+  table.add("all-combinations", &methods.all_combinations)
+      .help("run every minimiser of every metric with every search; by default the "
+            "minimisers run with the first search, and the searches with the first "
+            "metric and minimiser");
+}
+
+void
+addMatching(OptionTable& table, IcpSettings& s)
+{
+  table.group("Matching");
+  table.addAuto("max-distance", &s.slam.max_distance)
+      .help("[m] or auto: largest pair distance");
+  table.addAuto("max-distance-start", &s.slam.max_distance_start)
+      .help("[m] or auto: largest pair distance of the first iteration, which then "
+            "shrinks to --max-distance");
+  table.add("robust", &s.basin.icp.robust, robustKernelFromName)
+      .help("none|huber|cauchy|geman-mcclure: weight of a pair by its residual");
+  table.add("iterations", &s.slam.max_iterations).help("most iterations of one ICP");
+  table.group("Starts and judgement");
+  table.addAuto("offset-xy", &s.offset_xy)
+      .help("[m] or auto: starts reach so far in +-x and +-y; auto: 1.5 x "
+            "--max-distance-start");
+  table.addAuto("offset-yaw", &s.offset_yaw, kDegree)
+      .above(0, "in (0, 180] degrees", 180)
+      .help("[deg] or auto: and so far in +-yaw; auto: the angle that moves a point at "
+            "the median range by --max-distance-start");
+  table.add("steps-xy", &s.basin.steps_xy).help("values of x and of y, odd");
+  table.add("steps-yaw", &s.basin.steps_yaw).help("values of yaw, odd");
+  table.addAuto("sigma-position", &s.basin.sigma_position)
+      .help("[m] or auto: from the covariance of the best pose, voxel / 10 at least");
+  table.addAuto("sigma-orientation", &s.basin.sigma_orientation, kDegree)
+      .above(0, "finite and > 0 degrees", kFinite)
+      .help("[deg] or auto: from the covariance of the best pose; at least the angle "
+            "that moves a point at the median range by voxel / 10");
+}
+
+void
+addRun(OptionTable& table, IcpSettings& s)
+{
+  table.group("Run");
+  table.add("output,o OUT_DIR", &s.out)
+      .help("folder for icp.csv (a row per method), icp_runs.csv (a row per run), "
+            "icp.json (start, best poses, sigma, parameters) and icp_basin_*.png; made "
+            "if missing");
+  table.addAs<int>("threads", &s.basin.num_threads)
+      .within(0, 1024, "in [0, 1024]")
+      .help("0: one per core; never changes the result");
+  table.add("force", &s.force).help("write into a folder that holds other files");
+  table.add("quiet", &s.quiet).help("print the table, warnings and errors only");
+}
+
+void
+interpretMethods(const Methods& typed, IcpSettings& s)
+{
+  s.methods.metrics = valuesOf(expanded(typed.metrics, metricNames()), metricFromName);
+  s.methods.minimisers = expanded(typed.minimisers, minimiserNames());
+  s.methods.plane_minimisers = expanded(typed.plane_minimisers, planeMinimiserNames());
   s.methods.searches =
-      valuesOf(expanded(raw.searches, searchMethodNames()), searchMethodFromName);
+      valuesOf(expanded(typed.searches, searchMethodNames()), searchMethodFromName);
   s.combination =
-      raw.all_combinations ? IcpCombination::kAll : IcpCombination::kOneByOne;
+      typed.all_combinations ? IcpCombination::kAll : IcpCombination::kOneByOne;
   for (const auto& name : s.methods.minimisers) // also those that no metric uses
     minimiserFromName(name);
   for (const auto& name : s.methods.plane_minimisers)
     planeMinimiserFromName(name);
 }
 
-/** Checked in degrees, so that errors speak of what was typed. */
-void
-interpretAngles(const Raw& raw, IcpSettings& s)
-{
-  const AutoDouble& offset = raw.offset_yaw;
-  require(offset.is_auto || (offset.value > 0 && offset.value <= 180),
-          "offset_yaw",
-          offset.value,
-          "in (0, 180] degrees");
-  const AutoDouble& sigma = raw.sigma_orientation;
-  require(sigma.is_auto || (std::isfinite(sigma.value) && sigma.value > 0),
-          "sigma_orientation",
-          sigma.value,
-          "finite and > 0 degrees");
-  s.offset_yaw = toOptional(offset, kDegree);
-  s.basin.sigma_orientation = toOptional(sigma, kDegree);
-}
-
-void
-interpret(const CommandLine& line, const Raw& raw, IcpSettings& s)
-{
-  if (line.given("guess"))
-    s.guess = poseFromText(raw.guess);
-  s.slam.min_range = toOptional(raw.min_range);
-  s.slam.max_range = toOptional(raw.max_range);
-  s.slam.voxel = toOptional(raw.voxel);
-  s.slam.max_distance = toOptional(raw.max_distance);
-  s.slam.max_distance_start = toOptional(raw.max_distance_start);
-  s.offset_xy = toOptional(raw.offset_xy);
-  s.basin.offset_xy = s.offset_xy.value_or(s.basin.offset_xy);
-  s.basin.sigma_position = toOptional(raw.sigma_position);
-  s.basin.num_threads = static_cast<unsigned int>(raw.threads);
-  checkOptions(
-      [&] {
-        require(raw.threads >= 0 && raw.threads <= kMostThreads,
-                "threads",
-                raw.threads,
-                "in [0, " + std::to_string(kMostThreads) + "]");
-        s.format = scanFormatFromName(raw.format);
-        s.basin.icp.robust = robustKernelFromName(raw.robust);
-        interpretMethods(raw, s);
-        interpretAngles(raw, s);
-        s.slam.validate();
-        s.basin.validate();
-      },
-      {{"max_iterations", "iterations"}});
-}
-
 std::string
-withoutEffect(const CommandLine& line, const IcpSettings& s)
+withoutEffect(const OptionTable& table, const IcpSettings& s)
 {
   const auto& metrics = s.methods.metrics;
   const auto points = std::count(metrics.begin(), metrics.end(), Metric::kPoint);
   const bool planes = points < static_cast<std::ptrdiff_t>(metrics.size());
-  return line.withoutEffect(
+  return table.withoutEffect(
       {{"minimiser", points > 0, "of the metric point"},
        {"plane-minimiser", planes, "of the metrics plane and gicp"},
        {"offset-xy", s.basin.steps_xy > 1, "with --steps-xy 3 or more"},
@@ -146,17 +208,25 @@ withoutEffect(const CommandLine& line, const IcpSettings& s)
 } // namespace
 
 bool
-parseIcpSettings(const std::vector<std::string>& arguments, IcpSettings& settings)
+parseIcpSettings(const std::vector<std::string>& arguments, IcpSettings& s)
 {
-  CommandLine line(icpUsage());
-  Raw raw;
-  line.positional("SCAN_A", &settings.scan_a);
-  line.positional("SCAN_B", &settings.scan_b);
-  describeIcp(line, settings, raw);
-  if (!line.parse(arguments))
+  OptionTable table(usage());
+  Methods methods;
+  addInput(table, s);
+  addMethods(table, methods);
+  addMatching(table, s);
+  addRun(table, s);
+  if (!table.parse(arguments))
     return false;
-  interpret(line, raw, settings);
-  settings.without_effect = withoutEffect(line, settings);
+  s.basin.offset_xy = s.offset_xy.value_or(s.basin.offset_xy);
+  checkOptions(
+      [&] {
+        interpretMethods(methods, s);
+        s.slam.validate();
+        s.basin.validate();
+      },
+      {{"max_iterations", "iterations"}});
+  s.without_effect = withoutEffect(table, s);
   return true;
 }
 

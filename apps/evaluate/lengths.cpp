@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "evaluate/result_file.h"
 #include "evaluate/result_json.h"
 #include "evaluate/verbs.h"
@@ -81,9 +81,10 @@ print(const std::string& file,
       const std::vector<LengthPair>& lengths,
       const LengthRatioErrors& errors)
 {
-  std::printf("%s: %zu lengths, %zu ratios\n"
-              "  ratios are off by %.3f %% rms, %.3f %% mean, %.3f %% at most\n"
-              "  scale (median of map / reference): %.6f\n",
+  std::printf(R"(%s: %zu lengths, %zu ratios
+  ratios are off by %.3f %% rms, %.3f %% mean, %.3f %% at most
+  scale (median of map / reference): %.6f
+)",
               file.c_str(),
               lengths.size(),
               errors.ratio.count,
@@ -116,25 +117,20 @@ int
 runLengths(const std::vector<std::string>& arguments)
 {
   std::string file, output;
-  CommandLine line(
-      std::string("usage: ") + kEvaluate +
-      " lengths FILE [options]\n"
-      "Compares ratios of lengths in a map with those in a reference, such "
-      "as a plan or\n"
-      "an aerial picture, whose scale need not be known. A row of FILE "
-      "is a length in the\n"
-      "map and in the reference (2 numbers), two points of the map and the "
-      "length (7), or\n"
-      "two points of each (12).\n");
-  line.positional("FILE", &file);
-  line.group("Evaluation")
-      .add_options()("output,o",
-                     boost::program_options::value(&output)->value_name("FILE"),
-                     "write the numbers (.json)");
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kEvaluate +
+                    R"( lengths FILE [options]
+Compares ratios of lengths in a map with those in a reference, such as a plan or
+an aerial picture, whose scale need not be known. A row of FILE is a length in the
+map and in the reference (2 numbers), two points of the map and the length (7), or
+two points of each (12).
+)");
+  table.positional("FILE", &file);
+  table.group("Evaluation");
+  table.add("output,o FILE", &output).help("write the numbers (.json)");
+  if (!table.parse(arguments))
     return kDone;
   requireExtension("--output", output, {".json"});
-  refuseInput("--output", output, {file});
+  refuseInputs(output, {file});
   const std::vector<LengthPair> lengths = readLengths(file);
   const LengthRatioErrors errors = lengthRatioErrors(lengths);
   print(file, lengths, errors);

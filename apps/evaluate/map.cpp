@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/option_table.h"
 #include "common/progress_bar.h"
 #include "evaluate/map_report.h"
 #include "evaluate/result_file.h"
@@ -13,82 +14,65 @@
 namespace pcl6d::app {
 
 namespace {
-namespace po = boost::program_options;
-
 struct MapSettings {
   MapSource source;
   MapQualityOptions options;
-  double radius = 0;       ///< [m] if given
-  double max_distance = 0; ///< [m] if given
   std::size_t rows = 10;
   std::string output; ///< .json or .csv, or empty
   bool quiet = false;
 };
 
 constexpr const char* kUsageText =
-    " map RUN_DIR [options]\n"
-    "How good a map is, without a reference path: how well its scans agree, how sharp\n"
-    "walls are, and which scans stand out. RUN_DIR is the output of pcl_slam6d, or a\n"
-    "folder of scans with poses. What the measures mean: share/doc/measures.md.\n";
+    R"( map RUN_DIR [options]
+How good a map is, without a reference path: how well its scans agree, how sharp
+walls are, and which scans stand out. RUN_DIR is the output of pcl_slam6d, or a
+folder of scans with poses. What the measures mean: share/doc/measures.md.
+)";
 
 void
-addOptions(CommandLine& line, MapSettings& s)
+addOptions(OptionTable& table, MapSettings& s)
 {
-  line.group("Map").add_options() //
-      ("poses",
-       po::value(&s.source.poses)->value_name("FILE"),
-       "poses in place of its own, KITTI or TUM rows, one per scan") //
-      ("reference",
-       po::value(&s.source.reference)->value_name("CLOUD"),
-       "measure distances to this cloud, too; in the world of the map") //
-      ("min-range",
-       valueOf(s.source.min_range),
-       "[m] or auto: nearer points are left out") //
-      ("max-range",
-       valueOf(s.source.max_range),
-       "[m] or auto: farther points are left out") //
-      ("voxel",
-       valueOf(s.source.voxel),
-       "[m] or auto, as in pcl_slam6d: how densely the map is sampled; compare maps at "
-       "the same voxel");
-  line.group("Measures")
-      .add_options() //
-      ("radius",
-       po::value(&s.radius)->value_name("M"),
-       "[m] of the surroundings whose entropy is taken; default: 2 voxels") //
-      ("max-distance",
-       po::value(&s.max_distance)->value_name("M"),
-       "[m] beyond which points do not belong together; default: 3 voxels") //
-      ("outlier",
-       valueOf(s.options.outlier),
-       "robust z-score from which a scan stands out") //
-      ("rows", valueOf(s.rows), "so many scans are listed, worst first");
-  line.group("Run").add_options() //
-      ("output,o",
-       po::value(&s.output)->value_name("FILE"),
-       "write all numbers (.json) or a row per scan (.csv)") //
-      ("threads",
-       valueOf(s.options.num_threads),
-       "0: one per core; never changes the result") //
-      ("quiet", po::bool_switch(&s.quiet), "show no progress");
+  table.positional("RUN_DIR", &s.source.folder);
+  table.group("Map");
+  table.add("poses FILE", &s.source.poses)
+      .help("poses in place of its own, KITTI or TUM rows, one per scan");
+  table.add("reference CLOUD", &s.source.reference)
+      .help("measure distances to this cloud, too; in the world of the map");
+  table.addAuto("min-range", &s.source.min_range)
+      .help("[m] or auto: nearer points are left out");
+  table.addAuto("max-range", &s.source.max_range)
+      .help("[m] or auto: farther points are left out");
+  table.addAuto("voxel", &s.source.voxel)
+      .help(
+          "[m] or auto, as in pcl_slam6d: how densely the map is sampled; compare maps "
+          "at the same voxel");
+  table.group("Measures");
+  table.add("radius M", &s.options.radius)
+      .help("[m] of the surroundings whose entropy is taken; default: 2 voxels");
+  table.add("max-distance M", &s.options.max_distance)
+      .help("[m] beyond which points do not belong together; default: 3 voxels");
+  table.add("outlier", &s.options.outlier)
+      .help("robust z-score from which a scan stands out");
+  table.add("rows", &s.rows).help("so many scans are listed, worst first");
+  table.group("Run");
+  table.add("output,o FILE", &s.output)
+      .help("write all numbers (.json) or a row per scan (.csv)");
+  table.add("threads", &s.options.num_threads)
+      .help("0: one per core; never changes the result");
+  table.add("quiet", &s.quiet).help("show no progress");
 }
 
 bool
 parse(const std::vector<std::string>& arguments, MapSettings& s)
 {
-  CommandLine line(std::string("usage: ") + kEvaluate + kUsageText);
-  line.positional("RUN_DIR", &s.source.folder);
-  addOptions(line, s);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kEvaluate + kUsageText);
+  addOptions(table, s);
+  if (!table.parse(arguments))
     return false;
-  if (line.given("radius"))
-    s.options.radius = s.radius;
-  if (line.given("max-distance"))
-    s.options.max_distance = s.max_distance;
   checkOptions([&] { s.options.validate(); });
   checkOptions([&] { validateSource(s.source); });
   requireExtension("--output", s.output, {".json", ".csv"});
-  refuseInput("--output", s.output, {s.source.poses, s.source.reference});
+  refuseInputs(s.output, {s.source.poses, s.source.reference});
   return true;
 }
 

@@ -85,13 +85,10 @@ readReference(const std::string& file)
 Slam6DOptions
 optionsOf(const MapSource& source)
 {
-  const auto given = [](const AutoDouble& value) {
-    return value.is_auto ? std::nullopt : std::optional<double>(value.value);
-  };
   Slam6DOptions options;
-  options.min_range = given(source.min_range);
-  options.max_range = given(source.max_range);
-  options.voxel = given(source.voxel);
+  options.min_range = source.min_range;
+  options.max_range = source.max_range;
+  options.voxel = source.voxel;
   return options;
 }
 } // namespace

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/command_line.h"
-
 #include <pcl6d/common/points.h>
 
 #include <Eigen/Geometry>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,9 @@ struct MapSource {
   std::string folder;    ///< of a finished run, or of scans with poses
   std::string poses;     ///< KITTI or TUM rows in place of its own; empty: its own
   std::string reference; ///< cloud in the map's world; empty: none
-  AutoDouble min_range;  ///< [m]
-  AutoDouble max_range;  ///< [m]
-  AutoDouble voxel;      ///< [m]
+  std::optional<double> min_range; ///< [m] none: derived
+  std::optional<double> max_range; ///< [m] none: derived
+  std::optional<double> voxel;     ///< [m] none: derived
 };
 
 /** \brief The scans of a map in memory. */

@@ -5,11 +5,8 @@
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace pcl6d::app {
-
-namespace fs = std::filesystem;
 
 bool
 hasExtension(const std::string& file, const std::string& extension)
@@ -29,17 +26,6 @@ requireExtension(const std::string& option,
   if (!file.empty() && !known)
     throw UsageError(option + " = " + file + ", but must end with " +
                      boost::algorithm::join(extensions, " or "));
-}
-
-void
-refuseInput(const std::string& option,
-            const std::string& file,
-            const std::vector<std::string>& inputs)
-{
-  std::error_code missing; // a missing file is no input
-  for (const auto& input : inputs)
-    if (fs::equivalent(file, input, missing))
-      throw UsageError(option + " = " + file + ", but that is an input");
 }
 
 } // namespace pcl6d::app

@@ -17,10 +17,4 @@ requireExtension(const std::string& option,
                  const std::string& file,
                  const std::vector<std::string>& extensions);
 
-/** \throws UsageError the file of an option is an input; empty paths are none */
-void
-refuseInput(const std::string& option,
-            const std::string& file,
-            const std::vector<std::string>& inputs);
-
 } // namespace pcl6d::app

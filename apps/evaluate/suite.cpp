@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "evaluate/result_json.h"
 #include "evaluate/suite_check.h"
 #include "evaluate/suite_report.h"
 #include "evaluate/verbs.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_numbers.h>
 
@@ -26,7 +25,6 @@ namespace pcl6d::app {
 
 namespace {
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 
 constexpr const char* kMarker = "suite.json"; // only folders of ours have it
 
@@ -35,7 +33,7 @@ struct SuiteSettings {
   std::string out;
   std::string document; ///< Markdown file, or empty
   std::vector<std::string> only;
-  double time_limit = 0; ///< [s] 0: that of the suite
+  std::optional<double> time_limit; ///< [s] none: that of the suite
   int jobs = 1;
   bool fresh = false;
   bool force = false;
@@ -44,53 +42,44 @@ struct SuiteSettings {
 };
 
 void
-describeOptions(CommandLine& line, SuiteSettings& s)
+addOptions(OptionTable& table, SuiteSettings& s)
 {
-  line.positional("SUITE.json", &s.file);
-  line.group("Suite").add_options() //
-      ("output,o",
-       po::value(&s.out)->value_name("OUT_DIR"),
-       "folder to write (default: the name of the suite and _results)") //
-      ("only",
-       po::value(&s.only)->multitoken()->composing()->value_name("NAME..."),
-       "only these methods or data sets, by their names")                     //
-      ("jobs", valueOf(s.jobs), "runs at once; more than 1 spoils the times") //
-      ("time-limit",
-       po::value(&s.time_limit)->value_name("S"),
-       "[s] of one run, instead of the suite's") //
-      ("document",
-       po::value(&s.document)->value_name("FILE.md"),
-       "put table, machine and commands into FILE.md too, in the place of those of "
-       "before")                                            //
-      ("fresh", po::bool_switch(&s.fresh), "run all again") //
-      ("force",
-       po::bool_switch(&s.force),
-       "write into a folder that holds other files") //
-      ("quiet", po::bool_switch(&s.quiet), "print the table, warnings and errors only");
+  table.positional("SUITE.json", &s.file);
+  table.group("Suite");
+  table.add("output,o OUT_DIR", &s.out)
+      .help("folder to write (default: the name of the suite and _results)");
+  table.add("only NAME...", &s.only)
+      .composing()
+      .multitoken()
+      .help("only these methods or data sets, by their names");
+  table.add("jobs", &s.jobs)
+      .within(1, 1024, "in [1, 1024]")
+      .help("runs at once; more than 1 spoils the times");
+  table.add("time-limit S", &s.time_limit)
+      .above(0, "> 0")
+      .help("[s] of one run, instead of the suite's");
+  table.add("document FILE.md", &s.document)
+      .help(
+          "put table, machine and commands into FILE.md too, in the place of those of "
+          "before");
+  table.add("fresh", &s.fresh).help("run all again");
+  table.add("force", &s.force).help("write into a folder that holds other files");
+  table.add("quiet", &s.quiet).help("print the table, warnings and errors only");
 }
 
 bool
 parse(const std::vector<std::string>& arguments, SuiteSettings& s)
 {
-  CommandLine line(
-      std::string("usage: ") + kEvaluate +
-      " suite SUITE.json [-o OUT_DIR] [options]\n"
-      "Runs pcl_slam6d with several sets of options over several data sets, each in a\n"
-      "process of its own, and compares the results: table.md, table.csv, table.json "
-      "and\n"
-      "plots. Goes on where it was interrupted: a run that has ended is not repeated\n"
-      "unless programs, options or data have changed. Suite files: "
-      "share/doc/benchmark.md.\n");
-  describeOptions(line, s);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kEvaluate +
+                    R"( suite SUITE.json [-o OUT_DIR] [options]
+Runs pcl_slam6d with several sets of options over several data sets, each in a
+process of its own, and compares the results: table.md, table.csv, table.json and
+plots. Goes on where it was interrupted: a run that has ended is not repeated
+unless programs, options or data have changed. Suite files: share/doc/benchmark.md.
+)");
+  addOptions(table, s);
+  if (!table.parse(arguments))
     return false;
-  checkOptions([&] {
-    require(s.jobs >= 1 && s.jobs <= 1024, "jobs", s.jobs, "in [1, 1024]");
-    require(!line.given("time-limit") || s.time_limit > 0,
-            "time_limit",
-            s.time_limit,
-            "> 0");
-  });
   s.command = std::string(kEvaluate) + " suite";
   for (const auto& argument : arguments)
     s.command += ' ' + argument;
@@ -253,8 +242,8 @@ runSuite(const std::vector<std::string>& arguments)
   SuiteRunOptions options;
   options.jobs = s.jobs;
   options.only = {s.only.begin(), s.only.end()};
-  if (s.time_limit > 0)
-    options.limit = s.time_limit;
+  if (s.time_limit)
+    options.limit = *s.time_limit;
   ProgressBar bar(s.quiet);
   const Interrupt interrupt;
   const auto runs = runSuite(suite, folder, options, interrupt, bar);

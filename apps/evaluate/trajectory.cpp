@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "evaluate/result_file.h"
 #include "evaluate/trajectory_report.h"
 #include "evaluate/trusted_rows.h"
@@ -18,89 +18,71 @@
 namespace pcl6d::app {
 
 namespace {
-namespace po = boost::program_options;
-
 struct TrajectorySettings {
   std::string estimate;
   std::string reference;
-  std::string json;             ///< file, "-" for stdout, or empty
-  std::string output;           ///< .json or .csv, or empty
-  std::string loops;            ///< file, or empty
-  std::string trusted;          ///< mcl.csv of `evaluate mcl`, or empty
-  double interpolation_gap = 0; ///< [s]
+  std::string json;    ///< file, "-" for stdout, or empty
+  std::string output;  ///< .json or .csv, or empty
+  std::string loops;   ///< file, or empty
+  std::string trusted; ///< mcl.csv of `evaluate mcl`, or empty
   TrajectoryEvaluationOptions options;
 };
 
 constexpr const char* kUsageText =
-    " trajectory ESTIMATE REFERENCE [options]\n"
-    "Position and orientation errors of a trajectory against a reference, first\n"
-    "without alignment, then after the rigid motion that fits the positions best "
-    "(ATE);\n"
-    "errors of the motions per step and per distance (RPE), drift, errors across "
-    "loops\n"
-    "and of length ratios.\n"
-    "Files: KITTI (12 numbers a row) or TUM (8 numbers a row). Poses are matched by\n"
-    "time if both files have stamps (TUM), else by their index. If one file is TUM\n"
-    "and all its stamps are whole numbers within the rows of the other, these are\n"
-    "indices: so give trajectory.tum of a run of selected scans (--first, --every).\n";
+    R"( trajectory ESTIMATE REFERENCE [options]
+Position and orientation errors of a trajectory against a reference, first
+without alignment, then after the rigid motion that fits the positions best (ATE);
+errors of the motions per step and per distance (RPE), drift, errors across loops
+and of length ratios.
+Files: KITTI (12 numbers a row) or TUM (8 numbers a row). Poses are matched by
+time if both files have stamps (TUM), else by their index. If one file is TUM
+and all its stamps are whole numbers within the rows of the other, these are
+indices: so give trajectory.tum of a run of selected scans (--first, --every).
+)";
 
 void
-addOptions(CommandLine& line, TrajectorySettings& s)
+addOptions(OptionTable& table, TrajectorySettings& s)
 {
-  double& difference = s.options.matching.max_time_difference;
   RevisitOptions& revisits = s.options.revisits;
-  line.group("Evaluation")
-      .add_options() //
-      ("max-time-difference",
-       po::value(&difference)->value_name("S")->default_value(difference, "0.02"),
-       "[s] largest between the stamps of a pair") //
-      ("interpolate",
-       po::value(&s.interpolation_gap)->value_name("S"),
-       "compare with the reference at the stamps of the estimate, interpolated between "
-       "poses at most [s] apart; both need stamps") //
-      ("lengths",
-       po::value(&s.options.lengths)->multitoken()->value_name("M ..."),
-       "[m] of the stretches of drift; default: 100 200 ... 800, or a round part of "
-       "them "
-       "where the path is shorter") //
-      ("loop-radius",
-       po::value(&revisits.radius)
-           ->value_name("M")
-           ->default_value(revisits.radius, "2"),
-       "[m] largest distance of two positions of the reference that close a loop") //
-      ("loop-path",
-       po::value(&revisits.min_path)->value_name("M")->default_value(revisits.min_path),
-       "[m] shortest way between them") //
-      ("loops",
-       po::value(&s.loops)->value_name("FILE"),
-       "loops in place of those found: lines `a b` with the indices of two poses of "
-       "the "
-       "reference, or a .g2o file") //
-      ("trusted",
-       po::value(&s.trusted)->value_name("mcl.csv"),
-       "leave out the poses of the reference that this table of `mcl` does not trust; "
-       "one row per pose of the reference") //
-      ("output,o",
-       po::value(&s.output)->value_name("FILE"),
-       "write all numbers (.json) or a row per pose (.csv), angles in radians") //
-      ("json",
-       po::value(&s.json)->value_name("FILE"),
-       "write all numbers as JSON to FILE; - prints them instead of the table");
+  table.positional("ESTIMATE", &s.estimate);
+  table.positional("REFERENCE", &s.reference);
+  table.group("Evaluation");
+  table.add("max-time-difference S", &s.options.matching.max_time_difference)
+      .help("[s] largest between the stamps of a pair");
+  table.add("interpolate S", &s.options.interpolation_gap)
+      .above(0, "> 0")
+      .help("compare with the reference at the stamps of the estimate, interpolated "
+            "between poses at most [s] apart; both need stamps");
+  table.add("lengths M ...", &s.options.lengths)
+      .multitoken()
+      .help(
+          "[m] of the stretches of drift; default: 100 200 ... 800, or a round part of "
+          "them where the path is shorter");
+  table.add("loop-radius M", &revisits.radius)
+      .help("[m] largest distance of two positions of the reference that close a loop");
+  table.add("loop-path M", &revisits.min_path).help("[m] shortest way between them");
+  table.add("loops FILE", &s.loops)
+      .help(
+          "loops in place of those found: lines `a b` with the indices of two poses of "
+          "the reference, or a .g2o file");
+  table.add("trusted mcl.csv", &s.trusted)
+      .help("leave out the poses of the reference that this table of `mcl` does not "
+            "trust; one row per pose of the reference");
+  table.add("output,o FILE", &s.output)
+      .help("write all numbers (.json) or a row per pose (.csv), angles in radians");
+  table.add("json FILE", &s.json)
+      .help("write all numbers as JSON to FILE; - prints them instead of the table");
 }
 
 bool
 parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
 {
-  CommandLine line(std::string("usage: ") + kEvaluate + kUsageText);
-  line.positional("ESTIMATE", &s.estimate);
-  line.positional("REFERENCE", &s.reference);
-  addOptions(line, s);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kEvaluate + kUsageText);
+  addOptions(table, s);
+  if (!table.parse(arguments))
     return false;
-  if (line.given("interpolate"))
-    s.options.interpolation_gap = s.interpolation_gap;
   for (const char* const option : {"loops", "trusted"})
-    if (line.given("interpolate") && line.given(option))
+    if (table.given("interpolate") && table.given(option))
       throw UsageError(std::string("--") + option +
                        " names poses of the reference, which --interpolate replaces: "
                        "give one of both");
@@ -108,8 +90,6 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
       [&] {
         s.options.matching.validate();
         s.options.revisits.validate();
-        const auto gap = s.options.interpolation_gap;
-        require(!gap || *gap > 0, "interpolate", gap.value_or(0), "> 0");
         for (const double length : s.options.lengths)
           require(
               std::isfinite(length) && length > 0, "lengths", length, "finite and > 0");
@@ -117,8 +97,8 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
       {{"radius", "loop-radius"}, {"min_path", "loop-path"}});
   requireExtension("--output", s.output, {".json", ".csv"});
   const std::vector<std::string> inputs{s.estimate, s.reference, s.loops, s.trusted};
-  refuseInput("--json", s.json, inputs);
-  refuseInput("--output", s.output, inputs);
+  refuseInputs(s.json, inputs, "an input", "--json");
+  refuseInputs(s.output, inputs);
   return true;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "graph/verbs.h"
 
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
@@ -41,14 +41,14 @@ int
 runInfo(const std::vector<std::string>& arguments)
 {
   std::string input;
-  CommandLine line(
-      std::string("usage: ") + kGraph +
-      " info IN\n"
-      "Tells what a pose graph (g2o or TORO) holds: poses, edges, connected "
-      "components,\nedges per pose, chi2 (the sum of e^T information e) and "
-      "the length of the way from\neach pose to the next.\n");
-  line.positional("IN", &input);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kGraph +
+                    R"( info IN
+Tells what a pose graph (g2o or TORO) holds: poses, edges, connected components,
+edges per pose, chi2 (the sum of e^T information e) and the length of the way from
+each pose to the next.
+)");
+  table.positional("IN", &input);
+  if (!table.parse(arguments))
     return kDone;
   const PoseGraph graph = readPoseGraph(input);
   const PoseGraphOptimizer parts(graph); // not optimised

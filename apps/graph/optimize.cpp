@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "graph/verbs.h"
 
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
@@ -9,91 +9,62 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 
 namespace pcl6d::app {
 
 namespace {
-namespace po = boost::program_options;
-
 struct OptimizeSettings {
   std::string input;
   std::string output;
-  std::string method;
-  std::string robust;
   PoseGraphOptions options;
 };
 
 constexpr const char* kGraduated = "graduated"; ///< beside the kernels, for --robust
 
-std::string
-listed(const std::vector<std::string>& names)
-{
-  std::string all;
-  for (const auto& name : names)
-    all += (all.empty() ? "" : "|") + name;
-  return all;
-}
-
 void
-describe(OptimizeSettings& s, CommandLine& line)
+addOptions(OptionTable& table, OptimizeSettings& s)
 {
   PoseGraphOptions& options = s.options;
-  s.method = toString(options.method);
-  s.robust = toString(options.robust);
-  line.group("Output").add_options()(
-      "output,o", po::value(&s.output)->value_name("FILE")->required(), "g2o file");
-  line.group("Optimisation")
-      .add_options() //
-      ("method",
-       valueOf(s.method)->value_name("NAME"),
-       listed(graphMethodNames()).c_str()) //
-      ("robust",
-       valueOf(s.robust)->value_name("NAME"),
-       (listed(robustKernelNames()) + "|" + kGraduated +
-        "; graduated: geman-mcclure, first wide, then narrow, which switches wrong "
-        "links off")
-           .c_str()) //
-      ("robust-width",
-       valueOf(options.robust_width)->value_name("R"),
-       "error of a link, in standard deviations, at which the kernel sets in") //
-      ("trust-chain",
-       po::bool_switch(&options.trust_chain),
-       "links between neighbours (odometry) always count fully")                  //
-      ("iterations", valueOf(options.max_iterations)->value_name("N"), "at most") //
-      ("threads",
-       valueOf(options.num_threads)->value_name("N"),
-       "0: one per core; never changes the result");
+  table.positional("IN", &s.input);
+  table.group("Output");
+  table.add("output,o FILE", &s.output).required().help("g2o file");
+  table.group("Optimisation");
+  table.add("method NAME", &options.method, graphMethodFromName)
+      .help(joined(graphMethodNames()));
+  const auto takeRobust = [&options](const std::string& name) {
+    options.graduated = name == kGraduated;
+    if (!options.graduated)
+      options.robust = robustKernelFromName(name);
+  };
+  table.addWord("robust NAME", toString(options.robust), takeRobust)
+      .help(joined(robustKernelNames()) + "|" + kGraduated +
+            "; graduated: geman-mcclure, first wide, then narrow, which switches wrong "
+            "links off");
+  table.add("robust-width R", &options.robust_width)
+      .help("error of a link, in standard deviations, at which the kernel sets in");
+  table.add("trust-chain", &options.trust_chain)
+      .help("links between neighbours (odometry) always count fully");
+  table.add("iterations N", &options.max_iterations).help("at most");
+  table.add("threads N", &options.num_threads)
+      .help("0: one per core; never changes the result");
 }
 
 bool
 parse(const std::vector<std::string>& arguments, OptimizeSettings& s)
 {
-  CommandLine line(
-      std::string("usage: ") + kGraph +
-      " optimize IN -o OUT.g2o [options]\n"
-      "Finds the poses that fit the links of a pose graph best and writes "
-      "the graph with\nthem. IN: g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT) or "
-      "TORO (VERTEX3, EDGE3); without\nvertices the chain of links gives "
-      "the first poses. The first pose of each component\nkeeps its place. "
-      "chi2 is the sum of e^T information e over all links, before and\n"
-      "after.\n");
-  line.positional("IN", &s.input);
-  describe(s, line);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kGraph +
+                    R"( optimize IN -o OUT.g2o [options]
+Finds the poses that fit the links of a pose graph best and writes the graph with
+them. IN: g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT) or TORO (VERTEX3, EDGE3); without
+vertices the chain of links gives the first poses. The first pose of each component
+keeps its place. chi2 is the sum of e^T information e over all links, before and
+after.
+)");
+  addOptions(table, s);
+  if (!table.parse(arguments))
     return false;
-  checkOptions(
-      [&] {
-        s.options.method = graphMethodFromName(s.method);
-        s.options.graduated = s.robust == kGraduated;
-        if (!s.options.graduated)
-          s.options.robust = robustKernelFromName(s.robust);
-        s.options.validate();
-      },
-      {{"max_iterations", "iterations"}});
-  std::error_code missing; // a missing file is no input
-  if (std::filesystem::equivalent(s.output, s.input, missing))
-    throw UsageError("--output = " + s.output + ", but that is the input");
+  checkOptions([&] { s.options.validate(); }, {{"max_iterations", "iterations"}});
+  refuseInputs(s.output, {s.input}, "the input");
   return true;
 }
 

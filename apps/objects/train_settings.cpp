@@ -1,152 +1,126 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/option_table.h"
 #include "objects/train_settings.h"
 #include "objects/verbs.h"
-
-#include <pcl6d/common/require.h>
 
 #include <cmath>
 #include <filesystem>
 
 namespace pcl6d::app {
 namespace {
-namespace po = boost::program_options;
-
-/** Options that are words or degrees on the command line. */
+/** Options that become something else in the settings. */
 struct Words {
-  std::string up = "z";
   std::string scanner = "rotating";
-  std::string channel = "range";
-  std::string features = "all";
-  AutoDouble resolution; // [deg]
-  AutoDouble pixel;      // [deg]
+  std::optional<double> resolution; // [deg]
+  std::optional<double> pixel;      // [deg]
 };
+
+std::optional<double>
+radians(const std::optional<double>& degrees)
+{
+  return degrees ? std::make_optional(*degrees * M_PI / 180) : std::nullopt;
+}
 
 std::string
 usage()
 {
   return std::string("usage: ") + kObjects +
-         " train MODEL... --background SCANS -o CASCADE.xml [options]\n"
-         "Trains a detector for one class of objects. The models (meshes .ply, .obj, "
-         ".stl,\nclouds, or folders of a model store) stand upright in free places of "
-         "the background scans, "
-         "which "
-         "must not hold\nthe object, and are measured there by a simulated scanner. "
-         "CASCADE.xml is read by\nthe job locate and by OpenCV 4 "
-         "(cv::CascadeClassifier). "
-         "What is done is kept in the\nstate folder: the same command goes on where it "
-         "was stopped.\n";
+         R"( train MODEL... --background SCANS -o CASCADE.xml [options]
+Trains a detector for one class of objects. The models (meshes .ply, .obj, .stl,
+clouds, or folders of a model store) stand upright in free places of the background scans, which must not hold
+the object, and are measured there by a simulated scanner. CASCADE.xml is read by
+the job locate and by OpenCV 4 (cv::CascadeClassifier). What is done is kept in the
+state folder: the same command goes on where it was stopped.
+)";
 }
 
 void
-describeFiles(TrainSettings& s, Words& words, CommandLine& line)
+addFiles(OptionTable& table, TrainSettings& s)
 {
-  line.group("Files").add_options() //
-      ("output,o",
-       po::value(&s.output)->value_name("FILE")->required(),
-       "the cascade") //
-      ("background",
-       po::value(&s.backgrounds)->value_name("SCANS")->composing()->required(),
-       "folder of scans, or a scan, without the object; may be repeated")             //
-      ("every", valueOf(s.every)->value_name("N"), "take each n-th scan of a folder") //
-      ("state",
-       po::value(&s.state)->value_name("DIR"),
-       "where to keep finished stages; else the output's name with .training") //
-      ("scale",
-       valueOf(s.mesh.scale),
-       "[m] per unit of the models: 0.001 if they are in mm") //
-      ("up", valueOf(words.up), "axis of the models that points up: y or z");
+  table.positionals("MODEL", &s.models);
+  table.group("Files");
+  table.add("output,o FILE", &s.output).required().help("the cascade");
+  table.add("background SCANS", &s.backgrounds)
+      .composing()
+      .required()
+      .help("folder of scans, or a scan, without the object; may be repeated");
+  table.add("every N", &s.every)
+      .within(1, kNoBound, ">= 1")
+      .help("take each n-th scan of a folder");
+  table.add("state DIR", &s.state)
+      .help("where to keep finished stages; else the output's name with .training");
+  table.add("scale", &s.mesh.scale)
+      .above(0, "> 0", kFinite)
+      .help("[m] per unit of the models: 0.001 if they are in mm");
+  table.add("up", &s.mesh.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}})
+      .help("axis of the models that points up: y or z");
 }
 
 void
-describePictures(TrainSettings& s, Words& words, CommandLine& line)
+addPictures(OptionTable& table, TrainSettings& s, Words& words)
 {
   TrainingImageOptions& i = s.images;
-  line.group("Pictures")
-      .add_options() //
-      ("scanner",
-       valueOf(words.scanner),
-       "that measures, see pcl_slam6d_simulate --help") //
-      ("resolution",
-       valueOf(words.resolution),
-       "[deg] between its samples; auto: its own") //
-      ("channel",
-       valueOf(words.channel),
-       "what the detector looks at: range or reflectance") //
-      ("pixel",
-       valueOf(words.pixel),
-       "[deg] of the pictures; auto: at most 0.5, so that the window holds the object "
-       "up "
-       "to --max-distance")                                                          //
-      ("slice-depth", valueOf(s.views.slice_depth), "[m] of a picture of ranges")    //
-      ("max-range", valueOf(s.views.max_range), "[m] of the scans")                  //
-      ("positives", valueOf(i.positives)->value_name("N"), "pictures of the object") //
-      ("min-distance", valueOf(i.min_distance), "[m] of the object in plan")         //
-      ("max-distance", valueOf(i.max_distance), "[m]")                               //
-      ("min-visible",
-       valueOf(i.min_visible),
-       "share of the object that is not hidden")                               //
-      ("min-reflectance", valueOf(i.min_reflectance), "of the object, 0 to 1") //
-      ("max-reflectance", valueOf(i.max_reflectance), "drawn between both");
+  table.group("Pictures");
+  table.add("scanner", &words.scanner)
+      .help("that measures, see pcl_slam6d_simulate --help");
+  table.addAuto("resolution", &words.resolution)
+      .help("[deg] between its samples; auto: its own");
+  table
+      .add("channel",
+           &i.channel,
+           {{"range", ImageChannel::kRange},
+            {"reflectance", ImageChannel::kReflectance}})
+      .help("what the detector looks at: range or reflectance");
+  table.addAuto("pixel", &words.pixel)
+      .help("[deg] of the pictures; auto: at most 0.5, so that the window holds the "
+            "object up to --max-distance");
+  table.add("slice-depth", &s.views.slice_depth).help("[m] of a picture of ranges");
+  table.add("max-range", &s.views.max_range).help("[m] of the scans");
+  table.add("positives N", &i.positives).help("pictures of the object");
+  table.add("min-distance", &i.min_distance).help("[m] of the object in plan");
+  table.add("max-distance", &i.max_distance).help("[m]");
+  table.add("min-visible", &i.min_visible)
+      .help("share of the object that is not hidden");
+  table.add("min-reflectance", &i.min_reflectance).help("of the object, 0 to 1");
+  table.add("max-reflectance", &i.max_reflectance).help("drawn between both");
 }
 
 void
-describeTraining(TrainSettings& s, Words& words, CommandLine& line)
+addTraining(OptionTable& table, TrainSettings& s)
 {
   CascadeTrainingOptions& t = s.training;
-  line.group("Training")
-      .add_options()                                            //
-      ("stages", valueOf(t.stages)->value_name("N"), "at most") //
-      ("negatives",
-       valueOf(t.negatives)->value_name("N"),
-       "for each stage, false alarms of those before")                 //
-      ("min-hit-rate", valueOf(t.min_hit_rate), "of each stage")       //
-      ("max-false-alarm", valueOf(t.max_false_alarm), "of each stage") //
-      ("target-false-alarm",
-       valueOf(t.target_false_alarm),
-       "on the backgrounds; then it ends")                                            //
-      ("splits", valueOf(t.splits), "of each tree; 1: stumps")                        //
-      ("max-trees", valueOf(t.max_trees), "of a stage")                               //
-      ("features", valueOf(words.features), "upright|all: with all, tilted ones too") //
-      ("features-per-stage",
-       valueOf(t.features_per_stage),
-       "drawn from them for each stage") //
-      ("features-per-tree",
-       valueOf(t.features_per_tree),
-       "drawn from those for each tree")                   //
-      ("seed", valueOf(t.seed), "same seed, same cascade") //
-      ("threads",
-       valueOf(t.num_threads)->value_name("N"),
-       "0: one per core; never changes the result") //
-      ("quiet", po::bool_switch(&s.quiet), "no progress");
+  table.group("Training");
+  table.add("stages N", &t.stages).help("at most");
+  table.add("negatives N", &t.negatives)
+      .help("for each stage, false alarms of those before");
+  table.add("min-hit-rate", &t.min_hit_rate).help("of each stage");
+  table.add("max-false-alarm", &t.max_false_alarm).help("of each stage");
+  table.add("target-false-alarm", &t.target_false_alarm)
+      .help("on the backgrounds; then it ends");
+  table.add("splits", &t.splits).help("of each tree; 1: stumps");
+  table.add("max-trees", &t.max_trees).help("of a stage");
+  table.add("features", &t.features, haarFeatureSetFromName, "all")
+      .help("upright|all: with all, tilted ones too");
+  table.add("features-per-stage", &t.features_per_stage)
+      .help("drawn from them for each stage");
+  table.add("features-per-tree", &t.features_per_tree)
+      .help("drawn from those for each tree");
+  table.add("seed", &t.seed).help("same seed, same cascade");
+  table.add("threads N", &t.num_threads)
+      .help("0: one per core; never changes the result");
+  table.add("quiet", &s.quiet).help("no progress");
 }
 
 void
 apply(const Words& words, TrainSettings& s)
 {
-  require(words.up == "y" || words.up == "z", "up", words.up, "y or z");
-  s.mesh.up = words.up == "y" ? UpAxis::kY : UpAxis::kZ;
-  require(
-      s.mesh.scale > 0 && std::isfinite(s.mesh.scale), "scale", s.mesh.scale, "> 0");
-  require(s.every >= 1, "every", s.every, ">= 1");
-  require(words.channel == "range" || words.channel == "reflectance",
-          "channel",
-          words.channel,
-          "range or reflectance");
-  s.images.channel =
-      words.channel == "range" ? ImageChannel::kRange : ImageChannel::kReflectance;
-  std::optional<double> resolution;
-  if (!words.resolution.is_auto)
-    resolution = words.resolution.value * M_PI / 180;
-  s.scanner = scannerByName(words.scanner, resolution);
-  s.training.features = haarFeatureSetFromName(words.features);
-  s.views.pixel = DetectionViewOptions().pixel;
-  if (!words.pixel.is_auto)
-    s.views.pixel = words.pixel.value * M_PI / 180;
+  s.scanner = scannerByName(words.scanner, radians(words.resolution));
+  s.views.pixel = radians(words.pixel).value_or(DetectionViewOptions().pixel);
   s.views.num_threads = s.training.num_threads;
   s.images.seed = s.training.seed;
   s.views.validate();
-  if (words.pixel.is_auto)
+  if (!words.pixel)
     s.views.pixel = 0; // the models tell
   s.images.validate();
   s.training.validate();
@@ -156,20 +130,16 @@ apply(const Words& words, TrainSettings& s)
 bool
 parseTrain(const std::vector<std::string>& arguments, TrainSettings& s)
 {
-  CommandLine line(usage());
+  OptionTable table(usage());
   Words words;
-  line.positionals("MODEL", &s.models);
-  describeFiles(s, words, line);
-  describePictures(s, words, line);
-  describeTraining(s, words, line);
-  if (!line.parse(arguments))
+  addFiles(table, s);
+  addPictures(table, s, words);
+  addTraining(table, s);
+  if (!table.parse(arguments))
     return false;
   checkOptions([&] { apply(words, s); });
-  std::error_code missing; // a missing file is no input
-  for (const auto& inputs : {s.models, s.backgrounds})
-    for (const auto& input : inputs)
-      if (std::filesystem::equivalent(s.output, input, missing))
-        throw UsageError("--output = " + s.output + ", but that is an input");
+  refuseInputs(s.output, s.models);
+  refuseInputs(s.output, s.backgrounds);
   if (s.state.empty())
     s.state = std::filesystem::path(s.output).replace_extension(".training").string();
   s.training.state = s.state;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/command_line.h"
-
 #include <pcl6d/io/mesh_io.h>
 #include <pcl6d/object_localization/cascade_training.h>
 #include <pcl6d/object_localization/training_images.h>

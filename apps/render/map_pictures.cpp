@@ -72,13 +72,12 @@ RunPictures::drawTop()
 Camera
 RunPictures::chosenCamera(const MapView& view, const MapViewScene& scene) const
 {
-  if (settings_.azimuth.is_auto && settings_.elevation.is_auto)
+  if (!settings_.azimuth && !settings_.elevation)
     return view.viewpoints(scene, settings_.viewpoint).back();
   constexpr double kUsualElevation = 0.75; // [rad]
   return view.cameraFrom(scene,
-                         settings_.azimuth.value,
-                         settings_.elevation.is_auto ? kUsualElevation
-                                                     : settings_.elevation.value);
+                         settings_.azimuth.value_or(0),
+                         settings_.elevation.value_or(kUsualElevation));
 }
 
 Image
@@ -168,9 +167,9 @@ RunPictures::drawSlice()
 {
   TopViewOptions options = optionsOf<TopViewOptions>("slice", PointColour::kScan);
   options.cut.slice = HeightSlice{std::nullopt, settings_.slice_thickness};
-  if (!settings_.slice_height.is_auto)
+  if (settings_.slice_height)
     options.cut.slice->height =
-        settings_.slice_height.value - run_.summary().world_offset.z();
+        *settings_.slice_height - run_.summary().world_offset.z();
   options.final_label = "path of the scanner";
   TopViewScene scene = topScene(options.colour);
   scene.initial.poses.clear();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/option_table.h"
 #include "render/picture_settings.h"
 #include "render/run_pictures.h"
 #include "render/verbs.h"
@@ -13,18 +14,6 @@
 namespace pcl6d::app {
 
 namespace {
-namespace po = boost::program_options;
-
-/** Options as they are typed. */
-struct Words {
-  std::vector<std::string> views;
-  std::string colour = "auto";
-  std::string colour_map = "auto";
-  std::string background = "dark";
-  std::string size = "auto";
-  std::string scan = "auto";
-};
-
 int
 wholeNumber(const std::string& option, const std::string& word)
 {
@@ -70,88 +59,68 @@ takeViews(const std::vector<std::string>& words, PictureSettings& s)
 }
 
 void
-takeWords(const Words& words, PictureSettings& s)
+addOutput(OptionTable& table, PictureSettings& s, std::vector<std::string>& views)
 {
-  takeViews(words.views, s);
-  takeSize(words.size, s);
-  if (words.scan != "auto")
-    s.scan = wholeNumber("scan", words.scan);
-  checkOptions([&] {
-    if (words.colour != "auto")
-      s.colour = pointColourFromName(words.colour);
-    if (words.colour_map != "auto")
-      s.colour_map = colourMapFromName(words.colour_map);
-    s.background = backgroundFromName(words.background);
-  });
+  table.group("Output");
+  table.add("output,o PATH", &s.output)
+      .help("PNG file for one view, or folder; by default RUN/pictures");
+  table.add("view NAME,...", &views)
+      .help("by their names, see above; by default all that suit the run");
+  table.addWord("size WxH", "auto", [&s](const auto& size) { takeSize(size, s); })
+      .help("[px] 200 to 8192 each");
+  table.add("title TEXT", &s.title).help("top left");
 }
 
 void
-checkNumbers(PictureSettings& s)
+addLook(OptionTable& table, PictureSettings& s)
 {
-  if (!(s.slice_thickness > 0))
-    throw UsageError("--thickness must be > 0");
-  if (s.points == 0)
-    throw UsageError("--points = 0, but must be > 0");
-  if (s.viewpoint < 1 || s.viewpoint > 4)
-    throw UsageError("--viewpoint = " + std::to_string(s.viewpoint) +
-                     ", but must be 1 to 4");
-  for (AutoDouble* angle : {&s.azimuth, &s.elevation})
-    angle->value *= kDegree;
-  if (!s.elevation.is_auto && !(s.elevation.value > 0 && s.elevation.value < M_PI / 2))
-    throw UsageError("--elevation must be between 0 and 90 degrees");
+  const auto takeColour = [&s](const std::string& name) {
+    if (name != "auto")
+      s.colour = pointColourFromName(name);
+  };
+  const auto takeMap = [&s](const std::string& name) {
+    if (name != "auto")
+      s.colour_map = colourMapFromName(name);
+  };
+  table.group("Look");
+  table.addWord("colour NAME", "auto", takeColour)
+      .help("auto|height|scan|reflectance|residual|label|plain: of points; auto: what "
+            "suits the view");
+  table.addWord("colour-map NAME", "auto", takeMap)
+      .help("auto|viridis|turbo|magma|grey");
+  table.add("background NAME", &s.background, backgroundFromName, "dark")
+      .help("dark|light");
+  table.add("transparent", &s.transparent).help("nothing in its place");
+  table.add("points N", &s.points)
+      .above(0, "> 0")
+      .help("draw at most so many, evenly chosen");
 }
 
 void
-describe(PictureSettings& s, Words& w, CommandLine& line)
+addViews(OptionTable& table, PictureSettings& s)
 {
-  line.group("Output").add_options()(
-      "output,o",
-      po::value(&s.output)->value_name("PATH"),
-      "PNG file for one view, or folder; by default RUN/pictures") //
-      ("view",
-       po::value(&w.views)->value_name("NAME,..."),
-       "by their names, see above; by default all that suit the run")       //
-      ("size", valueOf(w.size)->value_name("WxH"), "[px] 200 to 8192 each") //
-      ("title", po::value(&s.title)->value_name("TEXT"), "top left");
-  line.group("Look").add_options() //
-      ("colour",
-       valueOf(w.colour)->value_name("NAME"),
-       "auto|height|scan|reflectance|residual|label|plain: of points; auto: what suits "
-       "the view") //
-      ("colour-map",
-       valueOf(w.colour_map)->value_name("NAME"),
-       "auto|viridis|turbo|magma|grey")                                        //
-      ("background", valueOf(w.background)->value_name("NAME"), "dark|light")  //
-      ("transparent", po::bool_switch(&s.transparent), "nothing in its place") //
-      ("points",
-       valueOf(s.points)->value_name("N"),
-       "draw at most so many, evenly chosen");
-  line.group("Single views")
-      .add_options() //
-      ("height",
-       valueOf(s.slice_height)->value_name("Z"),
-       "[m] slice: height in the world; auto: that of the nearest pose") //
-      ("thickness",
-       valueOf(s.slice_thickness)->value_name("D"),
-       "[m] slice: of the layer") //
-      ("scan",
-       valueOf(w.scan)->value_name("N"),
-       "panorama, convergence: index of the scan; auto: in the middle of the run, or "
-       "the "
-       "one that was corrected most") //
-      ("viewpoint",
-       valueOf(s.viewpoint)->value_name("N"),
-       "perspective, objects: the N-th best one, 1 to 4") //
-      ("azimuth",
-       valueOf(s.azimuth)->value_name("DEG"),
-       "perspective, objects, planes: of the camera seen from the map, from x to y") //
-      ("elevation",
-       valueOf(s.elevation)->value_name("DEG"),
-       "of the camera above the horizon") //
-      ("models",
-       po::value(&s.models)->value_name("DIR"),
-       "objects: shapes to draw, CLASS.ply, .obj or .stl [m], or a store such as "
-       "share/models");
+  const auto takeScan = [&s](const std::string& word) {
+    if (word != "auto")
+      s.scan = wholeNumber("scan", word);
+  };
+  table.group("Single views");
+  table.addAuto("height Z", &s.slice_height)
+      .help("[m] slice: height in the world; auto: that of the nearest pose");
+  table.add("thickness D", &s.slice_thickness).help("[m] slice: of the layer");
+  table.addWord("scan N", "auto", takeScan)
+      .help("panorama, convergence: index of the scan; auto: in the middle of the run, "
+            "or the one that was corrected most");
+  table.add("viewpoint N", &s.viewpoint)
+      .within(1, 4, "1 to 4")
+      .help("perspective, objects: the N-th best one, 1 to 4");
+  table.addAuto("azimuth DEG", &s.azimuth, kDegree)
+      .help(
+          "perspective, objects, planes: of the camera seen from the map, from x to y");
+  table.addAuto("elevation DEG", &s.elevation, kDegree)
+      .help("of the camera above the horizon");
+  table.add("models DIR", &s.models)
+      .help("objects: shapes to draw, CLASS.ply, .obj or .stl [m], or a store such as "
+            "share/models");
 }
 } // namespace
 
@@ -159,19 +128,25 @@ bool
 parsePictureSettings(const std::vector<std::string>& arguments,
                      PictureSettings& settings)
 {
-  CommandLine line(
-      std::string("usage: ") + kRender +
-      " picture RUN [-o PATH] [--view NAME,...] [options]\n"
-      "Draws what a run of pcl_slam6d left in the folder RUN, as far as it "
-      "is there,\ninto PNG files. Needs no display.\nViews:" +
-      RunPictures::viewTable() + "\n");
-  Words words;
-  line.positional("RUN", &settings.run);
-  describe(settings, words, line);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kRender +
+                    R"( picture RUN [-o PATH] [--view NAME,...] [options]
+Draws what a run of pcl_slam6d left in the folder RUN, as far as it is there,
+into PNG files. Needs no display.
+Views:)" + RunPictures::viewTable() +
+                    "\n");
+  std::vector<std::string> views;
+  table.positional("RUN", &settings.run);
+  addOutput(table, settings, views);
+  addLook(table, settings);
+  addViews(table, settings);
+  if (!table.parse(arguments))
     return false;
-  takeWords(words, settings);
-  checkNumbers(settings);
+  takeViews(views, settings);
+  if (!(settings.slice_thickness > 0))
+    throw UsageError("--thickness must be > 0");
+  if (settings.elevation &&
+      !(*settings.elevation > 0 && *settings.elevation < M_PI / 2))
+    throw UsageError("--elevation must be between 0 and 90 degrees");
   return true;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/command_line.h"
-
 #include <pcl6d/visualization/map_cloud.h>
 
 #include <cstddef>
@@ -24,14 +22,14 @@ struct PictureSettings {
   std::optional<int> width;  ///< [px]
   std::optional<int> height; ///< [px]
   std::size_t points = 4000000;
-  AutoDouble slice_height;      ///< [m] in the world
-  double slice_thickness = 0.3; ///< [m]
-  std::optional<int> scan;      ///< index NNN
+  std::optional<double> slice_height; ///< [m] in the world
+  double slice_thickness = 0.3;       ///< [m]
+  std::optional<int> scan;            ///< index NNN
   std::size_t viewpoint = 1;
-  AutoDouble azimuth;   ///< [rad]
-  AutoDouble elevation; ///< [rad]
-  std::string models;   ///< folder of meshes; empty: none
-  std::string title;    ///< empty: says what the run is
+  std::optional<double> azimuth;   ///< [rad]
+  std::optional<double> elevation; ///< [rad]
+  std::string models;              ///< folder of meshes; empty: none
+  std::string title;               ///< empty: says what the run is
 };
 
 /** \return false if there is nothing more to do

@@ -51,10 +51,10 @@ RunPictures::drawPlanes()
   PlaneViewOptions options;
   options.width = settings_.width.value_or(options.width);
   options.height = settings_.height.value_or(options.height);
-  if (!settings_.azimuth.is_auto)
-    options.azimuth = settings_.azimuth.value;
-  if (!settings_.elevation.is_auto)
-    options.elevation = settings_.elevation.value;
+  if (settings_.azimuth)
+    options.azimuth = *settings_.azimuth;
+  if (settings_.elevation)
+    options.elevation = *settings_.elevation;
   options.background = settings_.background;
   options.transparent = settings_.transparent;
   options.title = title("planes");

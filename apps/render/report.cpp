@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "common/progress_bar.h"
 #include "render/verbs.h"
 
@@ -12,8 +12,6 @@
 namespace pcl6d::app {
 
 namespace {
-namespace po = boost::program_options;
-
 struct ReportSettings {
   std::string run;
   std::string output;
@@ -25,24 +23,22 @@ struct ReportSettings {
 bool
 parse(const std::vector<std::string>& arguments, ReportSettings& s)
 {
-  CommandLine line(
-      std::string("usage: ") + kRender +
-      " report RUN [options]\n"
-      "Writes one page for a browser, which needs no network: whether the "
-      "map is to be\ntrusted, the map in three dimensions, plots, tables, "
-      "pictures and options of the run.\nWhat the run lacks is named on it.\n");
-  line.positional("RUN", &s.run);
-  line.group("Output").add_options()("output,o",
-                                     po::value(&s.output)->value_name("FILE.html"),
-                                     "default: RUN/report.html")(
-      "title", po::value(&s.title), "default: the name of the folder RUN")(
-      "max-points",
-      valueOf(s.options.max_points),
-      "of the map, which is thinned evenly; 12 bytes each")(
-      "quiet", po::bool_switch(&s.quiet), "print warnings and errors only");
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kRender +
+                    R"( report RUN [options]
+Writes one page for a browser, which needs no network: whether the map is to be
+trusted, the map in three dimensions, plots, tables, pictures and options of the run.
+What the run lacks is named on it.
+)");
+  table.positional("RUN", &s.run);
+  table.group("Output");
+  table.add("output,o FILE.html", &s.output).help("default: RUN/report.html");
+  table.add("title", &s.title).help("default: the name of the folder RUN");
+  table.add("max-points", &s.options.max_points)
+      .help("of the map, which is thinned evenly; 12 bytes each");
+  table.add("quiet", &s.quiet).help("print warnings and errors only");
+  if (!table.parse(arguments))
     return false;
-  checkOptions([&] { s.options.validate(); }, {{"max_points", "max-points"}});
+  checkOptions([&] { s.options.validate(); });
   if (s.output.empty())
     s.output = (std::filesystem::path(s.run) / "report.html").string();
   return true;

@@ -109,8 +109,7 @@ RunPictures::roomOverlay() const
   const SemanticMap map = readSemanticMap(run_.path() / kMapFile);
   for (std::size_t i = 0; i < map.rooms.size(); ++i) {
     const MapRoom& room = map.rooms[i];
-    if (!settings_.slice_height.is_auto &&
-        !isCut(room, map, settings_.slice_height.value))
+    if (settings_.slice_height && !isCut(room, map, *settings_.slice_height))
       continue;
     Overlay::Line outline{{}, line, 2};
     for (const auto& corner : room.outline)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
 #include "common/interrupt.h"
 #include "common/open_scans.h"
+#include "common/option_table.h"
 #include "common/progress_bar.h"
 #include "semantic_map/finished_run.h"
 #include "semantic_map/verbs.h"
@@ -19,7 +19,6 @@
 namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 
 struct BuildSettings {
   std::string run;
@@ -32,45 +31,40 @@ struct BuildSettings {
   std::string rules;
   bool keep_observations = false;
   bool quiet = false;
-  int threads = 0;
+  unsigned int threads = 0;
 };
 
 void
-describe(BuildSettings& s, CommandLine& line)
+addOptions(OptionTable& table, BuildSettings& s)
 {
-  line.group("Input").add_options() //
-      ("planes",
-       po::value(&s.planes)->value_name("FILE"),
-       "planes.json; by default that of the run, else planes are found in its scans") //
-      ("objects",
-       po::value(&s.objects)->value_name("FILE"),
-       "objects.json; by default that of the run, else there are no objects") //
-      ("model",
-       po::value(&s.models)->value_name("MODEL")->composing()->multitoken(),
-       "look for objects in the scans: a mesh, a cloud or a folder of the model store, "
-       "as of pcl_slam6d_objects locate; several may follow") //
-      ("store",
-       po::value(&s.store)->value_name("DIR"),
-       "look for all models of a store, such as share/models") //
-      ("rules",
-       po::value(&s.rules)->value_name("FILE"),
-       "rules of labels (share/rules); by default the book's");
-  line.group("Output").add_options() //
-      ("output,o",
-       po::value(&s.output)->value_name("FILE"),
-       "by default semantic_map.json in RUN_DIR") //
-      ("cloud",
-       po::value(&s.cloud)->value_name("FILE"),
-       ".pcd or .ply: the points with label, plane_id, object_id; by default "
-       "semantic_map.pcd in RUN_DIR");
-  line.group("Run").add_options() //
-      ("keep-observations",
-       po::bool_switch(&s.keep_observations),
-       "do not make one object of what several scans saw at one place") //
-      ("threads",
-       valueOf(s.threads)->value_name("N"),
-       "0: one per core; never changes the result") //
-      ("quiet", po::bool_switch(&s.quiet), "print errors only");
+  table.positional("RUN_DIR", &s.run);
+  table.group("Input");
+  table.add("planes FILE", &s.planes)
+      .help("planes.json; by default that of the run, else planes are found in its "
+            "scans");
+  table.add("objects FILE", &s.objects)
+      .help("objects.json; by default that of the run, else there are no objects");
+  table.add("model MODEL", &s.models)
+      .composing()
+      .multitoken()
+      .help("look for objects in the scans: a mesh, a cloud or a folder of the model "
+            "store, as of pcl_slam6d_objects locate; several may follow");
+  table.add("store DIR", &s.store)
+      .help("look for all models of a store, such as share/models");
+  table.add("rules FILE", &s.rules)
+      .help("rules of labels (share/rules); by default the book's");
+  table.group("Output");
+  table.add("output,o FILE", &s.output).help("by default semantic_map.json in RUN_DIR");
+  table.add("cloud FILE", &s.cloud)
+      .help(".pcd or .ply: the points with label, plane_id, object_id; by default "
+            "semantic_map.pcd in RUN_DIR");
+  table.group("Run");
+  table.add("keep-observations", &s.keep_observations)
+      .help("do not make one object of what several scans saw at one place");
+  table.addAs<int>("threads N", &s.threads)
+      .within(0, kNoBound, ">= 0")
+      .help("0: one per core; never changes the result");
+  table.add("quiet", &s.quiet).help("print errors only");
 }
 
 /** \brief Makes sure that no input is overwritten. \throws UsageError */
@@ -99,18 +93,17 @@ checkOutputs(const BuildSettings& s)
 bool
 parse(const std::vector<std::string>& arguments, BuildSettings& s)
 {
-  CommandLine line(std::string("usage: ") + kSemanticMap +
-                   " build RUN_DIR [options]\nMakes the semantic map of a finished run "
-                   "of pcl_slam6d: its scans and links, planes\nwith labels, objects, "
-                   "rooms, how they lie to each other, and what each point is.\n");
-  line.positional("RUN_DIR", &s.run);
-  describe(s, line);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kSemanticMap +
+                    R"( build RUN_DIR [options]
+Makes the semantic map of a finished run of pcl_slam6d: its scans and links, planes
+with labels, objects, rooms, how they lie to each other, and what each point is.
+)");
+  addOptions(table, s);
+  if (!table.parse(arguments))
     return false;
   if (!s.objects.empty() && (!s.models.empty() || !s.store.empty()))
     throw UsageError(
         "--objects gives the objects; it does not go with --model or --store");
-  checkOptions([&] { require(s.threads >= 0, "threads", s.threads, ">= 0"); });
   const fs::path folder = s.run;
   if (s.output.empty())
     s.output = (folder / kMapFile).string();
@@ -141,7 +134,7 @@ addObjects(const BuildSettings& s,
 {
   if (!s.models.empty() || !s.store.empty()) {
     ObjectFinderOptions options;
-    options.localizer.num_threads = static_cast<unsigned int>(s.threads);
+    options.localizer.num_threads = s.threads;
     const ObjectFinder finder(readModels(s.models, s.store), options);
     const auto found = observeObjects(
         finder, openScans(s.run, {}, bar), {0, 0}, watched(bar, interrupt));
@@ -175,7 +168,7 @@ addPlanes(const BuildSettings& s,
   PlaneFinderOptions options;
   options.rules = rules();
   options.refine = true;
-  options.num_threads = static_cast<unsigned int>(s.threads);
+  options.num_threads = s.threads;
   const RegisteredScans scans = openScans(s.run, {}, bar);
   const ScanParameters parameters = sceneParameters(scans, {}, watched(interrupt));
   bar.say(parameterLine("voxel", parameters.voxel));
@@ -214,7 +207,7 @@ runMapBuild(const std::vector<std::string>& arguments)
   Scan cloud = run.readMap();
   SemanticMapBuilderOptions options;
   options.fuse = !s.keep_observations;
-  options.num_threads = static_cast<unsigned int>(s.threads);
+  options.num_threads = s.threads;
   SemanticMapBuilder builder(std::move(scans), options);
   try {
     const Interrupt interrupt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "semantic_map/verbs.h"
 
 #include <pcl6d/semantic_map/semantic_map_io.h>
@@ -55,13 +55,13 @@ int
 runMapInfo(const std::vector<std::string>& arguments)
 {
   std::string file;
-  CommandLine line(
-      std::string("usage: ") + kSemanticMap +
-      " info MAP\nTells what a semantic map holds: scans, planes by label, "
-      "objects by class, rooms,\nrelations. MAP: semantic_map.json, or a "
-      "folder that holds it.\n");
-  line.positional("MAP", &file);
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kSemanticMap +
+                    R"( info MAP
+Tells what a semantic map holds: scans, planes by label, objects by class, rooms,
+relations. MAP: semantic_map.json, or a folder that holds it.
+)");
+  table.positional("MAP", &file);
+  if (!table.parse(arguments))
     return kDone;
   printMap(readSemanticMap(mapFile(file)));
   flushOutput();

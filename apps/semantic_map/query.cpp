@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
+#include "common/option_table.h"
 #include "semantic_map/verbs.h"
 
 #include <pcl6d/semantic_map/map_query.h>
@@ -11,19 +11,19 @@
 namespace pcl6d::app {
 namespace {
 constexpr const char* kQueryUsage =
-    " query MAP \"SUBJECT CONDITION...\" [options]\n"
-    "Finds things in a semantic map. MAP: semantic_map.json, or a folder that holds "
-    "it.\n"
-    "SUBJECT: objects, planes, rooms, storeys, scans, links, relations.\n"
-    "CONDITION: [not] KEY OP VALUE[,VALUE...] with OP one of = != < <= > >=.\n"
-    "All conditions must hold, of the values one. VALUE: a number, a word, text in\n"
-    "quotes, a thing such as plane:12, or * for anything. Keys: share/doc/"
-    "semantic_map.md.\n\n"
-    "  objects class=chair on=floor room=2\n"
-    "  planes label=wall area>4 parallel=12\n"
-    "  objects class='waste bin' not next_to=table\n"
-    "  scans seen=object:3\n"
-    "  rooms has=bed,sofa\n";
+    R"( query MAP "SUBJECT CONDITION..." [options]
+Finds things in a semantic map. MAP: semantic_map.json, or a folder that holds it.
+SUBJECT: objects, planes, rooms, storeys, scans, links, relations.
+CONDITION: [not] KEY OP VALUE[,VALUE...] with OP one of = != < <= > >=.
+All conditions must hold, of the values one. VALUE: a number, a word, text in
+quotes, a thing such as plane:12, or * for anything. Keys: share/doc/semantic_map.md.
+
+  objects class=chair on=floor room=2
+  planes label=wall area>4 parallel=12
+  objects class='waste bin' not next_to=table
+  scans seen=object:3
+  rooms has=bed,sofa
+)";
 } // namespace
 
 int
@@ -32,14 +32,13 @@ runMapQuery(const std::vector<std::string>& arguments)
   std::string file;
   std::string text;
   bool as_json = false;
-  CommandLine line(std::string("usage: ") + kSemanticMap + kQueryUsage);
-  line.positional("MAP", &file);
-  line.positional("QUERY", &text);
-  line.group("Output").add_options()(
-      "json",
-      boost::program_options::bool_switch(&as_json),
-      "print JSON with all properties in place of a table");
-  if (!line.parse(arguments))
+  OptionTable table(std::string("usage: ") + kSemanticMap + kQueryUsage);
+  table.positional("MAP", &file);
+  table.positional("QUERY", &text);
+  table.group("Output");
+  table.add("json", &as_json)
+      .help("print JSON with all properties in place of a table");
+  if (!table.parse(arguments))
     return kDone;
   const SemanticMap map = readSemanticMap(mapFile(file));
   QueryResult result;

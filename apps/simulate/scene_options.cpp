@@ -2,7 +2,6 @@
 #include "common/app.h"
 #include "simulate/scene_options.h"
 
-#include <pcl6d/common/require.h>
 #include <pcl6d/io/point_list_io.h>
 #include <pcl6d/simulation/scene_file.h>
 
@@ -28,44 +27,36 @@ extensionOf(const std::string& name)
 }
 
 bool
-isMesh(const SceneWords& words)
+isMesh(const SceneSettings& s)
 {
-  const std::string extension = extensionOf(words.name);
+  const std::string extension = extensionOf(s.name);
   return std::find(std::begin(kMeshes), std::end(kMeshes), extension) !=
          std::end(kMeshes);
 }
 
 SimulationScene
-loadMesh(const SceneWords& words)
+loadMesh(const SceneSettings& s)
 {
-  if (words.path.empty())
+  if (s.path.empty())
     throw UsageError("--path is missing: the waypoints of the robot through the mesh " +
-                     words.name);
+                     s.name);
   MeshOptions options;
-  options.scale = words.scale;
-  options.up = words.up == "y" ? UpAxis::kY : UpAxis::kZ;
-  return meshScene(words.name, readPointList(words.path), options);
+  options.scale = s.scale;
+  options.up = s.up;
+  return meshScene(s.name, readPointList(s.path), options);
 }
 
 SimulationScene
-loadWhole(const SceneWords& words, std::uint64_t seed)
+loadWhole(const SceneSettings& s, std::uint64_t seed)
 {
-  checkOptions([&] {
-    require(words.up == "y" || words.up == "z", "up", words.up, "y or z");
-    require(words.scale > 0, "scale", words.scale, "> 0");
-    require(words.labels == "auto" || words.labels == "yes" || words.labels == "no",
-            "labels",
-            words.labels,
-            "auto, yes or no");
-  });
-  if (isMesh(words))
-    return loadMesh(words);
-  if (!words.path.empty())
-    throw UsageError("--path is for meshes only; " + words.name + " has its own way");
-  if (extensionOf(words.name) == ".json")
-    return readScene(words.name);
+  if (isMesh(s))
+    return loadMesh(s);
+  if (!s.path.empty())
+    throw UsageError("--path is for meshes only; " + s.name + " has its own way");
+  if (extensionOf(s.name) == ".json")
+    return readScene(s.name);
   SimulationScene scene;
-  checkOptions([&] { scene = builtInScene(words.name, seed); });
+  checkOptions([&] { scene = builtInScene(s.name, seed); });
   return scene;
 }
 } // namespace
@@ -80,54 +71,54 @@ sceneList()
 }
 
 void
-describeScene(CommandLine& line, SceneWords& words)
+addScene(OptionTable& table, SceneSettings& s)
 {
-  namespace po = boost::program_options;
-  line.group("Scene").add_options() //
-      ("path",
-       po::value(&words.path)->value_name("FILE"),
-       "of a mesh: lines x y z, the waypoints of the robot on the floor, closed from "
-       "the last to the first")                                              //
-      ("scale", valueOf(words.scale), "of a mesh: [m] per unit of the file") //
-      ("up", valueOf(words.up), "of a mesh: y|z, the axis that points up")   //
-      ("labels",
-       valueOf(words.labels),
-       "yes|no|auto: points carry plane_id, object_id and label, and "
-       "planes_truth.json and objects_truth.json are written; auto: not for "
-       "corridor") //
-      ("without",
-       po::value(&words.without)->value_name("CLASS")->composing(),
-       "leaves out the objects of a class, such as chair; may be repeated");
+  table.group("Scene");
+  table.add("path FILE", &s.path)
+      .help("of a mesh: lines x y z, the waypoints of the robot on the floor, closed "
+            "from the last to the first");
+  table.add("scale", &s.scale)
+      .above(0, "> 0")
+      .help("of a mesh: [m] per unit of the file");
+  table.add("up", &s.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}})
+      .help("of a mesh: y|z, the axis that points up");
+  table.add("labels", &s.labels, {{"auto", std::nullopt}, {"yes", true}, {"no", false}})
+      .help("yes|no|auto: points carry plane_id, object_id and label, and "
+            "planes_truth.json and objects_truth.json are written; auto: not for "
+            "corridor");
+  table.add("without CLASS", &s.without)
+      .composing()
+      .help("leaves out the objects of a class, such as chair; may be repeated");
 }
 
 SimulationScene
-loadScene(const SceneWords& words, std::uint64_t seed)
+loadScene(const SceneSettings& s, std::uint64_t seed)
 {
-  SimulationScene scene = loadWhole(words, seed);
-  return words.without.empty() ? scene : withoutObjects(scene, words.without);
+  SimulationScene scene = loadWhole(s, seed);
+  return s.without.empty() ? scene : withoutObjects(scene, s.without);
 }
 
 bool
-wantsLabels(const SceneWords& words)
+wantsLabels(const SceneSettings& s)
 {
   // The bytes of corridor, which others compare with, stay as they are.
-  return words.labels == "yes" || (words.labels == "auto" && words.name != "corridor");
+  return s.labels.value_or(s.name != "corridor");
 }
 
 void
-describeScene(const SceneWords& words,
+describeScene(const SceneSettings& s,
               const SimulationScene& scene,
               nlohmann::ordered_json& json)
 {
-  if (isMesh(words)) {
-    json["mesh"] = {{"scale", words.scale}, {"up", words.up}};
+  if (isMesh(s)) {
+    json["mesh"] = {{"scale", s.scale}, {"up", s.up == UpAxis::kY ? "y" : "z"}};
     nlohmann::ordered_json waypoints;
     for (const auto& p : scene.waypoints)
       waypoints.push_back({p.x(), p.y(), p.z()});
     json["waypoints"] = waypoints;
   }
-  if (!words.without.empty())
-    json["without"] = words.without;
+  if (!s.without.empty())
+    json["without"] = s.without;
   if (!scene.description.empty())
     json["description"] = nlohmann::ordered_json::parse(scene.description);
 }

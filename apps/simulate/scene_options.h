@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/command_line.h"
+#include "common/option_table.h"
 
+#include <pcl6d/io/mesh_io.h>
 #include <pcl6d/simulation/simulator.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,12 +14,12 @@
 namespace pcl6d::app {
 
 /** \brief Which scene, as given on the command line. */
-struct SceneWords {
-  std::string name; ///< of a built-in scene, or a file .json, .ply, .obj, .stl
-  std::string path; ///< file with waypoints; for meshes
-  double scale = 1; ///< [m] per unit of a mesh
-  std::string up = "z";
-  std::string labels = "auto";
+struct SceneSettings {
+  std::string name;       ///< of a built-in scene, or a file .json, .ply, .obj, .stl
+  std::string path;       ///< file with waypoints; for meshes
+  double scale = 1;       ///< [m] per unit of a mesh
+  UpAxis up = UpAxis::kZ; ///< of a mesh
+  std::optional<bool> labels;       ///< none: not for corridor
   std::vector<std::string> without; ///< classes of objects that are left out
 };
 
@@ -27,21 +28,21 @@ std::string
 sceneList();
 
 void
-describeScene(CommandLine& line, SceneWords& words);
+addScene(OptionTable& table, SceneSettings& scene);
 
 /** \brief Makes or reads the scene. \param[in] seed of what is random in it
  * \throws UsageError the scene is not known, or options do not fit it
  * \throws IoFailed a file is wrong */
 SimulationScene
-loadScene(const SceneWords& words, std::uint64_t seed);
+loadScene(const SceneSettings& words, std::uint64_t seed);
 
 /** \return whether points get labels and truth files are written */
 bool
-wantsLabels(const SceneWords& words);
+wantsLabels(const SceneSettings& words);
 
 /** \brief Adds to scene.json what the scene was made from. */
 void
-describeScene(const SceneWords& words,
+describeScene(const SceneSettings& words,
               const SimulationScene& scene,
               nlohmann::ordered_json& json);
 

@@ -2,71 +2,122 @@
 #include "common/app.h"
 #include "simulate/settings.h"
 
-#include <pcl6d/common/require.h>
+#include <pcl6d/scanner/scanner_presets.h>
+
+#include <cmath>
 
 namespace pcl6d::app {
 
 namespace {
-namespace po = boost::program_options;
+/** \return the known scanners, a line each, for --help */
+std::string
+scannerList()
+{
+  std::string list;
+  for (const auto& name : scannerNames())
+    list += "\n  " + name + ": " + scannerDescription(name);
+  return list;
+}
 
 void
-describeOptions(CommandLine& line, SimulateSettings& s)
+addScanner(OptionTable& table, SimulateSettings& s)
 {
-  line.positional("SCENE", &s.scene.name);
-  line.group("Simulation")
-      .add_options() //
-      ("scans",
-       po::value(&s.simulation.num_scans),
-       "number of scans, evenly along the way; by default what suits the scene") //
-      ("seed",
-       valueOf(s.seed),
-       "same seed, same bytes; also of what is random in a scene");
-  describeScene(line, s.scene);
-  describeScanner(line, s.scanner);
-  describeDrive(line, s.drive);
-  line.group("Run").add_options() //
-      ("output,o",
-       po::value(&s.out)->value_name("DIR")->required(),
-       "folder to write; made if missing") //
-      ("force",
-       po::bool_switch(&s.force),
-       "write into a folder that holds other files, but no scans") //
-      ("threads",
-       valueOf(s.threads),
-       "0: one per core; never changes results") //
-      ("quiet", po::bool_switch(&s.quiet), "print errors only");
+  table.group("Scanner");
+  table.add("scanner", &s.scanner).help("by its name, see above");
+  table.addAuto("resolution", &s.resolution)
+      .help("[deg] between samples and lines; auto: the scanner's");
+  table.addAuto("noise", &s.noise)
+      .help("[m] standard deviation of the ranges, apart from what grows with range or "
+            "angle; auto: the scanner's");
+  table.addAuto("max-range", &s.max_range)
+      .help("[m] farther things are not seen; auto: what suits the scene for rotating, "
+            "the scanner's for all others");
+  table.add("exact", &s.exact)
+      .help("one ideal ray per sample and true ranges; with --noise: that noise and no "
+            "other error");
+}
+
+void
+addDrive(OptionTable& table, SimulateSettings& s)
+{
+  table.group("Drive");
+  table.add("motion", &s.simulation.motion, scanMotionFromName, "stop")
+      .help("stop|continuous: stop for each scan, or drive on meanwhile; then points "
+            "have the field t, and times.txt has the stamps");
+  table.addAuto("speed", &s.simulation.speed)
+      .help("[m/s] or auto: 1, slower if a scan takes longer than the way to the next");
+  const auto takeOdometry = [&s](const std::string& name) {
+    s.simulation.odometry_kind = odometryKindFromName(name);
+    s.odometry = name;
+  };
+  table.addWord("odometry", s.odometry, takeOdometry)
+      .help(
+          "wheel|visual-inertial|exact: planar with drift, six degrees of freedom with "
+          "little drift, the truth");
+}
+
+void
+addOptions(OptionTable& table, SimulateSettings& s)
+{
+  table.positional("SCENE", &s.scene.name);
+  table.group("Simulation");
+  table.add("scans", &s.scans)
+      .help("number of scans, evenly along the way; by default what suits the scene");
+  table.addAs<std::int64_t>("seed", &s.simulation.seed)
+      .within(0, kNoBound, ">= 0")
+      .help("same seed, same bytes; also of what is random in a scene");
+  addScene(table, s.scene);
+  addScanner(table, s);
+  addDrive(table, s);
+  table.group("Run");
+  table.add("output,o DIR", &s.out).required().help("folder to write; made if missing");
+  table.add("force", &s.force)
+      .help("write into a folder that holds other files, but no scans");
+  table.addAs<int>("threads", &s.simulation.range.num_threads)
+      .within(0, kNoBound, ">= 0")
+      .help("0: one per core; never changes results");
+  table.add("quiet", &s.quiet).help("print errors only");
+}
+
+/** Sets the scanner and how it measures. */
+void
+applyScanner(const SimulateSettings& s, double scene_range, SimulationOptions& options)
+{
+  checkOptions([&] {
+    const auto resolution =
+        s.resolution ? std::make_optional(*s.resolution * M_PI / 180) : std::nullopt;
+    const ScannerPreset preset = scannerByName(s.scanner, resolution);
+    const unsigned num_threads = options.range.num_threads;
+    options.scanner = preset.scanner;
+    options.range = s.exact ? preset.range.withoutErrors() : preset.range;
+    options.range.num_threads = num_threads;
+  });
+  options.range.noise = s.noise.value_or(options.range.noise);
+  if (s.max_range)
+    options.range.max_range = *s.max_range;
+  else if (s.scanner == SimulateSettings().scanner)
+    options.range.max_range = scene_range;
 }
 } // namespace
 
 bool
 parseSettings(const std::vector<std::string>& arguments, SimulateSettings& s)
 {
-  CommandLine line(std::string("usage: ") + kSimulate +
-                   " SCENE -o DIR [options]\nSimulates a robot that drives through "
-                   "a scene and scans it.\nSCENE is a scene description FILE.json, "
-                   "a mesh FILE.ply|obj|stl with --path, or one of:" +
-                   sceneList() + "\nScanners:" + scannerList());
-  describeOptions(line, s);
-  if (!line.parse(arguments))
-    return false;
-  s.has_scans = line.given("scans");
-  checkOptions([&] {
-    require(s.seed >= 0, "seed", s.seed, ">= 0");
-    require(s.threads >= 0, "threads", s.threads, ">= 0");
-  });
-  s.simulation.seed = static_cast<std::uint64_t>(s.seed);
-  s.simulation.range.num_threads = static_cast<unsigned>(s.threads);
-  applyDrive(s.drive, s.simulation);
-  return true;
+  OptionTable table(std::string("usage: ") + kSimulate +
+                    " SCENE -o DIR [options]\nSimulates a robot that drives through "
+                    "a scene and scans it.\nSCENE is a scene description FILE.json, "
+                    "a mesh FILE.ply|obj|stl with --path, or one of:" +
+                    sceneList() + "\nScanners:" + scannerList());
+  addOptions(table, s);
+  return table.parse(arguments);
 }
 
 SimulationScene
 sceneOf(SimulateSettings& s)
 {
   SimulationScene scene = loadScene(s.scene, s.simulation.seed);
-  if (!s.has_scans)
-    s.simulation.num_scans = scene.num_scans;
-  applyScanner(s.scanner, scene.max_range, s.simulation);
+  s.simulation.num_scans = s.scans.value_or(scene.num_scans);
+  applyScanner(s, scene.max_range, s.simulation);
   checkOptions([&] { s.simulation.validate(); }, {{"num_scans", "scans"}});
   return scene;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "simulate/drive_options.h"
-#include "simulate/scanner_options.h"
 #include "simulate/scene_options.h"
 
-#include <cstdint>
+#include <pcl6d/simulation/simulator.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,13 +15,15 @@ constexpr const char* kSimulate = "pcl_slam6d_simulate"; ///< the program's name
 
 /** \brief The command line of pcl_slam6d_simulate. */
 struct SimulateSettings {
-  SceneWords scene;
-  ScannerWords scanner;
-  DriveWords drive;
+  SceneSettings scene;
+  std::optional<int> scans; ///< none: what suits the scene
+  std::string scanner = "rotating";
+  std::optional<double> resolution; ///< [deg] none: the scanner's
+  std::optional<double> noise;      ///< [m] none: the scanner's
+  std::optional<double> max_range;  ///< [m] none: what suits scene or scanner
+  bool exact = false;               ///< rays and ranges without errors
+  std::string odometry = "wheel";
   std::string out;
-  bool has_scans = false; ///< given by the user
-  std::int64_t seed = 1;  ///< signed, as boost takes -1 for a large unsigned number
-  int threads = 0;
   bool force = false;
   bool quiet = false;
   SimulationOptions simulation;

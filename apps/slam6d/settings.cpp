@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/command_line.h"
-#include "slam6d/option_words.h"
+#include "common/option_table.h"
+#include "slam6d/settings.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/require.h>
 #include <pcl6d/io/link_list_io.h>
 #include <pcl6d/registration/minimisers.h>
 #include <pcl6d/run/run_summary.h>
@@ -19,19 +18,11 @@ namespace pcl6d::app {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr int kMostThreads = 1024;
-
 constexpr const char* kUsageText =
-    "usage: pcl_slam6d SCAN_DIR -o OUT_DIR [options]\n"
-    "Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one "
-    "map\n"
-    "and writes poses, map, picture and summary. Distances are in metres.\n";
-
-std::optional<double>
-toOptional(const AutoDouble& value)
-{
-  return value.is_auto ? std::nullopt : std::optional<double>(value.value);
-}
+    R"(usage: pcl_slam6d SCAN_DIR -o OUT_DIR [options]
+Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one map
+and writes poses, map, picture and summary. Distances are in metres.
+)";
 
 int
 metascanFromText(const std::string& text)
@@ -46,53 +37,144 @@ metascanFromText(const std::string& text)
 }
 
 void
-interpret(const CommandLine& line, const OptionWords& raw, Settings& s)
+addInput(OptionTable& table, Settings& s)
 {
-  if (s.out.empty())
-    s.out = s.continued;
-  if (s.out.empty())
-    throw UsageError("-o OUT_DIR is missing");
-  if (line.given("last"))
-    s.folder.last = raw.last;
-  s.slam.num_threads = static_cast<unsigned int>(raw.threads);
-  s.slam.metascan = metascanFromText(raw.metascan);
-  s.slam.min_range = toOptional(raw.min_range);
-  s.slam.max_range = toOptional(raw.max_range);
-  s.slam.voxel = toOptional(raw.voxel);
-  s.slam.max_distance = toOptional(raw.max_distance);
-  s.slam.max_distance_start = toOptional(raw.max_distance_start);
-  checkOptions(
-      [&] {
-        require(raw.threads >= 0 && raw.threads <= kMostThreads,
-                "threads",
-                raw.threads,
-                "in [0, " + std::to_string(kMostThreads) + "]");
-        require(s.seed >= 0, "seed", s.seed, ">= 0");
-        s.interpolation = motionInterpolationFromName(raw.interpolation);
-        s.slam.metric = metricFromName(raw.metric);
-        s.slam.minimiser = minimiserFromName(raw.minimiser);
-        s.slam.plane_minimiser = planeMinimiserFromName(raw.plane_minimiser);
-        s.slam.search = searchMethodFromName(raw.search);
-        s.slam.robust = robustKernelFromName(raw.robust);
-        s.slam.loop_closing = loopClosingFromName(raw.loop_closing);
-        s.slam.relaxation =
-            raw.relaxation == "none"
-                ? std::nullopt
-                : std::make_optional(relaxationFromName(raw.relaxation));
-        s.slam.links = linkRuleFromName(raw.links);
-        s.auto_guess = raw.initial_guess == "auto";
-        if (!s.auto_guess)
-          s.slam.initial_guess = initialGuessFromName(raw.initial_guess);
-        s.slam.seed = static_cast<std::uint64_t>(s.seed);
-        s.folder.format = scanFormatFromName(raw.format);
-        s.folder.validate();
-        s.slam.validate();
-      },
-      {{"max_iterations", "iterations"},
-       {"plane minimiser", "plane-minimiser"},
-       {"relaxation_rounds", "relaxation-rounds"},
-       {"loop closing", "loop-closing"},
-       {"initial guess", "initial-guess"}});
+  table.group("Input");
+  table.add("first", &s.folder.first)
+      .help("index of the first scan to take, in the order of the folder");
+  table.add("last", &s.folder.last)
+      .otherwise("end")
+      .help("index of the last scan to take (default: the end)");
+  table.add("every", &s.folder.every).help("take each n-th scan");
+  table.add("poses FILE", &s.folder.poses_file)
+      .help(
+          "initial poses, KITTI or TUM rows, one per scan of the folder (default: "
+          "*.pose, odometry.txt, poses.txt, PCD VIEWPOINT or identity, the first that "
+          "is there)");
+  table.add("format", &s.folder.format, scanFormatFromName)
+      .help("auto|pcd|ply|uos|kitti|xyz");
+  table.add("deskew", &s.deskew)
+      .help("scans were taken while moving: correct each point by its time (field t or "
+            "time) along the initial poses; needs their time stamps (times.txt, or TUM "
+            "rows)");
+  table.add("interpolation", &s.interpolation, motionInterpolationFromName, "linear")
+      .help("linear|cubic: how --deskew moves between two poses; cubic follows bends "
+            "better");
+  table.add("continue RUN_DIR", &s.continued)
+      .help("goes on with a finished run: its scans keep their place and its options "
+            "count unless given anew; taken are the files of SCAN_DIR whose names it "
+            "lacks; -o is RUN_DIR by default");
+}
+
+void
+addMethods(OptionTable& table, Settings& s)
+{
+  table.group("Matching");
+  table.add("metric", &s.slam.metric, metricFromName)
+      .help(joined(metricNames()) +
+            ": distance between points, of points to planes, of planes");
+  table.add("minimiser", &s.slam.minimiser, minimiserFromName, "quaternion")
+      .help(joined(minimiserNames()) + ", of the metric point");
+  table.add("plane-minimiser", &s.slam.plane_minimiser, planeMinimiserFromName, "helix")
+      .help(joined(planeMinimiserNames()) + ", of the metrics plane and gicp");
+  table.add("search", &s.slam.search, searchMethodFromName)
+      .help(joined(searchMethodNames()) +
+            ": how closest points are found; all but approximate give the same result");
+  table.add("robust", &s.slam.robust, robustKernelFromName)
+      .help(joined(robustKernelNames()) + ": less weight for pairs that are far apart");
+  const auto takeGuess = [&s](const std::string& word) {
+    s.auto_guess = word == "auto";
+    if (!s.auto_guess)
+      s.slam.initial_guess = initialGuessFromName(word);
+  };
+  table.addWord("initial-guess", "auto", takeGuess)
+      .help("auto|" + joined(initialGuessNames()) +
+            ": where matching starts; auto: odometry, features if there are no poses");
+}
+
+void
+addMatching(OptionTable& table, Settings& s)
+{
+  table.group("Range gate and reduction");
+  table.addAuto("min-range", &s.slam.min_range)
+      .help("[m] or auto: nearer points are dropped");
+  table.addAuto("max-range", &s.slam.max_range)
+      .help("[m] or auto: farther points are dropped; auto drops no-return codes");
+  table.addAuto("voxel", &s.slam.voxel)
+      .help("[m] or auto: edge length of the octree reduction");
+  addMethods(table, s);
+  table.group("Limits of matching");
+  table.addAuto("max-distance", &s.slam.max_distance)
+      .help("[m] or auto: largest pair distance");
+  table.addAuto("max-distance-start", &s.slam.max_distance_start)
+      .help("[m] or auto: largest pair distance of the first iteration, which then "
+            "shrinks to --max-distance");
+  table.add("metascan N|all", &s.slam.metascan, metascanFromText, "all")
+      .help("match against the union of the last N scans; 1 is pairwise");
+  table.add("iterations", &s.slam.max_iterations)
+      .help("most iterations of one ICP; a scan that needs more is not converged");
+  table.add("min-overlap", &s.slam.min_overlap)
+      .help("share of points with a partner below which a match is not believed");
+  table.add("max-correction", &s.slam.max_correction)
+      .help("share of the odometry's step by which a match may move a scan; beyond, it "
+            "is not believed (inf: always). 1.5 x max-distance is always allowed; not "
+            "applied to --initial-guess overlap and features");
+}
+
+std::optional<Relaxation>
+relaxationOrNone(const std::string& word)
+{
+  return word == "none" ? std::nullopt : std::make_optional(relaxationFromName(word));
+}
+
+void
+addGraph(OptionTable& table, Settings& s)
+{
+  table.group("Loops and graph");
+  table.add("loop-closing", &s.slam.loop_closing, loopClosingFromName)
+      .help(joined(loopClosingNames()) +
+            ": how the error of a loop that is found is spread; none: no search");
+  const std::string usual = toString(*s.slam.relaxation);
+  table.add("relaxation", &s.slam.relaxation, relaxationOrNone, usual)
+      .help(joined(relaxationNames()) +
+            "|none: how all scans are moved at once after matching; undone if the map "
+            "gets worse");
+  table.add("links", &s.slam.links, linkRuleFromName)
+      .help(joined(linkRuleNames()) +
+            ": which scans are linked, those that see the same places or those within "
+            "7.5 m");
+  table.add("relaxation-rounds", &s.slam.relaxation_rounds)
+      .help("most rounds, with links and pairs anew in each");
+  table.add("graph-in FILE", &s.graph_in)
+      .help(
+          "links to look at besides those found: .g2o, or lines 'a b' with the indices "
+          "of two scans; each counts as far as the others confirm it");
+}
+
+void
+addRun(OptionTable& table, Settings& s)
+{
+  table.group("Run");
+  table.add("output,o OUT_DIR", &s.out).help("folder to write; made if missing");
+  table.addAs<int>("threads", &s.slam.num_threads)
+      .within(0, 1024, "in [0, 1024]")
+      .help("0: one per core; never changes the result");
+  table.add("planes", &s.planes)
+      .help(
+          "find the planes of the map and say what they are: planes.json, planes.pcd, "
+          "hulls.ply and a picture (more choice: pcl_slam6d_planes OUT_DIR)");
+  table.add("report", &s.report)
+      .help("write report.html: verdict, map, plots and tables on one page for a "
+            "browser");
+  table.addAs<std::int64_t>("seed", &s.slam.seed)
+      .within(0, kNoBound, ">= 0")
+      .help("of random choices (those of --initial-guess features)");
+  table.add("live-view", &s.live_view)
+      .help("show the map in a window while it grows, and at the end until that is "
+            "closed; without a display the run goes on without");
+  table.add("force", &s.force).help("write into a folder that holds other files");
+  table.add("quiet", &s.quiet).help("print warnings and errors only");
+  table.add("verbose", &s.verbose).help("print a line per scan");
 }
 
 /** \return the options that were given to a run, but for those that say what it reads,
@@ -109,47 +191,17 @@ optionsOfRun(const std::string& run)
   return lines;
 }
 
-template <typename T>
-Settings::Word
-word(const CommandLine& line, const std::string& name, const T& value)
-{
-  std::ostringstream text;
-  text << value;
-  return {name, text.str(), line.given(name)};
-}
-
-/** The words that go into the summary; lengths go there as parameters. */
-std::vector<Settings::Word>
-wordsOf(const CommandLine& line, const OptionWords& raw, const Settings& s)
-{
-  return {word(line, "first", s.folder.first),
-          word(line, "last", s.folder.last ? std::to_string(*s.folder.last) : "end"),
-          word(line, "every", s.folder.every),
-          word(line, "poses", s.folder.poses_file.string()),
-          word(line, "format", raw.format),
-          word(line, "deskew", s.deskew ? "yes" : "no"),
-          word(line, "interpolation", raw.interpolation),
-          word(line, "metric", raw.metric),
-          word(line, "minimiser", raw.minimiser),
-          word(line, "plane-minimiser", raw.plane_minimiser),
-          word(line, "search", raw.search),
-          word(line, "robust", raw.robust),
-          word(line, "initial-guess", raw.initial_guess),
-          word(line, "metascan", raw.metascan),
-          word(line, "loop-closing", raw.loop_closing),
-          word(line, "relaxation", raw.relaxation),
-          word(line, "links", raw.links),
-          word(line, "relaxation-rounds", s.slam.relaxation_rounds),
-          word(line, "graph-in", s.graph_in),
-          word(line, "continue", s.continued),
-          word(line, "iterations", s.slam.max_iterations),
-          word(line, "min-overlap", s.slam.min_overlap),
-          word(line, "max-correction", s.slam.max_correction),
-          word(line, "planes", s.planes ? "yes" : "no"),
-          word(line, "report", s.report ? "yes" : "no"),
-          word(line, "threads", raw.threads),
-          word(line, "seed", s.seed)};
-}
+/** The options that go into the summary; lengths go there as parameters. */
+constexpr const char* kWords[] = {
+    "first",           "last",           "every",
+    "poses",           "format",         "deskew",
+    "interpolation",   "metric",         "minimiser",
+    "plane-minimiser", "search",         "robust",
+    "initial-guess",   "metascan",       "loop-closing",
+    "relaxation",      "links",          "relaxation-rounds",
+    "graph-in",        "continue",       "iterations",
+    "min-overlap",     "max-correction", "planes",
+    "report",          "threads",        "seed"};
 } // namespace
 
 void
@@ -182,18 +234,29 @@ Settings::readLinks(const std::vector<std::size_t>& indices)
 bool
 parseSettings(const std::vector<std::string>& arguments, Settings& settings)
 {
-  CommandLine line(kUsageText);
-  OptionWords raw;
-  line.positional("SCAN_DIR", &settings.input);
-  describeOptions(line, settings, raw);
-  line.bringOptions("continue", optionsOfRun);
-  if (!line.parse(arguments))
+  OptionTable table(kUsageText);
+  table.positional("SCAN_DIR", &settings.input);
+  addInput(table, settings);
+  addMatching(table, settings);
+  addGraph(table, settings);
+  addRun(table, settings);
+  table.bringOptions("continue", optionsOfRun);
+  if (!table.parse(arguments))
     return false;
-  interpret(line, raw, settings);
-  settings.words = wordsOf(line, raw, settings);
+  if (settings.out.empty())
+    settings.out = settings.continued;
+  if (settings.out.empty())
+    throw UsageError("-o OUT_DIR is missing");
+  checkOptions(
+      [&] {
+        settings.folder.validate();
+        settings.slam.validate();
+      },
+      {{"max_iterations", "iterations"}});
+  settings.words = table.words({std::begin(kWords), std::end(kWords)});
   const bool planes = settings.slam.metric != Metric::kPoint;
   const bool relaxes = settings.slam.relaxation.has_value();
-  settings.without_effect = line.withoutEffect(
+  settings.without_effect = table.withoutEffect(
       {{"interpolation", settings.deskew, "of --deskew"},
        {"links", relaxes, "of --relaxation"},
        {"relaxation-rounds", relaxes, "of --relaxation"},

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/option_table.h"
+
 #include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +20,6 @@ struct Settings {
   std::string out;
   ScanFolderOptions folder;
   Slam6DOptions slam;
-  std::int64_t seed = 1;  ///< signed, as boost takes -1 for a large unsigned number
   std::string continued;  ///< folder of a run that goes on; empty: none
   std::string graph_in;   ///< file of given links; empty: none
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
@@ -31,14 +31,8 @@ struct Settings {
   bool force = false;
   bool quiet = false;
   bool verbose = false;
-  /** options as given, or as they are by default: name, value, whether given */
-  struct Word {
-    std::string name;
-    std::string value;
-    bool given;
-  };
-  std::vector<Word> words;
-  std::string without_effect; ///< words that were given for nothing; else empty
+  std::vector<OptionWord> words; ///< those of the summary
+  std::string without_effect;    ///< words that were given for nothing; else empty
 
   /** Decides what --initial-guess auto means for a folder. */
   void

@@ -6,6 +6,8 @@
 #include <pcl6d/run/run_fields.h>
 #include <pcl6d/run/run_summary.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <ostream>

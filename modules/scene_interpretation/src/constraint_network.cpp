@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 namespace {
 constexpr std::size_t kNone = NetworkSolution::kNone;
 
@@ -231,4 +231,4 @@ solve(const ConstraintNetwork& network, std::size_t node_limit)
   return solution;
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

@@ -7,7 +7,7 @@
 
 /** \file The constraint network of book 7.1.2, free of geometry: variables that may
  * take one of several values, or none. Internal to the module scene_interpretation. */
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 
 /** \brief A possible value of a variable. */
 struct NetworkValue {
@@ -39,4 +39,4 @@ struct NetworkSolution {
 NetworkSolution
 solve(const ConstraintNetwork& network, std::size_t node_limit);
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

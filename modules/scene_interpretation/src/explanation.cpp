@@ -8,6 +8,8 @@
 #include <cstdio>
 
 namespace pcl6d {
+using namespace scene_interpretation;
+
 namespace {
 std::string
 rounded(double value)
@@ -190,7 +192,8 @@ LabelProblem::meets(const NeedRule& need, std::size_t i, std::size_t j) const
 }
 
 std::vector<LabelExplanation>
-explain(const LabelProblem& problem, const std::vector<std::size_t>& labels)
+scene_interpretation::explain(const LabelProblem& problem,
+                              const std::vector<std::size_t>& labels)
 {
   std::vector<LabelExplanation> explanations;
   for (std::size_t plane = 0; plane < problem.size(); ++plane)

@@ -11,6 +11,8 @@
 #include <cmath>
 
 namespace pcl6d {
+using namespace scene_interpretation;
+
 namespace {
 constexpr double kWorthPerSquareMetre = 1e6; // whole numbers: sums without rounding
 

@@ -12,7 +12,7 @@
 
 /** \file What a set of rules says of the planes of a scene. Internal to the module
  * scene_interpretation. */
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 
 /** \brief Planes, rules and storeys as one question. */
 class LabelProblem {
@@ -64,4 +64,4 @@ private:
 std::vector<LabelExplanation>
 explain(const LabelProblem& problem, const std::vector<std::size_t>& labels);
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

@@ -9,6 +9,8 @@
 #include <iterator>
 
 namespace pcl6d {
+using namespace scene_interpretation;
+
 namespace {
 void
 checkHeader(const JsonValue& json)

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 namespace {
 constexpr double kQuarter = 1.5707963267948966; // [rad] 90 deg
 using Kind = ExactDirection::Kind;
@@ -228,4 +228,4 @@ optimiseFrames(const std::vector<FittedPlane>& planes,
   }
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

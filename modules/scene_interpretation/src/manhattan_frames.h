@@ -8,7 +8,7 @@
 
 /** \file Frames of exact directions (book 7.1.3). Internal to the module
  * scene_interpretation. */
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 
 /** \brief A plane as the sums of its points know it. */
 struct FittedPlane {
@@ -60,4 +60,4 @@ optimiseFrames(const std::vector<FittedPlane>& planes,
                bool keep_up,
                DirectionFrames& frames);
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

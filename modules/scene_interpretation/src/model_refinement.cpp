@@ -16,6 +16,8 @@
 #include <cstdio>
 
 namespace pcl6d {
+using namespace scene_interpretation;
+
 namespace {
 using Kind = ExactDirection::Kind;
 std::string

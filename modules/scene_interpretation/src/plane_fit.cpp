@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 
 FittedPlane
 fitted(const PlaneSegment& segment, const Points& points)
@@ -66,4 +66,4 @@ turnTo(const FittedPlane& plane, const Eigen::Vector3d& exact)
           std::sqrt(d.dot(plane.covariance * d))};
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

@@ -7,7 +7,7 @@
 
 /** \file Planes as the sums of their points know them. Internal to the module
  * scene_interpretation. */
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 
 /** \return centroid and scatter of a segment's points; its normal as it is */
 FittedPlane
@@ -28,4 +28,4 @@ struct Turn {
 Turn
 turnTo(const FittedPlane& plane, const Eigen::Vector3d& exact);
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

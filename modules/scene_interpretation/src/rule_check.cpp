@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 namespace {
 constexpr std::size_t kRelations = 11;
 
@@ -247,4 +247,4 @@ checkRules(const LabelRules& rules, const std::string& file)
   RuleCheck(rules, file).run();
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

@@ -4,7 +4,7 @@
 #include <pcl6d/common/angle.h>
 #include <pcl6d/common/name_table.h>
 
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 namespace {
 std::string
 word(const JsonValue& json)
@@ -171,4 +171,4 @@ addRules(const JsonValue& json, LabelRules& rules)
     rules.needs.push_back(readNeed(rule, rules));
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

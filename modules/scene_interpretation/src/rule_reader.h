@@ -7,7 +7,7 @@
 #include <string>
 
 /** \file Reading of LabelRules. Internal to the module scene_interpretation. */
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 
 /** \brief Adds labels, constraints and needs of a file to rules.
  * \throws IoFailed as readLabelRules(), contradictions left out */
@@ -21,4 +21,4 @@ addRules(const JsonValue& json, LabelRules& rules);
 void
 checkRules(const LabelRules& rules, const std::string& file);
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

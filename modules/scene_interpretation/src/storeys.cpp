@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 namespace {
 constexpr double kNear = 1.0;           // [m] in plan: beside a floor
 constexpr double kOver = 0.3;           // [m] in plan: under a ceiling
@@ -186,4 +186,4 @@ findStoreys(std::vector<ScenePlane>& planes,
   }
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

@@ -7,7 +7,7 @@
 #include <vector>
 
 /** \file Storeys of a building. Internal to the module scene_interpretation. */
-namespace pcl6d {
+namespace pcl6d::scene_interpretation {
 
 /** \brief Finds the storeys, the storey of each plane, and for each plane the height of
  * the floor of its storey and of the ceiling over it. */
@@ -16,4 +16,4 @@ findStoreys(std::vector<ScenePlane>& planes,
             const InterpretationOptions& options,
             Interpretation& result);
 
-} // namespace pcl6d
+} // namespace pcl6d::scene_interpretation

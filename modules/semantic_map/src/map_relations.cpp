@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "object_shape.h"
+#include "objects/object_shape.h"
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/semantic_map/map_relations.h>
@@ -10,6 +10,8 @@
 #include <tuple>
 
 namespace pcl6d {
+using namespace semantic_map;
+
 namespace {
 constexpr std::array<Relation, 6> kPlaneRelations{Relation::kParallel,
                                                   Relation::kOrthogonal,

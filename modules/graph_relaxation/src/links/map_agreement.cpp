@@ -20,8 +20,6 @@ constexpr double kTotalTolerance = 0.005;
 constexpr double kScanTolerance = 0.05;
 } // namespace
 
-} // namespace
-
 double
 agreementDistance(double voxel)
 {

@@ -233,7 +233,7 @@ RangeImage::pointsAt(const Pixel& pixel) const
 }
 
 std::vector<std::size_t>
-RangeImage::pointsIn(const PixelBox& box) const
+RangeImage::pointsIn(const PixelWindow& box) const
 {
   std::vector<std::size_t> all;
   const int first_col = std::max(box.first.col, 0);

@@ -28,11 +28,6 @@ struct StageAgreement {
   worse(const std::vector<bool>& counted = {}) const;
 };
 
-/** \return max(3 cm, voxel / 2.5) [m]: points of two scans within it agree
- * \param[in] voxel [m] of the reduction */
-double
-agreementDistance(double voxel);
-
 /** \return the pairs of scans that see each other at some poses: at least 5 % of the
  * points of one have a point of the other within 2 voxels
  * \param[in] voxel [m] of the reduction

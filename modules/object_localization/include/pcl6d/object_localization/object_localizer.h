@@ -11,12 +11,15 @@
 #include <memory>
 #include <vector>
 
+namespace pcl6d::object_localization {
+class ObjectRefinement;
+struct ObjectCandidate;
+} // namespace pcl6d::object_localization
+
 namespace PCL6D_EXPORTS pcl6d {
 
 class DistanceField;
-class ObjectRefinement;
 struct ModelSurface;
-struct ObjectCandidate;
 struct PoseCheck;
 struct SceneSurface;
 struct VotedPose;
@@ -81,20 +84,21 @@ private:
   surfaceOf(const LocalizationScene& scene) const;
   bool
   mayBe(const ObjectProposal& proposal) const;
-  std::vector<ObjectCandidate>
+  std::vector<object_localization::ObjectCandidate>
   placed(const ObjectProposal& proposal,
-         const ObjectRefinement& refinement,
+         const object_localization::ObjectRefinement& refinement,
          const ModelSurface& coarse) const;
   std::vector<LocalizedObject>
-  objectsOf(std::vector<ObjectCandidate> candidates) const;
+  objectsOf(std::vector<object_localization::ObjectCandidate> candidates) const;
   std::vector<VotedPose>
   firstPoses(const SceneSurface& surface) const;
   bool
   accepts(const PoseCheck& check, double min_agreement) const;
   void
-  removeRefused(std::vector<ObjectCandidate>& candidates, double min_agreement) const;
+  removeRefused(std::vector<object_localization::ObjectCandidate>& candidates,
+                double min_agreement) const;
   LocalizedObject
-  describe(ObjectCandidate candidate) const;
+  describe(object_localization::ObjectCandidate candidate) const;
 
   LocalizerOptions options_;
   ObjectModel model_;

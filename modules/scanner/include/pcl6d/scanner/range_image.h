@@ -27,7 +27,7 @@ struct RangeImageOptions {
 };
 
 /** \brief A rectangle of pixels, both corners included. */
-struct PixelBox {
+struct PixelWindow {
   Pixel first;
   Pixel last;
 };
@@ -121,7 +121,7 @@ public:
   /** \return the indices of all points of a part of the image, pixel by pixel; what of
    * the box lies outside of the image does not matter */
   std::vector<std::size_t>
-  pointsIn(const PixelBox& box) const;
+  pointsIn(const PixelWindow& box) const;
   /** \return where a point landed; nothing if it was left out
    * \throws BadArgument there is no such point */
   std::optional<Pixel>

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "proposals/surfel_graph.h"
+
+/** \file Vessels. Internal to the module object_localization. */
+namespace pcl6d::object_localization {
+
+/** \brief Joins the inside of a vessel, as of a bowl, with its outside. A rim hides what
+ * connects the two, but no object by itself faces its own middle from all around.
+ * \param[in,out] sets of the graph, in the order of their first; stay so */
+void
+joinCavities(const PlaneCloud& cloud,
+             const SurfelGraph& graph,
+             const Eigen::Vector3d& up,
+             SurfelSets& sets);
+
+} // namespace pcl6d::object_localization

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "proposals/plane_prism.h"
+
+#include <pcl6d/object_localization/object_proposals.h>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+/** \file What the planes of a scene are to the things in it. Internal to the module
+ * object_localization. */
+namespace pcl6d::object_localization {
+
+/** \brief What a plane is to things. */
+enum class PlaneRole {
+  kThing,     ///< may be part of one
+  kRaised,    ///< the same, level, and may carry others
+  kBase,      ///< carries things and is none
+  kStructure, ///< neither, such as a wall
+};
+
+/** \brief The planes of a scene with their roles. */
+struct SceneSupports {
+  static constexpr std::uint32_t kNoPlane = std::numeric_limits<std::uint32_t>::max();
+
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  std::vector<PlanePrism> prisms;             ///< one per plane
+  std::vector<PlaneRole> roles;               ///< one per plane
+  std::vector<std::uint32_t> plane_of_surfel; ///< or kNoPlane
+};
+
+SceneSupports
+findSupports(const PlaneCloud& cloud,
+             const PlaneSegments& planes,
+             const ProposalOptions& options);
+
+/** \return the surfels that may be on things: over a base, not on one nor on structure;
+ * ascending */
+std::vector<std::uint32_t>
+surfelsOfThings(const PlaneCloud& cloud,
+                const SceneSupports& supports,
+                const ProposalOptions& options);
+
+} // namespace pcl6d::object_localization

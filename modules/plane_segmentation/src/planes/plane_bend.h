@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "planes/plane_parts.h"
+
+namespace pcl6d::plane_segmentation {
+
+/** \brief Whether points lie on a surface that is clearly curved: a second-order surface
+ * explains most of their distances to the plane, and its slope changes by more than
+ * what a sensor's distortion makes of a flat wall. */
+bool
+isBent(const PlaneCloud& cloud, const PlanePart& part);
+
+} // namespace pcl6d::plane_segmentation

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+
+namespace pcl6d::plane_segmentation {
+
+/** \brief A plane with an orientation of its own: normal . p = offset. */
+struct PlaneFit {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  double offset = 0;                                ///< [m], of either sign
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [m] mean of the points
+  double mean_square = 0; ///< of the weighted points' distances
+
+  double
+  distance(const Eigen::Vector3d& p) const
+  {
+    return normal.dot(p) - offset;
+  }
+
+  void
+  flip()
+  {
+    normal = -normal;
+    offset = -offset;
+  }
+};
+
+/** \brief Weighted sums over points about a fixed place, from which the least-squares
+ * plane follows (book 7.1.1). Sums of parts add up to those of the whole. */
+class PlaneMoments {
+public:
+  /** \param[in] about [m] a place near the points, which saves digits */
+  explicit PlaneMoments(const Eigen::Vector3d& about = Eigen::Vector3d::Zero())
+  : about_(about)
+  {}
+
+  void
+  add(const Eigen::Vector3d& point, double weight = 1)
+  {
+    const Eigen::Vector3d d = point - about_;
+    weight_ += weight;
+    sum_ += weight * d;
+    squares_.noalias() += (weight * d) * d.transpose();
+    ++count_;
+  }
+
+  /** \brief Adds sums, which may be about another place. */
+  void
+  add(const PlaneMoments& other);
+
+  std::size_t
+  count() const
+  {
+    return count_;
+  }
+
+  /** \return the mean square of weight * distance^2 per point to a plane */
+  double
+  meanSquare(const PlaneFit& plane) const;
+
+  /** \return no plane: fewer than 3 points, or all on a line */
+  std::optional<PlaneFit>
+  fit() const;
+
+  /** \return sum of w (p - mean) (p - mean)^T */
+  Eigen::Matrix3d
+  scatter() const
+  {
+    return squares_ - sum_ * sum_.transpose() / weight_;
+  }
+
+  Eigen::Vector3d
+  mean() const
+  {
+    return about_ + sum_ / weight_;
+  }
+
+private:
+  Eigen::Vector3d about_;
+  std::size_t count_ = 0;
+  double weight_ = 0;
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares_ = Eigen::Matrix3d::Zero();
+};
+
+} // namespace pcl6d::plane_segmentation

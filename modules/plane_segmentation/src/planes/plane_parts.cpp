@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planes/plane_parts.h"
+
+#include <pcl6d/common/components.h>
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/portable_math.h>
+#include <pcl6d/search/point_tree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace pcl6d::plane_segmentation {
+
+namespace {
+constexpr std::uint32_t kNoPart = 0xffffffff;
+constexpr std::size_t kBlockSize = 512; // surfels
+/** Where no normal tells, near edges and clutter, points must be so much closer. */
+constexpr double kEdge = 0.8;
+
+/** Which parts have points in each surfel. */
+class PartsInside {
+public:
+  PartsInside(const PlaneCloud& cloud, const std::vector<PlanePart>& parts)
+  {
+    const Surfels& surfels = cloud.surfels();
+    std::vector<std::uint32_t> owners(cloud.points().size(), kNoPart);
+    for (std::uint32_t part = 0; part < parts.size(); ++part)
+      for (const auto i : parts[part].points)
+        owners[i] = part;
+    begin_.push_back(0);
+    for (std::size_t i = 0; i < surfels.size(); ++i) {
+      for (std::size_t m = surfels.begin[i]; m < surfels.begin[i + 1]; ++m)
+        insert(owners[surfels.members[m]], begin_.back(), parts_);
+      begin_.push_back(parts_.size());
+    }
+  }
+
+  /** \brief Collects the parts of a surfel. */
+  void
+  collect(std::size_t surfel, std::vector<std::uint32_t>& parts) const
+  {
+    for (std::size_t k = begin_[surfel]; k < begin_[surfel + 1]; ++k)
+      insert(parts_[k], 0, parts);
+  }
+
+private:
+  static void
+  insert(std::uint32_t part, std::size_t begin, std::vector<std::uint32_t>& parts)
+  {
+    if (part != kNoPart && std::find(parts.begin() + static_cast<std::ptrdiff_t>(begin),
+                                     parts.end(),
+                                     part) == parts.end())
+      parts.push_back(part);
+  }
+
+  std::vector<std::size_t> begin_;
+  std::vector<std::uint32_t> parts_;
+};
+
+class Claims {
+public:
+  Claims(const PlaneCloud& cloud,
+         const std::vector<PlanePart>& parts,
+         const PlaneOptions& options)
+  : cloud_(cloud)
+  , parts_(parts)
+  , max_distance_(options.max_plane_distance)
+  , least_cosine_(portableSinCos(options.max_angle).cos)
+  {}
+
+  /** \return the part that a point belongs to, of those around it */
+  std::uint32_t
+  ownerOf(std::uint32_t i, const std::vector<std::uint32_t>& around) const
+  {
+    const std::uint32_t surfel = cloud_.surfels().of_point[i];
+    const Eigen::Vector3d place = cloud_.points()[i].cast<double>();
+    const Eigen::Vector3d ray = cloud_.viewpoint(i).cast<double>() - place;
+    const Eigen::Vector3d normal = cloud_.normals()[i].cast<double>();
+    double nearest =
+        (cloud_.surfels().smooth[surfel] ? max_distance_ : kEdge * max_distance_) *
+        cloud_.surfels().noise[surfel];
+    std::uint32_t owner = kNoPart;
+    for (const auto part : around) {
+      const PlaneFit& plane = parts_[part].plane;
+      const double distance = std::abs(plane.distance(place));
+      if (distance < nearest && plane.normal.dot(ray) > 0 &&
+          (!cloud_.surfels().smooth[surfel] ||
+           plane.normal.dot(normal) > least_cosine_)) {
+        nearest = distance;
+        owner = part;
+      }
+    }
+    return owner;
+  }
+
+private:
+  const PlaneCloud& cloud_;
+  const std::vector<PlanePart>& parts_;
+  const double max_distance_; // [sigma]
+  const double least_cosine_;
+};
+
+/** \brief Gives each point to the nearest, in standard deviations, of the planes that
+ * have points about it, if it lies on that plane, was seen from the same side, and its
+ * normal, where that is to be trusted, is the plane's.
+ * \return per point of the cloud the place of its part, or kNoPart */
+std::vector<std::uint32_t>
+claimPoints(const PlaneCloud& cloud,
+            const std::vector<PlanePart>& parts,
+            const PlaneOptions& options)
+{
+  const Surfels& surfels = cloud.surfels();
+  const PartsInside inside(cloud, parts);
+  const Claims claims(cloud, parts, options);
+  std::vector<std::uint32_t> owners(cloud.points().size(), kNoPart);
+  parallelBlocks(
+      surfels.size(), kBlockSize, cloud.numThreads(), [&](const Block& block) {
+        std::vector<std::uint32_t> around;
+        for (std::size_t i = block.begin; i < block.end; ++i) {
+          around.clear();
+          for (std::size_t k = surfels.link_begin[i]; k < surfels.link_begin[i + 1];
+               ++k)
+            inside.collect(surfels.links[k], around);
+          std::sort(around.begin(), around.end());
+          for (std::size_t m = surfels.begin[i]; m < surfels.begin[i + 1]; ++m)
+            owners[surfels.members[m]] = claims.ownerOf(surfels.members[m], around);
+        }
+      });
+  return owners;
+}
+
+constexpr double kSurelySmall = 0.5; // of the least area, by an estimate
+
+/** Makes the normal point to where most of the points were seen from. */
+void
+turnToSensor(const PlaneCloud& cloud, PlanePart& part)
+{
+  std::ptrdiff_t votes = 0;
+  for (const auto i : part.points) {
+    const Eigen::Vector3d ray = (cloud.viewpoint(i) - cloud.points()[i]).cast<double>();
+    votes += part.plane.normal.dot(ray) < 0 ? -1 : 1;
+  }
+  if (votes < 0)
+    part.plane.flip();
+}
+
+constexpr double kLeastCosine = 0.94; // of the normals of one carrier plane: 20 deg
+/** How much farther, squared, points may be from a common plane than from their own. */
+constexpr double kGrowth = 1.3;
+constexpr double kShift = 1.5; // [sigma] beyond that, for what noise does not explain
+constexpr double kLargestStep = 3.0; // [sigma] between the planes where the parts meet
+
+bool
+staysAsFlat(const PlanePart& part, const PlaneFit& common)
+{
+  const double own = part.plane.mean_square;
+  return part.sums.meanSquare(common) <=
+         kGrowth * own + kShift * kShift * std::max(part.sigma * part.sigma, own);
+}
+
+/** Whether both lie on one plane as well as each does on its own. */
+bool
+shareCarrier(const PlanePart& a, const PlanePart& b)
+{
+  if (a.plane.normal.dot(b.plane.normal) < kLeastCosine)
+    return false;
+  PlaneMoments sums = a.sums;
+  sums.add(b.sums);
+  const auto common = sums.fit();
+  return common && staysAsFlat(a, *common) && staysAsFlat(b, *common);
+}
+} // namespace
+
+PlaneParts::PlaneParts(const PlaneCloud& cloud, const PlaneOptions& options)
+: cloud_(cloud), options_(options)
+{}
+
+void
+PlaneParts::start(const PlaneCandidates& candidates)
+{
+  parts_.clear();
+  for (const auto& points : candidates) {
+    if (points.size() < options_.min_points / 2)
+      continue; // would not get through split() either
+    parts_.emplace_back();
+    parts_.back().points = points;
+    std::sort(parts_.back().points.begin(), parts_.back().points.end());
+  }
+  fitAll();
+}
+
+/** Whether a point tells of the plane and not of an edge. */
+bool
+PlaneParts::supports(const PlanePart& part, std::uint32_t point) const
+{
+  const std::uint32_t surfel = cloud_.surfels().of_point[point];
+  const Eigen::Vector3d normal = cloud_.normals()[point].cast<double>();
+  return cloud_.surfels().smooth[surfel] && std::abs(part.plane.normal.dot(normal)) >
+                                                portableSinCos(options_.max_angle).cos;
+}
+
+bool
+PlaneParts::fit(PlanePart& part) const
+{
+  if (part.points.size() < 3)
+    return false;
+  const Eigen::Vector3d about = cloud_.points()[part.points.front()].cast<double>();
+  PlaneMoments all(about), firm(about);
+  double squares = 0;
+  const bool known = part.sums.count() > 0;
+  for (const auto i : part.points) {
+    const Eigen::Vector3d point = cloud_.points()[i].cast<double>();
+    const double sigma = cloud_.surfels().noise[cloud_.surfels().of_point[i]];
+    squares += sigma * sigma;
+    all.add(point);
+    if (known && supports(part, i))
+      firm.add(point);
+  }
+  part.sums = 2 * firm.count() > part.points.size() ? firm : all;
+  const auto plane = part.sums.fit();
+  if (!plane)
+    return false;
+  part.plane = *plane;
+  part.sigma = std::sqrt(squares / static_cast<double>(part.points.size()));
+  turnToSensor(cloud_, part);
+  return true;
+}
+
+void
+PlaneParts::fitAll()
+{
+  std::vector<char> fitted(parts_.size());
+  parallelFor(parts_.size(), cloud_.numThreads(), [&](std::size_t i) {
+    fitted[i] = fit(parts_[i]);
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    if (fitted[i] && kept++ != i)
+      parts_[kept - 1] = std::move(parts_[i]);
+  parts_.resize(kept);
+}
+
+void
+PlaneParts::claim()
+{
+  const auto owners = claimPoints(cloud_, parts_, options_);
+  for (auto& part : parts_)
+    part.points.clear();
+  for (std::uint32_t i = 0; i < owners.size(); ++i)
+    if (owners[i] != kNoPart)
+      parts_[owners[i]].points.push_back(i);
+  fitAll();
+}
+
+std::vector<std::uint32_t>
+PlaneParts::surfelsOf(const PlanePart& part) const
+{
+  std::vector<std::uint32_t> surfels;
+  for (const auto i : part.points)
+    surfels.push_back(cloud_.surfels().of_point[i]);
+  std::sort(surfels.begin(), surfels.end());
+  surfels.erase(std::unique(surfels.begin(), surfels.end()), surfels.end());
+  return surfels;
+}
+
+void
+PlaneParts::dropSmall()
+{
+  const Surfels& surfels = cloud_.surfels();
+  const auto is_small = [&](const PlanePart& part) {
+    double squares = 0;
+    for (const auto i : surfelsOf(part))
+      squares += static_cast<double>(surfels.radii[i] * surfels.radii[i]);
+    const double area = M_PI * squares / static_cast<double>(Surfels::kNeighbours);
+    return part.points.size() < options_.min_points ||
+           area < kSurelySmall * options_.min_area;
+  };
+  parts_.erase(std::remove_if(parts_.begin(), parts_.end(), is_small), parts_.end());
+}
+
+void
+PlaneParts::split(std::size_t min_points)
+{
+  const Surfels& surfels = cloud_.surfels();
+  constexpr std::uint32_t kOutside = 0xffffffff;
+  std::vector<std::uint32_t> local(surfels.size(), kOutside);
+  std::vector<PlanePart> patches;
+  for (const auto& part : parts_) {
+    const auto own = surfelsOf(part);
+    for (std::uint32_t i = 0; i < own.size(); ++i)
+      local[own[i]] = i;
+    Components components(own.size());
+    for (std::uint32_t i = 0; i < own.size(); ++i)
+      for (std::size_t k = surfels.link_begin[own[i]];
+           k < surfels.link_begin[own[i] + 1];
+           ++k)
+        if (local[surfels.links[k]] != kOutside)
+          components.join(i, local[surfels.links[k]]);
+    std::map<std::size_t, PlanePart> pieces; // by their first surfel
+    for (const auto i : part.points)
+      pieces[components.firstOf(local[surfels.of_point[i]])].points.push_back(i);
+    for (const auto i : own)
+      local[i] = kOutside;
+    for (auto& piece : pieces)
+      if (piece.second.points.size() >= min_points) {
+        piece.second.plane = part.plane;
+        piece.second.sums = part.sums;
+        patches.push_back(std::move(piece.second));
+      }
+  }
+  parts_ = std::move(patches);
+  fitAll();
+}
+
+/** Whether the parts come close to each other, and there without a step. */
+bool
+PlaneParts::touch(const PlanePart& a, const PlanePart& b) const
+{
+  const Points& surfels = cloud_.surfels().points;
+  Points places;
+  for (const auto i : surfelsOf(a))
+    places.push_back(surfels[i]);
+  const PointTree tree(places, cloud_.numThreads());
+  const auto gap = static_cast<float>(options_.merge_gap);
+  Neighbour closest{-1, gap * gap};
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();
+  for (const auto i : surfelsOf(b)) {
+    const Neighbour near = tree.nearest(surfels[i], closest.distance_sq);
+    if (near.index < 0)
+      continue;
+    closest = near;
+    contact =
+        (surfels[i] + places[static_cast<std::size_t>(near.index)]).cast<double>() / 2;
+  }
+  const double step = a.plane.distance(contact) - b.plane.distance(contact);
+  return closest.index >= 0 &&
+         std::abs(step) < kLargestStep * std::max(a.sigma, b.sigma);
+}
+
+/** Joins a part with a larger one before it. */
+bool
+PlaneParts::mergeInto(std::size_t i)
+{
+  for (std::size_t j = 0; j < i; ++j) {
+    if (!shareCarrier(parts_[j], parts_[i]) || !touch(parts_[j], parts_[i]))
+      continue;
+    std::vector<std::uint32_t> points;
+    std::merge(parts_[j].points.begin(),
+               parts_[j].points.end(),
+               parts_[i].points.begin(),
+               parts_[i].points.end(),
+               std::back_inserter(points));
+    parts_[j].points = std::move(points);
+    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(i));
+    fit(parts_[j]);
+    return true;
+  }
+  return false;
+}
+
+void
+PlaneParts::merge()
+{
+  std::stable_sort(
+      parts_.begin(), parts_.end(), [](const PlanePart& a, const PlanePart& b) {
+        return a.points.size() > b.points.size();
+      });
+  for (bool merged = true; merged;) {
+    merged = false;
+    for (std::size_t i = 1; i < parts_.size();)
+      if (mergeInto(i))
+        merged = true;
+      else
+        ++i;
+  }
+}
+
+} // namespace pcl6d::plane_segmentation

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/map_residuals.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/search/point_tree.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -44,10 +43,10 @@ distanceToSurface(const Eigen::Vector3f& place,
         points[static_cast<std::size_t>(nearest[i].index)].cast<double>() - mean;
     scatter += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  if (solver.eigenvalues()[0] > 0.1 * solver.eigenvalues()[1])
+  const auto eigen = symmetricEigen<3>(scatter);
+  if (eigen.values[0] > 0.1 * eigen.values[1])
     return to_first;
-  const double off = solver.eigenvectors().col(0).dot(place.cast<double>() - mean);
+  const double off = eigen.vectors.col(0).dot(place.cast<double>() - mean);
   return std::min(to_first, static_cast<float>(std::abs(off)));
 }
 

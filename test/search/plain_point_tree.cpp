@@ -11,11 +11,11 @@ using namespace pcl6d;
 }
 #define PCL6D_SIMD_CLONES
 #define pcl6d plain
+#include "../../modules/search/src/lowest_node.cpp"
+#include "../../modules/search/src/median_split.cpp"
 #include "../../modules/search/src/point_tree.cpp"
-#include "../../modules/search/src/point_tree_bottom.cpp"
+#include "../../modules/search/src/point_tree_nearest_k.cpp"
 #include "../../modules/search/src/point_tree_search.cpp"
-#include "../../modules/search/src/point_tree_several.cpp"
-#include "../../modules/search/src/select.cpp"
 #undef pcl6d
 
 std::vector<pcl6d::Neighbour>

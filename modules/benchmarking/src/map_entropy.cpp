@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/benchmarking/map_entropy.h>
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/simd_clones.h>
 #include <pcl6d/common/voxel_key.h>
 #include <pcl6d/filters/voxel_reduction.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -15,13 +15,6 @@
 #include <cstddef>
 #include <limits>
 #include <vector>
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PCL6D_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define PCL6D_SIMD_CLONES
-#endif
-#define PCL6D_INLINE __attribute__((always_inline)) inline
 
 namespace pcl6d {
 namespace {
@@ -194,9 +187,8 @@ spreadOf(const PointMoments& moments, std::size_t min_points)
   spread.entropy = spread.variance = std::numeric_limits<double>::quiet_NaN();
   if (moments.count < min_points)
     return spread;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments.covariance(),
-                                                              Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d values = solver.eigenvalues().cwiseMax(kLeastVariance);
+  const Eigen::Vector3d values =
+      symmetricEigenvalues<3>(moments.covariance()).cwiseMax(kLeastVariance);
   spread.variance = values[0];
   spread.entropy = 1.5 * (kLogTwoPi + 1) + 0.5 * portableLog(values.prod());
   return spread;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/benchmarking/plane_thickness.h>
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/polygon.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -138,8 +137,7 @@ PlanePatch::fit(const Points& points, const std::vector<std::size_t>& members)
     const Eigen::Vector3d d = points[i].cast<double>() - mean;
     scatter += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  const Eigen::Vector3d normal = symmetricEigen<3>(scatter).vectors.col(0);
   normal_ = normal.dot(normal_) < 0 ? Eigen::Vector3d(-normal) : normal;
   offset_ = normal_.dot(mean);
 }

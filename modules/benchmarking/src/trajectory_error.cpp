@@ -3,11 +3,10 @@
 
 #include <pcl6d/benchmarking/trajectory_error.h>
 #include <pcl6d/benchmarking/trajectory_resampling.h>
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/rotation.h>
-
-#include <Eigen/SVD>
 
 #include <cmath>
 
@@ -32,19 +31,17 @@ using Columns = Eigen::Matrix3Xd;
 bool
 rotationBetween(const Columns& d, const Columns& m, Eigen::Matrix3d& R)
 {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-      d * m.transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d& s = svd.singularValues();
+  const auto [U, s, V] = singularValues(d * m.transpose());
   // Below this spread a set is a point within rounding; s is the product of two
   // spreads.
   constexpr double kPoint = 1e-18; // [m^2], per pair
-  const bool mirrored = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0;
+  const bool mirrored = (V * U.transpose()).determinant() < 0;
   const auto count = static_cast<double>(d.cols());
   if (d.squaredNorm() <= kPoint * count || m.squaredNorm() <= kPoint * count ||
       s(1) <= 1e-9 * s(0) || (mirrored && s(1) - s(2) <= 1e-9 * s(0)))
     return false;
   const Eigen::Vector3d signs(1, 1, mirrored ? -1 : 1);
-  R = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
+  R = V * signs.asDiagonal() * U.transpose();
   return true;
 }
 } // namespace

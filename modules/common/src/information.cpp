@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/information.h>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace pcl6d {
 
@@ -16,12 +14,6 @@ scaled(const Matrix6& information)
   const double largest = information.cwiseAbs().maxCoeff();
   return largest > 0 ? Matrix6(information / largest) : information;
 }
-
-bool
-isPositiveDefinite(const Matrix6& information)
-{
-  return information.llt().info() == Eigen::Success;
-}
 } // namespace
 
 std::string
@@ -34,8 +26,7 @@ informationFault(const Matrix6& information)
     return "not symmetric";
   if (isPositiveDefinite(I))
     return "";
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(I, Eigen::EigenvaluesOnly);
-  const auto& values = solver.eigenvalues(); // ascending
+  const auto values = symmetricEigenvalues(I); // ascending
   return values(0) >= -kNegativeTolerance * values(5) ? ""
                                                       : "not positive semidefinite";
 }
@@ -48,12 +39,11 @@ semidefinite(const Matrix6& information)
       symmetric ? information : 0.5 * (information + information.transpose());
   if (I.isZero(0) || isPositiveDefinite(I))
     return I;
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(I);
-  if (solver.eigenvalues()(0) >= 0)
+  const auto eigen = symmetricEigen<6>(I);
+  if (eigen.values(0) >= 0)
     return I;
-  const Matrix6& V = solver.eigenvectors();
-  const Matrix6 projected =
-      V * solver.eigenvalues().cwiseMax(0).asDiagonal() * V.transpose();
+  const Matrix6& V = eigen.vectors;
+  const Matrix6 projected = V * eigen.values.cwiseMax(0).asDiagonal() * V.transpose();
   return 0.5 * (projected + projected.transpose());
 }
 

@@ -1,12 +1,170 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "thread_pool.h"
-
 #include <pcl6d/common/parallel.h>
 
 #include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 namespace pcl6d {
+
+namespace {
+/** \brief Threads that wait for loops to help with.
+ *
+ * The thread that calls run() works too, and at the end waits only for steps that a helper
+ * has begun, never for a helper that has not woken up: on a busy machine a loop of short
+ * blocks then takes no longer than on one thread. Calls may nest and come from any thread. */
+class ThreadPool {
+public:
+  /** \return the pool of the process; its threads are made when they are first needed */
+  static ThreadPool&
+  instance();
+  ~ThreadPool();
+
+  /** \brief Calls body(0) .. body(count - 1) from at most num_threads threads, this one
+   * included. An exception of the body is thrown again; the one of the lowest index wins */
+  void
+  run(std::size_t count,
+      std::size_t num_threads,
+      const std::function<void(std::size_t)>& body);
+
+private:
+  struct Loop;
+
+  ThreadPool() = default;
+  void
+  offer(const std::shared_ptr<Loop>& loop, std::size_t helpers);
+  void
+  work();
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::shared_ptr<Loop>> offers_; ///< a loop once per helper that it can use
+  std::vector<std::thread> threads_;
+  bool stop_ = false;
+};
+
+/** One parallel loop. Lives until the last helper has let go of it. */
+struct ThreadPool::Loop {
+  Loop(std::size_t count_, const std::function<void(std::size_t)>& body_)
+  : count(count_), body(body_)
+  {}
+
+  /** Takes steps until none is left. */
+  void
+  takeSteps()
+  {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        body(i);
+      } catch (...) {
+        keepError(i);
+      }
+      if (++finished == count) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        all_finished.notify_all();
+      }
+    }
+  }
+
+  void
+  waitForHelpers()
+  {
+    for (int i = 0; i < 1000 && finished < count; ++i)
+      std::this_thread::yield(); // most steps are short
+    std::unique_lock<std::mutex> lock(mutex);
+    all_finished.wait(lock, [this] { return finished == count; });
+  }
+
+  void
+  keepError(std::size_t index)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (index >= error_index)
+      return;
+    error_index = index;
+    error = std::current_exception();
+  }
+
+  const std::size_t count;
+  /** The caller's; only called for steps, which end before the caller's run(). */
+  const std::function<void(std::size_t)>& body;
+  std::atomic<std::size_t> next{0};
+  std::atomic<std::size_t> finished{0};
+  std::mutex mutex;
+  std::condition_variable all_finished;
+  std::exception_ptr error;
+  std::size_t error_index = std::numeric_limits<std::size_t>::max();
+};
+
+ThreadPool&
+ThreadPool::instance()
+{
+  static ThreadPool pool;
+  return pool;
+}
+
+ThreadPool::~ThreadPool()
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_all();
+  for (auto& thread : threads_)
+    thread.join();
+}
+
+void
+ThreadPool::run(std::size_t count,
+                std::size_t num_threads,
+                const std::function<void(std::size_t)>& body)
+{
+  const auto loop = std::make_shared<Loop>(count, body);
+  offer(loop, num_threads - 1);
+  loop->takeSteps();
+  loop->waitForHelpers();
+  if (loop->error)
+    std::rethrow_exception(loop->error);
+}
+
+void
+ThreadPool::offer(const std::shared_ptr<Loop>& loop, std::size_t helpers)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    while (threads_.size() < helpers)
+      threads_.emplace_back([this] { work(); });
+    offers_.insert(offers_.end(), helpers, loop);
+  }
+  if (helpers == 1)
+    wake_.notify_one();
+  else
+    wake_.notify_all();
+}
+
+void
+ThreadPool::work()
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return stop_ || !offers_.empty(); });
+    if (stop_)
+      return;
+    const std::shared_ptr<Loop> loop = std::move(offers_.front());
+    offers_.pop_front();
+    lock.unlock();
+    loop->takeSteps(); // at once over, if the caller has done it all meanwhile
+    lock.lock();
+  }
+}
+} // namespace
 
 unsigned int
 threadCount(unsigned int wanted)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/rotation.h>
-
-#include <Eigen/SVD>
 
 #include <cmath>
 
@@ -84,11 +83,10 @@ slerp(const Eigen::Matrix3d& R0, const Eigen::Matrix3d& R1, double s)
 Eigen::Matrix3d
 nearestRotation(const Eigen::Matrix3d& A)
 {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-      A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const SingularValues svd = singularValues(A);
   Eigen::Vector3d sign = Eigen::Vector3d::Ones();
-  sign(2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  sign(2) = (svd.U * svd.V.transpose()).determinant() < 0 ? -1 : 1;
+  return svd.U * sign.asDiagonal() * svd.V.transpose();
 }
 
 Eigen::Quaterniond

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/point_normals.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -72,7 +71,7 @@ leastSpread(const Eigen::Matrix3d& scatter)
   }
   if (best.squaredNorm() > 1e-8)
     return best.normalized();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(S).eigenvectors().col(0);
+  return symmetricEigen(S).vectors.col(0);
 }
 
 void

@@ -19,7 +19,7 @@ ReductionOptions::validate() const
 
 VoxelGroups::VoxelGroups(const Points& points, double voxel)
 {
-  VoxelOrder order = sortByVoxel(points, voxel);
+  filters::VoxelOrder order = filters::sortByVoxel(points, voxel);
   indices_.swap(order.indices);
   keys_.swap(order.keys);
   begin_.swap(order.begin);

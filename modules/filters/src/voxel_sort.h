@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace pcl6d {
+namespace pcl6d::filters {
 
 /** \brief The finite points of a cloud in the order of their voxels. */
 struct VoxelOrder {
@@ -23,4 +23,4 @@ struct VoxelOrder {
 VoxelOrder
 sortByVoxel(const Points& points, double voxel);
 
-} // namespace pcl6d
+} // namespace pcl6d::filters

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/angle.h>
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/point_normals.h>
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/localisation/levelling.h>
 #include <pcl6d/search/point_tree.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 
@@ -33,12 +32,12 @@ Eigen::Vector2d
 solve(const TiltSums& sums, double least, bool& is_fixed)
 {
   constexpr double kLeastShare = 0.02; // of the weight that must face a direction
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(sums.A);
+  const auto eigen = symmetricEigen<2>(sums.A);
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
   is_fixed = true;
   for (int i = 0; i < 2; ++i) {
-    const double lambda = solver.eigenvalues()(i);
-    const Eigen::Vector2d axis = solver.eigenvectors().col(i);
+    const double lambda = eigen.values(i);
+    const Eigen::Vector2d axis = eigen.vectors.col(i);
     if (lambda > kLeastShare * sums.weight && lambda > least)
       tilt += axis * (axis.dot(sums.b) / lambda);
     else

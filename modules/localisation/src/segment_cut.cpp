@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/localisation/levelling.h>
 #include <pcl6d/localisation/segment_cut.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -81,11 +80,11 @@ fit(const std::vector<Eigen::Vector2d>& places)
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const auto& place : places)
     scatter += (place - line.centre) * (place - line.centre).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(scatter);
-  line.along = solver.eigenvectors().col(1);
-  const double most = solver.eigenvalues()(1);
+  const auto eigen = symmetricEigen<2>(scatter);
+  line.along = eigen.vectors.col(1);
+  const double most = eigen.values(1);
   if (most > 0)
-    line.straightness = 1 - std::max(solver.eigenvalues()(0), 0.0) / most;
+    line.straightness = 1 - std::max(eigen.values(0), 0.0) / most;
   return line;
 }
 

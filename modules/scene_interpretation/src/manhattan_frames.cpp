@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "manhattan_frames.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/rotation.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -131,12 +131,12 @@ Eigen::VectorXd
 pseudoSolve(const Eigen::MatrixXd& H, const Eigen::VectorXd& g)
 {
   constexpr double kSmall = 1e-10; // relative: directions that nothing determines
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(H);
-  const Eigen::VectorXd& values = solver.eigenvalues();
-  Eigen::VectorXd part = solver.eigenvectors().transpose() * g;
+  const auto eigen = symmetricEigen<Eigen::Dynamic>(H);
+  const Eigen::VectorXd& values = eigen.values;
+  Eigen::VectorXd part = eigen.vectors.transpose() * g;
   for (Eigen::Index i = 0; i < part.size(); ++i)
     part(i) = values(i) > kSmall * values.maxCoeff() ? part(i) / values(i) : 0;
-  return solver.eigenvectors() * part;
+  return eigen.vectors * part;
 }
 
 void

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plane_fit.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/portable_math.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -30,12 +30,12 @@ fitted(const PlaneSegment& segment, const Points& points)
 bool
 fitNormal(const RefinementOptions& options, FittedPlane& fit)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(fit.scatter);
-  const Eigen::Vector3d& lambda = solver.eigenvalues();
+  const auto eigen = symmetricEigen<3>(fit.scatter);
+  const Eigen::Vector3d& lambda = eigen.values;
   if (fit.points < 3 || !(lambda(1) > 1e-9 * lambda(2)))
     return false;
   const Eigen::Vector3d before = fit.normal;
-  fit.normal = solver.eigenvectors().col(0);
+  fit.normal = eigen.vectors.col(0);
   if (fit.normal.dot(before) < 0)
     fit.normal = -fit.normal;
   constexpr double kPatch = 1.0;           // [m^2] with one error of the map
@@ -44,7 +44,7 @@ fitNormal(const RefinementOptions& options, FittedPlane& fit)
   const double patches = std::max(fit.area / kPatch, 1.0);
   const double bias = options.map_position_error * options.map_position_error / patches;
   for (const int k : {1, 2}) {
-    const Eigen::Vector3d axis = solver.eigenvectors().col(k);
+    const Eigen::Vector3d axis = eigen.vectors.col(k);
     const double spread = lambda(k) / fit.points; // [m^2] mean square
     const double variance = noise / lambda(k) + bias / spread;
     fit.information += axis * axis.transpose() / std::max(variance, kLeastVariance);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/scene_interpretation/interpretation.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -61,8 +61,8 @@ refined(const std::vector<Plane>& planes, const Eigen::Vector3d& up, const SinCo
                                                  : -plane.area;
     sum += weight * plane.normal * plane.normal.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
-  const Eigen::Vector3d direction = solver.eigenvectors().col(0);
+  const auto eigen = symmetricEigen<3>(sum);
+  const Eigen::Vector3d direction = eigen.vectors.col(0);
   return direction.dot(up) < 0 ? Eigen::Vector3d(-direction) : direction;
 }
 } // namespace

@@ -7,6 +7,8 @@
 
 namespace pcl6d {
 
+using namespace search;
+
 namespace {
 /** The distance to a point that is not finite is NaN or infinite: never accepted. */
 template <typename Visitor>

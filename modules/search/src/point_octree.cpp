@@ -10,6 +10,8 @@
 
 namespace pcl6d {
 
+using namespace search;
+
 namespace {
 /** Squared distance to a box; each float operation is monotone, so it never exceeds the
  * float distance to a point in the box. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "point_tree_bottom.h"
-#include "select.h"
+#include "lowest_node.h"
+#include "median_split.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/search/point_tree.h>
@@ -10,6 +10,8 @@
 #include <limits>
 
 namespace pcl6d {
+
+using namespace search;
 
 namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -144,12 +146,12 @@ private:
     const std::size_t last = begin(part.place + 1, part.level);
     const std::size_t bottom = first / kBottomSize;
     Node& node = tree_.nodes_[tree_.offset_[tree_.leaf_level_ - 1] + bottom];
-    BottomAxes axes;
-    const ItemBox box = makeBottom(part.from + first,
-                                   static_cast<int>(last - first),
-                                   &tree_.leaves_[bottom * 8],
-                                   node,
-                                   axes);
+    LowestAxes axes;
+    const ItemBox box = makeLowestNode(part.from + first,
+                                       static_cast<int>(last - first),
+                                       &tree_.leaves_[bottom * 8],
+                                       node,
+                                       axes);
     if (!tree_.cells_.empty())
       writeLeafCells(bottom, node, part.cell, axes, 0, 0, 8);
     return box;
@@ -162,7 +164,7 @@ private:
   writeLeafCells(std::size_t bottom,
                  const Node& node,
                  const Cell& cell,
-                 const BottomAxes& axes,
+                 const LowestAxes& axes,
                  int cut,
                  int first,
                  int last)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "point_tree_walk.h"
+#include "point_tree_traversal.h"
 
 #include <pcl6d/common/error.h>
 
@@ -8,7 +8,7 @@
 
 namespace pcl6d {
 
-namespace tree_search {
+namespace search {
 struct TreeNearest : NearestVisitor {
   int leaf_place = -1; ///< of the leaf that held the best
 
@@ -76,7 +76,9 @@ visitFrom(const PointTree::View& tree, int leaf, const float* q, TreeNearest& vi
     descend(tree, q, stack, 1, visitor);
   }
 }
-} // namespace tree_search
+} // namespace search
+
+using namespace search;
 
 PointTree::View
 PointTree::view() const
@@ -99,9 +101,9 @@ PointTree::canAnswer(const Eigen::Vector3f& query) const
 Neighbour
 PointTree::nearest(const Eigen::Vector3f& query, float max_distance_sq) const
 {
-  tree_search::TreeNearest visitor{{{-1, max_distance_sq}}};
+  TreeNearest visitor{{{-1, max_distance_sq}}};
   if (canAnswer(query))
-    tree_search::visitNearest(view(), query.data(), visitor);
+    visitNearest(view(), query.data(), visitor);
   return visitor.result();
 }
 
@@ -111,11 +113,11 @@ PointTree::nearest(const Eigen::Vector3f& query,
                    int candidate,
                    const Eigen::Vector3f& candidate_point) const
 {
-  tree_search::TreeNearest visitor{{{-1, max_distance_sq}}};
+  TreeNearest visitor{{{-1, max_distance_sq}}};
   if (canAnswer(query)) {
     if (candidate >= 0)
       visitor.add(candidate, distanceSq(query, candidate_point));
-    tree_search::visitNearest(view(), query.data(), visitor);
+    visitNearest(view(), query.data(), visitor);
   }
   return visitor.result();
 }
@@ -130,12 +132,12 @@ PointTree::nearestFrom(int& leaf,
   if (leaf >= 0 && static_cast<std::size_t>(leaf) >= leaves_.size())
     throw BadArgument("PointTree: leaf " + std::to_string(leaf) + " of " +
                       std::to_string(leaves_.size()));
-  tree_search::TreeNearest visitor{{{-1, max_distance_sq}}};
+  TreeNearest visitor{{{-1, max_distance_sq}}};
   if (canAnswer(query)) {
     if (leaf < 0)
-      tree_search::visitNearest(view(), query.data(), visitor);
+      visitNearest(view(), query.data(), visitor);
     else
-      tree_search::visitFrom(view(), leaf, query.data(), visitor);
+      visitFrom(view(), leaf, query.data(), visitor);
   }
   if (visitor.leaf_place >= 0)
     leaf = visitor.leaf_place;
@@ -147,10 +149,9 @@ PointTree::nearestApproximate(const Eigen::Vector3f& query,
                               float max_distance_sq,
                               double epsilon) const
 {
-  tree_search::TreeNearest visitor{
-      {{-1, max_distance_sq}, tree_search::shrinkFor(epsilon)}};
+  TreeNearest visitor{{{-1, max_distance_sq}, shrinkFor(epsilon)}};
   if (canAnswer(query))
-    tree_search::visitNearest(view(), query.data(), visitor);
+    visitNearest(view(), query.data(), visitor);
   return visitor.result();
 }
 
@@ -159,9 +160,9 @@ PointTree::withinRadius(const Eigen::Vector3f& query,
                         float radius_sq,
                         std::size_t max_count) const
 {
-  tree_search::TreeCollect visitor{{radius_sq, max_count > 0 ? max_count : size_}};
+  TreeCollect visitor{{radius_sq, max_count > 0 ? max_count : size_}};
   if (canAnswer(query))
-    tree_search::visitAll(view(), query.data(), visitor);
+    visitAll(view(), query.data(), visitor);
   return visitor.result();
 }
 

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/simd_clones.h>
+
 #include <cstdint>
 #include <cstring>
 
 /** \file
- * Vectors of eight lanes. One source, two machine codes with the same bits: the project
- * forbids fused multiply-add, and everything else is done lane by lane. */
-#ifndef PCL6D_SIMD_CLONES
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PCL6D_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define PCL6D_SIMD_CLONES
-#endif
-#endif
-#define PCL6D_INLINE __attribute__((always_inline)) inline
-
-namespace pcl6d {
+ * Vectors of four and eight lanes. */
+namespace pcl6d::search {
 
 using Vector4 = float __attribute__((vector_size(16)));
 using Vector8 = float __attribute__((vector_size(32)));
@@ -46,4 +38,4 @@ smallest(const Vector8& v)
   return two[0] < two[1] ? two[0] : two[1];
 }
 
-} // namespace pcl6d
+} // namespace pcl6d::search

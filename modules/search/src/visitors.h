@@ -11,7 +11,7 @@
  * What a search keeps of the points that it meets, the same for every structure: here is
  * the rule for ties and limits. A structure may leave out points farther than bound(),
  * but none at exactly that distance. */
-namespace pcl6d {
+namespace pcl6d::search {
 
 /** Keeps the nearest point within a limit. */
 struct NearestVisitor {
@@ -99,4 +99,4 @@ private:
   }
 };
 
-} // namespace pcl6d
+} // namespace pcl6d::search

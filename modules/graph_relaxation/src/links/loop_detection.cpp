@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/graph_relaxation/loop_detection.h>
 #include <pcl6d/registration/icp.h>
 #include <pcl6d/registration/overlap_search.h>
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +38,8 @@ mayMeet(std::size_t j,
     return false;
   if (covariances.empty())
     return true;
-  const Eigen::LDLT<Eigen::Matrix3d> of_both(covariances[j] + covariances[n]);
-  return way.dot(of_both.solve(way)) < kMahalanobisGate;
+  const Eigen::Matrix3d of_both = covariances[j] + covariances[n];
+  return way.dot(solveSymmetric(of_both, way)) < kMahalanobisGate;
 }
 
 /** \return the scans that may close a loop with scan n, the nearest first */
@@ -262,7 +261,7 @@ LoopDetectionOptions::validate() const
           "in [0, 1]");
   for (const Eigen::Matrix3d& covariance : position_covariances)
     require(covariance.allFinite() && covariance.isApprox(covariance.transpose()) &&
-                covariance.llt().info() == Eigen::Success,
+                isPositiveDefinite(covariance),
             "a position covariance with the trace",
             covariance.trace(),
             "symmetric and positive definite");

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "links/link_terms.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/graph_relaxation/merge_links.h>
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <map>
@@ -34,7 +33,7 @@ merged(const std::vector<PoseLink>& links)
       g += terms.g_to;
     }
     result.information = H;
-    const Vector6 motion = H.ldlt().solve(-g);
+    const Vector6 motion = solveSymmetric<6>(H, -g);
     if (step == kSteps || !motion.allFinite())
       break;
     best = best.moved(motion);

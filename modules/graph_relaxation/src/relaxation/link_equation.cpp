@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "relaxation/link_equation.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/portable_math.h>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -29,12 +27,12 @@ whiteningOf(const LinkSums& sums)
 {
   constexpr double kThickness_sq = 0.01; // see kOpenDirection
   const double squares = sums.scatter.trace();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> turning(
-      squares * Eigen::Matrix3d::Identity() - sums.scatter);
-  const double largest = turning.eigenvalues()(2);
+  const auto turning =
+      symmetricEigen<3>(squares * Eigen::Matrix3d::Identity() - sums.scatter);
+  const double largest = turning.values(2);
   const double least = largest > 0 ? kThickness_sq * largest : sums.weight;
-  const Eigen::Vector3d sizes = turning.eigenvalues().cwiseMax(least).cwiseSqrt();
-  const Eigen::Matrix3d& V = turning.eigenvectors();
+  const Eigen::Vector3d sizes = turning.values.cwiseMax(least).cwiseSqrt();
+  const Eigen::Matrix3d& V = turning.vectors;
   Whitening<Size> whitening;
   whitening.root *= std::sqrt(sums.weight);
   if (Size == 7)
@@ -91,7 +89,7 @@ inverseJacobian(const Twist& e)
     if (term.squaredNorm() < 1e-36 * J.squaredNorm())
       break;
   }
-  return J.inverse();
+  return inverted(J);
 }
 
 /** A six-dimensional equation as it is, or with a scale of its own. */
@@ -130,9 +128,9 @@ equationOf(const LinkSums& sums, double least_variance)
   equation.g = vectorOf<Size>(sums);
   const Whitening<Size> white = whiteningOf<Size>(sums);
   const Matrix resistance = white.inverse * equation.K * white.inverse;
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(resistance);
-  const Matrix& V = solver.eigenvectors();
-  Vector values = solver.eigenvalues(), inverses = Vector::Zero();
+  const auto eigen = symmetricEigen<Size>(resistance);
+  const Matrix& V = eigen.vectors;
+  Vector values = eigen.values, inverses = Vector::Zero();
   for (int i = 0; i < Size; ++i) {
     const bool open = !(values(i) >= kOpenDirection);
     equation.open_directions += open;

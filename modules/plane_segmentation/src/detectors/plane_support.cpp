@@ -2,17 +2,13 @@
 #include "detectors/plane_support.h"
 #include "planes/plane_moments.h"
 
-#include <Eigen/Cholesky>
+#include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/simd_clones.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PCL6D_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define PCL6D_SIMD_CLONES
-#endif
 
 namespace pcl6d::plane_segmentation {
 
@@ -143,7 +139,7 @@ isCurved(const SurfelColumns& surfels, const Support& support)
     sum += height * height;
     reach += static_cast<double>(surfels.reach[slot]) * surfels.reach[slot];
   }
-  const double explained = products.dot(squares.ldlt().solve(products));
+  const double explained = products.dot(solveSymmetric(squares, products));
   return sum > kFilled * kFilled * reach && explained > kCurved * sum;
 }
 

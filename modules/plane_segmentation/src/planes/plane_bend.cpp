@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planes/plane_bend.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <pcl6d/common/decompositions.h>
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -37,19 +37,18 @@ isBent(const PlaneCloud& cloud, const PlanePart& part)
     spread += Eigen::Vector2d(x, y) * Eigen::RowVector2d(x, y);
     squares += distance * distance;
   }
-  const Vector6d surface = normal_matrix.ldlt().solve(right_side);
+  const Vector6d surface = solveSymmetric(normal_matrix, right_side);
   const double explained = surface.dot(right_side);
   if (!(explained > kExplained * squares))
     return false;
   Eigen::Matrix2d curvature;
   curvature << 2 * surface[3], surface[4], surface[4], 2 * surface[5];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(curvature);
-  const int most =
-      std::abs(solver.eigenvalues()[0]) > std::abs(solver.eigenvalues()[1]) ? 0 : 1;
-  const Eigen::Vector2d across = solver.eigenvectors().col(most);
+  const auto eigen = symmetricEigen<2>(curvature);
+  const int most = std::abs(eigen.values[0]) > std::abs(eigen.values[1]) ? 0 : 1;
+  const Eigen::Vector2d across = eigen.vectors.col(most);
   const double reach = 2 * std::sqrt(across.dot(spread * across) /
                                      static_cast<double>(part.points.size()));
-  return std::abs(solver.eigenvalues()[most]) * reach > kLeastSlope;
+  return std::abs(eigen.values[most]) * reach > kLeastSlope;
 }
 
 } // namespace pcl6d::plane_segmentation

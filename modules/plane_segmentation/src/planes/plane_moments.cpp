@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planes/plane_moments.h"
 
-#include <Eigen/Eigenvalues>
+#include <pcl6d/common/decompositions.h>
 
 #include <algorithm>
 
@@ -34,12 +34,12 @@ PlaneMoments::fit() const
   constexpr double kLineTolerance = 1e-9; // of squared spreads (book 7.1.1)
   if (count_ < 3)
     return {};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter());
-  const Eigen::Vector3d& spread = solver.eigenvalues(); // ascending
+  const auto eigen = symmetricEigen<3>(scatter());
+  const Eigen::Vector3d& spread = eigen.values; // ascending
   if (!(spread[1] > kLineTolerance * spread[2]))
     return {};
   PlaneFit plane;
-  plane.normal = solver.eigenvectors().col(0);
+  plane.normal = eigen.vectors.col(0);
   plane.centre = mean();
   plane.offset = plane.normal.dot(plane.centre);
   plane.mean_square = std::max(0.0, spread[0]) / static_cast<double>(count_);

@@ -2,11 +2,10 @@
 #include "planes/plane_moments.h"
 #include "surfels/make_surfels.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/search/point_tree.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -83,13 +82,13 @@ patchOf(const Surfels& surfels, std::size_t i, std::size_t most)
   Patch patch;
   if (size < 3)
     return patch;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sums.scatter());
-  const Eigen::Vector3d squares = solver.eigenvalues().cwiseMax(0); // ascending
+  const auto eigen = symmetricEigen<3>(sums.scatter());
+  const Eigen::Vector3d squares = eigen.values.cwiseMax(0); // ascending
   if (!(squares[1] > kLineTolerance * squares[2]))
     return patch;
   const auto count = static_cast<double>(size);
   const double roughness = std::sqrt(squares[0] / std::max(1.0, count - 3));
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  const Eigen::Vector3d normal = eigen.vectors.col(0);
   patch.normal = normal.cast<float>();
   patch.lift = static_cast<float>(normal.dot(sums.mean() - place.cast<double>()));
   patch.roughness = static_cast<float>(roughness);

@@ -2,13 +2,11 @@
 #include "coarse/feature_matching.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/simd_clones.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-// One more form of the search for CPUs with AVX2, chosen when the program starts.
-#define PCL6D_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 
 namespace pcl6d::registration {
 

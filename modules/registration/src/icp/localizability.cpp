@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/registration/localizability.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 
@@ -22,14 +21,13 @@ unitMotions(const PlaneSums& sums)
 {
   const Eigen::Matrix3d turning =
       (sums.sourceSq() * Eigen::Matrix3d::Identity() - sums.scatter) / sums.weight;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(turning);
-  const Eigen::Vector3d& squares = solver.eigenvalues();
+  const auto eigen = symmetricEigen<3>(turning);
+  const Eigen::Vector3d& squares = eigen.values;
   const double least = squares(2) > 0 ? 1e-6 * squares(2) : 1;
   PlaneSums::Matrix unit = PlaneSums::Matrix::Identity();
   unit.bottomRightCorner<3, 3>() =
-      solver.eigenvectors() *
-      squares.cwiseMax(least).cwiseSqrt().cwiseInverse().asDiagonal() *
-      solver.eigenvectors().transpose();
+      eigen.vectors * squares.cwiseMax(least).cwiseSqrt().cwiseInverse().asDiagonal() *
+      eigen.vectors.transpose();
   return unit;
 }
 } // namespace
@@ -43,9 +41,9 @@ localizabilityOf(const PlaneSums& sums)
   found.centroid = sums.mean_source;
   const PlaneSums::Matrix unit = unitMotions(sums);
   const PlaneSums::Matrix scaled = unit * sums.A * unit / sums.weight;
-  const Eigen::SelfAdjointEigenSolver<PlaneSums::Matrix> solver(scaled);
-  found.eigenvalues = solver.eigenvalues().cwiseMax(0).cwiseMin(1);
-  found.directions = unit * solver.eigenvectors();
+  const auto eigen = symmetricEigen<6>(scaled);
+  found.eigenvalues = eigen.values.cwiseMax(0).cwiseMin(1);
+  found.directions = unit * eigen.vectors;
   return found;
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/registration/pose_information.h>
 #include <pcl6d/registration/twist.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -64,11 +63,11 @@ inverseOf(const TwistSystem& system)
   unit.tail<3>().setConstant(system.spread_sq > 0 ? 1 / std::sqrt(system.spread_sq)
                                                   : 1);
   const Matrix6 scaled = unit.asDiagonal() * system.A * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled);
-  const Twist& values = solver.eigenvalues();
+  const auto eigen = symmetricEigen<6>(scaled);
+  const Twist& values = eigen.values;
   if (!(values(0) > kRankTolerance * values(5)))
     return std::nullopt;
-  const Matrix6 vectors = unit.asDiagonal() * solver.eigenvectors();
+  const Matrix6 vectors = unit.asDiagonal() * eigen.vectors;
   return Matrix6(vectors * values.cwiseInverse().asDiagonal() * vectors.transpose());
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/registration/linear_minimiser.h>
 #include <pcl6d/registration/twist.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <limits>
@@ -118,7 +117,7 @@ retractQuaternionUnconstrained(LinearState& state)
 class TurnSolver {
 public:
   explicit TurnSolver(const Eigen::Matrix3d& symmetric)
-  : eigen_(symmetric), sizes_(eigen_.eigenvalues().cwiseAbs())
+  : eigen_(symmetricEigen(symmetric)), sizes_(eigen_.values.cwiseAbs())
   {
     sizes_ = sizes_.cwiseMax(kEpsilon * sizes_.maxCoeff()).eval();
   }
@@ -126,7 +125,7 @@ public:
   double
   lowest() const
   {
-    return eigen_.eigenvalues()(0);
+    return eigen_.values(0);
   }
 
   /** \return at most 1 / epsilon */
@@ -139,12 +138,12 @@ public:
   Eigen::Vector3d
   solve(const Eigen::Vector3d& rhs) const
   {
-    const Eigen::Matrix3d& V = eigen_.eigenvectors();
+    const Eigen::Matrix3d& V = eigen_.vectors;
     return V * (V.transpose() * rhs).cwiseQuotient(sizes_);
   }
 
 private:
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen_;
+  SymmetricEigen<3> eigen_;
   Eigen::Vector3d sizes_;
 };
 

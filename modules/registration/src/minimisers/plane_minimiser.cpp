@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/name_table.h>
 #include <pcl6d/registration/plane_minimiser.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 
@@ -34,17 +33,17 @@ solve(const PlaneSums& sums)
   unit.tail<3>().setConstant(spread_sq > 1e-18 ? 1 / std::sqrt(spread_sq) : 1);
 
   const PlaneSums::Matrix scaled = unit.asDiagonal() * sums.A * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<PlaneSums::Matrix> solver(scaled);
-  const Twist rhs = solver.eigenvectors().transpose() * unit.cwiseProduct(sums.b);
+  const auto eigen = symmetricEigen<6>(scaled);
+  const Twist rhs = eigen.vectors.transpose() * unit.cwiseProduct(sums.b);
   TwistEstimate estimate{Status::kOk};
   Twist along = Twist::Zero(); // the solution along the eigenvectors
   for (int i = 0; i < 6; ++i) {
-    if (solver.eigenvalues()(i) > kRankTolerance * solver.eigenvalues()(5))
-      along(i) = rhs(i) / solver.eigenvalues()(i);
+    if (eigen.values(i) > kRankTolerance * eigen.values(5))
+      along(i) = rhs(i) / eigen.values(i);
     else
       estimate.status = Status::kRankDeficient;
   }
-  estimate.twist = unit.cwiseProduct(solver.eigenvectors() * along);
+  estimate.twist = unit.cwiseProduct(eigen.vectors * along);
   return estimate;
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/rigid_minimiser.h>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -44,9 +42,9 @@ Eigen::Matrix3d
 smallestOfMirrored(const Eigen::Matrix3d& U, const Eigen::Matrix3d& V, int count)
 {
   const Eigen::MatrixXd M = (U.transpose() * V).bottomRightCorner(count, count);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(M + M.transpose());
+  const auto eigen = symmetricEigen<Eigen::Dynamic>(M + M.transpose());
   Eigen::Vector3d n = Eigen::Vector3d::Zero();
-  n.tail(count) = solver.eigenvectors().col(0);
+  n.tail(count) = eigen.vectors.col(0);
   return V * (Eigen::Matrix3d::Identity() - 2 * n * n.transpose()) * U.transpose();
 }
 
@@ -97,8 +95,8 @@ Eigen::Matrix3d
 rotationByQuaternion(const Eigen::Matrix3d& S)
 {
   // The maximising quaternion is the eigenvector of the largest eigenvalue (the last).
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(hornMatrix(S));
-  return quaternion(solver.eigenvectors().col(3)).normalized().toRotationMatrix();
+  const auto eigen = symmetricEigen<4>(hornMatrix(S));
+  return quaternion(eigen.vectors.col(3)).normalized().toRotationMatrix();
 }
 
 Eigen::Matrix3d
@@ -110,14 +108,13 @@ rotationBySVD(const Eigen::Matrix3d& S)
 Eigen::Matrix3d
 rotationByOrthonormal(const Eigen::Matrix3d& S)
 {
-  using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
   const Eigen::Matrix3d M = S.transpose();
-  const Eigen::Vector3d u1 = Solver(M.transpose() * M).eigenvectors().col(2);
+  const Eigen::Vector3d u1 = symmetricEigen<3>(M.transpose() * M).vectors.col(2);
   const Eigen::Vector3d v1 = (M * u1).normalized();
   // M^T M holds ratios of singular values down to 1e-8 only; without its first
   // direction the matrix shows the second to full accuracy.
   const Eigen::Matrix3d rest = M - v1 * (v1.transpose() * M);
-  Eigen::Vector3d u2 = Solver(rest.transpose() * rest).eigenvectors().col(2);
+  Eigen::Vector3d u2 = symmetricEigen<3>(rest.transpose() * rest).vectors.col(2);
   u2 = (u2 - u1 * u1.dot(u2)).normalized();
   Eigen::Vector3d v2 = rest * u2;
   v2 = (v2 - v1 * v1.dot(v2)).normalized();
@@ -139,10 +136,7 @@ degenerateEstimate(const PairSums& sums)
     return rankDeficient(sums, Eigen::Matrix3d::Identity());
 
   // S = U diag(s) V^T; source directions are the columns of U, target directions of V.
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-      sums.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d &U = svd.matrixU(), &V = svd.matrixV();
-  const Eigen::Vector3d s = svd.singularValues();
+  const auto [U, s, V] = singularValues(sums.cross);
   const double limit = kRankTolerance * s(0);
   if (sums.count == 2 || s(1) <= limit)
     return rankDeficient(sums, minimalRotation(U.col(0), V.col(0)));
@@ -195,8 +189,8 @@ minimiseByDualQuaternion(const PairSums& sums)
   const Eigen::Matrix4d C1 = -2 * hornMatrix(sums.cross + W * d * m.transpose());
   const Eigen::Matrix4d C3 = W * commutator(m, d);
   const Eigen::Matrix4d A = C1 - C3.transpose() * C3 / W;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(A);
-  const Eigen::Vector4d real = solver.eigenvectors().col(0).normalized();
+  const auto eigen = symmetricEigen<4>(A);
+  const Eigen::Vector4d real = eigen.vectors.col(0).normalized();
   const Eigen::Vector4d dual = C3 * real / W; // twice the dual part
 
   const Eigen::Quaterniond q = quaternion(real);

@@ -2,6 +2,7 @@
 #include "objects/object_groups.h"
 #include "objects/pose_mean.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/information.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
@@ -50,7 +51,7 @@ uncertainPose(const MapObject& object, const FusionOptions& options)
   }
   covariance += diagonal(options.min_position_error, options.min_angle_error);
   result.covariance = covariance;
-  result.information = covariance.inverse();
+  result.information = inverted(covariance);
   return result;
 }
 
@@ -91,7 +92,7 @@ eulerCovariance(Matrix6d covariance, const Eigen::Matrix3d& R, int symmetry)
     constexpr double kAnyAngle = 3.289868133696453; // [rad^2] pi^2 / 3
     covariance.bottomRightCorner<3, 3>() += kAnyAngle * R.col(2) * R.col(2).transpose();
   }
-  const Matrix6d G_inverse = eulerJacobian(R).inverse();
+  const Matrix6d G_inverse = inverted(eulerJacobian(R));
   const Matrix6d result = G_inverse * covariance * G_inverse.transpose();
   return Matrix6d((result + result.transpose()) / 2);
 }

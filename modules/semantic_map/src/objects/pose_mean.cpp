@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "objects/pose_mean.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 
@@ -77,9 +76,8 @@ robustMean(const std::vector<UncertainPose>& poses, std::size_t start, double ga
       const Vector6d pull = poses[i].information * error;
       // what did not make the mean differs from it by the errors of both
       const Vector6d whitened =
-          before[i]
-              ? pull
-              : Vector6d((poses[i].covariance + mean.covariance).ldlt().solve(error));
+          before[i] ? pull
+                    : solveSymmetric<6>(poses[i].covariance + mean.covariance, error);
       mean.counts.push_back(error.dot(whitened) <= gate);
       if (!mean.counts.back())
         continue;
@@ -93,11 +91,11 @@ robustMean(const std::vector<UncertainPose>& poses, std::size_t start, double ga
       mean.covariance = poses[start].covariance;
       return mean;
     }
-    const Vector6d change = H.ldlt().solve(g);
+    const Vector6d change = solveSymmetric(H, g);
     mean.pose.translation() += change.head<3>();
     mean.pose.linear() =
         nearestRotation(rotationFromVector(change.tail<3>()) * mean.pose.linear());
-    mean.covariance = H.inverse();
+    mean.covariance = inverted(H);
     if (change.norm() < kSmallStep && before == mean.counts)
       break;
   }

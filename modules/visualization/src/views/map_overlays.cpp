@@ -3,10 +3,9 @@
 #include "drawing/point_spread.h"
 #include "drawing/theme.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/visualization/map_overlays.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -114,10 +113,9 @@ addEllipsoid(const Eigen::Vector3d& centre,
 Eigen::Matrix3d
 axesOf(const Eigen::Matrix3d& covariance)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-      0.5 * (covariance + covariance.transpose()));
-  const Eigen::Vector3d deviations = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
-  return 3 * solver.eigenvectors() * deviations.asDiagonal();
+  const auto eigen = symmetricEigen<3>(0.5 * (covariance + covariance.transpose()));
+  const Eigen::Vector3d deviations = eigen.values.cwiseMax(0).cwiseSqrt();
+  return 3 * eigen.vectors * deviations.asDiagonal();
 }
 
 /** A round factor that makes the usual ellipsoid a fortieth of the whole path. */

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scan/initial_poses.h"
+#include "scan/scan_formats.h"
+#include "text/natural_order.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/text.h>
+#include <pcl6d/io/trajectory_io.h>
+
+#include <algorithm>
+#include <set>
+
+namespace pcl6d {
+
+using namespace io;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/** \brief The scans of a folder, all of one format. */
+struct FoundScans {
+  std::vector<fs::path> files; ///< in natural order
+  ScanFormat format = ScanFormat::kAuto;
+};
+
+bool
+isScan(const fs::directory_entry& entry)
+{
+  // The name decides. What then proves to be a folder or a link to nowhere is an error when
+  // it is read: left out in silence it would shift all poses.
+  return entry.path().filename().string().front() != '.' &&
+         !isGroundtruth(entry.path()) &&
+         scanFormatOfExtension(entry.path()) != ScanFormat::kAuto;
+}
+
+/** \return the files with the extension of any format, in natural order */
+std::vector<fs::path>
+scanFiles(const fs::path& folder)
+{
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (status.type() == fs::file_type::not_found)
+    text::fail(folder, "no such folder"); // or a part of its path is none
+  if (!error && !fs::is_directory(status))
+    text::fail(folder, "is a file, but must be a folder of scans");
+  std::vector<fs::path> files;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (isScan(*entry))
+      files.push_back(entry->path());
+  if (error)
+    text::fail(folder, error.message());
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return naturalLess(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+/** \return the one format of all files */
+ScanFormat
+commonFormat(const fs::path& folder, const std::vector<fs::path>& files)
+{
+  const ScanFormat first = scanFormatOfExtension(files.front());
+  for (const auto& file : files) {
+    const ScanFormat other = scanFormatOfExtension(file);
+    if (other != first)
+      text::fail(folder,
+                 "holds scans of several formats, " + extensionOf(first) + " (" +
+                     files.front().filename().string() + ") and " + extensionOf(other) +
+                     " (" + file.filename().string() + "); choose one of them");
+  }
+  return first;
+}
+
+FoundScans
+findScans(const fs::path& folder, ScanFormat format)
+{
+  FoundScans scans{scanFiles(folder), format};
+  auto& files = scans.files;
+  if (format != ScanFormat::kAuto)
+    files.erase(std::remove_if(files.begin(),
+                               files.end(),
+                               [format](const fs::path& file) {
+                                 return extensionOf(scanFormatOfExtension(file)) !=
+                                        extensionOf(format);
+                               }),
+                files.end());
+  if (files.empty())
+    text::fail(
+        folder,
+        "no scans found (looked for " +
+            (format == ScanFormat::kAuto ? allExtensions() : extensionOf(format)) +
+            ")");
+  if (format == ScanFormat::kAuto)
+    scans.format = commonFormat(folder, files);
+  return scans;
+}
+
+/** \return the stamps of a run's scans, or nothing where indices stand for them */
+std::vector<double>
+stampsOf(const fs::path& run, const RunResult& summary)
+{
+  const fs::path file = run / "trajectory.tum";
+  std::vector<double> stamps = readTrajectory(file).stamps;
+  if (stamps.size() != summary.scans.size())
+    text::fail(file,
+               "holds " + text::counted(stamps.size(), "pose") + " for " +
+                   text::counted(summary.scans.size(), "scan"));
+  for (std::size_t i = 0; i < stamps.size(); ++i)
+    if (stamps[i] != summary.scans[i].index)
+      return stamps;
+  return {};
+}
+
+} // namespace
+
+void
+ScanFolderOptions::validate() const
+{
+  require(first >= 0, "first", first, ">= 0");
+  require(!last || *last >= first,
+          "last",
+          last.value_or(0),
+          ">= first = " + std::to_string(first));
+  require(every >= 1, "every", every, ">= 1");
+}
+
+ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
+{
+  options.validate();
+  const FoundScans scans = findScans(folder, options.format);
+  const std::size_t count = scans.files.size();
+  const auto first = static_cast<std::size_t>(options.first);
+  if (first >= count)
+    throw BadArgument("first = " + std::to_string(first) + ", but the folder holds " +
+                      text::counted(count, "scan"));
+  const std::size_t end =
+      options.last ? std::min(count, static_cast<std::size_t>(*options.last) + 1)
+                   : count;
+  InitialPoses poses =
+      findInitialPoses(folder, scans.files, scans.format, options.poses_file);
+  pose_source_ = poses.source;
+  for (std::size_t i = first; i < end; i += static_cast<std::size_t>(options.every)) {
+    entries_.push_back({scans.files[i],
+                        scans.files[i].filename().string(),
+                        static_cast<int>(i),
+                        poses.trajectory.poses[i],
+                        scans.format});
+    if (!poses.trajectory.stamps.empty())
+      stamps_.push_back(poses.trajectory.stamps[i]);
+  }
+  odometry_ = std::move(poses.trajectory);
+}
+
+void
+ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
+{
+  std::vector<Entry> entries;
+  std::set<std::string> known;
+  int next = 0;
+  for (const auto& scan : summary.scans) {
+    const fs::path file = run / "scans" / (scanName(scan.index) + ".pcd");
+    if (!fs::exists(file))
+      text::fail(file,
+                 "is missing, though " + (run / "summary.json").string() +
+                     " tells of it");
+    entries.push_back(
+        {file, scan.file, scan.index, scan.initial_pose, ScanFormat::kPcd});
+    known.insert(scan.file);
+    next = std::max(next, scan.index + 1);
+  }
+  std::vector<double> stamps = stampsOf(run, summary);
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    if (known.count(entries_[i].name) == 0) {
+      entries.push_back(entries_[i]);
+      entries.back().index = next++;
+      if (!stamps.empty() && !stamps_.empty())
+        stamps.push_back(stamps_[i]);
+    }
+  num_registered_ = summary.scans.size();
+  if (entries.size() == num_registered_)
+    text::fail(run,
+               "holds all " + text::counted(entries_.size(), "scan") +
+                   " of the folder already (scans are told apart by their file names)");
+  if (stamps_.empty())
+    stamps.clear();
+  stamps_ = std::move(stamps);
+  entries_ = std::move(entries);
+}
+
+std::size_t
+ScanFolder::size() const
+{
+  return entries_.size();
+}
+
+const fs::path&
+ScanFolder::file(std::size_t i) const
+{
+  return entries_.at(i).file;
+}
+
+const std::string&
+ScanFolder::name(std::size_t i) const
+{
+  return entries_.at(i).name;
+}
+
+int
+ScanFolder::index(std::size_t i) const
+{
+  return entries_.at(i).index;
+}
+
+const Eigen::Isometry3d&
+ScanFolder::initialPose(std::size_t i) const
+{
+  return entries_.at(i).pose;
+}
+
+const std::vector<double>&
+ScanFolder::stamps() const
+{
+  return stamps_;
+}
+
+const Trajectory&
+ScanFolder::odometry() const
+{
+  return odometry_;
+}
+
+const std::string&
+ScanFolder::poseSource() const
+{
+  return pose_source_;
+}
+
+bool
+ScanFolder::hasPoses() const
+{
+  return pose_source_ != kNoPoses;
+}
+
+Scan
+ScanFolder::read(std::size_t i) const
+{
+  return readScan(file(i), entries_[i].format);
+}
+
+ScanCloud
+ScanFolder::readCloud(std::size_t i) const
+{
+  return readScanCloud(file(i), entries_[i].format);
+}
+
+ScanFormat
+ScanFolder::format() const
+{
+  return entries_.front().format;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scan/point_field.h"
+#include "scan/scan_formats.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_fields.h>
+#include <pcl6d/io/text.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+
+namespace pcl6d {
+
+using namespace io;
+
+namespace {
+
+/** What the formats are called, on the command line and as files. */
+struct FormatName {
+  ScanFormat format;
+  std::string_view name;
+  std::string_view extension;
+};
+// Of two formats with one extension the first is that of the extension.
+constexpr std::array<FormatName, 6> kFormats = {{{ScanFormat::kPcd, "pcd", ".pcd"},
+                                                 {ScanFormat::kPly, "ply", ".ply"},
+                                                 {ScanFormat::kUos, "uos", ".3d"},
+                                                 {ScanFormat::kUosr, "uosr", ".3d"},
+                                                 {ScanFormat::kKitti, "kitti", ".bin"},
+                                                 {ScanFormat::kXyz, "xyz", ".xyz"}}};
+
+constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+
+ScanCloud
+readAllPoints(const std::filesystem::path& path, ScanFormat format)
+{
+  switch (format == ScanFormat::kAuto ? scanFormatOfExtension(path) : format) {
+  case ScanFormat::kPcd: {
+    ScanCloud scan;
+    scan.cloud = readPcd(path);
+    return scan;
+  }
+  case ScanFormat::kPly:
+    return readPly(path);
+  case ScanFormat::kUos:
+    return readUos(path);
+  case ScanFormat::kUosr:
+    return readUosr(path);
+  case ScanFormat::kKitti:
+    return readKitti(path);
+  case ScanFormat::kXyz:
+    return readXyz(path);
+  case ScanFormat::kAuto:
+    break;
+  }
+  text::fail(path,
+             "unknown format of scans " + text::quoted(path.extension().string()) +
+                 " (known: " + allExtensions() + ")");
+}
+
+const pcl::PCLPointField&
+coordinateField(const std::filesystem::path& path,
+                const pcl::PCLPointCloud2& cloud,
+                const std::string& name)
+{
+  for (const auto& field : cloud.fields) {
+    if (field.name != name)
+      continue;
+    if (field.datatype != pcl::PCLPointField::FLOAT32 &&
+        field.datatype != pcl::PCLPointField::FLOAT64)
+      text::fail(path, "field '" + name + "' is not float32 or float64");
+    return field;
+  }
+  text::fail(path, "has no field '" + name + "'");
+}
+
+/** \return per point whether x, y and z are finite as float */
+std::vector<bool>
+finitePoints(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud)
+{
+  std::vector<bool> finite(std::size_t{cloud.width} * cloud.height, true);
+  for (const char* const axis : kAxes) {
+    const auto& field = coordinateField(path, cloud, axis);
+    withTypeOf(field.datatype, [&](auto value) {
+      const std::uint8_t* place = cloud.data.data() + field.offset;
+      for (std::size_t i = 0; i < finite.size(); ++i, place += cloud.point_step) {
+        std::memcpy(&value, place, sizeof value);
+        if (!std::isfinite(static_cast<float>(value)))
+          finite[i] = false;
+      }
+    });
+  }
+  return finite;
+}
+
+/** Leaves the points that are to be kept, in their order, in one row. */
+void
+keepPoints(const std::vector<bool>& keep, ScanCloud& scan)
+{
+  pcl::PCLPointCloud2& cloud = scan.cloud;
+  const std::size_t step = cloud.point_step;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    if (!keep[i])
+      continue;
+    if (kept != i)
+      std::memcpy(&cloud.data[kept * step], &cloud.data[i * step], step);
+    ++kept;
+  }
+  scan.dropped = keep.size() - kept;
+  cloud.data.resize(kept * step);
+  cloud.width = static_cast<pcl::uindex_t>(kept);
+  cloud.height = 1;
+  cloud.row_step = cloud.width * cloud.point_step;
+}
+
+void
+dropInvalid(const std::filesystem::path& path, ScanCloud& scan)
+{
+  const auto isFloat = [&](const char* axis) {
+    return coordinateField(path, scan.cloud, axis).datatype ==
+           pcl::PCLPointField::FLOAT32;
+  };
+  const bool floats = std::count_if(kAxes.begin(), kAxes.end(), isFloat) == 3;
+  if (scan.cloud.data.empty())
+    keepPoints({}, scan);
+  else if (!floats || !scan.cloud.is_dense) { // else readPcd() has looked at them
+    const std::vector<bool> finite = finitePoints(path, scan.cloud);
+    if (std::find(finite.begin(), finite.end(), false) != finite.end())
+      keepPoints(finite, scan);
+  }
+  scan.cloud.is_dense = true;
+}
+
+} // namespace
+
+ScanFormat
+scanFormatOfExtension(const std::filesystem::path& path)
+{
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const auto& known : kFormats)
+    if (extension == known.extension)
+      return known.format;
+  return ScanFormat::kAuto;
+}
+
+std::string
+extensionOf(ScanFormat format)
+{
+  for (const auto& known : kFormats)
+    if (known.format == format)
+      return std::string(known.extension);
+  return {};
+}
+
+std::string
+toString(ScanFormat format)
+{
+  for (const auto& known : kFormats)
+    if (known.format == format)
+      return std::string(known.name);
+  return "auto";
+}
+
+std::string
+io::allExtensions()
+{
+  std::string extensions;
+  for (const auto& known : kFormats)
+    if (extensions.find(known.extension) == std::string::npos)
+      extensions += (extensions.empty() ? "" : " ") + std::string(known.extension);
+  return extensions;
+}
+
+ScanFormat
+scanFormatFromName(const std::string& name)
+{
+  if (name == "auto")
+    return ScanFormat::kAuto;
+  for (const auto& known : kFormats)
+    if (name == known.name)
+      return known.format;
+  throw BadArgument("format = " + text::quoted(name) +
+                    ", but must be auto, pcd, ply, uos, uosr, kitti or xyz");
+}
+
+ScanCloud
+readScanCloud(const std::filesystem::path& path, ScanFormat format)
+{
+  ScanCloud scan = readAllPoints(path, format);
+  dropInvalid(path, scan);
+  return scan;
+}
+
+Scan
+readScan(const std::filesystem::path& path, ScanFormat format)
+{
+  Scan scan;
+  static_cast<ScanCloud&>(scan) = readScanCloud(path, format);
+  scan.points = coordinatesOf(scan.cloud);
+  return scan;
+}
+
+} // namespace pcl6d

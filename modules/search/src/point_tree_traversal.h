@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "simd.h"
+#include "visitors.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/search/point_tree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+
+/** \file
+ * The way through a PointTree, the same for all searches. A search is a visitor: bound()
+ * is the squared distance beyond which it needs nothing, and meet(leaf, place, distances)
+ * is handed each leaf, with the squared distances of its points, that is not beyond. */
+
+namespace pcl6d::search {
+
+/** A node on the way down: its level and its place in the arrays, and for each child the squared distance
+ * of its box with the number of the child in the last three bits. */
+struct Pending {
+  Vector8 keys;
+  std::size_t place;
+  int level;
+};
+
+constexpr float kUsed = std::numeric_limits<float>::max(); ///< key of no child
+constexpr float kLargest = 3.4028e38f;                     ///< below each such key
+constexpr int kMaxLevels = 24;
+
+/** \return the smallest index among those at a distance */
+PCL6D_INLINE int
+indexOf(const PointTree::Leaf& leaf, const Vector8& distances, float distance_sq)
+{
+  int index = std::numeric_limits<int>::max();
+  for (int i = 0; i < 8; ++i)
+    index = distances[i] == distance_sq ? std::min(index, leaf.index[i]) : index;
+  return index;
+}
+
+/** Squared distances to the boxes of the children. Each float operation is monotone, so
+ * none exceeds the float distance to a point in the box: pruning by them is exact, and
+ * so it is when the last three bits are cleared. */
+PCL6D_INLINE void
+openNode(const PointTree::View& tree, const float* q, Pending& pending)
+{
+  const auto& node = tree.nodes[tree.offset[pending.level] + pending.place];
+  Vector8 sum{};
+  for (int axis = 0; axis < 3; ++axis) {
+    Vector8 min, max;
+    load(min, node.min[axis]);
+    load(max, node.max[axis]);
+    const Vector8 below = min - q[axis], above = q[axis] - max;
+    Vector8 outside = below > above ? below : above;
+    outside = outside > 0.0f ? outside : Vector8{};
+    sum += outside * outside;
+  }
+  const Vector8 most = Vector8{} + kUsed;
+  sum = sum < most ? sum : most;
+  Bits8 bits;
+  std::memcpy(&bits, &sum, sizeof(bits));
+  bits = (bits & ~7) | Bits8{0, 1, 2, 3, 4, 5, 6, 7};
+  std::memcpy(&pending.keys, &bits, sizeof(bits));
+}
+
+template <typename Visitor>
+PCL6D_INLINE void
+scanLeaf(const PointTree::View& tree,
+         std::size_t place,
+         const float* q,
+         Visitor& visitor)
+{
+  const auto& leaf = tree.leaves[place];
+  Vector8 distances{};
+  for (int axis = 0; axis < 3; ++axis) {
+    Vector8 x;
+    load(x, leaf.xyz[axis]);
+    const Vector8 d = q[axis] - x;
+    distances += d * d;
+  }
+  visitor.meet(leaf, place, distances);
+}
+
+/** Visits what lies below the opened nodes, nearest child first. */
+template <typename Visitor>
+PCL6D_INLINE void
+descend(const PointTree::View& tree,
+        const float* q,
+        Pending* stack,
+        int top,
+        Visitor& visitor)
+{
+  while (top > 0) {
+    Pending& node = stack[top - 1];
+    const float key = smallest(node.keys);
+    std::int32_t bits;
+    std::memcpy(&bits, &key, sizeof(bits));
+    const int child = bits & 7;
+    bits &= ~7;
+    float distance_sq;
+    std::memcpy(&distance_sq, &bits, sizeof(bits));
+    if (!(distance_sq <= std::min(visitor.bound(), kLargest))) {
+      --top;
+      continue;
+    }
+    reinterpret_cast<float*>(&node.keys)[child] = kUsed;
+    const std::size_t place = 8 * node.place + child;
+    if (node.level + 1 == tree.leaf_level)
+      scanLeaf(tree, place, q, visitor);
+    else {
+      stack[top].level = node.level + 1;
+      stack[top].place = tree.nodeAt(place, node.level + 1);
+      openNode(tree, q, stack[top++]);
+    }
+  }
+}
+
+template <typename Visitor>
+PCL6D_INLINE void
+visit(const PointTree::View& tree, const float* q, Visitor& visitor)
+{
+  Pending stack[kMaxLevels]; // one for each level
+  stack[0].place = 0;
+  stack[0].level = 0;
+  openNode(tree, q, stack[0]);
+  descend(tree, q, stack, 1, visitor);
+}
+
+/** \return the factor of the squared bound that prunes at (1 + epsilon) times
+ * \throws BadArgument epsilon is negative or not a number */
+inline float
+shrinkFor(double epsilon)
+{
+  if (!(epsilon >= 0))
+    throw BadArgument("epsilon = " + std::to_string(epsilon) + ", but must be >= 0");
+  return std::isinf(epsilon) ? -1.0f // prune all
+                             : static_cast<float>(1 / ((1 + epsilon) * (1 + epsilon)));
+}
+} // namespace pcl6d::search

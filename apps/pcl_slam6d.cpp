@@ -6,14 +6,14 @@
 #include "common/open_scans.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
-#include "slam6d/earlier_run.h"
 #include "slam6d/live_window.h"
+#include "slam6d/run_output.h"
 #include "slam6d/run_scans.h"
-#include "slam6d/run_writer.h"
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/run/run_folder.h>
 #include <pcl6d/slam6d/slam6d.h>
 #include <pcl6d/visualization/private_display.h>
 
@@ -33,14 +33,24 @@ constexpr const char* kName = "pcl_slam6d";
 
 /** A selection that holds no scan is a mistake of the command line. */
 ScanFolder
-openFolder(const Settings& settings, const std::optional<app::EarlierRun>& earlier)
+openFolder(const Settings& settings, const std::optional<RunFolder>& earlier)
 {
   std::optional<ScanFolder> folder;
   app::checkOptions([&] { folder.emplace(settings.input, settings.folder); },
                     {{"poses_file", "poses"}});
   if (earlier)
-    earlier->putBefore(*folder);
+    folder->continueRun(earlier->path(), earlier->summary());
   return *std::move(folder);
+}
+
+/** \return the finished run that goes on (--continue), if one does */
+std::optional<RunFolder>
+openEarlier(const Settings& settings)
+{
+  if (settings.continued.empty())
+    return {};
+  return RunFolder::finished(
+      settings.continued, "the run was interrupted; run it again, then go on with it");
 }
 
 app::RunScans
@@ -56,9 +66,7 @@ openScans(const ScanFolder& folder, const Settings& settings)
 class Job {
 public:
   explicit Job(const Settings& settings)
-  : earlier_(settings.continued.empty()
-                 ? std::nullopt
-                 : std::make_optional<app::EarlierRun>(settings.continued))
+  : earlier_(openEarlier(settings))
   , folder_(openFolder(settings, earlier_))
   , scans_(openScans(folder_, settings))
   , settings_(resolved(settings, folder_))
@@ -84,8 +92,8 @@ public:
       return app::kInterrupted;
     }
     const bool complete = match();
-    app::RunWriter writer(settings_, scans_, slam_.result(), out_, bar_, interrupt_);
-    const RunResult& summary = writer.write(complete, log_);
+    app::RunOutput output(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
+    const RunResult& summary = output.write(complete, std::move(log_));
     const auto written = out_.publish();
     for (const auto& warning : summary.warnings)
       bar_.warn(warning);
@@ -138,7 +146,7 @@ private:
     for (std::size_t i = 0; i < folder_.size(); ++i) {
       if (interrupt_.requested())
         return false;
-      const Scan scan = scans_.read(i);
+      Scan scan = scans_.read(i);
       const std::string file = folder_.file(i).string();
       if (scan.points.size() < 3)
         throw IoFailed(file + ": " + std::to_string(scan.points.size()) +
@@ -146,14 +154,16 @@ private:
                        std::to_string(scan.dropped) +
                        " without), but at least 3 are needed");
       if (i < folder_.numRegistered()) {
-        log_.dropped.push_back(earlier_->dropped(i));
-        slam_.addRegistered(scan.points, earlier_->scan(i), file);
+        const ScanResult& earlier = earlier_->summary().scans.at(i);
+        log_.dropped.push_back(earlier.dropped);
+        slam_.addRegistered(scan.points, earlier, file);
       }
       else {
         log_.dropped.push_back(scan.dropped);
         slam_.addScan(scan.points, folder_.initialPose(i), file);
       }
       window_.add(scan.points, folder_.initialPose(i));
+      log_.clouds.push_back(std::move(scan.cloud));
       show({"reading", i + 1, folder_.size()});
     }
     return true;
@@ -212,9 +222,9 @@ private:
     bar_.say(line.str());
   }
 
-  const std::optional<app::EarlierRun> earlier_;
+  const std::optional<RunFolder> earlier_;
   const ScanFolder folder_;
-  const app::RunScans scans_;
+  app::RunScans scans_;
   const Settings settings_;
   const app::Interrupt interrupt_;
   app::ProgressBar bar_;

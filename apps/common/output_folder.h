@@ -46,6 +46,13 @@ public:
   void
   discard(const std::string& name) const;
 
+  /** \return the hidden folder, for those that write many files */
+  const std::filesystem::path&
+  staging() const
+  {
+    return staging_;
+  }
+
   /** \brief Moves everything to its place. \return the names at the top of the folder that
    * were written, as full paths, sorted
    * \throws IoFailed something else stands in the place of a file; nothing is moved */

@@ -4,9 +4,8 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
-#include <pcl6d/run/run_summary.h>
+#include <pcl6d/run/run_folder.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 
@@ -24,28 +23,20 @@ struct MapFiles {
 };
 
 MapFiles
-filesOfRun(const fs::path& run)
+filesOfRun(const fs::path& path)
 {
-  const fs::path file = run / "summary.json";
-  const RunResult summary = readRunSummary(file);
-  if (summary.generator != "pcl_slam6d")
-    throw IoFailed(file.string() + ": is of '" + summary.generator +
-                   "', not of pcl_slam6d");
-  if (!summary.complete)
-    throw IoFailed(file.string() +
-                   ": the run was interrupted, so it has no map; run it again");
+  const RunFolder run = RunFolder::finished(
+      path, "the run was interrupted, so it has no map; run it again");
+  const fs::path summary = path / "summary.json";
   MapFiles result;
-  result.map.pose_source = file.string();
-  for (const auto& scan : summary.scans) {
-    const fs::path pcd = run / "scans" / (scanName(scan.index) + ".pcd");
-    if (!fs::exists(pcd))
-      throw IoFailed(pcd.string() + ": is missing, though " + file.string() +
-                     " tells of it");
-    result.files.push_back(pcd);
-    result.map.names.push_back(scan.file);
-    Eigen::Isometry3d pose = scan.T_world_scan;
-    pose.translation() -= summary.world_offset;
-    result.map.poses.push_back(pose);
+  result.map.pose_source = summary.string();
+  result.map.poses = run.trajectory().poses;
+  for (std::size_t i = 0; i < run.summary().scans.size(); ++i) {
+    result.files.push_back(run.scanFile(i));
+    if (!fs::exists(result.files.back()))
+      throw IoFailed(result.files.back().string() + ": is missing, though " +
+                     summary.string() + " tells of it");
+    result.map.names.push_back(run.summary().scans[i].file);
   }
   return result;
 }

@@ -14,17 +14,17 @@ namespace {
 LinkState
 stateOf(const RunLink& link)
 {
-  if (link.verdict == "odometry")
+  if (link.verdict == LinkVerdict::kOdometry)
     return LinkState::kOdometry;
   return link.counts() ? LinkState::kUsed : LinkState::kRefused;
 }
 
 /** Scans that are not to be trusted. */
 bool
-isDoubtful(const RunResult::ScanEntry& scan)
+isDoubtful(const ScanResult& scan)
 {
-  return scan.state == "predicted" || scan.state == "unconverged" ||
-         scan.state == "pending";
+  return scan.state == ScanState::kPredicted || scan.state == ScanState::kUnconverged ||
+         scan.state == ScanState::kPending;
 }
 
 /** The paths with room around: where something is to be seen of each pose. */

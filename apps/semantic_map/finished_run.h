@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/io/scan_reader.h>
+#include <pcl6d/run/run_folder.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
 #include <filesystem>
@@ -19,7 +20,7 @@ public:
   const std::filesystem::path&
   folder() const
   {
-    return folder_;
+    return run_.path();
   }
 
   /** \return the scans in the order of their ids */
@@ -33,7 +34,7 @@ public:
   const Eigen::Vector3d&
   worldOffset() const
   {
-    return world_offset_;
+    return run_.summary().world_offset;
   }
 
   /** \brief Reads links.csv and graph.g2o; without the former there are no links.
@@ -50,9 +51,12 @@ public:
   readScan(std::size_t place) const;
 
 private:
-  std::filesystem::path folder_;
+  std::string
+  faultOf(const RunLink& link) const;
+
+  RunFolder run_;
   std::vector<MapScan> scans_;
-  Eigen::Vector3d world_offset_;
+  std::vector<std::size_t> places_; ///< of the scans in the summary
 };
 
 } // namespace pcl6d::app

@@ -3,6 +3,8 @@
 
 #include <pcl6d/common/error.h>
 
+#include <utility>
+
 namespace pcl6d::app {
 
 namespace {
@@ -45,7 +47,8 @@ RunScans::deskew(MotionInterpolation interpolation)
                    folder_.poseSource() + ") are no TUM rows");
   correction_ = withName(
       name, [&] { return MotionCorrection(folder_.odometry(), interpolation); });
-  const FieldValues times = timesOf(folder_.read(first), first);
+  first_ = folder_.read(first);
+  const FieldValues times = timesOf(*first_, first);
   format_ = withName(
       file, [&] { return correction_->timeFormat(times, folder_.stamps()[first]); });
   description_ = "motion during a scan is corrected: field " + times.name + ", " +
@@ -64,17 +67,16 @@ RunScans::timesOf(const Scan& scan, std::size_t i) const
 }
 
 Scan
-RunScans::read(std::size_t i) const
+RunScans::read(std::size_t i)
 {
-  Scan scan = folder_.read(i);
+  Scan scan = first_ && i == folder_.numRegistered() ? *std::exchange(first_, {})
+                                                     : folder_.read(i);
   if (!correction_ || i < folder_.numRegistered())
     return scan;
   withName(folder_.file(i).string(), [&] {
     const double stamp = folder_.stamps()[i];
-    correction_->correct(scan.points,
-                         correction_->timesOf(timesOf(scan, i), format_, stamp),
-                         stamp,
-                         1); // scans are read in parallel already
+    correction_->correct(
+        scan.points, correction_->timesOf(timesOf(scan, i), format_, stamp), stamp);
     storeCoordinates(scan.points, scan.cloud);
   });
   return scan;

@@ -28,10 +28,9 @@ public:
     return folder_;
   }
 
-  /** \brief Reads the i-th selected scan. Thread-safe.
-   * \throws IoFailed as ScanFolder::read(), or its times are missing or broken */
+  /** \brief Reads the i-th selected scan, which is to be done once. \throws IoFailed as ScanFolder::read(), or its times are missing or broken */
   Scan
-  read(std::size_t i) const;
+  read(std::size_t i);
 
   /** \return what is done about motion, for people; empty if nothing */
   const std::string&
@@ -46,6 +45,7 @@ private:
 
   const ScanFolder& folder_;
   std::optional<MotionCorrection> correction_;
+  std::optional<Scan> first_; ///< to be registered, if it was read already
   TimeFormat format_;
   std::string description_;
 };

@@ -59,12 +59,12 @@ struct RoomRun : TempFolder {
     std::filesystem::create_directories(*this / "run/frames");
     std::filesystem::create_directories(*this / "run/scans");
     for (int i = 0; i < kScans; ++i) {
-      RunResult::ScanEntry scan;
+      ScanResult scan;
       scan.file = scanName(i) + ".pcd";
       scan.index = i;
       scan.T_world_scan = planarPose(i - 1, 0, 0);
       scan.initial_pose = planarPose(i - 1, 0.3 * i, 0.1 * i);
-      scan.state = i == 2 ? "predicted" : "matched";
+      scan.state = i == 2 ? ScanState::kPredicted : ScanState::kMatched;
       scan.correction = 0.1 * i;
       scan.covariance = 1e-4 * Eigen::Matrix<double, 6, 6>::Identity();
       summary.scans.push_back(scan);
@@ -74,8 +74,19 @@ struct RoomRun : TempFolder {
                    {scan.T_world_scan, FrameKind::kIcp}});
       writePcd(*this / ("run/scans/" + scanName(i) + ".pcd"), roomCloud({i - 1.0}));
     }
-    links.push_back({0, 1, "sequence", "used", "", 1, 9, 0.02, 0.9, 0.5, 1});
-    links.push_back({1, 2, "sequence", "refused", "few pairs", 1, 2, 0.4, 0.1, 0.5, 0});
+    links.push_back(
+        {0, 1, LinkKind::kSequence, LinkVerdict::kUsed, "", 1, 9, 0.02, 0.9, 0.5, 1});
+    links.push_back({1,
+                     2,
+                     LinkKind::kSequence,
+                     LinkVerdict::kRefused,
+                     "few pairs",
+                     1,
+                     2,
+                     0.4,
+                     0.1,
+                     0.5,
+                     0});
     writeRunSummary(run() / "summary.json", summary);
     writeTrajectoryKitti(run() / "trajectory.kitti", trajectory);
     writeRunLinks(run() / "links.csv", links);

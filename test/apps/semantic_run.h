@@ -50,7 +50,7 @@ public:
       const std::string name = scanName(i) + ".pcd";
       const Scan scan = readScan(sim() / name);
       writePcd(run() / "scans" / name, scan.cloud, pose);
-      RunResult::ScanEntry& entry = summary.scans.emplace_back();
+      ScanResult& entry = summary.scans.emplace_back();
       entry.file = name;
       entry.index = i;
       entry.T_world_scan = pose;

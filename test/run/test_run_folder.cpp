@@ -51,7 +51,7 @@ struct RunFiles : TempFolder {
     summary.generator = "pcl_slam6d";
     summary.world_offset = kOffset;
     for (int i = 0; i < 2; ++i) {
-      RunResult::ScanEntry scan;
+      pcl6d::ScanResult scan;
       scan.file = i == 0 ? "a.pcd" : "b.pcd";
       scan.index = 3 * i;
       scan.initial_pose = at(i, 0.5 * i);
@@ -79,7 +79,17 @@ struct RunFiles : TempFolder {
   static RunLink
   link()
   {
-    return {0, 3, "loop", "refused", "few pairs, \"far\"", 1.5, 7, NAN, 0.25, 0.5, 0};
+    return {0,
+            3,
+            pcl6d::LinkKind::kLoop,
+            pcl6d::LinkVerdict::kRefused,
+            "few pairs, \"far\"",
+            1.5,
+            7,
+            NAN,
+            0.25,
+            0.5,
+            0};
   }
   void
   writeSummary() const
@@ -227,7 +237,7 @@ TEST(RunLinks, ComeBackAsTheyWereWritten)
   ASSERT_EQ(links.size(), 1u);
   EXPECT_EQ(links[0].from, 0u);
   EXPECT_EQ(links[0].to, 3u);
-  EXPECT_EQ(links[0].kind, "loop");
+  EXPECT_EQ(links[0].kind, pcl6d::LinkKind::kLoop);
   EXPECT_FALSE(links[0].counts());
   EXPECT_EQ(links[0].reason, RunFiles::link().reason);
   EXPECT_EQ(links[0].distance, 1.5);

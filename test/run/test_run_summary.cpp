@@ -44,16 +44,16 @@ summaryOf(std::size_t scans)
                      {"seed", "7", "given", ""}};
   summary.stages = {{"reading", 0.1, 12.5}, {"matching", 1.0 / 7, 13}};
   for (std::size_t i = 0; i < scans; ++i) {
-    RunResult::ScanEntry scan;
+    pcl6d::ScanResult scan;
     scan.file = "säule \"" + std::to_string(i) + "\".pcd";
     scan.index = static_cast<int>(2 * i);
     scan.initial_pose = at(static_cast<double>(i));
     scan.T_world_scan = at(1.5 * static_cast<double>(i));
     if (i > 0)
       scan.covariance = Eigen::Matrix<double, 6, 6>::Random();
-    scan.state = i == 0 ? "fixed" : "matched";
-    scan.status = "ok";
-    scan.start = "odometry";
+    scan.state = i == 0 ? pcl6d::ScanState::kFixed : pcl6d::ScanState::kMatched;
+    scan.status = pcl6d::Status::kOk;
+    scan.start = pcl6d::InitialGuess::kOverlap;
     scan.points = 100 + i;
     scan.dropped = i;
     scan.reduced = 50;
@@ -65,7 +65,8 @@ summaryOf(std::size_t scans)
     scan.reason = "none";
     summary.scans.push_back(scan);
   }
-  summary.graph_stages = {{"relaxation", true, "why", 0.1, 0.2, 3, 0.5}};
+  summary.graph_stages = {
+      {pcl6d::StageKind::kRelaxation, true, "why", 0.1, 0.2, 3, 0.5, {}}};
   summary.links_used = 5;
   summary.links_refused = 2;
   summary.floating = {"b.pcd"};

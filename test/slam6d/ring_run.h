@@ -111,7 +111,7 @@ inline const StageResult*
 stageOf(const Slam6DResult& result, const std::string& name)
 {
   for (const StageResult& stage : result.stages)
-    if (stage.name == name)
+    if (toString(stage.kind) == name)
       return &stage;
   return nullptr;
 }

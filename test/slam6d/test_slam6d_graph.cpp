@@ -66,9 +66,9 @@ TEST(Slam6DGraph, RelaxationBringsADriftedRingNearerToTheTruth)
   RecordProperty("rms_relaxed", std::to_string(positionRms(relaxed(), ring())));
   EXPECT_LT(positionRms(relaxed(), ring()), 0.6 * positionRms(matched(), ring()));
   ASSERT_GE(relaxed().stages.size(), 2u);
-  EXPECT_EQ(relaxed().stages.front().name, "matching");
+  EXPECT_EQ(relaxed().stages.front().kind, pcl6d::StageKind::kMatching);
   const StageResult& stage = relaxed().stages.back();
-  EXPECT_EQ(stage.name, "relaxation");
+  EXPECT_EQ(stage.kind, pcl6d::StageKind::kRelaxation);
   EXPECT_FALSE(stage.undone) << stage.reason;
   EXPECT_EQ(stage.reason, "");
   EXPECT_GT(stage.rounds, 0);

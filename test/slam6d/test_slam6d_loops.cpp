@@ -10,6 +10,7 @@ using pcl6d::ScanLink;
 using pcl6d::Slam6D;
 using pcl6d::Slam6DOptions;
 using pcl6d::Slam6DResult;
+using pcl6d::StageKind;
 using pcl6d::StageResult;
 using pcl6d::test::DriftingRun;
 using pcl6d::test::expectSameBits;
@@ -60,11 +61,11 @@ matched()
 TEST(Slam6DLoops, AreClosedBeforeRelaxing)
 {
   ASSERT_EQ(whole().stages.size(), 3u);
-  EXPECT_EQ(whole().stages[0].name, "matching");
-  EXPECT_EQ(whole().stages[1].name, "loop closing");
-  EXPECT_EQ(whole().stages[2].name, "relaxation");
+  EXPECT_EQ(whole().stages[0].kind, StageKind::kMatching);
+  EXPECT_EQ(whole().stages[1].kind, StageKind::kLoopClosing);
+  EXPECT_EQ(whole().stages[2].kind, StageKind::kRelaxation);
   for (const StageResult& stage : whole().stages)
-    EXPECT_FALSE(stage.undone) << stage.name << ": " << stage.reason;
+    EXPECT_FALSE(stage.undone) << toString(stage.kind) << ": " << stage.reason;
   EXPECT_LT(positionRms(whole(), block()), 0.7 * positionRms(matched(), block()));
 }
 

@@ -37,18 +37,17 @@ makeReportMap(std::uint32_t scans)
   return map;
 }
 
-inline RunResult::ScanEntry
+inline ScanResult
 makeReportScan(int index)
 {
-  RunResult::ScanEntry scan;
+  ScanResult scan;
   scan.file = "scan" + std::to_string(index) + ".pcd";
   scan.index = index;
   scan.initial_pose.translation() = kReportOffset + Eigen::Vector3d(2 * index, 9, 1);
   scan.T_world_scan.translation() = kReportOffset + Eigen::Vector3d(2 * index, 10, 1);
   scan.covariance = Eigen::Matrix<double, 6, 6>::Identity() * 1e-4;
-  scan.state = index == 0 ? "fixed" : "matched";
-  scan.status = "ok";
-  scan.start = "odometry";
+  scan.state = index == 0 ? ScanState::kFixed : ScanState::kMatched;
+  scan.status = Status::kOk;
   scan.points = 1000 + static_cast<std::size_t>(index);
   scan.pairs = 500;
   scan.rms = 0.01 * (1 + index % 3);
@@ -73,24 +72,35 @@ makeReportData(int scans = 10)
   data.summary.options = {{"voxel", "0.1", "derived", "from the spacing"},
                           {"min-overlap", "0.1", "given", ""}};
   data.summary.stages = {{"reading", 1.5, 100}, {"matching", 3.5, 200}};
-  data.summary.graph_stages = {{"relaxation", true, "no gain", 0.5, 0.5, 3, 1}};
+  data.summary.graph_stages = {
+      {StageKind::kRelaxation, true, "no gain", 0.5, 0.5, 3, 1, {}}};
   for (int i = 0; i < scans; ++i)
     data.summary.scans.push_back(makeReportScan(i));
-  data.summary.scans.back().state = "predicted";
+  data.summary.scans.back().state = ScanState::kPredicted;
   data.summary.scans.back().reason = "overlap below --min-overlap";
   for (std::size_t i = 1; i < data.summary.scans.size(); ++i)
-    data.links.push_back({i - 1, i, "sequence", "used", "", 2, 400, 0.02, 0.5, 0.1, 1});
-  data.links.push_back({0,
-                        data.summary.scans.size() - 1,
-                        "loop",
-                        "refused",
-                        "too few pairs",
-                        18,
-                        3,
-                        0.3,
-                        0.01,
-                        0,
-                        0});
+    data.summary.links.push_back({i - 1,
+                                  i,
+                                  LinkKind::kSequence,
+                                  LinkVerdict::kUsed,
+                                  "",
+                                  2,
+                                  400,
+                                  0.02,
+                                  0.5,
+                                  0.1,
+                                  1});
+  data.summary.links.push_back({0,
+                                data.summary.scans.size() - 1,
+                                LinkKind::kLoop,
+                                LinkVerdict::kRefused,
+                                "too few pairs",
+                                18,
+                                3,
+                                0.3,
+                                0.01,
+                                0,
+                                0});
   data.map = makeReportMap(static_cast<std::uint32_t>(scans));
   Plane floor;
   floor.label = "floor";

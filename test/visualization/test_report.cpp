@@ -152,7 +152,7 @@ TEST(Report, OfACampusStaysBelow15Megabytes)
     data.map.scans.insert(data.map.scans.end(), 100, 3);
     data.map.intensities.insert(data.map.intensities.end(), 100, 0.5F);
   }
-  data.links.resize(10000, data.links.front());
+  data.summary.links.resize(10000, data.summary.links.front());
   data.pictures[0].png.resize(ReportOptions().max_picture_bytes, '\x7f');
   EXPECT_LT(pageOf(data).size(), 15000000u);
 }
@@ -176,7 +176,7 @@ TEST(Report, IsNotBrokenByNames)
   const std::string odd =
       "a</script><script>alert(1)</script><!-- \"'&\\ \n\u2028 {{run}}";
   ReportData data = makeReportData();
-  data.title = data.summary.scans[1].file = data.links[0].reason = odd;
+  data.title = data.summary.scans[1].file = data.summary.links[0].reason = odd;
   data.summary.options[0].value = data.objects[0].object_class = odd;
   const std::string page = pageOf(data);
   EXPECT_EQ(count(page, "</script"), count(pageOf(makeReportData()), "</script"));

@@ -76,7 +76,7 @@ TEST_F(ReportInABrowser, WorksOnADesktop)
 TEST_F(ReportInABrowser, WorksOnAPhoneWithOddNames)
 {
   ReportData data = makeReportData(300);
-  data.title = data.summary.scans[1].file = data.links[0].reason =
+  data.title = data.summary.scans[1].file = data.summary.links[0].reason =
       "</script><b onclick=\"x\">'&" + std::string(80, 'w');
   data.summary.scans[4].T_world_scan.translation().setConstant(
       std::numeric_limits<double>::quiet_NaN());

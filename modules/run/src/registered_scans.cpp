@@ -11,14 +11,14 @@ namespace pcl6d {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* kSummary = "summary.json";
+constexpr const char* kRunSummary = "summary.json";
 
 std::optional<RunResult>
 summaryOf(const fs::path& folder)
 {
-  if (!fs::exists(folder / kSummary))
+  if (!fs::exists(folder / kRunSummary))
     return {};
-  return readRunSummary(folder / kSummary);
+  return readRunSummary(folder / kRunSummary);
 }
 
 /** \return the folder that holds the scans: that of a run has them in a folder of its own
@@ -72,7 +72,7 @@ RegisteredScans::RegisteredScans(const fs::path& path, const ScanFolderOptions& 
   for (std::size_t i = 0; i < folder_.size(); ++i)
     indices_.push_back(static_cast<std::uint32_t>(folder_.index(i)));
   if (summary_)
-    readRun(path / kSummary);
+    readRun(path / kRunSummary);
 }
 
 void

@@ -2,6 +2,7 @@
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/object_io.h>
 #include <pcl6d/io/plane_io.h>
+#include <pcl6d/io/pose_graph_io.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/scan_reader.h>
@@ -14,7 +15,6 @@ namespace pcl6d {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* kProgram = "pcl_slam6d";
 constexpr const char* kSummary = "summary.json";
 constexpr const char* kTrajectory = "trajectory.kitti";
 constexpr const char* kMap = "map.pcd";
@@ -52,9 +52,6 @@ RunFolder::RunFolder(const fs::path& path) : path_(path)
   has_summary_ = has(kSummary);
   if (has_summary_) {
     summary_ = readRunSummary(path / kSummary);
-    if (summary_.generator != kProgram)
-      text::fail(path / kSummary,
-                 "is of '" + summary_.generator + "', not of " + kProgram);
     return;
   }
   if (!has(kTrajectory) && !has(kMap))
@@ -67,6 +64,19 @@ RunFolder::RunFolder(const fs::path& path) : path_(path)
     takeScansFromPoses();
 }
 
+RunFolder::RunFolder(const fs::path& path, RunResult result)
+: path_(path), has_summary_(true), summary_(std::move(result))
+{}
+
+RunFolder
+RunFolder::finished(const fs::path& path, const std::string& unfinished)
+{
+  const RunFolder run(path, readRunSummary(path / kSummary));
+  if (!run.summary().complete)
+    text::fail(path / kSummary, unfinished);
+  return run;
+}
+
 void
 RunFolder::takeScansFromPoses()
 {
@@ -74,9 +84,10 @@ RunFolder::takeScansFromPoses()
   if (!trajectory.poses.empty())
     summary_.world_offset = worldOffset(trajectory.poses.front());
   for (std::size_t i = 0; i < trajectory.poses.size(); ++i) {
-    RunResult::ScanEntry& scan = summary_.scans.emplace_back();
+    ScanResult& scan = summary_.scans.emplace_back();
     scan.index = static_cast<int>(i);
     scan.file = scanName(scan.index);
+    scan.state = ScanState::kUnknown;
     scan.initial_pose = scan.T_world_scan = trajectory.poses[i];
     if (!fs::exists(framesFile(i)))
       continue;
@@ -121,6 +132,12 @@ fs::path
 RunFolder::scanFile(std::size_t place) const
 {
   return path_ / "scans" / (scanName(summary_.scans.at(place).index) + ".pcd");
+}
+
+fs::path
+RunFolder::mapFile() const
+{
+  return path_ / kMap;
 }
 
 fs::path
@@ -174,7 +191,7 @@ RunFolder::readMap() const
   RunMap map;
   if (!has(kMap))
     return map;
-  Scan scan = pcl6d::readScan(path_ / kMap);
+  Scan scan = pcl6d::readScan(mapFile());
   map.points = std::move(scan.points);
   map.scans = valuesOf<std::uint32_t>(scan.cloud, "scan");
   map.intensities = valuesOf<float>(scan.cloud, "intensity");
@@ -204,9 +221,16 @@ RunFolder::readScan(std::size_t place) const
 }
 
 std::vector<RunLink>
-RunFolder::readLinks() const
+RunFolder::readLinks(const std::function<std::string(const RunLink&)>& fault) const
 {
-  return has("links.csv") ? readRunLinks(path_ / "links.csv") : std::vector<RunLink>();
+  return has("links.csv") ? readRunLinks(path_ / "links.csv", fault)
+                          : std::vector<RunLink>();
+}
+
+PoseGraph
+RunFolder::readGraph() const
+{
+  return has("graph.g2o") ? readPoseGraph(path_ / "graph.g2o") : PoseGraph();
 }
 
 std::vector<Plane>

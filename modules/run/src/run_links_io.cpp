@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/text.h>
+#include <pcl6d/run/run_fields.h>
 #include <pcl6d/run/run_links_io.h>
 
 #include <algorithm>
+#include <array>
 #include <iomanip>
 #include <ostream>
+#include <utility>
 
 namespace pcl6d {
 
 namespace {
-constexpr const char* kHeader =
-    "from,to,kind,verdict,reason,distance,pairs,rms,overlap,condition,weight";
+/** What a link must have. */
+constexpr std::array<std::string_view, 6> kNeeded =
+    {"from", "to", "kind", "verdict", "pairs", "rms"};
 
 /** In quotes, which a comma in a reason needs. */
 std::string
@@ -69,23 +74,32 @@ public:
     return true;
   }
 
-  const std::string&
-  word(const std::string& column) const
+  /** Takes a field from the column of its name. */
+  template <typename Value>
+  void
+  operator()(const char* name, Value& value) const
   {
-    const auto place = std::find(columns_.begin(), columns_.end(), column);
-    if (place == columns_.end())
-      text::failAt(path_, 1, "has no column '" + column + "'");
-    return cells_[static_cast<std::size_t>(place - columns_.begin())];
+    const auto column = std::find(columns_.begin(), columns_.end(), name);
+    if (column == columns_.end()) {
+      if (std::find(kNeeded.begin(), kNeeded.end(), name) != kNeeded.end())
+        text::failAt(path_, 1, "has no column '" + std::string(name) + "'");
+      return;
+    }
+    const std::string& cell =
+        cells_[static_cast<std::size_t>(column - columns_.begin())];
+    if constexpr (std::is_same_v<Value, std::string>)
+      value = cell;
+    else if constexpr (std::is_enum_v<Value>)
+      takeWord(cell, value);
+    else if (!text::parseNumber(cell, value))
+      fail(std::string(name) + " = " + text::quoted(cell) + " is not a number");
   }
 
-  template <typename Number>
-  void
-  take(const std::string& column, Number& number) const
+  /** \throws IoFailed the message with file and line */
+  [[noreturn]] void
+  fail(const std::string& message) const
   {
-    if (!text::parseNumber(word(column), number))
-      text::failAt(path_,
-                   lines_.number(),
-                   column + " = " + text::quoted(word(column)) + " is not a number");
+    text::failAt(path_, lines_.number(), message);
   }
 
 private:
@@ -95,22 +109,34 @@ private:
   std::vector<std::string> cells_;
 };
 
-RunLink
-linkOf(const Table& table)
+/** Writes the fields that it visits, with commas between. */
+struct CellWriter {
+  std::ostream& csv;
+  const char* comma = "";
+
+  template <typename Value>
+  void
+  operator()(const char* /*name*/, const Value& value)
+  {
+    csv << std::exchange(comma, ",");
+    if constexpr (std::is_same_v<Value, std::string>)
+      csv << inQuotes(value);
+    else if constexpr (std::is_enum_v<Value>)
+      csv << toString(value);
+    else
+      csv << value;
+  }
+};
+
+void
+writeHeader(std::ostream& csv)
 {
-  RunLink link;
-  table.take("from", link.from);
-  table.take("to", link.to);
-  link.kind = table.word("kind");
-  link.verdict = table.word("verdict");
-  link.reason = table.word("reason");
-  table.take("distance", link.distance);
-  table.take("pairs", link.pairs);
-  table.take("rms", link.rms);
-  table.take("overlap", link.overlap);
-  table.take("condition", link.condition);
-  table.take("weight", link.weight);
-  return link;
+  const RunLink link;
+  const char* comma = "";
+  visitLinkFields(link, [&](const char* name, const auto&) {
+    csv << std::exchange(comma, ",") << name;
+  });
+  csv << '\n';
 }
 } // namespace
 
@@ -118,22 +144,31 @@ void
 writeRunLinks(const std::filesystem::path& path, const std::vector<RunLink>& links)
 {
   writeFileAtomically(path, [&](std::ostream& csv) {
-    csv << kHeader << '\n' << std::setprecision(6);
-    for (const RunLink& link : links)
-      csv << link.from << ',' << link.to << ',' << link.kind << ',' << link.verdict
-          << ',' << inQuotes(link.reason) << ',' << link.distance << ',' << link.pairs
-          << ',' << link.rms << ',' << link.overlap << ',' << link.condition << ','
-          << link.weight << '\n';
+    writeHeader(csv);
+    csv << std::setprecision(6);
+    for (const RunLink& link : links) {
+      visitLinkFields(link, CellWriter{csv});
+      csv << '\n';
+    }
   });
 }
 
 std::vector<RunLink>
-readRunLinks(const std::filesystem::path& path)
+readRunLinks(const std::filesystem::path& path,
+             const std::function<std::string(const RunLink&)>& fault)
 {
   const std::string content = text::readFile(path);
   std::vector<RunLink> links;
-  for (Table table(path, content); table.next();)
-    links.push_back(linkOf(table));
+  for (Table table(path, content); table.next();) {
+    try {
+      visitLinkFields(links.emplace_back(), table);
+    } catch (const BadArgument& error) {
+      table.fail(error.what());
+    }
+    const std::string wrong = fault ? fault(links.back()) : std::string();
+    if (!wrong.empty())
+      table.fail(wrong);
+  }
   return links;
 }
 

@@ -134,7 +134,7 @@ GraphStage::GraphStage(const Slam6DOptions& options,
 }
 
 StageResult
-GraphStage::judged(const std::string& name,
+GraphStage::judged(StageKind kind,
                    const Poses& before,
                    const Poses& after,
                    const std::vector<bool>& counted) const
@@ -142,7 +142,7 @@ GraphStage::judged(const std::string& name,
   const StageAgreement agreement =
       judgeStage(scans_, before, after, parameters_.voxel.value, options_.num_threads);
   StageResult stage;
-  stage.name = name;
+  stage.kind = kind;
   stage.agreement_before = agreement.before.total;
   stage.agreement_after = agreement.after.total;
   stage.reason = agreement.worse(counted);
@@ -156,7 +156,8 @@ GraphStage::judgeMatching(Slam6DResult& result) const
   Poses odometry;
   for (const ScanResult& scan : result.scans)
     odometry.push_back(scan.initial_pose);
-  StageResult stage = judged("matching", odometry, posesOf(result), believedOf(result));
+  StageResult stage =
+      judged(StageKind::kMatching, odometry, posesOf(result), believedOf(result));
   stage.seconds = result.matching_seconds;
   stage.undone = false; // each scan was judged when it was matched
   stage.history = {posesOf(result)};
@@ -183,7 +184,8 @@ GraphStage::closeLoops(Slam6DResult& result)
   }
   const ErrorDiffusionResult closed =
       pcl6d::closeLoops(before, edges, loops, {options_.loop_closing, false});
-  StageResult stage = judged("loop closing", before, closed.poses, believedOf(result));
+  StageResult stage =
+      judged(StageKind::kLoopClosing, before, closed.poses, believedOf(result));
   if (closed.status != Status::kOk && stage.reason.empty())
     stage.reason = std::string("loop closing: ") + toString(closed.status);
   stage.undone = !stage.reason.empty();
@@ -345,7 +347,8 @@ GraphStage::relax(Slam6DResult& result, const Observer& observer)
   });
   if (stopped)
     return false;
-  StageResult stage = judged("relaxation", before, relaxed.poses, believedOf(result));
+  StageResult stage =
+      judged(StageKind::kRelaxation, before, relaxed.poses, believedOf(result));
   stage.rounds = relaxed.iterations;
   if (stage.reason.empty())
     stage.reason = whyNotTaken(relaxed, stage);

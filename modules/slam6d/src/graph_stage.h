@@ -68,7 +68,7 @@ private:
        const std::vector<ScanLink>& odometry,
        Slam6DResult& result) const;
   StageResult
-  judged(const std::string& name,
+  judged(StageKind kind,
          const Poses& before,
          const Poses& after,
          const std::vector<bool>& counted) const;

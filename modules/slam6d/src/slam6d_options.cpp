@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -9,30 +8,6 @@
 #include <string>
 
 namespace pcl6d {
-
-namespace {
-constexpr Named<InitialGuess> kGuesses[] = {{InitialGuess::kOdometry, "odometry"},
-                                            {InitialGuess::kOverlap, "overlap"},
-                                            {InitialGuess::kFeatures, "features"}};
-} // namespace
-
-std::vector<std::string>
-initialGuessNames()
-{
-  return namesOf(kGuesses);
-}
-
-InitialGuess
-initialGuessFromName(const std::string& name)
-{
-  return fromName(kGuesses, "initial guess", name);
-}
-
-const char*
-toString(InitialGuess guess)
-{
-  return nameOf(kGuesses, guess);
-}
 
 void
 Slam6DOptions::validate() const

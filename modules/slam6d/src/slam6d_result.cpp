@@ -1,40 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/error.h>
-#include <pcl6d/common/name_table.h>
+#include <pcl6d/common/pose.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
-#include <algorithm>
-
 namespace pcl6d {
-
-namespace {
-constexpr Named<ScanState> kStates[] = {{ScanState::kPending, "pending"},
-                                        {ScanState::kFixed, "fixed"},
-                                        {ScanState::kMatched, "matched"},
-                                        {ScanState::kUnconverged, "unconverged"},
-                                        {ScanState::kPredicted, "predicted"}};
-} // namespace
-
-const char*
-toString(ScanState state)
-{
-  return nameOf(kStates, state);
-}
-
-ScanState
-scanStateFromName(const std::string& name)
-{
-  if (const auto state = findNamed(kStates, name))
-    return *state;
-  throw BadArgument("no state of a scan is called '" + name + "'");
-}
 
 std::size_t
 Slam6DResult::count(ScanState state) const
 {
-  return std::count_if(scans.begin(), scans.end(), [&](const ScanResult& scan) {
-    return scan.state == state;
-  });
+  return countScans(scans, state);
 }
 
 bool
@@ -42,6 +15,34 @@ Slam6DResult::trusted() const
 {
   return floating.empty() &&
          count(ScanState::kFixed) + count(ScanState::kMatched) == scans.size();
+}
+
+RunResult
+runResultOf(const Slam6DResult& result,
+            const std::vector<std::string>& files,
+            const std::vector<int>& indices)
+{
+  RunResult run;
+  run.scans = result.scans;
+  for (std::size_t i = 0; i < run.scans.size(); ++i) {
+    run.scans[i].file = files.at(i);
+    run.scans[i].index = indices.at(i);
+    if (result.stages.empty()) // then no other pose was matched
+      run.scans[i].matched_pose = run.scans[i].T_world_scan;
+  }
+  if (!run.scans.empty())
+    run.world_offset = worldOffset(run.scans.front().T_world_scan);
+  run.graph_stages = result.stages;
+  for (const ScanLink& link : result.links) {
+    RunLink& kept = run.links.emplace_back(link);
+    kept.from = static_cast<std::size_t>(indices.at(link.from));
+    kept.to = static_cast<std::size_t>(indices.at(link.to));
+    ++(link.verdict == LinkVerdict::kUsed ? run.links_used : run.links_refused);
+  }
+  for (const std::size_t i : result.floating)
+    run.floating.push_back(files.at(i));
+  run.trusted = result.trusted();
+  return run;
 }
 
 } // namespace pcl6d

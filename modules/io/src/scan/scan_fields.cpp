@@ -99,6 +99,40 @@ addField(pcl::PCLPointCloud2& cloud,
   cloud.row_step = cloud.width * cloud.point_step;
 }
 
+namespace {
+const pcl::PCLPointField&
+coordinateField(const pcl::PCLPointCloud2& cloud, int axis)
+{
+  const std::string name(1, static_cast<char>('x' + axis));
+  const pcl::PCLPointField* const field = find(cloud, name);
+  require(field != nullptr, "field", name, "in the cloud");
+  require(field->datatype == pcl::PCLPointField::FLOAT32 ||
+              field->datatype == pcl::PCLPointField::FLOAT64,
+          ("type of field " + name).c_str(),
+          int{field->datatype},
+          "float32 or float64");
+  return *field;
+}
+} // namespace
+
+Points
+coordinatesOf(const pcl::PCLPointCloud2& cloud)
+{
+  Points points(sizeOf(cloud));
+  for (int axis = 0; axis < 3; ++axis) {
+    const pcl::PCLPointField& field = coordinateField(cloud, axis);
+    withTypeOf(field.datatype, [&](auto value) {
+      requireRoom(cloud, field, sizeof value);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        std::memcpy(
+            &value, &cloud.data[i * cloud.point_step + field.offset], sizeof value);
+        points[i][axis] = static_cast<float>(value);
+      }
+    });
+  }
+  return points;
+}
+
 void
 storeCoordinates(const Points& points, pcl::PCLPointCloud2& cloud)
 {
@@ -107,20 +141,13 @@ storeCoordinates(const Points& points, pcl::PCLPointCloud2& cloud)
           points.size(),
           "that of the cloud");
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string name(1, static_cast<char>('x' + axis));
-    const pcl::PCLPointField* const field = find(cloud, name);
-    require(field != nullptr, "field", name, "in the cloud");
-    require(field->datatype == pcl::PCLPointField::FLOAT32 ||
-                field->datatype == pcl::PCLPointField::FLOAT64,
-            ("type of field " + name).c_str(),
-            int{field->datatype},
-            "float32 or float64");
-    withTypeOf(field->datatype, [&](auto value) {
-      requireRoom(cloud, *field, sizeof value);
+    const pcl::PCLPointField& field = coordinateField(cloud, axis);
+    withTypeOf(field.datatype, [&](auto value) {
+      requireRoom(cloud, field, sizeof value);
       for (std::size_t i = 0; i < points.size(); ++i) {
         value = static_cast<decltype(value)>(points[i][axis]);
         std::memcpy(
-            &cloud.data[i * cloud.point_step + field->offset], &value, sizeof value);
+            &cloud.data[i * cloud.point_step + field.offset], &value, sizeof value);
       }
     });
   }

@@ -4,6 +4,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/text.h>
 
 #include <algorithm>
@@ -75,25 +76,6 @@ coordinateField(const std::filesystem::path& path,
     return field;
   }
   text::fail(path, "has no field '" + name + "'");
-}
-
-/** \return the x, y, z of all points, rounded to float */
-Points
-coordinates(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud)
-{
-  Points points(std::size_t{cloud.width} * cloud.height);
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& field =
-        coordinateField(path, cloud, kAxes[static_cast<std::size_t>(axis)]);
-    withTypeOf(field.datatype, [&](auto value) {
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        std::memcpy(
-            &value, &cloud.data[i * cloud.point_step + field.offset], sizeof value);
-        points[i][axis] = static_cast<float>(value);
-      }
-    });
-  }
-  return points;
 }
 
 /** \return per point whether x, y and z are finite as float */
@@ -221,7 +203,7 @@ readScan(const std::filesystem::path& path, ScanFormat format)
 {
   Scan scan;
   static_cast<ScanCloud&>(scan) = readScanCloud(path, format);
-  scan.points = coordinates(path, scan.cloud);
+  scan.points = coordinatesOf(scan.cloud);
   return scan;
 }
 

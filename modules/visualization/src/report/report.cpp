@@ -12,6 +12,7 @@
 #include <iterator>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 namespace pcl6d {
 using namespace visualization;
@@ -116,15 +117,23 @@ gatherReport(const RunFolder& run,
   data.title =
       title.empty() ? fs::canonical(run.path(), error).filename().string() : title;
   data.summary = run.summary();
-  for (const auto& name : run.missing())
-    data.missing.push_back("missing: " + name);
   auto& missing = data.missing;
-  data.links = readOrTell([&] { return run.readLinks(); }, missing);
+  data.summary.links = readOrTell([&] { return run.readLinks(); }, missing);
   data.map = readOrTell([&] { return run.readMap(); }, missing);
   data.planes = readOrTell([&] { return run.readPlanes(); }, missing);
   data.objects = readOrTell([&] { return run.readObjects(); }, missing);
-  gatherPictures(run.path(), options.max_picture_bytes, data);
+  addFolder(run, data, options);
   return data;
+}
+
+void
+addFolder(const RunFolder& run, ReportData& data, const ReportOptions& options)
+{
+  const std::vector<std::string> broken = std::exchange(data.missing, {});
+  for (const auto& name : run.missing())
+    data.missing.push_back("missing: " + name);
+  data.missing.insert(data.missing.end(), broken.begin(), broken.end());
+  gatherPictures(run.path(), options.max_picture_bytes, data);
 }
 
 void

@@ -5,11 +5,15 @@
 #include "report/report_map.h"
 
 #include <pcl6d/io/label_colours.h>
+#include <pcl6d/run/run_fields.h>
 
 #include <nlohmann/json.hpp>
 
+#include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <type_traits>
 
 namespace pcl6d::visualization {
 
@@ -24,48 +28,68 @@ numbersOf(const Eigen::Vector3d& v)
 
 /** \return the root of the sum of the variances of x, y and z [m]; NaN: not known */
 double
-sigmaOf(const RunResult::ScanEntry& scan)
+sigmaOf(const ScanResult& scan)
 {
   return scan.covariance ? std::sqrt(scan.covariance->diagonal().head<3>().sum())
                          : std::numeric_limits<double>::quiet_NaN();
 }
 
+/** A field as it stands in the files of a run. */
+template <typename Value>
 Json
-toJson(const RunResult::ScanEntry& scan, const Eigen::Vector3d& offset)
+fieldOf(const Value& value)
+{
+  if constexpr (std::is_enum_v<Value>)
+    return toString(value);
+  else
+    return value;
+}
+
+Json
+toJson(const ScanResult& scan, const Eigen::Vector3d& offset)
 {
   const Eigen::Vector3d position = scan.T_world_scan.translation() - offset;
   const Eigen::Vector3d initial = scan.initial_pose.translation() - offset;
-  return {{"file", scan.file},
-          {"index", scan.index},
-          {"position", numbersOf(position)},
-          {"initial", numbersOf(initial)},
-          {"drift", (position - initial).norm()},
-          {"sigma", sigmaOf(scan)},
-          {"state", scan.state},
-          {"start", scan.start},
-          {"points", scan.points},
-          {"pairs", scan.pairs},
-          {"rms", scan.rms},
-          {"overlap", scan.overlap},
-          {"iterations", scan.iterations},
-          {"correction", scan.correction},
-          {"reason", scan.reason}};
+  Json json;
+  visitScanFields(scan, [&](const char* name, const auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, decltype(scan.covariance)>) {
+      json["position"] = numbersOf(position);
+      json["initial"] = numbersOf(initial);
+      json["drift"] = (position - initial).norm();
+      json["sigma"] = sigmaOf(scan);
+    }
+    else if constexpr (!std::is_same_v<Value, Eigen::Isometry3d>)
+      json[name] = fieldOf(value);
+  });
+  for (const char* const not_shown : {"status", "dropped", "reduced"})
+    json.erase(not_shown);
+  if (scan.state == ScanState::kUnknown)
+    json["start"] = "";
+  return json;
+}
+
+/** \return the number in the digits that links.csv has of it */
+double
+rounded(double value)
+{
+  char digits[32];
+  const int count = std::snprintf(digits, sizeof digits, "%.6g", value);
+  std::from_chars(digits, digits + count, value);
+  return value;
 }
 
 Json
 toJson(const RunLink& link)
 {
-  return {{"from", link.from},
-          {"to", link.to},
-          {"kind", link.kind},
-          {"verdict", link.verdict},
-          {"reason", link.reason},
-          {"distance", link.distance},
-          {"pairs", link.pairs},
-          {"rms", link.rms},
-          {"overlap", link.overlap},
-          {"condition", link.condition},
-          {"weight", link.weight}};
+  Json json;
+  visitLinkFields(link, [&](const char* name, const auto& value) {
+    if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
+      json[name] = rounded(value);
+    else
+      json[name] = fieldOf(value);
+  });
+  return json;
 }
 
 Json
@@ -142,13 +166,13 @@ Json
 graphStagesOf(const RunResult& summary)
 {
   Json stages = Json::array();
-  for (const auto& stage : summary.graph_stages)
-    stages.push_back({{"name", stage.name},
-                      {"undone", stage.undone},
-                      {"reason", stage.reason},
-                      {"agreement_before", stage.agreement_before},
-                      {"agreement_after", stage.agreement_after},
-                      {"rounds", stage.rounds}});
+  for (const StageResult& stage : summary.graph_stages) {
+    Json& json = stages.emplace_back();
+    visitStageFields(stage, [&](const char* name, const auto& value) {
+      json[name] = fieldOf(value);
+    });
+    json.erase("seconds");
+  }
   return stages;
 }
 
@@ -238,7 +262,7 @@ reportJson(const ReportData& data, const ReportOptions& options)
     return toJson(scan, offset);
   });
   json["links"] =
-      listOf(data.links, [](const auto& link, std::size_t) { return toJson(link); });
+      listOf(summary.links, [](const auto& link, std::size_t) { return toJson(link); });
   json["planes"] = listOf(data.planes, [&](const auto& plane, std::size_t i) {
     return toJson(plane, i + 1, offset);
   });

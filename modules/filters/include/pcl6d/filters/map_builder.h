@@ -56,6 +56,13 @@ public:
     return scans_;
   }
 
+  /** \return per point its intensity; empty unless every scan had it */
+  std::vector<float>
+  intensities() const
+  {
+    return has_intensity_ ? intensities_ : std::vector<float>();
+  }
+
   /** \return the map as a cloud with fields x y z, scan (uint32), and intensity if
    * every scan had it */
   pcl::PCLPointCloud2

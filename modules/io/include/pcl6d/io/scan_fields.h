@@ -35,6 +35,11 @@ addField(pcl::PCLPointCloud2& cloud,
          std::uint8_t datatype,
          const std::vector<double>& values);
 
+/** \return x, y and z of all points, rounded to float
+ * \throws BadArgument no such fields of type float32 or float64 \ingroup io */
+Points
+coordinatesOf(const pcl::PCLPointCloud2& cloud);
+
 /** \brief Writes points into a cloud's fields x, y and z, leaving all others.
  * \throws BadArgument no such fields of type float32 or float64, or another number of
  * points \ingroup io */

@@ -5,6 +5,7 @@
 #include <pcl6d/common/object_pose.h>
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/points.h>
+#include <pcl6d/common/pose_graph.h>
 #include <pcl6d/common/trajectory.h>
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/run/run_links_io.h>
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,16 @@ public:
    * broken or that of another program */
   explicit RunFolder(const std::filesystem::path& path);
 
+  /** \brief The folder of a run whose result is known; nothing is read. */
+  RunFolder(const std::filesystem::path& path, RunResult result);
+
+  /** \return the folder of a finished run \param[in] unfinished what is wrong with one that
+   * was interrupted: "the run was interrupted; run it again"
+   * \throws IoFailed it has no summary, a broken one, or that of another program, or was
+   * interrupted */
+  static RunFolder
+  finished(const std::filesystem::path& path, const std::string& unfinished);
+
   const std::filesystem::path&
   path() const
   {
@@ -77,6 +89,13 @@ public:
   bool
   has(const std::string& name) const;
 
+  /** \return the file of a scan, in its own frame, and that of the map: for those that need
+   * all fields of the points */
+  std::filesystem::path
+  scanFile(std::size_t place) const;
+  std::filesystem::path
+  mapFile() const;
+
   /** \return the poses of the scans, relative to the world offset */
   Trajectory
   trajectory() const;
@@ -103,9 +122,14 @@ public:
   RunMap
   readScanCloud(std::size_t place) const;
 
-  /** \throws IoFailed links.csv is broken */
+  /** \param[in] fault as of readRunLinks() \throws IoFailed links.csv is broken */
   std::vector<RunLink>
-  readLinks() const;
+  readLinks(const std::function<std::string(const RunLink&)>& fault = {}) const;
+
+  /** \return the poses and what was measured between them; its ids are indices NNN of scans
+   * \throws IoFailed graph.g2o is broken */
+  PoseGraph
+  readGraph() const;
 
   /** \return the planes in full coordinates \throws IoFailed planes.json is broken */
   std::vector<Plane>
@@ -122,8 +146,6 @@ public:
 private:
   void
   takeScansFromPoses();
-  std::filesystem::path
-  scanFile(std::size_t place) const;
   std::filesystem::path
   framesFile(std::size_t place) const;
   Eigen::Isometry3d

@@ -2,32 +2,16 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/run_result.h>
 #include <pcl6d/graph_relaxation/error_diffusion.h>
 #include <pcl6d/graph_relaxation/parameterisations.h>
 #include <pcl6d/graph_relaxation/scan_network.h>
 #include <pcl6d/registration/icp_model.h>
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
-
-/** \brief Where a scan's registration starts from. */
-enum class InitialGuess {
-  kOdometry, ///< the initial poses, carried over from the scan before (book 5.1.1)
-  kOverlap,  ///< the same, then the motion about it with the largest octree overlap
-  kFeatures  ///< nothing: descriptors of the scan and the one before are matched
-};
-
-/** \return odometry, overlap, features */
-std::vector<std::string>
-initialGuessNames();
-/** \throws BadArgument no such name; the message lists all */
-InitialGuess
-initialGuessFromName(const std::string& name);
-const char*
-toString(InitialGuess guess);
 
 /** \brief Knobs of Slam6D. What is left empty is derived from the scans. */
 struct Slam6DOptions {

@@ -21,12 +21,12 @@ struct ReportPicture {
 /** \brief What a report tells of a run. \ingroup visualization */
 struct ReportData {
   std::string title; ///< any text; bytes that are no UTF-8 are replaced
-  RunResult summary; ///< poses in full coordinates; NaN ones are left out
+  RunResult
+      summary; ///< with its links; poses in full coordinates; NaN ones are left out
   std::vector<std::string> missing; ///< what is not there or broken, in words
-  std::vector<RunLink> links;
-  RunMap map;                      ///< relative to the world offset; NaN is left out
-  std::vector<Plane> planes;       ///< in full coordinates
-  std::vector<ObjectPose> objects; ///< in full coordinates
+  RunMap map;                       ///< relative to the world offset; NaN is left out
+  std::vector<Plane> planes;        ///< in full coordinates
+  std::vector<ObjectPose> objects;  ///< in full coordinates
   std::vector<ReportPicture> pictures;
 };
 
@@ -47,6 +47,13 @@ ReportData
 gatherReport(const RunFolder& run,
              const std::string& title = {},
              const ReportOptions& options = ReportOptions());
+
+/** \brief Adds what only a folder tells: which files are missing, and the pictures. Run, map,
+ * planes and objects are taken as they are in data. */
+void
+addFolder(const RunFolder& run,
+          ReportData& data,
+          const ReportOptions& options = ReportOptions());
 
 /** \brief Writes a report as one HTML file that needs nothing else: verdict, map in three
  * dimensions, plots, tables, pictures, options (share/doc/report.md). Atomically.

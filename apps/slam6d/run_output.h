@@ -4,13 +4,15 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
-#include "slam6d/run_scans.h"
 #include "slam6d/settings.h"
 
-#include <pcl6d/common/trajectory.h>
+#include <pcl6d/common/plane.h>
+#include <pcl6d/common/run_result.h>
 #include <pcl6d/filters/map_builder.h>
-#include <pcl6d/run/run_summary.h>
+#include <pcl6d/io/scan_folder.h>
 #include <pcl6d/slam6d/slam6d_result.h>
+
+#include <pcl/PCLPointCloud2.h>
 
 #include <chrono>
 #include <string>
@@ -22,9 +24,10 @@ namespace pcl6d::app {
 OutputRules
 runFolderRules(const Settings& settings);
 
-/** \brief What a run gathers on its way, for the summary. */
+/** \brief What a run gathers on its way. */
 struct RunLog {
-  std::vector<std::size_t> dropped; ///< per scan: points that were not finite
+  std::vector<pcl::PCLPointCloud2> clouds; ///< the scans as they are registered
+  std::vector<std::size_t> dropped;        ///< per scan: points that were not finite
   std::vector<RunResult::Stage> stages;
 };
 
@@ -43,52 +46,46 @@ private:
   std::chrono::steady_clock::time_point start_;
 };
 
-/** \brief Writes the run folder (share/doc/run_folder.md). */
-class RunWriter {
+/** \brief All that pcl_slam6d writes: the run folder, planes, picture, report. */
+class RunOutput {
 public:
   /** Keeps references to all of them. */
-  RunWriter(const Settings& settings,
-            const RunScans& scans,
+  RunOutput(const Settings& settings,
+            const ScanFolder& folder,
             const Slam6DResult& result,
             const OutputFolder& out,
             ProgressBar& bar,
             const Interrupt& interrupt);
 
   /** \brief Of an interrupted run, be it before (not complete) or now, only poses, history
-   * and summary are written. \return the summary, as it stands in the file */
+   * and summary are written. \param[in] log its clouds are given up as they are written
+   * \return the run, as its summary tells */
   const RunResult&
-  write(bool complete, const RunLog& log);
+  write(bool complete, RunLog log);
 
 private:
-  Trajectory
-  trajectory() const;
   void
-  writeHistory() const;
+  describe(bool complete, const RunLog& log);
+  void
+  warnOfOdometry();
   bool
-  writeScansAndMap(MapBuilder& map, MapBuilder* fine_map);
-  void
+  writeScans(std::vector<pcl::PCLPointCloud2>& clouds,
+             MapBuilder& map,
+             MapBuilder* fine_map);
+  std::vector<Plane>
   writePlanesOf(const MapBuilder& map);
   void
   drawTopView(const MapBuilder& map);
   void
-  describe(bool complete, const RunLog& log);
-  void
-  writeReportOf(const std::filesystem::path& path) const;
-  void
-  warnOfOdometry();
-  void
-  writeGraph() const;
-  void
-  describeGraph();
+  writeReportOf(const MapBuilder& map, std::vector<Plane> planes) const;
 
   const Settings& settings_;
-  const RunScans& scans_;
   const ScanFolder& folder_;
   const Slam6DResult& result_;
   const OutputFolder& out_;
   ProgressBar& bar_;
   const Interrupt& interrupt_;
-  RunResult summary_;
+  RunResult run_;
 };
 
 } // namespace pcl6d::app

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "slam6d/verdict.h"
-
 #include <pcl6d/io/text.h>
+#include <pcl6d/run/run_writer.h>
 
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
 #include <vector>
 
-namespace pcl6d::app {
+namespace pcl6d {
 
 namespace {
 /** \return ": a.pcd, b.pcd and 3 more" for the scans in a state */
 std::string
-filesIn(const std::string& state, const RunResult& summary)
+filesIn(ScanState state, const RunResult& run)
 {
   constexpr int kMost = 8;
   std::string text;
   int count = 0;
-  for (const auto& scan : summary.scans)
+  for (const auto& scan : run.scans)
     if (scan.state == state && ++count <= kMost)
       text += (count == 1 ? ": " : ", ") + scan.file;
   return count > kMost ? text + " and " + std::to_string(count - kMost) + " more"
@@ -27,24 +26,23 @@ filesIn(const std::string& state, const RunResult& summary)
 
 /** The worst numbers of the matched scans, so that a bad match shows without --verbose. */
 void
-describeQuality(const RunResult& summary, std::ostream& text)
+describeQuality(const RunResult& run, std::ostream& text)
 {
-  using Entry = RunResult::ScanEntry;
-  std::vector<const Entry*> matched;
-  for (const auto& scan : summary.scans)
-    if (scan.state == "matched")
+  std::vector<const ScanResult*> matched;
+  for (const auto& scan : run.scans)
+    if (scan.state == ScanState::kMatched)
       matched.push_back(&scan);
   if (matched.empty())
     return;
-  const auto largest = [&](double Entry::*member, double sign) {
+  const auto largest = [&](double ScanResult::*member, double sign) {
     return *std::max_element(
-        matched.begin(), matched.end(), [&](const Entry* a, const Entry* b) {
+        matched.begin(), matched.end(), [&](const ScanResult* a, const ScanResult* b) {
           return sign * a->*member < sign * b->*member;
         });
   };
-  const Entry* overlap = largest(&Entry::overlap, -1);
-  const Entry* correction = largest(&Entry::correction, 1);
-  const Entry* rms = largest(&Entry::rms, 1);
+  const ScanResult* overlap = largest(&ScanResult::overlap, -1);
+  const ScanResult* correction = largest(&ScanResult::correction, 1);
+  const ScanResult* rms = largest(&ScanResult::rms, 1);
   text << std::fixed << std::setprecision(2) << "\nleast overlap " << overlap->overlap
        << " (" << overlap->file << "), largest correction " << correction->correction
        << " m (" << correction->file << "), largest rms " << std::setprecision(3)
@@ -53,13 +51,13 @@ describeQuality(const RunResult& summary, std::ostream& text)
 
 /** A line on each stage after matching. */
 void
-describeStages(const RunResult& summary, std::ostream& text)
+describeStages(const RunResult& run, std::ostream& text)
 {
   text << std::fixed << std::setprecision(3);
-  for (const auto& stage : summary.graph_stages) {
-    if (stage.name == "matching")
+  for (const auto& stage : run.graph_stages) {
+    if (stage.kind == StageKind::kMatching)
       continue;
-    text << '\n' << stage.name << (stage.undone ? " not taken: " : ": ");
+    text << '\n' << toString(stage.kind) << (stage.undone ? " not taken: " : ": ");
     if (stage.undone)
       text << stage.reason;
     else
@@ -72,41 +70,43 @@ describeStages(const RunResult& summary, std::ostream& text)
 } // namespace
 
 std::string
-verdictOf(const Slam6DResult& result, const RunResult& summary)
+verdictOf(const RunResult& run)
 {
-  const std::string all = text::counted(result.scans.size(), "scan");
-  const std::size_t pending = result.count(ScanState::kPending);
+  const std::string all = text::counted(run.scans.size(), "scan");
+  const std::size_t pending = countScans(run.scans, ScanState::kPending);
   std::ostringstream text;
   if (pending > 0)
     text << "PARTIAL: interrupted; " << pending << " of " << all
          << " not registered, at predicted poses";
-  else if (!summary.complete)
+  else if (!run.complete)
     text << "PARTIAL: interrupted; the poses are complete, but scans, map and picture "
             "are missing";
-  else if (result.count(ScanState::kFixed) + result.count(ScanState::kMatched) ==
-           result.scans.size())
-    text << (result.scans.size() == 1
+  else if (countScans(run.scans, ScanState::kFixed) +
+               countScans(run.scans, ScanState::kMatched) ==
+           run.scans.size())
+    text << (run.scans.size() == 1
                  ? "1 scan, nothing to match"
                  : "all " + all + " registered, every match converged");
   else
-    text << result.count(ScanState::kMatched) + 1 << " of " << all << " registered";
-  if (const auto failed = result.count(ScanState::kPredicted))
+    text << countScans(run.scans, ScanState::kMatched) + 1 << " of " << all
+         << " registered";
+  if (const auto failed = countScans(run.scans, ScanState::kPredicted))
     text << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
          << " could not be matched, predicted pose kept"
-         << filesIn("predicted", summary);
-  if (const auto limit = result.count(ScanState::kUnconverged))
+         << filesIn(ScanState::kPredicted, run);
+  if (const auto limit = countScans(run.scans, ScanState::kUnconverged))
     text
         << "\nNOT TO BE TRUSTED: " << text::counted(limit, "scan")
         << " did not converge (bad initial pose, little overlap, --metascan too small?)"
-        << filesIn("unconverged", summary);
-  if (!summary.floating.empty())
+        << filesIn(ScanState::kUnconverged, run);
+  if (!run.floating.empty())
     text << "\nNOT TO BE TRUSTED: no link joins "
-         << text::counted(summary.floating.size(), "scan")
-         << " to the first one: " << summary.floating.front()
-         << (summary.floating.size() > 1 ? ", ..." : "");
-  describeQuality(summary, text);
-  describeStages(summary, text);
+         << text::counted(run.floating.size(), "scan")
+         << " to the first one: " << run.floating.front()
+         << (run.floating.size() > 1 ? ", ..." : "");
+  describeQuality(run, text);
+  describeStages(run, text);
   return text.str();
 }
 
-} // namespace pcl6d::app
+} // namespace pcl6d

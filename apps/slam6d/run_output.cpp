@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/plane_files.h"
+#include "slam6d/run_output.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/version.h>
+#include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/io/scan_fields.h>
+#include <pcl6d/io/text.h>
+#include <pcl6d/run/run_folder.h>
+#include <pcl6d/run/run_writer.h>
+#include <pcl6d/visualization/report.h>
+#include <pcl6d/visualization/top_view.h>
+
+#include <algorithm>
+#include <sys/resource.h>
+#include <utility>
+
+namespace pcl6d::app {
+
+namespace {
+constexpr const char* kProgram = "pcl_slam6d";
+
+/** \return the values of the field "intensity", whatever its type, or nothing */
+std::vector<float>
+intensitiesOf(const pcl::PCLPointCloud2& cloud)
+{
+  const auto field = fieldValues(cloud, "intensity");
+  if (!field)
+    return {};
+  return {field->values.begin(), field->values.end()};
+}
+
+Eigen::Isometry3d
+relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
+{
+  pose.translation() -= offset;
+  return pose;
+}
+
+std::vector<RunResult::Option>
+optionsOf(const Settings& settings, const Slam6DParameters& parameters)
+{
+  std::vector<RunResult::Option> options;
+  for (const auto& word : settings.words)
+    options.push_back({word.name, word.value, word.given ? "given" : "default", ""});
+  for (const auto& [name, parameter] : named(parameters)) {
+    options.push_back({name,
+                       text::shortest(parameter.value),
+                       parameter.given ? "given" : "derived",
+                       parameter.why});
+  }
+  return options;
+}
+} // namespace
+
+StageTimer::StageTimer(const std::string& name, std::vector<RunResult::Stage>& stages)
+: name_(name), stages_(stages), start_(std::chrono::steady_clock::now())
+{}
+
+StageTimer::~StageTimer()
+{
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  stages_.push_back({name_, spent.count(), usage.ru_maxrss / 1024.0});
+}
+
+OutputRules
+runFolderRules(const Settings& settings)
+{
+  OutputRules rules;
+  rules.folder = settings.out;
+  rules.inputs = {settings.input, settings.folder.poses_file};
+  rules.program = kProgram;
+  rules.marker = "summary.json";
+  rules.files = std::regex("trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
+                           "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|links\\.csv|"
+                           "(summary|objects|semantic_map)\\.json|"
+                           "semantic_map\\.(pcd|ply)|"
+                           "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
+                           planeFilePattern());
+  rules.force = settings.force;
+  return rules;
+}
+
+RunOutput::RunOutput(const Settings& settings,
+                     const ScanFolder& folder,
+                     const Slam6DResult& result,
+                     const OutputFolder& out,
+                     ProgressBar& bar,
+                     const Interrupt& interrupt)
+: settings_(settings)
+, folder_(folder)
+, result_(result)
+, out_(out)
+, bar_(bar)
+, interrupt_(interrupt)
+{}
+
+const RunResult&
+RunOutput::write(bool complete, RunLog log)
+{
+  describe(complete, log);
+  const RunWriter writer(out_.staging(), run_);
+  writer.writePoses(folder_.stamps());
+  const double voxel = result_.parameters.voxel.value;
+  MapBuilder map(voxel, run_.world_offset);
+  std::vector<Plane> planes;
+  if (complete) {
+    if (!result_.stages.empty())
+      writer.writeGraph(result_.graph);
+    MapBuilder fine_map(planeVoxel(voxel), run_.world_offset);
+    run_.complete = writeScans(log.clouds, map, settings_.planes ? &fine_map : nullptr);
+    if (run_.complete)
+      drawTopView(map);
+    if (run_.complete && settings_.planes)
+      planes = writePlanesOf(fine_map);
+    run_.map_points = run_.complete ? map.points().size() : 0;
+  }
+  run_.trusted = run_.complete && result_.trusted();
+  run_.verdict = verdictOf(run_);
+  writer.writeSummary();
+  if (settings_.report)
+    writeReportOf(map, std::move(planes));
+  return run_;
+}
+
+void
+RunOutput::describe(bool complete, const RunLog& log)
+{
+  std::vector<std::string> files;
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < folder_.size(); ++i) {
+    files.push_back(folder_.name(i));
+    indices.push_back(folder_.index(i));
+  }
+  run_ = runResultOf(result_, files, indices);
+  run_.generator = kProgram;
+  run_.version = PCL6D_VERSION;
+  run_.pose_source = folder_.poseSource();
+  run_.options = optionsOf(settings_, result_.parameters);
+  run_.stages = log.stages;
+  for (std::size_t i = 0; i < folder_.size(); ++i)
+    run_.scans[i].dropped = log.dropped[i];
+  run_.complete = complete;
+  if (!folder_.hasPoses() && folder_.size() > 1)
+    run_.warnings.push_back(
+        settings_.slam.initial_guess == InitialGuess::kFeatures
+            ? "no initial poses were found: scans were placed by features alone"
+            : "no initial poses were found: each scan starts where the one before is, "
+              "which only fits scans taken close together; give poses with --poses or "
+              "odometry.txt");
+  if (!settings_.without_effect.empty())
+    run_.warnings.push_back(settings_.without_effect);
+  if (settings_.slam.initial_guess == InitialGuess::kOverlap)
+    warnOfOdometry();
+}
+
+/** Tells of scans that the overlap search was asked for, and found no clear place. */
+void
+RunOutput::warnOfOdometry()
+{
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < run_.scans.size(); ++i) {
+    const ScanResult& scan = run_.scans[i];
+    if (scan.start != InitialGuess::kOdometry || scan.state == ScanState::kPending ||
+        scan.state == ScanState::kPredicted)
+      continue;
+    if (++count <= 5)
+      names += (names.empty() ? "" : ", ") + scan.file;
+  }
+  if (count > 0)
+    run_.warnings.push_back("the overlap search was not sure of " +
+                            std::to_string(count) +
+                            " scans, which started from the odometry: " + names +
+                            (count > 5 ? ", ..." : ""));
+}
+
+/** Writes scans/ and map.pcd, and gives the clouds up. \return false if interrupted */
+bool
+RunOutput::writeScans(std::vector<pcl::PCLPointCloud2>& clouds,
+                      MapBuilder& map,
+                      MapBuilder* fine_map)
+{
+  const StageTimer timer("writing", run_.stages);
+  const RunWriter writer(out_.staging(), run_);
+  // A few scans at a time: written in parallel, joined in their order.
+  constexpr std::size_t kBatch = 8;
+  for (std::size_t begin = 0; begin < clouds.size(); begin += kBatch) {
+    if (interrupt_.requested()) {
+      out_.discard("scans");
+      return false;
+    }
+    const std::size_t end = std::min(begin + kBatch, clouds.size());
+    parallelFor(end - begin, settings_.slam.num_threads, [&](std::size_t k) {
+      writer.writeScan(begin + k, clouds[begin + k]);
+    });
+    for (std::size_t i = begin; i < end; ++i) {
+      const pcl::PCLPointCloud2 cloud = std::exchange(clouds[i], {});
+      Points points = coordinatesOf(cloud);
+      maskOutOfRange(result_.parameters.min_range.value,
+                     result_.parameters.max_range.value,
+                     points);
+      const ScanResult& scan = run_.scans[i];
+      map.addScan(points,
+                  intensitiesOf(cloud),
+                  scan.T_world_scan,
+                  static_cast<std::uint32_t>(scan.index));
+      if (fine_map)
+        fine_map->addScan(points, {}, scan.T_world_scan, static_cast<std::uint32_t>(i));
+    }
+    bar_.show({"writing", end, clouds.size()});
+  }
+  writer.writeMap(map.cloud());
+  return true;
+}
+
+std::vector<Plane>
+RunOutput::writePlanesOf(const MapBuilder& map)
+{
+  const StageTimer timer("planes", run_.stages);
+  std::vector<Eigen::Isometry3d> poses;
+  for (const ScanResult& scan : run_.scans)
+    poses.push_back(scan.T_world_scan);
+  const SceneCloud cloud = sceneCloudOf(map, poses, run_.world_offset);
+  PlaneFinderOptions options;
+  options.num_threads = settings_.slam.num_threads;
+  const PlaneFinder finder(options);
+  const FoundPlanes found = finder.find(cloud);
+  const auto warnings = writePlaneFiles(out_, finder, cloud, found, run_.generator);
+  run_.warnings.insert(run_.warnings.end(), warnings.begin(), warnings.end());
+  return worldPlanes(found.best(), run_.world_offset);
+}
+
+/** Without a display the run goes on and says so. */
+void
+RunOutput::drawTopView(const MapBuilder& map)
+{
+  const StageTimer timer("picture", run_.stages);
+  TopViewScene scene;
+  scene.points = map.points();
+  scene.scans = map.scans();
+  for (const ScanResult& scan : run_.scans) {
+    scene.trajectory.poses.push_back(relativeTo(run_.world_offset, scan.T_world_scan));
+    scene.initial.poses.push_back(relativeTo(run_.world_offset, scan.initial_pose));
+  }
+  try {
+    TopView().write(out_ / "top_view.png", scene);
+  } catch (const IoFailed& e) {
+    run_.warnings.push_back("no picture: " + std::string(e.what()));
+  }
+}
+
+void
+RunOutput::writeReportOf(const MapBuilder& map, std::vector<Plane> planes) const
+{
+  ReportData data;
+  data.title = std::filesystem::absolute(settings_.out / std::filesystem::path("."))
+                   .lexically_normal()
+                   .parent_path()
+                   .filename()
+                   .string();
+  data.summary = run_;
+  if (run_.complete)
+    data.map = {map.points(), map.scans(), map.intensities()};
+  data.planes = std::move(planes);
+  addFolder(RunFolder(out_.staging(), run_), data);
+  writeReport(out_ / "report.html", data);
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/name_table.h>
+#include <pcl6d/common/run_result.h>
+
+#include <algorithm>
+
+namespace pcl6d {
+
+namespace {
+constexpr Named<ScanState> kStates[] = {{ScanState::kPending, "pending"},
+                                        {ScanState::kFixed, "fixed"},
+                                        {ScanState::kMatched, "matched"},
+                                        {ScanState::kUnconverged, "unconverged"},
+                                        {ScanState::kPredicted, "predicted"},
+                                        {ScanState::kUnknown, ""}};
+constexpr Named<InitialGuess> kGuesses[] = {{InitialGuess::kOdometry, "odometry"},
+                                            {InitialGuess::kOverlap, "overlap"},
+                                            {InitialGuess::kFeatures, "features"}};
+constexpr Named<StageKind> kStages[] = {{StageKind::kMatching, "matching"},
+                                        {StageKind::kLoopClosing, "loop closing"},
+                                        {StageKind::kRelaxation, "relaxation"}};
+constexpr Named<LinkKind> kKinds[] = {{LinkKind::kSequence, "sequence"},
+                                      {LinkKind::kNetwork, "network"},
+                                      {LinkKind::kLoop, "loop"},
+                                      {LinkKind::kGiven, "given"}};
+constexpr Named<LinkVerdict> kVerdicts[] = {{LinkVerdict::kUsed, "used"},
+                                            {LinkVerdict::kOdometry, "odometry"},
+                                            {LinkVerdict::kRefused, "refused"}};
+} // namespace
+
+const char*
+toString(ScanState state)
+{
+  return nameOf(kStates, state);
+}
+
+ScanState
+scanStateFromName(const std::string& name)
+{
+  if (const auto state = findNamed(kStates, name))
+    return *state;
+  throw BadArgument("no state of a scan is called '" + name + "'");
+}
+
+std::vector<std::string>
+initialGuessNames()
+{
+  return namesOf(kGuesses);
+}
+
+InitialGuess
+initialGuessFromName(const std::string& name)
+{
+  return fromName(kGuesses, "initial guess", name);
+}
+
+const char*
+toString(InitialGuess guess)
+{
+  return nameOf(kGuesses, guess);
+}
+
+std::size_t
+countScans(const std::vector<ScanResult>& scans, ScanState state)
+{
+  return static_cast<std::size_t>(
+      std::count_if(scans.begin(), scans.end(), [&](const auto& scan) {
+        return scan.state == state;
+      }));
+}
+
+const char*
+toString(StageKind kind)
+{
+  return nameOf(kStages, kind);
+}
+
+StageKind
+stageKindFromName(const std::string& name)
+{
+  return fromName(kStages, "stage", name);
+}
+
+const char*
+toString(LinkKind kind)
+{
+  return nameOf(kKinds, kind);
+}
+
+LinkKind
+linkKindFromName(const std::string& name)
+{
+  return fromName(kKinds, "kind", name);
+}
+
+const char*
+toString(LinkVerdict verdict)
+{
+  return nameOf(kVerdicts, verdict);
+}
+
+LinkVerdict
+linkVerdictFromName(const std::string& name)
+{
+  return fromName(kVerdicts, "verdict", name);
+}
+
+} // namespace pcl6d

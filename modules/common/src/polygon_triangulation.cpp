@@ -8,12 +8,12 @@
 
 namespace pcl6d {
 namespace {
-struct Corner {
+struct RingCorner {
   Eigen::Vector2d at;
   std::uint32_t index = 0;
 };
 
-using Ring = std::vector<Corner>;
+using Ring = std::vector<RingCorner>;
 
 double
 signedArea(const Ring& ring)
@@ -92,8 +92,8 @@ visibleCorner(const Ring& ring, const Eigen::Vector2d& point)
 void
 joinHole(Ring& ring, const Ring& hole)
 {
-  const auto rightmost =
-      std::max_element(hole.begin(), hole.end(), [](const Corner& a, const Corner& b) {
+  const auto rightmost = std::max_element(
+      hole.begin(), hole.end(), [](const RingCorner& a, const RingCorner& b) {
         return a.at.x() < b.at.x();
       });
   const std::size_t corner = visibleCorner(ring, rightmost->at);
@@ -115,7 +115,7 @@ isEar(const Ring& ring, std::size_t i)
     return false;
   const Eigen::Vector2d low = a.cwiseMin(b).cwiseMin(c);
   const Eigen::Vector2d high = a.cwiseMax(b).cwiseMax(c);
-  return std::none_of(ring.begin(), ring.end(), [&](const Corner& corner) {
+  return std::none_of(ring.begin(), ring.end(), [&](const RingCorner& corner) {
     const Eigen::Vector2d& p = corner.at;
     return p.x() >= low.x() && p.x() <= high.x() && p.y() >= low.y() &&
            p.y() <= high.y() && p != a && p != b && p != c && isInTriangle(p, a, b, c);

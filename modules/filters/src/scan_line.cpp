@@ -33,7 +33,7 @@ constexpr double kInvalid = std::numeric_limits<double>::quiet_NaN();
 
 /** \return the distances from the scanner; kInvalid where there is no ray */
 std::vector<double>
-rangesOf(const Points& points)
+rayLengths(const Points& points)
 {
   std::vector<double> ranges;
   ranges.reserve(points.size());
@@ -71,7 +71,7 @@ medianAlongLines(const Points& points,
 {
   options.validate();
   requireLineLength(line_length);
-  const std::vector<double> ranges = rangesOf(points);
+  const std::vector<double> ranges = rayLengths(points);
   const auto half = static_cast<std::size_t>(options.window / 2);
   Points filtered = points;
   std::vector<double> window;

@@ -29,7 +29,7 @@ const std::map<std::string, std::uint8_t, std::less<>> kDatatypes = {
     {"double", PCLPointField::FLOAT64},
     {"float64", PCLPointField::FLOAT64}};
 
-const std::map<std::string, PlyEncoding, std::less<>> kEncodings = {
+const std::map<std::string, PlyEncoding, std::less<>> kPlyEncodings = {
     {"ascii", PlyEncoding::kAscii},
     {"binary_little_endian", PlyEncoding::kLittleEndian},
     {"binary_big_endian", PlyEncoding::kBigEndian}};
@@ -79,8 +79,8 @@ private:
   takeFormat(text::Tokens& tokens)
   {
     const auto name = tokens.next();
-    const auto encoding = kEncodings.find(name);
-    if (encoding == kEncodings.end())
+    const auto encoding = kPlyEncodings.find(name);
+    if (encoding == kPlyEncodings.end())
       fail("format " + text::quoted(name) + " is not known");
     const auto version = tokens.next();
     if (version != "1.0")

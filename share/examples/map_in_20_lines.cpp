@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shows: from a folder of scans to a registered map, the whole chain in 20 lines.
 #include <pcl6d/common/pose.h>
+#include <pcl6d/filters/map_builder.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/filters/map_builder.h>
 #include <pcl6d/slam6d/slam6d.h>
 
 #include <iostream>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
-#include <pcl6d/common/polygon.h>
 #include <pcl6d/common/points.h>
+#include <pcl6d/common/polygon.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
 #include <cstdint>

@@ -6,7 +6,8 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-namespace pcl6d {
+// Function templates take the visibility of where they are instantiated.
+namespace PCL6D_EXPORTS pcl6d {
 
 namespace {
 template <int Size>

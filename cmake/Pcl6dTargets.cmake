@@ -98,6 +98,10 @@ function(pcl6d_add_pcl_classes name)
   set(target pcl6d_${name}_pcl)
   add_library(${target} SHARED ${ARG_SOURCES})
   _pcl6d_library_rules(${name}_pcl ${name})
+  # Instances are as visible as their arguments: PCL's point types, which PCL does not mark.
+  set_target_properties(${target} PROPERTIES
+    CXX_VISIBILITY_PRESET default
+    VISIBILITY_INLINES_HIDDEN OFF)
   target_include_directories(${target} PRIVATE src)
   list(TRANSFORM ARG_PCL_COMPONENTS PREPEND pcl_ OUTPUT_VARIABLE pcl_targets)
   target_link_libraries(${target} PUBLIC pcl6d_${name} ${pcl_targets})

@@ -10,11 +10,11 @@
 
 namespace pcl6d {
 namespace {
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 struct Interval {
-  double low = kInfinity;
-  double high = -kInfinity;
+  double low = kUnbounded;
+  double high = -kUnbounded;
 };
 
 Interval
@@ -79,7 +79,7 @@ distanceToInside(const std::vector<Eigen::Vector3d>& polygon,
 {
   return isInside(polygon, normal, point, 0)
              ? std::abs(normal.dot(point - polygon.front()))
-             : kInfinity;
+             : kUnbounded;
 }
 struct Corner {
   Eigen::Vector2d flat; // in the basis of the plane
@@ -184,7 +184,7 @@ hullToHull(const std::vector<Eigen::Vector3d>& a,
            const Eigen::Vector3d& normal,
            const std::vector<Eigen::Vector3d>& b)
 {
-  double smallest = kInfinity;
+  double smallest = kUnbounded;
   for (std::size_t j = 0; j < b.size(); ++j) {
     const Eigen::Vector3d& to = b[(j + 1) % b.size()];
     if (crosses(a, normal, b[j], to))

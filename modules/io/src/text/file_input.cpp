@@ -8,7 +8,7 @@
 namespace pcl6d::io {
 
 namespace {
-constexpr std::size_t kBlock = 1 << 18;      // [byte] read at once
+constexpr std::size_t kReadAtOnce = 1 << 18; // [byte] read at once
 constexpr std::size_t kLargeBlock = 1 << 24; // [byte] where the size is not known
 } // namespace
 
@@ -31,8 +31,8 @@ FileInput::fill()
             buffer_.begin());
   end_ -= begin_;
   begin_ = 0;
-  if (buffer_.size() < end_ + kBlock)
-    buffer_.resize(std::max(end_ + kBlock, 2 * end_)); // a long line grows fast
+  if (buffer_.size() < end_ + kReadAtOnce)
+    buffer_.resize(std::max(end_ + kReadAtOnce, 2 * end_)); // a long line grows fast
   errno = 0;
   stream_.read(buffer_.data() + end_,
                static_cast<std::streamsize>(buffer_.size() - end_));
@@ -79,7 +79,7 @@ FileInput::read(std::uint8_t* target, std::size_t size)
   begin_ += buffered;
   if (buffered == size)
     return size;
-  if (size - buffered < kBlock)
+  if (size - buffered < kReadAtOnce)
     return fill() ? buffered + read(target + buffered, size - buffered) : buffered;
   errno = 0;
   stream_.read(reinterpret_cast<char*>(target + buffered),

@@ -36,7 +36,6 @@ function(_pcl6d_library_rules target module)
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(pcl6d_${target} PUBLIC cxx_std_17)
   _pcl6d_compile_rules(pcl6d_${target})
-  pcl6d_precompile(pcl6d_${target} library)
   install(TARGETS pcl6d_${target} EXPORT pcl6d_${module}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${module})
 endfunction()
@@ -55,6 +54,7 @@ function(pcl6d_add_module name)
   # Sources whose own names (of unnamed namespaces) are also names of others beside them.
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   _pcl6d_library_rules(${name} ${name})
+  pcl6d_precompile(${target} library)
   set_target_properties(${target} PROPERTIES PCL6D_FLOOR ${ARG_FLOOR})
   target_include_directories(${target}
     PUBLIC
@@ -98,10 +98,12 @@ function(pcl6d_add_pcl_classes name)
   set(target pcl6d_${name}_pcl)
   add_library(${target} SHARED ${ARG_SOURCES})
   _pcl6d_library_rules(${name}_pcl ${name})
-  # Instances are as visible as their arguments: PCL's point types, which PCL does not mark.
+  # Instances are as visible as their arguments: PCL's point types, which PCL does not
+  # mark. So nothing is hidden here; there are no internals, and few, heavy sources.
   set_target_properties(${target} PROPERTIES
     CXX_VISIBILITY_PRESET default
-    VISIBILITY_INLINES_HIDDEN OFF)
+    VISIBILITY_INLINES_HIDDEN OFF
+    UNITY_BUILD OFF)
   target_include_directories(${target} PRIVATE src)
   list(TRANSFORM ARG_PCL_COMPONENTS PREPEND pcl_ OUTPUT_VARIABLE pcl_targets)
   target_link_libraries(${target} PUBLIC pcl6d_${name} ${pcl_targets})

@@ -140,6 +140,7 @@ function(pcl6d_add_test name)
   _pcl6d_check_arguments("pcl6d_add_test(${name})")
   add_executable(${name} ${ARG_SOURCES})
   _pcl6d_compile_rules(${name})
+  target_compile_options(${name} PRIVATE ${PCL6D_TEST_OPTIMISATION})
   pcl6d_precompile(${name} test)
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test/bin)

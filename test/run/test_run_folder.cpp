@@ -276,7 +276,7 @@ TEST(ObjectIo, NamesTheObjectAndTheField)
     pcl6d::readObjects(folder / "o.json");
     FAIL();
   } catch (const IoFailed& error) {
-    EXPECT_NE(std::string(error.what()).find("object 1: key 'T_world_object'"),
+    EXPECT_NE(std::string(error.what()).find("/objects/0: key 'T_world_object'"),
               std::string::npos)
         << error.what();
   }

@@ -3,6 +3,7 @@
 
 #include <pcl6d/scanner/pinhole_camera.h>
 #include <pcl6d/scanner/range_error_model.h>
+#include <pcl6d/simulation/ray_caster.h>
 #include <pcl6d/simulation/scene_builder.h>
 
 namespace pcl6d::test {

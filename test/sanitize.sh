@@ -10,7 +10,7 @@ for module in "${modules[@]}"; do
   targets+=("test_$module")
 done
 echo "== sanitizers: ${modules[*]}"
-cmake --preset asan -D PCL6D_BUILD_APPS=OFF --log-level=WARNING
+cmake --preset asan --log-level=WARNING
 cmake --build build/asan --target "${targets[@]}"
 pattern=$(IFS='|'; echo "^(${targets[*]})\\.")
 ASAN_OPTIONS=detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktrace=1 \

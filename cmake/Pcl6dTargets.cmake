@@ -141,7 +141,9 @@ function(pcl6d_add_test name)
   add_executable(${name} ${ARG_SOURCES})
   _pcl6d_compile_rules(${name})
   target_compile_options(${name} PRIVATE ${PCL6D_TEST_OPTIMISATION})
-  pcl6d_precompile(${name} test)
+  if(ARG_DEPENDS) # tests of programs alone see no headers of the suite
+    pcl6d_precompile(${name} test)
+  endif()
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test/bin)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)

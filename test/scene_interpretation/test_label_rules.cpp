@@ -95,7 +95,7 @@ TEST(LabelRules, NameFileAndPlaceOfWhatIsUnknown)
       {R"({"labels": [{"name": "a", "area": [2, 1]}]})",
        "my.json: /labels/0/area: the range [2,1] is empty, so that no plane fits"},
       {R"({"labels": [{"name": "a", "area": [2, "x"]}]})",
-       "my.json: /labels/0/area: \"x\" is neither a number nor null"},
+       "my.json: /labels/0/area/1: \"x\" is neither a number nor null"},
       {R"({"labels": [{"name": "a", "orientation": "tilted"}]})",
        "my.json: /labels/0/orientation: unknown orientation 'tilted', but must be "
        "horizontal or vertical"},

@@ -140,7 +140,8 @@ function(pcl6d_add_test name)
   _pcl6d_check_arguments("pcl6d_add_test(${name})")
   add_executable(${name} ${ARG_SOURCES})
   _pcl6d_compile_rules(${name})
-  target_compile_options(${name} PRIVATE ${PCL6D_TEST_OPTIMISATION})
+  # Some packages ask for -fPIC; all tests take it, so that they share a precompiled header.
+  target_compile_options(${name} PRIVATE -fPIC ${PCL6D_TEST_OPTIMISATION})
   if(ARG_DEPENDS) # tests of programs alone see no headers of the suite
     pcl6d_precompile(${name} test)
   endif()

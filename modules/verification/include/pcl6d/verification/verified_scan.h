@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/registration/icp_model.h>
+#include <pcl6d/visibility/ray_image.h>
+
+#include <memory>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief A scan made ready to be verified against others: its surfaces and its rays.
+ * Made once, used for all of its links. \ingroup verification */
+class VerifiedScan {
+public:
+  /** \param[in] measured all points of the scan within the range gate, in its frame [m]
+   * \param[in] surfaces the reduced points with normals; kept by reference
+   * \param[in] voxel [m] of their reduction; > 0
+   * \param[in] origin [m] of its rays, in its frame
+   * \throws BadArgument the surfaces have no normals, or voxel or origin are not finite */
+  VerifiedScan(const Points& measured,
+               const IcpModel& surfaces,
+               double voxel,
+               const Eigen::Vector3f& origin = Eigen::Vector3f::Zero());
+
+  const IcpModel&
+  surfaces() const
+  {
+    return *surfaces_;
+  }
+  const RayImage&
+  rays() const
+  {
+    return rays_;
+  }
+  double
+  voxel() const
+  {
+    return voxel_;
+  }
+  /** \return [m] standard deviation of a measured point across its surface */
+  double
+  noise() const
+  {
+    return rays_.noise();
+  }
+  /** \return the share of its own points that its rays contradict */
+  double
+  selfContradiction() const
+  {
+    return self_contradiction_;
+  }
+  /** \return whether its rays say nothing, as they contradict its own points: merged scans,
+   * motion during the scan, a wrong origin */
+  bool
+  abstains() const;
+
+private:
+  const IcpModel* surfaces_;
+  double voxel_;
+  RayImage rays_;
+  double self_contradiction_ = 0;
+};
+
+} // namespace pcl6d

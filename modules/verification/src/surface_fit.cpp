@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/common/voxel_key.h>
+#include <pcl6d/registration/localizability.h>
+#include <pcl6d/verification/surface_fit.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace pcl6d {
+
+namespace {
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/** A pair across a surface, in the frame of the first scan. */
+struct SurfacePair {
+  Eigen::Vector3d place;  ///< [m] of the second scan's point
+  Eigen::Vector3d normal; ///< unit
+  double residual;        ///< [m] what is missing along the normal
+};
+
+/** Shifts of the grid of cubes, in cubes, over which the covariance is averaged. */
+constexpr double kShifts[][3] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+
+/** Collects pairs and counts the points that were looked at. */
+class PairCollector {
+public:
+  explicit PairCollector(const SurfaceFitOptions& options) : options_(options) {}
+
+  /** Points of one scan against the surfaces of another. */
+  void
+  add(const VerifiedScan& of,
+      const VerifiedScan& in,
+      const Eigen::Isometry3d& T_in_of,
+      const Eigen::Isometry3d& T_first_in,
+      bool is_forward)
+  {
+    const Points& points = of.surfaces().points();
+    const Normals& normals = in.surfaces().normals();
+    const std::size_t stride =
+        std::max<std::size_t>(1, points.size() / options_.points);
+    const auto limit_sq =
+        static_cast<float>(options_.max_distance * options_.max_distance);
+    for (std::size_t i = stride / 2; i < points.size(); i += stride) {
+      const Eigen::Vector3d place = T_in_of * points[i].cast<double>();
+      const Neighbour near = in.surfaces().tree().nearest(place.cast<float>(), limit_sq);
+      ++looked_at;
+      if (near.index < 0)
+        continue;
+      const auto k = static_cast<std::size_t>(near.index);
+      if (normals[k].isZero(0) ||
+          !faceEachOther(of.surfaces().normals()[i], normals[k], T_in_of))
+        continue;
+      const Eigen::Vector3d normal = normals[k].cast<double>();
+      const Eigen::Vector3d partner = in.surfaces().points()[k].cast<double>();
+      const double missing = normal.dot(partner - place);
+      // The way back: where the first scan's point moves, the second one stays.
+      pairs.push_back({T_first_in * (is_forward ? place : partner),
+                       T_first_in.linear() * normal,
+                       is_forward ? missing : -missing});
+    }
+  }
+
+  std::vector<SurfacePair> pairs;
+  std::size_t looked_at = 0;
+
+private:
+  /** Not the two faces of a wall. */
+  static bool
+  faceEachOther(const Eigen::Vector3f& n,
+                const Eigen::Vector3f& m,
+                const Eigen::Isometry3d& T)
+  {
+    return (T.linear() * n.cast<double>()).dot(m.cast<double>()) > 0;
+  }
+
+  const SurfaceFitOptions& options_;
+};
+
+Twist
+jacobianOf(const SurfacePair& pair, const Eigen::Vector3d& centroid)
+{
+  Twist j;
+  j.head<3>() = pair.normal;
+  j.tail<3>() = (pair.place - centroid).cross(pair.normal);
+  return j;
+}
+
+/** sum over cubes of g g^T, of one grid, with the factor for few cubes. */
+Matrix6
+clustered(const std::vector<SurfacePair>& pairs,
+          const SurfaceFit& fit,
+          double cube,
+          const double (&shift)[3])
+{
+  std::map<VoxelKey, Twist> gradients;
+  const Eigen::Vector3d offset = cube * Eigen::Vector3d(shift[0], shift[1], shift[2]);
+  for (const SurfacePair& pair : pairs) {
+    const Twist j = jacobianOf(pair, fit.centroid);
+    const double left = pair.residual - j.dot(fit.step);
+    const Eigen::Vector3d place = pair.place - fit.centroid + offset;
+    const auto [cubes, is_new] =
+        gradients.try_emplace(voxelKey(place.cast<float>(), cube), Twist::Zero());
+    cubes->second += left * j;
+  }
+  Matrix6 sum = Matrix6::Zero();
+  for (const auto& [key, gradient] : gradients)
+    sum += gradient * gradient.transpose();
+  const auto count = static_cast<double>(gradients.size());
+  return sum * (count / std::max(count - 6, 1.0));
+}
+
+/** Solves for the step, and gives the covariance of the pose. */
+void
+solve(const std::vector<SurfacePair>& pairs, double cube, SurfaceFit& fit)
+{
+  Matrix6 H = Matrix6::Zero();
+  Twist b = Twist::Zero();
+  for (const SurfacePair& pair : pairs) {
+    const Twist j = jacobianOf(pair, fit.centroid);
+    H += j * j.transpose();
+    b += pair.residual * j;
+  }
+  Twist unit = Twist::Ones(); // rotations as motions of the pairs
+  unit.tail<3>().setConstant(fit.spread > 0 ? 1 / fit.spread : 1);
+  const auto count = static_cast<double>(pairs.size());
+  const auto eigen =
+      symmetricEigen<6>(unit.asDiagonal() * H * unit.asDiagonal() / count);
+  // An open direction takes no step and is as uncertain as the pairs are spread.
+  Twist inverse = Twist::Zero(), open = Twist::Zero();
+  for (int k = 0; k < 6; ++k)
+    if (eigen.values(k) < Localizability::kOpen) {
+      ++fit.open_directions;
+      open(k) = fit.spread * fit.spread;
+    }
+    else
+      inverse(k) = 1 / (eigen.values(k) * count);
+  const Matrix6 V = unit.asDiagonal() * eigen.vectors;
+  const Matrix6 H_inverse = V * inverse.asDiagonal() * V.transpose();
+  fit.step = H_inverse * b;
+  Matrix6 spread = Matrix6::Zero();
+  for (const auto& shift : kShifts)
+    spread += clustered(pairs, fit, cube, shift) / 4;
+  fit.covariance = H_inverse * spread * H_inverse + V * open.asDiagonal() * V.transpose();
+}
+} // namespace
+
+void
+SurfaceFitOptions::validate() const
+{
+  require(std::isfinite(max_distance) && max_distance > 0,
+          "max_distance",
+          max_distance,
+          "finite and > 0");
+  require(points > 0, "points", points, "> 0");
+  require(cube_voxels > 0, "cube_voxels", cube_voxels, "> 0");
+}
+
+double
+SurfaceFit::displacement() const
+{
+  return std::sqrt(step.head<3>().squaredNorm() +
+                   step.tail<3>().squaredNorm() * spread * spread * 2 / 3);
+}
+
+double
+SurfaceFit::deviation() const
+{
+  return std::sqrt(covariance.topLeftCorner<3, 3>().trace() +
+                   covariance.bottomRightCorner<3, 3>().trace() * spread * spread * 2 /
+                       3);
+}
+
+double
+SurfaceFit::mahalanobisSq() const
+{
+  if (pairs < 6)
+    return 0;
+  Twist unit = Twist::Ones();
+  unit.tail<3>().setConstant(spread > 0 ? 1 / spread : 1);
+  const Twist scaled = step.cwiseQuotient(unit);
+  const Matrix6 C =
+      unit.cwiseInverse().asDiagonal() * covariance * unit.cwiseInverse().asDiagonal();
+  const auto eigen = symmetricEigen<6>(C);
+  const Twist along = eigen.vectors.transpose() * scaled;
+  double sum = 0;
+  for (int k = 0; k < 6; ++k)
+    if (eigen.values(k) > 0)
+      sum += along(k) * along(k) / eigen.values(k);
+  return sum;
+}
+
+SurfaceFit
+fitSurfaces(const VerifiedScan& first,
+            const VerifiedScan& second,
+            const Eigen::Isometry3d& T_first_second,
+            const SurfaceFitOptions& options)
+{
+  options.validate();
+  PairCollector found(options);
+  found.add(second, first, T_first_second, Eigen::Isometry3d::Identity(), true);
+  found.add(first, second, T_first_second.inverse(), T_first_second, false);
+  SurfaceFit fit;
+  fit.pairs = found.pairs.size();
+  if (found.looked_at > 0)
+    fit.overlap =
+        static_cast<double>(fit.pairs) / static_cast<double>(found.looked_at);
+  constexpr std::size_t kLeastPairs = 12; // two for each direction
+  if (fit.pairs < kLeastPairs)
+    return fit;
+  for (const SurfacePair& pair : found.pairs)
+    fit.centroid += pair.place / static_cast<double>(fit.pairs);
+  double residual_sq = 0, spread_sq = 0;
+  for (const SurfacePair& pair : found.pairs) {
+    residual_sq += pair.residual * pair.residual;
+    spread_sq += (pair.place - fit.centroid).squaredNorm();
+  }
+  fit.residual = std::sqrt(residual_sq / static_cast<double>(fit.pairs));
+  fit.spread = std::sqrt(spread_sq / static_cast<double>(fit.pairs));
+  const double voxel = std::max(first.voxel(), second.voxel());
+  solve(found.pairs, options.cube_voxels * voxel, fit);
+  return fit;
+}
+
+} // namespace pcl6d

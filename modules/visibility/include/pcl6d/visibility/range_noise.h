@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/points.h>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief The standard deviation [m] of a scan's points across its surfaces, from the
+ * scan itself: at a sample of its points the spread of the nearest neighbours about their
+ * plane, and of these the median over the flatter half, as the other half shows edges,
+ * plants and corners rather than noise. Patches that are a single line do not count.
+ * \param[in] measured all points of the scan; those that are not finite are left out
+ * \return 0 for fewer than 48 points, or lines alone \ingroup visibility */
+double
+rangeNoise(const Points& measured);
+
+} // namespace pcl6d

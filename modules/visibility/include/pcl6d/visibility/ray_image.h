@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/points.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief What the rays of a scan say of a place. */
+enum class Sight {
+  kUnseen,    ///< no rays went near it
+  kBehind,    ///< hidden: all rays around it ended before it
+  kEdge,      ///< rays around it ended before and behind it: they say nothing
+  kConfirmed, ///< a surface was measured there
+  kFree       ///< all rays around it went on behind it: a surface there is contradicted
+};
+
+/** \return "unseen", "behind", "edge", "confirmed" or "free" */
+const char*
+toString(Sight sight);
+
+/** \brief The answer of RayImage::look(). */
+struct SightOfPlace {
+  Sight sight = Sight::kUnseen;
+  float beyond = 0; ///< [m] kFree: how far behind the place the nearest ray around it ended
+  float sigmas = 0; ///< the same in standard deviations of place and rays
+};
+
+/** \brief Knobs of RayImage. */
+struct RayImageOptions {
+  Eigen::Vector3f origin =
+      Eigen::Vector3f::Zero(); ///< [m] of the rays, in the scan's frame; finite
+  double noise = 0.01;         ///< [m] standard deviation of a range; finite, >= 0
+  double finest = 0.0061;      ///< [rad] smallest cell, 0.35 deg: the halo of such a cell
+                               ///< covers the beam of common scanners; in (0, coarsest]
+  double coarsest = 0.07;      ///< [rad] largest cell, 4 deg; at most 0.5
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief A scan as rays from its origin: how near and how far it measured in each
+ * direction, at the scan's own resolution, so that a place can be asked for.
+ *
+ * Six images on the faces of a cube, so that a direction needs no angle; several sizes of
+ * cells, each 1.5 times the one before, of which the finest that is filled around the
+ * place answers. A cell counts with its eight neighbours, which makes the edges of things
+ * and the width of the beam harmless. About 0.3 MB for each face that the scan looks at.
+ * \note Source: share/doc/trust.md; the halo and the pyramid are algorithms.md T.1.
+ * \ingroup visibility */
+class RayImage {
+public:
+  RayImage() = default;
+
+  /** \param[in] measured all points of the scan, not the reduced ones, in its frame [m];
+   * those that are not finite, or at the origin, are left out
+   * \throws BadArgument an option breaks its rule */
+  explicit RayImage(const Points& measured, const RayImageOptions& options = {});
+
+  /** \param[in] place in the scan's frame [m]
+   * \param[in] sigma [m] standard deviation of the place relative to the scan */
+  SightOfPlace
+  look(const Eigen::Vector3f& place, float sigma) const;
+
+  /** \return [m] standard deviation of a range */
+  double
+  noise() const
+  {
+    return noise_;
+  }
+  const Eigen::Vector3f&
+  origin() const
+  {
+    return origin_;
+  }
+  /** \return [rad] the finest cells in use; 0 without points */
+  double
+  resolution() const
+  {
+    return levels_.empty() ? 0 : levels_.front().cell;
+  }
+
+private:
+  /** Ranges around a cell, as codes that grow with the range; empty: nearest 0. */
+  struct Interval {
+    std::uint16_t nearest = 0;
+    std::uint16_t farthest = 0;
+  };
+  struct Level {
+    double cell = 0; ///< [rad]
+    int side = 0;    ///< cells along an edge of a face
+    std::array<std::vector<Interval>, 6> faces; ///< empty where nothing was measured
+  };
+  /** \return the share of measured cells that have enough measured neighbours */
+  static double
+  fill(const Points& rays, Level& level);
+
+  Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
+  double noise_ = 0;
+  std::vector<Level> levels_; ///< from fine to coarse
+};
+
+} // namespace pcl6d

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/require.h>
+#include <pcl6d/visibility/ray_image.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl6d {
+
+namespace {
+/** Cells of a level are so many times as wide as those of the finer one. */
+constexpr double kCoarser = 1.5;
+
+/** A cell answers if so many of the nine around it (of those on its face) are measured:
+ * 6 of 9. */
+constexpr double kFilled = 2.0 / 3;
+
+/** A level is of use if so many of its measured cells answer: below, its cells are finer
+ * than the pattern of the scan, and what is filled is chance (algorithms.md T.1). */
+constexpr double kUsefulShare = 0.25;
+
+/** Ranges within so many standard deviations are the same. */
+constexpr float kSameSigmas = 3;
+
+/** Rays that end farther apart than so many tolerances are of two surfaces. */
+constexpr float kOneSurface = 4;
+
+/** Codes of ranges: steps of 0.05 %, from 2^-20 m to 2^26 m. */
+constexpr float kSteps = 1400;
+constexpr int kLeastExponent = -20;
+
+/** Codes grow with the range, by equal steps between powers of two, so that they are
+ * exact without a logarithm. */
+std::uint16_t
+codeOf(float range)
+{
+  int exponent = 0;
+  const float mantissa = std::frexp(range, &exponent); // in [0.5, 1)
+  const float place =
+      (static_cast<float>(exponent - kLeastExponent) + 2 * mantissa - 1) * kSteps;
+  return static_cast<std::uint16_t>(std::clamp(place, 1.0F, 65535.0F));
+}
+
+/** \return the range in the middle of the step of a code */
+float
+rangeOf(std::uint16_t code)
+{
+  const float place = (static_cast<float>(code) + 0.5F) / kSteps;
+  const float whole = std::floor(place);
+  return std::ldexp(0.5F * (place - whole + 1), static_cast<int>(whole) + kLeastExponent);
+}
+
+/** The place of a direction on the faces of the cube, in [-1, 1] along u and v. */
+struct OnCube {
+  std::size_t face;
+  float u, v;
+};
+
+/** Spreads equal angles over about equal lengths: within 14 % of the mean, where the
+ * tangent would stretch twofold. */
+float
+evenly(float tangent)
+{
+  constexpr float kSlope = 1.27324F; // 4 / pi
+  return tangent * (kSlope - (kSlope - 1) * std::abs(tangent));
+}
+
+OnCube
+onCube(const Eigen::Vector3f& ray)
+{
+  Eigen::Index axis = 0;
+  const float length = ray.cwiseAbs().maxCoeff(&axis);
+  const auto face = static_cast<std::size_t>(2 * axis + (ray[axis] < 0 ? 1 : 0));
+  return {face,
+          evenly(ray[(axis + 1) % 3] / length),
+          evenly(ray[(axis + 2) % 3] / length)};
+}
+
+int
+cellAlong(float place, int side)
+{
+  return std::min(static_cast<int>((place + 1) / 2 * static_cast<float>(side)),
+                  side - 1);
+}
+
+std::size_t
+cellOf(const OnCube& place, int side)
+{
+  return static_cast<std::size_t>(cellAlong(place.v, side) * side +
+                                  cellAlong(place.u, side));
+}
+} // namespace
+
+const char*
+toString(Sight sight)
+{
+  switch (sight) {
+  case Sight::kBehind:
+    return "behind";
+  case Sight::kEdge:
+    return "edge";
+  case Sight::kConfirmed:
+    return "confirmed";
+  case Sight::kFree:
+    return "free";
+  case Sight::kUnseen:
+    break;
+  }
+  return "unseen";
+}
+
+void
+RayImageOptions::validate() const
+{
+  constexpr double kWidest = 0.5;
+  require(origin.allFinite(), "origin", origin.transpose(), "finite");
+  require(std::isfinite(noise) && noise >= 0, "noise", noise, "finite and >= 0");
+  require(finest > 0 && finest <= coarsest, "finest", finest, "in (0, coarsest]");
+  require(coarsest <= kWidest, "coarsest", coarsest, "at most 0.5");
+}
+
+RayImage::RayImage(const Points& measured, const RayImageOptions& options)
+: origin_(options.origin), noise_(options.noise)
+{
+  options.validate();
+  constexpr double kFace = 1.5707963267948966; // [rad] width of a face
+  Points rays;
+  rays.reserve(measured.size());
+  for (const auto& p : measured)
+    if (p.allFinite() && p != origin_)
+      rays.push_back(p - origin_);
+  if (rays.empty())
+    return;
+  for (double cell = options.finest; cell <= options.coarsest; cell *= kCoarser) {
+    Level level;
+    level.side = std::max(1, static_cast<int>(std::lround(kFace / cell)));
+    level.cell = kFace / level.side;
+    if (fill(rays, level) >= kUsefulShare)
+      levels_.push_back(std::move(level));
+  }
+}
+
+double
+RayImage::fill(const Points& rays, Level& level)
+{
+  const int side = level.side;
+  const auto cells = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  std::array<std::vector<Interval>, 6> measured;
+  for (const auto& ray : rays) {
+    const OnCube place = onCube(ray);
+    auto& face = measured[place.face];
+    if (face.empty())
+      face.resize(cells);
+    Interval& interval = face[cellOf(place, side)];
+    const std::uint16_t code = codeOf(ray.norm());
+    interval.nearest =
+        interval.nearest == 0 ? code : std::min(interval.nearest, code);
+    interval.farthest = std::max(interval.farthest, code);
+  }
+  std::size_t occupied = 0, answering = 0;
+  for (std::size_t f = 0; f < measured.size(); ++f) {
+    const auto& face = measured[f];
+    level.faces[f].resize(face.size());
+    for (std::size_t cell = 0; cell < face.size(); ++cell) {
+      const int row = static_cast<int>(cell) / side, col = static_cast<int>(cell) % side;
+      Interval around;
+      around.nearest = std::numeric_limits<std::uint16_t>::max();
+      int filled = 0, present = 0;
+      for (int r = std::max(row - 1, 0); r <= std::min(row + 1, side - 1); ++r)
+        for (int c = std::max(col - 1, 0); c <= std::min(col + 1, side - 1); ++c) {
+          const Interval& one = face[static_cast<std::size_t>(r * side + c)];
+          ++present;
+          if (one.nearest == 0)
+            continue;
+          ++filled;
+          around.nearest = std::min(around.nearest, one.nearest);
+          around.farthest = std::max(around.farthest, one.farthest);
+        }
+      const bool answers = filled >= kFilled * present;
+      if (answers)
+        level.faces[f][cell] = around;
+      occupied += face[cell].nearest > 0 ? 1 : 0;
+      answering += face[cell].nearest > 0 && answers ? 1 : 0;
+    }
+  }
+  return occupied == 0 ? 0
+                       : static_cast<double>(answering) / static_cast<double>(occupied);
+}
+
+SightOfPlace
+RayImage::look(const Eigen::Vector3f& place, float sigma) const
+{
+  const Eigen::Vector3f ray = place - origin_;
+  const float range = ray.norm();
+  if (levels_.empty() || !(range > 0) || !std::isfinite(range))
+    return {};
+  const OnCube direction = onCube(ray);
+  for (const Level& level : levels_) {
+    const auto& face = level.faces[direction.face];
+    if (face.empty())
+      continue;
+    const Interval& around = face[cellOf(direction, level.side)];
+    if (around.nearest == 0)
+      continue;
+    const auto noise = static_cast<float>(noise_);
+    const float deviation = std::sqrt(noise * noise + sigma * sigma);
+    // Within a cell a surface that is not seen at a grazing angle changes by its width.
+    const float tolerance =
+        kSameSigmas * deviation + static_cast<float>(level.cell) * range;
+    const float nearest = rangeOf(around.nearest), farthest = rangeOf(around.farthest);
+    if (range < nearest - tolerance)
+      return {Sight::kFree,
+              nearest - range,
+              (nearest - range) / std::max(deviation, tolerance / kSameSigmas)};
+    if (range > farthest + tolerance)
+      return {Sight::kBehind, 0, 0};
+    const bool at_end = std::abs(range - nearest) <= tolerance ||
+                        std::abs(range - farthest) <= tolerance;
+    return {at_end || farthest - nearest < kOneSurface * tolerance ? Sight::kConfirmed
+                                                                   : Sight::kEdge,
+            0,
+            0};
+  }
+  return {};
+}
+
+} // namespace pcl6d

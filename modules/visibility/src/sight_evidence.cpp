@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/require.h>
+#include <pcl6d/common/voxel_key.h>
+#include <pcl6d/visibility/sight_evidence.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+/** A patch says something with so many points that do ... */
+constexpr std::size_t kLeastOfPatch = 4;
+/** ... and is contradicted by so many, and half of them (algorithms.md T.1). */
+constexpr std::size_t kLeastFree = 3;
+
+/** A point that says something, and of which patch it is. */
+struct Witness {
+  VoxelKey patch;
+  bool free;
+  std::size_t contradiction; ///< place in the list, if there is one and it is free
+};
+
+double
+shareOf(std::size_t part, std::size_t rest)
+{
+  return part == 0 ? 0 : static_cast<double>(part) / static_cast<double>(part + rest);
+}
+
+/** Counts the patches of witnesses, and marks the contradictions in contradicted ones. */
+void
+countPatches(std::vector<Witness>& witnesses,
+             SightEvidence& evidence,
+             std::vector<Contradiction>* contradictions)
+{
+  std::stable_sort(
+      witnesses.begin(), witnesses.end(), [](const Witness& a, const Witness& b) {
+        return a.patch < b.patch;
+      });
+  for (auto first = witnesses.begin(); first != witnesses.end();) {
+    const auto last =
+        std::find_if(first, witnesses.end(), [first](const Witness& witness) {
+          return witness.patch != first->patch;
+        });
+    const auto all = static_cast<std::size_t>(last - first);
+    const auto free = static_cast<std::size_t>(
+        std::count_if(first, last, [](const Witness& witness) { return witness.free; }));
+    const bool contradicted = free >= kLeastFree && 2 * free >= all;
+    if (all >= kLeastOfPatch) {
+      ++evidence.patches;
+      evidence.contradicted_patches += contradicted ? 1 : 0;
+      evidence.confirmed_patches += 2 * free < all ? 1 : 0;
+    }
+    if (contradictions && contradicted && all >= kLeastOfPatch)
+      for (; first != last; ++first)
+        if (first->free)
+          (*contradictions)[first->contradiction].clear = true;
+    first = last;
+  }
+}
+
+/** \return variance [m^2] of a place along the ray to it */
+double
+varianceAlong(const Eigen::Vector3d& place,
+              const Eigen::Vector3d& ray,
+              const PlaceUncertainty& uncertainty)
+{
+  Eigen::Matrix<double, 6, 1> j;
+  j.head<3>() = ray.normalized();
+  j.tail<3>() = place.cross(j.head<3>());
+  return uncertainty.noise * uncertainty.noise + j.dot(uncertainty.motion * j);
+}
+} // namespace
+
+SightEvidence&
+SightEvidence::operator+=(const SightEvidence& other)
+{
+  confirmed += other.confirmed;
+  free += other.free;
+  behind += other.behind;
+  edge += other.edge;
+  unseen += other.unseen;
+  patches += other.patches;
+  confirmed_patches += other.confirmed_patches;
+  contradicted_patches += other.contradicted_patches;
+  return *this;
+}
+
+double
+SightEvidence::contradiction() const
+{
+  return shareOf(free, confirmed);
+}
+
+double
+SightEvidence::confirmation() const
+{
+  return shareOf(confirmed, points() - confirmed);
+}
+
+SightEvidence
+sightEvidence(const RayImage& image,
+              const Points& points,
+              const Eigen::Isometry3d& T_image_points,
+              const PlaceUncertainty& uncertainty,
+              double patch,
+              std::vector<Contradiction>* contradictions)
+{
+  require(std::isfinite(patch) && patch > 0, "patch", patch, "finite and > 0");
+  SightEvidence evidence;
+  std::vector<Witness> witnesses;
+  for (const auto& p : points) {
+    if (!p.allFinite())
+      continue;
+    const Eigen::Vector3d place = T_image_points * p.cast<double>();
+    const Eigen::Vector3d ray = place - image.origin().cast<double>();
+    const SightOfPlace seen = image.look(
+        place.cast<float>(),
+        static_cast<float>(std::sqrt(varianceAlong(place, ray, uncertainty))));
+    switch (seen.sight) {
+    case Sight::kUnseen:
+      ++evidence.unseen;
+      continue;
+    case Sight::kBehind:
+      ++evidence.behind;
+      continue;
+    case Sight::kEdge:
+      ++evidence.edge;
+      continue;
+    case Sight::kConfirmed:
+      ++evidence.confirmed;
+      witnesses.push_back({voxelKey(p, patch), false, 0});
+      continue;
+    case Sight::kFree:
+      break;
+    }
+    ++evidence.free;
+    witnesses.push_back(
+        {voxelKey(p, patch), true, contradictions ? contradictions->size() : 0});
+    if (contradictions)
+      contradictions->push_back({p, seen.beyond, false});
+  }
+  countPatches(witnesses, evidence, contradictions);
+  return evidence;
+}
+
+double
+selfContradiction(const Points& measured, const Eigen::Vector3f& origin, double noise)
+{
+  Points imaged, looked_at;
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    (i % 2 == 0 ? imaged : looked_at).push_back(measured[i]);
+  RayImageOptions options;
+  options.origin = origin;
+  options.noise = noise;
+  const RayImage image(imaged, options);
+  SightEvidence evidence;
+  for (const auto& p : looked_at) {
+    const Sight sight = image.look(p, static_cast<float>(noise)).sight;
+    evidence.confirmed += sight == Sight::kConfirmed ? 1 : 0;
+    evidence.free += sight == Sight::kFree ? 1 : 0;
+  }
+  return evidence.contradiction();
+}
+
+} // namespace pcl6d

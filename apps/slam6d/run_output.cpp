@@ -76,7 +76,7 @@ runFolderRules(const Settings& settings)
   rules.program = kProgram;
   rules.marker = "summary.json";
   rules.files = std::regex("trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
-                           "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|links\\.csv|"
+                           "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|(links|verification)\\.csv|"
                            "(summary|objects|semantic_map)\\.json|"
                            "semantic_map\\.(pcd|ply)|"
                            "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
@@ -111,6 +111,7 @@ RunOutput::write(bool complete, RunLog log)
   if (complete) {
     if (!result_.stages.empty())
       writer.writeGraph(result_.graph);
+    writer.writeVerification();
     MapBuilder fine_map(planeVoxel(voxel), run_.world_offset);
     run_.complete = writeScans(log.clouds, map, settings_.planes ? &fine_map : nullptr);
     if (run_.complete)

@@ -166,6 +166,8 @@ addRun(OptionTable& table, Settings& s)
   table.add("report", &s.report)
       .help("write report.html: verdict, map, plots and tables on one page for a "
             "browser");
+  table.add("no-verification", &s.no_verification)
+      .help("do not judge the map by the points and rays of its scans in the end");
   table.addAs<std::int64_t>("seed", &s.slam.seed)
       .within(0, kNoBound, ">= 0")
       .help("of random choices (those of --initial-guess features)");
@@ -201,7 +203,8 @@ constexpr const char* kWords[] = {
     "relaxation",      "links",          "relaxation-rounds",
     "graph-in",        "continue",       "iterations",
     "min-overlap",     "max-correction", "planes",
-    "report",          "threads",        "seed"};
+    "report",          "threads",        "no-verification",
+    "seed"};
 } // namespace
 
 void
@@ -253,6 +256,7 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
         settings.slam.validate();
       },
       {{"max_iterations", "iterations"}});
+  settings.slam.verify = !settings.no_verification;
   settings.words = table.words({std::begin(kWords), std::end(kWords)});
   const bool planes = settings.slam.metric != Metric::kPoint;
   const bool relaxes = settings.slam.relaxation.has_value();

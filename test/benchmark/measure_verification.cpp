@@ -4,8 +4,7 @@
 // usage: measure_verification [every=N] [gap=N] [scans=N] [pairs=N] FOLDER ...
 #include "verification_links.h"
 
-#include <pcl6d/verification/surface_fit.h>
-#include <pcl6d/visibility/sight_evidence.h>
+#include <pcl6d/verification/link_evidence.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -16,46 +15,44 @@
 namespace pcl6d::bench {
 
 namespace {
-PlaceUncertainty
-uncertaintyOf(const VerifiedScan& scan)
+/** A link and what is seen of it. */
+struct SeenLink {
+  TestedLink link;
+  LinkEvidence evidence;
+  double milliseconds;
+};
+
+SeenLink
+seen(const LinkSet& set, const TestedLink& link)
 {
-  PlaceUncertainty uncertainty;
-  uncertainty.noise = scan.noise();
-  return uncertainty;
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  SeenLink result{link,
+                  linkEvidence(set.scans[link.first],
+                               set.scans[link.second],
+                               link.T_first_second),
+                  0};
+  result.milliseconds =
+      std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return result;
 }
 
 void
-printLink(const LinkSet& set, const TestedLink& link)
+print(const LinkSet& set, const SeenLink& one, double background)
 {
-  using Clock = std::chrono::steady_clock;
-  const VerifiedScan& a = set.scans[link.first];
-  const VerifiedScan& b = set.scans[link.second];
-  const double patch = 6 * set.voxel;
-  const auto start = Clock::now();
-  SightEvidence sight = sightEvidence(a.rays(),
-                                      b.surfaces().points(),
-                                      link.T_first_second,
-                                      uncertaintyOf(b),
-                                      patch);
-  sight += sightEvidence(b.rays(),
-                         a.surfaces().points(),
-                         link.T_first_second.inverse(),
-                         uncertaintyOf(a),
-                         patch);
-  const auto between = Clock::now();
-  SurfaceFitOptions options;
-  options.max_distance = set.icp.max_distance;
-  const SurfaceFit fit = fitSurfaces(a, b, link.T_first_second, options);
-  const auto end = Clock::now();
-  const auto ms = [](auto d) { return std::chrono::duration<double, std::milli>(d).count(); };
+  const auto& [link, evidence, milliseconds] = one;
+  const SightEvidence& sight = evidence.sight;
+  const SurfaceFit& fit = evidence.fit;
+  const LinkOpinion opinion = judgeLink(evidence, background);
   std::cout << set.name << ',' << link.kind << ',' << link.first << ',' << link.second
             << ',' << link.off << ',' << link.turn << ',' << set.voxel << ','
-            << a.noise() << ',' << sight.confirmed << ',' << sight.free << ','
-            << sight.points() << ',' << sight.patches << ',' << sight.contradicted_patches
-            << ',' << fit.overlap << ',' << fit.residual << ',' << fit.displacement()
-            << ',' << fit.deviation() << ',' << fit.mahalanobisSq() << ','
-            << fit.open_directions << ',' << fit.spread << ',' << fit.pairs << ','
-            << ms(between - start) << ',' << ms(end - between) << '\n';
+            << set.scans[link.first].noise() << ',' << sight.confirmed << ',' << sight.free
+            << ',' << sight.points() << ',' << sight.patches << ','
+            << sight.contradicted_patches << ',' << fit.overlap << ',' << fit.residual
+            << ',' << evidence.leaving() << ',' << evidence.deviation() << ','
+            << fit.mahalanobisSq() << ',' << fit.open_directions << ',' << fit.spread
+            << ',' << fit.pairs << ',' << milliseconds << ',' << background << ','
+            << opinion.probability_wrong << ',' << toString(opinion.trust) << '\n';
 }
 
 int
@@ -64,7 +61,7 @@ run(const std::vector<std::string>& arguments)
   std::map<std::string, int> knobs{{"every", 1}, {"gap", 4}, {"scans", 60}, {"pairs", 60}};
   std::cout << "set,kind,first,second,off,turn,voxel,noise,confirmed,free,points,patches,"
                "contradicted,overlap,residual,displacement,deviation,mahalanobis_sq,open,"
-               "spread,pairs,ms_rays,ms_fit\n";
+               "spread,pairs,ms,background,wrong,trust\n";
   for (const std::string& argument : arguments) {
     const auto equals = argument.find('=');
     if (equals != std::string::npos) {
@@ -78,11 +75,19 @@ run(const std::vector<std::string>& arguments)
                 << set.scans[i].noise() << " self contradiction "
                 << set.scans[i].selfContradiction() << " resolution "
                 << set.scans[i].rays().resolution() << '\n';
+    std::vector<SeenLink> links;
+    std::vector<LinkEvidence> right; // as a run has them
     for (const TestedLink& link : makeLinks(set,
                                             static_cast<std::size_t>(knobs["gap"]),
                                             static_cast<std::size_t>(knobs["pairs"]),
-                                            1))
-      printLink(set, link);
+                                            1)) {
+      links.push_back(seen(set, link));
+      if (link.kind == "truth")
+        right.push_back(links.back().evidence);
+    }
+    const double background = contradictionBackground(right);
+    for (const SeenLink& link : links)
+      print(set, link, background);
   }
   return 0;
 }

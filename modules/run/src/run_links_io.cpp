@@ -128,28 +128,40 @@ struct CellWriter {
   }
 };
 
+/** \param[in] visit the fields of a record with a visitor */
+template <typename Record, typename VisitFields>
 void
-writeHeader(std::ostream& csv)
+writeTable(const std::filesystem::path& path,
+           const std::vector<Record>& records,
+           const VisitFields& visit)
 {
-  const RunLink link;
-  const char* comma = "";
-  visitLinkFields(link, [&](const char* name, const auto&) {
-    csv << std::exchange(comma, ",") << name;
+  writeFileAtomically(path, [&](std::ostream& csv) {
+    const char* comma = "";
+    visit(Record(), [&](const char* name, const auto&) {
+      csv << std::exchange(comma, ",") << name;
+    });
+    csv << '\n' << std::setprecision(6);
+    for (const Record& record : records) {
+      visit(record, CellWriter{csv});
+      csv << '\n';
+    }
   });
-  csv << '\n';
 }
 } // namespace
 
 void
 writeRunLinks(const std::filesystem::path& path, const std::vector<RunLink>& links)
 {
-  writeFileAtomically(path, [&](std::ostream& csv) {
-    writeHeader(csv);
-    csv << std::setprecision(6);
-    for (const RunLink& link : links) {
-      visitLinkFields(link, CellWriter{csv});
-      csv << '\n';
-    }
+  writeTable(path, links, [](const RunLink& link, auto&& visit) {
+    visitLinkFields(link, visit);
+  });
+}
+
+void
+writeLinkChecks(const std::filesystem::path& path, const std::vector<LinkCheck>& links)
+{
+  writeTable(path, links, [](const LinkCheck& link, auto&& visit) {
+    visitLinkCheckFields(link, visit);
   });
 }
 

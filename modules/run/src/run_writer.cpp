@@ -90,6 +90,19 @@ RunWriter::writeGraph(const PoseGraph& graph) const
 }
 
 void
+RunWriter::writeVerification() const
+{
+  if (!run_.verification)
+    return;
+  std::vector<LinkCheck> links = run_.verification->links;
+  for (LinkCheck& link : links) {
+    link.from = static_cast<std::size_t>(run_.scans.at(link.from).index);
+    link.to = static_cast<std::size_t>(run_.scans.at(link.to).index);
+  }
+  writeLinkChecks(folder_ / "verification.csv", links);
+}
+
+void
 RunWriter::writeScan(std::size_t place, const pcl::PCLPointCloud2& cloud) const
 {
   Eigen::Isometry3d pose = run_.scans.at(place).T_world_scan;

@@ -67,6 +67,19 @@ describeStages(const RunResult& run, std::ostream& text)
   }
 }
 
+/** What verification says, and why. */
+void
+describeVerification(const RunResult& run, std::ostream& text)
+{
+  if (!run.verification)
+    return;
+  const MapVerification& map = *run.verification;
+  if (map.trusted() && !map.links.empty())
+    text << "\nverified by points and rays: nothing in "
+         << text::counted(map.links.size(), "link") << " contradicts the map";
+  for (const std::string& doubt : map.doubts)
+    text << (map.trusted() ? "\nunverified: " : "\nNOT TO BE TRUSTED: ") << doubt;
+}
 } // namespace
 
 std::string
@@ -104,6 +117,7 @@ verdictOf(const RunResult& run)
          << text::counted(run.floating.size(), "scan")
          << " to the first one: " << run.floating.front()
          << (run.floating.size() > 1 ? ", ..." : "");
+  describeVerification(run, text);
   describeQuality(run, text);
   describeStages(run, text);
   return text.str();

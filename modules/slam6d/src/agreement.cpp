@@ -2,8 +2,11 @@
 #include "agreement.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/voxel_key.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <vector>
 
 namespace pcl6d::slam6d {
@@ -12,10 +15,51 @@ namespace {
 constexpr std::size_t kBlockSize = 512; // points
 constexpr std::size_t kSample = 10000;  ///< points that are enough
 
-struct Count {
-  std::size_t finite = 0;
-  std::size_t near = 0;
+/** Of each point of a sample: its place, and whether it lies on the target. */
+struct Sample {
+  std::vector<std::size_t> places;
+  std::vector<char> near;
 };
+
+/** \return which points of a sample have a point of the target within a distance */
+Sample
+sampleOf(const IcpTarget& target,
+         const Points& points,
+         const Eigen::Isometry3d& T_target_points,
+         double distance,
+         unsigned int num_threads)
+{
+  std::vector<Eigen::Isometry3d> T_part_points;
+  for (const auto& part : target)
+    T_part_points.push_back(part.T_target_part.inverse() * T_target_points);
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSample);
+  const auto limit_sq = static_cast<float>(distance * distance);
+  Sample sample;
+  for (std::size_t i = 0; i < points.size(); i += stride)
+    if (points[i].allFinite())
+      sample.places.push_back(i);
+  sample.near.resize(sample.places.size());
+  parallelBlocks(
+      sample.places.size(), kBlockSize, num_threads, [&](const Block& block) {
+        for (std::size_t i = block.begin; i < block.end; ++i) {
+          const Eigen::Vector3d p = points[sample.places[i]].cast<double>();
+          for (std::size_t k = 0; k < target.size() && !sample.near[i]; ++k) {
+            const Eigen::Vector3f q = (T_part_points[k] * p).cast<float>();
+            sample.near[i] = target[k].tree->nearest(q, limit_sq).index >= 0;
+          }
+        }
+      });
+  return sample;
+}
+
+double
+shareOf(const Sample& sample)
+{
+  const auto near = std::count(sample.near.begin(), sample.near.end(), 1);
+  return sample.near.empty() ? 0
+                             : static_cast<double>(near) /
+                                   static_cast<double>(sample.near.size());
+}
 } // namespace
 
 double
@@ -25,35 +69,33 @@ agreementOf(const IcpTarget& target,
             double distance,
             unsigned int num_threads)
 {
-  std::vector<Eigen::Isometry3d> T_part_points;
-  for (const auto& part : target)
-    T_part_points.push_back(part.T_target_part.inverse() * T_target_points);
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSample);
-  const auto limit_sq = static_cast<float>(distance * distance);
-  const auto isNear = [&](const Eigen::Vector3d& p) {
-    for (std::size_t k = 0; k < target.size(); ++k) {
-      const Eigen::Vector3f q = (T_part_points[k] * p).cast<float>();
-      if (target[k].tree->nearest(q, limit_sq).index >= 0)
-        return true;
-    }
-    return false;
-  };
-  std::vector<Count> counts((points.size() + kBlockSize - 1) / kBlockSize);
-  parallelBlocks(points.size(), kBlockSize, num_threads, [&](const Block& block) {
-    Count& count = counts[block.index];
-    for (std::size_t i = block.begin; i < block.end; ++i) {
-      if (i % stride != 0 || !points[i].allFinite())
-        continue;
-      ++count.finite;
-      count.near += isNear(points[i].cast<double>());
-    }
-  });
-  Count all;
-  for (const Count& count : counts) {
-    all.finite += count.finite;
-    all.near += count.near;
-  }
-  return all.finite > 0 ? static_cast<double>(all.near) / all.finite : 0;
+  return shareOf(sampleOf(target, points, T_target_points, distance, num_threads));
+}
+
+AgreementChange
+agreementChange(const IcpTarget& target,
+                const Points& points,
+                const Eigen::Isometry3d& T_target_before,
+                const Eigen::Isometry3d& T_target_after,
+                double distance,
+                double cube,
+                unsigned int num_threads)
+{
+  const Sample before =
+      sampleOf(target, points, T_target_before, distance, num_threads);
+  const Sample after = sampleOf(target, points, T_target_after, distance, num_threads);
+  AgreementChange change{shareOf(before), shareOf(after), 0};
+  std::map<VoxelKey, double> cubes; // what the points of a cube gain beyond their share
+  const double gain = change.after - change.before;
+  for (std::size_t i = 0; i < before.places.size(); ++i)
+    cubes[voxelKey(points[before.places[i]], cube)] +=
+        after.near[i] - before.near[i] - gain;
+  double squares = 0;
+  for (const auto& [key, sum] : cubes)
+    squares += sum * sum;
+  if (!before.places.empty())
+    change.deviation = std::sqrt(squares) / static_cast<double>(before.places.size());
+  return change;
 }
 
 const PointTree&
@@ -64,21 +106,31 @@ MeasuredScan::tree(unsigned int num_threads) const
   return *tree_;
 }
 
-double
-agreementOf(const MeasuredScan& a,
-            const MeasuredScan& b,
-            const Eigen::Isometry3d& T_a_b,
-            double distance,
-            unsigned int num_threads)
+AgreementChange
+agreementChange(const MeasuredScan& a,
+                const MeasuredScan& b,
+                const Eigen::Isometry3d& T_a_b_before,
+                const Eigen::Isometry3d& T_a_b_after,
+                double distance,
+                double cube,
+                unsigned int num_threads)
 {
-  const auto oneWay =
-      [&](const MeasuredScan& to, const MeasuredScan& of, const Eigen::Isometry3d& T) {
-        IcpTargetPart part;
-        part.tree = &to.tree(num_threads);
-        part.points = &to.points();
-        return agreementOf({part}, of.points(), T, distance, num_threads);
-      };
-  return 0.5 * (oneWay(a, b, T_a_b) + oneWay(b, a, T_a_b.inverse()));
+  const auto oneWay = [&](const MeasuredScan& to,
+                          const MeasuredScan& of,
+                          const Eigen::Isometry3d& before,
+                          const Eigen::Isometry3d& after) {
+    IcpTargetPart part;
+    part.tree = &to.tree(num_threads);
+    part.points = &to.points();
+    return agreementChange(
+        {part}, of.points(), before, after, distance, cube, num_threads);
+  };
+  const AgreementChange there = oneWay(a, b, T_a_b_before, T_a_b_after);
+  const AgreementChange back =
+      oneWay(b, a, T_a_b_before.inverse(), T_a_b_after.inverse());
+  return {0.5 * (there.before + back.before),
+          0.5 * (there.after + back.after),
+          0.5 * std::hypot(there.deviation, back.deviation)};
 }
 
 } // namespace pcl6d::slam6d

@@ -18,6 +18,38 @@ agreementOf(const IcpTarget& target,
             double distance,
             unsigned int num_threads);
 
+/** \brief How many points of a scan lie on others at two poses of it. */
+struct AgreementChange {
+  double before = 0;    ///< share at the first pose, in [0, 1]
+  double after = 0;     ///< share at the second pose
+  double deviation = 0; ///< standard deviation of their difference by chance: points of one
+                        ///< cube count as one, as they come to lie on a surface together
+
+  /** \return whether the share fell by more than chance does: 3 standard deviations */
+  bool
+  isLoss() const
+  {
+    return after < before - 3 * deviation;
+  }
+  /** \return whether it rose by more than chance does */
+  bool
+  isGain() const
+  {
+    return after > before + 3 * deviation;
+  }
+};
+
+/** \brief agreementOf() at two poses, over the same points.
+ * \param[in] cube [m] edge of the cubes whose points count as one; > 0 */
+AgreementChange
+agreementChange(const IcpTarget& target,
+                const Points& points,
+                const Eigen::Isometry3d& T_target_before,
+                const Eigen::Isometry3d& T_target_after,
+                double distance,
+                double cube,
+                unsigned int num_threads);
+
 /** \brief All measured points of a scan within the range gate, which tell finer than the
  * reduced ones how well it fits another one. Its tree is built when it is first needed. */
 class MeasuredScan {
@@ -38,13 +70,14 @@ private:
   mutable std::optional<PointTree> tree_;
 };
 
-/** \return the mean of both scans' shares of points that have a point of the other one
- * within a distance [m] */
-double
-agreementOf(const MeasuredScan& a,
-            const MeasuredScan& b,
-            const Eigen::Isometry3d& T_a_b,
-            double distance,
-            unsigned int num_threads);
+/** \brief The same of two scans, the points of each on the other: the mean of both. */
+AgreementChange
+agreementChange(const MeasuredScan& a,
+                const MeasuredScan& b,
+                const Eigen::Isometry3d& T_a_b_before,
+                const Eigen::Isometry3d& T_a_b_after,
+                double distance,
+                double cube,
+                unsigned int num_threads);
 
 } // namespace pcl6d::slam6d

@@ -5,6 +5,7 @@
 #include <pcl6d/graph_relaxation/map_agreement.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -22,14 +23,12 @@ constexpr double kLargestRmsShare = 0.6;
  * 0.627. */
 constexpr double kLargestRmsShareOfPlanes = 0.66;
 
-/** A match must not let fewer points meet than its start did; so much is chance. */
-constexpr double kAgreementTolerance = 0.005;
+/** Points of cubes of so many voxels come to lie on a surface together. */
+constexpr double kCubeVoxels = 16;
 
-/** The same of all measured points of two scans, which say it finer. */
-constexpr double kPairTolerance = 0.003;
-
-/** So much more agreement is clear without a finer look. */
-constexpr double kClearGain = 0.02;
+/** A match that moves the points by a smaller share of the voxel, in the mean square, is not
+ * asked whether fewer of them meet: it is within what the reduction moves them by. */
+constexpr double kNoMotion = 0.25;
 
 /** A smaller correction, as share of max_distance, is always believed. Wrong matches of
  * hku1 (pairwise, or of each third scan) move a scan by 0.57 m and more, by a third of the
@@ -42,6 +41,16 @@ constexpr double kNormalVoxels = 3;
 
 /** So many points of a scan are enough while the pair distance shrinks. */
 constexpr std::size_t kPointsToComeNear = 1500;
+
+/** \return [m] rms way of points from one pose to another */
+double
+motionOf(const Points& points, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to)
+{
+  double sum = 0;
+  for (const auto& p : points)
+    sum += (to * p.cast<double>() - from * p.cast<double>()).squaredNorm();
+  return points.empty() ? 0 : std::sqrt(sum / static_cast<double>(points.size()));
+}
 } // namespace
 
 ScanMatcher::ScanMatcher(const Slam6DOptions& options,
@@ -195,35 +204,33 @@ ScanMatcher::lossOfAgreement(const IcpTarget& target,
                              const Eigen::Isometry3d& to,
                              const Eigen::Vector3d& origin) const
 {
-  const double distance = agreementDistance(parameters_.voxel.value);
-  const auto share = [&](const Eigen::Isometry3d& T) {
-    return agreementOf(target, points.points(), T, distance, options_.num_threads);
-  };
-  const auto loss = [](double at_start, double at_end, const char* of) {
+  const double voxel = parameters_.voxel.value;
+  if (motionOf(points.points(), from, to) < kNoMotion * voxel)
+    return "";
+  const double distance = agreementDistance(voxel), cube = kCubeVoxels * voxel;
+  const auto loss = [](const AgreementChange& change, const char* of) {
     std::ostringstream reason;
     reason.precision(3);
-    reason << of << " fell from " << at_start << " to " << at_end;
+    reason << of << " fell from " << change.before << " to " << change.after;
     return reason.str();
   };
-  const double at_start = share(from), at_end = share(to);
-  if (at_end < at_start - kAgreementTolerance)
-    return loss(at_start, at_end, "agreement");
-  if (at_end > at_start + kClearGain)
+  const AgreementChange all = agreementChange(
+      target, points.points(), from, to, distance, cube, options_.num_threads);
+  if (all.isLoss())
+    return loss(all, "agreement");
+  if (all.isGain())
     return "";
   // Reduced points tell little of small shifts, and the target may lack the scan before.
   Eigen::Isometry3d T_before_world = before_.T_world_scan.inverse();
   T_before_world.translate(origin);
-  const auto pair = [&](const Eigen::Isometry3d& T) {
-    return agreementOf(*before_.measured,
-                       measured,
-                       T_before_world * T,
-                       distance,
-                       options_.num_threads);
-  };
-  const double pair_at_start = pair(from), pair_at_end = pair(to);
-  return pair_at_end < pair_at_start - kPairTolerance
-             ? loss(pair_at_start, pair_at_end, "agreement with the scan before")
-             : "";
+  const AgreementChange pair = agreementChange(*before_.measured,
+                                               measured,
+                                               T_before_world * from,
+                                               T_before_world * to,
+                                               distance,
+                                               cube,
+                                               options_.num_threads);
+  return pair.isLoss() ? loss(pair, "agreement with the scan before") : "";
 }
 
 IcpOptions

@@ -3,10 +3,12 @@
 #include "scan_matcher.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 #include <pcl6d/slam6d/slam6d.h>
+#include <pcl6d/verification/map_verifier.h>
 
 #include <atomic>
 #include <chrono>
@@ -74,6 +76,7 @@ public:
     if (result_.scans.empty())
       throw BadArgument("no scan was added");
     reducePending();
+    prepareVerification();
     const auto start = std::chrono::steady_clock::now();
     const std::size_t total = result_.scans.size();
     takeInRegistered();
@@ -92,7 +95,10 @@ public:
     result_.matching_seconds += spent.count();
     for (std::size_t i = next_; i < total; ++i)
       predict(i);
-    return next_ == total && (improved_ == total || improve());
+    if (next_ < total || (improved_ < total && !improve()))
+      return false;
+    verify();
+    return true;
   }
 
   ProgressCallback progress;
@@ -129,6 +135,38 @@ private:
     const ScanResult& before = result_.scans[i - 1];
     scan.T_world_scan = extrapolateOdometry(
         before.T_world_scan, before.initial_pose, scan.initial_pose);
+  }
+
+  /** Images of the rays of all scans, while their measured points are there. */
+  void
+  prepareVerification()
+  {
+    if (!options_.verify)
+      return;
+    const std::size_t done = verified_.size();
+    verified_.resize(reduced_.size());
+    surfaces_.resize(reduced_.size());
+    parallelFor(reduced_.size() - done, options_.num_threads, [&](std::size_t k) {
+      const std::size_t i = done + k;
+      if (reduced_[i].normals().empty())
+        surfaces_[i].emplace(reduced_[i].points(), matcher_->modelOptions(true));
+      verified_[i] = VerifiedScan(measured_[i].points(),
+                                  surfaces_[i] ? *surfaces_[i] : reduced_[i],
+                                  result_.parameters.voxel.value);
+    });
+  }
+
+  void
+  verify()
+  {
+    if (!options_.verify)
+      return;
+    std::vector<Eigen::Isometry3d> poses;
+    for (const ScanResult& scan : result_.scans)
+      poses.push_back(scan.T_world_scan);
+    MapVerifierOptions options;
+    options.num_threads = options_.num_threads;
+    result_.verification = MapVerifier(verified_, names_, options).verify(poses);
   }
 
   /** Takes back a scan that was just added and could not be reduced. */
@@ -207,6 +245,8 @@ private:
   std::deque<Points> unreduced_;      ///< scans that wait for the parameters
   std::deque<IcpModel> reduced_;      ///< a deque: the matcher refers to its elements
   std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next
+  std::deque<std::optional<IcpModel>> surfaces_; ///< where reduced ones have no normals
+  std::deque<VerifiedScan> verified_;
   std::optional<ScanMatcher> matcher_;
   std::size_t num_registered_ =
       0;                     ///< so many first scans an earlier run has registered

@@ -13,7 +13,7 @@ Slam6DResult::count(ScanState state) const
 bool
 Slam6DResult::trusted() const
 {
-  return floating.empty() &&
+  return floating.empty() && (!verification || verification->trusted()) &&
          count(ScanState::kFixed) + count(ScanState::kMatched) == scans.size();
 }
 
@@ -41,6 +41,7 @@ runResultOf(const Slam6DResult& result,
   }
   for (const std::size_t i : result.floating)
     run.floating.push_back(files.at(i));
+  run.verification = result.verification;
   run.trusted = result.trusted();
   return run;
 }

@@ -1,10 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/** \file The constants of verification and where each comes from. */
+#include <cstddef>
+
+/** \file The constants of verification, and where each comes from. "Fitted" ones come from
+ * `measure_verification` (test/benchmark) on recorded and simulated sets, each tested with
+ * its own set left out; share/doc/trust.md has the table. */
 namespace pcl6d::verification {
 
-/** A scan whose rays contradict a larger share of its own points abstains. */
-constexpr double kAbstainingShare = 0.02;
+/** A scan whose rays contradict a larger share of its own points abstains. Scans with one
+ * origin have 0 to 0.005, keyframes merged over half a metre up to 0.008. */
+constexpr double kAbstainingShare = 0.05;
+
+/** Patches are cubes of so many voxels: a few reduced points of one surface. */
+constexpr double kPatchVoxels = 6;
+
+/** So many points of a scan are looked at: enough for hundreds of patches. */
+constexpr std::size_t kLookedAt = 4000;
+
+/** Contradicted patches of a right link, as share: what things that move, glass and edges
+ * give. Its mean is taken from the links of a run themselves, starting from this one with
+ * the weight of so many patches, and never more than the largest. Fitted: means of the sets
+ * are 0.000 to 0.025. */
+constexpr double kBackground = 0.006, kBackgroundWeight = 100;
+constexpr double kLeastBackground = 0.002, kMostBackground = 0.05;
+
+/** How evenly links share the background: the sum of both parameters of a beta
+ * distribution. Fitted: 40 to 200; small is careful with right links. */
+constexpr double kBackgroundPrecision = 40;
+
+/** Contradicted patches of a wrong link: parameters of a beta distribution of their share.
+ * Fitted to other minima, folds and scans apart: mean 0.42, standard deviation 0.18. */
+constexpr double kWrongFree = 2.75, kWrongConfirmed = 3.8;
+
+/** Odds of a wrong link before anything is looked at: one in ten. */
+constexpr double kPriorOdds = 0.1;
+
+/** Fewer patches say too little to tie scans: by chance the few of a wrong link are all
+ * confirmed. */
+constexpr std::size_t kLeastPatches = 30;
+
+/** A link ties its scans if it is wrong with a smaller probability ... */
+constexpr double kGoodBelow = 0.01;
+/** ... and contradicts the map if it is wrong with a larger one. */
+constexpr double kWrongAbove = 0.9;
+
+/** Cluster covariances are so many times too small, in standard deviations, as errors of a
+ * surface's shape hang together beyond a cube. Fitted to exact truths: 1.1 to 1.4. */
+constexpr double kDeviationFactor = 1.4;
+
+/** Links are not told apart from right ones nearer than this share of a voxel, about a
+ * third of what the reduction moves points by. */
+constexpr double kResolution = 0.1;
+
+/** Surfaces that would move a link by more than so many standard deviations contradict
+ * it. */
+constexpr double kLeavingSigmas = 3;
 
 } // namespace pcl6d::verification

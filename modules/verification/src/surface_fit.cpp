@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <unordered_map>
 #include <vector>
 
 namespace pcl6d {
@@ -96,18 +96,21 @@ clustered(const std::vector<SurfacePair>& pairs,
           double cube,
           const double (&shift)[3])
 {
-  std::map<VoxelKey, Twist> gradients;
+  std::unordered_map<VoxelKey, std::size_t> cubes; // in the order of their first pairs
+  std::vector<Twist> gradients;
   const Eigen::Vector3d offset = cube * Eigen::Vector3d(shift[0], shift[1], shift[2]);
   for (const SurfacePair& pair : pairs) {
     const Twist j = jacobianOf(pair, fit.centroid);
     const double left = pair.residual - j.dot(fit.step);
     const Eigen::Vector3d place = pair.place - fit.centroid + offset;
-    const auto [cubes, is_new] =
-        gradients.try_emplace(voxelKey(place.cast<float>(), cube), Twist::Zero());
-    cubes->second += left * j;
+    const auto [entry, is_new] =
+        cubes.try_emplace(voxelKey(place.cast<float>(), cube), gradients.size());
+    if (is_new)
+      gradients.emplace_back(Twist::Zero());
+    gradients[entry->second] += left * j;
   }
   Matrix6 sum = Matrix6::Zero();
-  for (const auto& [key, gradient] : gradients)
+  for (const Twist& gradient : gradients)
     sum += gradient * gradient.transpose();
   const auto count = static_cast<double>(gradients.size());
   return sum * (count / std::max(count - 6, 1.0));
@@ -115,7 +118,10 @@ clustered(const std::vector<SurfacePair>& pairs,
 
 /** Solves for the step, and gives the covariance of the pose. */
 void
-solve(const std::vector<SurfacePair>& pairs, double cube, SurfaceFit& fit)
+solve(const std::vector<SurfacePair>& pairs,
+      double cube,
+      bool with_covariance,
+      SurfaceFit& fit)
 {
   Matrix6 H = Matrix6::Zero();
   Twist b = Twist::Zero();
@@ -141,6 +147,8 @@ solve(const std::vector<SurfacePair>& pairs, double cube, SurfaceFit& fit)
   const Matrix6 V = unit.asDiagonal() * eigen.vectors;
   const Matrix6 H_inverse = V * inverse.asDiagonal() * V.transpose();
   fit.step = H_inverse * b;
+  if (!with_covariance)
+    return;
   Matrix6 spread = Matrix6::Zero();
   for (const auto& shift : kShifts)
     spread += clustered(pairs, fit, cube, shift) / 4;
@@ -221,7 +229,7 @@ fitSurfaces(const VerifiedScan& first,
   fit.residual = std::sqrt(residual_sq / static_cast<double>(fit.pairs));
   fit.spread = std::sqrt(spread_sq / static_cast<double>(fit.pairs));
   const double voxel = std::max(first.voxel(), second.voxel());
-  solve(found.pairs, options.cube_voxels * voxel, fit);
+  solve(found.pairs, options.cube_voxels * voxel, options.covariance, fit);
   return fit;
 }
 

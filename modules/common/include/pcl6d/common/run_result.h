@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/map_verification.h>
 #include <pcl6d/common/status.h>
 
 #include <Eigen/Geometry>
@@ -186,7 +187,9 @@ struct RunResult {
   std::vector<std::string> floating; ///< files that no link joins to the first scan
   std::size_t map_points = 0;
   bool complete = true; ///< false: interrupted, part of the scans is not registered
-  bool trusted = true;  ///< every scan was matched
+  bool trusted = true;  ///< every scan was matched, and verification is not against it
+  /** by places of scans; none of a run that was interrupted, not verified, or is older */
+  std::optional<MapVerification> verification;
   std::vector<std::string> warnings; ///< what went wrong without touching the poses
   std::string verdict; ///< the same in words, naming what is not to be trusted
 };

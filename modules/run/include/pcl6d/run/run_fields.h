@@ -65,6 +65,23 @@ visitLinkFields(Link& link, Visit&& visit)
   visit("weight", link.weight);
 }
 
+/** \param[in] link a LinkCheck, const or not */
+template <typename Link, typename Visit>
+void
+visitLinkCheckFields(Link& link, Visit&& visit)
+{
+  visit("from", link.from);
+  visit("to", link.to);
+  visit("trust", link.trust);
+  visit("probability_wrong", link.probability_wrong);
+  visit("patches", link.patches);
+  visit("contradicted", link.contradicted);
+  visit("shift", link.shift);
+  visit("deviation", link.deviation);
+  visit("open_directions", link.open_directions);
+  visit("reason", link.reason);
+}
+
 /** \brief The values of the words in files. \throws BadArgument there is no such word */
 inline void
 takeWord(const std::string& word, ScanState& state)
@@ -90,6 +107,11 @@ inline void
 takeWord(const std::string& word, LinkKind& kind)
 {
   kind = linkKindFromName(word);
+}
+inline void
+takeWord(const std::string& word, LinkTrust& trust)
+{
+  trust = linkTrustFromName(word);
 }
 inline void
 takeWord(const std::string& word, LinkVerdict& verdict)

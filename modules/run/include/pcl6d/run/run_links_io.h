@@ -16,6 +16,11 @@ namespace PCL6D_EXPORTS pcl6d {
 void
 writeRunLinks(const std::filesystem::path& path, const std::vector<RunLink>& links);
 
+/** \brief Writes verification.csv, atomically. \param[in] links by the numbers NNN of
+ * their scans \throws IoFailed the file cannot be written \ingroup run */
+void
+writeLinkChecks(const std::filesystem::path& path, const std::vector<LinkCheck>& links);
+
 /** \brief Reads links.csv by the names of its columns; those that do not matter to a graph
  * (reason, distance, overlap, condition, weight) may be missing.
  * \param[in] fault tells what is wrong with a link, or nothing; empty: nothing is

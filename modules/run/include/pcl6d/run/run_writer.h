@@ -42,6 +42,10 @@ public:
   void
   writeGraph(const PoseGraph& graph) const;
 
+  /** \brief verification.csv, if the run was verified. */
+  void
+  writeVerification() const;
+
   /** \brief A scan with its pose as VIEWPOINT into scans/. Thread-safe.
    * \param[in] cloud all fields, in the scan's own frame [m] */
   void

@@ -48,6 +48,7 @@ struct Slam6DOptions {
   /** links that are always looked at, besides those found; each counts as far as the
    * others confirm it */
   std::vector<ScanPair> given_links;
+  bool verify = true; ///< judge the map by the points and rays of its scans, in the end
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/map_verification.h>
 #include <pcl6d/common/pose_graph.h>
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/filters/scan_parameters.h>
@@ -9,6 +10,7 @@
 #include <pcl6d/slam6d/slam6d_options.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,12 +32,14 @@ struct Slam6DResult {
   /** the links that count as measured relative poses, and the final poses */
   PoseGraph graph;
   std::vector<std::size_t> floating; ///< scans that no link joins to the first one
+  std::optional<MapVerification> verification; ///< of the final poses; none if not asked for
 
   /** \return the number of scans in a state */
   std::size_t
   count(ScanState state) const;
 
-  /** \return whether every scan is fixed or matched, and joined to the first one */
+  /** \return whether every scan is fixed or matched and joined to the first one, and the
+   * verification has nothing against the map */
   bool
   trusted() const;
 };

@@ -16,6 +16,7 @@ struct SurfaceFitOptions {
   double max_distance = 0.25; ///< [m] farther pairs are dropped; finite, > 0
   std::size_t points = 1500;  ///< so many of a scan are paired; > 0
   double cube_voxels = 16; ///< points in cubes of so many voxels count as one; > 0
+  bool covariance = true;  ///< false leaves it zero, which takes less time
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

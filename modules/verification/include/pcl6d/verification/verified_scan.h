@@ -13,6 +13,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * Made once, used for all of its links. \ingroup verification */
 class VerifiedScan {
 public:
+  VerifiedScan() = default;
+
   /** \param[in] measured all points of the scan within the range gate, in its frame [m]
    * \param[in] surfaces the reduced points with normals; kept by reference
    * \param[in] voxel [m] of their reduction; > 0
@@ -56,8 +58,8 @@ public:
   abstains() const;
 
 private:
-  const IcpModel* surfaces_;
-  double voxel_;
+  const IcpModel* surfaces_ = nullptr;
+  double voxel_ = 0;
   RayImage rays_;
   double self_contradiction_ = 0;
 };

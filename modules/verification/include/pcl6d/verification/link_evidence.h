@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/map_verification.h>
+#include <pcl6d/verification/surface_fit.h>
+#include <pcl6d/verification/verified_scan.h>
+#include <pcl6d/visibility/sight_evidence.h>
+
+#include <Eigen/Geometry>
+
+#include <string>
+#include <vector>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief What two scans say of their relative pose. */
+struct LinkEvidence {
+  SightEvidence sight; ///< points of each in the rays of the other; empty if both abstain
+  SurfaceFit fit;      ///< of their surfaces, after a few steps towards their best place
+  double voxel = 0;    ///< [m] the larger one
+  bool abstained = false; ///< the rays of one of them say nothing
+
+  /** \return [m] how far the surfaces would move the pairs */
+  double
+  leaving() const
+  {
+    return fit.displacement();
+  }
+  /** \return [m] standard deviation of the place of the pairs: never less than a tenth of
+   * the voxel, below which surfaces of reduced points are not told apart */
+  double
+  deviation() const;
+};
+
+/** \brief Collects the evidence of a link.
+ * \param[in] T_first_second pose of the second scan seen from the first
+ * \param[out] contradictions if given: points of the second scan, in its frame, that the
+ * rays of the first contradict */
+LinkEvidence
+linkEvidence(const VerifiedScan& first,
+             const VerifiedScan& second,
+             const Eigen::Isometry3d& T_first_second,
+             std::vector<Contradiction>* contradictions = nullptr);
+
+/** \brief The judgement on a link. */
+struct LinkOpinion {
+  LinkTrust trust = LinkTrust::kWeak;
+  double probability_wrong = 1; ///< in [0, 1]
+  std::string reason;           ///< in words, with numbers; empty for a good link
+};
+
+/** \brief The share of patches that right links contradict, from the links of a run: the
+ * better half of them, as most links of most runs are right. Between 0.002 and 0.05.
+ * \param[in] links without any: what scans have on average */
+double
+contradictionBackground(const std::vector<LinkEvidence>& links);
+
+/** \brief Judges a link: how much more likely its contradicted patches are of a wrong one
+ * than of a right one, and how many standard deviations its surfaces would leave it by.
+ * \param[in] background of contradictionBackground()
+ * \note Source: share/doc/trust.md \ingroup verification */
+LinkOpinion
+judgeLink(const LinkEvidence& evidence, double background);
+
+} // namespace pcl6d

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
+
+#include <pcl6d/registration/twist.h>
+#include <pcl6d/verification/link_evidence.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pcl6d {
+using namespace verification;
+
+namespace {
+/** A part of the points, evenly. */
+Points
+sampleOf(const Points& points)
+{
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kLookedAt);
+  Points sample;
+  for (std::size_t i = 0; i < points.size(); i += stride)
+    sample.push_back(points[i]);
+  return sample;
+}
+
+SightEvidence
+lookFrom(const VerifiedScan& from,
+         const VerifiedScan& at,
+         const Eigen::Isometry3d& T_from_at,
+         double voxel,
+         std::vector<Contradiction>* contradictions)
+{
+  PlaceUncertainty uncertainty;
+  uncertainty.noise = at.noise();
+  return sightEvidence(from.rays(),
+                       sampleOf(at.surfaces().points()),
+                       T_from_at,
+                       uncertainty,
+                       kPatchVoxels * voxel,
+                       contradictions);
+}
+
+/** Where the surfaces would move a link to, in a few steps, and how well they say it. */
+SurfaceFit
+settled(const VerifiedScan& first,
+        const VerifiedScan& second,
+        const Eigen::Isometry3d& T_first_second,
+        double voxel)
+{
+  constexpr int kSteps = 4;
+  constexpr double kPairVoxels = 1.7; // as matching by planes pairs them
+  SurfaceFitOptions options;
+  options.max_distance = kPairVoxels * voxel;
+  Eigen::Isometry3d T = T_first_second;
+  options.covariance = false;
+  SurfaceFit fit = fitSurfaces(first, second, T, options);
+  Twist moved = fit.step;
+  for (int k = 1; k < kSteps && fit.pairs > 0; ++k) {
+    options.covariance = k + 1 == kSteps;
+    Eigen::Isometry3d motion = motionFromTwist(fit.step);
+    motion = Eigen::Translation3d(fit.centroid) * motion *
+             Eigen::Translation3d(-fit.centroid);
+    T = motion * T;
+    const SurfaceFit next = fitSurfaces(first, second, T, options);
+    if (next.pairs == 0)
+      break;
+    moved += next.step;
+    fit = next;
+  }
+  fit.step = moved;
+  return fit;
+}
+
+double
+logBeta(double a, double b)
+{
+  return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
+}
+
+/** log of the beta-binomial probability of k of n, but for the binomial coefficient. */
+double
+logBetaBinomial(double k, double n, double a, double b)
+{
+  return logBeta(k + a, n - k + b) - logBeta(a, b);
+}
+
+/** Log odds of a wrong link by what the rays contradict. */
+double
+raysAgainst(const SightEvidence& sight, double background)
+{
+  const auto n = static_cast<double>(sight.patches);
+  const auto k = static_cast<double>(sight.contradicted_patches);
+  const double a = background * kBackgroundPrecision;
+  return logBetaBinomial(k, n, kWrongFree, kWrongConfirmed) -
+         logBetaBinomial(k, n, a, kBackgroundPrecision - a);
+}
+
+/** Log odds by the way that the surfaces would move it: nothing up to so many standard
+ * deviations, then as of a normal distribution. */
+double
+surfacesAgainst(const LinkEvidence& evidence)
+{
+  const double sigmas = evidence.leaving() / evidence.deviation();
+  const double beyond = sigmas * sigmas - kLeavingSigmas * kLeavingSigmas;
+  return std::max(0.0, 0.5 * beyond);
+}
+
+std::string
+reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
+{
+  std::ostringstream why; // read by people
+  why.precision(2);
+  if (rays > surfaces)
+    why << "rays go through " << evidence.sight.contradicted_patches << " of "
+        << evidence.sight.patches << " patches of surface";
+  else if (surfaces > 0)
+    why << "surfaces ask for a shift of " << evidence.leaving() << " m, "
+        << evidence.leaving() / evidence.deviation() << " standard deviations";
+  else
+    why << "only " << evidence.sight.patches << " patches of surface in common";
+  return why.str();
+}
+} // namespace
+
+double
+LinkEvidence::deviation() const
+{
+  return std::max(kDeviationFactor * fit.deviation(), kResolution * voxel);
+}
+
+LinkEvidence
+linkEvidence(const VerifiedScan& first,
+             const VerifiedScan& second,
+             const Eigen::Isometry3d& T_first_second,
+             std::vector<Contradiction>* contradictions)
+{
+  LinkEvidence evidence;
+  evidence.voxel = std::max(first.voxel(), second.voxel());
+  evidence.abstained = first.abstains() || second.abstains();
+  if (!first.abstains())
+    evidence.sight +=
+        lookFrom(first, second, T_first_second, evidence.voxel, contradictions);
+  if (!second.abstains())
+    evidence.sight +=
+        lookFrom(second, first, T_first_second.inverse(), evidence.voxel, nullptr);
+  evidence.fit = settled(first, second, T_first_second, evidence.voxel);
+  return evidence;
+}
+
+double
+contradictionBackground(const std::vector<LinkEvidence>& links)
+{
+  std::vector<const SightEvidence*> sights;
+  for (const LinkEvidence& link : links)
+    if (link.sight.patches > 0)
+      sights.push_back(&link.sight);
+  std::sort(sights.begin(),
+            sights.end(),
+            [](const SightEvidence* a, const SightEvidence* b) {
+              return a->contradicted_patches * b->patches <
+                     b->contradicted_patches * a->patches;
+            });
+  double contradicted = kBackground * kBackgroundWeight, all = kBackgroundWeight;
+  for (std::size_t i = 0; i < (sights.size() + 1) / 2; ++i) {
+    contradicted += static_cast<double>(sights[i]->contradicted_patches);
+    all += static_cast<double>(sights[i]->patches);
+  }
+  return std::clamp(contradicted / all, kLeastBackground, kMostBackground);
+}
+
+LinkOpinion
+judgeLink(const LinkEvidence& evidence, double background)
+{
+  const double rays = raysAgainst(evidence.sight, background);
+  const double surfaces = surfacesAgainst(evidence);
+  constexpr double kMostLogOdds = 700; // of a double
+  const double odds = kPriorOdds * std::exp(std::min(rays + surfaces, kMostLogOdds));
+  LinkOpinion opinion;
+  opinion.probability_wrong = odds / (1 + odds);
+  if (opinion.probability_wrong > kWrongAbove)
+    opinion.trust = LinkTrust::kWrong;
+  else if (evidence.abstained)
+    opinion.trust = LinkTrust::kUnverified;
+  else if (opinion.probability_wrong < kGoodBelow &&
+           evidence.sight.patches >= kLeastPatches)
+    opinion.trust = LinkTrust::kGood;
+  if (opinion.trust == LinkTrust::kUnverified)
+    opinion.reason = "the rays of a scan contradict its own points";
+  else if (opinion.trust != LinkTrust::kGood)
+    opinion.reason = reasonOf(evidence, rays, surfaces);
+  return opinion;
+}
+
+} // namespace pcl6d

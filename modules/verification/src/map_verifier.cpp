@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
+
+#include <pcl6d/common/components.h>
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/io/text.h>
+#include <pcl6d/verification/map_verifier.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace pcl6d {
+
+namespace {
+/** Of the scans whose points are nearest, so many are asked how much their rays say. */
+constexpr std::size_t kAsked = 12;
+
+/** So many points of a scan are enough to ask. */
+constexpr std::size_t kAskedPoints = 300;
+
+/** Less speaks too little for a link: the share of the points asked for, both ways. */
+constexpr double kLeastSpeaking = 0.05;
+
+/** Words name so many scans. */
+constexpr std::size_t kMostNamed = 8;
+
+Eigen::Vector3d
+centreOf(const Points& points)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& p : points)
+    sum += p.cast<double>();
+  return points.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(points.size()));
+}
+
+/** \return how many points of a sample the rays speak of */
+std::size_t
+spokenOf(const VerifiedScan& rays, const VerifiedScan& points, const Eigen::Isometry3d& T)
+{
+  const Points& all = points.surfaces().points();
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / kAskedPoints);
+  std::size_t spoken = 0;
+  for (std::size_t i = 0; i < all.size(); i += stride) {
+    const Sight sight = rays.rays()
+                            .look((T * all[i].cast<double>()).cast<float>(),
+                                  static_cast<float>(points.noise()))
+                            .sight;
+    spoken += sight == Sight::kConfirmed || sight == Sight::kFree ? 1 : 0;
+  }
+  return spoken;
+}
+
+std::string
+listed(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
+    text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > kMostNamed
+             ? text + " and " + std::to_string(names.size() - kMostNamed) + " more"
+             : text;
+}
+} // namespace
+
+void
+MapVerifierOptions::validate() const
+{
+  require(links_per_scan > 0, "links_per_scan", links_per_scan, "> 0");
+}
+
+MapVerifier::MapVerifier(const std::deque<VerifiedScan>& scans,
+                         std::vector<std::string> names,
+                         const MapVerifierOptions& options)
+: scans_(scans), names_(std::move(names)), options_(options)
+{
+  options_.validate();
+  require(names_.size() == scans_.size(), "names", names_.size(), "one per scan");
+  for (const VerifiedScan& scan : scans_)
+    centres_.push_back(centreOf(scan.surfaces().points()));
+}
+
+std::size_t
+MapVerifier::speaking(const Pair& pair,
+                      const std::vector<Eigen::Isometry3d>& poses) const
+{
+  const auto [a, b] = pair;
+  const Eigen::Isometry3d T_a_b = poses[a].inverse() * poses[b];
+  return spokenOf(scans_[a], scans_[b], T_a_b) +
+         spokenOf(scans_[b], scans_[a], T_a_b.inverse());
+}
+
+/** Each scan with the one before, and with the earlier ones whose rays say most. */
+std::vector<MapVerifier::Pair>
+MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
+{
+  const std::size_t n = scans_.size();
+  std::vector<std::vector<Pair>> chosen(n);
+  parallelFor(n, options_.num_threads, [&](std::size_t i) {
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t k = 0; k < i; ++k)
+      near.emplace_back((poses[i] * centres_[i] - poses[k] * centres_[k]).norm(), k);
+    const std::size_t asked = std::min(kAsked, near.size());
+    std::partial_sort(near.begin(), near.begin() + static_cast<long>(asked), near.end());
+    near.resize(asked);
+    std::vector<std::pair<std::size_t, std::size_t>> most; // speaking, scan
+    for (const auto& [distance, k] : near)
+      if (k + 1 != i) {
+        const std::size_t count = speaking({k, i}, poses);
+        if (static_cast<double>(count) >= 2 * kLeastSpeaking * kAskedPoints)
+          most.emplace_back(count, k);
+      }
+    std::sort(most.rbegin(), most.rend());
+    if (i > 0)
+      chosen[i].emplace_back(i - 1, i);
+    for (std::size_t k = 0; k < std::min(most.size(), options_.links_per_scan); ++k)
+      chosen[i].emplace_back(most[k].second, i);
+  });
+  std::vector<Pair> pairs;
+  for (const auto& of_scan : chosen)
+    pairs.insert(pairs.end(), of_scan.begin(), of_scan.end());
+  return pairs;
+}
+
+/** Which scans good links join to the largest part of the map. */
+void
+MapVerifier::tie(MapVerification& map) const
+{
+  Components joined(scans_.size());
+  for (const LinkCheck& link : map.links)
+    if (link.trust == LinkTrust::kGood || link.trust == LinkTrust::kUnverified)
+      joined.join(link.from, link.to);
+  std::map<std::size_t, std::size_t> sizes;
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    ++sizes[joined.firstOf(i)];
+  const auto rest = std::max_element(
+      sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
+        return a.second < b.second; // of equals the one with the first scan
+      });
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    ScanCheck& scan = map.scans[i];
+    scan.abstains = scans_[i].abstains();
+    scan.tied = joined.firstOf(i) == rest->first;
+  }
+}
+
+/** \return why a scan is not tied: the link of it that says most */
+std::string
+MapVerifier::reasonFor(std::size_t scan, const MapVerification& map) const
+{
+  const LinkCheck* telling = nullptr;
+  for (const LinkCheck& link : map.links)
+    if ((link.from == scan || link.to == scan) && !link.reason.empty() &&
+        (!telling || link.patches > telling->patches))
+      telling = &link;
+  if (!telling)
+    return "no other scan sees the same surfaces";
+  const std::size_t other = telling->from == scan ? telling->to : telling->from;
+  return "with " + names_[other] + ": " + telling->reason;
+}
+
+void
+MapVerifier::doubt(MapVerification& map) const
+{
+  std::vector<std::string> loose, abstaining, contradicted;
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    ScanCheck& scan = map.scans[i];
+    if (scan.abstains)
+      abstaining.push_back(names_[i]);
+    if (scan.tied)
+      continue;
+    scan.doubt = reasonFor(i, map);
+    loose.push_back(names_[i]);
+  }
+  for (const LinkCheck& link : map.links)
+    if (link.trust == LinkTrust::kWrong && map.scans[link.from].tied &&
+        map.scans[link.to].tied) {
+      contradicted.push_back(names_[link.from] + " and " + names_[link.to] + " (" +
+                             link.reason + ")");
+      for (const std::size_t i : {link.from, link.to})
+        if (map.scans[i].doubt.empty())
+          map.scans[i].doubt = "contradicts " +
+                               names_[i == link.from ? link.to : link.from] + ": " +
+                               link.reason;
+    }
+  if (!loose.empty())
+    map.doubts.push_back(
+        text::counted(loose.size(), "scan") + " not tied to the rest: " + listed(loose) +
+        " (" + map.scans[static_cast<std::size_t>(std::distance(
+                   names_.begin(),
+                   std::find(names_.begin(), names_.end(), loose.front())))].doubt +
+        "); better initial poses or scans in between would help");
+  if (!contradicted.empty())
+    map.doubts.push_back("scans contradict each other: " + listed(contradicted));
+  if (!abstaining.empty())
+    map.doubts.push_back(
+        text::counted(abstaining.size(), "scan") +
+        " cannot be verified, as the rays contradict its own points (merged scans, motion "
+        "during the scan, wrong origin?): " +
+        listed(abstaining));
+  const bool is_doubtful = !loose.empty() || !contradicted.empty();
+  map.trust = is_doubtful                                 ? MapTrust::kDoubtful
+              : scans_.size() < 2 || !abstaining.empty() ? MapTrust::kUnverified
+                                                          : MapTrust::kGood;
+}
+
+MapVerification
+MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
+{
+  require(T_world_scan.size() == scans_.size(),
+          "poses",
+          T_world_scan.size(),
+          "one per scan");
+  const std::vector<Pair> pairs = choosePairs(T_world_scan);
+  evidence_.assign(pairs.size(), {});
+  parallelFor(pairs.size(), options_.num_threads, [&](std::size_t k) {
+    const auto [a, b] = pairs[k];
+    evidence_[k] = linkEvidence(
+        scans_[a], scans_[b], T_world_scan[a].inverse() * T_world_scan[b]);
+  });
+  MapVerification map;
+  map.scans.resize(scans_.size());
+  map.background = contradictionBackground(evidence_);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const LinkOpinion opinion = judgeLink(evidence_[k], map.background);
+    LinkCheck& link = map.links.emplace_back();
+    link.from = pairs[k].first;
+    link.to = pairs[k].second;
+    link.trust = opinion.trust;
+    link.probability_wrong = opinion.probability_wrong;
+    link.patches = evidence_[k].sight.patches;
+    link.contradicted = evidence_[k].sight.contradicted_patches;
+    link.shift = evidence_[k].leaving();
+    link.deviation = evidence_[k].deviation();
+    link.open_directions = evidence_[k].fit.open_directions;
+    link.reason = opinion.reason;
+  }
+  if (scans_.empty())
+    return map;
+  tie(map);
+  doubt(map);
+  return map;
+}
+
+} // namespace pcl6d

@@ -28,6 +28,7 @@ constexpr double kDepth = 4.6;
 constexpr double kSouth = -2.4;
 constexpr double kHeight = 2.6;
 constexpr double kPane = 0.012; // [m] thick
+constexpr double kInto = 0.03;  // [m] by which panes reach into what holds them
 constexpr double kPost = 0.1;   // [m] of steel posts between panes
 constexpr double kDoorWidth = 1.1;
 constexpr double kDoorHeight = 2.1;
@@ -42,10 +43,10 @@ void
 addPane(SimulationScene& scene,
         const Eigen::Isometry3d& start,
         double length,
-        double low = 0)
+        double low = -kInto)
 {
   TriangleScene pane;
-  addBox(pane, {0, -kPane / 2, low}, {length, kPane / 2, kHeight}, kGlass);
+  addBox(pane, {0, -kPane / 2, low}, {length, kPane / 2, kHeight + kInto}, kGlass);
   scene.addObject("pane", pane, start);
 }
 
@@ -58,7 +59,7 @@ addFront(SimulationScene& scene, int room)
   const double behind = door + kDoorWidth;
   addPane(scene, building::squarePose(begin, 0, 0), door - begin);
   addPane(scene, building::squarePose(door, 0, 0), kDoorWidth, kDoorHeight);
-  addPane(scene, building::squarePose(behind, 0, 0), begin + kPitch - behind);
+  addPane(scene, building::squarePose(behind, 0, 0), begin + kPitch + kInto - behind);
 }
 
 void
@@ -73,7 +74,7 @@ addPartitions(SimulationScene& scene)
               {{x, 0}, {x, kDepth}, kPost, -kHalf, kHeight + kHalf, {}},
               building::plaster());
     else if (room > 0)
-      addPane(scene, building::squarePose(x, 0, 1), kDepth);
+      addPane(scene, building::squarePose(x, 0, 1), kDepth + kInto);
     addBox(scene.geometry, {x - kHalf, -kHalf, 0}, {x + kHalf, kHalf, kHeight}, kSteel);
   }
 }

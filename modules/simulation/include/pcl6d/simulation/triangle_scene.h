@@ -24,7 +24,8 @@ struct Surface {
   std::uint32_t plane = 0;  ///< id of its plane; 0: none
   bool is_solid = true;     ///< whoever sees it from behind is inside a body
   /** Glass: share of the rays onto its front that go through it, straight on, in [0, 1];
-   * the others return from it. From behind, inside the pane, all go through. */
+   * the others return from it. From behind, inside the pane, all go through. A pane has to
+   * reach into what holds it: where faces just touch, rays may slip between them. */
   double transmittance = 0;
 };
 

@@ -30,7 +30,7 @@ constexpr std::array<Entry, 11> kScenes = {
       "a square between houses where people walk and cars drive; a loop of 80 m",
       crowdScene},
      {"glass",
-      "offices with glass partitions, which send back one ray in five; a way of 55 m",
+      "offices with glass partitions, which send back one ray in five; a loop of 50 m",
       glassScene},
      {"mine",
       "a drift with rough rock, timber supports and boulders; a loop of 130 m that "
@@ -48,15 +48,16 @@ constexpr std::array<Entry, 11> kScenes = {
       "closed; another seed is another flat",
       roomsScene},
      {"shelves",
-      "a storage hall: rows of shelves whose bays repeat every metre; a way of 95 m",
+      "a storage hall: rows of shelves whose bays repeat every metre; a loop of 90 m",
       shelvesScene},
      {"tunnel",
       "a straight tunnel without any feature along it, whose ends are out of sight; "
       "there and back, 115 m",
       tunnelScene},
      {"twins",
-      "four rooms along a corridor, equal to the last chair; a way of 70 m through all "
-      "of them",
+      "four rooms along a corridor, equal to the last chair; a loop of 70 m through "
+      "all "
+      "all of them",
       twinsScene}}};
 
 const Entry&

@@ -56,7 +56,6 @@ constexpr std::array<Entry, 11> kScenes = {
       tunnelScene},
      {"twins",
       "four rooms along a corridor, equal to the last chair; a loop of 70 m through "
-      "all "
       "all of them",
       twinsScene}}};
 

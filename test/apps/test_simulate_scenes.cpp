@@ -121,7 +121,16 @@ TEST(SimulateScenes, PointsLieOnThePlanesAndObjectsOfTheTruth)
 TEST(SimulateScenes, HaveTheSameBytesForTheSameSeedAndAnyThreads)
 {
   const TempFolder folder;
-  for (const char* scene : {"rooms", "campus", "multilevel", "mine"}) {
+  for (const char* scene : {"rooms",
+                            "campus",
+                            "multilevel",
+                            "mine",
+                            "parking",
+                            "twins",
+                            "tunnel",
+                            "shelves",
+                            "glass",
+                            "crowd"}) {
     SCOPED_TRACE(scene);
     const auto bytes = [&](const std::string& seed, const std::string& threads) {
       const fs::path out = folder / (scene + seed + "_" + threads);
@@ -143,6 +152,25 @@ TEST(SimulateScenes, HaveTheSameBytesForTheSameSeedAndAnyThreads)
     EXPECT_TRUE(bytes("3", "2") == expected);
     EXPECT_TRUE(bytes("3", "8") == expected);
     EXPECT_TRUE(bytes("4", "1") != expected);
+  }
+}
+
+TEST(SimulateScenes, AreListedInTheHelpAndInTheError)
+{
+  const std::string help = simulate({"--help"}).out;
+  for (const char* scene : {"corridor",
+                            "rooms",
+                            "campus",
+                            "multilevel",
+                            "mine",
+                            "parking",
+                            "twins",
+                            "tunnel",
+                            "shelves",
+                            "glass",
+                            "crowd"}) {
+    EXPECT_NE(help.find("\n  " + std::string(scene) + ": "), std::string::npos);
+    pcl6d::test::expectError(simulate({"car park", "-o", "x"}), kName, 2, {scene});
   }
 }
 

@@ -57,6 +57,23 @@ revisits(const Simulator& simulator, double step)
 
 class BuiltInScenes : public testing::TestWithParam<std::string> {
 protected:
+  const Surface&
+  surfaceOf(std::uint32_t triangle) const
+  {
+    const pcl6d::TriangleScene& scene = simulator_.scene().scene();
+    return scene.surfaces[scene.triangles[triangle].surface];
+  }
+
+  // When a sample of the i-th scan was measured [s].
+  double
+  timeOf(std::size_t i, std::size_t sample) const
+  {
+    const int per_line = simulator_.scanner().samplesPerLine();
+    const int k = static_cast<int>(sample);
+    return simulator_.truth().stamps[i] +
+           simulator_.scanner().time(k / per_line, k % per_line);
+  }
+
   const SimulationScene scene_ = builtInScene(GetParam());
   const Simulator simulator_{scene_, exactOptions(scene_, 6)};
 };
@@ -64,7 +81,7 @@ protected:
 
 TEST_P(BuiltInScenes, AreSeenFromTheFrontOnly)
 {
-  const pcl6d::TriangleScene& geometry = scene_.geometry;
+  const pcl6d::MovingScene& scene = simulator_.scene();
   for (std::size_t i = 0; i < simulator_.size(); ++i) {
     const auto scan = simulator_.rangeScan(i);
     const auto cloud = simulator_.scan(i);
@@ -76,7 +93,10 @@ TEST_P(BuiltInScenes, AreSeenFromTheFrontOnly)
       if (!std::isfinite(cloud[k].x))
         continue;
       const Eigen::Vector3d ray = R * cloud[k].getVector3fMap().cast<double>();
-      behind += geometry.normal(scan.samples[k].triangle).dot(ray) > 1e-3 * ray.norm();
+      const std::uint32_t triangle = scan.samples[k].triangle;
+      const Eigen::Vector3d normal = scene.poseOf(triangle, timeOf(i, k)).linear() *
+                                     scene.scene().normal(triangle);
+      behind += normal.dot(ray) > 1e-3 * ray.norm();
       ++hits;
     }
     EXPECT_EQ(behind, 0) << "scan " << i;
@@ -100,9 +120,7 @@ TEST_P(BuiltInScenes, KnowThePlaneOfEveryPoint)
     for (std::size_t k = 0; k < cloud.size(); ++k) {
       if (!std::isfinite(cloud[k].x))
         continue;
-      const auto triangle = scan.samples[k].triangle;
-      const Surface& surface =
-          scene_.geometry.surfaces[scene_.geometry.triangles[triangle].surface];
+      const Surface& surface = surfaceOf(scan.samples[k].triangle);
       if (surface.plane == 0)
         continue;
       ++on_planes;
@@ -127,13 +145,15 @@ TEST_P(BuiltInScenes, KnowTheObjectOfEveryPoint)
       if (!std::isfinite(cloud[k].x))
         continue;
       const auto triangle = scan.samples[k].triangle;
-      const Surface& surface =
-          scene_.geometry.surfaces[scene_.geometry.triangles[triangle].surface];
+      const Surface& surface = surfaceOf(triangle);
       if (surface.object == 0)
         continue;
       const auto& object = objects.at(surface.object - 1);
-      const Eigen::Vector3d p = object.T_world_object.inverse() *
-                                simulator_.truth().poses[i] *
+      const Eigen::Isometry3d T_world_object =
+          object.moves ? simulator_.sceneFromWorld().inverse() *
+                             simulator_.scene().poseOf(triangle, timeOf(i, k))
+                       : object.T_world_object;
+      const Eigen::Vector3d p = T_world_object.inverse() * simulator_.truth().poses[i] *
                                 cloud[k].getVector3fMap().cast<double>();
       ASSERT_LT(object.box.exteriorDistance(p), 1e-5) << object.object_class;
     }

@@ -137,9 +137,10 @@ TEST(BuiltInScene, UnknownNameListsTheKnownOnes)
     pcl6d::builtInScene("cathedral");
     FAIL() << "nothing thrown";
   } catch (const pcl6d::BadArgument& e) {
-    EXPECT_STREQ(
-        e.what(),
-        "no scene 'cathedral'; known: corridor, campus, mine, multilevel, rooms");
+    EXPECT_STREQ(e.what(),
+                 "no scene 'cathedral'; known: corridor, campus, crowd, glass, mine, "
+                 "multilevel, "
+                 "parking, rooms, shelves, tunnel, twins");
   }
   for (const auto& name : pcl6d::builtInSceneNames())
     EXPECT_EQ(pcl6d::builtInScene(name).name, name);

@@ -82,6 +82,21 @@ protected:
 };
 } // namespace
 
+TEST_F(SceneFile, HoldsGlass)
+{
+  const auto most = [](const SimulationScene& scene) {
+    double transmittance = 0;
+    for (const auto& surface : scene.geometry.surfaces)
+      transmittance = std::max(transmittance, surface.transmittance);
+    return transmittance;
+  };
+  EXPECT_EQ(most(read(kYard)), 0);
+  EXPECT_EQ(most(read(replaced(kYard,
+                               "\"reflectance\": 0.4",
+                               "\"reflectance\": 0.1, \"transmittance\": 0.7"))),
+            0.7);
+}
+
 TEST_F(SceneFile, HoldsAllKindsOfBodies)
 {
   const SimulationScene scene = read(kYard);
@@ -168,6 +183,8 @@ TEST_F(SceneFile, NamesWhatIsWrongAndWhere)
       "door");
   expectRefused(replaced(kYard, "\"reflectance\": 0.4", "\"reflectance\": 4"),
                 "/materials/brick/reflectance: 4.000000, but must be in [0, 1]");
+  expectRefused(replaced(kYard, "\"reflectance\": 0.4", "\"transmittance\": -0.5"),
+                "/materials/brick/transmittance: -0.500000, but must be in [0, 1]");
   expectRefused(replaced(kYard, "\"material\": \"stone\"", "\"material\": \"mud\""),
                 "/bodies/0/material: no material 'mud' in /materials");
   expectRefused(

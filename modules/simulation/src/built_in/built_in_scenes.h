@@ -14,12 +14,30 @@ SimulationScene
 corridorScene(std::uint64_t seed);
 
 SimulationScene
+crowdScene(std::uint64_t seed);
+
+SimulationScene
+glassScene(std::uint64_t seed);
+
+SimulationScene
 mineScene(std::uint64_t seed);
 
 SimulationScene
 multilevelScene(std::uint64_t seed);
 
 SimulationScene
+parkingScene(std::uint64_t seed);
+
+SimulationScene
 roomsScene(std::uint64_t seed);
+
+SimulationScene
+shelvesScene(std::uint64_t seed);
+
+SimulationScene
+tunnelScene(std::uint64_t seed);
+
+SimulationScene
+twinsScene(std::uint64_t seed);
 
 } // namespace pcl6d::simulation

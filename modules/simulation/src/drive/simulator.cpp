@@ -12,8 +12,8 @@
 
 namespace pcl6d {
 namespace {
-constexpr double kTopSpeed = 50;   // [m/s]
-constexpr double kUsualSpeed = 1;  // [m/s]
+constexpr double kHighestSpeed = 50; // [m/s]
+constexpr double kUsualSpeed = 1;    // [m/s]
 constexpr double kSpareTime = 0.9; // share of the time from scan to scan that one takes
 
 // What the seed is split for, so that more scans do not change the odometry's noise.
@@ -64,7 +64,7 @@ SimulationOptions::validate() const
 {
   require(
       num_scans >= 1 && num_scans <= 100000, "num_scans", num_scans, "in [1, 100000]");
-  require(!speed || (*speed > 0 && *speed <= kTopSpeed),
+  require(!speed || (*speed > 0 && *speed <= kHighestSpeed),
           "speed",
           speed.value_or(0),
           "in (0, 50] m/s");

@@ -5,13 +5,43 @@
 
 namespace pcl6d {
 namespace {
+// The first surface that a ray does not go through. \param[in] goesThrough called with
+// each surface in its way: the hit, the surface and its number from 0
+template <typename Decide>
+std::optional<RayHit>
+firstReturn(const SceneView& view,
+            const Ray& ray,
+            double time,
+            const Decide& goesThrough)
+{
+  constexpr double kBeyond = 1e-6; // [m] behind a surface that the ray went through
+  double gone = 0;
+  for (std::uint64_t n = 0;; ++n) {
+    auto hit = view.cast({ray.origin + gone * ray.direction, ray.direction}, time);
+    if (!hit)
+      return hit;
+    hit->range += gone;
+    if (!goesThrough(*hit, view.surface(hit->triangle), n))
+      return hit;
+    gone = hit->range + kBeyond;
+  }
+}
+
+// A number in [0, 1) that depends on the key alone.
+double
+shareOf(std::uint64_t key)
+{
+  return static_cast<double>(mixBits(key) >> 11) * 0x1.0p-53;
+}
+
 // Takes one sample after the other.
 class Sampler {
 public:
   Sampler(const SceneView& view,
           const ScannerModel& scanner,
-          const RangeErrorModel& model)
-  : view_(view), scanner_(scanner), model_(model)
+          const RangeErrorModel& model,
+          std::uint64_t line_key)
+  : view_(view), scanner_(scanner), model_(model), pane_key_(mixBits(~line_key))
   {}
 
   RangeSample
@@ -20,16 +50,26 @@ public:
     const Ray axis = scanner_.ray(line, sample);
     const double time = scanner_.time(line, sample);
     echoes_.clear();
-    for (int i = 0; i < model_.numRays(); ++i)
-      castRay(model_.ray(axis, i), time);
+    for (int i = 0; i < model_.numRays(); ++i) {
+      const auto number = static_cast<std::uint64_t>(sample) *
+                              static_cast<std::uint64_t>(model_.numRays()) +
+                          static_cast<std::uint64_t>(i);
+      castRay(model_.ray(axis, i), time, mixBits(pane_key_ ^ number));
+    }
     return model_.measure(echoes_, random);
   }
 
 private:
+  // \param[in] key of what panes do with the ray: numbers of its own, so that they leave
+  // the noise as it is
   void
-  castRay(const Ray& ray, double time)
+  castRay(const Ray& ray, double time, std::uint64_t key)
   {
-    const auto hit = view_.cast(ray, time);
+    const auto hit = firstReturn(
+        view_, ray, time, [key](const RayHit& at, const Surface& pane, auto n) {
+          return pane.transmittance > 0 &&
+                 (at.is_from_behind || shareOf(key ^ n) < pane.transmittance);
+        });
     if (!hit || !isLit(ray.origin + hit->range * ray.direction, time))
       return;
     const double reflectance = view_.surface(hit->triangle).reflectance;
@@ -50,13 +90,20 @@ private:
       return false;
     const Eigen::Vector3d position = source->position();
     const double way = (point - position).norm();
-    const auto first = view_.cast({position, (point - position) / way}, time);
+    const auto first =
+        firstReturn(view_,
+                    {position, (point - position) / way},
+                    time,
+                    [](const RayHit&, const Surface& pane, auto) {
+                      return pane.transmittance > 0; // no shadow of panes
+                    });
     return !first || first->range > way - kSameSurface;
   }
 
   const SceneView& view_;
   const ScannerModel& scanner_;
   const RangeErrorModel& model_;
+  std::uint64_t pane_key_;
   std::vector<Echo> echoes_;
 };
 } // namespace
@@ -74,8 +121,9 @@ castScan(const SceneView& view,
   scan.samples.resize(num_lines * per_line);
   const std::uint64_t scan_key = mixBits(mixBits(options.seed) ^ scan_index);
   parallelFor(num_lines, options.num_threads, [&](std::size_t line) {
-    Random random(mixBits(scan_key ^ line)); // its own numbers, whoever does the line
-    Sampler sampler(view, scanner, model);
+    const std::uint64_t line_key = mixBits(scan_key ^ line);
+    Random random(line_key); // its own numbers, whoever does the line
+    Sampler sampler(view, scanner, model, line_key);
     for (std::size_t i = 0; i < per_line; ++i)
       scan.samples[line * per_line + i] =
           sampler.measure(static_cast<int>(line), static_cast<int>(i), random);

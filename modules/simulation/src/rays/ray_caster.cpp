@@ -193,7 +193,7 @@ RayCaster::cast(const Ray& ray, double max_range) const
   const Eigen::Vector3f origin = (outside + advance * ray.direction).cast<float>();
   const Eigen::Vector3f direction = ray.direction.cast<float>();
 
-  Candidates candidates{{}, &test, advance, {kInfinity, 0, 1}};
+  Candidates candidates{{}, &test, advance, {kInfinity, 0, 1, false}};
   rtcInitIntersectContext(&candidates.context);
   RTCRayHit query{};
   query.ray = {origin.x(),
@@ -214,8 +214,9 @@ RayCaster::cast(const Ray& ray, double max_range) const
   RayHit hit = candidates.best;
   if (!(hit.range <= max_range) || hit.range == kInfinity)
     return std::nullopt;
-  hit.cos_incidence =
-      std::min(1.0, std::abs(impl_->scene.normal(hit.triangle).dot(ray.direction)));
+  const double cosine = impl_->scene.normal(hit.triangle).dot(ray.direction);
+  hit.cos_incidence = std::min(1.0, std::abs(cosine));
+  hit.is_from_behind = cosine > 0;
   return hit;
 }
 

@@ -75,10 +75,13 @@ BodyReader::readMaterials(JsonObject& json)
     JsonObject material = materials.object(name);
     Surface surface;
     surface.name = name;
-    material.read("reflectance", surface.reflectance);
-    if (!(surface.reflectance >= 0 && surface.reflectance <= 1))
-      material.fail("reflectance",
-                    std::to_string(surface.reflectance) + ", but must be in [0, 1]");
+    for (const auto& [key, share] :
+         {std::pair{"reflectance", &surface.reflectance},
+          std::pair{"transmittance", &surface.transmittance}}) {
+      material.read(key, *share);
+      if (!(*share >= 0 && *share <= 1))
+        material.fail(key, std::to_string(*share) + ", but must be in [0, 1]");
+    }
     surface.label = readLabel(material);
     material.finish();
     materials_[name] = surface;

@@ -18,7 +18,7 @@ struct Entry {
   const char* description;
   SimulationScene (*make)(std::uint64_t seed);
 };
-constexpr std::array<Entry, 5> kScenes = {
+constexpr std::array<Entry, 11> kScenes = {
     {{"corridor",
       "four furnished rooms, four corridors, two ramps; a loop of 55 m",
       corridorScene},
@@ -26,6 +26,12 @@ constexpr std::array<Entry, 5> kScenes = {
       "streets between houses on hilly ground, with trees, parked cars, people and "
       "lamps; a way of 1 km with five loops",
       campusScene},
+     {"crowd",
+      "a square between houses where people walk and cars drive; a loop of 80 m",
+      crowdScene},
+     {"glass",
+      "offices with glass partitions, which send back one ray in five; a loop of 50 m",
+      glassScene},
      {"mine",
       "a drift with rough rock, timber supports and boulders; a loop of 130 m that "
       "climbs and falls",
@@ -33,10 +39,25 @@ constexpr std::array<Entry, 5> kScenes = {
      {"multilevel",
       "two storeys, joined by a ramp and by stairs; a loop of 120 m over both",
       multilevelScene},
+     {"parking",
+      "an underground car park that looks the same after half a turn, apart from three "
+      "vans, a door and a pipe; a loop of 100 m",
+      parkingScene},
      {"rooms",
       "a flat: rooms with tables, chairs and shelves along a hall, doors open and "
       "closed; another seed is another flat",
-      roomsScene}}};
+      roomsScene},
+     {"shelves",
+      "a storage hall: rows of shelves whose bays repeat every metre; a loop of 90 m",
+      shelvesScene},
+     {"tunnel",
+      "a straight tunnel without any feature along it, whose ends are out of sight; "
+      "there and back, 115 m",
+      tunnelScene},
+     {"twins",
+      "four rooms along a corridor, equal to the last chair; a loop of 70 m through "
+      "all of them",
+      twinsScene}}};
 
 const Entry&
 entryOf(const std::string& name)

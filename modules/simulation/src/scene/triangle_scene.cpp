@@ -29,6 +29,14 @@ validateTriangle(const TriangleScene& scene, std::uint32_t index)
   if (!(areaVector(scene, index).squaredNorm() > 0))
     throw BadArgument(name + "area is zero, but must be > 0");
 }
+
+void
+validateShare(const Surface& surface, const char* name, double share)
+{
+  if (!(share >= 0 && share <= 1))
+    throw BadArgument("surface " + surface.name + ": " + name + " = " +
+                      std::to_string(share) + ", but must be in [0, 1]");
+}
 } // namespace
 
 std::uint32_t
@@ -58,11 +66,10 @@ TriangleScene::validate() const
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (!vertices[i].allFinite())
       throw BadArgument("vertex " + std::to_string(i) + " is not finite");
-  for (const auto& surface : surfaces)
-    if (!(surface.reflectance >= 0 && surface.reflectance <= 1))
-      throw BadArgument("surface " + surface.name +
-                        ": reflectance = " + std::to_string(surface.reflectance) +
-                        ", but must be in [0, 1]");
+  for (const auto& surface : surfaces) {
+    validateShare(surface, "reflectance", surface.reflectance);
+    validateShare(surface, "transmittance", surface.transmittance);
+  }
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
     validateTriangle(*this, i);
 }

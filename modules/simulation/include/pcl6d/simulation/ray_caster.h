@@ -40,7 +40,8 @@ private:
 struct RayHit {
   double range = 0; ///< [m] along the ray
   std::uint32_t triangle = 0;
-  double cos_incidence = 1; ///< |cosine| between ray and surface normal, in [0, 1]
+  double cos_incidence = 1;    ///< |cosine| between ray and surface normal, in [0, 1]
+  bool is_from_behind = false; ///< the ray came in against the triangle's back
 };
 
 /** \brief Finds the first triangle along a ray.

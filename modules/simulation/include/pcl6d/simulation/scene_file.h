@@ -13,7 +13,8 @@
  * {
  *   "name": "yard",                        // all but bodies and waypoints may be missing
  *   "scans": 60, "max_range": 40,          // what suits the scene; [m]
- *   "materials": {"brick": {"reflectance": 0.4, "label": "wall"}},
+ *   "materials": {"brick": {"reflectance": 0.4, "label": "wall"},
+ *                 "glass": {"reflectance": 0.15, "transmittance": 0.8}},
  *   "bodies": [
  *     {"type": "terrain", "low": [-50, -50], "high": [50, 50], "amplitude": 1},
  *     {"type": "box", "material": "brick", "centre": [5, 0, 1], "size": [2, 3, 2]},

@@ -60,8 +60,8 @@ builtInSceneDescription(const std::string& name);
 /** \brief A scene that comes with the suite: "corridor", a loop of 55 m through four
  * furnished rooms and four corridors, two of them ramps between floors at 0 m and 0.7 m;
  * the others: builtInSceneDescription().
- * \param[in] seed of what is random in a scene, such as rooms and furniture; corridor
- * and multilevel are always the same
+ * \param[in] seed of what is random in a scene, such as rooms and furniture; corridor,
+ * multilevel, twins, tunnel, shelves and glass are always the same
  * \throws BadArgument unknown name; the message lists the known ones \ingroup simulation
  */
 SimulationScene

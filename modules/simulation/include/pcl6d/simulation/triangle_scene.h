@@ -23,6 +23,10 @@ struct Surface {
   std::uint32_t object = 0; ///< id of the object that it belongs to; 0: none
   std::uint32_t plane = 0;  ///< id of its plane; 0: none
   bool is_solid = true;     ///< whoever sees it from behind is inside a body
+  /** Glass: share of the rays onto its front that go through it, straight on, in [0, 1];
+   * the others return from it. From behind, inside the pane, all go through. A pane has to
+   * reach into what holds it: where faces just touch, rays may slip between them. */
+  double transmittance = 0;
 };
 
 /** \brief Three corners and the surface that they belong to, as indices. */
@@ -61,8 +65,8 @@ struct TriangleScene {
   normal(std::uint32_t triangle) const;
 
   /** \throws BadArgument naming the first vertex, triangle or surface that breaks a
-   * rule: coordinates finite, indices in range, area above zero, reflectance in [0, 1]
-   */
+   * rule: coordinates finite, indices in range, area above zero, reflectance and
+   * transmittance in [0, 1] */
   void
   validate() const;
 };

@@ -64,17 +64,21 @@ patchOf(const Points& points, const std::vector<Neighbour>& neighbours)
   return patch;
 }
 
-/** \return the smallest patch about the place that is large enough, or the largest */
+/** \return the smallest patch about the place that is large enough; if there is none the
+ * smallest that is no line, or a line */
 Patch
 patchAt(const Points& points, const PointTree& tree, const Eigen::Vector3f& place)
 {
-  Patch patch;
+  Patch best;
+  best.line = true;
   for (const std::size_t count : kNeighbours) {
-    patch = patchOf(points, tree.nearestK(place, count));
+    const Patch patch = patchOf(points, tree.nearestK(place, count));
     if (patch.large_enough)
-      break;
+      return patch;
+    if (best.line)
+      best = patch;
   }
-  return patch;
+  return best;
 }
 } // namespace
 

@@ -6,59 +6,99 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kNeighbours = 48; ///< of a patch, so that it holds several lines
-constexpr std::size_t kPatches = 200;   ///< that are looked at
+/** Neighbours of a patch: the first hold several lines of most scans; more are taken
+ * until the patch is wider than a line and than its noise. */
+constexpr std::array<std::size_t, 3> kNeighbours{48, 192, 768};
+constexpr std::size_t kPatches = 200; ///< that are looked at
 /** So many points are enough: the first ones, as a part of a scan is as noisy as another,
  * but every n-th point would be as far from the next as the surface bends. */
 constexpr std::size_t kMostPoints = 200000;
 /** A patch whose second side is a smaller part of the first is one line of the scan, and
  * shows nothing of the surface beside it. */
 constexpr double kLeastWidth = 0.1;
+/** A patch may still be one line, as wide as the noise: its points lie in one plane with
+ * the scanner. Then its third side is a tiny part of the second, which in a longish patch
+ * is suspect earlier. */
+constexpr double kLongish = 0.5;
+constexpr double kTiny = 0.01;
+constexpr double kTinyOfLongish = 0.1;
+/** A patch whose third side is a larger part of the second is a ball cut out of noise
+ * that is thicker than itself. (Or no surface: then it is one of the rough half.) */
+constexpr double kThick = 0.3;
 
-/** \return variance across the plane of the patch [m^2], of its own degrees of freedom;
- * negative if the patch is a line */
-double
-varianceAcross(const Points& points, const std::array<Neighbour, kNeighbours>& patch)
+/** A patch of points about a place. */
+struct Patch {
+  double variance = 0; ///< across its plane [m^2], of its own degrees of freedom
+  bool line = false;
+  bool large_enough = false; ///< to show the noise
+};
+
+Patch
+patchOf(const Points& points, const std::vector<Neighbour>& neighbours)
 {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Neighbour& n : patch)
-    mean += points[static_cast<std::size_t>(n.index)].cast<double>() / kNeighbours;
+  for (const Neighbour& n : neighbours)
+    mean += points[static_cast<std::size_t>(n.index)].cast<double>();
+  mean /= static_cast<double>(neighbours.size());
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Neighbour& n : patch) {
+  for (const Neighbour& n : neighbours) {
     const Eigen::Vector3d d =
         points[static_cast<std::size_t>(n.index)].cast<double>() - mean;
     scatter += d * d.transpose();
   }
-  constexpr double kFreedom = kNeighbours - 3; // a plane takes three
-  const Eigen::Vector3d values = symmetricEigenvalues<3>(scatter);
-  if (values(1) < kLeastWidth * kLeastWidth * values(2))
-    return -1;
-  return std::max(values(0), 0.0) / kFreedom;
+  const double freedom =
+      static_cast<double>(neighbours.size()) - 3; // of a plane: three
+  const Eigen::Vector3d values = symmetricEigenvalues<3>(scatter).cwiseMax(0.0);
+  const Eigen::Vector3d sides = values.cwiseSqrt(); // ascending
+  Patch patch;
+  patch.variance = values(0) / freedom;
+  patch.line = sides(1) < kLeastWidth * sides(2);
+  const double tiny = sides(1) < kLongish * sides(2) ? kTinyOfLongish : kTiny;
+  const bool may_be_line = sides(0) < tiny * sides(1);
+  patch.large_enough = !patch.line && !may_be_line && sides(0) <= kThick * sides(1);
+  return patch;
+}
+
+/** \return the smallest patch about the place that is large enough; if there is none the
+ * smallest that is no line, or a line */
+Patch
+patchAt(const Points& points, const PointTree& tree, const Eigen::Vector3f& place)
+{
+  Patch best;
+  best.line = true;
+  for (const std::size_t count : kNeighbours) {
+    const Patch patch = patchOf(points, tree.nearestK(place, count));
+    if (patch.large_enough)
+      return patch;
+    if (best.line)
+      best = patch;
+  }
+  return best;
 }
 } // namespace
 
 double
 rangeNoise(const Points& measured)
 {
-  const PointTree tree(measured.size() <= kMostPoints
-                           ? measured
-                           : Points(measured.begin(), measured.begin() + kMostPoints));
-  if (tree.size() < kNeighbours)
+  Points points;
+  for (const auto& p : measured)
+    if (p.allFinite() && points.size() < kMostPoints)
+      points.push_back(p);
+  if (points.size() < kNeighbours.front())
     return 0;
-  const std::size_t count = std::min(measured.size(), kMostPoints);
-  const std::size_t stride = std::max<std::size_t>(1, count / kPatches);
+  const PointTree tree(points);
   std::vector<double> variances;
-  std::array<Neighbour, kNeighbours> patch;
-  for (std::size_t i = 0; i < count; i += stride)
-    if (tree.nearestK(measured[i], kNeighbours, patch.data()) == kNeighbours) {
-      const double variance = varianceAcross(measured, patch);
-      if (variance >= 0)
-        variances.push_back(variance);
-    }
+  for (std::size_t i = 0; i < points.size();
+       i += std::max<std::size_t>(1, points.size() / kPatches)) {
+    const Patch patch = patchAt(points, tree, points[i]);
+    if (!patch.line)
+      variances.push_back(patch.variance);
+  }
   if (variances.empty())
     return 0;
   const auto quarter =

@@ -12,9 +12,9 @@ namespace {
 /** Cells of a level are so many times as wide as those of the finer one. */
 constexpr double kCoarser = 1.5;
 
-/** A cell answers if so many of the nine around it (of those on its face) are measured:
- * 6 of 9. */
-constexpr double kFilled = 2.0 / 3;
+/** A cell answers if so many of the nine around it are measured. (Of the eight at a corner
+ * of the cube, too, where three faces meet.) */
+constexpr int kFilled = 6;
 
 /** A level is of use if so many of its measured cells answer: below, its cells are finer
  * than the pattern of the scan, and what is filled is chance (algorithms.md T.1). */
@@ -48,7 +48,8 @@ rangeOf(std::uint16_t code)
 {
   const float place = (static_cast<float>(code) + 0.5F) / kSteps;
   const float whole = std::floor(place);
-  return std::ldexp(0.5F * (place - whole + 1), static_cast<int>(whole) + kLeastExponent);
+  return std::ldexp(0.5F * (place - whole + 1),
+                    static_cast<int>(whole) + kLeastExponent);
 }
 
 /** The place of a direction on the faces of the cube, in [-1, 1] along u and v. */
@@ -72,9 +73,8 @@ onCube(const Eigen::Vector3f& ray)
   Eigen::Index axis = 0;
   const float length = ray.cwiseAbs().maxCoeff(&axis);
   const auto face = static_cast<std::size_t>(2 * axis + (ray[axis] < 0 ? 1 : 0));
-  return {face,
-          evenly(ray[(axis + 1) % 3] / length),
-          evenly(ray[(axis + 2) % 3] / length)};
+  return {
+      face, evenly(ray[(axis + 1) % 3] / length), evenly(ray[(axis + 2) % 3] / length)};
 }
 
 int
@@ -89,6 +89,27 @@ cellOf(const OnCube& place, int side)
 {
   return static_cast<std::size_t>(cellAlong(place.v, side) * side +
                                   cellAlong(place.u, side));
+}
+
+/** A cell by its face, its row (along v) and its column (along u). */
+struct CellOnCube {
+  std::size_t face;
+  int row, col;
+};
+
+/** \return the cell itself or, of one beyond an edge of its face, the cell of the other
+ * face there: both count the cells along their common edge alike */
+CellOnCube
+acrossEdge(const CellOnCube& cell, int side)
+{
+  // Along the axis of its face the cell is at the border of the face that it comes to.
+  const std::size_t axis = cell.face / 2;
+  const int border = cell.face % 2 == 0 ? side - 1 : 0;
+  if (cell.col < 0 || cell.col >= side)
+    return {2 * ((axis + 1) % 3) + (cell.col < 0 ? 1 : 0), border, cell.row};
+  if (cell.row < 0 || cell.row >= side)
+    return {2 * ((axis + 2) % 3) + (cell.row < 0 ? 1 : 0), cell.col, border};
+  return cell;
 }
 } // namespace
 
@@ -113,10 +134,14 @@ toString(Sight sight)
 void
 RayImageOptions::validate() const
 {
+  constexpr double kNarrowest = 0.0005; // 10 million cells a face
   constexpr double kWidest = 0.5;
   require(origin.allFinite(), "origin", origin.transpose(), "finite");
   require(std::isfinite(noise) && noise >= 0, "noise", noise, "finite and >= 0");
-  require(finest > 0 && finest <= coarsest, "finest", finest, "in (0, coarsest]");
+  require(finest >= kNarrowest && finest <= coarsest,
+          "finest",
+          finest,
+          "in [0.0005, coarsest]");
   require(coarsest <= kWidest, "coarsest", coarsest, "at most 0.5");
 }
 
@@ -127,9 +152,11 @@ RayImage::RayImage(const Points& measured, const RayImageOptions& options)
   constexpr double kFace = 1.5707963267948966; // [rad] width of a face
   Points rays;
   rays.reserve(measured.size());
-  for (const auto& p : measured)
-    if (p.allFinite() && p != origin_)
+  for (const auto& p : measured) {
+    const float range = (p - origin_).norm();
+    if (range > 0 && std::isfinite(range)) // not if the square leaves float
       rays.push_back(p - origin_);
+  }
   if (rays.empty())
     return;
   for (double cell = options.finest; cell <= options.coarsest; cell *= kCoarser) {
@@ -141,12 +168,37 @@ RayImage::RayImage(const Points& measured, const RayImageOptions& options)
   }
 }
 
+RayImage::Interval
+RayImage::halo(const Faces& measured, std::size_t face, int cell, int side)
+{
+  const int row = cell / side, col = cell % side;
+  Interval around;
+  around.nearest = std::numeric_limits<std::uint16_t>::max();
+  int filled = 0;
+  for (int r = row - 1; r <= row + 1; ++r)
+    for (int c = col - 1; c <= col + 1; ++c) {
+      if ((r < 0 || r >= side) && (c < 0 || c >= side))
+        continue; // a corner of the cube
+      const CellOnCube at = acrossEdge({face, r, c}, side);
+      if (measured[at.face].empty())
+        continue;
+      const Interval& one =
+          measured[at.face][static_cast<std::size_t>(at.row * side + at.col)];
+      if (one.nearest == 0)
+        continue;
+      ++filled;
+      around.nearest = std::min(around.nearest, one.nearest);
+      around.farthest = std::max(around.farthest, one.farthest);
+    }
+  return filled >= kFilled ? around : Interval{};
+}
+
 double
 RayImage::fill(const Points& rays, Level& level)
 {
   const int side = level.side;
   const auto cells = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  std::array<std::vector<Interval>, 6> measured;
+  Faces measured;
   for (const auto& ray : rays) {
     const OnCube place = onCube(ray);
     auto& face = measured[place.face];
@@ -154,34 +206,17 @@ RayImage::fill(const Points& rays, Level& level)
       face.resize(cells);
     Interval& interval = face[cellOf(place, side)];
     const std::uint16_t code = codeOf(ray.norm());
-    interval.nearest =
-        interval.nearest == 0 ? code : std::min(interval.nearest, code);
+    interval.nearest = interval.nearest == 0 ? code : std::min(interval.nearest, code);
     interval.farthest = std::max(interval.farthest, code);
   }
   std::size_t occupied = 0, answering = 0;
   for (std::size_t f = 0; f < measured.size(); ++f) {
-    const auto& face = measured[f];
-    level.faces[f].resize(face.size());
-    for (std::size_t cell = 0; cell < face.size(); ++cell) {
-      const int row = static_cast<int>(cell) / side, col = static_cast<int>(cell) % side;
-      Interval around;
-      around.nearest = std::numeric_limits<std::uint16_t>::max();
-      int filled = 0, present = 0;
-      for (int r = std::max(row - 1, 0); r <= std::min(row + 1, side - 1); ++r)
-        for (int c = std::max(col - 1, 0); c <= std::min(col + 1, side - 1); ++c) {
-          const Interval& one = face[static_cast<std::size_t>(r * side + c)];
-          ++present;
-          if (one.nearest == 0)
-            continue;
-          ++filled;
-          around.nearest = std::min(around.nearest, one.nearest);
-          around.farthest = std::max(around.farthest, one.farthest);
-        }
-      const bool answers = filled >= kFilled * present;
-      if (answers)
-        level.faces[f][cell] = around;
-      occupied += face[cell].nearest > 0 ? 1 : 0;
-      answering += face[cell].nearest > 0 && answers ? 1 : 0;
+    level.faces[f].resize(measured[f].size());
+    for (std::size_t cell = 0; cell < measured[f].size(); ++cell) {
+      const Interval around = halo(measured, f, static_cast<int>(cell), side);
+      level.faces[f][cell] = around;
+      occupied += measured[f][cell].nearest > 0 ? 1 : 0;
+      answering += measured[f][cell].nearest > 0 && around.nearest > 0 ? 1 : 0;
     }
   }
   return occupied == 0 ? 0

@@ -18,7 +18,7 @@ constexpr std::size_t kLeastFree = 3;
 struct Witness {
   VoxelKey patch;
   bool free;
-  std::size_t contradiction; ///< place in the list, if there is one and it is free
+  std::size_t contradiction; ///< place in the list, if it is free
 };
 
 double
@@ -31,7 +31,7 @@ shareOf(std::size_t part, std::size_t rest)
 void
 countPatches(std::vector<Witness>& witnesses,
              SightEvidence& evidence,
-             std::vector<Contradiction>* contradictions)
+             std::vector<Contradiction>& contradictions)
 {
   std::stable_sort(
       witnesses.begin(), witnesses.end(), [](const Witness& a, const Witness& b) {
@@ -43,18 +43,18 @@ countPatches(std::vector<Witness>& witnesses,
           return witness.patch != first->patch;
         });
     const auto all = static_cast<std::size_t>(last - first);
-    const auto free = static_cast<std::size_t>(
-        std::count_if(first, last, [](const Witness& witness) { return witness.free; }));
+    const auto free = static_cast<std::size_t>(std::count_if(
+        first, last, [](const Witness& witness) { return witness.free; }));
     const bool contradicted = free >= kLeastFree && 2 * free >= all;
     if (all >= kLeastOfPatch) {
       ++evidence.patches;
       evidence.contradicted_patches += contradicted ? 1 : 0;
       evidence.confirmed_patches += 2 * free < all ? 1 : 0;
     }
-    if (contradictions && contradicted && all >= kLeastOfPatch)
+    if (contradicted && all >= kLeastOfPatch)
       for (; first != last; ++first)
         if (first->free)
-          (*contradictions)[first->contradiction].clear = true;
+          contradictions[first->contradiction].clear = true;
     first = last;
   }
 }
@@ -68,7 +68,9 @@ varianceAlong(const Eigen::Vector3d& place,
   Eigen::Matrix<double, 6, 1> j;
   j.head<3>() = ray.normalized();
   j.tail<3>() = place.cross(j.head<3>());
-  return uncertainty.noise * uncertainty.noise + j.dot(uncertainty.motion * j);
+  // A covariance that is only nearly positive would make it negative by rounding.
+  return uncertainty.noise * uncertainty.noise +
+         std::max(0.0, j.dot(uncertainty.motion * j));
 }
 } // namespace
 
@@ -109,6 +111,8 @@ sightEvidence(const RayImage& image,
   require(std::isfinite(patch) && patch > 0, "patch", patch, "finite and > 0");
   SightEvidence evidence;
   std::vector<Witness> witnesses;
+  // The list of the caller stays as it is if a point throws.
+  std::vector<Contradiction> found;
   for (const auto& p : points) {
     if (!p.allFinite())
       continue;
@@ -135,12 +139,12 @@ sightEvidence(const RayImage& image,
       break;
     }
     ++evidence.free;
-    witnesses.push_back(
-        {voxelKey(p, patch), true, contradictions ? contradictions->size() : 0});
-    if (contradictions)
-      contradictions->push_back({p, seen.beyond, false});
+    witnesses.push_back({voxelKey(p, patch), true, found.size()});
+    found.push_back({p, seen.beyond, false});
   }
-  countPatches(witnesses, evidence, contradictions);
+  countPatches(witnesses, evidence, found);
+  if (contradictions)
+    contradictions->insert(contradictions->end(), found.begin(), found.end());
   return evidence;
 }
 
@@ -148,8 +152,9 @@ double
 selfContradiction(const Points& measured, const Eigen::Vector3f& origin, double noise)
 {
   Points imaged, looked_at;
-  for (std::size_t i = 0; i < measured.size(); ++i)
-    (i % 2 == 0 ? imaged : looked_at).push_back(measured[i]);
+  for (const auto& p : measured)
+    if (p.allFinite())
+      (imaged.size() == looked_at.size() ? imaged : looked_at).push_back(p);
   RayImageOptions options;
   options.origin = origin;
   options.noise = noise;

@@ -27,7 +27,7 @@ toString(Sight sight);
 /** \brief The answer of RayImage::look(). */
 struct SightOfPlace {
   Sight sight = Sight::kUnseen;
-  float beyond = 0; ///< [m] kFree: how far behind the place the nearest ray around it ended
+  float beyond = 0; ///< [m] kFree: how far behind it the nearest ray around it ended
   float sigmas = 0; ///< the same in standard deviations of place and rays
 };
 
@@ -36,9 +36,9 @@ struct RayImageOptions {
   Eigen::Vector3f origin =
       Eigen::Vector3f::Zero(); ///< [m] of the rays, in the scan's frame; finite
   double noise = 0.01;         ///< [m] standard deviation of a range; finite, >= 0
-  double finest = 0.0061;      ///< [rad] smallest cell, 0.35 deg: the halo of such a cell
-                               ///< covers the beam of common scanners; in (0, coarsest]
-  double coarsest = 0.07;      ///< [rad] largest cell, 4 deg; at most 0.5
+  double finest = 0.0061; ///< [rad] smallest cell, 0.35 deg: the halo of such a cell
+                          ///< covers the beam of common scanners; >= 0.0005
+  double coarsest = 0.07; ///< [rad] largest cell, 4 deg; in [finest, 0.5]
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -50,7 +50,8 @@ struct RayImageOptions {
  * Six images on the faces of a cube, so that a direction needs no angle; several sizes of
  * cells, each 1.5 times the one before, of which the finest that is filled around the
  * place answers. A cell counts with its eight neighbours, which makes the edges of things
- * and the width of the beam harmless. About 0.3 MB for each face that the scan looks at.
+ * and the width of the beam harmless, across the edges of the cube, too. About 0.3 MB for
+ * each face that the scan looks at.
  * \note Source: share/doc/trust.md; the halo and the pyramid are algorithms.md T.1.
  * \ingroup visibility */
 class RayImage {
@@ -58,7 +59,7 @@ public:
   RayImage() = default;
 
   /** \param[in] measured all points of the scan, not the reduced ones, in its frame [m];
-   * those that are not finite, or at the origin, are left out
+   * those that are not finite, or at the origin (within 1e-22 m), are left out
    * \throws BadArgument an option breaks its rule */
   explicit RayImage(const Points& measured, const RayImageOptions& options = {});
 
@@ -78,7 +79,7 @@ public:
   {
     return origin_;
   }
-  /** \return [rad] the finest cells in use; 0 without points */
+  /** \return [rad] the finest cells in use; 0 if the points are too few to fill any */
   double
   resolution() const
   {
@@ -91,11 +92,15 @@ private:
     std::uint16_t nearest = 0;
     std::uint16_t farthest = 0;
   };
+  using Faces = std::array<std::vector<Interval>, 6>; ///< empty: nothing was measured
   struct Level {
     double cell = 0; ///< [rad]
     int side = 0;    ///< cells along an edge of a face
-    std::array<std::vector<Interval>, 6> faces; ///< empty where nothing was measured
+    Faces faces;     ///< of each cell what was measured in it and around it
   };
+  /** \return what was measured in a cell and around it; empty if too little */
+  static Interval
+  halo(const Faces& measured, std::size_t face, int cell, int side);
   /** \return the share of measured cells that have enough measured neighbours */
   static double
   fill(const Points& rays, Level& level);

@@ -32,7 +32,7 @@ struct SightEvidence {
   std::size_t unseen = 0;
   std::size_t patches = 0;              ///< with at least 4 points that say something
   std::size_t confirmed_patches = 0;    ///< most of whose points are confirmed
-  std::size_t contradicted_patches = 0; ///< at least 3, and half, of whose points are free
+  std::size_t contradicted_patches = 0; ///< at least 3, and half of whose points, free
 
   /** \brief Adds what is known of other points, such as those of the other way round. */
   SightEvidence&
@@ -73,8 +73,10 @@ sightEvidence(const RayImage& image,
               double patch,
               std::vector<Contradiction>* contradictions = nullptr);
 
-/** \brief How far the rays of a scan contradict its own points, as those of merged scans
- * with several origins do: every second point, looked at in the image of the others.
+/** \brief How far the rays of a scan contradict its own points: every second finite point,
+ * looked at in the image of the others. Points that move, or that stand apart from all
+ * others (rain, dust, sparse leaves), do so. Points of another origin do hardly, if they
+ * are where they belong: what is hidden from this origin lies behind something measured.
  * \return the share of contradicted points, as SightEvidence::contradiction()
  * \param[in] origin [m] of the rays */
 double

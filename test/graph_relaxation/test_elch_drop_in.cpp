@@ -132,7 +132,7 @@ TEST(ElchDropIn, RegistersTheLoopAndSpreadsItsError)
       (Eigen::Isometry3d(elch.getLoopTransform().template cast<double>()).matrix() -
        graph[5].transform.cast<double>().matrix())
           .norm(),
-      kTol);
+      2 * kTol); // PCL moves by the product of two motions, rounded to float
 }
 
 TEST(ElchDropIn, GivesBackWhatWasSet)

@@ -23,20 +23,23 @@ sampleOf(const Points& points)
   return sample;
 }
 
+/** Surfaces are as far apart where they fit best as noise alone does not show: ranges that
+ * are off alike for all points of a wall. */
 SightEvidence
 lookFrom(const VerifiedScan& from,
          const VerifiedScan& at,
          const Eigen::Isometry3d& T_from_at,
          double voxel,
+         const SurfaceFit& fit,
          std::vector<Contradiction>* contradictions)
 {
   PlaceUncertainty uncertainty;
-  uncertainty.noise = at.noise();
+  uncertainty.noise = std::hypot(at.noise(), std::min(fit.residual, kMostMisfit * voxel));
   return sightEvidence(from.rays(),
                        sampleOf(at.surfaces().points()),
                        T_from_at,
                        uncertainty,
-                       kPatchVoxels * voxel,
+                       std::max(kPatchVoxels * voxel, kPatchSpread * fit.spread),
                        contradictions);
 }
 
@@ -95,14 +98,22 @@ raysAgainst(const SightEvidence& sight, double background)
          logBetaBinomial(k, n, a, kBackgroundPrecision - a);
 }
 
-/** Log odds by the way that the surfaces would move it: nothing up to so many standard
- * deviations, then as of a normal distribution. */
+/** Log odds of a shifted link by the way that the surfaces would move it: those of a normal
+ * distribution against a wide one, even at so many standard deviations. */
 double
 surfacesAgainst(const LinkEvidence& evidence)
 {
   const double sigmas = evidence.leaving() / evidence.deviation();
-  const double beyond = sigmas * sigmas - kLeavingSigmas * kLeavingSigmas;
-  return std::max(0.0, 0.5 * beyond);
+  return 0.5 * (sigmas * sigmas - kLeavingSigmas * kLeavingSigmas);
+}
+
+/** \return the probability of a hypothesis by its log odds, with the prior */
+double
+probabilityOf(double log_odds)
+{
+  constexpr double kMost = 700; // of a double
+  const double odds = kPriorOdds * std::exp(std::min(log_odds, kMost));
+  return odds / (1 + odds);
 }
 
 std::string
@@ -110,14 +121,14 @@ reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
 {
   std::ostringstream why; // read by people
   why.precision(2);
-  if (rays > surfaces)
+  if (probabilityOf(std::max(rays, surfaces)) < kGoodBelow)
+    why << "only " << evidence.sight.patches << " patches of surface in common";
+  else if (rays > surfaces)
     why << "rays go through " << evidence.sight.contradicted_patches << " of "
         << evidence.sight.patches << " patches of surface";
-  else if (surfaces > 0)
+  else
     why << "surfaces ask for a shift of " << evidence.leaving() << " m, "
         << evidence.leaving() / evidence.deviation() << " standard deviations";
-  else
-    why << "only " << evidence.sight.patches << " patches of surface in common";
   return why.str();
 }
 } // namespace
@@ -137,13 +148,13 @@ linkEvidence(const VerifiedScan& first,
   LinkEvidence evidence;
   evidence.voxel = std::max(first.voxel(), second.voxel());
   evidence.abstained = first.abstains() || second.abstains();
-  if (!first.abstains())
-    evidence.sight +=
-        lookFrom(first, second, T_first_second, evidence.voxel, contradictions);
-  if (!second.abstains())
-    evidence.sight +=
-        lookFrom(second, first, T_first_second.inverse(), evidence.voxel, nullptr);
   evidence.fit = settled(first, second, T_first_second, evidence.voxel);
+  if (!first.abstains())
+    evidence.sight += lookFrom(
+        first, second, T_first_second, evidence.voxel, evidence.fit, contradictions);
+  if (!second.abstains())
+    evidence.sight += lookFrom(
+        second, first, T_first_second.inverse(), evidence.voxel, evidence.fit, nullptr);
   return evidence;
 }
 
@@ -173,16 +184,17 @@ judgeLink(const LinkEvidence& evidence, double background)
 {
   const double rays = raysAgainst(evidence.sight, background);
   const double surfaces = surfacesAgainst(evidence);
-  constexpr double kMostLogOdds = 700; // of a double
-  const double odds = kPriorOdds * std::exp(std::min(rays + surfaces, kMostLogOdds));
   LinkOpinion opinion;
-  opinion.probability_wrong = odds / (1 + odds);
+  // Elsewhere, which rays tell, or beside, which surfaces tell: neither speaks for the other.
+  opinion.probability_wrong =
+      1 - (1 - probabilityOf(rays)) * (1 - probabilityOf(surfaces));
   if (opinion.probability_wrong > kWrongAbove)
     opinion.trust = LinkTrust::kWrong;
   else if (evidence.abstained)
     opinion.trust = LinkTrust::kUnverified;
   else if (opinion.probability_wrong < kGoodBelow &&
-           evidence.sight.patches >= kLeastPatches)
+           evidence.sight.patches >=
+               (evidence.fit.open_directions > 0 ? kLeastOpenPatches : kLeastPatches))
     opinion.trust = LinkTrust::kGood;
   if (opinion.trust == LinkTrust::kUnverified)
     opinion.reason = "the rays of a scan contradict its own points";

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 namespace pcl6d {
 
@@ -22,6 +21,9 @@ constexpr std::size_t kAskedPoints = 300;
 
 /** Less speaks too little for a link: the share of the points asked for, both ways. */
 constexpr double kLeastSpeaking = 0.05;
+
+/** Surfaces fit that would move a link by fewer standard deviations. */
+constexpr double kFittingSigmas = 2;
 
 /** Words name so many scans. */
 constexpr std::size_t kMostNamed = 8;
@@ -163,7 +165,13 @@ MapVerifier::reasonFor(std::size_t scan, const MapVerification& map) const
 void
 MapVerifier::doubt(MapVerification& map) const
 {
-  std::vector<std::string> loose, abstaining, contradicted;
+  std::vector<std::string> loose, abstaining, contradicted, seen_through;
+  std::vector<int> votes(scans_.size(), 0); // good links less wrong ones
+  for (const LinkCheck& link : map.links)
+    for (const std::size_t i : {link.from, link.to})
+      votes[i] += link.trust == LinkTrust::kGood    ? 1
+                  : link.trust == LinkTrust::kWrong ? -1
+                                                    : 0;
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     ScanCheck& scan = map.scans[i];
     if (scan.abstains)
@@ -176,8 +184,16 @@ MapVerifier::doubt(MapVerification& map) const
   for (const LinkCheck& link : map.links)
     if (link.trust == LinkTrust::kWrong && map.scans[link.from].tied &&
         map.scans[link.to].tied) {
-      contradicted.push_back(names_[link.from] + " and " + names_[link.to] + " (" +
+      // Glass, doors and things that move deceive rays, but not surfaces as well.
+      const bool surfaces_fit =
+          link.open_directions == 0 && link.shift < kFittingSigmas * link.deviation;
+      auto& named = surfaces_fit && votes[link.from] >= 0 && votes[link.to] >= 0
+                        ? seen_through
+                        : contradicted;
+      named.push_back(names_[link.from] + " and " + names_[link.to] + " (" +
                              link.reason + ")");
+      if (&named == &seen_through)
+        continue;
       for (const std::size_t i : {link.from, link.to})
         if (map.scans[i].doubt.empty())
           map.scans[i].doubt = "contradicts " +
@@ -199,6 +215,10 @@ MapVerifier::doubt(MapVerification& map) const
         " cannot be verified, as the rays contradict its own points (merged scans, motion "
         "during the scan, wrong origin?): " +
         listed(abstaining));
+  if (!seen_through.empty())
+    map.doubts.push_back("rays contradict scans whose surfaces fit (glass, or things that "
+                         "moved?): " +
+                         listed(seen_through));
   const bool is_doubtful = !loose.empty() || !contradicted.empty();
   map.trust = is_doubtful                                 ? MapTrust::kDoubtful
               : scans_.size() < 2 || !abstaining.empty() ? MapTrust::kUnverified

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace pcl6d {
@@ -55,15 +56,18 @@ settled(const VerifiedScan& first,
   options.covariance = false;
   SurfaceFit fit = fitSurfaces(first, second, T, options);
   Twist moved = fit.step;
-  for (int k = 1; k < kSteps && fit.pairs > 0; ++k) {
+  for (int k = 1; k < kSteps && fit.spread > 0; ++k) {
     options.covariance = k + 1 == kSteps;
     Eigen::Isometry3d motion = motionFromTwist(fit.step);
     motion = Eigen::Translation3d(fit.centroid) * motion *
              Eigen::Translation3d(-fit.centroid);
-    T = motion * T;
-    const SurfaceFit next = fitSurfaces(first, second, T, options);
-    if (next.pairs == 0)
+    const SurfaceFit next = fitSurfaces(first, second, motion * T, options);
+    if (next.spread == 0) { // it lost its pairs
+      options.covariance = true;
+      fit = fitSurfaces(first, second, T, options);
       break;
+    }
+    T = motion * T;
     moved += next.step;
     fit = next;
   }
@@ -105,17 +109,28 @@ surfacesAgainst(const LinkEvidence& evidence)
   return std::max(0.0, 0.5 * beyond);
 }
 
+/** \return a number for people: two digits, and no powers of ten */
+std::string
+rounded(double value)
+{
+  std::ostringstream text;
+  if (value < 10)
+    text << std::setprecision(2) << value;
+  else
+    text << std::fixed << std::setprecision(0) << value;
+  return text.str();
+}
+
 std::string
 reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
 {
-  std::ostringstream why; // read by people
-  why.precision(2);
+  std::ostringstream why;
   if (rays > surfaces)
     why << "rays go through " << evidence.sight.contradicted_patches << " of "
         << evidence.sight.patches << " patches of surface";
   else if (surfaces > 0)
-    why << "surfaces ask for a shift of " << evidence.leaving() << " m, "
-        << evidence.leaving() / evidence.deviation() << " standard deviations";
+    why << "surfaces ask for a shift of " << rounded(evidence.leaving()) << " m, "
+        << rounded(evidence.leaving() / evidence.deviation()) << " standard deviations";
   else
     why << "only " << evidence.sight.patches << " patches of surface in common";
   return why.str();
@@ -154,12 +169,11 @@ contradictionBackground(const std::vector<LinkEvidence>& links)
   for (const LinkEvidence& link : links)
     if (link.sight.patches > 0)
       sights.push_back(&link.sight);
-  std::sort(sights.begin(),
-            sights.end(),
-            [](const SightEvidence* a, const SightEvidence* b) {
-              return a->contradicted_patches * b->patches <
-                     b->contradicted_patches * a->patches;
-            });
+  std::sort(
+      sights.begin(), sights.end(), [](const SightEvidence* a, const SightEvidence* b) {
+        return a->contradicted_patches * b->patches <
+               b->contradicted_patches * a->patches;
+      });
   double contradicted = kBackground * kBackgroundWeight, all = kBackgroundWeight;
   for (std::size_t i = 0; i < (sights.size() + 1) / 2; ++i) {
     contradicted += static_cast<double>(sights[i]->contradicted_patches);
@@ -179,10 +193,10 @@ judgeLink(const LinkEvidence& evidence, double background)
   opinion.probability_wrong = odds / (1 + odds);
   if (opinion.probability_wrong > kWrongAbove)
     opinion.trust = LinkTrust::kWrong;
-  else if (evidence.abstained)
+  else if (evidence.abstained && evidence.fit.spread > 0) // the surfaces speak
     opinion.trust = LinkTrust::kUnverified;
   else if (opinion.probability_wrong < kGoodBelow &&
-           evidence.sight.patches >= kLeastPatches)
+           evidence.sight.patches >= kLeastPatches && !evidence.abstained)
     opinion.trust = LinkTrust::kGood;
   if (opinion.trust == LinkTrust::kUnverified)
     opinion.reason = "the rays of a scan contradict its own points";

@@ -46,7 +46,7 @@ public:
               const MapVerifierOptions& options = {});
 
   /** \param[in] T_world_scan one per scan
-   * \throws BadArgument not one pose per scan */
+   * \throws BadArgument not one pose per scan, or one is not a rigid motion */
   MapVerification
   verify(const std::vector<Eigen::Isometry3d>& T_world_scan);
 

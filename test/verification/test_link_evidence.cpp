@@ -234,7 +234,7 @@ TEST(LinkEvidence, OfIdenticalScansIsGood)
   EXPECT_EQ(evidence.deviation(), 0.1 * kVoxel) << "not 0";
 }
 
-TEST(LinkEvidence, AlongACorridorItIsOpen)
+TEST(LinkEvidence, AlongACorridorItIsOpenAndTiesNothing)
 {
   Random random(3);
   VerifiedScans scans;
@@ -251,6 +251,9 @@ TEST(LinkEvidence, AlongACorridorItIsOpen)
     EXPECT_GT(std::sqrt(evidence.fit.covariance(0, 0)), 1) << "[m] along the corridor";
     EXPECT_GT(evidence.deviation(), 1);
     EXPECT_LT(std::sqrt(evidence.fit.covariance(1, 1)), 0.1 * kVoxel);
+    EXPECT_EQ(judged(evidence).trust, LinkTrust::kWeak);
+    EXPECT_EQ(judged(evidence).reason,
+              "the surfaces leave 1 motion open, as along a corridor");
   }
   EXPECT_EQ(judgedAt(scans, shifted(truth, {0, 0.3, 0})).trust, LinkTrust::kWrong);
 }

@@ -41,7 +41,7 @@ struct AgreementChange {
 
 /** \brief agreementOf() at two poses, over the same points.
  * \param[in] cube [m] edge of the cubes whose points count as one; > 0 */
-AgreementChange
+PCL6D_EXPORTS AgreementChange // shown to its test
 agreementChange(const IcpTarget& target,
                 const Points& points,
                 const Eigen::Isometry3d& T_target_before,
@@ -71,7 +71,7 @@ private:
 };
 
 /** \brief The same of two scans, the points of each on the other: the mean of both. */
-AgreementChange
+PCL6D_EXPORTS AgreementChange // shown to its test
 agreementChange(const MeasuredScan& a,
                 const MeasuredScan& b,
                 const Eigen::Isometry3d& T_a_b_before,

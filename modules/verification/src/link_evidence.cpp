@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 
+#include <pcl6d/io/text.h>
 #include <pcl6d/registration/twist.h>
 #include <pcl6d/verification/link_evidence.h>
 
@@ -113,12 +114,12 @@ surfacesAgainst(const LinkEvidence& evidence)
 std::string
 rounded(double value)
 {
-  std::ostringstream text;
+  std::ostringstream digits;
   if (value < 10)
-    text << std::setprecision(2) << value;
+    digits << std::setprecision(2) << value;
   else
-    text << std::fixed << std::setprecision(0) << value;
-  return text.str();
+    digits << std::fixed << std::setprecision(0) << value;
+  return digits.str();
 }
 
 std::string
@@ -131,6 +132,11 @@ reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
   else if (surfaces > 0)
     why << "surfaces ask for a shift of " << rounded(evidence.leaving()) << " m, "
         << rounded(evidence.leaving() / evidence.deviation()) << " standard deviations";
+  else if (evidence.fit.open_directions > 0)
+    why << "the surfaces leave "
+        << text::counted(static_cast<std::size_t>(evidence.fit.open_directions),
+                         "motion")
+        << " open, as along a corridor";
   else
     why << "only " << evidence.sight.patches << " patches of surface in common";
   return why.str();
@@ -193,6 +199,9 @@ judgeLink(const LinkEvidence& evidence, double background)
   opinion.probability_wrong = odds / (1 + odds);
   if (opinion.probability_wrong > kWrongAbove)
     opinion.trust = LinkTrust::kWrong;
+  else if (evidence.fit.open_directions > 0)
+    opinion.trust =
+        LinkTrust::kWeak; // along these rays and surfaces cannot see an error
   else if (evidence.abstained && evidence.fit.spread > 0) // the surfaces speak
     opinion.trust = LinkTrust::kUnverified;
   else if (opinion.probability_wrong < kGoodBelow &&

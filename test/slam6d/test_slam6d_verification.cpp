@@ -281,3 +281,18 @@ TEST(Slam6DVerification, NamesAllScansBehindAJumpOfTheOdometry)
       0u)
       << result.verification->doubts[0];
 }
+
+TEST(Slam6DVerification, NamesFilesWithoutTheirFolders)
+{
+  const DriftingRun run = makeDriftingRun(2);
+  pcl6d::Slam6D slam;
+  slam.addScan(run.scans[0], run.odometry[0], "/some/where/a.pcd");
+  slam.addScan(run.scans[1],
+               Eigen::Translation3d(100, 0, 0) * run.odometry[1],
+               "/some/where/b.pcd");
+  EXPECT_TRUE(slam.optimize());
+  const MapVerification& map = *slam.result().verification;
+  ASSERT_FALSE(map.doubts.empty());
+  EXPECT_EQ(map.doubts[0].find("1 scan not tied to the rest: b.pcd (with a.pcd: "), 0u)
+      << map.doubts[0];
+}

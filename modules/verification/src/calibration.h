@@ -45,8 +45,6 @@ constexpr double kPriorOdds = 0.1;
 /** Fewer patches say too little to tie scans: by chance the few of a wrong link are all
  * confirmed. */
 constexpr std::size_t kLeastPatches = 12;
-/** The same where the surfaces leave motions open. */
-constexpr std::size_t kLeastOpenPatches = 40;
 
 /** A link ties its scans if it is wrong with a smaller probability ... */
 constexpr double kGoodBelow = 0.01;

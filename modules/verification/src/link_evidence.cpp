@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 
+#include <pcl6d/io/text.h>
 #include <pcl6d/registration/twist.h>
 #include <pcl6d/verification/link_evidence.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace pcl6d {
@@ -34,7 +36,8 @@ lookFrom(const VerifiedScan& from,
          std::vector<Contradiction>* contradictions)
 {
   PlaceUncertainty uncertainty;
-  uncertainty.noise = std::hypot(at.noise(), std::min(fit.residual, kMostMisfit * voxel));
+  uncertainty.noise =
+      std::hypot(at.noise(), std::min(fit.residual, kMostMisfit * voxel));
   return sightEvidence(from.rays(),
                        sampleOf(at.surfaces().points()),
                        T_from_at,
@@ -58,15 +61,18 @@ settled(const VerifiedScan& first,
   options.covariance = false;
   SurfaceFit fit = fitSurfaces(first, second, T, options);
   Twist moved = fit.step;
-  for (int k = 1; k < kSteps && fit.pairs > 0; ++k) {
+  for (int k = 1; k < kSteps && fit.spread > 0; ++k) {
     options.covariance = k + 1 == kSteps;
     Eigen::Isometry3d motion = motionFromTwist(fit.step);
     motion = Eigen::Translation3d(fit.centroid) * motion *
              Eigen::Translation3d(-fit.centroid);
-    T = motion * T;
-    const SurfaceFit next = fitSurfaces(first, second, T, options);
-    if (next.pairs == 0)
+    const SurfaceFit next = fitSurfaces(first, second, motion * T, options);
+    if (next.spread == 0) { // it lost its pairs
+      options.covariance = true;
+      fit = fitSurfaces(first, second, T, options);
       break;
+    }
+    T = motion * T;
     moved += next.step;
     fit = next;
   }
@@ -116,19 +122,35 @@ probabilityOf(double log_odds)
   return odds / (1 + odds);
 }
 
+/** \return a number for people: two digits, and no powers of ten */
+std::string
+rounded(double value)
+{
+  std::ostringstream digits;
+  if (value < 10)
+    digits << std::setprecision(2) << value;
+  else
+    digits << std::fixed << std::setprecision(0) << value;
+  return digits.str();
+}
+
 std::string
 reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
 {
-  std::ostringstream why; // read by people
-  why.precision(2);
-  if (probabilityOf(std::max(rays, surfaces)) < kGoodBelow)
-    why << "only " << evidence.sight.patches << " patches of surface in common";
-  else if (rays > surfaces)
+  std::ostringstream why;
+  if (probabilityOf(std::max(rays, surfaces)) >= kGoodBelow && rays > surfaces)
     why << "rays go through " << evidence.sight.contradicted_patches << " of "
         << evidence.sight.patches << " patches of surface";
+  else if (probabilityOf(surfaces) >= kGoodBelow)
+    why << "surfaces ask for a shift of " << rounded(evidence.leaving()) << " m, "
+        << rounded(evidence.leaving() / evidence.deviation()) << " standard deviations";
+  else if (evidence.fit.open_directions > 0)
+    why << "the surfaces leave "
+        << text::counted(static_cast<std::size_t>(evidence.fit.open_directions),
+                         "motion")
+        << " open, as along a corridor";
   else
-    why << "surfaces ask for a shift of " << evidence.leaving() << " m, "
-        << evidence.leaving() / evidence.deviation() << " standard deviations";
+    why << "only " << evidence.sight.patches << " patches of surface in common";
   return why.str();
 }
 } // namespace
@@ -165,12 +187,11 @@ contradictionBackground(const std::vector<LinkEvidence>& links)
   for (const LinkEvidence& link : links)
     if (link.sight.patches > 0)
       sights.push_back(&link.sight);
-  std::sort(sights.begin(),
-            sights.end(),
-            [](const SightEvidence* a, const SightEvidence* b) {
-              return a->contradicted_patches * b->patches <
-                     b->contradicted_patches * a->patches;
-            });
+  std::sort(
+      sights.begin(), sights.end(), [](const SightEvidence* a, const SightEvidence* b) {
+        return a->contradicted_patches * b->patches <
+               b->contradicted_patches * a->patches;
+      });
   double contradicted = kBackground * kBackgroundWeight, all = kBackgroundWeight;
   for (std::size_t i = 0; i < (sights.size() + 1) / 2; ++i) {
     contradicted += static_cast<double>(sights[i]->contradicted_patches);
@@ -190,11 +211,13 @@ judgeLink(const LinkEvidence& evidence, double background)
       1 - (1 - probabilityOf(rays)) * (1 - probabilityOf(surfaces));
   if (opinion.probability_wrong > kWrongAbove)
     opinion.trust = LinkTrust::kWrong;
-  else if (evidence.abstained)
+  else if (evidence.fit.open_directions > 0)
+    opinion.trust =
+        LinkTrust::kWeak; // along these rays and surfaces cannot see an error
+  else if (evidence.abstained && evidence.fit.spread > 0) // the surfaces speak
     opinion.trust = LinkTrust::kUnverified;
   else if (opinion.probability_wrong < kGoodBelow &&
-           evidence.sight.patches >=
-               (evidence.fit.open_directions > 0 ? kLeastOpenPatches : kLeastPatches))
+           evidence.sight.patches >= kLeastPatches && !evidence.abstained)
     opinion.trust = LinkTrust::kGood;
   if (opinion.trust == LinkTrust::kUnverified)
     opinion.reason = "the rays of a scan contradict its own points";

@@ -15,7 +15,7 @@ namespace {
 /** A plan has cells of so many voxels, and no more than so many of them along a side, so
  * that few enough pairs of cells vote. */
 constexpr double kCellVoxels = 3;
-constexpr int kMostCells = 256;
+constexpr int kMostCells = 128;
 
 /** Surfaces are upright whose normals are so near the level: cosine of 60 deg. */
 constexpr double kLevelNormal = 0.5;
@@ -33,9 +33,7 @@ constexpr double kOtherVoxels = 6, kOtherTurn = 0.2; // [rad]
 using Plan = std::vector<Eigen::Vector2i>;
 
 Plan
-planOf(const VerifiedScan& scan,
-       const Eigen::Isometry3d& T_level_scan,
-       double cell)
+planOf(const VerifiedScan& scan, const Eigen::Isometry3d& T_level_scan, double cell)
 {
   std::vector<std::pair<int, int>> cells;
   const Points& points = scan.surfaces().points();
@@ -145,10 +143,9 @@ findTwins(const VerifiedScan& first,
   for (int quarter = 0; quarter < 4; ++quarter) {
     Eigen::Isometry3d T_level_second = T_level_first * T_first_second;
     const Eigen::Vector3d pivot = T_level_second.translation();
-    T_level_second =
-        Eigen::Translation3d(pivot) *
-        Eigen::AngleAxisd(quarter * kQuarter, Eigen::Vector3d::UnitZ()) *
-        Eigen::Translation3d(-pivot) * T_level_second;
+    T_level_second = Eigen::Translation3d(pivot) *
+                     Eigen::AngleAxisd(quarter * kQuarter, Eigen::Vector3d::UnitZ()) *
+                     Eigen::Translation3d(-pivot) * T_level_second;
     for (const Eigen::Vector2i& shift :
          votedShifts(fixed, planOf(second, T_level_second, cell))) {
       Eigen::Isometry3d start = T_level_second;
@@ -157,7 +154,8 @@ findTwins(const VerifiedScan& first,
            matchedFrom(first, second, T_level_first.inverse() * start)) {
         const auto isNear = [&](const Eigen::Isometry3d& other) {
           const MotionSize apart = distanceBetween(other, T);
-          return apart.translation < kOtherVoxels * voxel && apart.rotation < kOtherTurn;
+          return apart.translation < kOtherVoxels * voxel &&
+                 apart.rotation < kOtherTurn;
         };
         if (!isNear(T_first_second) && std::none_of(twins.begin(), twins.end(), isNear))
           twins.push_back(T);

@@ -147,6 +147,37 @@ linkEvidence(const VerifiedScan& first,
   return evidence;
 }
 
+LinkCheck
+linkCheck(std::size_t from,
+          std::size_t to,
+          const LinkEvidence& evidence,
+          const LinkOpinion& opinion)
+{
+  LinkCheck link;
+  link.from = from;
+  link.to = to;
+  link.trust = opinion.trust;
+  link.probability_wrong = opinion.probability_wrong;
+  link.patches = evidence.sight.patches;
+  link.contradicted = evidence.sight.contradicted_patches;
+  link.shift = evidence.leaving();
+  link.deviation = evidence.deviation();
+  link.open_directions = evidence.fit.open_directions;
+  link.reason = opinion.reason;
+  return link;
+}
+
+std::vector<Contradiction>
+contradictedPoints(const VerifiedScan& from,
+                   const VerifiedScan& at,
+                   const Eigen::Isometry3d& T_from_at)
+{
+  std::vector<Contradiction> points;
+  if (!from.abstains())
+    lookFrom(from, at, T_from_at, std::max(from.voxel(), at.voxel()), &points);
+  return points;
+}
+
 double
 contradictionBackground(const std::vector<LinkEvidence>& links)
 {
@@ -154,12 +185,11 @@ contradictionBackground(const std::vector<LinkEvidence>& links)
   for (const LinkEvidence& link : links)
     if (link.sight.patches > 0)
       sights.push_back(&link.sight);
-  std::sort(sights.begin(),
-            sights.end(),
-            [](const SightEvidence* a, const SightEvidence* b) {
-              return a->contradicted_patches * b->patches <
-                     b->contradicted_patches * a->patches;
-            });
+  std::sort(
+      sights.begin(), sights.end(), [](const SightEvidence* a, const SightEvidence* b) {
+        return a->contradicted_patches * b->patches <
+               b->contradicted_patches * a->patches;
+      });
   double contradicted = kBackground * kBackgroundWeight, all = kBackgroundWeight;
   for (std::size_t i = 0; i < (sights.size() + 1) / 2; ++i) {
     contradicted += static_cast<double>(sights[i]->contradicted_patches);

@@ -32,12 +32,15 @@ centreOf(const Points& points)
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& p : points)
     sum += p.cast<double>();
-  return points.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(points.size()));
+  return points.empty() ? sum
+                        : Eigen::Vector3d(sum / static_cast<double>(points.size()));
 }
 
 /** \return how many points of a sample the rays speak of */
 std::size_t
-spokenOf(const VerifiedScan& rays, const VerifiedScan& points, const Eigen::Isometry3d& T)
+spokenOf(const VerifiedScan& rays,
+         const VerifiedScan& points,
+         const Eigen::Isometry3d& T)
 {
   const Points& all = points.surfaces().points();
   const std::size_t stride = std::max<std::size_t>(1, all.size() / kAskedPoints);
@@ -102,7 +105,8 @@ MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
     for (std::size_t k = 0; k < i; ++k)
       near.emplace_back((poses[i] * centres_[i] - poses[k] * centres_[k]).norm(), k);
     const std::size_t asked = std::min(kAsked, near.size());
-    std::partial_sort(near.begin(), near.begin() + static_cast<long>(asked), near.end());
+    std::partial_sort(
+        near.begin(), near.begin() + static_cast<long>(asked), near.end());
     near.resize(asked);
     std::vector<std::pair<std::size_t, std::size_t>> most; // speaking, scan
     for (const auto& [distance, k] : near)
@@ -134,8 +138,8 @@ MapVerifier::tie(MapVerification& map) const
   std::map<std::size_t, std::size_t> sizes;
   for (std::size_t i = 0; i < scans_.size(); ++i)
     ++sizes[joined.firstOf(i)];
-  const auto rest = std::max_element(
-      sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
+  const auto rest =
+      std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
         return a.second < b.second; // of equals the one with the first scan
       });
   for (std::size_t i = 0; i < scans_.size(); ++i) {
@@ -186,23 +190,25 @@ MapVerifier::doubt(MapVerification& map) const
     }
   if (!loose.empty())
     map.doubts.push_back(
-        text::counted(loose.size(), "scan") + " not tied to the rest: " + listed(loose) +
-        " (" + map.scans[static_cast<std::size_t>(std::distance(
-                   names_.begin(),
-                   std::find(names_.begin(), names_.end(), loose.front())))].doubt +
+        text::counted(loose.size(), "scan") +
+        " not tied to the rest: " + listed(loose) + " (" +
+        map.scans[static_cast<std::size_t>(std::distance(
+                      names_.begin(),
+                      std::find(names_.begin(), names_.end(), loose.front())))]
+            .doubt +
         "); better initial poses or scans in between would help");
   if (!contradicted.empty())
     map.doubts.push_back("scans contradict each other: " + listed(contradicted));
   if (!abstaining.empty())
-    map.doubts.push_back(
-        text::counted(abstaining.size(), "scan") +
-        " cannot be verified, as the rays contradict its own points (merged scans, motion "
-        "during the scan, wrong origin?): " +
-        listed(abstaining));
+    map.doubts.push_back(text::counted(abstaining.size(), "scan") +
+                         " cannot be verified, as the rays contradict its own points "
+                         "(merged scans, motion "
+                         "during the scan, wrong origin?): " +
+                         listed(abstaining));
   const bool is_doubtful = !loose.empty() || !contradicted.empty();
-  map.trust = is_doubtful                                 ? MapTrust::kDoubtful
+  map.trust = is_doubtful                                ? MapTrust::kDoubtful
               : scans_.size() < 2 || !abstaining.empty() ? MapTrust::kUnverified
-                                                          : MapTrust::kGood;
+                                                         : MapTrust::kGood;
 }
 
 MapVerification
@@ -216,25 +222,16 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
   evidence_.assign(pairs.size(), {});
   parallelFor(pairs.size(), options_.num_threads, [&](std::size_t k) {
     const auto [a, b] = pairs[k];
-    evidence_[k] = linkEvidence(
-        scans_[a], scans_[b], T_world_scan[a].inverse() * T_world_scan[b]);
+    evidence_[k] =
+        linkEvidence(scans_[a], scans_[b], T_world_scan[a].inverse() * T_world_scan[b]);
   });
   MapVerification map;
   map.scans.resize(scans_.size());
   map.background = contradictionBackground(evidence_);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const LinkOpinion opinion = judgeLink(evidence_[k], map.background);
-    LinkCheck& link = map.links.emplace_back();
-    link.from = pairs[k].first;
-    link.to = pairs[k].second;
-    link.trust = opinion.trust;
-    link.probability_wrong = opinion.probability_wrong;
-    link.patches = evidence_[k].sight.patches;
-    link.contradicted = evidence_[k].sight.contradicted_patches;
-    link.shift = evidence_[k].leaving();
-    link.deviation = evidence_[k].deviation();
-    link.open_directions = evidence_[k].fit.open_directions;
-    link.reason = opinion.reason;
+    map.links.push_back(
+        linkCheck(pairs[k].first, pairs[k].second, evidence_[k], opinion));
   }
   if (scans_.empty())
     return map;

@@ -16,9 +16,10 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What two scans say of their relative pose. */
 struct LinkEvidence {
-  SightEvidence sight; ///< points of each in the rays of the other; empty if both abstain
-  SurfaceFit fit;      ///< of their surfaces, after a few steps towards their best place
-  double voxel = 0;    ///< [m] the larger one
+  SightEvidence
+      sight;        ///< points of each in the rays of the other; empty if both abstain
+  SurfaceFit fit;   ///< of their surfaces, after a few steps towards their best place
+  double voxel = 0; ///< [m] the larger one
   bool abstained = false; ///< the rays of one of them say nothing
 
   /** \return [m] how far the surfaces would move the pairs */
@@ -49,6 +50,20 @@ struct LinkOpinion {
   double probability_wrong = 1; ///< in [0, 1]
   std::string reason;           ///< in words, with numbers; empty for a good link
 };
+
+/** \brief A link between two places of a map, in plain data. */
+LinkCheck
+linkCheck(std::size_t from,
+          std::size_t to,
+          const LinkEvidence& evidence,
+          const LinkOpinion& opinion);
+
+/** \return the points of a scan, in its frame, that the rays of another contradict; none if
+ * those abstain. \param[in] T_from_at pose of the points' scan seen from that of the rays */
+std::vector<Contradiction>
+contradictedPoints(const VerifiedScan& from,
+                   const VerifiedScan& at,
+                   const Eigen::Isometry3d& T_from_at);
 
 /** \brief The share of patches that right links contradict, from the links of a run: the
  * better half of them, as most links of most runs are right. Between 0.002 and 0.05.

@@ -28,11 +28,13 @@ common to say.
 void
 addInput(OptionTable& table, VerifySettings& s)
 {
-  table.positionals("RUN, or SCAN_DIR, or SCAN_A SCAN_B", &s.inputs);
+  table.positionals("INPUT", &s.inputs);
   table.group("Input");
   table.add("poses FILE", &s.poses)
       .help("of a folder: poses in place of its own, KITTI or TUM rows, .g2o, or a "
-            "folder of .frames or .pose files (3DTK); one for each of its scans");
+            "folder of .frames or .pose files (3DTK); one for each of its scans, or of "
+            "those "
+            "taken");
   table.add("pose \"X Y Z R P Y\"|FILE", &s.pose)
       .help(
           "of two scans: pose of B in the frame of A, [m] and roll pitch yaw [deg]; a "

@@ -29,14 +29,6 @@ struct Listing {
   ScanParameterOptions parameters;
 };
 
-/** \return whether ScanFolder reads such poses itself, so that it does not ask for others */
-bool
-areRows(const fs::path& poses)
-{
-  return !fs::is_directory(poses) &&
-         trajectoryFormatOfExtension(poses) != TrajectoryFormat::kG2o;
-}
-
 /** \return whether 3DTK left its result there, be it beside the poses it began with */
 bool
 holdsFrames(const fs::path& path)
@@ -57,11 +49,12 @@ replacePoses(const std::string& file, const ScanFolder& folder, Listing& listing
       file, holdsFrames(file) ? TrajectoryFormat::kFrames : TrajectoryFormat::kAuto);
   const auto& poses = given.trajectory.poses;
   const std::size_t all = folder.odometry().poses.size();
-  if (given.names.empty() && poses.size() != all)
+  const bool of_selected = poses.size() == folder.size();
+  if (given.names.empty() && !of_selected && poses.size() != all)
     throw IoFailed(file + ": " + text::counted(poses.size(), "pose") +
                    ", but must be one for each of the " + text::counted(all, "scan"));
   for (std::size_t i = 0; i < folder.size(); ++i) {
-    auto place = static_cast<std::size_t>(folder.index(i));
+    std::size_t place = of_selected ? i : static_cast<std::size_t>(folder.index(i));
     if (!given.names.empty()) {
       const std::string name = folder.file(i).stem().string();
       const auto found = std::find(given.names.begin(), given.names.end(), name);
@@ -92,12 +85,7 @@ Listing
 listFolder(const VerifySettings& s)
 {
   const std::string& path = s.inputs.front();
-  const bool is_run = fs::exists(fs::path(path) / "summary.json");
-  ScanFolderOptions options = s.scans;
-  const bool replace = !s.poses.empty() && (is_run || !areRows(s.poses));
-  if (!replace)
-    options.poses_file = s.poses;
-  const RegisteredScans scans = openScans(path, options);
+  const RegisteredScans scans = openScans(path, s.scans);
   const ScanFolder& folder = scans.folder();
   if (s.poses.empty() && !folder.hasPoses() && folder.size() > 1)
     throw IoFailed(path +
@@ -118,7 +106,7 @@ listFolder(const VerifySettings& s)
         lengthOf(*scans.summary(), "min-range", s.parameters.min_range),
         lengthOf(*scans.summary(), "max-range", s.parameters.max_range),
         lengthOf(*scans.summary(), "voxel", s.parameters.voxel)};
-  if (replace)
+  if (!s.poses.empty())
     replacePoses(s.poses, folder, listing);
   return listing;
 }

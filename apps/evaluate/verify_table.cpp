@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl6d::app {
@@ -26,10 +27,21 @@ mostDoubtful(const std::vector<LinkCheck>& links, std::size_t rows)
     chosen.push_back(&link);
   std::stable_sort(
       chosen.begin(), chosen.end(), [](const LinkCheck* a, const LinkCheck* b) {
-        return a->probability_wrong > b->probability_wrong;
+        return std::make_pair(a->probability_wrong, a->contradicted) >
+               std::make_pair(b->probability_wrong, b->contradicted);
       });
   chosen.resize(std::min(chosen.size(), rows));
   return chosen;
+}
+
+/** \return why it is no good link, and what is open in it */
+std::string
+remarkOn(const LinkCheck& link)
+{
+  if (link.open_directions == 0)
+    return link.reason;
+  return link.reason + (link.reason.empty() ? "" : "; ") +
+         std::to_string(link.open_directions) + " of 6 motions open";
 }
 
 void
@@ -44,16 +56,13 @@ printLinks(const VerifySettings& s,
   for (const LinkCheck* link : links)
     width = std::max(width, linkName(*link, source).size());
   const int w = static_cast<int>(width);
-  std::printf("%-*s  %-10s  wrong by  contradicted  surfaces ask  deviation\n",
+  std::printf("%-*s  trust       P(wrong)  contradicted  shift [m]  deviation [m]\n",
               w,
-              "link",
-              "trust");
-  std::printf(
-      "%-*s  %-10s  chance    patches       for a shift   of the place\n", w, "", "");
+              "link");
   for (const LinkCheck* link : links) {
     const std::string patches =
         std::to_string(link->contradicted) + " of " + std::to_string(link->patches);
-    std::printf("%-*s  %-10s  %-8.1e  %-12s  %-10.3f m  %.3f m%s%s\n",
+    std::printf("%-*s  %-10s  %-8.2g  %12s  %9.3f  %13.3f  %s\n",
                 w,
                 linkName(*link, source).c_str(),
                 toString(link->trust),
@@ -61,14 +70,7 @@ printLinks(const VerifySettings& s,
                 patches.c_str(),
                 link->shift,
                 link->deviation,
-                link->open_directions > 0
-                    ? (", " +
-                       text::counted(static_cast<std::size_t>(link->open_directions),
-                                     "motion") +
-                       " open")
-                          .c_str()
-                    : "",
-                link->reason.empty() ? "" : ("  " + link->reason).c_str());
+                remarkOn(*link).c_str());
   }
   if (map.links.size() > links.size())
     std::printf("and %zu more, less doubtful\n", map.links.size() - links.size());

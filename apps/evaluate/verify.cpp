@@ -63,7 +63,7 @@ verifyPair(const VerifySource& source)
   const LinkTrust trust = verdict.opinion.trust;
   MapVerification map;
   map.trust = mapTrustOf(trust);
-  map.background = contradictionBackground({});
+  map.background = verdict.background;
   map.links.push_back(linkCheck(0, 1, verdict.evidence, verdict.opinion));
   map.scans.resize(2);
   for (std::size_t i = 0; i < 2; ++i)
@@ -72,11 +72,14 @@ verifyPair(const VerifySource& source)
   map.scans[1].tied = map.trusted();
   if (trust == LinkTrust::kGood)
     return map;
-  map.doubts.push_back((trust == LinkTrust::kWrong ? "the scans contradict this pose: "
-                        : trust == LinkTrust::kWeak
-                            ? "the scans have too little in common to say: "
-                            : "the rays cannot confirm this pose: ") +
-                       verdict.opinion.reason);
+  if (map.links.front().patches == 0 && verdict.evidence.fit.pairs == 0)
+    map.doubts.emplace_back("at this pose neither scan sees what the other measured");
+  else
+    map.doubts.push_back(
+        (trust == LinkTrust::kWrong  ? "the scans contradict this pose: "
+         : trust == LinkTrust::kWeak ? "the scans have too little in common: "
+                                     : "the scans are no evidence: ") +
+        verdict.opinion.reason);
   if (!map.trusted())
     map.scans[1].doubt = verdict.opinion.reason;
   return map;

@@ -92,7 +92,10 @@ sentenceOf(const MapVerification& map, bool is_pair)
   case MapTrust::kDoubtful:
     break;
   }
-  return std::string("the ") + (is_pair ? "pose" : "map") + " is not to be trusted";
+  return std::string("the ") + (is_pair ? "pose" : "map") + " is not to be trusted" +
+         (is_pair && map.count(LinkTrust::kWrong) == 0
+              ? ": nothing tells right from wrong"
+              : "");
 }
 } // namespace
 

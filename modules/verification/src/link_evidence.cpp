@@ -110,7 +110,9 @@ reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
 {
   std::ostringstream why; // read by people
   why.precision(2);
-  if (rays > surfaces)
+  const bool enough = evidence.sight.patches >= kLeastPatches;
+  if (rays > surfaces ||
+      (surfaces == 0 && enough && evidence.sight.contradicted_patches > 0))
     why << "rays go through " << evidence.sight.contradicted_patches << " of "
         << evidence.sight.patches << " patches of surface";
   else if (surfaces > 0)

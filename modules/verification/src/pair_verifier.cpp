@@ -36,7 +36,8 @@ verifyLink(const PreparedScans& scans,
   PairVerdict verdict;
   verdict.evidence =
       linkEvidence(scans.scans()[first], scans.scans()[second], T_first_second);
-  verdict.opinion = judgeLink(verdict.evidence, contradictionBackground({}));
+  verdict.background = contradictionBackground({verdict.evidence});
+  verdict.opinion = judgeLink(verdict.evidence, verdict.background);
   if (verdict.opinion.trust == LinkTrust::kGood &&
       scans.firstLike(first) == scans.firstLike(second)) {
     verdict.opinion.trust = LinkTrust::kUnverified;

@@ -17,11 +17,11 @@ namespace PCL6D_EXPORTS pcl6d {
 struct PairVerdict {
   LinkOpinion opinion;
   LinkEvidence evidence;
+  double background = 0; ///< share of patches that a right link of them may contradict
 };
 
-/** \brief The verdict on a link of which no map is known: right links contradict as many
- * patches as those of scans on average. Scans that hold the very same points are no evidence:
- * the link is at best unverified.
+/** \brief The verdict on a link, as that of a map of two scans. Scans that hold the very
+ * same points are no evidence: the link is at best unverified.
  * \param[in] T_first_second pose of the second place seen from the first */
 PairVerdict
 verifyLink(const PreparedScans& scans,

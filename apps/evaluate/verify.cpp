@@ -77,7 +77,7 @@ verifyPair(const VerifySource& source)
   else
     map.doubts.push_back(
         (trust == LinkTrust::kWrong  ? "the scans contradict this pose: "
-         : trust == LinkTrust::kWeak ? "the scans have too little in common: "
+         : trust == LinkTrust::kWeak ? "the scans do not settle it: "
                                      : "the scans are no evidence: ") +
         verdict.opinion.reason);
   if (!map.trusted())

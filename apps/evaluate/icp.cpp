@@ -2,25 +2,22 @@
 #include "common/app.h"
 #include "common/folder_job.h"
 #include "evaluate/icp_report.h"
+#include "evaluate/pair_pose.h"
 #include "evaluate/verbs.h"
 
 #include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
-#include <pcl6d/io/scan_folder.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 
 namespace pcl6d::app {
 
 namespace {
-namespace fs = std::filesystem;
-
 Points
 readPoints(const std::string& file, ScanFormat format)
 {
@@ -29,45 +26,6 @@ readPoints(const std::string& file, ScanFormat format)
     throw IoFailed(tooFewPoints(file, scan.points.size(), "with finite coordinates") +
                    " (" + std::to_string(scan.dropped) + " without)");
   return scan.points;
-}
-
-struct InitialPose {
-  Eigen::Isometry3d T_world_scan;
-  std::string source;
-  bool found; ///< false: the identity, for want of a pose
-};
-
-/** \return the pose of a file among the scans of its folder */
-InitialPose
-initialPoseOf(const fs::path& file, const ScanFolder& folder)
-{
-  for (std::size_t i = 0; i < folder.size(); ++i)
-    if (fs::equivalent(folder.file(i), file))
-      return {folder.initialPose(i), folder.poseSource(), folder.hasPoses()};
-  throw IoFailed(file.string() + ": no scan of its folder; give --guess");
-}
-
-/** \return T_a_b, and where it comes from */
-InitialPose
-startOf(const IcpSettings& s)
-{
-  if (s.guess)
-    return {*s.guess, "--guess", true};
-  ScanFolderOptions options;
-  options.format = s.format;
-  const auto folderOf = [](const std::string& file) {
-    return fs::absolute(file).parent_path();
-  };
-  const ScanFolder folder_a(folderOf(s.scan_a), options);
-  const InitialPose a = initialPoseOf(s.scan_a, folder_a);
-  const bool together = fs::equivalent(folderOf(s.scan_a), folderOf(s.scan_b));
-  const InitialPose b =
-      together ? initialPoseOf(s.scan_b, folder_a)
-               : initialPoseOf(s.scan_b, ScanFolder(folderOf(s.scan_b), options));
-  if (a.source != b.source)
-    throw IoFailed("the poses of the scans are not of a kind: " + a.source + " for " +
-                   s.scan_a + ", " + b.source + " for " + s.scan_b + "; give --guess");
-  return {a.T_world_scan.inverse() * b.T_world_scan, a.source, a.found};
 }
 
 /** The options of the runs, what is auto derived from the scans. */
@@ -96,11 +54,12 @@ IcpEvaluation
 evaluate(const IcpSettings& s, ProgressBar& bar, const Interrupt& interrupt)
 {
   const Points a = readPoints(s.scan_a, s.format), b = readPoints(s.scan_b, s.format);
-  const InitialPose start = startOf(s);
+  const PairPose start = s.guess ? PairPose{*s.guess, "--guess", true}
+                                 : poseOfPair(s.scan_a, s.scan_b, s.format, "--guess");
   IcpEvaluation e;
   e.pose_source = start.source;
   e.has_poses = start.found;
-  e.guess = start.T_world_scan;
+  e.guess = start.T_a_b;
   e.parameters = deriveParameters(s.slam, {a, b});
   const Points target = prepareScan(a, s.scan_a, e.parameters);
   const Points source = prepareScan(b, s.scan_b, e.parameters);

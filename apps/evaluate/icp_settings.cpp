@@ -2,15 +2,13 @@
 #include "common/app.h"
 #include "common/option_table.h"
 #include "evaluate/icp_settings.h"
+#include "evaluate/pair_pose.h"
 #include "evaluate/verbs.h"
 
 #include <pcl6d/common/angle.h>
-#include <pcl6d/common/pose.h>
 #include <pcl6d/registration/minimisers.h>
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 
 namespace pcl6d::app {
 
@@ -74,29 +72,15 @@ valuesOf(const Words& names, Value (*fromName)(const std::string&))
   return values;
 }
 
-Eigen::Isometry3d
-poseFromText(const std::string& text)
-{
-  std::istringstream stream(text);
-  double v[6];
-  for (double& value : v)
-    if (!(stream >> value) || !std::isfinite(value))
-      throw UsageError(
-          "--guess \"" + text +
-          "\": expected six finite numbers, x y z [m] roll pitch yaw [deg]");
-  if (!(stream >> std::ws).eof())
-    throw UsageError("--guess \"" + text + "\": more than six numbers");
-  return poseFromEuler({v[0], v[1], v[2]},
-                       {radians(v[3]), radians(v[4]), radians(v[5])});
-}
-
 void
 addInput(OptionTable& table, IcpSettings& s)
 {
   table.positional("SCAN_A", &s.scan_a);
   table.positional("SCAN_B", &s.scan_b);
   table.group("Input");
-  const auto takeGuess = [&s](const auto& text) { s.guess = poseFromText(text); };
+  const auto takeGuess = [&s](const auto& text) {
+    s.guess = poseFromText("--guess", text);
+  };
   table.addWord("guess \"X Y Z R P Y\"", "", takeGuess)
       .help("start: pose of B in the frame of A, [m] and roll pitch yaw [deg]; by "
             "default from the poses that belong to the files (*.pose, odometry.txt, "

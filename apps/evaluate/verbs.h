@@ -20,5 +20,7 @@ int
 runMcl(const Arguments& arguments);
 int
 runSuite(const Arguments& arguments);
+int
+runVerify(const Arguments& arguments);
 
 } // namespace pcl6d::app

@@ -10,6 +10,7 @@ run(COMMAND ${work}/examples_build/minimisers_drop_in PRINTS "all minimisers fou
 run(COMMAND ${work}/examples_build/search_classes PRINTS "all of them agree")
 run(COMMAND ${work}/examples_build/filters_drop_in PRINTS "the mixed pixel at .* went to")
 run(COMMAND ${work}/examples_build/coarse_start PRINTS "features: ok" "overlap: ok" "ICP: ok")
+run(COMMAND ${work}/examples_build/verify_drop_in PRINTS "near +PCL: converged.*PCL6D: good" "told from the right one")
 run(COMMAND ${work}/examples_build/slam_in_memory PRINTS "7 of 7 scans matched")
 run(COMMAND ${work}/examples_build/loop_closing_drop_in PRINTS "with pcl6d::ELCH .ok.")
 run(COMMAND ${work}/examples_build/relaxation_drop_in PRINTS "pcl6d::LUM ok")

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "verification_json.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_numbers.h>
@@ -120,43 +122,6 @@ graphOf(const RunResult& run)
 }
 
 Json
-verificationOf(const MapVerification& map)
-{
-  Json scans = Json::array();
-  for (const ScanCheck& scan : map.scans)
-    scans.push_back({{"tied", scan.tied},
-                     {"abstains", scan.abstains},
-                     {"bound", scan.bound ? Json(*scan.bound) : Json()},
-                     {"doubt", scan.doubt}});
-  return {{"trust", toString(map.trust)},
-          {"links", map.links.size()},
-          {"good", map.count(LinkTrust::kGood)},
-          {"wrong", map.count(LinkTrust::kWrong)},
-          {"background", map.background},
-          {"doubts", map.doubts},
-          {"scans", scans}};
-}
-
-/** The links of a verification stand in a file of their own. */
-MapVerification
-verificationFrom(const Json& json)
-{
-  MapVerification map;
-  map.trust = mapTrustFromName(json.at("trust").get<std::string>());
-  json.at("background").get_to(map.background);
-  json.at("doubts").get_to(map.doubts);
-  for (const Json& entry : json.at("scans")) {
-    ScanCheck& scan = map.scans.emplace_back();
-    entry.at("tied").get_to(scan.tied);
-    entry.at("abstains").get_to(scan.abstains);
-    if (!entry.at("bound").is_null())
-      scan.bound = entry.at("bound").get<double>();
-    entry.at("doubt").get_to(scan.doubt);
-  }
-  return map;
-}
-
-Json
 totalsOf(const RunResult& run)
 {
   double seconds = 0, memory = 0;
@@ -224,7 +189,7 @@ runOf(const Json& json)
     throw BadArgument("is of '" + run.generator + "', not of " + kProgram);
   readGraph(json.at("graph"), run);
   if (json.contains("verification")) // older runs have none
-    run.verification = verificationFrom(json["verification"]);
+    run.verification = run_files::verificationFrom(json["verification"]);
   readScans(json.at("scans"), run.scans);
   return run;
 }
@@ -253,7 +218,7 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
                               {"peak_memory_mb", stage.peak_memory_mb}});
   json["graph"] = graphOf(run);
   if (run.verification)
-    json["verification"] = verificationOf(*run.verification);
+    json["verification"] = run_files::jsonOfVerification(*run.verification);
   json["scans"] = Json::array();
   for (const ScanResult& scan : run.scans)
     visitScanFields(scan, Writer{json["scans"].emplace_back()});

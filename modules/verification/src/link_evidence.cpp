@@ -180,6 +180,38 @@ linkEvidence(const VerifiedScan& first,
   return evidence;
 }
 
+LinkCheck
+linkCheck(std::size_t from,
+          std::size_t to,
+          const LinkEvidence& evidence,
+          const LinkOpinion& opinion)
+{
+  LinkCheck link;
+  link.from = from;
+  link.to = to;
+  link.trust = opinion.trust;
+  link.probability_wrong = opinion.probability_wrong;
+  link.patches = evidence.sight.patches;
+  link.contradicted = evidence.sight.contradicted_patches;
+  link.shift = evidence.leaving();
+  link.deviation = evidence.deviation();
+  link.open_directions = evidence.fit.open_directions;
+  link.reason = opinion.reason;
+  return link;
+}
+
+std::vector<Contradiction>
+contradictedPoints(const VerifiedScan& from,
+                   const VerifiedScan& at,
+                   const Eigen::Isometry3d& T_from_at)
+{
+  std::vector<Contradiction> points;
+  const double voxel = std::max(from.voxel(), at.voxel());
+  if (!from.abstains())
+    lookFrom(from, at, T_from_at, voxel, settled(from, at, T_from_at, voxel), &points);
+  return points;
+}
+
 double
 contradictionBackground(const std::vector<LinkEvidence>& links)
 {

@@ -338,17 +338,8 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
   map.background = contradictionBackground(evidence_);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const LinkOpinion opinion = judgeLink(evidence_[k], map.background);
-    LinkCheck& link = map.links.emplace_back();
-    link.from = pairs[k].first;
-    link.to = pairs[k].second;
-    link.trust = opinion.trust;
-    link.probability_wrong = opinion.probability_wrong;
-    link.patches = evidence_[k].sight.patches;
-    link.contradicted = evidence_[k].sight.contradicted_patches;
-    link.shift = evidence_[k].leaving();
-    link.deviation = evidence_[k].deviation();
-    link.open_directions = evidence_[k].fit.open_directions;
-    link.reason = opinion.reason;
+    map.links.push_back(
+        linkCheck(pairs[k].first, pairs[k].second, evidence_[k], opinion));
   }
   if (scans_.empty())
     return map;

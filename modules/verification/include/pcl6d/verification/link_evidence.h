@@ -51,6 +51,20 @@ struct LinkOpinion {
   std::string reason;           ///< in words, with numbers; empty for a good link
 };
 
+/** \brief A link between two places of a map, in plain data. */
+LinkCheck
+linkCheck(std::size_t from,
+          std::size_t to,
+          const LinkEvidence& evidence,
+          const LinkOpinion& opinion);
+
+/** \return the points of a scan, in its frame, that the rays of another contradict; none if
+ * those abstain. \param[in] T_from_at pose of the points' scan seen from that of the rays */
+std::vector<Contradiction>
+contradictedPoints(const VerifiedScan& from,
+                   const VerifiedScan& at,
+                   const Eigen::Isometry3d& T_from_at);
+
 /** \brief The share of patches that right links contradict, from the links of a run: the
  * better half of them, as most links of most runs are right. Between 0.002 and 0.05.
  * \param[in] links without any: what scans have on average */

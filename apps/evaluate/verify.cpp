@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/folder_job.h"
+#include "evaluate/verbs.h"
+#include "evaluate/verify_report.h"
+
+#include <pcl6d/verification/map_verifier.h>
+#include <pcl6d/verification/pair_verifier.h>
+
+namespace pcl6d::app {
+
+namespace {
+MapTrust
+mapTrustOf(LinkTrust trust)
+{
+  return trust == LinkTrust::kGood         ? MapTrust::kGood
+         : trust == LinkTrust::kUnverified ? MapTrust::kUnverified
+                                           : MapTrust::kDoubtful;
+}
+
+/** Scans that are there twice are no evidence: they would confirm each other anywhere. */
+void
+doubtCopies(const VerifySource& source, MapVerification& map)
+{
+  std::size_t copies = 0;
+  std::string example;
+  for (std::size_t i = 0; i < source.names.size(); ++i) {
+    const std::size_t first = source.scans.firstLike(i);
+    if (first == i)
+      continue;
+    if (++copies == 1)
+      example = source.names[i] + " and " + source.names[first];
+  }
+  if (copies == 0)
+    return;
+  map.doubts.push_back(
+      "scans hold the very same points as others, and say nothing of "
+      "their places: " +
+      example + (copies > 1 ? " and " + std::to_string(copies - 1) + " more" : ""));
+  if (map.trust == MapTrust::kGood)
+    map.trust = MapTrust::kUnverified;
+}
+} // namespace
+
+MapVerification
+verifyMap(const VerifySettings& s, const VerifySource& source)
+{
+  MapVerifierOptions options;
+  options.num_threads = s.num_threads;
+  MapVerification map =
+      MapVerifier(source.scans.scans(), source.names, options).verify(source.poses);
+  if (source.names.size() == 1)
+    map.doubts.emplace_back("one scan alone: there is no other to contradict it");
+  doubtCopies(source, map);
+  return map;
+}
+
+MapVerification
+verifyPair(const VerifySource& source)
+{
+  const PairVerdict verdict =
+      verifyLink(source.scans, 0, 1, source.poses[0].inverse() * source.poses[1]);
+  const LinkTrust trust = verdict.opinion.trust;
+  MapVerification map;
+  map.trust = mapTrustOf(trust);
+  map.background = verdict.background;
+  map.links.push_back(linkCheck(0, 1, verdict.evidence, verdict.opinion));
+  map.scans.resize(2);
+  for (std::size_t i = 0; i < 2; ++i)
+    map.scans[i].abstains = source.scans.scans()[i].abstains();
+  map.scans[0].tied = true;
+  map.scans[1].tied = map.trusted();
+  if (trust == LinkTrust::kGood)
+    return map;
+  if (map.links.front().patches == 0 && verdict.evidence.fit.pairs == 0)
+    map.doubts.emplace_back("at this pose neither scan sees what the other measured");
+  else
+    map.doubts.push_back(
+        (trust == LinkTrust::kWrong  ? "the scans contradict this pose: "
+         : trust == LinkTrust::kWeak ? "the scans do not settle it: "
+                                     : "the scans are no evidence: ") +
+        verdict.opinion.reason);
+  if (!map.trusted())
+    map.scans[1].doubt = verdict.opinion.reason;
+  return map;
+}
+
+int
+runVerify(const std::vector<std::string>& arguments)
+{
+  VerifySettings s;
+  if (!parseVerifySettings(arguments, s))
+    return kDone;
+  FolderJob job(s.quiet, s.without_effect, verifyFolderRules(s));
+  const auto source = loadVerifySource(s, job.bar, job.interrupt);
+  if (!source) {
+    job.bar.warn("interrupted; nothing written");
+    return kInterrupted;
+  }
+  const MapVerification map = s.isPair() ? verifyPair(*source) : verifyMap(s, *source);
+  printVerification(s, *source, map);
+  if (job.out) {
+    writeVerifyFiles(*job.out, s, *source, map, job.bar);
+    job.publish();
+  }
+  flushOutput();
+  if (map.trust == MapTrust::kUnverified)
+    job.bar.warn("nothing contradicts the poses, but nothing confirms them all either");
+  return map.trusted() ? kDone : kDoubtful;
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/open_scans.h"
+#include "evaluate/pair_pose.h"
+#include "evaluate/verify_source.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/pose.h>
+#include <pcl6d/io/text.h>
+#include <pcl6d/io/trajectory_formats.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+
+/** Scans before their points are read. */
+struct Listing {
+  std::vector<fs::path> files;
+  std::vector<std::string> names;
+  std::vector<std::size_t> indices;
+  std::vector<Eigen::Isometry3d> poses; ///< in full coordinates
+  Eigen::Vector3d world_offset = Eigen::Vector3d::Zero();
+  std::string pose_source;
+  ScanParameterOptions parameters;
+};
+
+/** \return whether 3DTK left its result there, be it beside the poses it began with */
+bool
+holdsFrames(const fs::path& path)
+{
+  if (!fs::is_directory(path))
+    return false;
+  const fs::directory_iterator files(path);
+  return std::any_of(begin(files), end(files), [](const fs::directory_entry& entry) {
+    return entry.path().extension() == ".frames";
+  });
+}
+
+/** Takes the poses of a trajectory in place of those of the folder. */
+void
+replacePoses(const std::string& file, const ScanFolder& folder, Listing& listing)
+{
+  const TrajectoryFiles given = readTrajectoryFiles(
+      file, holdsFrames(file) ? TrajectoryFormat::kFrames : TrajectoryFormat::kAuto);
+  const auto& poses = given.trajectory.poses;
+  const std::size_t all = folder.odometry().poses.size();
+  const bool of_selected = poses.size() == folder.size();
+  if (given.names.empty() && !of_selected && poses.size() != all)
+    throw IoFailed(file + ": " + text::counted(poses.size(), "pose") +
+                   ", but must be one for each of the " + text::counted(all, "scan"));
+  for (std::size_t i = 0; i < folder.size(); ++i) {
+    std::size_t place = of_selected ? i : static_cast<std::size_t>(folder.index(i));
+    if (!given.names.empty()) {
+      const std::string name = folder.file(i).stem().string();
+      const auto found = std::find(given.names.begin(), given.names.end(), name);
+      if (found == given.names.end())
+        throw IoFailed(file + ": holds no pose of " + name);
+      place = static_cast<std::size_t>(found - given.names.begin());
+    }
+    listing.poses[i] = poses[place];
+  }
+  listing.pose_source = file;
+  listing.world_offset = worldOffset(listing.poses.front());
+}
+
+/** \return an option of a run, unless another value is given */
+std::optional<double>
+lengthOf(const RunResult& run,
+         const std::string& name,
+         const std::optional<double>& given)
+{
+  double value = 0;
+  for (const auto& option : run.options)
+    if (!given && option.name == name && text::parseNumber(option.value, value))
+      return value;
+  return given;
+}
+
+Listing
+listFolder(const VerifySettings& s)
+{
+  const std::string& path = s.inputs.front();
+  const RegisteredScans scans = openScans(path, s.scans);
+  const ScanFolder& folder = scans.folder();
+  if (s.poses.empty() && !folder.hasPoses() && folder.size() > 1)
+    throw IoFailed(path +
+                   ": holds neither a run (no summary.json) nor scans with poses; "
+                   "give --poses FILE");
+  Listing listing;
+  for (std::size_t i = 0; i < folder.size(); ++i) {
+    listing.files.push_back(folder.file(i));
+    listing.names.push_back(folder.name(i));
+    listing.indices.push_back(scans.index(i));
+    listing.poses.push_back(scans.pose(i));
+  }
+  listing.pose_source = scans.poseSource();
+  listing.world_offset = scans.worldOffset();
+  listing.parameters = s.parameters;
+  if (scans.summary())
+    listing.parameters = {
+        lengthOf(*scans.summary(), "min-range", s.parameters.min_range),
+        lengthOf(*scans.summary(), "max-range", s.parameters.max_range),
+        lengthOf(*scans.summary(), "voxel", s.parameters.voxel)};
+  if (!s.poses.empty())
+    replacePoses(s.poses, folder, listing);
+  return listing;
+}
+
+Listing
+listPair(const VerifySettings& s)
+{
+  const std::string &a = s.inputs[0], &b = s.inputs[1];
+  for (const std::string& file : s.inputs)
+    if (!fs::is_regular_file(file))
+      throw IoFailed(file + (fs::exists(file) ? ": is no file: of two inputs, both are "
+                                                "scans"
+                                              : ": no such file"));
+  PairPose pose;
+  pose.source = "--pose";
+  if (s.pose.empty())
+    pose = poseOfPair(a, b, s.scans.format, "--pose");
+  else if (fs::is_regular_file(s.pose))
+    pose = {poseFromFile(s.pose), s.pose, true};
+  else
+    pose.T_a_b = poseFromText("--pose", s.pose);
+  if (!pose.found)
+    throw IoFailed("no poses belong to " + a + " and " + b + "; give --pose");
+  Listing listing;
+  listing.files = {a, b};
+  listing.names = {fs::path(a).filename().string(), fs::path(b).filename().string()};
+  if (listing.names[0] == listing.names[1])
+    listing.names = {a, b};
+  listing.indices = {0, 1};
+  listing.poses = {Eigen::Isometry3d::Identity(), pose.T_a_b};
+  listing.pose_source = pose.source;
+  listing.parameters = s.parameters;
+  return listing;
+}
+
+Points
+pointsOf(const fs::path& file, ScanFormat format)
+{
+  Scan scan = readScan(file, format);
+  if (scan.points.size() < 3)
+    throw IoFailed(file.string() + ": " + text::counted(scan.points.size(), "point") +
+                   " with finite coordinates, but at least 3 are needed");
+  return std::move(scan.points);
+}
+} // namespace
+
+std::optional<VerifySource>
+loadVerifySource(const VerifySettings& s, ProgressBar& bar, const Interrupt& interrupt)
+{
+  Listing listing = s.isPair() ? listPair(s) : listFolder(s);
+  const std::size_t count = listing.files.size();
+  bar.say(text::counted(count, "scan") + ", poses from " + listing.pose_source);
+  constexpr std::size_t kScansForParameters = 16; // as of a run
+  std::vector<Points> points(std::min(count, kScansForParameters));
+  const auto read = [&](std::size_t i) {
+    return pointsOf(listing.files[i], s.scans.format);
+  };
+  parallelFor(
+      points.size(), s.num_threads, [&](std::size_t i) { points[i] = read(i); });
+  PreparedScans prepared(
+      count, deriveScanParameters(listing.parameters, points), s.num_threads);
+  const ScanParameters& p = prepared.parameters();
+  bar.say(parameterLine("min-range", p.min_range));
+  bar.say(parameterLine("max-range", p.max_range));
+  bar.say(parameterLine("voxel", p.voxel));
+  constexpr std::size_t kBatch = 8; // to show how far it is, and to be interrupted
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    if (interrupt.requested())
+      return {};
+    const std::size_t end = std::min(begin + kBatch, count);
+    parallelFor(end - begin, s.num_threads, [&](std::size_t k) {
+      const std::size_t i = begin + k;
+      prepared.set(i,
+                   i < points.size() ? std::exchange(points[i], {}) : read(i),
+                   listing.files[i].string());
+    });
+    bar.show({"reading", end, count});
+  }
+  for (Eigen::Isometry3d& pose : listing.poses)
+    pose.translation() -= listing.world_offset;
+  return VerifySource{listing.names,
+                      listing.indices,
+                      listing.poses,
+                      listing.world_offset,
+                      listing.pose_source,
+                      std::move(prepared)};
+}
+
+} // namespace pcl6d::app

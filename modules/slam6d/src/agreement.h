@@ -20,10 +20,11 @@ agreementOf(const IcpTarget& target,
 
 /** \brief How many points of a scan lie on others at two poses of it. */
 struct AgreementChange {
-  double before = 0;    ///< share at the first pose, in [0, 1]
-  double after = 0;     ///< share at the second pose
-  double deviation = 0; ///< standard deviation of their difference by chance: points of one
-                        ///< cube count as one, as they come to lie on a surface together
+  double before = 0; ///< share at the first pose, in [0, 1]
+  double after = 0;  ///< share at the second pose
+  double deviation =
+      0; ///< standard deviation of their difference by chance: points of one
+         ///< cube count as one, as they come to lie on a surface together
 
   /** \return whether the share fell by more than chance does: 3 standard deviations */
   bool

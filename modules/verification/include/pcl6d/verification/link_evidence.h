@@ -16,9 +16,10 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief What two scans say of their relative pose. */
 struct LinkEvidence {
-  SightEvidence sight; ///< points of each in the rays of the other; empty if both abstain
-  SurfaceFit fit;      ///< of their surfaces, after a few steps towards their best place
-  double voxel = 0;    ///< [m] the larger one
+  SightEvidence
+      sight;        ///< points of each in the rays of the other; empty if both abstain
+  SurfaceFit fit;   ///< of their surfaces, after a few steps towards their best place
+  double voxel = 0; ///< [m] the larger one
   bool abstained = false; ///< the rays of one of them say nothing
 
   /** \return [m] how far the surfaces would move the pairs */
@@ -58,7 +59,8 @@ contradictionBackground(const std::vector<LinkEvidence>& links);
 
 /** \brief Judges a link: how much more likely its contradicted patches are of a wrong one
  * than of a right one, and how many standard deviations its surfaces would leave it by.
- * \param[in] background of contradictionBackground()
+ * \param[in] background of contradictionBackground(); in (0, 1)
+ * \throws BadArgument background is not
  * \note Source: share/doc/trust.md \ingroup verification */
 LinkOpinion
 judgeLink(const LinkEvidence& evidence, double background);

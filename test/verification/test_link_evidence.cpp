@@ -421,6 +421,16 @@ TEST(LinkOpinion, IsMorePatientWhereRightLinksAreContradictedToo)
             judgeLink(seen(45, 300), 0.02).probability_wrong);
 }
 
+TEST(LinkOpinion, RefusesABackgroundThatIsNoShare)
+{
+  for (const float wrong : {0.0F, 1.0F, -0.1F, kNan})
+    EXPECT_EQ(pcl6d::test::badArgumentOf([&] {
+                judgeLink(seen(0, 30), wrong);
+              }).find("background = "),
+              0u)
+        << wrong;
+}
+
 TEST(LinkOpinion, NeedsThirtyPatches)
 {
   EXPECT_EQ(judged(seen(0, 30)).trust, LinkTrust::kGood);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 
+#include <pcl6d/common/require.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/registration/twist.h>
 #include <pcl6d/verification/link_evidence.h>
@@ -235,6 +236,7 @@ contradictionBackground(const std::vector<LinkEvidence>& links)
 LinkOpinion
 judgeLink(const LinkEvidence& evidence, double background)
 {
+  require(background > 0 && background < 1, "background", background, "in (0, 1)");
   const double rays = raysAgainst(evidence.sight, background);
   const double surfaces = surfacesAgainst(evidence);
   LinkOpinion opinion;

@@ -33,7 +33,7 @@ struct LinkCheck {
   std::size_t to = 0;   ///< place of a scan
   LinkTrust trust = LinkTrust::kWeak;
   double probability_wrong = 1; ///< in [0, 1]
-  std::size_t patches = 0;      ///< of surface, of which the rays of the other scan speak
+  std::size_t patches = 0; ///< of surface, of which the rays of the other scan speak
   std::size_t contradicted = 0; ///< of these: the rays went through
   double shift = 0;             ///< [m] by which the surfaces would move the scan
   double deviation = 0;         ///< [m] standard deviation of its place by the surfaces
@@ -45,9 +45,10 @@ struct LinkCheck {
 struct ScanCheck {
   bool tied = false;     ///< good links join it to the rest of the map
   bool abstains = false; ///< its rays contradict its own points, and say nothing
-  std::optional<double> bound; ///< [m] the position is known so well (95 %), relative to
-                               ///< the first scan; none if it is not tied
-  std::string doubt;           ///< in words; empty if there is none
+  std::optional<double>
+      bound;         ///< [m] the position is known so well (95 %), relative to
+                     ///< the first scan; none if it is not tied
+  std::string doubt; ///< in words; empty if there is none
 };
 
 /** \brief How far a map is to be trusted. */

@@ -73,7 +73,8 @@ contradictionBackground(const std::vector<LinkEvidence>& links);
 
 /** \brief Judges a link: how much more likely its contradicted patches are of a wrong one
  * than of a right one, and how many standard deviations its surfaces would leave it by.
- * \param[in] background of contradictionBackground()
+ * \param[in] background of contradictionBackground(); in (0, 1)
+ * \throws BadArgument background is not
  * \note Source: share/doc/trust.md \ingroup verification */
 LinkOpinion
 judgeLink(const LinkEvidence& evidence, double background);

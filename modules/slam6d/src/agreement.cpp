@@ -130,7 +130,8 @@ agreementChange(const MeasuredScan& a,
       oneWay(b, a, T_a_b_before.inverse(), T_a_b_after.inverse());
   return {0.5 * (there.before + back.before),
           0.5 * (there.after + back.after),
-          0.5 * std::hypot(there.deviation, back.deviation)};
+          0.5 * std::sqrt(there.deviation * there.deviation +
+                          back.deviation * back.deviation)};
 }
 
 } // namespace pcl6d::slam6d

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-/** \file The constants of verification, and where each comes from. "Fitted" ones come from
- * `measure_verification` (test/benchmark) on recorded and simulated sets, each tested with
- * its own set left out; share/doc/trust.md has the table. */
+/** \file The constants of verification, and where each comes from. "Fitted" ones were chosen
+ * from what `measure_verification` (test/benchmark) prints of eight recorded and simulated
+ * sets; share/doc/trust.md has the table, with sets that were not looked at before. */
 namespace pcl6d::verification {
 
 /** A scan whose rays contradict a larger share of its own points abstains. Scans with one

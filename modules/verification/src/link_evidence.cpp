@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/registration/twist.h>
@@ -37,8 +38,7 @@ lookFrom(const VerifiedScan& from,
          std::vector<Contradiction>* contradictions)
 {
   PlaceUncertainty uncertainty;
-  uncertainty.noise =
-      std::hypot(at.noise(), std::min(fit.residual, kMostMisfit * voxel));
+  uncertainty.noise = XX;
   return sightEvidence(from.rays(),
                        sampleOf(at.surfaces().points()),
                        T_from_at,
@@ -81,10 +81,26 @@ settled(const VerifiedScan& first,
   return fit;
 }
 
+/** Stirling's series, for x > 0 within 1e-10; from + - * / alone, for the same bits. */
+double
+logGamma(double x)
+{
+  constexpr double kHalfLogTwoPi = 0.91893853320467274;
+  constexpr double kLarge = 10;
+  double product = 1;
+  for (; x < kLarge; ++x)
+    product *= x;
+  const double inverse = 1 / x, square = inverse * inverse;
+  const double series =
+      inverse *
+      (1.0 / 12 - square * (1.0 / 360 - square * (1.0 / 1260 - square / 1680)));
+  return (x - 0.5) * portableLog(x) - x + kHalfLogTwoPi + series - portableLog(product);
+}
+
 double
 logBeta(double a, double b)
 {
-  return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
+  return logGamma(a) + logGamma(b) - logGamma(a + b);
 }
 
 /** log of the beta-binomial probability of k of n, but for the binomial coefficient. */
@@ -119,7 +135,7 @@ double
 probabilityOf(double log_odds)
 {
   constexpr double kMost = 700; // of a double
-  const double odds = kPriorOdds * std::exp(std::min(log_odds, kMost));
+  const double odds = kPriorOdds * portableExp(std::min(log_odds, kMost));
   return odds / (1 + odds);
 }
 
@@ -254,7 +270,8 @@ judgeLink(const LinkEvidence& evidence, double background)
            evidence.sight.patches >= kLeastPatches && !evidence.abstained)
     opinion.trust = LinkTrust::kGood;
   if (opinion.trust == LinkTrust::kUnverified)
-    opinion.reason = "the rays of a scan contradict its own points";
+    opinion.reason =
+        "a scan has too few surfaces, or its rays contradict its own points";
   else if (opinion.trust != LinkTrust::kGood)
     opinion.reason = reasonOf(evidence, rays, surfaces);
   return opinion;

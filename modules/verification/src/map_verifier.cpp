@@ -228,11 +228,11 @@ MapVerifier::doubt(MapVerification& map) const
   if (!contradicted.empty())
     map.doubts.push_back("scans contradict each other: " + listed(contradicted));
   if (!abstaining.empty())
-    map.doubts.push_back(text::counted(abstaining.size(), "scan") +
-                         " cannot be verified, as the rays contradict its own points "
-                         "(merged scans, motion "
-                         "during the scan, wrong origin?): " +
-                         listed(abstaining));
+    map.doubts.push_back(
+        text::counted(abstaining.size(), "scan") +
+        " cannot be verified: too few surfaces, or rays that contradict "
+        "its own points (merged scans, motion during the scan?): " +
+        listed(abstaining));
   if (!seen_through.empty())
     map.doubts.push_back(
         "rays contradict scans whose surfaces fit (glass, or things that "

@@ -2,13 +2,30 @@
 #include "calibration.h"
 
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/voxel_key.h>
 #include <pcl6d/verification/verified_scan.h>
 #include <pcl6d/visibility/range_noise.h>
 #include <pcl6d/visibility/sight_evidence.h>
 
 #include <cmath>
+#include <unordered_map>
 
 namespace pcl6d {
+
+namespace {
+/** \return the number of cubes with as many points as a patch needs to say something */
+std::size_t
+patchesOf(const Points& points, double cube)
+{
+  constexpr std::size_t kLeastOfPatch = 4;
+  std::unordered_map<VoxelKey, std::size_t> counts;
+  std::size_t patches = 0;
+  for (const auto& p : points)
+    if (p.allFinite() && ++counts[voxelKey(p, cube)] == kLeastOfPatch)
+      ++patches;
+  return patches;
+}
+} // namespace
 
 VerifiedScan::VerifiedScan(const Points& measured,
                            const IcpModel& surfaces,
@@ -26,12 +43,14 @@ VerifiedScan::VerifiedScan(const Points& measured,
   options.noise = rangeNoise(measured);
   rays_ = RayImage(measured, options);
   self_contradiction_ = pcl6d::selfContradiction(measured, origin, options.noise);
+  patches_ = patchesOf(surfaces.points(), verification::kPatchVoxels * voxel);
 }
 
 bool
 VerifiedScan::abstains() const
 {
-  return self_contradiction_ > verification::kAbstainingShare;
+  return self_contradiction_ > verification::kAbstainingShare ||
+         patches_ < verification::kLeastPatches;
 }
 
 } // namespace pcl6d

@@ -52,8 +52,14 @@ public:
   {
     return self_contradiction_;
   }
-  /** \return whether its rays say nothing, as they contradict its own points: merged scans,
-   * motion during the scan, a wrong origin */
+  /** \return the number of its patches of surface: what others can confirm or contradict */
+  std::size_t
+  patches() const
+  {
+    return patches_;
+  }
+  /** \return whether its rays say nothing: they contradict its own points, as of merged
+   * scans or after motion during the scan, or it has too few patches */
   bool
   abstains() const;
 
@@ -62,6 +68,7 @@ private:
   double voxel_ = 0;
   RayImage rays_;
   double self_contradiction_ = 0;
+  std::size_t patches_ = 0;
 };
 
 } // namespace pcl6d

@@ -75,11 +75,11 @@ verifyPair(const VerifySource& source)
   if (map.links.front().patches == 0 && verdict.evidence.fit.pairs == 0)
     map.doubts.emplace_back("at this pose neither scan sees what the other measured");
   else
-    map.doubts.push_back(
-        (trust == LinkTrust::kWrong  ? "the scans contradict this pose: "
-         : trust == LinkTrust::kWeak ? "the scans do not settle it: "
-                                     : "the scans are no evidence: ") +
-        verdict.opinion.reason);
+    map.doubts.push_back((trust == LinkTrust::kWrong
+                              ? "the scans contradict this pose: "
+                          : trust == LinkTrust::kWeak ? "the scans do not settle it: "
+                                                      : "the scans are no evidence: ") +
+                         verdict.opinion.reason);
   if (!map.trusted())
     map.scans[1].doubt = verdict.opinion.reason;
   return map;

@@ -194,17 +194,20 @@ optionsOfRun(const std::string& run)
 }
 
 /** The options that go into the summary; lengths go there as parameters. */
-constexpr const char* kWords[] = {
-    "first",           "last",           "every",
-    "poses",           "format",         "deskew",
-    "interpolation",   "metric",         "minimiser",
-    "plane-minimiser", "search",         "robust",
-    "initial-guess",   "metascan",       "loop-closing",
-    "relaxation",      "links",          "relaxation-rounds",
-    "graph-in",        "continue",       "iterations",
-    "min-overlap",     "max-correction", "planes",
-    "report",          "threads",        "no-verification",
-    "seed"};
+constexpr const char* kWords[] = {"first",           "last",
+                                  "every",           "poses",
+                                  "format",          "deskew",
+                                  "interpolation",   "metric",
+                                  "minimiser",       "plane-minimiser",
+                                  "search",          "robust",
+                                  "initial-guess",   "metascan",
+                                  "loop-closing",    "relaxation",
+                                  "links",           "relaxation-rounds",
+                                  "graph-in",        "continue",
+                                  "iterations",      "min-overlap",
+                                  "max-correction",  "planes",
+                                  "report",          "threads",
+                                  "no-verification", "seed"};
 } // namespace
 
 void

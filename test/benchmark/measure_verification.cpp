@@ -27,11 +27,10 @@ seen(const LinkSet& set, const TestedLink& link)
 {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  SeenLink result{link,
-                  linkEvidence(set.scans[link.first],
-                               set.scans[link.second],
-                               link.T_first_second),
-                  0};
+  SeenLink result{
+      link,
+      linkEvidence(set.scans[link.first], set.scans[link.second], link.T_first_second),
+      0};
   result.milliseconds =
       std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return result;
@@ -46,8 +45,8 @@ print(const LinkSet& set, const SeenLink& one, double background)
   const LinkOpinion opinion = judgeLink(evidence, background);
   std::cout << set.name << ',' << link.kind << ',' << link.first << ',' << link.second
             << ',' << link.off << ',' << link.turn << ',' << set.voxel << ','
-            << set.scans[link.first].noise() << ',' << sight.confirmed << ',' << sight.free
-            << ',' << sight.points() << ',' << sight.patches << ','
+            << set.scans[link.first].noise() << ',' << sight.confirmed << ','
+            << sight.free << ',' << sight.points() << ',' << sight.patches << ','
             << sight.contradicted_patches << ',' << fit.overlap << ',' << fit.residual
             << ',' << evidence.leaving() << ',' << evidence.deviation() << ','
             << fit.mahalanobisSq() << ',' << fit.open_directions << ',' << fit.spread
@@ -58,18 +57,20 @@ print(const LinkSet& set, const SeenLink& one, double background)
 int
 run(const std::vector<std::string>& arguments)
 {
-  std::map<std::string, int> knobs{{"every", 1}, {"gap", 4}, {"scans", 60}, {"pairs", 60}};
-  std::cout << "set,kind,first,second,off,turn,voxel,noise,confirmed,free,points,patches,"
-               "contradicted,overlap,residual,displacement,deviation,mahalanobis_sq,open,"
-               "spread,pairs,ms,background,wrong,trust\n";
+  std::map<std::string, int> knobs{
+      {"every", 1}, {"gap", 4}, {"scans", 60}, {"pairs", 60}};
+  std::cout
+      << "set,kind,first,second,off,turn,voxel,noise,confirmed,free,points,patches,"
+         "contradicted,overlap,residual,displacement,deviation,mahalanobis_sq,open,"
+         "spread,pairs,ms,background,wrong,trust\n";
   for (const std::string& argument : arguments) {
     const auto equals = argument.find('=');
     if (equals != std::string::npos) {
       knobs.at(argument.substr(0, equals)) = std::atoi(argument.c_str() + equals + 1);
       continue;
     }
-    const LinkSet set = readLinkSet(
-        argument, knobs["every"], static_cast<std::size_t>(knobs["scans"]));
+    const LinkSet set =
+        readLinkSet(argument, knobs["every"], static_cast<std::size_t>(knobs["scans"]));
     for (std::size_t i = 0; i < set.scans.size(); i += 5)
       std::cerr << set.name << " scan " << i << " voxel " << set.voxel << " noise "
                 << set.scans[i].noise() << " self contradiction "

@@ -115,13 +115,13 @@ addShifts(const LinkSet& set,
     Eigen::Vector3d axis(random.normal(), random.normal(), random.normal());
     Eigen::Isometry3d T = reference;
     T.rotate(Eigen::AngleAxisd(degrees * kPi / 180, axis.normalized()));
-    links.push_back(linkAt(set,
-                           "turn " + std::to_string(std::lround(10 * degrees)) +
-                               " tenths",
-                           right.first,
-                           right.second,
-                           T,
-                           reference));
+    links.push_back(
+        linkAt(set,
+               "turn " + std::to_string(std::lround(10 * degrees)) + " tenths",
+               right.first,
+               right.second,
+               T,
+               reference));
   }
 }
 
@@ -140,8 +140,7 @@ addApart(const LinkSet& set,
     return;
   const IcpResult found =
       matched(set, i, j, randomMotion(random, 1.5, random.uniform(-kPi, kPi)));
-  const TestedLink link =
-      linkAt(set, "apart", i, j, found.T_target_source, reference);
+  const TestedLink link = linkAt(set, "apart", i, j, found.T_target_source, reference);
   if (found.pairs >= 50 && (link.off > kWrongWay || link.turn > kWrongTurn))
     links.push_back(link);
 }

@@ -74,7 +74,7 @@ describeVerification(const RunResult& run, std::ostream& text)
   if (!run.verification)
     return;
   const MapVerification& map = *run.verification;
-  if (map.trusted() && !map.links.empty())
+  if (map.trust == MapTrust::kGood)
     text << "\nverified by points and rays: nothing in "
          << text::counted(map.links.size(), "link") << " contradicts the map";
   for (const std::string& doubt : map.doubts)

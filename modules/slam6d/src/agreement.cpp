@@ -56,9 +56,9 @@ double
 shareOf(const Sample& sample)
 {
   const auto near = std::count(sample.near.begin(), sample.near.end(), 1);
-  return sample.near.empty() ? 0
-                             : static_cast<double>(near) /
-                                   static_cast<double>(sample.near.size());
+  return sample.near.empty()
+             ? 0
+             : static_cast<double>(near) / static_cast<double>(sample.near.size());
 }
 } // namespace
 

@@ -20,10 +20,11 @@ agreementOf(const IcpTarget& target,
 
 /** \brief How many points of a scan lie on others at two poses of it. */
 struct AgreementChange {
-  double before = 0;    ///< share at the first pose, in [0, 1]
-  double after = 0;     ///< share at the second pose
-  double deviation = 0; ///< standard deviation of their difference by chance: points of one
-                        ///< cube count as one, as they come to lie on a surface together
+  double before = 0; ///< share at the first pose, in [0, 1]
+  double after = 0;  ///< share at the second pose
+  double deviation =
+      0; ///< standard deviation of their difference by chance: points of one
+         ///< cube count as one, as they come to lie on a surface together
 
   /** \return whether the share fell by more than chance does: 3 standard deviations */
   bool
@@ -41,7 +42,7 @@ struct AgreementChange {
 
 /** \brief agreementOf() at two poses, over the same points.
  * \param[in] cube [m] edge of the cubes whose points count as one; > 0 */
-AgreementChange
+PCL6D_EXPORTS AgreementChange // shown to its test
 agreementChange(const IcpTarget& target,
                 const Points& points,
                 const Eigen::Isometry3d& T_target_before,
@@ -71,7 +72,7 @@ private:
 };
 
 /** \brief The same of two scans, the points of each on the other: the mean of both. */
-AgreementChange
+PCL6D_EXPORTS AgreementChange // shown to its test
 agreementChange(const MeasuredScan& a,
                 const MeasuredScan& b,
                 const Eigen::Isometry3d& T_a_b_before,

@@ -44,7 +44,9 @@ constexpr std::size_t kPointsToComeNear = 1500;
 
 /** \return [m] rms way of points from one pose to another */
 double
-motionOf(const Points& points, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to)
+motionOf(const Points& points,
+         const Eigen::Isometry3d& from,
+         const Eigen::Isometry3d& to)
 {
   double sum = 0;
   for (const auto& p : points)

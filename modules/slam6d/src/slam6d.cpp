@@ -13,6 +13,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -164,9 +165,14 @@ private:
     std::vector<Eigen::Isometry3d> poses;
     for (const ScanResult& scan : result_.scans)
       poses.push_back(scan.T_world_scan);
+    std::vector<std::string> files; // names may be whole paths, which words do not need
+    for (const std::string& name : names_)
+      files.push_back(std::filesystem::path(name).filename().string());
     MapVerifierOptions options;
     options.num_threads = options_.num_threads;
-    result_.verification = MapVerifier(verified_, names_, options).verify(poses);
+    for (const ScanResult& scan : result_.scans)
+      options.unsure.push_back(scan.start == InitialGuess::kFeatures);
+    result_.verification = MapVerifier(verified_, files, options).verify(poses);
   }
 
   /** Takes back a scan that was just added and could not be reduced. */

@@ -12,8 +12,14 @@ namespace pcl6d::verification {
  * origin have 0 to 0.005, keyframes merged over half a metre up to 0.008. */
 constexpr double kAbstainingShare = 0.05;
 
-/** Patches are cubes of so many voxels: a few reduced points of one surface. */
-constexpr double kPatchVoxels = 6;
+/** Patches are cubes of so many voxels: a few reduced points of one surface; and at least
+ * as wide as so large a part of how far the surfaces are spread, so that a door that was
+ * opened, or a car, makes few of them. */
+constexpr double kPatchVoxels = 6, kPatchSpread = 0.15;
+
+/** Surfaces of a right link are no farther apart, in voxels: wrong ones, which matching has
+ * pulled together, must not hide what contradicts them. Pairs reach to 1.7 voxels. */
+constexpr double kMostMisfit = 0.5;
 
 /** So many points of a scan are looked at: enough for hundreds of patches. */
 constexpr std::size_t kLookedAt = 4000;
@@ -38,7 +44,7 @@ constexpr double kPriorOdds = 0.1;
 
 /** Fewer patches say too little to tie scans: by chance the few of a wrong link are all
  * confirmed. */
-constexpr std::size_t kLeastPatches = 30;
+constexpr std::size_t kLeastPatches = 12;
 
 /** A link ties its scans if it is wrong with a smaller probability ... */
 constexpr double kGoodBelow = 0.01;

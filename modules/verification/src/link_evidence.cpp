@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 
+#include <pcl6d/io/text.h>
 #include <pcl6d/registration/twist.h>
 #include <pcl6d/verification/link_evidence.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace pcl6d {
@@ -23,20 +25,24 @@ sampleOf(const Points& points)
   return sample;
 }
 
+/** Surfaces are as far apart where they fit best as noise alone does not show: ranges that
+ * are off alike for all points of a wall. */
 SightEvidence
 lookFrom(const VerifiedScan& from,
          const VerifiedScan& at,
          const Eigen::Isometry3d& T_from_at,
          double voxel,
+         const SurfaceFit& fit,
          std::vector<Contradiction>* contradictions)
 {
   PlaceUncertainty uncertainty;
-  uncertainty.noise = at.noise();
+  uncertainty.noise =
+      std::hypot(at.noise(), std::min(fit.residual, kMostMisfit * voxel));
   return sightEvidence(from.rays(),
                        sampleOf(at.surfaces().points()),
                        T_from_at,
                        uncertainty,
-                       kPatchVoxels * voxel,
+                       std::max(kPatchVoxels * voxel, kPatchSpread * fit.spread),
                        contradictions);
 }
 
@@ -55,15 +61,18 @@ settled(const VerifiedScan& first,
   options.covariance = false;
   SurfaceFit fit = fitSurfaces(first, second, T, options);
   Twist moved = fit.step;
-  for (int k = 1; k < kSteps && fit.pairs > 0; ++k) {
+  for (int k = 1; k < kSteps && fit.spread > 0; ++k) {
     options.covariance = k + 1 == kSteps;
     Eigen::Isometry3d motion = motionFromTwist(fit.step);
     motion = Eigen::Translation3d(fit.centroid) * motion *
              Eigen::Translation3d(-fit.centroid);
-    T = motion * T;
-    const SurfaceFit next = fitSurfaces(first, second, T, options);
-    if (next.pairs == 0)
+    const SurfaceFit next = fitSurfaces(first, second, motion * T, options);
+    if (next.spread == 0) { // it lost its pairs
+      options.covariance = true;
+      fit = fitSurfaces(first, second, T, options);
       break;
+    }
+    T = motion * T;
     moved += next.step;
     fit = next;
   }
@@ -95,29 +104,51 @@ raysAgainst(const SightEvidence& sight, double background)
          logBetaBinomial(k, n, a, kBackgroundPrecision - a);
 }
 
-/** Log odds by the way that the surfaces would move it: nothing up to so many standard
- * deviations, then as of a normal distribution. */
+/** Log odds of a shifted link by the way that the surfaces would move it: those of a normal
+ * distribution against a wide one, even at so many standard deviations. */
 double
 surfacesAgainst(const LinkEvidence& evidence)
 {
   const double sigmas = evidence.leaving() / evidence.deviation();
-  const double beyond = sigmas * sigmas - kLeavingSigmas * kLeavingSigmas;
-  return std::max(0.0, 0.5 * beyond);
+  return 0.5 * (sigmas * sigmas - kLeavingSigmas * kLeavingSigmas);
+}
+
+/** \return the probability of a hypothesis by its log odds, with the prior */
+double
+probabilityOf(double log_odds)
+{
+  constexpr double kMost = 700; // of a double
+  const double odds = kPriorOdds * std::exp(std::min(log_odds, kMost));
+  return odds / (1 + odds);
+}
+
+/** \return a number for people: two digits, and no powers of ten */
+std::string
+rounded(double value)
+{
+  std::ostringstream digits;
+  if (value < 10)
+    digits << std::setprecision(2) << value;
+  else
+    digits << std::fixed << std::setprecision(0) << value;
+  return digits.str();
 }
 
 std::string
 reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
 {
-  std::ostringstream why; // read by people
-  why.precision(2);
-  const bool enough = evidence.sight.patches >= kLeastPatches;
-  if (rays > surfaces ||
-      (surfaces == 0 && enough && evidence.sight.contradicted_patches > 0))
+  std::ostringstream why;
+  if (probabilityOf(std::max(rays, surfaces)) >= kGoodBelow && rays > surfaces)
     why << "rays go through " << evidence.sight.contradicted_patches << " of "
         << evidence.sight.patches << " patches of surface";
-  else if (surfaces > 0)
-    why << "surfaces ask for a shift of " << evidence.leaving() << " m, "
-        << evidence.leaving() / evidence.deviation() << " standard deviations";
+  else if (probabilityOf(surfaces) >= kGoodBelow)
+    why << "surfaces ask for a shift of " << rounded(evidence.leaving()) << " m, "
+        << rounded(evidence.leaving() / evidence.deviation()) << " standard deviations";
+  else if (evidence.fit.open_directions > 0)
+    why << "the surfaces leave "
+        << text::counted(static_cast<std::size_t>(evidence.fit.open_directions),
+                         "motion")
+        << " open, as along a corridor";
   else
     why << "only " << evidence.sight.patches << " patches of surface in common";
   return why.str();
@@ -139,13 +170,13 @@ linkEvidence(const VerifiedScan& first,
   LinkEvidence evidence;
   evidence.voxel = std::max(first.voxel(), second.voxel());
   evidence.abstained = first.abstains() || second.abstains();
-  if (!first.abstains())
-    evidence.sight +=
-        lookFrom(first, second, T_first_second, evidence.voxel, contradictions);
-  if (!second.abstains())
-    evidence.sight +=
-        lookFrom(second, first, T_first_second.inverse(), evidence.voxel, nullptr);
   evidence.fit = settled(first, second, T_first_second, evidence.voxel);
+  if (!first.abstains())
+    evidence.sight += lookFrom(
+        first, second, T_first_second, evidence.voxel, evidence.fit, contradictions);
+  if (!second.abstains())
+    evidence.sight += lookFrom(
+        second, first, T_first_second.inverse(), evidence.voxel, evidence.fit, nullptr);
   return evidence;
 }
 
@@ -175,8 +206,9 @@ contradictedPoints(const VerifiedScan& from,
                    const Eigen::Isometry3d& T_from_at)
 {
   std::vector<Contradiction> points;
+  const double voxel = std::max(from.voxel(), at.voxel());
   if (!from.abstains())
-    lookFrom(from, at, T_from_at, std::max(from.voxel(), at.voxel()), &points);
+    lookFrom(from, at, T_from_at, voxel, settled(from, at, T_from_at, voxel), &points);
   return points;
 }
 
@@ -205,16 +237,19 @@ judgeLink(const LinkEvidence& evidence, double background)
 {
   const double rays = raysAgainst(evidence.sight, background);
   const double surfaces = surfacesAgainst(evidence);
-  constexpr double kMostLogOdds = 700; // of a double
-  const double odds = kPriorOdds * std::exp(std::min(rays + surfaces, kMostLogOdds));
   LinkOpinion opinion;
-  opinion.probability_wrong = odds / (1 + odds);
+  // Elsewhere, which rays tell, or beside, which surfaces tell: neither speaks for the other.
+  opinion.probability_wrong =
+      1 - (1 - probabilityOf(rays)) * (1 - probabilityOf(surfaces));
   if (opinion.probability_wrong > kWrongAbove)
     opinion.trust = LinkTrust::kWrong;
-  else if (evidence.abstained)
+  else if (evidence.fit.open_directions > 0)
+    opinion.trust =
+        LinkTrust::kWeak; // along these rays and surfaces cannot see an error
+  else if (evidence.abstained && evidence.fit.spread > 0) // the surfaces speak
     opinion.trust = LinkTrust::kUnverified;
   else if (opinion.probability_wrong < kGoodBelow &&
-           evidence.sight.patches >= kLeastPatches)
+           evidence.sight.patches >= kLeastPatches && !evidence.abstained)
     opinion.trust = LinkTrust::kGood;
   if (opinion.trust == LinkTrust::kUnverified)
     opinion.reason = "the rays of a scan contradict its own points";

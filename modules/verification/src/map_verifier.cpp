@@ -2,14 +2,17 @@
 #include "calibration.h"
 
 #include <pcl6d/common/components.h>
+#include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/verification/map_verifier.h>
+#include <pcl6d/verification/twin_search.h>
 
 #include <algorithm>
 #include <map>
-#include <set>
+#include <sstream>
 
 namespace pcl6d {
 
@@ -22,6 +25,12 @@ constexpr std::size_t kAskedPoints = 300;
 
 /** Less speaks too little for a link: the share of the points asked for, both ways. */
 constexpr double kLeastSpeaking = 0.05;
+
+/** Surfaces fit that would move a link by fewer standard deviations. */
+constexpr double kFittingSigmas = 2;
+
+/** A second place is as good if so large a share of the surface is confirmed there. */
+constexpr double kTwinShare = 0.5;
 
 /** Words name so many scans. */
 constexpr std::size_t kMostNamed = 8;
@@ -80,6 +89,10 @@ MapVerifier::MapVerifier(const std::deque<VerifiedScan>& scans,
 {
   options_.validate();
   require(names_.size() == scans_.size(), "names", names_.size(), "one per scan");
+  require(options_.unsure.empty() || options_.unsure.size() == scans_.size(),
+          "unsure",
+          options_.unsure.size(),
+          "one per scan, or none");
   for (const VerifiedScan& scan : scans_)
     centres_.push_back(centreOf(scan.surfaces().points()));
 }
@@ -167,7 +180,17 @@ MapVerifier::reasonFor(std::size_t scan, const MapVerification& map) const
 void
 MapVerifier::doubt(MapVerification& map) const
 {
-  std::vector<std::string> loose, abstaining, contradicted;
+  std::vector<std::string> loose, abstaining, contradicted, seen_through, twins;
+  std::vector<int> votes(scans_.size(), 0); // good links less wrong ones
+  for (const LinkCheck& link : map.links)
+    for (const std::size_t i : {link.from, link.to})
+      votes[i] += link.trust == LinkTrust::kGood    ? 1
+                  : link.trust == LinkTrust::kWrong ? -1
+                                                    : 0;
+  std::string why; // the first one is loose
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    if (!map.scans[i].doubt.empty()) // what findTwinsOf() found
+      twins.push_back(names_[i] + " (" + map.scans[i].doubt + ")");
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     ScanCheck& scan = map.scans[i];
     if (scan.abstains)
@@ -175,13 +198,23 @@ MapVerifier::doubt(MapVerification& map) const
     if (scan.tied)
       continue;
     scan.doubt = reasonFor(i, map);
+    if (loose.empty())
+      why = scan.doubt;
     loose.push_back(names_[i]);
   }
   for (const LinkCheck& link : map.links)
     if (link.trust == LinkTrust::kWrong && map.scans[link.from].tied &&
         map.scans[link.to].tied) {
-      contradicted.push_back(names_[link.from] + " and " + names_[link.to] + " (" +
-                             link.reason + ")");
+      // Glass, doors and things that move deceive rays, but not surfaces as well.
+      const bool surfaces_fit =
+          link.open_directions == 0 && link.shift < kFittingSigmas * link.deviation;
+      auto& named = surfaces_fit && votes[link.from] >= 0 && votes[link.to] >= 0
+                        ? seen_through
+                        : contradicted;
+      named.push_back(names_[link.from] + " and " + names_[link.to] + " (" +
+                      link.reason + ")");
+      if (&named == &seen_through)
+        continue;
       for (const std::size_t i : {link.from, link.to})
         if (map.scans[i].doubt.empty())
           map.scans[i].doubt = "contradicts " +
@@ -189,14 +222,9 @@ MapVerifier::doubt(MapVerification& map) const
                                link.reason;
     }
   if (!loose.empty())
-    map.doubts.push_back(
-        text::counted(loose.size(), "scan") +
-        " not tied to the rest: " + listed(loose) + " (" +
-        map.scans[static_cast<std::size_t>(std::distance(
-                      names_.begin(),
-                      std::find(names_.begin(), names_.end(), loose.front())))]
-            .doubt +
-        "); better initial poses or scans in between would help");
+    map.doubts.push_back(text::counted(loose.size(), "scan") +
+                         " not tied to the rest: " + listed(loose) + " (" + why +
+                         "); better initial poses or scans in between would help");
   if (!contradicted.empty())
     map.doubts.push_back("scans contradict each other: " + listed(contradicted));
   if (!abstaining.empty())
@@ -205,10 +233,87 @@ MapVerifier::doubt(MapVerification& map) const
                          "(merged scans, motion "
                          "during the scan, wrong origin?): " +
                          listed(abstaining));
+  if (!seen_through.empty())
+    map.doubts.push_back(
+        "rays contradict scans whose surfaces fit (glass, or things that "
+        "moved?): " +
+        listed(seen_through));
+  if (!twins.empty())
+    map.doubts.push_back(
+        "AMBIGUOUS, two places fit: " + listed(twins) +
+        "; rough initial poses, or scans on the way between, would decide");
   const bool is_doubtful = !loose.empty() || !contradicted.empty();
   map.trust = is_doubtful                                ? MapTrust::kDoubtful
+              : !twins.empty()                           ? MapTrust::kAmbiguous
               : scans_.size() < 2 || !abstaining.empty() ? MapTrust::kUnverified
                                                          : MapTrust::kGood;
+}
+
+/** \return whether a scan at another place is as good a link with the scan beside it as at its
+ * own, and no other scan that it has a good link with now contradicts it there */
+bool
+MapVerifier::fitsElsewhere(std::size_t scan,
+                           std::size_t beside,
+                           const Eigen::Isometry3d& T_world_scan,
+                           const std::vector<Eigen::Isometry3d>& poses,
+                           const MapVerification& map) const
+{
+  const auto evidenceAt = [&](std::size_t other, const Eigen::Isometry3d& pose) {
+    return linkEvidence(scans_[other], scans_[scan], poses[other].inverse() * pose);
+  };
+  const LinkEvidence there = evidenceAt(beside, T_world_scan);
+  const LinkEvidence here = evidenceAt(beside, poses[scan]);
+  if (judgeLink(there, map.background).trust != LinkTrust::kGood ||
+      static_cast<double>(there.sight.confirmed_patches) <
+          kTwinShare * static_cast<double>(here.sight.confirmed_patches))
+    return false;
+  for (const LinkCheck& link : map.links) {
+    const std::size_t other = link.from == scan ? link.to : link.from;
+    if ((link.from != scan && link.to != scan) || other == beside ||
+        link.trust != LinkTrust::kGood)
+      continue;
+    if (judgeLink(evidenceAt(other, T_world_scan), map.background).trust ==
+        LinkTrust::kWrong)
+      return false;
+  }
+  return true;
+}
+
+/** Looks for a second place of a scan, beside the scan before and beside the one that it
+ * has most in common with. */
+void
+MapVerifier::findTwinsOf(std::size_t scan,
+                         const std::vector<Eigen::Isometry3d>& poses,
+                         MapVerification& map) const
+{
+  const LinkCheck* most = nullptr;
+  for (const LinkCheck& link : map.links)
+    if ((link.from == scan || link.to == scan) && link.trust == LinkTrust::kGood &&
+        (!most || link.patches > most->patches))
+      most = &link;
+  std::vector<std::size_t> besides;
+  if (most)
+    besides.push_back(most->from == scan ? most->to : most->from);
+  if (scan > 0 && (besides.empty() || besides.front() != scan - 1))
+    besides.push_back(scan - 1);
+  for (const std::size_t beside : besides) {
+    const Eigen::Vector3d up =
+        poses[beside].linear().transpose() * Eigen::Vector3d::UnitZ();
+    for (const Eigen::Isometry3d& T : findTwins(
+             scans_[beside], scans_[scan], poses[beside].inverse() * poses[scan], up)) {
+      const Eigen::Isometry3d place = poses[beside] * T;
+      if (!fitsElsewhere(scan, beside, place, poses, map))
+        continue;
+      const MotionSize way = distanceBetween(poses[scan], place);
+      std::ostringstream text;
+      text.precision(2);
+      text << "fits as well " << way.translation << " m away, turned by "
+           << way.rotation * 180 / 3.141592653589793 << " deg, beside "
+           << names_[beside];
+      map.scans[scan].doubt = text.str();
+      return;
+    }
+  }
 }
 
 MapVerification
@@ -218,6 +323,9 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
           "poses",
           T_world_scan.size(),
           "one per scan");
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    if (!isRigid(T_world_scan[i]))
+      throw BadArgument(names_[i] + ": the pose is not a rigid motion");
   const std::vector<Pair> pairs = choosePairs(T_world_scan);
   evidence_.assign(pairs.size(), {});
   parallelFor(pairs.size(), options_.num_threads, [&](std::size_t k) {
@@ -236,6 +344,11 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
   if (scans_.empty())
     return map;
   tie(map);
+  if (!options_.unsure.empty())
+    parallelFor(scans_.size(), options_.num_threads, [&](std::size_t i) {
+      if (options_.unsure[i] && map.scans[i].tied)
+        findTwinsOf(i, T_world_scan, map);
+    });
   doubt(map);
   return map;
 }

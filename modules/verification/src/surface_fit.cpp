@@ -23,7 +23,10 @@ struct SurfacePair {
 };
 
 /** Shifts of the grid of cubes, in cubes, over which the covariance is averaged. */
-constexpr double kShifts[][3] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+constexpr double kShifts[][3] = {{0, 0, 0},
+                                 {0.5, 0.5, 0},
+                                 {0.5, 0, 0.5},
+                                 {0, 0.5, 0.5}};
 
 /** Collects pairs and counts the points that were looked at. */
 class PairCollector {
@@ -46,7 +49,8 @@ public:
         static_cast<float>(options_.max_distance * options_.max_distance);
     for (std::size_t i = stride / 2; i < points.size(); i += stride) {
       const Eigen::Vector3d place = T_in_of * points[i].cast<double>();
-      const Neighbour near = in.surfaces().tree().nearest(place.cast<float>(), limit_sq);
+      const Neighbour near =
+          in.surfaces().tree().nearest(place.cast<float>(), limit_sq);
       ++looked_at;
       if (near.index < 0)
         continue;
@@ -152,7 +156,8 @@ solve(const std::vector<SurfacePair>& pairs,
   Matrix6 spread = Matrix6::Zero();
   for (const auto& shift : kShifts)
     spread += clustered(pairs, fit, cube, shift) / 4;
-  fit.covariance = H_inverse * spread * H_inverse + V * open.asDiagonal() * V.transpose();
+  fit.covariance =
+      H_inverse * spread * H_inverse + V * open.asDiagonal() * V.transpose();
 }
 } // namespace
 
@@ -164,7 +169,10 @@ SurfaceFitOptions::validate() const
           max_distance,
           "finite and > 0");
   require(points > 0, "points", points, "> 0");
-  require(cube_voxels > 0, "cube_voxels", cube_voxels, "> 0");
+  require(std::isfinite(cube_voxels) && cube_voxels > 0,
+          "cube_voxels",
+          cube_voxels,
+          "finite and > 0");
 }
 
 double
@@ -214,8 +222,7 @@ fitSurfaces(const VerifiedScan& first,
   SurfaceFit fit;
   fit.pairs = found.pairs.size();
   if (found.looked_at > 0)
-    fit.overlap =
-        static_cast<double>(fit.pairs) / static_cast<double>(found.looked_at);
+    fit.overlap = static_cast<double>(fit.pairs) / static_cast<double>(found.looked_at);
   constexpr std::size_t kLeastPairs = 12; // two for each direction
   if (fit.pairs < kLeastPairs)
     return fit;

@@ -15,7 +15,7 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief What is to be made of a link between two scans. */
 enum class LinkTrust {
   kGood,       ///< it ties its scans
-  kWeak,       ///< too little is seen to say
+  kWeak,       ///< too little is seen to say, or an error along an open motion is not
   kUnverified, ///< the rays abstain; the surfaces have nothing against it
   kWrong       ///< the scans contradict it
 };

@@ -21,6 +21,9 @@ struct MapVerifierOptions {
   /** so many links of each scan with earlier ones are judged, besides that with the scan
    * before: those whose rays have most to say; > 0 */
   std::size_t links_per_scan = 4;
+  /** per scan: its place was found without a prior pose, by features say, so that a second
+   * one is looked for; empty: none was */
+  std::vector<bool> unsure;
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
@@ -46,7 +49,7 @@ public:
               const MapVerifierOptions& options = {});
 
   /** \param[in] T_world_scan one per scan
-   * \throws BadArgument not one pose per scan */
+   * \throws BadArgument not one pose per scan, or one is not a rigid motion */
   MapVerification
   verify(const std::vector<Eigen::Isometry3d>& T_world_scan);
 
@@ -66,6 +69,16 @@ private:
   speaking(const Pair& pair, const std::vector<Eigen::Isometry3d>& poses) const;
   void
   tie(MapVerification& map) const;
+  void
+  findTwinsOf(std::size_t scan,
+              const std::vector<Eigen::Isometry3d>& poses,
+              MapVerification& map) const;
+  bool
+  fitsElsewhere(std::size_t scan,
+                std::size_t beside,
+                const Eigen::Isometry3d& T_world_scan,
+                const std::vector<Eigen::Isometry3d>& poses,
+                const MapVerification& map) const;
   void
   doubt(MapVerification& map) const;
   std::string

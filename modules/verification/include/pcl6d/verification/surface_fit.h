@@ -15,8 +15,9 @@ namespace PCL6D_EXPORTS pcl6d {
 struct SurfaceFitOptions {
   double max_distance = 0.25; ///< [m] farther pairs are dropped; finite, > 0
   std::size_t points = 1500;  ///< so many of a scan are paired; > 0
-  double cube_voxels = 16; ///< points in cubes of so many voxels count as one; > 0
-  bool covariance = true;  ///< false leaves it zero, which takes less time
+  double cube_voxels =
+      16; ///< points in cubes of so many voxels count as one; finite, > 0
+  bool covariance = true; ///< false leaves it zero, which takes less time
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -31,7 +32,7 @@ struct SurfaceFit {
   double overlap = 0;  ///< share of the points looked at that have a partner, both ways
   double residual = 0; ///< [m] rms distance across the surfaces
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero(); ///< [m] of the pairs
-  double spread = 0; ///< [m] rms distance of the pairs from it
+  double spread = 0;          ///< [m] rms distance of the pairs from it
   Twist step = Twist::Zero(); ///< the motion that fits best, by one Gauss-Newton step
   /** of the pose: points of a cube count as one, as their errors hang together; directions
    * that the surfaces leave open are as uncertain as the pairs are spread */

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run folder keeps of its verification, and what the verdict says of it.
+#include "support/temp_folder.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/run/run_links_io.h>
+#include <pcl6d/run/run_summary.h>
+#include <pcl6d/run/run_writer.h>
+
+#include <gtest/gtest.h>
+
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fs = std::filesystem;
+using pcl6d::IoFailed;
+using pcl6d::LinkCheck;
+using pcl6d::LinkTrust;
+using pcl6d::MapTrust;
+using pcl6d::MapVerification;
+using pcl6d::readRunSummary;
+using pcl6d::RunResult;
+using pcl6d::RunWriter;
+using pcl6d::verdictOf;
+using pcl6d::writeRunSummary;
+using pcl6d::test::TempFolder;
+using pcl6d::test::writeText;
+
+namespace {
+/** \return a run of three matched scans with the numbers 0, 2 and 4 */
+RunResult
+runOfThree()
+{
+  RunResult run;
+  run.generator = "pcl_slam6d";
+  run.version = "9.9";
+  for (int i = 0; i < 3; ++i) {
+    pcl6d::ScanResult scan;
+    scan.file = std::string(1, static_cast<char>('a' + i)) + ".pcd";
+    scan.index = 2 * i;
+    scan.state = i == 0 ? pcl6d::ScanState::kFixed : pcl6d::ScanState::kMatched;
+    run.scans.push_back(scan);
+  }
+  return run;
+}
+
+/** \return a verification in which every field differs from its default */
+MapVerification
+doubtful()
+{
+  MapVerification map;
+  map.trust = MapTrust::kDoubtful;
+  map.background = 0.1 / 3;
+  map.links = {{0, 1, LinkTrust::kGood, 1e-7 / 3, 320, 2, 0.0125, 0.003, 0, ""},
+               {1,
+                2,
+                LinkTrust::kWrong,
+                1,
+                41,
+                30,
+                1.5,
+                0.25,
+                2,
+                "rays go through 30 of 41 \"patches\", and more"}};
+  map.scans = {{true, false, 0.0, ""},
+               {true, true, 0.1 / 7, ""},
+               {false, false, {}, "with b.pcd: säule"}};
+  map.doubts = {"1 scan not tied to the rest: c.pcd", "two"};
+  return map;
+}
+
+std::string
+contentOf(const fs::path& file)
+{
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+bool
+has(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/** \return the verdict of a run whose map has this trust, with a doubt or none */
+std::string
+verdictWith(MapTrust trust, const std::vector<std::string>& doubts)
+{
+  RunResult run = runOfThree();
+  MapVerification& map = run.verification.emplace();
+  map.trust = trust;
+  map.links.resize(2);
+  map.doubts = doubts;
+  return verdictOf(run);
+}
+} // namespace
+
+TEST(RunVerification, ComesBackAsItWas)
+{
+  const TempFolder folder;
+  RunResult run = runOfThree();
+  run.verification = doubtful();
+  writeRunSummary(folder / "summary.json", run);
+  const RunResult back = readRunSummary(folder / "summary.json");
+  ASSERT_TRUE(back.verification);
+  EXPECT_EQ(back.verification->trust, MapTrust::kDoubtful);
+  EXPECT_EQ(back.verification->background, run.verification->background);
+  EXPECT_EQ(back.verification->doubts, run.verification->doubts);
+  ASSERT_EQ(back.verification->scans.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto &found = back.verification->scans[i], &was = run.verification->scans[i];
+    EXPECT_EQ(found.tied, was.tied);
+    EXPECT_EQ(found.abstains, was.abstains);
+    EXPECT_EQ(found.bound, was.bound);
+    EXPECT_EQ(found.doubt, was.doubt);
+  }
+  EXPECT_TRUE(back.verification->links.empty()) << "these stand in verification.csv";
+}
+
+TEST(RunVerification, EveryTrustComesBack)
+{
+  const TempFolder folder;
+  for (const MapTrust trust : {MapTrust::kGood,
+                               MapTrust::kDoubtful,
+                               MapTrust::kAmbiguous,
+                               MapTrust::kUnverified}) {
+    RunResult run = runOfThree();
+    run.verification.emplace().trust = trust;
+    writeRunSummary(folder / "a.json", run);
+    const RunResult back = readRunSummary(folder / "a.json");
+    EXPECT_EQ(back.verification->trust, trust);
+    writeRunSummary(folder / "b.json", back);
+    EXPECT_EQ(contentOf(folder / "a.json"), contentOf(folder / "b.json"));
+  }
+}
+
+TEST(RunVerification, IsCountedInTheSummary)
+{
+  const TempFolder folder;
+  RunResult run = runOfThree();
+  run.verification = doubtful();
+  writeRunSummary(folder / "summary.json", run);
+  const std::string text = contentOf(folder / "summary.json");
+  for (const char* const part :
+       {"\"trust\": \"doubtful\"", "\"links\": 2", "\"good\": 1", "\"wrong\": 1"})
+    EXPECT_TRUE(has(text, part)) << part << '\n' << text;
+}
+
+TEST(RunVerification, IsMissingInOlderSummaries)
+{
+  const TempFolder folder;
+  writeRunSummary(folder / "summary.json", runOfThree());
+  EXPECT_FALSE(has(contentOf(folder / "summary.json"), "\"verification\""));
+  const RunResult back = readRunSummary(folder / "summary.json");
+  EXPECT_FALSE(back.verification);
+  EXPECT_EQ(back.scans.size(), 3u);
+}
+
+TEST(RunVerification, BrokenOnesAreNamedWithWhatIsWrong)
+{
+  const TempFolder folder;
+  const fs::path file = folder / "summary.json";
+  RunResult run = runOfThree();
+  run.verification = doubtful();
+  writeRunSummary(file, run);
+  const std::string good = contentOf(file);
+  const auto errorOf = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    EXPECT_TRUE(has(text, from)) << from;
+    text.replace(text.find(from), from.size(), to);
+    writeText(file, text);
+    try {
+      readRunSummary(file);
+    } catch (const IoFailed& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(errorOf("\"doubtful\"", "\"fine\""),
+            file.string() + ": trust of a map = fine, but must be one of good, "
+                            "doubtful, ambiguous, unverified");
+  EXPECT_TRUE(has(errorOf("\"background\"", "\"ground\""), "'background' not found"));
+  EXPECT_TRUE(has(errorOf("\"tied\": true", "\"tied\": 7"), "type must be boolean"));
+  EXPECT_TRUE(has(errorOf("\"bound\"", "\"bind\""), "'bound' not found"));
+}
+
+TEST(RunVerification, IsATableOfLinksByTheNumbersOfTheirScans)
+{
+  const TempFolder folder;
+  RunResult run = runOfThree();
+  run.verification = doubtful();
+  RunWriter(folder.path(), run).writeVerification();
+  EXPECT_EQ(contentOf(folder / "verification.csv"),
+            "from,to,trust,probability_wrong,patches,contradicted,shift,deviation,"
+            "open_directions,reason\n"
+            "0,2,good,3.33333e-08,320,2,0.0125,0.003,0,\"\"\n"
+            "2,4,wrong,1,41,30,1.5,0.25,2,\"rays go through 30 of 41 \"\"patches\"\", "
+            "and more\"\n");
+}
+
+TEST(RunVerification, IsATableWithoutRowsIfThereAreNoLinks)
+{
+  const TempFolder folder;
+  pcl6d::writeLinkChecks(folder / "verification.csv", {});
+  const std::string text = contentOf(folder / "verification.csv");
+  EXPECT_EQ(text.find("from,to,trust,"), 0u);
+  EXPECT_EQ(text.find('\n'), text.size() - 1);
+}
+
+TEST(RunVerification, OfARunWithoutItWritesNothing)
+{
+  const TempFolder folder;
+  const RunResult run = runOfThree();
+  RunWriter(folder.path(), run).writeVerification();
+  EXPECT_FALSE(fs::exists(folder / "verification.csv"));
+}
+
+TEST(Verdict, OfAGoodMapSaysThatItIsVerified)
+{
+  const std::string text = verdictWith(MapTrust::kGood, {});
+  EXPECT_TRUE(has(text,
+                  "\nverified by points and rays: nothing in 2 links contradicts the "
+                  "map"))
+      << text;
+  EXPECT_FALSE(has(text, "NOT TO BE TRUSTED"));
+}
+
+TEST(Verdict, OfADoubtfulMapGivesEachDoubt)
+{
+  for (const MapTrust trust : {MapTrust::kDoubtful, MapTrust::kAmbiguous}) {
+    const std::string text = verdictWith(trust, {"first doubt", "second doubt"});
+    EXPECT_TRUE(has(text, "\nNOT TO BE TRUSTED: first doubt\n")) << text;
+    EXPECT_TRUE(has(text, "\nNOT TO BE TRUSTED: second doubt")) << text;
+    EXPECT_FALSE(has(text, "verified by"));
+  }
+}
+
+TEST(Verdict, OfAnUnverifiedMapDoesNotCallItVerified)
+{
+  const std::string text =
+      verdictWith(MapTrust::kUnverified, {"1 scan cannot be verified"});
+  EXPECT_TRUE(has(text, "\nunverified: 1 scan cannot be verified")) << text;
+  EXPECT_FALSE(has(text, "NOT TO BE TRUSTED"));
+  EXPECT_FALSE(has(text, "verified by points and rays"));
+}
+
+TEST(Verdict, WithoutVerificationSaysNothingOfIt)
+{
+  EXPECT_FALSE(has(verdictOf(runOfThree()), "verified"));
+}

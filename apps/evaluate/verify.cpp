@@ -47,6 +47,7 @@ verifyMap(const VerifySettings& s, const VerifySource& source)
 {
   MapVerifierOptions options;
   options.num_threads = s.num_threads;
+  options.unsure = source.unsure;
   MapVerification map =
       MapVerifier(source.scans.scans(), source.names, options).verify(source.poses);
   if (source.names.size() == 1)

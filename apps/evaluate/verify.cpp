@@ -47,6 +47,7 @@ verifyMap(const VerifySettings& s, const VerifySource& source)
 {
   MapVerifierOptions options;
   options.num_threads = s.num_threads;
+  options.unsure = source.unsure;
   MapVerification map =
       MapVerifier(source.scans.scans(), source.names, options).verify(source.poses);
   if (source.names.size() == 1)
@@ -75,11 +76,11 @@ verifyPair(const VerifySource& source)
   if (map.links.front().patches == 0 && verdict.evidence.fit.pairs == 0)
     map.doubts.emplace_back("at this pose neither scan sees what the other measured");
   else
-    map.doubts.push_back(
-        (trust == LinkTrust::kWrong  ? "the scans contradict this pose: "
-         : trust == LinkTrust::kWeak ? "the scans do not settle it: "
-                                     : "the scans are no evidence: ") +
-        verdict.opinion.reason);
+    map.doubts.push_back((trust == LinkTrust::kWrong
+                              ? "the scans contradict this pose: "
+                          : trust == LinkTrust::kWeak ? "the scans do not settle it: "
+                                                      : "the scans are no evidence: ") +
+                         verdict.opinion.reason);
   if (!map.trusted())
     map.scans[1].doubt = verdict.opinion.reason;
   return map;

@@ -11,15 +11,12 @@ std::string
 usage()
 {
   return std::string("usage: ") + kEvaluate +
-         R"( verify RUN [options]
-       )" +
-         kEvaluate + R"( verify SCAN_DIR --poses FILE [options]
-       )" +
-         kEvaluate + R"( verify SCAN_A SCAN_B --pose "X Y Z R P Y" [options]
-Whether a map, or the pose of one scan seen from another, is to be believed:
-by the points and the rays of the scans alone, whatever program made the poses.
-Points that stand where another scan looked through contradict the map, and so do
-surfaces that ask for another place. What the words mean: share/doc/trust.md.
+         R"( verify RUN|SCAN_DIR|SCAN_A SCAN_B [options]
+Whether a map (of a run, or of a folder with --poses FILE), or the pose of one scan
+seen from another (--pose), is to be believed, by the points and the rays of the
+scans alone, whatever program made the poses. Points that stand where another scan
+looked through contradict the map, and so do surfaces that ask for another place.
+What the words mean: share/doc/trust.md.
 Exit code 0: good, or unverified with a warning; 3: doubtful, or too little in
 common to say.
 )";

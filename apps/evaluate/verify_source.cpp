@@ -26,6 +26,7 @@ struct Listing {
   std::vector<Eigen::Isometry3d> poses; ///< in full coordinates
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero();
   std::string pose_source;
+  std::vector<bool> unsure;
   ScanParameterOptions parameters;
 };
 
@@ -81,6 +82,18 @@ lengthOf(const RunResult& run,
   return given;
 }
 
+/** \return per scan whether the run placed it without a prior pose */
+std::vector<bool>
+unsureOf(const RunResult& run, const std::vector<std::size_t>& indices)
+{
+  std::vector<bool> unsure(indices.size());
+  for (const ScanResult& scan : run.scans)
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      if (static_cast<std::size_t>(scan.index) == indices[i])
+        unsure[i] = scan.start == InitialGuess::kFeatures;
+  return unsure;
+}
+
 Listing
 listFolder(const VerifySettings& s)
 {
@@ -106,6 +119,8 @@ listFolder(const VerifySettings& s)
         lengthOf(*scans.summary(), "min-range", s.parameters.min_range),
         lengthOf(*scans.summary(), "max-range", s.parameters.max_range),
         lengthOf(*scans.summary(), "voxel", s.parameters.voxel)};
+  if (scans.summary() && s.poses.empty())
+    listing.unsure = unsureOf(*scans.summary(), listing.indices);
   if (!s.poses.empty())
     replacePoses(s.poses, folder, listing);
   return listing;
@@ -192,6 +207,7 @@ loadVerifySource(const VerifySettings& s, ProgressBar& bar, const Interrupt& int
                       listing.poses,
                       listing.world_offset,
                       listing.pose_source,
+                      listing.unsure,
                       std::move(prepared)};
 }
 

@@ -22,6 +22,8 @@ struct VerifySource {
   std::vector<Eigen::Isometry3d> poses;                   ///< relative to world_offset
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero(); ///< [m]
   std::string pose_source;                                ///< for people
+  /** per scan: a run placed it by features alone; empty: none was */
+  std::vector<bool> unsure;
   PreparedScans scans;
 };
 

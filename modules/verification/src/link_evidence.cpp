@@ -38,7 +38,8 @@ lookFrom(const VerifiedScan& from,
          std::vector<Contradiction>* contradictions)
 {
   PlaceUncertainty uncertainty;
-  uncertainty.noise = XX;
+  const double misfit = std::min(fit.residual, kMostMisfit * voxel);
+  uncertainty.noise = std::sqrt(at.noise() * at.noise() + misfit * misfit);
   return sightEvidence(from.rays(),
                        sampleOf(at.surfaces().points()),
                        T_from_at,

@@ -5,21 +5,21 @@
 
 #include <pcl6d/verification/pcl/registration_verifier.h>
 
-#include <pcl/registration/icp.h>
+#include <pcl/registration/gicp.h>
 
 #include <cstdio>
 
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
 
-// PCL's ICP from a guess, and what the points and rays of both scans say of its result.
+// PCL's GICP from a guess, and what the points and rays of both scans say of its result.
 pcl6d::LinkTrust
 registerAndVerify(const Cloud::ConstPtr& source,
                   const Cloud::ConstPtr& target,
                   const Eigen::Isometry3d& guess,
                   const char* name)
 {
-  pcl::IterativeClosestPoint<Point, Point> icp;
+  pcl::GeneralizedIterativeClosestPoint<Point, Point> icp;
   icp.setInputSource(source);
   icp.setInputTarget(target);
   icp.setMaximumIterations(100);

@@ -258,8 +258,9 @@ judgeLink(const LinkEvidence& evidence, double background)
   const double surfaces = surfacesAgainst(evidence);
   LinkOpinion opinion;
   // Elsewhere, which rays tell, or beside, which surfaces tell: neither speaks for the other.
-  opinion.probability_wrong =
-      1 - (1 - probabilityOf(rays)) * (1 - probabilityOf(surfaces));
+  opinion.elsewhere = probabilityOf(rays);
+  opinion.beside = probabilityOf(surfaces);
+  opinion.probability_wrong = 1 - (1 - opinion.elsewhere) * (1 - opinion.beside);
   if (opinion.probability_wrong > kWrongAbove)
     opinion.trust = LinkTrust::kWrong;
   else if (evidence.fit.open_directions > 0)

@@ -26,9 +26,6 @@ constexpr std::size_t kAskedPoints = 300;
 /** Less speaks too little for a link: the share of the points asked for, both ways. */
 constexpr double kLeastSpeaking = 0.05;
 
-/** Surfaces fit that would move a link by fewer standard deviations. */
-constexpr double kFittingSigmas = 2;
-
 /** A second place is as good if so large a share of the surface is confirmed there. */
 constexpr double kTwinShare = 0.5;
 
@@ -180,7 +177,7 @@ MapVerifier::reasonFor(std::size_t scan, const MapVerification& map) const
 void
 MapVerifier::doubt(MapVerification& map) const
 {
-  std::vector<std::string> loose, abstaining, contradicted, seen_through, twins;
+  std::vector<std::string> loose, abstaining, contradicted, outvoted, twins;
   std::vector<int> votes(scans_.size(), 0); // good links less wrong ones
   for (const LinkCheck& link : map.links)
     for (const std::size_t i : {link.from, link.to})
@@ -202,18 +199,20 @@ MapVerifier::doubt(MapVerification& map) const
       why = scan.doubt;
     loose.push_back(names_[i]);
   }
-  for (const LinkCheck& link : map.links)
+  for (std::size_t k = 0; k < map.links.size(); ++k) {
+    const LinkCheck& link = map.links[k];
     if (link.trust == LinkTrust::kWrong && map.scans[link.from].tied &&
         map.scans[link.to].tied) {
-      // Glass, doors and things that move deceive rays, but not surfaces as well.
-      const bool surfaces_fit =
-          link.open_directions == 0 && link.shift < kFittingSigmas * link.deviation;
-      auto& named = surfaces_fit && votes[link.from] >= 0 && votes[link.to] >= 0
-                        ? seen_through
+      // Glass, doors and things that move deceive rays, and a small overlap deceives
+      // surfaces: one of both against the most of both scans' links is no proof.
+      const bool both_object =
+          opinions_[k].elsewhere > 0.5 && opinions_[k].beside > 0.5;
+      auto& named = votes[link.from] >= 0 && votes[link.to] >= 0 && !both_object
+                        ? outvoted
                         : contradicted;
       named.push_back(names_[link.from] + " and " + names_[link.to] + " (" +
                       link.reason + ")");
-      if (&named == &seen_through)
+      if (&named == &outvoted)
         continue;
       for (const std::size_t i : {link.from, link.to})
         if (map.scans[i].doubt.empty())
@@ -221,6 +220,7 @@ MapVerifier::doubt(MapVerification& map) const
                                names_[i == link.from ? link.to : link.from] + ": " +
                                link.reason;
     }
+  }
   if (!loose.empty())
     map.doubts.push_back(text::counted(loose.size(), "scan") +
                          " not tied to the rest: " + listed(loose) + " (" + why +
@@ -233,11 +233,10 @@ MapVerifier::doubt(MapVerification& map) const
         " cannot be verified: too few surfaces, or rays that contradict "
         "its own points (merged scans, motion during the scan?): " +
         listed(abstaining));
-  if (!seen_through.empty())
-    map.doubts.push_back(
-        "rays contradict scans whose surfaces fit (glass, or things that "
-        "moved?): " +
-        listed(seen_through));
+  if (!outvoted.empty())
+    map.doubts.push_back("most links of these scans agree with the map, one does not "
+                         "(glass, things that moved, little in common?): " +
+                         listed(outvoted));
   if (!twins.empty())
     map.doubts.push_back(
         "AMBIGUOUS, two places fit: " + listed(twins) +
@@ -336,10 +335,11 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
   MapVerification map;
   map.scans.resize(scans_.size());
   map.background = contradictionBackground(evidence_);
+  opinions_.clear();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const LinkOpinion opinion = judgeLink(evidence_[k], map.background);
+    opinions_.push_back(judgeLink(evidence_[k], map.background));
     map.links.push_back(
-        linkCheck(pairs[k].first, pairs[k].second, evidence_[k], opinion));
+        linkCheck(pairs[k].first, pairs[k].second, evidence_[k], opinions_.back()));
   }
   if (scans_.empty())
     return map;

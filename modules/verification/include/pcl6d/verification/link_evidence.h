@@ -48,7 +48,9 @@ linkEvidence(const VerifiedScan& first,
 struct LinkOpinion {
   LinkTrust trust = LinkTrust::kWeak;
   double probability_wrong = 1; ///< in [0, 1]
-  std::string reason;           ///< in words, with numbers; empty for a good link
+  double elsewhere = 1; ///< of this: the probability of another place, by the rays
+  double beside = 1;    ///< of this: that of a shift, by the surfaces
+  std::string reason;   ///< in words, with numbers; empty for a good link
 };
 
 /** \brief A link between two places of a map, in plain data. */

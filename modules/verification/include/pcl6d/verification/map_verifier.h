@@ -89,6 +89,7 @@ private:
   MapVerifierOptions options_;
   std::vector<Eigen::Vector3d> centres_; ///< [m] of the points, in their scan's frame
   std::vector<LinkEvidence> evidence_;
+  std::vector<LinkOpinion> opinions_; ///< one per link
 };
 
 } // namespace pcl6d

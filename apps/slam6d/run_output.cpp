@@ -75,12 +75,13 @@ runFolderRules(const Settings& settings)
   rules.inputs = {settings.input, settings.folder.poses_file};
   rules.program = kProgram;
   rules.marker = "summary.json";
-  rules.files = std::regex("trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
-                           "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|(links|verification)\\.csv|"
-                           "(summary|objects|semantic_map)\\.json|"
-                           "semantic_map\\.(pcd|ply)|"
-                           "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
-                           planeFilePattern());
+  rules.files = std::regex(
+      "trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
+      "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|(links|verification)\\.csv|"
+      "(summary|objects|semantic_map)\\.json|"
+      "semantic_map\\.(pcd|ply)|"
+      "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
+      planeFilePattern());
   rules.force = settings.force;
   return rules;
 }

@@ -25,9 +25,9 @@ struct Settings {
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
   bool deskew = false;    ///< undo the motion of the scanner during each scan
   MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
-  bool planes = false;    ///< find and label the planes of the map
-  bool live_view = false; ///< show the map in a window while it grows
-  bool report = false;    ///< write report.html
+  bool planes = false;          ///< find and label the planes of the map
+  bool live_view = false;       ///< show the map in a window while it grows
+  bool report = false;          ///< write report.html
   bool no_verification = false; ///< do not judge the map in the end
   bool force = false;
   bool quiet = false;

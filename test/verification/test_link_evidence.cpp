@@ -364,7 +364,8 @@ TEST(LinkEvidence, WithoutRaysTheSurfacesSpeakAlone)
       linkEvidence(scans[2], scans[2], Eigen::Isometry3d::Identity());
   EXPECT_EQ(none.sight.points(), 0u);
   EXPECT_EQ(judged(none).trust, LinkTrust::kUnverified);
-  EXPECT_EQ(judged(none).reason, "a scan has too few surfaces, or its rays contradict its own points");
+  EXPECT_EQ(judged(none).reason,
+            "a scan has too few surfaces, or its rays contradict its own points");
 }
 
 TEST(LinkEvidence, ThatAbstainsWithoutCommonSurfacesIsWeak)

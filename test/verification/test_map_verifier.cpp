@@ -361,9 +361,10 @@ TEST(MapVerifier, LeavesScansThatAbstainUnverified)
   const MapVerification map = verifiedOf(scans, {way()[0], way()[1], way()[2]});
   EXPECT_NE(map.trust, MapTrust::kGood);
   EXPECT_TRUE(map.scans[2].abstains);
-  EXPECT_EQ(map.doubts.back().find("1 scan cannot be verified: too few surfaces, or rays "
-                                   "that contradict its own points"),
-            0u)
+  EXPECT_EQ(
+      map.doubts.back().find("1 scan cannot be verified: too few surfaces, or rays "
+                             "that contradict its own points"),
+      0u)
       << map.doubts.back();
 }
 

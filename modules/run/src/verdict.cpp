@@ -78,7 +78,10 @@ describeVerification(const RunResult& run, std::ostream& text)
     text << "\nverified by points and rays: nothing in "
          << text::counted(map.links.size(), "link") << " contradicts the map";
   for (const std::string& doubt : map.doubts)
-    text << (map.trusted() ? "\nunverified: " : "\nNOT TO BE TRUSTED: ") << doubt;
+    text << (map.trust == MapTrust::kGood ? "\nnote: "
+             : map.trusted()              ? "\nunverified: "
+                                          : "\nNOT TO BE TRUSTED: ")
+         << doubt;
 }
 } // namespace
 

@@ -156,7 +156,8 @@ std::string
 reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
 {
   std::ostringstream why;
-  if (probabilityOf(std::max(rays, surfaces)) >= kGoodBelow && rays > surfaces)
+  if (probabilityOf(rays) >= kGoodBelow && rays > surfaces &&
+      evidence.sight.contradicted_patches > 0)
     why << "rays go through " << evidence.sight.contradicted_patches << " of "
         << evidence.sight.patches << " patches of surface";
   else if (probabilityOf(surfaces) >= kGoodBelow)
@@ -268,8 +269,9 @@ judgeLink(const LinkEvidence& evidence, double background)
         LinkTrust::kWeak; // along these rays and surfaces cannot see an error
   else if (evidence.abstained && evidence.fit.spread > 0) // the surfaces speak
     opinion.trust = LinkTrust::kUnverified;
-  else if (opinion.probability_wrong < kGoodBelow &&
-           evidence.sight.patches >= kLeastPatches && !evidence.abstained)
+  else if (opinion.probability_wrong < kGoodBelow && !evidence.abstained &&
+           evidence.sight.patches >= kLeastPatches &&
+           evidence.sight.confirmation() >= kLeastConfirmation)
     opinion.trust = LinkTrust::kGood;
   if (opinion.trust == LinkTrust::kUnverified)
     opinion.reason =

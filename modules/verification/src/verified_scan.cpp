@@ -50,7 +50,7 @@ bool
 VerifiedScan::abstains() const
 {
   return self_contradiction_ > verification::kAbstainingShare ||
-         patches_ < verification::kLeastPatches;
+         patches_ < verification::kLeastOwnPatches;
 }
 
 } // namespace pcl6d

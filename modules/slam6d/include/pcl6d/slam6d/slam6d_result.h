@@ -32,7 +32,8 @@ struct Slam6DResult {
   /** the links that count as measured relative poses, and the final poses */
   PoseGraph graph;
   std::vector<std::size_t> floating; ///< scans that no link joins to the first one
-  std::optional<MapVerification> verification; ///< of the final poses; none if not asked for
+  std::optional<MapVerification>
+      verification; ///< of the final poses; none if not asked for
 
   /** \return the number of scans in a state */
   std::size_t

@@ -46,6 +46,19 @@ runOfThree()
   return run;
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+pcl6d::NoticedError
+noticedFrom(double least, double most, double turn)
+{
+  pcl6d::NoticedError noticed;
+  noticed.least = least;
+  noticed.most = most;
+  noticed.turn = turn;
+  noticed.weakest = {0.6, -0.8, 0};
+  return noticed;
+}
+
 /** \return a verification in which every field differs from its default */
 MapVerification
 doubtful()
@@ -53,20 +66,31 @@ doubtful()
   MapVerification map;
   map.trust = MapTrust::kDoubtful;
   map.background = 0.1 / 3;
-  map.links = {{0, 1, LinkTrust::kGood, 1e-7 / 3, 320, 2, 0.0125, 0.003, 0, ""},
-               {1,
-                2,
-                LinkTrust::kWrong,
-                1,
-                41,
-                30,
-                1.5,
-                0.25,
-                2,
-                "rays go through 30 of 41 \"patches\", and more"}};
-  map.scans = {{true, false, 0.0, ""},
-               {true, true, 0.1 / 7, ""},
-               {false, false, {}, "with b.pcd: säule"}};
+  map.links.resize(2);
+  pcl6d::LinkCheck &good = map.links[0], &wrong = map.links[1];
+  good.to = 1;
+  good.trust = LinkTrust::kGood;
+  good.probability_wrong = 1e-7 / 3;
+  good.patches = 320;
+  good.contradicted = 2;
+  good.shift = 0.0125;
+  good.deviation = 0.003;
+  good.noticed = noticedFrom(0.015, 0.0625, 0.01);
+  wrong.from = 1;
+  wrong.to = 2;
+  wrong.trust = LinkTrust::kWrong;
+  wrong.patches = 41;
+  wrong.contradicted = 30;
+  wrong.shift = 1.5;
+  wrong.deviation = 0.25;
+  wrong.open_directions = 2;
+  wrong.reason = "rays go through 30 of 41 \"patches\", and more";
+  map.scans.resize(3);
+  map.scans[0].tied = map.scans[1].tied = map.scans[1].abstains = true;
+  map.scans[0].bound = 0;
+  map.scans[1].bound = 0.1 / 7;
+  map.scans[1].noticed = noticedFrom(0.1 / 3, kInfinity, kInfinity);
+  map.scans[2].doubt = "with b.pcd: säule";
   map.doubts = {"1 scan not tied to the rest: c.pcd", "two"};
   return map;
 }
@@ -115,6 +139,13 @@ TEST(RunVerification, ComesBackAsItWas)
     EXPECT_EQ(found.abstains, was.abstains);
     EXPECT_EQ(found.bound, was.bound);
     EXPECT_EQ(found.doubt, was.doubt);
+    ASSERT_EQ(found.noticed.has_value(), was.noticed.has_value());
+    if (was.noticed) {
+      EXPECT_EQ(found.noticed->least, was.noticed->least);
+      EXPECT_EQ(found.noticed->most, was.noticed->most);
+      EXPECT_EQ(found.noticed->turn, was.noticed->turn);
+      EXPECT_EQ(found.noticed->weakest, was.noticed->weakest);
+    }
   }
   EXPECT_TRUE(back.verification->links.empty()) << "these stand in verification.csv";
 }
@@ -192,12 +223,13 @@ TEST(RunVerification, IsATableOfLinksByTheNumbersOfTheirScans)
   RunResult run = runOfThree();
   run.verification = doubtful();
   RunWriter(folder.path(), run).writeVerification();
-  EXPECT_EQ(contentOf(folder / "verification.csv"),
-            "from,to,trust,probability_wrong,patches,contradicted,shift,deviation,"
-            "open_directions,reason\n"
-            "0,2,good,3.33333e-08,320,2,0.0125,0.003,0,\"\"\n"
-            "2,4,wrong,1,41,30,1.5,0.25,2,\"rays go through 30 of 41 \"\"patches\"\", "
-            "and more\"\n");
+  EXPECT_EQ(
+      contentOf(folder / "verification.csv"),
+      "from,to,trust,probability_wrong,patches,contradicted,shift,deviation,"
+      "open_directions,noticed_least,noticed_most,noticed_turn,reason\n"
+      "0,2,good,3.33333e-08,320,2,0.0125,0.003,0,0.015,0.0625,0.01,\"\"\n"
+      "2,4,wrong,1,41,30,1.5,0.25,2,,,,\"rays go through 30 of 41 \"\"patches\"\", "
+      "and more\"\n");
 }
 
 TEST(RunVerification, IsATableWithoutRowsIfThereAreNoLinks)

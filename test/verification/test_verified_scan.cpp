@@ -64,7 +64,7 @@ TEST(VerifiedScan, MayBeEmptyOrTiny)
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(scans[i].noise(), 0);
     EXPECT_EQ(scans[i].selfContradiction(), 0);
-    EXPECT_FALSE(scans[i].abstains());
+    EXPECT_TRUE(scans[i].abstains()) << "it has no patches to be verified by";
   }
 }
 

@@ -123,8 +123,10 @@ struct CellWriter {
       csv << inQuotes(value);
     else if constexpr (std::is_enum_v<Value>)
       csv << toString(value);
-    else
+    else if constexpr (!std::is_pointer_v<Value>)
       csv << value;
+    else if (value) // an empty cell if there is none
+      csv << *value;
   }
 };
 

@@ -6,7 +6,52 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <limits>
+#include <optional>
+
 namespace pcl6d {
+
+namespace {
+/** JSON has no infinity: null. */
+nlohmann::ordered_json
+numberOrNull(double value)
+{
+  return std::isfinite(value) ? nlohmann::ordered_json(value)
+                              : nlohmann::ordered_json();
+}
+
+double
+numberOrInfinity(const nlohmann::ordered_json& json)
+{
+  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+}
+
+nlohmann::ordered_json
+jsonOfNoticed(const std::optional<NoticedError>& noticed)
+{
+  if (!noticed)
+    return {};
+  return {{"least", numberOrNull(noticed->least)},
+          {"most", numberOrNull(noticed->most)},
+          {"turn", numberOrNull(noticed->turn)},
+          {"weakest", rowByRow(noticed->weakest.transpose())}};
+}
+
+std::optional<NoticedError>
+noticedFrom(const nlohmann::ordered_json& json)
+{
+  if (json.is_null())
+    return std::nullopt;
+  NoticedError noticed;
+  noticed.least = numberOrInfinity(json.at("least"));
+  noticed.most = numberOrInfinity(json.at("most"));
+  noticed.turn = numberOrInfinity(json.at("turn"));
+  fill(json.at("weakest"), "weakest", noticed.weakest);
+  return noticed;
+}
+} // namespace
+
 namespace run_files {
 
 nlohmann::ordered_json
@@ -19,6 +64,7 @@ jsonOfVerification(const MapVerification& map)
          {"abstains", scan.abstains},
          {"bound",
           scan.bound ? nlohmann::ordered_json(*scan.bound) : nlohmann::ordered_json()},
+         {"noticed", jsonOfNoticed(scan.noticed)},
          {"doubt", scan.doubt}});
   return {{"trust", toString(map.trust)},
           {"links", map.links.size()},
@@ -42,6 +88,8 @@ verificationFrom(const nlohmann::ordered_json& json)
     entry.at("abstains").get_to(scan.abstains);
     if (!entry.at("bound").is_null())
       scan.bound = entry.at("bound").get<double>();
+    if (entry.contains("noticed")) // runs of earlier versions have none
+      scan.noticed = noticedFrom(entry["noticed"]);
     entry.at("doubt").get_to(scan.doubt);
   }
   return map;

@@ -5,7 +5,9 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/graph_relaxation/parameterisations.h>
 #include <pcl6d/slam6d/auto_parameters.h>
+#include <pcl6d/slam6d/pose_bounds.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 #include <pcl6d/slam6d/slam6d.h>
 #include <pcl6d/verification/map_verifier.h>
@@ -173,6 +175,26 @@ private:
     for (const ScanResult& scan : result_.scans)
       options.unsure.push_back(scan.start == InitialGuess::kFeatures);
     result_.verification = MapVerifier(verified_, files, options).verify(poses);
+    boundPoses(poses, *result_.verification, options_.num_threads);
+    takeCovariances(*result_.verification);
+  }
+
+  /** Those of matching take pairs as independent, which they are not. */
+  void
+  takeCovariances(const MapVerification& map)
+  {
+    for (std::size_t i = 0; i < map.scans.size(); ++i) {
+      ScanResult& scan = result_.scans[i];
+      if (!map.scans[i].covariance || !scan.covariance) // predicted poses have none
+        continue;
+      PoseCovariance turn = PoseCovariance::Zero();
+      turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
+          scan.T_world_scan.linear();
+      const PoseCovariance covariance = eulerCovariance(
+          scan.T_world_scan, turn * *map.scans[i].covariance * turn.transpose());
+      if (covariance.allFinite())
+        scan.covariance = covariance;
+    }
   }
 
   /** Takes back a scan that was just added and could not be reduced. */

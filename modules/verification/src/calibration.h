@@ -24,12 +24,23 @@ constexpr double kMostMisfit = 0.5;
 /** So many points of a scan are looked at: enough for hundreds of patches. */
 constexpr std::size_t kLookedAt = 4000;
 
+/** So many points of each scan are paired, and so many steps let surfaces settle. */
+constexpr std::size_t kPairedPoints = 1500;
+constexpr int kSteps = 4;
+
+/** At other places fewer do: an error is noticed or not, its size does not matter. */
+constexpr std::size_t kProbedPoints = 400;
+constexpr int kProbedSteps = 2;
+
 /** Contradicted patches of a right link, as share: what things that move, glass and edges
- * give. Its mean is taken from the links of a run themselves, starting from this one with
- * the weight of so many patches, and never more than the largest. Fitted: means of the sets
- * are 0.000 to 0.025; a scanner of 2002 (kurt3d) in a corridor with glass has 0.09. */
-constexpr double kBackground = 0.006, kBackgroundWeight = 100;
-constexpr double kLeastBackground = 0.002, kMostBackground = 0.1;
+ * give. Its mean is learned from the links of a run themselves, starting from this one with
+ * the weight of a link. Fitted: means of the sets are 0.000 to 0.025. */
+constexpr double kBackground = 0.006, kLeastBackground = 0.002;
+
+/** Rays that contradict more of the surface even where scans fit best say nothing: a scanner of
+ * 2002 in a corridor with glass (kurt3d) has 0.1. The better half of wrong links contradicts
+ * still more, 0.28 on average, and no background is to be learned from them. */
+constexpr double kMostBackground = 0.05, kNoBackground = 0.12;
 
 /** How evenly links share the background: the sum of both parameters of a beta
  * distribution. Fitted: 40 to 200; small is careful with right links. */
@@ -38,6 +49,12 @@ constexpr double kBackgroundPrecision = 40;
 /** Contradicted patches of a wrong link: parameters of a beta distribution of their share.
  * Fitted to other minima, folds and scans apart: mean 0.42, standard deviation 0.18. */
 constexpr double kWrongFree = 2.75, kWrongConfirmed = 3.8;
+
+/** Wrong places along even surfaces, such as a corridor's, contradict little: so large a share
+ * of wrong links does, with a share of contradicted patches of a beta distribution of mean
+ * 0.05. Asked of links that alone hold parts of a map together. Chosen on simulated jumps
+ * along a corridor: 0.02 to 0.03 of the patches. */
+constexpr double kEvenShare = 0.1, kEvenFree = 1, kEvenConfirmed = 19;
 
 /** Odds of a wrong link before anything is looked at: one in ten. */
 constexpr double kPriorOdds = 0.1;

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
+#include "evidence_parts.h"
 
-#include <pcl6d/common/portable_math.h>
-#include <pcl6d/common/require.h>
-#include <pcl6d/io/text.h>
 #include <pcl6d/registration/twist.h>
 #include <pcl6d/verification/link_evidence.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace pcl6d {
 using namespace verification;
@@ -27,8 +23,6 @@ sampleOf(const Points& points)
   return sample;
 }
 
-/** Surfaces are as far apart where they fit best as noise alone does not show: ranges that
- * are off alike for all points of a wall. */
 SightEvidence
 lookFrom(const VerifiedScan& from,
          const VerifiedScan& at,
@@ -48,29 +42,35 @@ lookFrom(const VerifiedScan& from,
                        contradictions);
 }
 
-/** Where the surfaces would move a link to, in a few steps, and how well they say it. */
+/** Pairs are as far apart, in voxels, as matching by planes pairs them. */
+constexpr double kPairVoxels = 1.7;
+} // namespace
+
+namespace verification {
 SurfaceFit
-settled(const VerifiedScan& first,
-        const VerifiedScan& second,
-        const Eigen::Isometry3d& T_first_second,
-        double voxel)
+settledFit(const VerifiedScan& first,
+           const VerifiedScan& second,
+           const Eigen::Isometry3d& T_first_second,
+           double voxel,
+           std::size_t points,
+           int steps,
+           bool with_covariance)
 {
-  constexpr int kSteps = 4;
-  constexpr double kPairVoxels = 1.7; // as matching by planes pairs them
   SurfaceFitOptions options;
   options.max_distance = kPairVoxels * voxel;
+  options.points = points;
   Eigen::Isometry3d T = T_first_second;
-  options.covariance = false;
+  options.covariance = with_covariance && steps == 1;
   SurfaceFit fit = fitSurfaces(first, second, T, options);
   Twist moved = fit.step;
-  for (int k = 1; k < kSteps && fit.spread > 0; ++k) {
-    options.covariance = k + 1 == kSteps;
+  for (int k = 1; k < steps && fit.spread > 0; ++k) {
+    options.covariance = with_covariance && k + 1 == steps;
     Eigen::Isometry3d motion = motionFromTwist(fit.step);
     motion = Eigen::Translation3d(fit.centroid) * motion *
              Eigen::Translation3d(-fit.centroid);
     const SurfaceFit next = fitSurfaces(first, second, motion * T, options);
     if (next.spread == 0) { // it lost its pairs
-      options.covariance = true;
+      options.covariance = with_covariance;
       fit = fitSurfaces(first, second, T, options);
       break;
     }
@@ -82,97 +82,22 @@ settled(const VerifiedScan& first,
   return fit;
 }
 
-/** Stirling's series, for x > 0 within 1e-10; from + - * / alone, for the same bits. */
-double
-logGamma(double x)
+SightEvidence
+sightBothWays(const VerifiedScan& first,
+              const VerifiedScan& second,
+              const Eigen::Isometry3d& T_first_second,
+              double voxel,
+              const SurfaceFit& fit,
+              std::vector<Contradiction>* contradictions)
 {
-  constexpr double kHalfLogTwoPi = 0.91893853320467274;
-  constexpr double kLarge = 10;
-  double product = 1;
-  for (; x < kLarge; ++x)
-    product *= x;
-  const double inverse = 1 / x, square = inverse * inverse;
-  const double series =
-      inverse *
-      (1.0 / 12 - square * (1.0 / 360 - square * (1.0 / 1260 - square / 1680)));
-  return (x - 0.5) * portableLog(x) - x + kHalfLogTwoPi + series - portableLog(product);
+  SightEvidence sight;
+  if (!first.abstains())
+    sight += lookFrom(first, second, T_first_second, voxel, fit, contradictions);
+  if (!second.abstains())
+    sight += lookFrom(second, first, T_first_second.inverse(), voxel, fit, nullptr);
+  return sight;
 }
-
-double
-logBeta(double a, double b)
-{
-  return logGamma(a) + logGamma(b) - logGamma(a + b);
-}
-
-/** log of the beta-binomial probability of k of n, but for the binomial coefficient. */
-double
-logBetaBinomial(double k, double n, double a, double b)
-{
-  return logBeta(k + a, n - k + b) - logBeta(a, b);
-}
-
-/** Log odds of a wrong link by what the rays contradict. */
-double
-raysAgainst(const SightEvidence& sight, double background)
-{
-  const auto n = static_cast<double>(sight.patches);
-  const auto k = static_cast<double>(sight.contradicted_patches);
-  const double a = background * kBackgroundPrecision;
-  return logBetaBinomial(k, n, kWrongFree, kWrongConfirmed) -
-         logBetaBinomial(k, n, a, kBackgroundPrecision - a);
-}
-
-/** Log odds of a shifted link by the way that the surfaces would move it: those of a normal
- * distribution against a wide one, even at so many standard deviations. */
-double
-surfacesAgainst(const LinkEvidence& evidence)
-{
-  const double sigmas = evidence.leaving() / evidence.deviation();
-  return 0.5 * (sigmas * sigmas - kLeavingSigmas * kLeavingSigmas);
-}
-
-/** \return the probability of a hypothesis by its log odds, with the prior */
-double
-probabilityOf(double log_odds)
-{
-  constexpr double kMost = 700; // of a double
-  const double odds = kPriorOdds * portableExp(std::min(log_odds, kMost));
-  return odds / (1 + odds);
-}
-
-/** \return a number for people: two digits, and no powers of ten */
-std::string
-rounded(double value)
-{
-  std::ostringstream digits;
-  if (value < 10)
-    digits << std::setprecision(2) << value;
-  else
-    digits << std::fixed << std::setprecision(0) << value;
-  return digits.str();
-}
-
-std::string
-reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
-{
-  std::ostringstream why;
-  if (probabilityOf(rays) >= kGoodBelow && rays > surfaces &&
-      evidence.sight.contradicted_patches > 0)
-    why << "rays go through " << evidence.sight.contradicted_patches << " of "
-        << evidence.sight.patches << " patches of surface";
-  else if (probabilityOf(surfaces) >= kGoodBelow)
-    why << "surfaces ask for a shift of " << rounded(evidence.leaving()) << " m, "
-        << rounded(evidence.leaving() / evidence.deviation()) << " standard deviations";
-  else if (evidence.fit.open_directions > 0)
-    why << "the surfaces leave "
-        << text::counted(static_cast<std::size_t>(evidence.fit.open_directions),
-                         "motion")
-        << " open, as along a corridor";
-  else
-    why << "only " << evidence.sight.patches << " patches of surface in common";
-  return why.str();
-}
-} // namespace
+} // namespace verification
 
 double
 LinkEvidence::deviation() const
@@ -187,17 +112,34 @@ linkEvidence(const VerifiedScan& first,
              std::vector<Contradiction>* contradictions)
 {
   LinkEvidence evidence;
+  evidence.T_first_second = T_first_second;
   evidence.voxel = std::max(first.voxel(), second.voxel());
   evidence.abstained = first.abstains() || second.abstains();
-  evidence.fit = settled(first, second, T_first_second, evidence.voxel);
-  if (!first.abstains())
-    evidence.sight += lookFrom(
-        first, second, T_first_second, evidence.voxel, evidence.fit, contradictions);
-  if (!second.abstains())
-    evidence.sight += lookFrom(
-        second, first, T_first_second.inverse(), evidence.voxel, evidence.fit, nullptr);
+  evidence.fit = settledFit(
+      first, second, T_first_second, evidence.voxel, kPairedPoints, kSteps, true);
+  evidence.sight = sightBothWays(
+      first, second, T_first_second, evidence.voxel, evidence.fit, contradictions);
   return evidence;
 }
+
+namespace {
+/** \return the matrix that turns a small motion about the centroid of the pairs, in the
+ * frame of the first scan, into one about the second scan's origin in its axes */
+Eigen::Matrix<double, 6, 6>
+intoSecondScan(const LinkEvidence& evidence)
+{
+  const Eigen::Matrix3d R = evidence.T_first_second.linear().transpose();
+  const Eigen::Vector3d arm =
+      evidence.T_first_second.translation() - evidence.fit.centroid;
+  Eigen::Matrix3d cross;
+  cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
+  J.topLeftCorner<3, 3>() = R;
+  J.topRightCorner<3, 3>() = -R * cross; // w x arm
+  J.bottomRightCorner<3, 3>() = R;
+  return J;
+}
+} // namespace
 
 LinkCheck
 linkCheck(std::size_t from,
@@ -216,6 +158,10 @@ linkCheck(std::size_t from,
   link.deviation = evidence.deviation();
   link.open_directions = evidence.fit.open_directions;
   link.reason = opinion.reason;
+  const Eigen::Matrix<double, 6, 6> J = intoSecondScan(evidence);
+  link.covariance =
+      kDeviationFactor * kDeviationFactor * J * evidence.fit.covariance * J.transpose();
+  link.pull = J * evidence.fit.step;
   return link;
 }
 
@@ -227,58 +173,13 @@ contradictedPoints(const VerifiedScan& from,
   std::vector<Contradiction> points;
   const double voxel = std::max(from.voxel(), at.voxel());
   if (!from.abstains())
-    lookFrom(from, at, T_from_at, voxel, settled(from, at, T_from_at, voxel), &points);
+    lookFrom(from,
+             at,
+             T_from_at,
+             voxel,
+             settledFit(from, at, T_from_at, voxel, kPairedPoints, kSteps, true),
+             &points);
   return points;
-}
-
-double
-contradictionBackground(const std::vector<LinkEvidence>& links)
-{
-  std::vector<const SightEvidence*> sights;
-  for (const LinkEvidence& link : links)
-    if (link.sight.patches > 0)
-      sights.push_back(&link.sight);
-  std::sort(
-      sights.begin(), sights.end(), [](const SightEvidence* a, const SightEvidence* b) {
-        return a->contradicted_patches * b->patches <
-               b->contradicted_patches * a->patches;
-      });
-  double contradicted = kBackground * kBackgroundWeight, all = kBackgroundWeight;
-  for (std::size_t i = 0; i < (sights.size() + 1) / 2; ++i) {
-    contradicted += static_cast<double>(sights[i]->contradicted_patches);
-    all += static_cast<double>(sights[i]->patches);
-  }
-  return std::clamp(contradicted / all, kLeastBackground, kMostBackground);
-}
-
-LinkOpinion
-judgeLink(const LinkEvidence& evidence, double background)
-{
-  require(background > 0 && background < 1, "background", background, "in (0, 1)");
-  const double rays = raysAgainst(evidence.sight, background);
-  const double surfaces = surfacesAgainst(evidence);
-  LinkOpinion opinion;
-  // Elsewhere, which rays tell, or beside, which surfaces tell: neither speaks for the other.
-  opinion.elsewhere = probabilityOf(rays);
-  opinion.beside = probabilityOf(surfaces);
-  opinion.probability_wrong = 1 - (1 - opinion.elsewhere) * (1 - opinion.beside);
-  if (opinion.probability_wrong > kWrongAbove)
-    opinion.trust = LinkTrust::kWrong;
-  else if (evidence.fit.open_directions > 0)
-    opinion.trust =
-        LinkTrust::kWeak; // along these rays and surfaces cannot see an error
-  else if (evidence.abstained && evidence.fit.spread > 0) // the surfaces speak
-    opinion.trust = LinkTrust::kUnverified;
-  else if (opinion.probability_wrong < kGoodBelow && !evidence.abstained &&
-           evidence.sight.patches >= kLeastPatches &&
-           evidence.sight.confirmation() >= kLeastConfirmation)
-    opinion.trust = LinkTrust::kGood;
-  if (opinion.trust == LinkTrust::kUnverified)
-    opinion.reason =
-        "a scan has too few surfaces, or its rays contradict its own points";
-  else if (opinion.trust != LinkTrust::kGood)
-    opinion.reason = reasonOf(evidence, rays, surfaces);
-  return opinion;
 }
 
 } // namespace pcl6d

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
+#include "ties.h"
 
-#include <pcl6d/common/components.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
@@ -11,7 +11,7 @@
 #include <pcl6d/verification/twin_search.h>
 
 #include <algorithm>
-#include <map>
+#include <iomanip>
 #include <sstream>
 
 namespace pcl6d {
@@ -59,6 +59,18 @@ spokenOf(const VerifiedScan& rays,
     spoken += sight == Sight::kConfirmed || sight == Sight::kFree ? 1 : 0;
   }
   return spoken;
+}
+
+/** \return the good link of a scan that sees most of it; null if it has none */
+const LinkCheck*
+surestLinkOf(std::size_t scan, const MapVerification& map)
+{
+  const LinkCheck* most = nullptr;
+  for (const LinkCheck& link : map.links)
+    if ((link.from == scan || link.to == scan) && link.trust == LinkTrust::kGood &&
+        (!most || link.patches > most->patches))
+      most = &link;
+  return most;
 }
 
 std::string
@@ -137,28 +149,6 @@ MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
   return pairs;
 }
 
-/** Which scans good links join to the largest part of the map. */
-void
-MapVerifier::tie(MapVerification& map) const
-{
-  Components joined(scans_.size());
-  for (const LinkCheck& link : map.links)
-    if (link.trust == LinkTrust::kGood || link.trust == LinkTrust::kUnverified)
-      joined.join(link.from, link.to);
-  std::map<std::size_t, std::size_t> sizes;
-  for (std::size_t i = 0; i < scans_.size(); ++i)
-    ++sizes[joined.firstOf(i)];
-  const auto rest =
-      std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
-        return a.second < b.second; // of equals the one with the first scan
-      });
-  for (std::size_t i = 0; i < scans_.size(); ++i) {
-    ScanCheck& scan = map.scans[i];
-    scan.abstains = scans_[i].abstains();
-    scan.tied = joined.firstOf(i) == rest->first;
-  }
-}
-
 /** \return why a scan is not tied: the link of it that says most */
 std::string
 MapVerifier::reasonFor(std::size_t scan, const MapVerification& map) const
@@ -178,15 +168,16 @@ void
 MapVerifier::doubt(MapVerification& map) const
 {
   std::vector<std::string> loose, abstaining, contradicted, outvoted, twins;
-  std::vector<int> votes(scans_.size(), 0); // good links less wrong ones
+  const bool is_silent = map.background > verification::kMostBackground;
+  std::vector<int> votes(scans_.size(), 0); // links that hold less wrong ones
   for (const LinkCheck& link : map.links)
     for (const std::size_t i : {link.from, link.to})
-      votes[i] += link.trust == LinkTrust::kGood    ? 1
-                  : link.trust == LinkTrust::kWrong ? -1
-                                                    : 0;
+      votes[i] += link.trust == LinkTrust::kWrong  ? -1
+                  : link.trust == LinkTrust::kWeak ? 0
+                                                   : 1;
   std::string why; // the first one is loose
   for (std::size_t i = 0; i < scans_.size(); ++i)
-    if (!map.scans[i].doubt.empty()) // what findTwinsOf() found
+    if (map.scans[i].tied && !map.scans[i].doubt.empty()) // what findTwinsOf() found
       twins.push_back(names_[i] + " (" + map.scans[i].doubt + ")");
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     ScanCheck& scan = map.scans[i];
@@ -194,8 +185,11 @@ MapVerifier::doubt(MapVerification& map) const
       abstaining.push_back(names_[i]);
     if (scan.tied)
       continue;
-    scan.doubt = reasonFor(i, map);
-    if (loose.empty())
+    if (scan.doubt.empty())
+      scan.doubt = reasonFor(i, map);
+    else
+      why = scan.doubt; // the link that would have held them
+    if (why.empty())
       why = scan.doubt;
     loose.push_back(names_[i]);
   }
@@ -206,7 +200,7 @@ MapVerifier::doubt(MapVerification& map) const
       // Glass, doors and things that move deceive rays, and a small overlap deceives
       // surfaces: one of both against the most of both scans' links is no proof.
       const bool both_object =
-          opinions_[k].elsewhere > 0.5 && opinions_[k].beside > 0.5;
+          !is_silent && opinions_[k].elsewhere > 0.5 && opinions_[k].beside > 0.5;
       auto& named = votes[link.from] >= 0 && votes[link.to] >= 0 && !both_object
                         ? outvoted
                         : contradicted;
@@ -233,6 +227,14 @@ MapVerifier::doubt(MapVerification& map) const
         " cannot be verified: too few surfaces, or rays that contradict "
         "its own points (merged scans, motion during the scan?): " +
         listed(abstaining));
+  if (is_silent) {
+    std::ostringstream share;
+    share << std::fixed << std::setprecision(0) << 100 * map.background;
+    map.doubts.push_back("rays contradict " + share.str() +
+                         " % of the surface even where scans fit best (glass, motion "
+                         "during the scan, errors of the scanner?): they cannot say "
+                         "whether scans are at places that look alike");
+  }
   if (!outvoted.empty())
     map.doubts.push_back("most links of these scans agree with the map, one does not "
                          "(glass, things that moved, little in common?): " +
@@ -242,10 +244,11 @@ MapVerifier::doubt(MapVerification& map) const
         "AMBIGUOUS, two places fit: " + listed(twins) +
         "; rough initial poses, or scans on the way between, would decide");
   const bool is_doubtful = !loose.empty() || !contradicted.empty();
-  map.trust = is_doubtful                                ? MapTrust::kDoubtful
-              : !twins.empty()                           ? MapTrust::kAmbiguous
-              : scans_.size() < 2 || !abstaining.empty() ? MapTrust::kUnverified
-                                                         : MapTrust::kGood;
+  const bool is_unverified = scans_.size() < 2 || !abstaining.empty() || is_silent;
+  map.trust = is_doubtful      ? MapTrust::kDoubtful
+              : !twins.empty() ? MapTrust::kAmbiguous
+              : is_unverified  ? MapTrust::kUnverified
+                               : MapTrust::kGood;
 }
 
 /** \return whether a scan at another place is as good a link with the scan beside it as at its
@@ -285,13 +288,8 @@ MapVerifier::findTwinsOf(std::size_t scan,
                          const std::vector<Eigen::Isometry3d>& poses,
                          MapVerification& map) const
 {
-  const LinkCheck* most = nullptr;
-  for (const LinkCheck& link : map.links)
-    if ((link.from == scan || link.to == scan) && link.trust == LinkTrust::kGood &&
-        (!most || link.patches > most->patches))
-      most = &link;
   std::vector<std::size_t> besides;
-  if (most)
+  if (const LinkCheck* most = surestLinkOf(scan, map))
     besides.push_back(most->from == scan ? most->to : most->from);
   if (scan > 0 && (besides.empty() || besides.front() != scan - 1))
     besides.push_back(scan - 1);
@@ -313,6 +311,32 @@ MapVerifier::findTwinsOf(std::size_t scan,
       return;
     }
   }
+}
+
+/** From how far on the surest link of each scan would notice an error. */
+void
+MapVerifier::probe(const std::vector<Eigen::Isometry3d>& poses,
+                   MapVerification& map) const
+{
+  std::vector<std::size_t> surest(scans_.size(), map.links.size());
+  std::vector<bool> asked(map.links.size(), false);
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    if (const LinkCheck* link = surestLinkOf(i, map)) {
+      surest[i] = static_cast<std::size_t>(link - map.links.data());
+      asked[surest[i]] = true;
+    }
+  parallelFor(map.links.size(), options_.num_threads, [&](std::size_t k) {
+    LinkCheck& link = map.links[k];
+    if (asked[k])
+      link.noticed = noticedError(
+          scans_[link.from], scans_[link.to], evidence_[k], map.background);
+  });
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    if (surest[i] < map.links.size() && map.links[surest[i]].noticed) {
+      const LinkCheck& link = map.links[surest[i]];
+      map.scans[i].noticed = link.noticed;
+      map.scans[i].noticed->weakest = poses[link.from].linear() * link.noticed->weakest;
+    }
 }
 
 MapVerification
@@ -343,12 +367,21 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
   }
   if (scans_.empty())
     return map;
-  tie(map);
+  const verification::Ties ties =
+      verification::tiesOf(scans_.size(), map.links, map.background);
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    map.scans[i].abstains = scans_[i].abstains();
+    map.scans[i].tied = ties.tied[i];
+    if (!ties.tied[i])
+      map.scans[i].doubt = ties.cut_from[i];
+  }
   if (!options_.unsure.empty())
     parallelFor(scans_.size(), options_.num_threads, [&](std::size_t i) {
       if (options_.unsure[i] && map.scans[i].tied)
         findTwinsOf(i, T_world_scan, map);
     });
+  if (options_.probe)
+    probe(T_world_scan, map);
   doubt(map);
   return map;
 }

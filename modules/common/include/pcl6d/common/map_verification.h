@@ -3,7 +3,10 @@
 
 #include <pcl6d/common/export.h>
 
+#include <Eigen/Core>
+
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +30,16 @@ toString(LinkTrust trust);
 LinkTrust
 linkTrustFromName(const std::string& name);
 
+/** \brief From how far on an error of a place would have been noticed: the minimum
+ * detectable error. Infinite: no error in that direction would. */
+struct NoticedError {
+  double least = std::numeric_limits<double>::infinity(); ///< [m] where it is seen best
+  double most = std::numeric_limits<double>::infinity();  ///< [m] along `weakest`
+  double turn = std::numeric_limits<double>::infinity(); ///< [rad] about the worst axis
+  /** unit; in the axes of the first scan of a link, of the world for a scan */
+  Eigen::Vector3d weakest = Eigen::Vector3d::UnitX();
+};
+
 /** \brief What two scans of a map say of their places. */
 struct LinkCheck {
   std::size_t from = 0; ///< place of a scan
@@ -39,16 +52,26 @@ struct LinkCheck {
   double deviation = 0;         ///< [m] standard deviation of its place by the surfaces
   int open_directions = 0;      ///< motions that the surfaces do not fix
   std::string reason;           ///< in words; empty for a good link
+  /** of the second scan's pose seen from the first, as a small motion (translation [m],
+   * rotation [rad]) about the second scan's origin in its axes; zero if there is none */
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /** the motion by which the surfaces would move the second scan, in the same terms */
+  Eigen::Matrix<double, 6, 1> pull = Eigen::Matrix<double, 6, 1>::Zero();
+  std::optional<NoticedError> noticed; ///< of good links that were asked
 };
 
 /** \brief What verification says of a scan. */
 struct ScanCheck {
   bool tied = false;     ///< good links join it to the rest of the map
   bool abstains = false; ///< its rays contradict its own points, and say nothing
-  std::optional<double>
-      bound;         ///< [m] the position is known so well (95 %), relative to
-                     ///< the first scan; none if it is not tied
-  std::string doubt; ///< in words; empty if there is none
+  /** of the pose relative to the first scan, as a small motion about its origin in its
+   * axes, by the good links of the map; none if they do not join it to the first scan */
+  std::optional<Eigen::Matrix<double, 6, 6>> covariance;
+  /** [m] with 95 % the position relative to the first scan is known so well: the longest
+   * half axis of its ellipsoid */
+  std::optional<double> bound;
+  std::optional<NoticedError> noticed; ///< by the good link of it that sees most
+  std::string doubt;                   ///< in words; empty if there is none
 };
 
 /** \brief How far a map is to be trusted. */

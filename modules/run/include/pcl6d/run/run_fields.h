@@ -65,7 +65,8 @@ visitLinkFields(Link& link, Visit&& visit)
   visit("weight", link.weight);
 }
 
-/** \param[in] link a LinkCheck, const or not */
+/** \brief For writing: numbers that may be missing come as pointers.
+ * \param[in] link a LinkCheck */
 template <typename Link, typename Visit>
 void
 visitLinkCheckFields(Link& link, Visit&& visit)
@@ -79,6 +80,10 @@ visitLinkCheckFields(Link& link, Visit&& visit)
   visit("shift", link.shift);
   visit("deviation", link.deviation);
   visit("open_directions", link.open_directions);
+  // Written only: the covariance and the motion that the surfaces ask for are not kept.
+  visit("noticed_least", link.noticed ? &link.noticed->least : nullptr);
+  visit("noticed_most", link.noticed ? &link.noticed->most : nullptr);
+  visit("noticed_turn", link.noticed ? &link.noticed->turn : nullptr);
   visit("reason", link.reason);
 }
 

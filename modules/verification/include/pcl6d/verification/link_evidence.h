@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,10 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief What two scans say of their relative pose. */
 struct LinkEvidence {
   SightEvidence
-      sight;        ///< points of each in the rays of the other; empty if both abstain
-  SurfaceFit fit;   ///< of their surfaces, after a few steps towards their best place
-  double voxel = 0; ///< [m] the larger one
+      sight;      ///< points of each in the rays of the other; empty if both abstain
+  SurfaceFit fit; ///< of their surfaces, after a few steps towards their best place
+  Eigen::Isometry3d T_first_second = Eigen::Isometry3d::Identity(); ///< that was judged
+  double voxel = 0;       ///< [m] the larger one
   bool abstained = false; ///< the rays of one of them say nothing
 
   /** \return [m] how far the surfaces would move the pairs */
@@ -53,7 +55,8 @@ struct LinkOpinion {
   std::string reason;   ///< in words, with numbers; empty for a good link
 };
 
-/** \brief A link between two places of a map, in plain data. */
+/** \brief A link between two places of a map, in plain data. Its covariance is that of the
+ * surfaces, with what it is too small by; see share/doc/trust.md. */
 LinkCheck
 linkCheck(std::size_t from,
           std::size_t to,
@@ -68,8 +71,9 @@ contradictedPoints(const VerifiedScan& from,
                    const Eigen::Isometry3d& T_from_at);
 
 /** \brief The share of patches that right links contradict, from the links of a run: the
- * better half of them, as most links of most runs are right. Between 0.002 and 0.05.
- * \param[in] links without any: what scans have on average */
+ * better half of them, as most links of most runs are right. At least 0.002. Above 0.05 rays
+ * are no judges of this run; if the better half contradicts more than 0.12, it is not right.
+ * \param[in] links fewer than two, or not right: what scans have on average */
 double
 contradictionBackground(const std::vector<LinkEvidence>& links);
 
@@ -80,5 +84,17 @@ contradictionBackground(const std::vector<LinkEvidence>& links);
  * \note Source: share/doc/trust.md \ingroup verification */
 LinkOpinion
 judgeLink(const LinkEvidence& evidence, double background);
+
+/** \brief Displaces a link by more and more along and about its three axes, both ways, until
+ * the scans would no longer call it good. Axes: those of the covariance of the surfaces.
+ * \param[in] evidence of the link where it is
+ * \param[in] background of contradictionBackground()
+ * \return none if the link is not good where it is
+ * \note Source: algorithms.md T.4 */
+std::optional<NoticedError>
+noticedError(const VerifiedScan& first,
+             const VerifiedScan& second,
+             const LinkEvidence& evidence,
+             double background);
 
 } // namespace pcl6d

@@ -24,6 +24,8 @@ struct MapVerifierOptions {
   /** per scan: its place was found without a prior pose, by features say, so that a second
    * one is looked for; empty: none was */
   std::vector<bool> unsure;
+  /** displaces the link of each scan that sees most, to find which errors it would notice */
+  bool probe = true;
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
@@ -68,8 +70,6 @@ private:
   std::size_t
   speaking(const Pair& pair, const std::vector<Eigen::Isometry3d>& poses) const;
   void
-  tie(MapVerification& map) const;
-  void
   findTwinsOf(std::size_t scan,
               const std::vector<Eigen::Isometry3d>& poses,
               MapVerification& map) const;
@@ -79,6 +79,8 @@ private:
                 const Eigen::Isometry3d& T_world_scan,
                 const std::vector<Eigen::Isometry3d>& poses,
                 const MapVerification& map) const;
+  void
+  probe(const std::vector<Eigen::Isometry3d>& poses, MapVerification& map) const;
   void
   doubt(MapVerification& map) const;
   std::string

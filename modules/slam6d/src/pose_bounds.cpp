@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/components.h>
+#include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
+#include <pcl6d/registration/twist.h>
+#include <pcl6d/slam6d/pose_bounds.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+/** chi2 of 3 degrees of freedom that 95 % stay below. */
+constexpr double kChi2Of95 = 7.814727903251179;
+
+/** \return T as a small motion: its translation, and twice the vector of its quaternion */
+Twist
+smallMotion(const Eigen::Isometry3d& T)
+{
+  Eigen::Quaterniond q(T.linear());
+  if (q.w() < 0)
+    q.coeffs() = -q.coeffs();
+  Twist motion;
+  motion << T.translation(), 2 * q.vec();
+  return motion;
+}
+
+bool
+joins(const LinkCheck& link)
+{
+  return (link.trust == LinkTrust::kGood || link.trust == LinkTrust::kUnverified) &&
+         link.open_directions == 0 && link.covariance.diagonal().minCoeff() > 0;
+}
+
+/** \return the graph of the scans that good links join to the first one */
+PoseGraph
+graphOf(const std::vector<Eigen::Isometry3d>& poses,
+        const MapVerification& map,
+        std::vector<std::size_t>& scans)
+{
+  Components joined(poses.size());
+  for (const LinkCheck& link : map.links)
+    if (joins(link))
+      joined.join(link.from, link.to);
+  std::vector<std::size_t> vertex(poses.size());
+  PoseGraph graph;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (joined.firstOf(i) == joined.firstOf(0)) {
+      vertex[i] = scans.size();
+      scans.push_back(i);
+      graph.poses.push_back(poses[i]);
+    }
+  for (const LinkCheck& link : map.links)
+    if (joins(link) && joined.firstOf(link.from) == joined.firstOf(0)) {
+      PoseLink measured;
+      measured.from = vertex[link.from];
+      measured.to = vertex[link.to];
+      measured.T_from_to =
+          poses[link.from].inverse() * poses[link.to] * motionFromTwist(link.pull);
+      const Matrix6 information = inverted<6>(link.covariance);
+      measured.information = 0.5 * (information + information.transpose());
+      graph.links.push_back(measured);
+    }
+  return graph;
+}
+
+/** \return how much larger covariances are than the links say, as cycles do not close */
+double
+excessOf(const PoseGraphResult& result, std::size_t links, std::size_t poses)
+{
+  const std::size_t conditions = 6 * links, unknowns = 6 * (poses - 1);
+  return conditions > unknowns
+             ? std::max(1.0,
+                        result.chi2_after / static_cast<double>(conditions - unknowns))
+             : 1;
+}
+
+/** \return [m] the longest half axis of the 95 % ellipsoid of the position */
+double
+boundOf(const Matrix6& covariance)
+{
+  const auto axes = symmetricEigenvalues<3>(covariance.topLeftCorner<3, 3>());
+  return std::sqrt(kChi2Of95 * std::max(0.0, axes(2)));
+}
+} // namespace
+
+void
+boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
+           MapVerification& map,
+           unsigned int num_threads)
+{
+  require(T_world_scan.size() == map.scans.size(),
+          "poses",
+          T_world_scan.size(),
+          "one per scan");
+  for (ScanCheck& scan : map.scans) {
+    scan.covariance.reset();
+    scan.bound.reset();
+  }
+  if (map.scans.empty())
+    return;
+  std::vector<std::size_t> scans;
+  PoseGraph graph = graphOf(T_world_scan, map, scans);
+  map.scans[0].covariance = Matrix6::Zero();
+  map.scans[0].bound = 0;
+  if (scans.size() < 2)
+    return;
+  PoseGraphOptions options;
+  options.num_threads = num_threads;
+  const std::size_t links = graph.links.size();
+  PoseGraphOptimizer optimizer(std::move(graph), options);
+  const PoseGraphResult& best = optimizer.optimize();
+  const std::vector<Matrix6> covariances = optimizer.marginalCovariances();
+  const double excess = excessOf(best, links, scans.size());
+  for (std::size_t v = 1; v < scans.size(); ++v) {
+    const Twist way = smallMotion(T_world_scan[scans[v]].inverse() * best.poses[v]);
+    ScanCheck& scan = map.scans[scans[v]];
+    scan.covariance = excess * covariances[v] + way * way.transpose();
+    scan.bound = boundOf(*scan.covariance);
+  }
+}
+
+} // namespace pcl6d

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/verification/link_evidence.h>
+
+/** \file What the evidence of a link is made of; shared by those that judge it at its place
+ * and at others. */
+namespace pcl6d::verification {
+
+/** \brief Where the surfaces would move a link to, in a few steps, and how well they say it.
+ * \param[in] points of a scan that are paired \param[in] steps > 0
+ * \param[in] with_covariance false leaves it zero, which takes less time */
+SurfaceFit
+settledFit(const VerifiedScan& first,
+           const VerifiedScan& second,
+           const Eigen::Isometry3d& T_first_second,
+           double voxel,
+           std::size_t points,
+           int steps,
+           bool with_covariance);
+
+/** \brief What the rays of both scans say of the points of the other; those of a scan that
+ * abstains say nothing.
+ * \param[in] fit of the surfaces: where they fit best they are as far apart as noise alone
+ * does not show, as ranges are off alike for all points of a wall
+ * \param[out] contradictions if given: points of the second scan that the rays of the first
+ * contradict */
+SightEvidence
+sightBothWays(const VerifiedScan& first,
+              const VerifiedScan& second,
+              const Eigen::Isometry3d& T_first_second,
+              double voxel,
+              const SurfaceFit& fit,
+              std::vector<Contradiction>* contradictions = nullptr);
+
+/** \return the probability of another place by what rays contradict, where one must be sure:
+ * wrong places along even surfaces, such as a corridor's, contradict little */
+double
+probabilityElsewhereStrictly(const SightEvidence& sight, double background);
+
+} // namespace pcl6d::verification

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
+#include "evidence_parts.h"
+
+#include <pcl6d/common/portable_math.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/io/text.h>
+#include <pcl6d/verification/link_evidence.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace pcl6d {
+using namespace verification;
+
+namespace {
+/** Stirling's series, for x > 0 within 1e-10; from + - * / alone, for the same bits. */
+double
+logGamma(double x)
+{
+  constexpr double kHalfLogTwoPi = 0.91893853320467274;
+  constexpr double kLarge = 10;
+  double product = 1;
+  for (; x < kLarge; ++x)
+    product *= x;
+  const double inverse = 1 / x, square = inverse * inverse;
+  const double series =
+      inverse *
+      (1.0 / 12 - square * (1.0 / 360 - square * (1.0 / 1260 - square / 1680)));
+  return (x - 0.5) * portableLog(x) - x + kHalfLogTwoPi + series - portableLog(product);
+}
+
+double
+logBeta(double a, double b)
+{
+  return logGamma(a) + logGamma(b) - logGamma(a + b);
+}
+
+/** log of the beta-binomial probability of k of n, but for the binomial coefficient. */
+double
+logBetaBinomial(double k, double n, double a, double b)
+{
+  return logBeta(k + a, n - k + b) - logBeta(a, b);
+}
+
+/** Log odds of a wrong link by what the rays contradict. */
+double
+raysAgainst(const SightEvidence& sight, double background)
+{
+  const auto n = static_cast<double>(sight.patches);
+  const auto k = static_cast<double>(sight.contradicted_patches);
+  const double a = background * kBackgroundPrecision;
+  return logBetaBinomial(k, n, kWrongFree, kWrongConfirmed) -
+         logBetaBinomial(k, n, a, kBackgroundPrecision - a);
+}
+
+/** Log odds of a shifted link by the way that the surfaces would move it: those of a normal
+ * distribution against a wide one, even at so many standard deviations. */
+double
+surfacesAgainst(const LinkEvidence& evidence)
+{
+  const double sigmas = evidence.leaving() / evidence.deviation();
+  return 0.5 * (sigmas * sigmas - kLeavingSigmas * kLeavingSigmas);
+}
+
+/** \return the probability of a hypothesis by its log odds, with the prior */
+double
+probabilityOf(double log_odds)
+{
+  constexpr double kMost = 700; // of a double
+  const double odds = kPriorOdds * portableExp(std::min(log_odds, kMost));
+  return odds / (1 + odds);
+}
+
+/** \return a number for people: two digits, and no powers of ten */
+std::string
+rounded(double value)
+{
+  std::ostringstream digits;
+  if (value < 10)
+    digits << std::setprecision(2) << value;
+  else
+    digits << std::fixed << std::setprecision(0) << value;
+  return digits.str();
+}
+
+std::string
+reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
+{
+  std::ostringstream why;
+  const SightEvidence& sight = evidence.sight;
+  const bool is_even = std::max(probabilityOf(rays), probabilityOf(surfaces)) < kGoodBelow;
+  if (is_even && evidence.fit.open_directions > 0)
+    why << "the surfaces leave "
+        << text::counted(static_cast<std::size_t>(evidence.fit.open_directions),
+                         "motion")
+        << " open, as along a corridor";
+  else if (is_even && sight.patches >= kLeastPatches &&
+           sight.confirmation() < kLeastConfirmation)
+    why << "rays confirm only " << rounded(100 * sight.confirmation())
+        << " % of the points";
+  else if (rays > surfaces && sight.contradicted_patches > 0)
+    why << "rays go through " << sight.contradicted_patches << " of " << sight.patches
+        << " patches of surface";
+  else if (sight.patches < kLeastPatches && rays > surfaces)
+    why << "only " << sight.patches << " patches of surface in common";
+  else
+    why << "surfaces ask for a shift of " << rounded(evidence.leaving()) << " m, "
+        << rounded(evidence.leaving() / evidence.deviation()) << " standard deviations";
+  return why.str();
+}
+} // namespace
+
+double
+contradictionBackground(const std::vector<LinkEvidence>& links)
+{
+  std::vector<const SightEvidence*> sights;
+  for (const LinkEvidence& link : links)
+    if (link.sight.patches > 0)
+      sights.push_back(&link.sight);
+  std::sort(
+      sights.begin(), sights.end(), [](const SightEvidence* a, const SightEvidence* b) {
+        return a->contradicted_patches * b->patches <
+               b->contradicted_patches * a->patches;
+      });
+  if (sights.size() < 2) // a link is no judge of itself
+    return kBackground;
+  // However many its patches are, a link tells one share of many: it weighs as such.
+  double contradicted = kBackground * kBackgroundPrecision, all = kBackgroundPrecision;
+  for (std::size_t i = 0; i < (sights.size() + 1) / 2; ++i) {
+    const auto n = static_cast<double>(sights[i]->patches);
+    const double weight = kBackgroundPrecision / (kBackgroundPrecision + n);
+    contradicted += weight * static_cast<double>(sights[i]->contradicted_patches);
+    all += weight * n;
+  }
+  const double background = contradicted / all;
+  return background > kNoBackground ? kBackground
+                                    : std::max(background, kLeastBackground);
+}
+
+double
+verification::probabilityElsewhereStrictly(const SightEvidence& sight, double background)
+{
+  const auto n = static_cast<double>(sight.patches);
+  const auto k = static_cast<double>(sight.contradicted_patches);
+  const double a = background * kBackgroundPrecision;
+  const double right = logBetaBinomial(k, n, a, kBackgroundPrecision - a);
+  const double usual = logBetaBinomial(k, n, kWrongFree, kWrongConfirmed) - right;
+  const double even = logBetaBinomial(k, n, kEvenFree, kEvenConfirmed) - right;
+  const double more = std::max(usual, even); // log of the mixture of both
+  return probabilityOf(more + portableLog((1 - kEvenShare) * portableExp(usual - more) +
+                                          kEvenShare * portableExp(even - more)));
+}
+
+LinkOpinion
+judgeLink(const LinkEvidence& evidence, double background)
+{
+  require(background > 0 && background < 1, "background", background, "in (0, 1)");
+  const double rays = raysAgainst(evidence.sight, background);
+  const double surfaces = surfacesAgainst(evidence);
+  LinkOpinion opinion;
+  // Elsewhere, which rays tell, or beside, which surfaces tell: neither speaks for the other.
+  opinion.elsewhere = probabilityOf(rays);
+  opinion.beside = probabilityOf(surfaces);
+  opinion.probability_wrong = 1 - (1 - opinion.elsewhere) * (1 - opinion.beside);
+  const bool is_silent = evidence.abstained || background > kMostBackground;
+  if (opinion.probability_wrong > kWrongAbove)
+    opinion.trust = LinkTrust::kWrong;
+  else if (evidence.fit.open_directions > 0)
+    opinion.trust =
+        LinkTrust::kWeak; // along these rays and surfaces cannot see an error
+  else if (is_silent && evidence.fit.spread > 0 && opinion.beside < kGoodBelow)
+    opinion.trust = LinkTrust::kUnverified; // the surfaces alone speak
+  else if (opinion.probability_wrong < kGoodBelow && !is_silent &&
+           evidence.sight.patches >= kLeastPatches &&
+           evidence.sight.confirmation() >= kLeastConfirmation)
+    opinion.trust = LinkTrust::kGood;
+  if (opinion.trust == LinkTrust::kUnverified)
+    opinion.reason =
+        evidence.abstained
+            ? "a scan has too few surfaces, or its rays contradict its own points"
+            : "rays contradict too much even where the scans of this map fit best";
+  else if (opinion.trust != LinkTrust::kGood)
+    opinion.reason = reasonOf(evidence, rays, surfaces);
+  return opinion;
+}
+
+} // namespace pcl6d

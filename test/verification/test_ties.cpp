@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which scans links hold together.
+#include "ties.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using pcl6d::LinkCheck;
+using pcl6d::LinkTrust;
+using pcl6d::verification::Ties;
+using pcl6d::verification::tiesOf;
+
+namespace {
+constexpr double kBackground = 0.002;
+
+LinkCheck
+link(std::size_t from,
+     std::size_t to,
+     LinkTrust trust = LinkTrust::kGood,
+     std::size_t contradicted = 0,
+     std::size_t patches = 300)
+{
+  LinkCheck check;
+  check.from = from;
+  check.to = to;
+  check.trust = trust;
+  check.patches = patches;
+  check.contradicted = contradicted;
+  return check;
+}
+
+/** Two triangles, 0 1 2 and 3 4 5, and what is between them. */
+Ties
+triangles(const std::vector<LinkCheck>& between)
+{
+  std::vector<LinkCheck> links = {
+      link(0, 1), link(1, 2), link(0, 2), link(3, 4), link(4, 5), link(3, 5)};
+  links.insert(links.end(), between.begin(), between.end());
+  return tiesOf(6, links, kBackground);
+}
+
+const std::vector<bool> kAll(6, true);
+const std::vector<bool> kFirstThree = {true, true, true, false, false, false};
+} // namespace
+
+TEST(Ties, HoldThroughOneSureLink)
+{
+  EXPECT_EQ(triangles({link(2, 3)}).tied, kAll);
+}
+
+TEST(Ties, AreNotOneLinkThatContradictsALittle)
+{
+  const Ties ties = triangles({link(2, 3, LinkTrust::kGood, 2, 98)});
+  EXPECT_EQ(ties.tied, kFirstThree);
+  EXPECT_EQ(ties.cut_from[3],
+            "only one link holds them, and rays go through 2 of 98 patches of surface "
+            "between them and the rest");
+  EXPECT_EQ(ties.cut_from[4], "");
+}
+
+TEST(Ties, CountLinksBesideTheOneThatHolds)
+{
+  // The link itself is sure; weak ones between the same parts contradict.
+  EXPECT_EQ(triangles({link(2, 3), link(1, 4, LinkTrust::kWeak, 30, 300)}).tied,
+            kFirstThree);
+  EXPECT_EQ(triangles({link(2, 3), link(1, 4, LinkTrust::kWeak, 0, 20)}).tied, kAll);
+}
+
+TEST(Ties, DoNotCountLinksOfScansThatBelongToNeither)
+{
+  // Scan 2 is elsewhere: what it contradicts says nothing of 0 and 1.
+  EXPECT_EQ(tiesOf(3,
+                   {link(0, 1),
+                    link(1, 2, LinkTrust::kWrong, 200, 300),
+                    link(0, 2, LinkTrust::kWrong, 200, 300)},
+                   kBackground)
+                .tied,
+            (std::vector<bool>{true, true, false}));
+}
+
+TEST(Ties, HoldThroughTwoLinks)
+{
+  EXPECT_EQ(triangles({link(2, 3, LinkTrust::kGood, 2, 98),
+                       link(1, 4, LinkTrust::kGood, 2, 98)})
+                .tied,
+            kAll);
+}
+
+TEST(Ties, HoldThroughALinkWhoseRaysAbstain)
+{
+  EXPECT_EQ(triangles({link(2, 3, LinkTrust::kUnverified, 0, 0)}).tied, kAll);
+}
+
+TEST(Ties, AreNotWeakOrWrongLinks)
+{
+  EXPECT_EQ(triangles({link(2, 3, LinkTrust::kWeak)}).tied, kFirstThree);
+  EXPECT_EQ(triangles({link(2, 3, LinkTrust::kWrong, 200, 300)}).tied, kFirstThree);
+  EXPECT_EQ(triangles({}).tied, kFirstThree);
+}
+
+TEST(Ties, KeepTheLargerPart)
+{
+  const Ties ties = tiesOf(4, {link(1, 2), link(2, 3)}, kBackground);
+  EXPECT_EQ(ties.tied, (std::vector<bool>{false, true, true, true}));
+}
+
+TEST(Ties, OfALongChainAreFoundWithoutRecursion)
+{
+  std::vector<LinkCheck> links;
+  for (std::size_t i = 0; i + 1 < 3000; ++i)
+    links.push_back(link(i, i + 1));
+  links[1000] = link(1000, 1001, LinkTrust::kGood, 3, 100);
+  const Ties ties = tiesOf(3000, links, kBackground);
+  EXPECT_FALSE(ties.tied[1000]);
+  EXPECT_TRUE(ties.tied[1001]);
+  EXPECT_TRUE(tiesOf(0, {}, kBackground).tied.empty());
+}

@@ -172,8 +172,9 @@ TEST(TrustTexts, NameTheFalseGoodsFirst)
   EXPECT_NE(text.find("| jump \\| far |"), std::string::npos) << "a bar ends a cell";
   EXPECT_NE(text.find("2 (<= 100.0 %)"), std::string::npos);
   const std::string csv = trustCsv(runs);
-  EXPECT_NE(csv.find("rooms,foreign,defaults,\"runs/rooms, foreign\",good,0,1,0,2,0,inf"),
-            std::string::npos)
+  EXPECT_NE(
+      csv.find("rooms,foreign,defaults,\"runs/rooms, foreign\",good,0,1,0,2,0,inf"),
+      std::string::npos)
       << csv;
   const auto json = nlohmann::json::parse(trustJson(runs));
   EXPECT_EQ(json["all"]["false_goods"]["count"], 2);

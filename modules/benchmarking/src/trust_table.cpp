@@ -16,9 +16,13 @@ namespace {
 constexpr double kLeastAllowedError = 0.05; // [m] no map is called wrong for less
 constexpr double kChiSquare95 = 7.815;      // quantiles with 3 degrees of freedom
 constexpr double kChiSquare999 = 16.27;
-constexpr double kRisk = 0.05;                      // of an upper bound
-constexpr double kBoundSizes[] = {0.01, 0.02, 0.05, // [m] of the rows of bounds
-                                  0.1,  0.2,  0.5};
+constexpr double kRisk = 0.05; // of an upper bound
+constexpr double kBoundSizes[] = {0.01,
+                                  0.02,
+                                  0.05, // [m] of the rows of bounds
+                                  0.1,
+                                  0.2,
+                                  0.5};
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 double
@@ -93,7 +97,9 @@ private:
 };
 
 TrustCounts
-countsNamed(const std::string& data, const std::string& damage, const std::string& method)
+countsNamed(const std::string& data,
+            const std::string& damage,
+            const std::string& method)
 {
   TrustCounts counts;
   counts.data = data;
@@ -249,8 +255,8 @@ double
 TrustShare::upperBound() const
 {
   if (count > of)
-    throw BadArgument("count = " + std::to_string(count) + ", but must be <= " +
-                      std::to_string(of));
+    throw BadArgument("count = " + std::to_string(count) +
+                      ", but must be <= " + std::to_string(of));
   if (count == of)
     return 1;
   return boost::math::binomial_distribution<>::find_upper_bound_on_p(
@@ -263,12 +269,12 @@ trustTable(const std::vector<TrustRun>& runs)
   TrustTable table;
   for (const TrustRun& run : runs)
     countRun(run, table.all);
-  table.by_damage =
-      countsBy(runs, [](const TrustRun& run) { return countsNamed("", run.damage, ""); });
+  table.by_damage = countsBy(
+      runs, [](const TrustRun& run) { return countsNamed("", run.damage, ""); });
   table.by_data =
       countsBy(runs, [](const TrustRun& run) { return countsNamed(run.data, "", ""); });
-  table.by_method =
-      countsBy(runs, [](const TrustRun& run) { return countsNamed("", "", run.method); });
+  table.by_method = countsBy(
+      runs, [](const TrustRun& run) { return countsNamed("", "", run.method); });
   table.cells = countsBy(runs, [](const TrustRun& run) {
     return countsNamed(run.data, run.damage, run.method);
   });

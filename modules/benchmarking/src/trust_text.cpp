@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl6d {
@@ -89,20 +90,26 @@ describe(const TrustRun& run)
          (worst->bound ? "" : " (no bound is stated)") + '\n';
 }
 
-/** A list of the runs that are so, the first ones. */
+/** A list of the runs that are so, the largest errors first. */
 template <typename Is>
 std::string
 listOf(const std::string& title, const std::vector<TrustRun>& runs, const Is& is)
 {
-  std::string text;
-  std::size_t count = 0;
+  std::vector<const TrustRun*> chosen;
   for (const TrustRun& run : runs)
-    if (is(run) && ++count <= kMostListedRuns)
-      text += describe(run);
-  if (count == 0)
+    if (is(run))
+      chosen.push_back(&run);
+  std::stable_sort(chosen.begin(), chosen.end(), [](const auto* a, const auto* b) {
+    return largestUnnamedError(*a) > largestUnnamedError(*b);
+  });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(chosen.size(), kMostListedRuns); ++i)
+    text += describe(*chosen[i]);
+  if (chosen.empty())
     return "";
-  if (count > kMostListedRuns)
-    text += "- and " + std::to_string(count - kMostListedRuns) + " more\n";
+  if (chosen.size() > kMostListedRuns)
+    text += "- and " + std::to_string(chosen.size() - kMostListedRuns) +
+            " more, see table.csv\n";
   return "### " + title + "\n" + text + '\n';
 }
 
@@ -113,8 +120,9 @@ boundsMarkdown(const TrustTable& table)
   if (table.bounds.empty())
     text += "No map called good states any.\n";
   else
-    text += "| bound of 95 % [m] | scans | within it | within 99.9 % | median of error / "
-            "bound |\n|---|---|---|---|---|\n";
+    text +=
+        "| bound of 95 % [m] | scans | within it | within 99.9 % | median of error / "
+        "bound |\n|---|---|---|---|---|\n";
   for (const BoundCounts& row : table.bounds) {
     const auto percent = [&](std::size_t count) {
       return fixedText(
@@ -131,7 +139,8 @@ boundsMarkdown(const TrustTable& table)
   if (table.squared_errors.scans > 0)
     text += "\nMean of e' C^-1 e / 3 of positions: " +
             fixedText(table.squared_errors.mean, 2) + " over " +
-            std::to_string(table.squared_errors.scans) + " scans of maps that are not wrong.\n";
+            std::to_string(table.squared_errors.scans) +
+            " scans of maps that are not wrong.\n";
   return text + '\n';
 }
 
@@ -245,12 +254,10 @@ trustMarkdown(const std::vector<TrustRun>& runs)
             });
   text += boundsMarkdown(table);
   text += "### All\n" +
-          countsMarkdown(table.cells,
-                         {"data", "damage", "method"},
-                         [](const TrustCounts& row) {
-                           return std::vector<std::string>{
-                               row.data, row.damage, row.method};
-                         });
+          countsMarkdown(
+              table.cells, {"data", "damage", "method"}, [](const TrustCounts& row) {
+                return std::vector<std::string>{row.data, row.damage, row.method};
+              });
   return text + listOf("False doubts", runs, [](const TrustRun& run) {
            return run.call == TrustCall::kDoubted && isRight(run);
          });
@@ -259,8 +266,9 @@ trustMarkdown(const std::vector<TrustRun>& runs)
 std::string
 trustCsv(const std::vector<TrustRun>& runs)
 {
-  std::string text = "data,damage,method,run,call,doubted_by_matching,wrong,right,scans,"
-                     "named,largest_unnamed_error_m,message\n";
+  std::string text =
+      "data,damage,method,run,call,doubted_by_matching,wrong,right,scans,"
+      "named,largest_unnamed_error_m,message\n";
   for (const TrustRun& run : runs) {
     std::size_t named = 0;
     for (const TrustScan& scan : run.scans)
@@ -281,17 +289,17 @@ std::string
 trustJson(const std::vector<TrustRun>& runs)
 {
   const TrustTable table = trustTable(runs);
-  const TrustJson json = {{"schema_version", 1},
-                          {"all", jsonOf(table.all)},
-                          {"by_damage", jsonOfAll(table.by_damage)},
-                          {"by_data", jsonOfAll(table.by_data)},
-                          {"by_method", jsonOfAll(table.by_method)},
-                          {"cells", jsonOfAll(table.cells)},
-                          {"bounds", jsonOfAll(table.bounds)},
-                          {"squared_errors",
-                           {{"scans", table.squared_errors.scans},
-                            {"mean", table.squared_errors.mean}}},
-                          {"runs", jsonOfAll(runs)}};
+  const TrustJson json = {
+      {"schema_version", 1},
+      {"all", jsonOf(table.all)},
+      {"by_damage", jsonOfAll(table.by_damage)},
+      {"by_data", jsonOfAll(table.by_data)},
+      {"by_method", jsonOfAll(table.by_method)},
+      {"cells", jsonOfAll(table.cells)},
+      {"bounds", jsonOfAll(table.bounds)},
+      {"squared_errors",
+       {{"scans", table.squared_errors.scans}, {"mean", table.squared_errors.mean}}},
+      {"runs", jsonOfAll(runs)}};
   return json.dump(2, ' ', false, TrustJson::error_handler_t::replace) + '\n';
 }
 

@@ -99,20 +99,20 @@ struct TrustCounts {
   std::size_t good = 0;          ///< called good
   std::size_t unverified = 0;    ///< called unverified
   std::size_t doubted = 0;
-  std::size_t wrong = 0; ///< isWrong()
-  std::size_t right = 0; ///< isRight(); the others name all scans that are off
-  TrustShare false_goods;       ///< wrong maps called good, of those called good
-  TrustShare missed;            ///< the same, of the wrong ones
-  TrustShare false_unverified;  ///< wrong maps called unverified, of those called so
-  TrustShare false_doubts;      ///< right maps doubted, of the right ones
-  std::size_t by_matching = 0;  ///< of these: verification is not against them
+  std::size_t wrong = 0;       ///< isWrong()
+  std::size_t right = 0;       ///< isRight(); the others name all scans that are off
+  TrustShare false_goods;      ///< wrong maps called good, of those called good
+  TrustShare missed;           ///< the same, of the wrong ones
+  TrustShare false_unverified; ///< wrong maps called unverified, of those called so
+  TrustShare false_doubts;     ///< right maps doubted, of the right ones
+  std::size_t by_matching = 0; ///< of these: verification is not against them
 };
 
 /** \brief How stated bounds compare with errors, for bounds of about one size. */
 struct BoundCounts {
-  double above = 0;      ///< [m] bounds above this
-  double up_to = 0;      ///< [m] and up to this; infinite for the last
-  std::size_t scans = 0; ///< that have such a bound
+  double above = 0;           ///< [m] bounds above this
+  double up_to = 0;           ///< [m] and up to this; infinite for the last
+  std::size_t scans = 0;      ///< that have such a bound
   std::size_t within = 0;     ///< off by no more than the bound of 95 %
   std::size_t within_999 = 0; ///< off by no more than that of 99.9 %
   double median_ratio = 0;    ///< median of error / bound; 0.55 if bounds are right

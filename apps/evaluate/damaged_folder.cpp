@@ -144,8 +144,7 @@ private:
     for (auto& pose : poses_) {
       pose.translation() *= damage_.odometry_scale;
       if (damage_.turn != 0)
-        pose.rotate(
-            Eigen::AngleAxisd(radians(damage_.turn), Eigen::Vector3d::UnitZ()));
+        pose.rotate(Eigen::AngleAxisd(radians(damage_.turn), Eigen::Vector3d::UnitZ()));
     }
   }
 

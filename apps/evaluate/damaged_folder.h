@@ -7,8 +7,8 @@ namespace pcl6d::app {
 
 /** \brief What a damaged folder is made from. */
 struct DamageSource {
-  std::filesystem::path scans;   ///< folder of scans
-  std::filesystem::path truth;   ///< trajectory, one pose per scan; empty: there is none
+  std::filesystem::path scans; ///< folder of scans
+  std::filesystem::path truth; ///< trajectory, one pose per scan; empty: there is none
   std::filesystem::path foreign; ///< folder that a foreign scan comes from
 };
 

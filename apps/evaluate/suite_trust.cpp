@@ -113,7 +113,9 @@ private:
   }
 
   TrustScan
-  judgeScan(std::size_t i, const Eigen::Isometry3d& T_map_truth, std::size_t origin) const
+  judgeScan(std::size_t i,
+            const Eigen::Isometry3d& T_map_truth,
+            std::size_t origin) const
   {
     const ScanResult& scan = run_.scans[i];
     TrustScan judged;

@@ -206,9 +206,10 @@ TEST_F(TrustSuite, WrongMapCalledGoodIsNamedFirst)
   row = readCsv(out / "table.csv").at(0);
   EXPECT_EQ(row.at("wrong"), "1");
   EXPECT_NEAR(std::stod(row.at("largest_unnamed_error_m")), 1, 0.05);
-  EXPECT_NE(readText(out / "table.md")
-                .find("### False goods\n- runs/corridor/metascan/1: scan002.pcd off by"),
-            std::string::npos);
+  EXPECT_NE(
+      readText(out / "table.md")
+          .find("### False goods\n- runs/corridor/metascan/1: scan002.pcd off by"),
+      std::string::npos);
   EXPECT_FALSE(fs::exists(out / "corridor_paths.png")) << "no charts of 1000 runs";
   suite["data"]["corridor"].erase("reference");
   EXPECT_EQ(run(suite).exit_code, 0);

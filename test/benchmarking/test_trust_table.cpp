@@ -93,6 +93,8 @@ TEST(TrustTable, CountsFalseGoodsAndFalseDoubts)
 {
   TrustRun by_matching = run(TrustCall::kDoubted, {scan(0), scan(0.01)}, "every 2nd");
   by_matching.doubted_by_matching = true;
+  TrustRun saved = run(TrustCall::kDoubted, {scan(0), scan(7), scan(0, {}, true)});
+  saved.doubted_by_matching = true; // it names a scan that is not off
   const std::vector<TrustRun> runs = {
       run(TrustCall::kGood, {scan(0), scan(0.01)}),
       run(TrustCall::kGood, {scan(0), scan(7)}), // the false good
@@ -101,32 +103,35 @@ TEST(TrustTable, CountsFalseGoodsAndFalseDoubts)
       run(TrustCall::kDoubted, {scan(0), scan(7, {}, true)}), // neither right nor wrong
       run(TrustCall::kDoubted, {scan(0), scan(0.01)}, "every 2nd"), // false doubts
       by_matching,
+      saved,
       run(TrustCall::kNone, {}),
       run(TrustCall::kGood, {})};
   const TrustTable table = trustTable(runs);
   const auto& all = table.all;
-  EXPECT_EQ(all.runs, 9u);
+  EXPECT_EQ(all.runs, 10u);
   EXPECT_EQ(all.failed, 1u);
   EXPECT_EQ(all.without_truth, 1u);
   EXPECT_EQ(all.good, 2u);
   EXPECT_EQ(all.unverified, 1u);
-  EXPECT_EQ(all.doubted, 4u);
-  EXPECT_EQ(all.wrong, 3u);
+  EXPECT_EQ(all.doubted, 5u);
+  EXPECT_EQ(all.wrong, 4u);
   EXPECT_EQ(all.right, 3u);
   EXPECT_EQ(all.false_goods.count, 1u);
   EXPECT_EQ(all.false_goods.of, 2u);
-  EXPECT_EQ(all.missed.of, 3u);
+  EXPECT_EQ(all.missed.of, 4u);
   EXPECT_EQ(all.false_unverified.count, 1u);
+  EXPECT_EQ(all.false_verifications.count, 2u) << "the false good, and one saved";
+  EXPECT_EQ(all.false_verifications.of, 4u);
   EXPECT_EQ(all.false_doubts.count, 2u);
   EXPECT_EQ(all.false_doubts.of, 3u);
   EXPECT_EQ(all.by_matching, 1u);
   ASSERT_EQ(table.by_damage.size(), 2u);
   EXPECT_EQ(table.by_damage[0].damage, "none");
-  EXPECT_EQ(table.by_damage[0].runs, 7u);
+  EXPECT_EQ(table.by_damage[0].runs, 8u);
   EXPECT_EQ(table.by_damage[1].false_doubts.count, 2u);
   EXPECT_EQ(table.by_damage[1].false_goods.count, 0u);
   ASSERT_EQ(table.by_data.size(), 1u);
-  EXPECT_EQ(table.by_data[0].runs, 9u);
+  EXPECT_EQ(table.by_data[0].runs, 10u);
   EXPECT_EQ(table.cells.size(), 2u);
 }
 
@@ -164,8 +169,9 @@ TEST(TrustTexts, NameTheFalseGoodsFirst)
       run(TrustCall::kGood, {scan(0), scan(kInfinity)}, "foreign"),
       run(TrustCall::kDoubted, {scan(0)}, "every 2nd")};
   const std::string text = trustMarkdown(runs);
-  const auto goods = text.find("### False goods\n- runs/rooms, jump");
+  const auto goods = text.find("### False goods\n- runs/rooms, foreign");
   ASSERT_NE(goods, std::string::npos) << text;
+  EXPECT_LT(goods, text.find("- runs/rooms, jump")) << "the largest error first";
   EXPECT_LT(goods, text.find("### By damage"));
   EXPECT_NE(text.find("off by 7.250 m, allowed 0.050 m (no bound"), std::string::npos);
   EXPECT_NE(text.find("has no true place"), std::string::npos);

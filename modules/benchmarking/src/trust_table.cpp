@@ -60,6 +60,9 @@ countRun(const TrustRun& run, TrustCounts& counts)
   counts.missed.count += good && wrong;
   counts.false_unverified.of += unverified;
   counts.false_unverified.count += unverified && wrong;
+  const bool verified = good || (doubted && run.doubted_by_matching);
+  counts.false_verifications.of += verified;
+  counts.false_verifications.count += verified && !right;
   counts.false_doubts.of += right;
   counts.false_doubts.count += doubted && right;
   counts.by_matching += doubted && right && run.doubted_by_matching;

@@ -54,8 +54,9 @@ countsMarkdown(const std::vector<TrustCounts>& rows,
     rule += "---|";
   }
   text += " runs | no map | good | unverified | doubted | wrong | **false good** | "
-          "wrong, unverified | right | false doubt | of these by matching |\n" +
-          rule + "---|---|---|---|---|---|---|---|---|---|---|\n";
+          "wrong, unverified | off though verified | right | false doubt | "
+          "of these by matching |\n" +
+          rule + "---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const TrustCounts& row : rows) {
     text += '|';
     for (const std::string& name : names(row))
@@ -63,8 +64,8 @@ countsMarkdown(const std::vector<TrustCounts>& rows,
     text += cell(row.runs) + cell(row.failed + row.without_truth) + cell(row.good) +
             cell(row.unverified) + cell(row.doubted) + cell(row.wrong) +
             cell(shareText(row.false_goods)) + cell(row.false_unverified.count) +
-            cell(row.right) + cell(shareText(row.false_doubts)) +
-            cell(row.by_matching) + '\n';
+            cell(shareText(row.false_verifications)) + cell(row.right) +
+            cell(shareText(row.false_doubts)) + cell(row.by_matching) + '\n';
   }
   return text + '\n';
 }
@@ -72,22 +73,23 @@ countsMarkdown(const std::vector<TrustCounts>& rows,
 std::string
 describe(const TrustRun& run)
 {
-  std::string text = "- " + run.name + ": ";
-  if (run.call == TrustCall::kDoubted)
-    return text + run.message + '\n';
+  const std::string text = "- " + run.name + ": ";
+  const bool is_doubted = run.call == TrustCall::kDoubted;
+  const std::string said = is_doubted ? run.message : "";
   const TrustScan* worst = nullptr;
   for (const TrustScan& scan : run.scans)
-    if (!scan.named && scan.error > allowedError(scan) &&
+    if ((is_doubted || !scan.named) && scan.error > allowedError(scan) &&
         (worst == nullptr || scan.error > worst->error))
       worst = &scan;
   if (worst == nullptr)
-    return text + '\n';
-  text += worst->name;
+    return text + said + '\n';
+  const std::string name = text + worst->name,
+                    end = said.empty() ? "" : "; said: " + said;
   if (!std::isfinite(worst->error))
-    return text + " has no true place\n";
-  return text + " off by " + fixedText(worst->error, 3) + " m, allowed " +
+    return name + " has no true place" + end + '\n';
+  return name + " off by " + fixedText(worst->error, 3) + " m, allowed " +
          fixedText(allowedError(*worst), 3) + " m" +
-         (worst->bound ? "" : " (no bound is stated)") + '\n';
+         (worst->bound ? "" : " (no bound is stated)") + end + '\n';
 }
 
 /** A list of the runs that are so, the largest errors first. */
@@ -170,6 +172,7 @@ jsonOf(const TrustCounts& row)
           {"false_goods", jsonOf(row.false_goods)},
           {"missed", jsonOf(row.missed)},
           {"false_unverified", jsonOf(row.false_unverified)},
+          {"false_verifications", jsonOf(row.false_verifications)},
           {"false_doubts", jsonOf(row.false_doubts)},
           {"false_doubts_by_matching", row.by_matching}};
 }
@@ -238,6 +241,9 @@ trustMarkdown(const std::vector<TrustRun>& runs)
   });
   text += listOf("Wrong and unverified", runs, [](const TrustRun& run) {
     return run.call == TrustCall::kUnverified && isWrong(run);
+  });
+  text += listOf("Off, but only matching doubts it", runs, [](const TrustRun& run) {
+    return run.call == TrustCall::kDoubted && run.doubted_by_matching && !isRight(run);
   });
   text += "### By damage\n" +
           countsMarkdown(table.by_damage, {"damage"}, [](const TrustCounts& row) {

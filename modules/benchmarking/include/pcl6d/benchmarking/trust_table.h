@@ -104,6 +104,10 @@ struct TrustCounts {
   TrustShare false_goods;      ///< wrong maps called good, of those called good
   TrustShare missed;           ///< the same, of the wrong ones
   TrustShare false_unverified; ///< wrong maps called unverified, of those called so
+  /** maps that verification has nothing against though a scan is off, of all it has nothing
+   * against: those called good, and those that only matching doubts, where it is matching
+   * that saves the verdict */
+  TrustShare false_verifications;
   TrustShare false_doubts;     ///< right maps doubted, of the right ones
   std::size_t by_matching = 0; ///< of these: verification is not against them
 };

@@ -110,9 +110,11 @@ public:
 private:
   /** Starts what the picture needs while there is other work to do. Failing, it is tried
    * again when the picture is drawn, where its error is told. */
-  static std::future<void>
-  startDisplay()
+  std::future<void>
+  startDisplay() const
   {
+    if (settings_.no_picture && !settings_.planes && !settings_.report)
+      return {};
     return std::async(std::launch::async, [] {
       try {
         PrivateDisplay::instance();

@@ -18,6 +18,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <set>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -51,7 +52,7 @@ addOptions(OptionTable& table, SuiteSettings& s)
   table.add("only NAME...", &s.only)
       .composing()
       .multitoken()
-      .help("only these methods or data sets, by their names");
+      .help("only these methods, data sets or damages, by their names");
   table.add("jobs", &s.jobs)
       .within(1, 1024, "in [1, 1024]")
       .help("runs at once; more than 1 spoils the times");
@@ -102,14 +103,15 @@ settlePaths(SuiteSettings& s)
 void
 checkNames(const Suite& suite, const std::vector<std::string>& only)
 {
-  const auto has = [](const auto& items, const std::string& name) {
-    return std::any_of(
-        items.begin(), items.end(), [&](const auto& i) { return i.name == name; });
-  };
+  std::set<std::string> names;
+  for (const auto& data : suite.data)
+    names.insert({data.name, data.base, data.entry, data.damage.name});
+  for (const auto& method : suite.methods)
+    names.insert(method.name);
   for (const auto& name : only)
-    if (!has(suite.data, name) && !has(suite.methods, name))
+    if (name.empty() || names.count(name) == 0)
       throw UsageError("--only " + name + ": " + suite.file.string() +
-                       " has no such method or data set");
+                       " has no such method, data set or damage");
 }
 
 /** The folder of the results, held by one call at a time. */
@@ -193,28 +195,51 @@ writeText(const fs::path& file, const std::string& text)
   writeFileAtomically(file, [&](std::ostream& stream) { stream << text; });
 }
 
+/** The three tables, the printed one, and the place in a document. */
 void
-writeReport(const SuiteSettings& s,
+writeTables(const SuiteSettings& s,
+            const Suite& suite,
+            const std::string& markdown,
+            const std::string& csv,
+            const std::string& json)
+{
+  const fs::path out = s.out;
+  const char* sentence = suite.judges_trust
+                             ? "Upper bounds are those of Clopper and Pearson, 95 %."
+                             : "Errors without alignment.";
+  const std::string document = documentOf(suite, markdown, sentence, s.command);
+  writeText(out / "table.md", document);
+  writeText(out / "table.csv", csv);
+  writeText(out / "table.json", json);
+  if (!s.document.empty())
+    putIntoDocument(s.document, suite.name, document);
+  std::fputs(markdown.c_str(), stdout);
+  flushOutput();
+}
+
+void
+writeErrors(const SuiteSettings& s,
             const Suite& suite,
             const std::vector<DataResults>& results,
             ProgressBar& bar)
 {
-  const fs::path out = s.out;
   const auto rows = rowsOf(results);
-  const std::string document = documentOf(suite, rows, s.command);
-  writeText(out / "table.md", document);
-  writeText(out / "table.csv", suiteCsv(rows));
-  writeText(out / "table.json", suiteJson(rows));
-  if (!s.document.empty())
-    putIntoDocument(s.document, suite.name, document);
-  const std::string table = suiteMarkdown(rows);
-  std::fputs(table.c_str(), stdout);
-  flushOutput();
+  writeTables(s, suite, suiteMarkdown(rows), suiteCsv(rows), suiteJson(rows));
   try {
-    drawSuite(out, results);
+    drawSuite(s.out, results);
   } catch (const pcl::PCLException& e) {
     bar.warn(e.what()); // the numbers are there
   }
+}
+
+/** \return whether no wrong map is called good */
+bool
+writeTrust(const SuiteSettings& s,
+           const Suite& suite,
+           const std::vector<TrustRun>& runs)
+{
+  writeTables(s, suite, trustMarkdown(runs), trustCsv(runs), trustJson(runs));
+  return trustTable(runs).all.false_goods.count == 0;
 }
 
 bool
@@ -251,8 +276,12 @@ runSuite(const std::vector<std::string>& arguments)
     bar.say("interrupted; the same call goes on from here");
     return kInterrupted;
   }
-  writeReport(s, suite, measureSuite(suite, folder, *runs), bar);
-  return allHaveResults(*runs) ? kDone : kDoubtful;
+  bool holds = true;
+  if (suite.judges_trust)
+    holds = writeTrust(s, suite, judgeSuite(suite, folder, *runs));
+  else
+    writeErrors(s, suite, measureSuite(suite, folder, *runs), bar);
+  return holds && allHaveResults(*runs) ? kDone : kDoubtful;
 }
 
 } // namespace pcl6d::app

@@ -82,7 +82,7 @@ tryScene(const std::string& scene, const SuiteOptions& options)
 void
 checkSimulation(const SuiteData& data, const Suite& suite)
 {
-  const std::string place = "/data/" + data.name + "/simulate";
+  const std::string place = "/data/" + data.entry + "/simulate";
   const std::string fault =
       faultOf({}, [&](const SuiteOptions&) { tryScene(data.scene, {}); });
   const bool is_mesh = fault.find("--path") != std::string::npos; // needs an option
@@ -101,7 +101,7 @@ checkReference(const SuiteData& data, const Suite& suite)
   const std::string fault =
       faultOf({}, [&](const SuiteOptions&) { readTrajectory(data.reference); });
   if (!fault.empty())
-    refuseSuite(suite.file, "/data/" + data.name + "/reference", fault);
+    refuseSuite(suite.file, "/data/" + data.entry + "/reference", fault);
 }
 
 void
@@ -109,6 +109,43 @@ openFolder(const SuiteData& data, const SuiteOptions& options)
 {
   const Settings settings = slamSettings(data.folder, options);
   const ScanFolder folder(settings.input, settings.folder);
+}
+void
+checkData(const SuiteData& data, const Suite& suite, const Trial& parsing)
+{
+  checkOptionsAt(
+      "/data/" + data.entry + "/options", data.options, suite.defaults, suite, parsing);
+  if (!data.scene.empty())
+    checkSimulation(data, suite);
+  checkReference(data, suite);
+}
+
+/** What cannot be done to the data, told before anything runs. */
+void
+checkDamage(const SuiteData& data, const Suite& suite)
+{
+  if (data.damage.odometry_noise != 1 && data.scene.empty() && data.reference.empty())
+    refuseSuite(suite.file,
+                "/data/" + data.entry,
+                "has no reference, which odometry_noise of '" + data.damage.name +
+                    "' needs");
+}
+
+/** All options together, on a data set with its damage. */
+void
+checkTogether(const SuiteData& data, const Suite& suite, const Trial& parsing)
+{
+  const SuiteOptions below =
+      overlaid(overlaid(suite.defaults, data.options), data.damage.options);
+  for (const auto& method : suite.methods) {
+    const SuiteOptions options = overlaid(below, method.options);
+    const std::string fault = faultOf(options, [&](const SuiteOptions& all) {
+      data.scene.empty() ? openFolder(data, all) : parsing(all);
+    });
+    if (!fault.empty())
+      refuseSuite(
+          suite.file, "/data/" + data.entry, fault + " (with '" + method.name + "')");
+  }
 }
 } // namespace
 
@@ -119,24 +156,22 @@ checkSuite(const Suite& suite)
     slamSettings(kAnyFolder, options);
   };
   checkOptionsAt("/defaults", suite.defaults, {}, suite, parsing);
+  for (const auto& damage : suite.damages)
+    checkOptionsAt("/damages/" + damage.name + "/options",
+                   damage.options,
+                   suite.defaults,
+                   suite,
+                   parsing);
   for (const auto& method : suite.methods)
     checkOptionsAt(
         "/methods/" + method.name, method.options, suite.defaults, suite, parsing);
+  std::set<std::string> checked; // seeds and damages repeat much
   for (const auto& data : suite.data) {
-    const std::string place = "/data/" + data.name;
-    checkOptionsAt(place + "/options", data.options, suite.defaults, suite, parsing);
-    if (!data.scene.empty())
-      checkSimulation(data, suite);
-    checkReference(data, suite);
-    const SuiteOptions below = overlaid(suite.defaults, data.options);
-    for (const auto& method : suite.methods) {
-      const SuiteOptions options = overlaid(below, method.options);
-      const std::string fault = faultOf(options, [&](const SuiteOptions& all) {
-        data.scene.empty() ? openFolder(data, all) : parsing(all);
-      });
-      if (!fault.empty())
-        refuseSuite(suite.file, place, fault + " (with '" + method.name + "')");
-    }
+    if (checked.insert(data.entry).second)
+      checkData(data, suite, parsing);
+    checkDamage(data, suite);
+    if (checked.insert(data.entry + '\n' + data.damage.name).second)
+      checkTogether(data, suite, parsing);
   }
 }
 

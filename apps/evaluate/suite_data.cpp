@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "evaluate/damaged_folder.h"
 #include "evaluate/run_record.h"
 #include "evaluate/suite_data.h"
 
@@ -97,6 +98,49 @@ prepareData(const SuiteData& data,
   }
   bar.show({"simulating " + data.name, 1, 1});
   return prepared;
+}
+
+PreparedData
+prepareDamaged(const SuiteData& data,
+               const PreparedData& source,
+               const PreparedData* foreign,
+               const fs::path& truth,
+               const fs::path& folder)
+{
+  if (!data.damage.changesFiles() || !source.fault.empty())
+    return source;
+  if (foreign != nullptr && !foreign->fault.empty())
+    return {source.scans, source.inputs, data.foreign + ": " + foreign->fault};
+  PreparedData prepared{folder, {{"source", source.inputs}}, ""};
+  prepared.inputs["damage"] = data.damage.text;
+  if (foreign != nullptr)
+    prepared.inputs["foreign"] = foreign->inputs;
+  if (!truth.empty() && data.scene.empty())
+    prepared.inputs["truth"] = hashOfFiles(truth);
+  const fs::path file = folder.string() + ".json";
+  const auto before = readRunRecord(file);
+  if (before && before->countsFor(prepared.inputs, 0) && fs::exists(folder))
+    return prepared;
+  fs::remove(file);
+  makeAnew(folder);
+  try {
+    makeDamagedFolder(data.damage,
+                      {source.scans, truth, foreign ? foreign->scans : fs::path()},
+                      folder);
+  } catch (const pcl::PCLException& error) { // told as a row; the others go on
+    prepared.fault = std::string("cannot be damaged so: ") + error.what();
+    return prepared;
+  }
+  if (!data.damage.links.empty())
+    writeLinks(linksOf(folder), data.damage);
+  writeRunRecord(file, {prepared.inputs, {}, 0, ""});
+  return prepared;
+}
+
+fs::path
+linksOf(const fs::path& folder)
+{
+  return folder.string() + ".links";
 }
 
 } // namespace pcl6d::app

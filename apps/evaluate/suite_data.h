@@ -29,6 +29,24 @@ prepareData(const SuiteData& data,
             const Interrupt& interrupt,
             ProgressBar& bar);
 
+/** \brief Damages scans unless that is done from an earlier call.
+ * \param[in] source the scans without damage \param[in] foreign those of the data set that
+ * a foreign scan comes from; null if none does
+ * \param[in] truth of the source; empty if there is none
+ * \param[in] folder to write; FOLDER.json lies beside it
+ * \return the source itself if no file differs; with a fault if it cannot be damaged so
+ * \throws IoFailed a file cannot be written */
+PreparedData
+prepareDamaged(const SuiteData& data,
+               const PreparedData& source,
+               const PreparedData* foreign,
+               const std::filesystem::path& truth,
+               const std::filesystem::path& folder);
+
+/** \return the file with the links of a damaged folder, for --graph-in */
+std::filesystem::path
+linksOf(const std::filesystem::path& folder);
+
 /** \brief Removes a folder of ours and makes it anew, so that nothing half finished stays.
  * \throws IoFailed it cannot be written */
 void

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <ostream>
+#include <set>
 #include <thread>
 
 namespace pcl6d::app {
@@ -50,23 +51,35 @@ joined(const std::vector<std::string>& words)
   return text;
 }
 
+std::string
+nameForShell(const std::string& name)
+{
+  return name.find(' ') == std::string::npos ? name : '"' + name + '"';
+}
+
 /** The commands that are run, as a user would type them. */
 std::string
 commandsOf(const Suite& suite)
 {
-  std::string text;
-  for (const SuiteData& data : suite.data)
-    if (!data.scene.empty())
-      text += "pcl_slam6d_simulate " + data.scene + " -o " + data.name + ' ' +
-              joined(wordsOf(data.simulation)) + '\n';
+  std::string text, options_of_data;
+  std::set<std::string> told;
+  for (const SuiteData& data : suite.data) {
+    if (!data.scene.empty() && told.insert(data.base).second)
+      text += "pcl_slam6d_simulate " + data.scene + " -o " + nameForShell(data.base) +
+              ' ' + joined(wordsOf(data.simulation)) + '\n';
+    if (!data.options.empty() && told.insert('\n' + data.entry).second)
+      options_of_data +=
+          "# on " + data.entry + " also: " + joined(wordsOf(data.options)) + '\n';
+  }
   for (const SuiteMethod& method : suite.methods) {
     const std::string options =
         joined(wordsOf(overlaid(suite.defaults, method.options)));
     text += "pcl_slam6d SCANS -o OUT " + options + "   # " + method.name + '\n';
   }
-  for (const SuiteData& data : suite.data)
-    if (!data.options.empty())
-      text += "# on " + data.name + " also: " + joined(wordsOf(data.options)) + '\n';
+  text += options_of_data;
+  for (const SuiteDamage& damage : suite.damages)
+    text += "# " + damage.name + ": " + damage.text.dump() + ' ' +
+            joined(wordsOf(damage.options)) + '\n';
   return text;
 }
 
@@ -84,14 +97,15 @@ contentOf(const fs::path& file)
 
 std::string
 documentOf(const Suite& suite,
-           const std::vector<SuiteRow>& rows,
+           const std::string& table,
+           const std::string& sentence,
            const std::string& command)
 {
   std::string text = "## " + suite.title + "\n\n";
   if (!suite.description.empty())
     text += suite.description + "\n\n";
-  text += suiteMarkdown(rows);
-  text += "\nErrors without alignment. Machine: " + machine() + ".\n\n```\n" + command +
+  text += table;
+  text += "\n" + sentence + " Machine: " + machine() + ".\n\n```\n" + command +
           "\n```\nruns, each in a process of its own:\n```\n" + commandsOf(suite) +
           "```\n";
   return text;

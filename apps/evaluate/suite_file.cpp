@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "evaluate/suite_file.h"
+#include "evaluate/suite_json.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/io/json_object.h>
 
 #include <nlohmann/json.hpp>
 
@@ -61,79 +60,41 @@ private:
   std::vector<Object> open_;
 };
 
-/** \throws IoFailed the object has other members than these */
-void
-allow(const JsonValue& node, const std::set<std::string>& names)
+/** Seeds of one entry; none if it has no list of them. */
+std::vector<int>
+seedsFrom(const JsonValue& node)
 {
-  std::string known;
-  for (const auto& name : names)
-    known += (known.empty() ? "" : ", ") + name;
-  for (const auto& key : node.keys())
-    if (names.count(key) == 0)
-      node.fail("'" + key + "' is not known; there are " + known);
-}
-
-double
-number(const JsonValue& node, double least, const std::string& rule)
-{
-  node.require(node.isNumber() && node.number() >= least, rule);
-  return node.number();
-}
-
-/** An object of options, without those in `besides`. */
-SuiteOptions
-optionsOf(const JsonValue& node, const std::set<std::string>& besides = {})
-{
-  SuiteOptions options = SuiteOptions::object();
-  for (const auto& name : node.keys()) {
-    const JsonValue option = node / name;
-    if (besides.count(name) > 0)
-      continue;
-    if (option.json().is_structured())
-      option.fail("expected a number, a text, true, false or null");
-    options[name] = option.json();
-  }
-  return options;
-}
-
-/** An object of options, which may be missing. */
-SuiteOptions
-optionsIn(const JsonValue& node, const std::string& name)
-{
-  return node.has(name) ? optionsOf(node / name) : SuiteOptions(SuiteOptions::object());
-}
-
-/** Calls for every member of the object, whose names become names of folders. */
-template <typename Take>
-void
-forEachNamed(const JsonValue& node, const Take& take)
-{
-  const std::vector<std::string> names = node.keys();
-  for (const auto& name : names) {
-    const bool unsafe = std::any_of(name.begin(), name.end(), [](unsigned char c) {
-      return c < ' ' || c == '/' || c == '|' || c == '"';
-    });
-    if (name.empty() || name.front() == '.' || name.size() > 100 || unsafe)
-      node.fail("'" + name +
-                "' is no name: 1 to 100 characters, none of / | \", no dot in front");
-    take(name, node / name);
-  }
-  if (names.empty())
-    node.fail("is empty, but at least one is needed");
+  if (!node.has("seeds"))
+    return {};
+  const JsonValue seeds = node / "seeds";
+  if (!node.has("simulate"))
+    seeds.fail("only simulated scans have seeds");
+  if ((node / "simulate").has("seed"))
+    seeds.fail("'simulate' has a seed already");
+  if (!seeds.isPair())
+    seeds.fail("expected the first and the last seed");
+  const auto ends = seeds.elements();
+  const int first = ends[0].integer(), last = ends[1].integer();
+  seeds.require(first >= 0 && last >= first && last - first < 1000,
+                "0 <= first <= last, at most 1000 of them");
+  std::vector<int> all;
+  for (int seed = first; seed <= last; ++seed)
+    all.push_back(seed);
+  return all;
 }
 
 SuiteData
 dataFrom(const std::string& name, const JsonValue& node)
 {
-  allow(node, {"simulate", "folder", "reference", "options"});
+  allowMembers(node, {"simulate", "folder", "reference", "options", "seeds"});
   if (node.has("simulate") == node.has("folder"))
     node.fail("needs either 'simulate' or 'folder'");
   SuiteData data;
-  data.name = name;
+  data.name = data.entry = data.base = name;
   if (node.has("simulate")) {
     const JsonValue simulate = node / "simulate";
     data.scene = (simulate / "scene").text();
-    data.simulation = optionsOf(simulate, {"scene"});
+    data.simulation = optionsFrom(simulate, {"scene"});
     if (node.has("reference"))
       (node / "reference").fail("simulated scans have their own");
   }
@@ -144,6 +105,78 @@ dataFrom(const std::string& name, const JsonValue& node)
     data.reference = (node / "reference").text();
   data.options = optionsIn(node, "options");
   return data;
+}
+
+/** \return the data sets of an entry, one for each of its seeds */
+std::vector<SuiteData>
+seededFrom(const std::string& name, const JsonValue& node)
+{
+  const SuiteData data = dataFrom(name, node);
+  std::vector<SuiteData> all;
+  for (const int seed : seedsFrom(node)) {
+    SuiteData& one = all.emplace_back(data);
+    one.name = one.base = name + " seed " + std::to_string(seed);
+    one.simulation["seed"] = seed;
+  }
+  return all.empty() ? std::vector<SuiteData>{data} : all;
+}
+
+/** Adds what every damage makes of a data set.
+ * \param[in] next the data set that a foreign scan comes from */
+void
+addDamaged(const SuiteData& data, const SuiteData& next, Suite& suite)
+{
+  for (const SuiteDamage& damage : suite.damages) {
+    SuiteData damaged = data;
+    damaged.name = data.base + ", " + damage.name;
+    damaged.damage = damage;
+    if (damage.foreign)
+      damaged.foreign = next.base;
+    suite.data.push_back(damaged);
+  }
+}
+
+/** First seeds come first, so that all data sets have a number early. */
+void
+addData(const std::vector<std::vector<SuiteData>>& entries, Suite& suite)
+{
+  std::size_t most = 0;
+  for (const auto& entry : entries)
+    most = std::max(most, entry.size());
+  for (std::size_t k = 0; k < most; ++k)
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+      if (k >= entries[e].size())
+        continue;
+      const auto& next = entries[(e + 1) % entries.size()];
+      if (suite.damages.empty())
+        suite.data.push_back(entries[e][k]);
+      else
+        addDamaged(entries[e][k], next[std::min(k, next.size() - 1)], suite);
+    }
+}
+
+/** Seeds and damages make names that might be there already. */
+void
+requireDifferentNames(const Suite& suite, const JsonValue& node)
+{
+  std::set<std::string> names;
+  for (const SuiteData& data : suite.data)
+    if (!names.insert(data.name).second)
+      node.fail("two data sets are called '" + data.name + "'");
+}
+
+void
+readDamages(const JsonValue& root, Suite& suite)
+{
+  if (!root.has("damages"))
+    return;
+  forEachNamed(root / "damages", [&](const std::string& name, const JsonValue& node) {
+    if ((root / "data").has(name))
+      node.fail("a data set has the same name");
+    suite.damages.push_back(damageFrom(name, node));
+    if (suite.damages.back().foreign && (root / "data").keys().size() < 2)
+      (node / "foreign").fail("there is no other data set that a scan could come from");
+  });
 }
 
 Json
@@ -171,46 +204,60 @@ readValues(const JsonValue& root, Suite& suite)
     suite.description = (root / "description").text();
   suite.defaults = optionsIn(root, "defaults");
   if (root.has("time_limit"))
-    suite.time_limit = number(root / "time_limit", 1e-3, "seconds > 0");
+    suite.time_limit = numberFrom(root / "time_limit", 1e-3, "seconds > 0");
   if (root.has("repetitions")) {
     const JsonValue node = root / "repetitions";
-    const double count = number(node, 1, "a whole number from 1 to 100");
+    const double count = numberFrom(node, 1, "a whole number from 1 to 100");
     if (count > 100 || count != std::floor(count))
       node.fail("expected a whole number from 1 to 100");
     suite.repetitions = static_cast<int>(count);
   }
   if (root.has("keep_scans"))
     suite.keep_scans = (root / "keep_scans").boolean();
+  if (root.has("table")) {
+    const JsonValue node = root / "table";
+    node.require(node.isText() && (node.text() == "errors" || node.text() == "trust"),
+                 "\"errors\" or \"trust\"");
+    suite.judges_trust = node.text() == "trust";
+  }
 }
 
 Suite
 suiteFrom(const JsonValue& root, const fs::path& file)
 {
-  allow(root,
-        {"schema_version",
-         "title",
-         "description",
-         "time_limit",
-         "repetitions",
-         "keep_scans",
-         "defaults",
-         "data",
-         "methods"});
+  allowMembers(root,
+               {"schema_version",
+                "title",
+                "description",
+                "table",
+                "time_limit",
+                "repetitions",
+                "keep_scans",
+                "defaults",
+                "data",
+                "damages",
+                "methods"});
   const JsonValue version = root / "schema_version";
   version.require(version.isNumber() && version.number() == 1, "1");
   Suite suite;
   suite.file = fs::absolute(file);
   suite.name = file.stem().string();
   readValues(root, suite);
+  std::vector<std::vector<SuiteData>> entries;
   forEachNamed(root / "data", [&](const std::string& name, const JsonValue& node) {
-    suite.data.push_back(dataFrom(name, node));
+    entries.push_back(seededFrom(name, node));
   });
+  readDamages(root, suite);
+  addData(entries, suite);
+  requireDifferentNames(suite, root / "data");
   forEachNamed(root / "methods", [&](const std::string& name, const JsonValue& node) {
     if (name == "odometry")
       node.fail("the name stands for the initial poses, which are always compared");
     if ((root / "data").has(name))
       node.fail("a data set has the same name");
-    suite.methods.push_back({name, optionsOf(node)});
+    if (root.has("damages") && (root / "damages").has(name))
+      node.fail("a damage has the same name");
+    suite.methods.push_back({name, optionsFrom(node)});
   });
   return suite;
 }

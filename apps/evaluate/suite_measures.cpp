@@ -38,9 +38,7 @@ public:
   : suite_(suite), folder_(folder), data_(data)
   {
     results_.data = data.name;
-    const fs::path reference = data.scene.empty()
-                                   ? fs::path(data.reference)
-                                   : folder.dataOf(data) / "groundtruth.txt";
+    const fs::path reference = folder.truthOf(data);
     if (!reference.empty() && fs::exists(reference))
       results_.reference = readTrajectory(reference);
   }

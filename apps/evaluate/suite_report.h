@@ -4,6 +4,7 @@
 #include "evaluate/suite_runs.h"
 
 #include <pcl6d/benchmarking/suite_table.h>
+#include <pcl6d/benchmarking/trust_table.h>
 
 namespace pcl6d::app {
 
@@ -32,17 +33,28 @@ measureSuite(const Suite& suite,
 std::vector<SuiteRow>
 rowsOf(const std::vector<DataResults>& results);
 
+/** \brief Compares what every run says of its map with the truth. Errors are of positions,
+ * after moving the map so that its first scan that is not named as doubtful, and has a
+ * true place, is right. A foreign scan has no true place. Named are scans that
+ * verification doubts or does not find tied, and those that were not matched or that no
+ * link joins to the others. */
+std::vector<TrustRun>
+judgeSuite(const Suite& suite,
+           const SuiteFolder& folder,
+           const std::vector<SuiteRun>& runs);
+
 /** \brief Draws for every data set the paths over each other, the error over the index of
  * the scan and the error over the time, as DATA_paths.png, DATA_errors.png and
  * DATA_times.png. \throws IoFailed a picture cannot be drawn or written */
 void
 drawSuite(const std::filesystem::path& folder, const std::vector<DataResults>& results);
 
-/** \return title, description, table, machine, options of the methods and the command, in
- * Markdown. \param[in] command that makes it */
+/** \return title, description, table, a sentence on it, machine, options of the methods and
+ * the command, in Markdown. \param[in] command that makes it */
 std::string
 documentOf(const Suite& suite,
-           const std::vector<SuiteRow>& rows,
+           const std::string& table,
+           const std::string& sentence,
            const std::string& command);
 
 /** \brief Puts a text into a Markdown file, between the lines `<!-- suite NAME -->` and

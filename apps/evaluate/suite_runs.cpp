@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <deque>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -56,29 +57,81 @@ public:
 
 private:
   bool
-  asked(const std::string& name, bool any_of_its_kind) const
+  asked(const std::string& name) const
   {
-    return !any_of_its_kind || options_.only.count(name) > 0;
+    return options_.only.count(name) > 0;
   }
 
-  template <typename Item>
   bool
-  anyAsked(const std::vector<Item>& items) const
+  asksFor(const SuiteData& data) const
   {
-    return std::any_of(items.begin(), items.end(), [&](const Item& item) {
-      return options_.only.count(item.name) > 0;
-    });
+    return asked(data.name) || asked(data.base) || asked(data.entry);
   }
 
+  template <typename Items, typename Is>
+  static bool
+  any(const Items& items, const Is& is)
+  {
+    return std::any_of(items.begin(), items.end(), is);
+  }
+
+  /** What is of a kind that nothing was asked of is asked for. */
   void
   plan()
   {
-    const bool data = anyAsked(suite_.data), methods = anyAsked(suite_.methods);
-    for (std::size_t d = 0; d < suite_.data.size(); ++d)
+    const auto byName = [&](const auto& item) { return asked(item.name); };
+    const bool some_data =
+        any(suite_.data, [&](const SuiteData& data) { return asksFor(data); });
+    const bool some_damages = any(suite_.damages, byName);
+    const bool some_methods = any(suite_.methods, byName);
+    for (std::size_t d = 0; d < suite_.data.size(); ++d) {
+      const SuiteData& data = suite_.data[d];
+      if ((some_data && !asksFor(data)) || (some_damages && !asked(data.damage.name)))
+        continue;
       for (std::size_t m = 0; m < suite_.methods.size(); ++m)
-        if (asked(suite_.data[d].name, data) && asked(suite_.methods[m].name, methods))
+        if (!some_methods || asked(suite_.methods[m].name))
           for (int r = 1; r <= suite_.repetitions; ++r)
             runs_.push_back({d, m, r, std::nullopt, ""});
+    }
+  }
+
+  /** \return the data without damage; nothing if interrupted */
+  std::optional<PreparedData>
+  prepareSource(const SuiteData& data)
+  {
+    const auto before = sources_.find(data.base);
+    if (before != sources_.end())
+      return before->second;
+    const SuiteData source = data.undamaged();
+    const auto prepared = prepareData(
+        source, folder_.dataOf(source), programs_, time_limit_, interrupt_, bar_);
+    if (prepared)
+      sources_.emplace(data.base, *prepared);
+    return prepared;
+  }
+
+  /** \return nothing if interrupted */
+  std::optional<PreparedData>
+  prepare(const SuiteData& data)
+  {
+    const auto source = prepareSource(data);
+    if (!source || data.damage.name.empty())
+      return source;
+    std::optional<PreparedData> foreign;
+    if (data.damage.foreign) {
+      const auto other = std::find_if(
+          suite_.data.begin(), suite_.data.end(), [&](const SuiteData& candidate) {
+            return candidate.base == data.foreign;
+          });
+      foreign = prepareSource(*other);
+      if (!foreign)
+        return std::nullopt;
+    }
+    return prepareDamaged(data,
+                          *source,
+                          foreign ? &*foreign : nullptr,
+                          folder_.truthOf(data.undamaged()),
+                          folder_.dataOf(data));
   }
 
   /** \return false if interrupted */
@@ -87,17 +140,10 @@ private:
   {
     data_.resize(suite_.data.size());
     for (std::size_t d = 0; d < suite_.data.size(); ++d) {
-      const bool used = std::any_of(
-          runs_.begin(), runs_.end(), [&](const SuiteRun& r) { return r.data == d; });
-      if (!used)
+      if (!any(runs_, [&](const SuiteRun& run) { return run.data == d; }))
         continue;
-      const auto prepared = prepareData(suite_.data[d],
-                                        folder_.dataOf(suite_.data[d]),
-                                        programs_,
-                                        time_limit_,
-                                        interrupt_,
-                                        bar_);
-      if (!prepared)
+      const auto prepared = prepare(suite_.data[d]);
+      if (!prepared || interrupt_.requested())
         return false;
       data_[d] = *prepared;
       for (SuiteRun& run : runs_)
@@ -123,8 +169,10 @@ private:
   SuiteOptions
   optionsOf(const SuiteRun& run) const
   {
-    return overlaid(overlaid(suite_.defaults, suite_.data[run.data].options),
-                    suite_.methods[run.method].options);
+    const SuiteData& data = suite_.data[run.data];
+    return overlaid(
+        overlaid(overlaid(suite_.defaults, data.options), data.damage.options),
+        suite_.methods[run.method].options);
   }
 
   Json
@@ -167,6 +215,9 @@ private:
         time_limit_};
     for (const auto& word : wordsOf(optionsOf(run)))
       start.arguments.push_back(word);
+    if (!suite_.data[run.data].damage.links.empty())
+      start.arguments.push_back("--graph-in=" +
+                                linksOf(data_[run.data].scans).string());
     return std::make_unique<ChildProcess>(start);
   }
 
@@ -255,6 +306,7 @@ private:
   const Json programs_;
   const double time_limit_;
   std::vector<SuiteRun> runs_;
+  std::map<std::string, PreparedData> sources_; ///< without damage, by their names
   std::vector<PreparedData> data_;
   std::deque<SuiteRun*> waiting_;
   std::vector<Active> active_;

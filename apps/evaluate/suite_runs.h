@@ -29,6 +29,16 @@ struct SuiteFolder {
   {
     return folder / "data" / data.name;
   }
+  /** \return the trajectory to compare with; empty if there is none */
+  std::filesystem::path
+  truthOf(const SuiteData& data) const
+  {
+    if (data.damage.changesFiles())
+      return dataOf(data) / "groundtruth.txt";
+    if (!data.scene.empty())
+      return dataOf(data.undamaged()) / "groundtruth.txt";
+    return data.reference;
+  }
   std::filesystem::path
   runOf(const SuiteData& data, const SuiteMethod& method, int repetition) const
   {
@@ -38,8 +48,10 @@ struct SuiteFolder {
 
 /** \brief How to run a suite. */
 struct SuiteRunOptions {
-  int jobs = 1;                ///< runs at once
-  std::set<std::string> only;  ///< methods and data sets; empty: all
+  int jobs = 1; ///< runs at once
+  /** methods; data sets, by their full name, without damage, or that of their entry;
+   * damages. Empty: all */
+  std::set<std::string> only;
   std::optional<double> limit; ///< [s] instead of the suite's
 };
 

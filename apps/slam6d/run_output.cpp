@@ -115,7 +115,7 @@ RunOutput::write(bool complete, RunLog log)
     writer.writeVerification();
     MapBuilder fine_map(planeVoxel(voxel), run_.world_offset);
     run_.complete = writeScans(log.clouds, map, settings_.planes ? &fine_map : nullptr);
-    if (run_.complete)
+    if (run_.complete && !settings_.no_picture)
       drawTopView(map);
     if (run_.complete && settings_.planes)
       planes = writePlanesOf(fine_map);

@@ -166,6 +166,8 @@ addRun(OptionTable& table, Settings& s)
   table.add("report", &s.report)
       .help("write report.html: verdict, map, plots and tables on one page for a "
             "browser");
+  table.add("no-picture", &s.no_picture)
+      .help("do not draw top_view.png, which takes a second");
   table.add("no-verification", &s.no_verification)
       .help("do not judge the map by the points and rays of its scans in the end");
   table.addAs<std::int64_t>("seed", &s.slam.seed)
@@ -194,20 +196,35 @@ optionsOfRun(const std::string& run)
 }
 
 /** The options that go into the summary; lengths go there as parameters. */
-constexpr const char* kWords[] = {"first",           "last",
-                                  "every",           "poses",
-                                  "format",          "deskew",
-                                  "interpolation",   "metric",
-                                  "minimiser",       "plane-minimiser",
-                                  "search",          "robust",
-                                  "initial-guess",   "metascan",
-                                  "loop-closing",    "relaxation",
-                                  "links",           "relaxation-rounds",
-                                  "graph-in",        "continue",
-                                  "iterations",      "min-overlap",
-                                  "max-correction",  "planes",
-                                  "report",          "threads",
-                                  "no-verification", "seed"};
+constexpr const char* kWords[] = {"first",
+                                  "last",
+                                  "every",
+                                  "poses",
+                                  "format",
+                                  "deskew",
+                                  "interpolation",
+                                  "metric",
+                                  "minimiser",
+                                  "plane-minimiser",
+                                  "search",
+                                  "robust",
+                                  "initial-guess",
+                                  "metascan",
+                                  "loop-closing",
+                                  "relaxation",
+                                  "links",
+                                  "relaxation-rounds",
+                                  "graph-in",
+                                  "continue",
+                                  "iterations",
+                                  "min-overlap",
+                                  "max-correction",
+                                  "planes",
+                                  "report",
+                                  "threads",
+                                  "no-picture",
+                                  "no-verification",
+                                  "seed"};
 } // namespace
 
 void

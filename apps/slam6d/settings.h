@@ -28,6 +28,7 @@ struct Settings {
   bool planes = false;          ///< find and label the planes of the map
   bool live_view = false;       ///< show the map in a window while it grows
   bool report = false;          ///< write report.html
+  bool no_picture = false;      ///< do not draw the map from above
   bool no_verification = false; ///< do not judge the map in the end
   bool force = false;
   bool quiet = false;

@@ -266,5 +266,5 @@ TEST(Suites, AllThatAreShippedAreRight)
     EXPECT_NE(outcome.err.find("/dev/null/out"), std::string::npos) << outcome.err;
     ++count;
   }
-  EXPECT_GE(count, 6);
+  EXPECT_GE(count, 8);
 }

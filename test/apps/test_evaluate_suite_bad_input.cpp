@@ -124,6 +124,84 @@ TEST_F(SuiteBadInput, NamesDataThatAreNotThere)
       {"/data/corridor/simulate/scanner: ", "--scanner = x"});
 }
 
+TEST_F(SuiteBadInput, SeedsMustBeARangeOfASimulation)
+{
+  const auto seeded = [](Json seeds) {
+    return [=](Json& s) {
+      s["data"]["corridor"] = {{"simulate", {{"scene", "rooms"}}}, {"seeds", seeds}};
+    };
+  };
+  expectRefusedWith(seeded(3), {"/data/corridor/seeds: ", "first and the last"});
+  expectRefusedWith(seeded({1, 2, 3}),
+                    {"/data/corridor/seeds: ", "first and the last"});
+  expectRefusedWith(seeded({4, 3}), {"/data/corridor/seeds: ", "first <= last"});
+  expectRefusedWith(seeded({1, 1001}), {"/data/corridor/seeds: ", "1000"});
+  expectRefusedWith(seeded({1.5, 2}), {"/data/corridor/seeds/0: ", "1.5"});
+  expectRefusedWith(
+      [](Json& s) {
+        s["data"]["corridor"]["seeds"] = {1, 2};
+      },
+      {"/data/corridor/seeds: ", "only simulated"});
+  expectRefusedWith(
+      [](Json& s) {
+        s["data"]["corridor"] = {{"simulate", {{"scene", "rooms"}, {"seed", 1}}},
+                                 {"seeds", {1, 2}}};
+      },
+      {"/data/corridor/seeds: ", "a seed already"});
+  expectRefusedWith(
+      [](Json& s) {
+        s["data"]["corridor"] = {{"simulate", {{"scene", "rooms"}}}, {"seeds", {1, 2}}};
+        s["data"]["corridor seed 2"] = {{"simulate", {{"scene", "rooms"}}}};
+      },
+      {"/data: ", "two data sets are called 'corridor seed 2'"});
+}
+
+TEST_F(SuiteBadInput, NamesWhatIsWrongWithADamage)
+{
+  const auto refused = [&](Json damage, const std::vector<std::string>& words) {
+    expectRefusedWith([&](Json& s) { s["damages"]["bad"] = damage; }, words);
+  };
+  refused({{"swop", {1, 2}}}, {"/damages/bad: ", "'swop' is not known", "swap"});
+  refused({{"swap", {1}}}, {"/damages/bad/swap: ", "indices of two scans"});
+  refused({{"swap", {2, 2}}}, {"/damages/bad/swap: ", "two different scans"});
+  refused({{"swap", {-1, 2}}}, {"/damages/bad/swap", "-1"});
+  refused({{"links", {{1, 1}}}}, {"/damages/bad/links/0: ", "two different scans"});
+  refused({{"links", {4}}}, {"/damages/bad/links/0: ", "indices of two scans"});
+  refused({{"jump", 10}}, {"/damages/bad/jump: ", "index of a scan and metres"});
+  refused({{"jump", {0, 10}}}, {"/damages/bad/jump/0: ", "after the first"});
+  refused({{"odometry_noise", -1}}, {"/damages/bad/odometry_noise: ", "at least 0"});
+  refused({{"odometry_scale", 0}}, {"/damages/bad/odometry_scale: ", "above 0"});
+  refused({{"turn", "right"}}, {"/damages/bad/turn: "});
+  refused({{"points", 2}}, {"/damages/bad/points: ", "at least 3"});
+  refused({{"points", "few"}}, {"/damages/bad/points: "});
+  refused({{"no_poses", 1}}, {"/damages/bad/no_poses: "});
+  refused({{"no_poses", true}, {"turn", 90}}, {"/damages/bad/no_poses: ", "no poses"});
+  refused({{"foreign", 1}}, {"/damages/bad/foreign: ", "no other data set"});
+  refused({{"options", {{"voxl", 1}}}}, {"/damages/bad/options/voxl: "});
+  refused({{"options", {{"voxel", {1}}}}}, {"/damages/bad/options/voxel: "});
+  refused(3, {"/damages/bad: ", "object"});
+}
+
+TEST_F(SuiteBadInput, DamagesHaveNamesOfTheirOwnAndWhatTheyNeed)
+{
+  expectRefusedWith([](Json& s) { s["damages"] = Json::object(); },
+                    {"/damages: ", "at least one"});
+  expectRefusedWith([](Json& s) { s["damages"]["a/b"] = Json::object(); },
+                    {"/damages: ", "is no name"});
+  expectRefusedWith([](Json& s) { s["damages"]["corridor"] = Json::object(); },
+                    {"/damages/corridor: ", "data set"});
+  expectRefusedWith([](Json& s) { s["damages"]["pairwise"] = Json::object(); },
+                    {"/methods/pairwise: ", "damage"});
+  expectRefusedWith(
+      [](Json& s) {
+        s["damages"]["noise"] = {{"odometry_noise", 2}};
+        s["data"]["corridor"].erase("reference");
+      },
+      {"/data/corridor: ", "has no reference, which odometry_noise of 'noise' needs"});
+  expectRefusedWith([](Json& s) { s["table"] = "trusts"; },
+                    {"/table: ", "\"trusts\", but must be \"errors\" or \"trust\""});
+}
+
 TEST_F(SuiteBadInput, IsNoJsonOrNotThere)
 {
   expectRefused("{\"schema_version\": 1,\n oops}", {"small.json", "no JSON", "line 2"});

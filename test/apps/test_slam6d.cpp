@@ -62,6 +62,16 @@ TEST(PclSlam6d, WritesTheRunFolderAndImprovesThePoses)
             0.2 * positionRms(odometry, truth, kScans));
 }
 
+TEST(PclSlam6d, DrawsNoPictureIfToldSo)
+{
+  const TempFolder folder;
+  const Outcome outcome =
+      slam(scans(), folder / "out", {"--last", "1", "--no-picture"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder / "out" / "top_view.png"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "map.pcd"));
+}
+
 TEST(PclSlam6d, WritesTheSamePosesEverywhere)
 {
   const TempFolder folder;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "table_text.h"
+
 #include <pcl6d/benchmarking/suite_table.h>
 #include <pcl6d/common/angle.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <functional>
 
 namespace pcl6d {
@@ -14,6 +14,9 @@ namespace pcl6d {
 namespace {
 using Json = nlohmann::ordered_json;
 using Number = std::optional<double>;
+using benchmarking::cellOf;
+using benchmarking::csvField;
+using benchmarking::fixedText;
 
 /** A column of numbers. */
 struct Column {
@@ -118,24 +121,6 @@ columns()
   return kColumns;
 }
 
-std::string
-fixed(double value, int digits)
-{
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
-
-/** \return a cell of a Markdown table, in which a bar would end it */
-std::string
-cellOf(const std::string& text)
-{
-  std::string cell;
-  for (const char c : text)
-    cell += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
-  return cell;
-}
-
 /** The columns of a Markdown table that have something to tell about these rows. */
 std::vector<const Column*>
 columnsFor(const std::vector<SuiteRow>& rows)
@@ -148,17 +133,6 @@ columnsFor(const std::vector<SuiteRow>& rows)
         }))
       shown.push_back(&column);
   return shown;
-}
-
-std::string
-quoted(const std::string& text)
-{
-  if (text.find_first_of(",\"\r\n") == std::string::npos)
-    return text;
-  std::string field = "\"";
-  for (const char c : text)
-    field += c == '"' ? "\"\"" : std::string(1, c);
-  return field + '"';
 }
 
 /** \return the shortest text that gives the same number when read */
@@ -197,7 +171,8 @@ suiteMarkdown(const std::vector<SuiteRow>& rows)
     text += cellOf(row.method) + " |";
     for (const Column* column : shown) {
       const Number value = column->value(row);
-      text += ' ' + (value ? fixed(column->unit * *value, column->digits) : "-") + " |";
+      text +=
+          ' ' + (value ? fixedText(column->unit * *value, column->digits) : "-") + " |";
     }
     text += ' ' + (row.verdict.empty() ? "-" : cellOf(row.verdict)) + " |\n";
     if (!row.message.empty())
@@ -215,11 +190,11 @@ suiteCsv(const std::vector<SuiteRow>& rows)
     text += ',' + column.key;
   text += ",runs,verdict,message\n";
   for (const SuiteRow& row : rows) {
-    text += quoted(row.data) + ',' + quoted(row.method);
+    text += csvField(row.data) + ',' + csvField(row.method);
     for (const Column& column : columns())
       text += ',' + exactly(column.value(row));
-    text += ',' + std::to_string(row.runs) + ',' + quoted(row.verdict) + ',' +
-            quoted(row.message) + '\n';
+    text += ',' + std::to_string(row.runs) + ',' + csvField(row.verdict) + ',' +
+            csvField(row.message) + '\n';
   }
   return text;
 }

@@ -343,8 +343,9 @@ TEST(MapVerifier, NamesEmptyAndTinyScans)
   scans.add({{1, 2, 1}});
   scans.add(Points(20, {kNan, 0, 0}));
   const MapVerification map = verifiedOf(scans, way());
-  EXPECT_EQ(map.trust, MapTrust::kDoubtful);
+  EXPECT_EQ(map.trust, MapTrust::kUnverified) << "nothing can tell where they are";
   EXPECT_EQ(looseOf(map), (std::set<std::size_t>{3, 4, 5}));
+  EXPECT_EQ(map.doubts.at(0).find("3 scans cannot be verified: "), 0u) << map.doubts[0];
 }
 
 TEST(MapVerifier, LeavesScansThatAbstainUnverified)

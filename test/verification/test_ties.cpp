@@ -54,8 +54,7 @@ TEST(Ties, AreNotOneLinkThatContradictsALittle)
   const Ties ties = triangles({link(2, 3, LinkTrust::kGood, 2, 98)});
   EXPECT_EQ(ties.tied, kFirstThree);
   EXPECT_EQ(ties.cut_from[3],
-            "only one link holds them, and rays go through 2 of 98 patches of surface "
-            "between them and the rest");
+            "rays go through 2 of 98 patches of surface between them and the rest");
   EXPECT_EQ(ties.cut_from[4], "");
 }
 
@@ -79,12 +78,36 @@ TEST(Ties, DoNotCountLinksOfScansThatBelongToNeither)
             (std::vector<bool>{true, true, false}));
 }
 
-TEST(Ties, HoldThroughTwoLinks)
+TEST(Ties, AreNotSeveralLinksThatEachContradictALittle)
 {
   EXPECT_EQ(triangles({link(2, 3, LinkTrust::kGood, 2, 98),
                        link(1, 4, LinkTrust::kGood, 2, 98)})
                 .tied,
+            kFirstThree);
+}
+
+TEST(Ties, HoldIfOneOfManyLinksContradicts)
+{
+  // Something moved in front of one of the scans.
+  EXPECT_EQ(triangles({link(2, 3),
+                       link(1, 4),
+                       link(2, 4),
+                       link(1, 3),
+                       link(0, 3, LinkTrust::kWeak, 10, 300)})
+                .tied,
             kAll);
+}
+
+TEST(Ties, OfPartsInAnyOrderAreCutAtTheLinkThatHolds)
+{
+  // Even and odd scans: no part of scans that follow each other.
+  std::vector<LinkCheck> links;
+  for (std::size_t i = 0; i + 2 < 12; ++i)
+    links.push_back(link(i, i + 2));
+  links.push_back(link(4, 7, LinkTrust::kGood, 3, 98));
+  const Ties ties = tiesOf(12, links, kBackground);
+  for (std::size_t i = 0; i < 12; ++i)
+    EXPECT_EQ(ties.tied[i], i % 2 == 0) << i;
 }
 
 TEST(Ties, HoldThroughALinkWhoseRaysAbstain)

@@ -52,9 +52,12 @@ constexpr double kWrongFree = 2.75, kWrongConfirmed = 3.8;
 
 /** Wrong places along even surfaces, such as a corridor's, contradict little: so large a share
  * of wrong links does, with a share of contradicted patches of a beta distribution of mean
- * 0.05. Asked of links that alone hold parts of a map together. Chosen on simulated jumps
- * along a corridor: 0.02 to 0.03 of the patches. */
+ * 0.05. Asked of all links between two parts of a map. Chosen on simulated jumps along a
+ * corridor, a car park and shelves: 0.02 to 0.08 of the patches. */
 constexpr double kEvenShare = 0.1, kEvenFree = 1, kEvenConfirmed = 19;
+
+/** Parts of so many scans that follow each other are looked at, and all up to a scan. */
+constexpr std::size_t kLongestPart = 40;
 
 /** Odds of a wrong link before anything is looked at: one in ten. */
 constexpr double kPriorOdds = 0.1;

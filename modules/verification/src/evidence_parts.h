@@ -33,9 +33,20 @@ sightBothWays(const VerifiedScan& first,
               const SurfaceFit& fit,
               std::vector<Contradiction>* contradictions = nullptr);
 
-/** \return the probability of another place by what rays contradict, where one must be sure:
- * wrong places along even surfaces, such as a corridor's, contradict little */
-double
-probabilityElsewhereStrictly(const SightEvidence& sight, double background);
+/** \brief Log likelihood ratios of two kinds of wrong places against the right one, by what
+ * rays contradict; those of links that share their fate add up. */
+struct RaysAgainst {
+  double usual = 0; ///< places that contradict much
+  double even = 0;  ///< places along even surfaces, such as a corridor's, contradict little
+
+  RaysAgainst&
+  operator+=(const RaysAgainst& other);
+  /** \return the probability of a wrong place of either kind */
+  double
+  probability() const;
+};
+
+RaysAgainst
+raysAgainst(std::size_t contradicted, std::size_t patches, double background);
 
 } // namespace pcl6d::verification

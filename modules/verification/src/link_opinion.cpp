@@ -45,17 +45,6 @@ logBetaBinomial(double k, double n, double a, double b)
   return logBeta(k + a, n - k + b) - logBeta(a, b);
 }
 
-/** Log odds of a wrong link by what the rays contradict. */
-double
-raysAgainst(const SightEvidence& sight, double background)
-{
-  const auto n = static_cast<double>(sight.patches);
-  const auto k = static_cast<double>(sight.contradicted_patches);
-  const double a = background * kBackgroundPrecision;
-  return logBetaBinomial(k, n, kWrongFree, kWrongConfirmed) -
-         logBetaBinomial(k, n, a, kBackgroundPrecision - a);
-}
-
 /** Log odds of a shifted link by the way that the surfaces would move it: those of a normal
  * distribution against a wide one, even at so many standard deviations. */
 double
@@ -70,7 +59,7 @@ double
 probabilityOf(double log_odds)
 {
   constexpr double kMost = 700; // of a double
-  const double odds = kPriorOdds * portableExp(std::min(log_odds, kMost));
+  const double odds = kPriorOdds * portableExp(std::clamp(log_odds, -kMost, kMost));
   return odds / (1 + odds);
 }
 
@@ -140,25 +129,50 @@ contradictionBackground(const std::vector<LinkEvidence>& links)
                                     : std::max(background, kLeastBackground);
 }
 
-double
-verification::probabilityElsewhereStrictly(const SightEvidence& sight, double background)
+namespace verification {
+RaysAgainst
+raysAgainst(std::size_t contradicted, std::size_t patches, double background)
 {
-  const auto n = static_cast<double>(sight.patches);
-  const auto k = static_cast<double>(sight.contradicted_patches);
-  const double a = background * kBackgroundPrecision;
-  const double right = logBetaBinomial(k, n, a, kBackgroundPrecision - a);
-  const double usual = logBetaBinomial(k, n, kWrongFree, kWrongConfirmed) - right;
-  const double even = logBetaBinomial(k, n, kEvenFree, kEvenConfirmed) - right;
-  const double more = std::max(usual, even); // log of the mixture of both
-  return probabilityOf(more + portableLog((1 - kEvenShare) * portableExp(usual - more) +
-                                          kEvenShare * portableExp(even - more)));
+  const auto n = static_cast<double>(patches), k = static_cast<double>(contradicted);
+  const auto rightWith = [&](double share) {
+    const double a = share * kBackgroundPrecision;
+    return logBetaBinomial(k, n, a, kBackgroundPrecision - a);
+  };
+  // Nothing contradicted is never a sign of another place, however dirty the others are.
+  const double right =
+      std::max(rightWith(background), rightWith(std::min(background, kLeastBackground)));
+  return {logBetaBinomial(k, n, kWrongFree, kWrongConfirmed) - right,
+          logBetaBinomial(k, n, kEvenFree, kEvenConfirmed) - right};
 }
+
+RaysAgainst&
+RaysAgainst::operator+=(const RaysAgainst& other)
+{
+  usual += other.usual;
+  even += other.even;
+  return *this;
+}
+
+double
+RaysAgainst::probability() const
+{
+  constexpr double kLeast = -700; // of a double
+  const double more = std::max(usual, even); // log of the mixture of both
+  return probabilityOf(
+      more +
+      portableLog((1 - kEvenShare) * portableExp(std::max(usual - more, kLeast)) +
+                  kEvenShare * portableExp(std::max(even - more, kLeast))));
+}
+} // namespace verification
 
 LinkOpinion
 judgeLink(const LinkEvidence& evidence, double background)
 {
   require(background > 0 && background < 1, "background", background, "in (0, 1)");
-  const double rays = raysAgainst(evidence.sight, background);
+  const double rays =
+      raysAgainst(
+          evidence.sight.contradicted_patches, evidence.sight.patches, background)
+          .usual;
   const double surfaces = surfacesAgainst(evidence);
   LinkOpinion opinion;
   // Elsewhere, which rays tell, or beside, which surfaces tell: neither speaks for the other.

@@ -183,7 +183,7 @@ MapVerifier::doubt(MapVerification& map) const
     ScanCheck& scan = map.scans[i];
     if (scan.abstains)
       abstaining.push_back(names_[i]);
-    if (scan.tied)
+    if (scan.tied || scans_[i].isTooSmall()) // nothing can tell where that is
       continue;
     if (scan.doubt.empty())
       scan.doubt = reasonFor(i, map);

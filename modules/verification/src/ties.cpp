@@ -23,15 +23,13 @@ holds(const LinkCheck& link)
  * behind them (R. Tarjan, "A note on finding the bridges of a graph", 1974). */
 class Walk {
 public:
-  Walk(std::size_t num_scans, const std::vector<LinkCheck>& links)
-  : links_(links)
-  , at_(num_scans)
-  , entered_(num_scans, 0)
-  , left_(num_scans, 0)
-  , start_(num_scans, 0)
+  Walk(std::size_t num_scans,
+       const std::vector<LinkCheck>& links,
+       const std::vector<bool>& is_cut)
+  : links_(links), at_(num_scans), entered_(num_scans, 0), left_(num_scans, 0)
   {
     for (std::size_t k = 0; k < links.size(); ++k)
-      if (holds(links[k])) {
+      if (holds(links[k]) && !is_cut[k]) {
         at_[links[k].from].push_back(k);
         at_[links[k].to].push_back(k);
       }
@@ -51,13 +49,6 @@ public:
     return entered_[scan] >= entered_[gate] && entered_[scan] <= left_[gate];
   }
 
-  /** \return whether two scans were reached from the same one */
-  bool
-  areJoined(std::size_t a, std::size_t b) const
-  {
-    return start_[a] == start_[b];
-  }
-
 private:
   struct Step {
     std::size_t scan, by, next; ///< by: the link it was reached by
@@ -68,7 +59,6 @@ private:
   {
     std::vector<Step> path = {{start, links_.size(), 0}};
     entered_[start] = lowest[start] = ++clock_;
-    start_[start] = start;
     while (!path.empty()) {
       Step& step = path.back();
       if (step.next < at_[step.scan].size()) {
@@ -82,7 +72,6 @@ private:
           continue;
         }
         entered_[other] = lowest[other] = ++clock_;
-        start_[other] = start;
         path.push_back({other, link, 0});
         continue;
       }
@@ -100,59 +89,173 @@ private:
   const std::vector<LinkCheck>& links_;
   std::vector<std::vector<std::size_t>> at_; ///< links of each scan
   std::vector<std::size_t> entered_, left_;  ///< ticks of the clock; 0: not yet
-  std::vector<std::size_t> start_;           ///< of the walk that reached a scan
   std::size_t clock_ = 0;
 };
 
-/** What all links say that go from the scans behind a gate to those before it. */
-SightEvidence
-between(const Walk& walk, std::size_t gate, const std::vector<LinkCheck>& links)
-{
-  SightEvidence sum;
-  for (const LinkCheck& link : links)
-    if (walk.areJoined(link.from, gate) && walk.areJoined(link.to, gate) &&
-        walk.isBehind(link.from, gate) != walk.isBehind(link.to, gate)) {
-      sum.patches += link.patches;
-      sum.contradicted_patches += link.contradicted;
+/** Cuts what does not hold. */
+class Cutter {
+public:
+  Cutter(std::size_t num_scans, const std::vector<LinkCheck>& links, double background)
+  : links_(links), is_cut_(links.size(), false), at_(num_scans)
+  {
+    ties_.tied.assign(num_scans, false);
+    ties_.cut_from.resize(num_scans);
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      against_.push_back(
+          raysAgainst(links[k].contradicted, links[k].patches, background));
+      for (const std::size_t i : {links[k].from, links[k].to})
+        at_[i].push_back(k);
     }
-  return sum;
-}
+    join();
+  }
+
+  /** Parts of scans that follow each other, the worst first: it may explain what others
+   * are contradicted by. */
+  void
+  cutParts()
+  {
+    for (bool found = true; found;) {
+      Cut worst;
+      const std::size_t n = at_.size();
+      for (std::size_t length = 1; length < n; ++length)
+        for (std::size_t first = 0;
+             first + length <= n && (first == 0 || length <= kLongestPart);
+             ++first)
+          keepWorse(crossingOf(first, first + length), worst);
+      found = cut(worst);
+    }
+  }
+
+  /** What a single link holds. */
+  void
+  cutBridges()
+  {
+    for (bool found = true; found;) {
+      Cut worst;
+      const Walk walk(at_.size(), links_, is_cut_);
+      for (const auto& [bridge, gate] : walk.bridges) {
+        std::vector<std::size_t> crossing;
+        for (std::size_t k = 0; k < links_.size(); ++k)
+          if (walk.isBehind(links_[k].from, gate) != walk.isBehind(links_[k].to, gate))
+            crossing.push_back(k);
+        keepWorse(crossing, worst);
+      }
+      found = cut(worst);
+    }
+  }
+
+  Ties
+  ties()
+  {
+    std::map<std::size_t, std::size_t> sizes;
+    for (const std::size_t part : part_)
+      ++sizes[part];
+    const auto rest =
+        std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
+          return a.second < b.second; // of equals the one with the first scan
+        });
+    for (std::size_t i = 0; i < at_.size(); ++i)
+      ties_.tied[i] = part_[i] == rest->first;
+    return ties_;
+  }
+
+private:
+  struct Cut {
+    double probability = 0;
+    RaysAgainst against;
+    std::vector<std::size_t> links;
+  };
+
+  /** \return the links from scans [first, end) to others */
+  std::vector<std::size_t>
+  crossingOf(std::size_t first, std::size_t end) const
+  {
+    std::vector<std::size_t> crossing;
+    for (std::size_t i = first; i < end; ++i)
+      for (const std::size_t k : at_[i]) {
+        const std::size_t other = links_[k].from == i ? links_[k].to : links_[k].from;
+        if (other < first || other >= end)
+          crossing.push_back(k);
+      }
+    return crossing;
+  }
+
+  /** Takes a cut if what it would cut says more against it, and holds now. What links to
+   * scans that nothing holds contradict is explained by these. */
+  void
+  keepWorse(const std::vector<std::size_t>& crossing, Cut& worst) const
+  {
+    Cut cut;
+    bool is_held = false;
+    for (const std::size_t k : crossing) {
+      if (is_cut_[k] || part_[links_[k].from] != part_[links_[k].to])
+        continue;
+      cut.links.push_back(k);
+      cut.against += against_[k];
+      is_held |= links_[k].trust == LinkTrust::kGood;
+    }
+    if (!is_held)
+      return;
+    cut.probability = cut.against.probability();
+    if (cut.probability > worst.probability ||
+        (cut.probability == worst.probability &&
+         cut.against.even > worst.against.even))
+      worst = std::move(cut);
+  }
+
+  /** \return whether it was worse than what can be trusted, and thus cut */
+  bool
+  cut(const Cut& worst)
+  {
+    if (worst.probability < kGoodBelow)
+      return false;
+    std::size_t contradicted = 0, patches = 0;
+    for (const std::size_t k : worst.links) {
+      is_cut_[k] = true;
+      contradicted += links_[k].contradicted;
+      patches += links_[k].patches;
+    }
+    for (const std::size_t k : worst.links)
+      for (const std::size_t i : {links_[k].from, links_[k].to})
+        ties_.cut_from[i] = "rays go through " + std::to_string(contradicted) + " of " +
+                            std::to_string(patches) +
+                            " patches of surface between them and the rest";
+    join();
+    return true;
+  }
+
+  void
+  join()
+  {
+    Components joined(at_.size());
+    for (std::size_t k = 0; k < links_.size(); ++k)
+      if (holds(links_[k]) && !is_cut_[k])
+        joined.join(links_[k].from, links_[k].to);
+    part_.resize(at_.size());
+    for (std::size_t i = 0; i < at_.size(); ++i)
+      part_[i] = joined.firstOf(i);
+  }
+
+  const std::vector<LinkCheck>& links_;
+  std::vector<RaysAgainst> against_; ///< one per link
+  std::vector<bool> is_cut_;         ///< one per link
+  std::vector<std::vector<std::size_t>> at_; ///< links of each scan
+  std::vector<std::size_t> part_;            ///< of each scan: what holds it
+  Ties ties_;
+};
 } // namespace
 
 Ties
 tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background)
 {
-  Ties ties{std::vector<bool>(num_scans, false), std::vector<std::string>(num_scans)};
   if (num_scans == 0)
-    return ties;
-  const Walk walk(num_scans, links);
-  std::vector<bool> is_cut(links.size(), false);
-  for (const auto& [k, gate] : walk.bridges) {
-    const SightEvidence sight = between(walk, gate, links);
-    if (links[k].trust != LinkTrust::kGood ||
-        probabilityElsewhereStrictly(sight, background) < kGoodBelow)
-      continue;
-    is_cut[k] = true;
-    for (const std::size_t i : {links[k].from, links[k].to})
-      ties.cut_from[i] = "only one link holds them, and rays go through " +
-                         std::to_string(sight.contradicted_patches) + " of " +
-                         std::to_string(sight.patches) +
-                         " patches of surface between them and the rest";
+    return {};
+  Cutter cutter(num_scans, links, background);
+  if (background <= kMostBackground) { // else rays are no judges
+    cutter.cutParts();
+    cutter.cutBridges();
   }
-  Components joined(num_scans);
-  for (std::size_t k = 0; k < links.size(); ++k)
-    if (holds(links[k]) && !is_cut[k])
-      joined.join(links[k].from, links[k].to);
-  std::map<std::size_t, std::size_t> sizes;
-  for (std::size_t i = 0; i < num_scans; ++i)
-    ++sizes[joined.firstOf(i)];
-  const auto rest =
-      std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
-        return a.second < b.second; // of equals the one with the first scan
-      });
-  for (std::size_t i = 0; i < num_scans; ++i)
-    ties.tied[i] = joined.firstOf(i) == rest->first;
-  return ties;
+  return cutter.ties();
 }
 
 } // namespace pcl6d::verification

@@ -16,9 +16,11 @@ struct Ties {
   std::vector<std::string> cut_from; ///< one per scan: why a single link does not tie it
 };
 
-/** \brief Joins scans by good and unverified links. A good link that alone holds two parts
- * together must be good by stricter rules, along with all others between the parts, as it
- * could be a place that looks alike: an error there displaces all scans of a part.
+/** \brief Joins scans by good and unverified links, unless all links between two parts of a
+ * map together say that one part is elsewhere: a jump of the odometry to a place that looks
+ * alike leaves some links across it that seem good. Parts that are looked at: scans that
+ * follow each other, as errors of the odometry displace all that follow, and what a single
+ * link holds.
  * \param[in] background of the map */
 PCL6D_EXPORTS Ties // shown to its test
 tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background);

@@ -49,8 +49,13 @@ VerifiedScan::VerifiedScan(const Points& measured,
 bool
 VerifiedScan::abstains() const
 {
-  return self_contradiction_ > verification::kAbstainingShare ||
-         patches_ < verification::kLeastOwnPatches;
+  return self_contradiction_ > verification::kAbstainingShare || isTooSmall();
+}
+
+bool
+VerifiedScan::isTooSmall() const
+{
+  return patches_ < verification::kLeastOwnPatches;
 }
 
 } // namespace pcl6d

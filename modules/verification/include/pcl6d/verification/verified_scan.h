@@ -62,6 +62,9 @@ public:
    * scans or after motion during the scan, or it has too few patches */
   bool
   abstains() const;
+  /** \return whether it has too few patches of surface to be verified by anything */
+  bool
+  isTooSmall() const;
 
 private:
   const IcpModel* surfaces_ = nullptr;

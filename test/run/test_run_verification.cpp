@@ -252,8 +252,7 @@ TEST(RunVerification, OfARunWithoutItWritesNothing)
 TEST(Verdict, OfAGoodMapSaysThatItIsVerified)
 {
   const std::string text = verdictWith(MapTrust::kGood, {});
-  EXPECT_TRUE(
-      has(text, "\nverified by points and rays: 0 of 2 links confirm the map"))
+  EXPECT_TRUE(has(text, "\nverified by points and rays: 0 of 2 links confirm the map"))
       << text;
   EXPECT_FALSE(has(text, "NOT TO BE TRUSTED"));
 }

@@ -49,6 +49,8 @@ mapOf(std::size_t count, const std::vector<LinkCheck>& links)
 {
   MapVerification map;
   map.scans.resize(count);
+  for (auto& scan : map.scans)
+    scan.tied = true;
   map.links = links;
   return map;
 }
@@ -99,10 +101,9 @@ TEST(PoseBounds, GrowAlongAChainAsItsErrorsAdd)
 TEST(PoseBounds, AreHalfTheVarianceWithTwiceTheLinks)
 {
   const auto one = bounded(line(2), mapOf(2, {link(0, 1, diagonal(0.02, 0.01))}));
-  const auto two = bounded(line(2),
-                           mapOf(2,
-                                 {link(0, 1, diagonal(0.02, 0.01)),
-                                  link(0, 1, diagonal(0.02, 0.01))}));
+  const auto two = bounded(
+      line(2),
+      mapOf(2, {link(0, 1, diagonal(0.02, 0.01)), link(0, 1, diagonal(0.02, 0.01))}));
   EXPECT_NEAR(*two.scans[1].bound, *one.scans[1].bound / std::sqrt(2.0), 1e-9);
 }
 
@@ -139,6 +140,30 @@ TEST(PoseBounds, AreNoneForScansThatNothingJoins)
     EXPECT_FALSE(map.scans[i].bound);
     EXPECT_FALSE(map.scans[i].covariance);
   }
+}
+
+TEST(PoseBounds, CountLinksWhoseSurfacesAskForAShift)
+{
+  // A loop of chain links that is open by half a metre, as the link across it says.
+  std::vector<LinkCheck> links;
+  for (std::size_t i = 0; i + 1 < 6; ++i)
+    links.push_back(link(i, i + 1, diagonal(0.01, 0.001)));
+  const double chain = *bounded(line(6), mapOf(6, links)).scans[5].bound;
+  links.push_back(link(0, 5, diagonal(0.01, 0.001)));
+  links.back().trust = LinkTrust::kWrong;
+  links.back().pull(1) = links.back().shift = 0.5;
+  EXPECT_EQ(*bounded(line(6), mapOf(6, links)).scans[5].bound, chain)
+      << "it may be elsewhere";
+  links.back().elsewhere = 0.001;
+  EXPECT_GT(*bounded(line(6), mapOf(6, links)).scans[5].bound, 0.5);
+}
+
+TEST(PoseBounds, AreNoneIfTheFirstScanIsNotTied)
+{
+  MapVerification map = mapOf(2, {link(0, 1, diagonal(0.01, 0.001))});
+  map.scans[0].tied = false;
+  EXPECT_FALSE(bounded(line(2), map).scans[0].bound);
+  EXPECT_FALSE(bounded(line(2), map).scans[1].bound);
 }
 
 TEST(PoseBounds, AreInTheUnitOfTheMap)
@@ -204,8 +229,9 @@ TEST(PoseBounds, HaveTheSameBitsForAnyNumberOfThreads)
 TEST(PoseBounds, NeedAPoseForEachScan)
 {
   MapVerification map = mapOf(2, {});
-  EXPECT_NE(pcl6d::test::badArgumentOf([&] { pcl6d::boundPoses(line(3), map); })
-                .find("one per scan"),
+  EXPECT_NE(pcl6d::test::badArgumentOf([&] {
+              pcl6d::boundPoses(line(3), map);
+            }).find("one per scan"),
             std::string::npos);
   MapVerification none;
   pcl6d::boundPoses({}, none);

@@ -22,7 +22,8 @@ constexpr double kBackground = 0.006;
 std::optional<pcl6d::NoticedError>
 noticedAt(const VerifiedScans& scans, const Eigen::Isometry3d& T)
 {
-  return noticedError(scans[0], scans[1], linkEvidence(scans[0], scans[1], T), kBackground);
+  return noticedError(
+      scans[0], scans[1], linkEvidence(scans[0], scans[1], T), kBackground);
 }
 } // namespace
 
@@ -30,8 +31,7 @@ TEST(NoticedError, OfARoomIsAFewCentimetresEachWay)
 {
   const ScannedPair pair;
   const VerifiedScans scans = pair.verified();
-  const LinkEvidence evidence =
-      linkEvidence(scans[0], scans[1], pair.T_first_second);
+  const LinkEvidence evidence = linkEvidence(scans[0], scans[1], pair.T_first_second);
   const auto noticed = noticedError(scans[0], scans[1], evidence, kBackground);
   ASSERT_TRUE(noticed);
   EXPECT_GE(noticed->least, 3 * evidence.deviation());

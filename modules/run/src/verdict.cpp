@@ -154,11 +154,17 @@ verdictOf(const RunResult& run)
     text << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
          << " could not be matched, predicted pose kept"
          << filesIn(ScanState::kPredicted, run);
-  if (const auto limit = countScans(run.scans, ScanState::kUnconverged))
-    text
-        << "\nNOT TO BE TRUSTED: " << text::counted(limit, "scan")
-        << " did not converge (bad initial pose, little overlap, --metascan too small?)"
-        << filesIn(ScanState::kUnconverged, run);
+  if (const auto limit = countScans(run.scans, ScanState::kUnconverged)) {
+    const bool is_confirmed =
+        run.verification && run.verification->trust == MapTrust::kGood;
+    text << (is_confirmed ? "\nnote: " : "\nNOT TO BE TRUSTED: ")
+         << text::counted(limit, "scan")
+         << (is_confirmed
+                 ? " did not converge, but points and rays confirm where they are"
+                 : " did not converge (bad initial pose, little overlap, "
+                   "--metascan too small?)")
+         << filesIn(ScanState::kUnconverged, run);
+  }
   if (!run.floating.empty())
     text << "\nNOT TO BE TRUSTED: no link joins "
          << text::counted(run.floating.size(), "scan")

@@ -27,14 +27,22 @@ smallMotion(const Eigen::Isometry3d& T)
   return motion;
 }
 
+/** Surer than this rays confirm a place. */
+constexpr double kElsewhereBelow = 0.01;
+
+/** Links that hold scans, and those whose place rays confirm while their surfaces ask for a
+ * shift: by how much the scans of the map are off is what they measure. */
 bool
-joins(const LinkCheck& link)
+measures(const LinkCheck& link, const MapVerification& map)
 {
-  return (link.trust == LinkTrust::kGood || link.trust == LinkTrust::kUnverified) &&
-         link.open_directions == 0 && link.covariance.diagonal().minCoeff() > 0;
+  const bool holds =
+      link.trust == LinkTrust::kGood || link.trust == LinkTrust::kUnverified;
+  return (holds || (link.elsewhere < kElsewhereBelow && link.shift > 0)) &&
+         link.open_directions == 0 && link.covariance.diagonal().minCoeff() > 0 &&
+         map.scans[link.from].tied && map.scans[link.to].tied;
 }
 
-/** \return the graph of the scans that good links join to the first one */
+/** \return the graph of the scans that links join to the first one */
 PoseGraph
 graphOf(const std::vector<Eigen::Isometry3d>& poses,
         const MapVerification& map,
@@ -42,7 +50,7 @@ graphOf(const std::vector<Eigen::Isometry3d>& poses,
 {
   Components joined(poses.size());
   for (const LinkCheck& link : map.links)
-    if (joins(link))
+    if (measures(link, map))
       joined.join(link.from, link.to);
   std::vector<std::size_t> vertex(poses.size());
   PoseGraph graph;
@@ -53,7 +61,7 @@ graphOf(const std::vector<Eigen::Isometry3d>& poses,
       graph.poses.push_back(poses[i]);
     }
   for (const LinkCheck& link : map.links)
-    if (joins(link) && joined.firstOf(link.from) == joined.firstOf(0)) {
+    if (measures(link, map) && joined.firstOf(link.from) == joined.firstOf(0)) {
       PoseLink measured;
       measured.from = vertex[link.from];
       measured.to = vertex[link.to];
@@ -99,7 +107,7 @@ boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
     scan.covariance.reset();
     scan.bound.reset();
   }
-  if (map.scans.empty())
+  if (map.scans.empty() || !map.scans[0].tied)
     return;
   std::vector<std::size_t> scans;
   PoseGraph graph = graphOf(T_world_scan, map, scans);

@@ -13,8 +13,13 @@ Slam6DResult::count(ScanState state) const
 bool
 Slam6DResult::trusted() const
 {
+  // Where points and rays confirm the whole map, it does not matter that a match, stopped at
+  // its iteration limit, did not say that it had come to rest.
+  const bool is_confirmed = verification && verification->trust == MapTrust::kGood;
+  const std::size_t matched = count(ScanState::kFixed) + count(ScanState::kMatched) +
+                              (is_confirmed ? count(ScanState::kUnconverged) : 0);
   return floating.empty() && (!verification || verification->trusted()) &&
-         count(ScanState::kFixed) + count(ScanState::kMatched) == scans.size();
+         matched == scans.size();
 }
 
 RunResult

@@ -37,7 +37,8 @@ sightBothWays(const VerifiedScan& first,
  * rays contradict; those of links that share their fate add up. */
 struct RaysAgainst {
   double usual = 0; ///< places that contradict much
-  double even = 0;  ///< places along even surfaces, such as a corridor's, contradict little
+  double even =
+      0; ///< places along even surfaces, such as a corridor's, contradict little
 
   RaysAgainst&
   operator+=(const RaysAgainst& other);

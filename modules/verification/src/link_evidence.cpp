@@ -152,6 +152,7 @@ linkCheck(std::size_t from,
   link.to = to;
   link.trust = opinion.trust;
   link.probability_wrong = opinion.probability_wrong;
+  link.elsewhere = opinion.elsewhere;
   link.patches = evidence.sight.patches;
   link.contradicted = evidence.sight.contradicted_patches;
   link.shift = evidence.leaving();

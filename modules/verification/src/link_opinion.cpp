@@ -80,7 +80,8 @@ reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
 {
   std::ostringstream why;
   const SightEvidence& sight = evidence.sight;
-  const bool is_even = std::max(probabilityOf(rays), probabilityOf(surfaces)) < kGoodBelow;
+  const bool is_even =
+      std::max(probabilityOf(rays), probabilityOf(surfaces)) < kGoodBelow;
   if (is_even && evidence.fit.open_directions > 0)
     why << "the surfaces leave "
         << text::counted(static_cast<std::size_t>(evidence.fit.open_directions),
@@ -139,8 +140,8 @@ raysAgainst(std::size_t contradicted, std::size_t patches, double background)
     return logBetaBinomial(k, n, a, kBackgroundPrecision - a);
   };
   // Nothing contradicted is never a sign of another place, however dirty the others are.
-  const double right =
-      std::max(rightWith(background), rightWith(std::min(background, kLeastBackground)));
+  const double right = std::max(rightWith(background),
+                                rightWith(std::min(background, kLeastBackground)));
   return {logBetaBinomial(k, n, kWrongFree, kWrongConfirmed) - right,
           logBetaBinomial(k, n, kEvenFree, kEvenConfirmed) - right};
 }
@@ -156,7 +157,7 @@ RaysAgainst::operator+=(const RaysAgainst& other)
 double
 RaysAgainst::probability() const
 {
-  constexpr double kLeast = -700; // of a double
+  constexpr double kLeast = -700;            // of a double
   const double more = std::max(usual, even); // log of the mixture of both
   return probabilityOf(
       more +
@@ -169,10 +170,10 @@ LinkOpinion
 judgeLink(const LinkEvidence& evidence, double background)
 {
   require(background > 0 && background < 1, "background", background, "in (0, 1)");
-  const double rays =
-      raysAgainst(
-          evidence.sight.contradicted_patches, evidence.sight.patches, background)
-          .usual;
+  const double rays = raysAgainst(evidence.sight.contradicted_patches,
+                                  evidence.sight.patches,
+                                  background)
+                          .usual;
   const double surfaces = surfacesAgainst(evidence);
   LinkOpinion opinion;
   // Elsewhere, which rays tell, or beside, which surfaces tell: neither speaks for the other.

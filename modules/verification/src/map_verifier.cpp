@@ -369,6 +369,11 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
     return map;
   const verification::Ties ties =
       verification::tiesOf(scans_.size(), map.links, map.background);
+  for (std::size_t k = 0; k < map.links.size(); ++k)
+    if (ties.cut[k] && map.links[k].trust == LinkTrust::kGood) {
+      map.links[k].trust = LinkTrust::kWeak;
+      map.links[k].reason = ties.cut_from[map.links[k].from];
+    }
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     map.scans[i].abstains = scans_[i].abstains();
     map.scans[i].tied = ties.tied[i];

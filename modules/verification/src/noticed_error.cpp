@@ -94,8 +94,7 @@ noticedError(const VerifiedScan& first,
     noticed.least = std::min(noticed.least, size);
     // Turns that move the pairs by as much, up to a straight angle.
     noticed.turn = std::max(
-        noticed.turn,
-        link.leastNoticed(turn, start / fit.spread, 3.141592653589793));
+        noticed.turn, link.leastNoticed(turn, start / fit.spread, 3.141592653589793));
   }
   return noticed;
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ties.h"
-
 #include "calibration.h"
 #include "evidence_parts.h"
+#include "ties.h"
 
 #include <pcl6d/common/components.h>
 
@@ -63,8 +62,8 @@ private:
       Step& step = path.back();
       if (step.next < at_[step.scan].size()) {
         const std::size_t link = at_[step.scan][step.next++];
-        const std::size_t other = links_[link].from == step.scan ? links_[link].to
-                                                                 : links_[link].from;
+        const std::size_t other =
+            links_[link].from == step.scan ? links_[link].to : links_[link].from;
         if (link == step.by)
           continue;
         if (entered_[other] > 0) {
@@ -156,6 +155,7 @@ public:
         });
     for (std::size_t i = 0; i < at_.size(); ++i)
       ties_.tied[i] = part_[i] == rest->first;
+    ties_.cut = is_cut_;
     return ties_;
   }
 
@@ -198,8 +198,7 @@ private:
       return;
     cut.probability = cut.against.probability();
     if (cut.probability > worst.probability ||
-        (cut.probability == worst.probability &&
-         cut.against.even > worst.against.even))
+        (cut.probability == worst.probability && cut.against.even > worst.against.even))
       worst = std::move(cut);
   }
 
@@ -237,8 +236,8 @@ private:
   }
 
   const std::vector<LinkCheck>& links_;
-  std::vector<RaysAgainst> against_; ///< one per link
-  std::vector<bool> is_cut_;         ///< one per link
+  std::vector<RaysAgainst> against_;         ///< one per link
+  std::vector<bool> is_cut_;                 ///< one per link
   std::vector<std::vector<std::size_t>> at_; ///< links of each scan
   std::vector<std::size_t> part_;            ///< of each scan: what holds it
   Ties ties_;

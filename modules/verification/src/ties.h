@@ -12,8 +12,10 @@ namespace pcl6d::verification {
 
 /** \brief Which scans good links join to the largest part of a map. */
 struct Ties {
-  std::vector<bool> tied;            ///< one per scan
-  std::vector<std::string> cut_from; ///< one per scan: why a single link does not tie it
+  std::vector<bool> tied; ///< one per scan
+  std::vector<std::string>
+      cut_from;          ///< one per scan: why links do not tie it, or empty
+  std::vector<bool> cut; ///< one per link: it does not hold, with others
 };
 
 /** \brief Joins scans by good and unverified links, unless all links between two parts of a

@@ -46,6 +46,7 @@ struct LinkCheck {
   std::size_t to = 0;   ///< place of a scan
   LinkTrust trust = LinkTrust::kWeak;
   double probability_wrong = 1; ///< in [0, 1]
+  double elsewhere = 1; ///< of this: that of another place, by the rays; not of a shift
   std::size_t patches = 0; ///< of surface, of which the rays of the other scan speak
   std::size_t contradicted = 0; ///< of these: the rays went through
   double shift = 0;             ///< [m] by which the surfaces would move the scan

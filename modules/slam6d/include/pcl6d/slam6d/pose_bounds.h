@@ -10,10 +10,10 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How exactly the good links of a verified map fix its poses: fills covariance and
- * bound of every scan that they join to the first one.
+/** \brief How exactly the links of a verified map fix its poses: fills covariance and bound of
+ * every scan that they tie to the first one; of none if that is not tied itself.
  *
- * The links are measurements of a graph: each says by how much its surfaces would move its
+ * Links that rays confirm, with those whose surfaces ask for a shift, are measurements of a graph: each says by how much its surfaces would move its
  * scans, with what covariance. The covariance of a pose is that of the optimum of this graph,
  * times chi2 per degree of freedom if cycles close worse than the links promise, plus the
  * square of the way from the pose to that optimum.

@@ -4,6 +4,7 @@
 #include "evaluate/verbs.h"
 #include "evaluate/verify_report.h"
 
+#include <pcl6d/slam6d/pose_bounds.h>
 #include <pcl6d/verification/map_verifier.h>
 #include <pcl6d/verification/pair_verifier.h>
 
@@ -50,6 +51,7 @@ verifyMap(const VerifySettings& s, const VerifySource& source)
   options.unsure = source.unsure;
   MapVerification map =
       MapVerifier(source.scans.scans(), source.names, options).verify(source.poses);
+  boundPoses(source.poses, map, s.num_threads);
   if (source.names.size() == 1)
     map.doubts.emplace_back("one scan alone: there is no other to contradict it");
   doubtCopies(source, map);
@@ -71,6 +73,13 @@ verifyPair(const VerifySource& source)
     map.scans[i].abstains = source.scans.scans()[i].abstains();
   map.scans[0].tied = true;
   map.scans[1].tied = map.trusted();
+  boundPoses(source.poses, map, 1);
+  const auto& scans = source.scans.scans();
+  map.links.front().noticed = map.scans[1].noticed =
+      noticedError(scans[0], scans[1], verdict.evidence, verdict.background);
+  if (map.scans[1].noticed)
+    map.scans[1].noticed->weakest =
+        source.poses[0].linear() * map.scans[1].noticed->weakest;
   if (trust == LinkTrust::kGood)
     return map;
   if (map.links.front().patches == 0 && verdict.evidence.fit.pairs == 0)

@@ -2,6 +2,7 @@
 #include "evaluate/verify_report.h"
 
 #include <pcl6d/io/text.h>
+#include <pcl6d/run/verification_io.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -118,6 +119,9 @@ printVerification(const VerifySettings& s,
   std::printf("%s: %s\n", toString(map.trust), sentenceOf(map, s.isPair()).c_str());
   for (const std::string& doubt : map.doubts)
     std::printf("  %s\n", doubt.c_str());
+  const std::string exactness = exactnessOf(map, source.names);
+  if (!exactness.empty())
+    std::printf("%s\n", exactness.c_str());
   std::fflush(stdout);
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 namespace fs = std::filesystem;
+using pcl6d::exactnessOf;
 using pcl6d::IoFailed;
 using pcl6d::LinkCheck;
 using pcl6d::LinkTrust;
@@ -255,6 +256,33 @@ TEST(Verdict, OfAGoodMapSaysThatItIsVerified)
   EXPECT_TRUE(has(text, "\nverified by points and rays: 0 of 2 links confirm the map"))
       << text;
   EXPECT_FALSE(has(text, "NOT TO BE TRUSTED"));
+}
+
+TEST(Exactness, NamesTheWorstBoundAndTheLeastNoticedShift)
+{
+  MapVerification map = doubtful();
+  map.scans[1].noticed = noticedFrom(0.02, 0.345, 0.1);
+  EXPECT_EQ(exactnessOf(map, {"a", "b", "c"}),
+            "positions relative to the first scan are known to 1.4 cm or better (95 %, "
+            "worst: b)\nthe surest link of each scan would notice a shift of 34 cm or "
+            "more (least at b)");
+  map.scans[1].noticed = noticedFrom(0.02, kInfinity, 0.1);
+  map.scans[1].bound.reset();
+  EXPECT_EQ(exactnessOf(map, {"a", "b", "c"}),
+            "no link of b would notice a shift along 0.60 -0.80 0.00");
+  EXPECT_EQ(exactnessOf({}, {}), "");
+}
+
+TEST(Verdict, OfAnUnconvergedMatchIsANoteWhereRaysConfirmThePlace)
+{
+  RunResult run = runOfThree();
+  run.scans[1].state = pcl6d::ScanState::kUnconverged;
+  EXPECT_TRUE(has(verdictOf(run), "NOT TO BE TRUSTED: 1 scan did not converge"));
+  run.verification.emplace().trust = MapTrust::kGood;
+  EXPECT_TRUE(
+      has(verdictOf(run),
+          "note: 1 scan did not converge, but points and rays confirm where they "
+          "are: b.pcd"));
 }
 
 TEST(Verdict, OfADoubtfulMapGivesEachDoubt)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/run_writer.h>
+#include <pcl6d/run/verification_io.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <vector>
@@ -68,48 +68,6 @@ describeStages(const RunResult& run, std::ostream& text)
   }
 }
 
-/** \return a length for people: in cm below one metre, two digits */
-std::string
-lengthText(double metres)
-{
-  std::ostringstream digits;
-  const bool is_short = metres < 1;
-  const double value = is_short ? 100 * metres : metres;
-  digits << std::fixed << std::setprecision(value < 10 ? 1 : 0) << value
-         << (is_short ? " cm" : " m");
-  return digits.str();
-}
-
-/** How well the places are known, and which errors would have been noticed. */
-void
-describeExactness(const RunResult& run, std::ostream& text)
-{
-  const std::vector<ScanCheck>& scans = run.verification->scans;
-  std::size_t farthest = 0, blindest = 0;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (scans[i].bound && *scans[i].bound > scans[farthest].bound.value_or(0))
-      farthest = i;
-    if (scans[i].noticed && (!scans[blindest].noticed ||
-                             scans[i].noticed->most > scans[blindest].noticed->most))
-      blindest = i;
-  }
-  if (farthest > 0)
-    text << "\npositions relative to the first scan are known to "
-         << lengthText(*scans[farthest].bound)
-         << " or better (95 %, worst: " << run.scans[farthest].file << ')';
-  if (blindest >= scans.size() || !scans[blindest].noticed)
-    return;
-  const NoticedError& noticed = *scans[blindest].noticed;
-  if (std::isfinite(noticed.most))
-    text << "\nthe surest link of each scan would notice a shift of "
-         << lengthText(noticed.most) << " or more (least at "
-         << run.scans[blindest].file << ')';
-  else
-    text << "\nno link of " << run.scans[blindest].file
-         << " would notice a shift along " << std::setprecision(2) << std::fixed
-         << noticed.weakest.transpose();
-}
-
 /** What verification says, and why. */
 void
 describeVerification(const RunResult& run, std::ostream& text)
@@ -125,7 +83,11 @@ describeVerification(const RunResult& run, std::ostream& text)
              : map.trusted()              ? "\nunverified: "
                                           : "\nNOT TO BE TRUSTED: ")
          << doubt;
-  describeExactness(run, text);
+  std::vector<std::string> files;
+  for (const ScanResult& scan : run.scans)
+    files.push_back(scan.file);
+  const std::string exactness = exactnessOf(map, files);
+  text << (exactness.empty() ? "" : "\n") << exactness;
 }
 } // namespace
 

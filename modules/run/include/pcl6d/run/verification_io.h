@@ -23,6 +23,12 @@ struct VerifiedMap {
   std::vector<std::string> files; ///< names of the scans
 };
 
+/** \return in words how exactly positions are known and which errors would have been noticed:
+ * up to two lines, without a line end; empty if nothing is known of that
+ * \param[in] files names of the scans \throws BadArgument not one per scan */
+std::string
+exactnessOf(const MapVerification& map, const std::vector<std::string>& files);
+
 /** \brief Writes verification.json, atomically: what was verified, then the fields of
  * `verification` in summary.json. The links stand in verification.csv, see
  * writeLinkChecks(). \throws IoFailed the file cannot be written \ingroup run */

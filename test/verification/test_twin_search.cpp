@@ -145,8 +145,9 @@ isNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
 bool
 contains(const std::vector<Eigen::Isometry3d>& places, const Eigen::Isometry3d& place)
 {
-  return std::any_of(
-      places.begin(), places.end(), [&](const auto& one) { return isNear(one, place); });
+  return std::any_of(places.begin(), places.end(), [&](const auto& one) {
+    return isNear(one, place);
+  });
 }
 
 /** The places differ from the known one and from each other. */
@@ -200,9 +201,8 @@ TEST(FindTwins, FindsThePlacesAlongARowOfShelves)
   const Scanned scanned = alongShelves();
   const auto twins = scanned.twins();
   for (const double way : {kPeriod, -kPeriod})
-    EXPECT_TRUE(
-        contains(twins,
-                 scanned.poses[0].inverse() * shifted(scanned.poses[1], {way, 0, 0})))
+    EXPECT_TRUE(contains(
+        twins, scanned.poses[0].inverse() * shifted(scanned.poses[1], {way, 0, 0})))
         << way;
   expectDistinct(twins, scanned.known());
 }
@@ -259,8 +259,7 @@ TEST(FindTwins, RefusesWhatIsNoPoseAndNoDirection)
   const Eigen::Isometry3d here = Eigen::Isometry3d::Identity();
   EXPECT_EQ(messageOf(here, Vector::UnitZ()), "");
   EXPECT_EQ(messageOf(here, -Vector::UnitZ()), "") << "upside down";
-  EXPECT_EQ(messageOf(here, Vector::Zero()),
-            "up = 0 0 0, but must be a unit vector");
+  EXPECT_EQ(messageOf(here, Vector::Zero()), "up = 0 0 0, but must be a unit vector");
   EXPECT_EQ(messageOf(here, {0, 0, 2}), "up = 0 0 2, but must be a unit vector");
   EXPECT_NE(messageOf(here, {0, 0, static_cast<double>(kNan)}), "");
   for (const double bad : {2.0, static_cast<double>(kNan)}) {
@@ -295,9 +294,8 @@ TEST(Ambiguity, NamesTheScanThatFitsAlongARowOfShelves)
   const Scanned scanned = alongShelves();
   const MapVerification map = scanned.verified({false, true});
   EXPECT_EQ(map.trust, MapTrust::kAmbiguous);
-  expectSecondPlace(map.scans[1].doubt,
-                    scanned.poses[1],
-                    shifted(scanned.poses[1], {kPeriod, 0, 0}));
+  expectSecondPlace(
+      map.scans[1].doubt, scanned.poses[1], shifted(scanned.poses[1], {kPeriod, 0, 0}));
 }
 
 TEST(Ambiguity, IsNoneInARoomWithoutSymmetry)

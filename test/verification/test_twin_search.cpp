@@ -318,6 +318,17 @@ TEST(Ambiguity, IsNotLookedForWhereThePlaceWasKnown)
   }
 }
 
+TEST(Ambiguity, IsNotLookedForOfAScanBeyondAllNumbers)
+{
+  Scanned scanned(symmetricRoom());
+  for (const double far : {1e19, 1e100, 1e300}) {
+    scanned.poses[1].translation() << far, -far, 0;
+    const MapVerification map = scanned.verified({true, true});
+    EXPECT_EQ(map.trust, MapTrust::kDoubtful) << far;
+    EXPECT_FALSE(map.scans[1].tied) << far;
+  }
+}
+
 TEST(Ambiguity, IsTheSameForAnyNumberOfThreads)
 {
   const Scanned scanned(symmetricRoom());

@@ -96,6 +96,37 @@ TEST(VotesOf, UsesThePoseOfTheScan)
   EXPECT_EQ(votesOf(scan, scan, shifted(3.5), 0.1).near, 0u);
 }
 
+TEST(VotesOf, SaysNothingOfAScanThatIsBeyondAllNumbers)
+{
+  // Places that are too far for float, or no numbers at all.
+  const IcpModel model(sphere(5), {});
+  const NetworkScan scan(model);
+  for (const double far : {1e19, 1e30, 1e100, 1e300})
+    for (const double sign : {-1.0, 1.0}) {
+      const PointVotes votes = votesOf(scan, scan, shifted(sign * far), 0.1, 100);
+      EXPECT_EQ(votes.points, 200u);
+      EXPECT_EQ(votes.near, 0u);
+      EXPECT_EQ(votes.empty, 0u);
+      EXPECT_EQ(overlapOf(scan, scan, shifted(sign * far), 0.1), 0);
+    }
+}
+
+TEST(VotesOf, LooksThroughAtMoreThanTwoDistances)
+{
+  const IcpModel outer(sphere(5), {});
+  const NetworkScan other(outer);
+  const auto empty = [&](float range, double distance) {
+    Points points;
+    for (int i = 0; i < 200; ++i)
+      points.push_back(outer.points()[static_cast<std::size_t>(i)] * (range / 5));
+    const IcpModel model(points, {});
+    return votesOf(NetworkScan(model), other, kHere, distance).empty;
+  };
+  // Cells are 0.03 rad wide here: 9 cm at 3 m.
+  EXPECT_EQ(empty(3.F, 0.9), 200u) << "2 m in front of the sphere";
+  EXPECT_EQ(empty(3.F, 1.0), 0u);
+}
+
 TEST(OverlapOf, IsTheLargerShareOfBothWays)
 {
   const IcpModel small(row(5), {}), large(row(20), {});

@@ -15,16 +15,18 @@ constexpr double kSide = 0.3, kElement = 0.02, kTolerance = 0.02, kRange = 2; //
 constexpr double kSpacing = 0.01 / kRange;                                    // [rad]
 
 /** What a scanner sees of a square across the x axis.
- * \param[in] middle (y, z) of the square [m] */
+ * \param[in] middle (y, z) of the square [m]
+ * \param[in] spacing [rad] of the rays */
 void
 addSquare(Points& scan,
           double range,
           double side,
-          const Eigen::Vector2d& middle = {0, 0})
+          const Eigen::Vector2d& middle = {0, 0},
+          double spacing = kSpacing)
 {
   OrientedPoints square;
   const Eigen::Vector3d corner(range, middle.x() - side / 2, middle.y() - side / 2);
-  test::addPatch(square, {corner, {0, 0, side}, {0, side, 0}}, kSpacing * range);
+  test::addPatch(square, {corner, {0, 0, side}, {0, side, 0}}, spacing * range);
   scan.insert(scan.end(), square.points.begin(), square.points.end());
 }
 
@@ -90,6 +92,33 @@ TEST(CheckPose, RefutesWhatTheScannerSawThrough)
   EXPECT_EQ(check.supported + check.occluded + check.misfit, 0u);
   EXPECT_EQ(check.freeSpaceViolation(), 1);
   EXPECT_EQ(check.visibleFraction(), 0);
+}
+
+TEST(CheckPose, RefutesBetweenTheRaysOfACoarseScan)
+{
+  // Rays are three elements apart here, and none meets an element: those are refuted that
+  // lie so far between rays that it takes all around to tell.
+  Points scan;
+  addSquare(scan, 3, 2, {0, 0}, 0.031);
+  const PoseCheck check = checked(scan);
+  expectSane(check);
+  EXPECT_GT(check.refuted, 20u);
+  EXPECT_EQ(check.supported + check.occluded + check.misfit + check.unseen, 0u);
+  // Not if a ray nearby ended before the object.
+  addSquare(scan, 1.5, 0.4, {0, 0}, 0.031);
+  EXPECT_EQ(checked(scan).refuted, 0u);
+}
+
+TEST(CheckPose, SaysNothingOfAnObjectBeyondAllNumbers)
+{
+  Points scan;
+  addSquare(scan, kRange, kSide);
+  for (const double far : {1e19, 1e30, 1e100, 1e300}) {
+    const PoseCheck check = checked(scan, poseFromEuler({far, 0, 0}, {}));
+    expectSane(check);
+    EXPECT_EQ(check.supported + check.refuted, 0u) << far;
+    EXPECT_EQ(check.visibleFraction(), 0) << far;
+  }
 }
 
 TEST(CheckPose, DoesNotCountWhatIsHidden)

@@ -354,6 +354,24 @@ TEST(RayImage, TakesCoarserCellsForASparseScan)
   }
 }
 
+TEST(RayImage, AnswersWithCoarseOptionsWhereTheRaysAreFarApart)
+{
+  constexpr std::size_t kFew = 1000; // 0.11 rad apart
+  const Points few =
+      scanAround(kFew, Vector::Zero(), [](const Vector&) { return 5.0; });
+  const RayImage usual(few), coarse(few, RayImageOptions::coarse());
+  EXPECT_EQ(usual.resolution(), 0);
+  EXPECT_GT(coarse.resolution(), 0.09);
+  EXPECT_EQ(coarse.noise(), 0);
+  for (std::size_t i = 0; i < 100; ++i) {
+    const Eigen::Vector3f direction = directionOf(i, 100).cast<float>();
+    EXPECT_EQ(usual.look(3 * direction, 0).sight, Sight::kUnseen);
+    EXPECT_EQ(coarse.look(3 * direction, 0).sight, Sight::kFree);
+    EXPECT_EQ(coarse.look(3 * direction, 1).sight, Sight::kConfirmed) << "3 sigma";
+    EXPECT_EQ(coarse.look(8 * direction, 0).sight, Sight::kBehind);
+  }
+}
+
 TEST(RayImage, LeavesOutWhatIsNoPoint)
 {
   const Points clean = sphere();

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/registration/icp.h>
 #include <pcl6d/verification/twin_search.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,20 +32,25 @@ constexpr std::size_t kShiftsTried = 4;
 /** A place is another one if it is farther away than so many voxels, or turned by more. */
 constexpr double kOtherVoxels = 6, kOtherTurn = 0.2; // [rad]
 
+/** A unit vector is so near the length of one: that of a pose that is rigid. */
+constexpr double kUnitLength = 2e-3;
+
 /** The cells of a plan that upright surfaces fill, in the order of their filling. */
 using Plan = std::vector<Eigen::Vector2i>;
 
+/** The plan about the scan's own origin, wherever the scan stands.
+ * \param[in] cell [m] as of cellFor() */
 Plan
-planOf(const VerifiedScan& scan, const Eigen::Isometry3d& T_level_scan, double cell)
+planOf(const VerifiedScan& scan, const Eigen::Matrix3d& R_level_scan, double cell)
 {
   std::vector<std::pair<int, int>> cells;
   const Points& points = scan.surfaces().points();
   const Normals& normals = scan.surfaces().normals();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d n = T_level_scan.linear() * normals[i].cast<double>();
+    const Eigen::Vector3d n = R_level_scan * normals[i].cast<double>();
     if (normals[i].isZero(0) || std::abs(n.z()) > kLevelNormal)
       continue;
-    const Eigen::Vector3d p = T_level_scan * points[i].cast<double>() / cell;
+    const Eigen::Vector3d p = R_level_scan * points[i].cast<double>() / cell;
     cells.emplace_back(static_cast<int>(std::floor(p.x())),
                        static_cast<int>(std::floor(p.y())));
   }
@@ -55,13 +63,13 @@ planOf(const VerifiedScan& scan, const Eigen::Isometry3d& T_level_scan, double c
   return plan;
 }
 
-/** \return [m] a cell so that the points of a scan fill no more than the most */
+/** \return [m] a cell so that no point of a scan is farther away than half the most */
 double
 cellFor(const VerifiedScan& scan)
 {
   double reach = 0;
   for (const auto& p : scan.surfaces().points())
-    reach = std::max(reach, static_cast<double>(p.norm()));
+    reach = std::max(reach, p.cast<double>().norm());
   return std::max(kCellVoxels * scan.voxel(), 2 * reach / kMostCells);
 }
 
@@ -101,8 +109,35 @@ votedShifts(const Plan& fixed, const Plan& moved)
   return best;
 }
 
-/** \return the place that matching finds from a start, if it comes to rest */
+/** \return places of the second scan from which matching is to start, in the frame of the
+ * first one, turned so that up is z: those of a quarter turn behind those of the one before
+ * it, those with most votes first */
 std::vector<Eigen::Isometry3d>
+votedStarts(const VerifiedScan& first,
+            const VerifiedScan& second,
+            const Eigen::Quaterniond& level,
+            const Eigen::Isometry3d& T_first_second)
+{
+  constexpr double kQuarter = 1.5707963267948966;
+  const double cell = std::max(cellFor(first), cellFor(second));
+  const Plan fixed = planOf(first, level.toRotationMatrix(), cell);
+  const Eigen::Isometry3d T_level_second = level * T_first_second;
+  std::vector<Eigen::Isometry3d> starts;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    Eigen::Isometry3d start =
+        Eigen::AngleAxisd(quarter * kQuarter, Eigen::Vector3d::UnitZ()) *
+        T_level_second;
+    for (const auto& shift : votedShifts(fixed, planOf(second, start.linear(), cell))) {
+      start.translation() << shift.cast<double>() * cell,
+          T_level_second.translation().z();
+      starts.push_back(start);
+    }
+  }
+  return starts;
+}
+
+/** \return the place that matching finds from a start, if it comes to rest */
+std::optional<Eigen::Isometry3d>
 matchedFrom(const VerifiedScan& first,
             const VerifiedScan& second,
             const Eigen::Isometry3d& start)
@@ -120,8 +155,8 @@ matchedFrom(const VerifiedScan& first,
   const IcpResult found =
       icp({first.surfaces().part()}, second.surfaces().source(), start, options);
   if (found.stop != IcpStop::kAtRest)
-    return {};
-  return {found.T_target_source};
+    return std::nullopt;
+  return found.T_target_source;
 }
 } // namespace
 
@@ -131,36 +166,21 @@ findTwins(const VerifiedScan& first,
           const Eigen::Isometry3d& T_first_second,
           const Eigen::Vector3d& up)
 {
-  constexpr double kQuarter = 1.5707963267948966;
+  if (!isRigid(T_first_second))
+    throw BadArgument("T_first_second is not a rigid motion");
+  require(std::abs(up.norm() - 1) < kUnitLength, "up", up.transpose(), "a unit vector");
   const double voxel = std::max(first.voxel(), second.voxel());
-  const double cell = std::max(cellFor(first), cellFor(second));
-  Eigen::Isometry3d T_level_first = Eigen::Isometry3d::Identity();
-  T_level_first.linear() =
-      Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ())
-          .toRotationMatrix();
-  const Plan fixed = planOf(first, T_level_first, cell);
+  const auto level = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
   std::vector<Eigen::Isometry3d> twins;
-  for (int quarter = 0; quarter < 4; ++quarter) {
-    Eigen::Isometry3d T_level_second = T_level_first * T_first_second;
-    const Eigen::Vector3d pivot = T_level_second.translation();
-    T_level_second = Eigen::Translation3d(pivot) *
-                     Eigen::AngleAxisd(quarter * kQuarter, Eigen::Vector3d::UnitZ()) *
-                     Eigen::Translation3d(-pivot) * T_level_second;
-    for (const Eigen::Vector2i& shift :
-         votedShifts(fixed, planOf(second, T_level_second, cell))) {
-      Eigen::Isometry3d start = T_level_second;
-      start.pretranslate(Eigen::Vector3d(shift.x() * cell, shift.y() * cell, 0));
-      for (const Eigen::Isometry3d& T :
-           matchedFrom(first, second, T_level_first.inverse() * start)) {
-        const auto isNear = [&](const Eigen::Isometry3d& other) {
-          const MotionSize apart = distanceBetween(other, T);
-          return apart.translation < kOtherVoxels * voxel &&
-                 apart.rotation < kOtherTurn;
-        };
-        if (!isNear(T_first_second) && std::none_of(twins.begin(), twins.end(), isNear))
-          twins.push_back(T);
-      }
-    }
+  for (const auto& start : votedStarts(first, second, level, T_first_second)) {
+    const auto place = matchedFrom(first, second, level.inverse() * start);
+    const auto isNear = [&](const Eigen::Isometry3d& other) {
+      const MotionSize apart = distanceBetween(other, *place);
+      return apart.translation < kOtherVoxels * voxel && apart.rotation < kOtherTurn;
+    };
+    if (place && !isNear(T_first_second) &&
+        std::none_of(twins.begin(), twins.end(), isNear))
+      twins.push_back(*place);
   }
   return twins;
 }

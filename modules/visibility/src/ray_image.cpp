@@ -131,6 +131,16 @@ toString(Sight sight)
   return "unseen";
 }
 
+RayImageOptions
+RayImageOptions::coarse()
+{
+  RayImageOptions options;
+  options.noise = 0;
+  options.finest = 0.02;
+  options.coarsest = 0.2;
+  return options;
+}
+
 void
 RayImageOptions::validate() const
 {

@@ -10,6 +10,10 @@ namespace pcl6d {
 namespace {
 constexpr std::size_t kSample = 250; ///< points that tell an overlap
 
+/** Standard deviation of a point, of the distance within which points are near: three of
+ * it are twice that distance. */
+constexpr double kPlaceSigma = 2.0 / 3;
+
 /** The share of a sample of points that have a partner. */
 double
 sampledShare(const NetworkScan& scan,
@@ -29,7 +33,8 @@ sampledShare(const NetworkScan& scan,
 }
 } // namespace
 
-NetworkScan::NetworkScan(const IcpModel& model) : model_(&model), seen_(model.points())
+NetworkScan::NetworkScan(const IcpModel& model)
+: model_(&model), rays_(model.points(), RayImageOptions::coarse())
 {
   const Points& points = model.points();
   if (points.empty())
@@ -71,12 +76,13 @@ votesOf(const NetworkScan& scan,
   PointVotes votes;
   const Points& points = scan.model().points();
   const auto limit_sq = static_cast<float>(distance * distance);
+  const auto sigma = static_cast<float>(kPlaceSigma * distance);
   for (std::size_t i = 0; i < points.size(); i += stride) {
     const Eigen::Vector3f p = (T_other_scan * points[i].cast<double>()).cast<float>();
     ++votes.points;
     if (other.model().tree().nearest(p, limit_sq).index >= 0)
       ++votes.near;
-    else if (other.seen().sawThrough(p, 2 * distance))
+    else if (other.rays().look(p, sigma).sight == Sight::kFree)
       ++votes.empty;
   }
   return votes;

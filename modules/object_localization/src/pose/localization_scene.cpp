@@ -49,6 +49,18 @@ meanDirection(const Points& points)
   return sum / static_cast<double>(points.size());
 }
 
+/** Cells as wide as the rays are apart, and twice as wide at most. The noise is that of the
+ * surface where a place is looked at. */
+RayImageOptions
+imageOptions(double angular_spacing)
+{
+  RayImageOptions options;
+  options.noise = 0;
+  options.finest = std::max(0.001, angular_spacing);
+  options.coarsest = 2 * options.finest;
+  return options;
+}
+
 constexpr double kNarrow = 0.5; // length of the mean direction
 } // namespace
 
@@ -56,6 +68,7 @@ LocalizationScene::LocalizationScene(const Points& points, unsigned int num_thre
 : points_(finiteOf(points))
 , tree_(points_, num_threads)
 , angular_spacing_(angularSpacingOf(points_, tree_))
+, rays_(points_, imageOptions(angular_spacing_))
 , is_narrow_(meanDirection(points_).norm() >= kNarrow)
 {}
 

@@ -146,6 +146,8 @@ constexpr double kNextElement = 4;
 constexpr double kNextRay = 2;
 /** Ranges differ by more than so many tolerances if they are of two surfaces. */
 constexpr double kApart = 2;
+/** Of a margin, as share: a standard deviation, as RayImage allows three. */
+constexpr double kSigma = 1.0 / 3;
 
 /** Sorts the elements of an object by what the scan's rays through them say. */
 class RayCheck {
@@ -231,8 +233,8 @@ private:
   }
 
   /** Where no ray met the element: is a piece of surface in front, which is wider than
-   * the element as it is nearer, or was there no ray around? Where rays are only far apart,
-   * nothing is known of it, and the others stand for it. */
+   * the element as it is nearer, or was there no ray around, or did all around go on behind
+   * it? Else nothing is known of it, and the others stand for it. */
   void
   addUnmet(const FacingElement& e)
   {
@@ -254,6 +256,17 @@ private:
       ++check_.occluded;
     else if (ray.distance_sq >= around * around)
       ++check_.unseen;
+    else if (isFree(e))
+      ++check_.refuted;
+  }
+
+  /** Whether all rays around an element went on behind it. */
+  bool
+  isFree(const FacingElement& e) const
+  {
+    const double sigma = kSigma * kApart * tolerance_ / e.cosine;
+    return scene_.rays().look(e.point.cast<float>(), static_cast<float>(sigma)).sight ==
+           Sight::kFree;
   }
 
   const LocalizationScene& scene_;

@@ -157,7 +157,8 @@ private:
 PlacedScan
 placed(const Points& measured, double voxel, unsigned int num_threads)
 {
-  return {makeFeatureScan(measured, voxel, num_threads), SeenSpace(measured)};
+  return {makeFeatureScan(measured, voxel, num_threads),
+          RayImage(measured, RayImageOptions::coarse())};
 }
 
 void

@@ -12,6 +12,10 @@ namespace pcl6d::registration {
 namespace {
 constexpr float kLikeNormal = 0.8f; // cosine of 37 degrees
 
+/** Standard deviation of a point, of the distance within which it is met: three of it are
+ * twice that distance. */
+constexpr double kPlaceSigma = 2.0 / 3;
+
 /** Support of the points of one scan, seen from the other. */
 Support
 supportBy(const PlacedScan& other,
@@ -22,6 +26,7 @@ supportBy(const PlacedScan& other,
 {
   Support support;
   const auto distance_sq = static_cast<float>(distance * distance);
+  const auto sigma = static_cast<float>(kPlaceSigma * distance);
   const Eigen::Matrix3f R = T_other_scan.linear().cast<float>();
   for (std::size_t i = 0; i < scan.points.size(); i += step) {
     const Eigen::Vector3f p =
@@ -29,7 +34,7 @@ supportBy(const PlacedScan& other,
     ++support.points;
     const int found = other.scan.tree.nearest(p, distance_sq).index;
     if (found < 0) {
-      support.contradicted += other.seen.sawThrough(p, 2 * distance) ? 1 : 0;
+      support.contradicted += other.rays.look(p, sigma).sight == Sight::kFree ? 1 : 0;
       continue;
     }
     const auto &n = scan.normals[i], &m = other.scan.normals[found];

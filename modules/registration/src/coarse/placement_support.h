@@ -3,7 +3,7 @@
 
 #include "coarse/feature_scan.h"
 
-#include <pcl6d/registration/seen_space.h>
+#include <pcl6d/visibility/ray_image.h>
 
 #include <Eigen/Geometry>
 
@@ -11,10 +11,10 @@
 
 namespace pcl6d::registration {
 
-/** \brief A scan, and the space that it saw. */
+/** \brief A scan, and its rays. */
 struct PlacedScan {
   FeatureScan scan;
-  SeenSpace seen;
+  RayImage rays;
 };
 
 /** \brief What a placement explains of one scan by the other. */

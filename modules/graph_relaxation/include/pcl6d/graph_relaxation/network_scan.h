@@ -3,7 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/registration/icp_model.h>
-#include <pcl6d/registration/seen_space.h>
+#include <pcl6d/visibility/ray_image.h>
 
 #include <Eigen/Geometry>
 
@@ -15,7 +15,7 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A scan as a member of a network: what finds its points, how far it reaches,
- * and what it saw through. \ingroup graph_relaxation */
+ * and its rays. \ingroup graph_relaxation */
 class NetworkScan {
 public:
   /** \param[in] model is kept by reference */
@@ -26,10 +26,11 @@ public:
   {
     return *model_;
   }
-  const SeenSpace&
-  seen() const
+  /** \return its rays, from the points of the model */
+  const RayImage&
+  rays() const
   {
-    return seen_;
+    return rays_;
   }
   /** \return the middle of its points, in its own frame [m] */
   const Eigen::Vector3d&
@@ -46,7 +47,7 @@ public:
 
 private:
   const IcpModel* model_;
-  SeenSpace seen_;
+  RayImage rays_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
   double radius_ = 0;
 };

@@ -4,11 +4,12 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/object_localization/oriented_points.h>
 #include <pcl6d/search/point_tree.h>
+#include <pcl6d/visibility/ray_image.h>
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A scan prepared for the search for objects: all points, and how close its
- * rays are. The scanner is at the origin. \ingroup object_localization */
+/** \brief A scan prepared for the search for objects: all points, its rays, and how
+ * close these are. The scanner is at the origin. \ingroup object_localization */
 class LocalizationScene {
 public:
   /** \param[in] points [m] in the scan's frame; those that are not finite are left out
@@ -25,6 +26,14 @@ public:
   tree() const
   {
     return tree_;
+  }
+
+  /** \return its rays, in cells about as wide as they are apart, without the noise of
+   * their ranges */
+  const RayImage&
+  rays() const
+  {
+    return rays_;
   }
 
   /** \return whether it looks one way, as a camera does, and not all around */
@@ -45,6 +54,7 @@ private:
   Points points_;
   PointTree tree_;
   double angular_spacing_;
+  RayImage rays_;
   bool is_narrow_ = false;
 };
 

@@ -18,7 +18,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * here: linkEvidence() and judgeLink() tell.
  * \param[in] T_first_second the place that is known, which is not found again
  * \param[in] up unit vector upwards in the frame of the first scan
- * \return T_first_second of other places, those with most votes first
+ * \return T_first_second of other places: by quarter turns, those with most votes first
+ * \throws BadArgument T_first_second is not a rigid motion, or up no unit vector
  * \note Source: algorithms.md T.2, G.1 \ingroup verification */
 std::vector<Eigen::Isometry3d>
 findTwins(const VerifiedScan& first,

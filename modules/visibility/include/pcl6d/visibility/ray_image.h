@@ -39,6 +39,14 @@ struct RayImageOptions {
   double finest = 0.0061; ///< [rad] smallest cell, 0.35 deg: the halo of such a cell
                           ///< covers the beam of common scanners; >= 0.0005
   double coarsest = 0.07; ///< [rad] largest cell, 4 deg; in [finest, 0.5]
+
+  /** \brief For places that are known by a fraction of a metre, as a placement or a link
+   * that is yet to be believed, and for reduced points: cells from 1.1 to 9 deg, and no
+   * noise, as the standard deviation of the places holds all of it. Made in a fifth of the
+   * time, with a tenth of the memory. */
+  static RayImageOptions
+  coarse();
+
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

@@ -30,8 +30,8 @@ boundText(const std::vector<ScanCheck>& scans, const std::vector<std::string>& f
       worst = i;
   return worst == 0 ? std::string()
                     : "positions relative to the first scan are known to " +
-                          lengthText(*scans[worst].bound) + " or better (95 %, worst: " +
-                          files[worst] + ")";
+                          lengthText(*scans[worst].bound) +
+                          " or better (95 %, worst: " + files[worst] + ")";
 }
 
 std::string

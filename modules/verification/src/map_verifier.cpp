@@ -303,8 +303,8 @@ MapVerifier::findTwinsOf(std::size_t scan,
         continue;
       const MotionSize way = distanceBetween(poses[scan], place);
       std::ostringstream text;
-      text.precision(2);
-      text << "fits as well " << way.translation << " m away, turned by "
+      text << std::fixed << std::setprecision(1) << "fits as well " << way.translation
+           << " m away, turned by " << std::setprecision(0)
            << way.rotation * 180 / 3.141592653589793 << " deg, beside "
            << names_[beside];
       map.scans[scan].doubt = text.str();

@@ -25,8 +25,8 @@ function plotsOf(run, onpick) {
       dots: ofScans(run, (scan) => inCentimetres(scan.rms), ' cm', 1)}),
     new Plot({...scans, title: 'Correction', note: 'from where the odometry put each scan to its match, cm',
       dots: ofScans(run, (scan) => inCentimetres(scan.correction), ' cm', 1)}),
-    new Plot({...scans, title: 'Error of the position', note: 'one standard deviation, as matching tells it; ' +
-      'optimistic, cm', dots: ofScans(run, (scan) => inCentimetres(scan.sigma), ' cm', 2)}),
+    new Plot({...scans, title: 'Error of the position', note: 'one standard deviation relative to the first scan, ' +
+      'by the links of the map, cm', dots: ofScans(run, (scan) => inCentimetres(scan.sigma), ' cm', 2)}),
     new Plot({...scans, title: 'Drift of the initial poses', note: 'from each initial pose to the final one, m',
       dots: ofScans(run, (scan) => scan.drift, ' m', 2)}),
     new Plot({title: 'Residual of links', note: 'rms of the pairs of each link, cm', xTitle: 'between the scans [m]',

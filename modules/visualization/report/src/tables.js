@@ -31,7 +31,7 @@ export function scanTable(run, selection) {
       number('Overlap', 'overlap', 2, 'pairs / points left after reduction'),
       length('Residual', 'rms', 'rms of the pairs'),
       length('Correction', 'correction', 'from the predicted to the matched position'),
-      length('1 sigma', 'sigma', 'of the position, as matching tells it; optimistic'),
+      length('1 sigma', 'sigma', 'of the position relative to the first scan, by the links of the map'),
       length('Drift', 'drift', 'from the initial pose to the final one'),
       count('Iterations', 'iterations', 'of ICP'),
       word('Start', 'start', 'where ICP started from'),

@@ -2,13 +2,22 @@
 // What a reader should know first, in plain words.
 import {counted, el, fixed, seconds, whole} from './dom.js';
 
+/** What verification says, in the lines of the verdict that begin so. */
+const linesOf = (run, ...starts) =>
+  run.verdict.text.split('\n').filter((line) => starts.some((start) => line.startsWith(start)));
+
+/** Nothing is against the map, but rays and points do not confirm all of it. */
+const isUnverified = (run) => linesOf(run, 'verified by points and rays').length === 0;
+
 /** Without a summary there are poses and points, and no more. */
 const isUnknown = (run) => run.generator === '';
 
 function headline(run) {
   if (isUnknown(run)) return ['bad', 'How good this map is, is not known.'];
   if (!run.verdict.complete) return ['bad', 'This run was interrupted. Its map is not finished.'];
-  if (run.verdict.trusted) return ['good', 'This map can be trusted.'];
+  if (run.verdict.trusted)
+    return isUnverified(run) ? ['warn', 'Nothing contradicts this map, but not all of it is confirmed.'] :
+      ['good', 'This map can be trusted.'];
   const floating = run.floating.length;
   if (run.doubtful.length > 0)
     return ['bad', `Do not trust ${run.doubtful.length === run.scans.length - 1 ? 'this map' :
@@ -21,11 +30,13 @@ function meaning(run) {
   if (!run.verdict.complete)
     return 'Scans that were reached have poses; the others are as the odometry put them.';
   if (run.verdict.trusted)
-    return run.scans.length === 1 ? 'There is one scan, and nothing to match it with.' :
+    return run.scans.length === 1 ? 'There is one scan, and nothing to match it with.' : isUnverified(run) ?
       'Every scan was matched with enough overlap and small residuals, and is joined to the first one. ' +
-      'A scan matched to a wrong place that looks alike would not be noticed: have a look at the map.';
-  return 'The scans named below could not be matched well, or nothing joins them to the others. ' +
-    'The rest of the map may still be good.';
+      'A scan at a wrong place that looks alike may not have been noticed: have a look at the map.' :
+      'Links that points and rays confirm tie every scan to the others: surfaces fit, and no scan looked through ' +
+      'what another measured.';
+  return 'The scans named below could not be matched well, nothing ties them to the others, or they contradict ' +
+    'each other. The rest of the map may still be good.';
 }
 
 function fact(value, label) {
@@ -80,9 +91,22 @@ function atMost(items, noteOf) {
   return notes;
 }
 
+/** What matching says of scans is told scan by scan. */
+const kOfScans = /could not be matched|did not converge|no link joins/;
+
+/** Doubts of verification, without the word that begins the line. */
+function doubtNotes(run) {
+  const toneOf = {'NOT TO BE TRUSTED': 'bad', unverified: 'warn', note: 'plain'};
+  return linesOf(run, 'NOT TO BE TRUSTED: ', 'unverified: ', 'note: ').filter((line) => !kOfScans.test(line)).map((line) => {
+    const [word] = line.split(': ', 1);
+    return el('li', {class: toneOf[word]}, line.slice(word.length + 2));
+  });
+}
+
 /** All that is not as it should be. */
 function notes(run, choose) {
   return [
+    ...doubtNotes(run),
     ...atMost(run.doubtful, (scan) => scanNote(scan, choose)),
     ...atMost(run.floating, (file) => el('li', {class: 'bad'}, `${file} \u2013 no link joins it to the first scan`)),
     ...atMost(run.warnings, (text) => el('li', {class: 'warn'}, text)),
@@ -96,10 +120,12 @@ function notes(run, choose) {
 export function verdictSection(run, choose) {
   const [tone, words] = headline(run);
   const list = notes(run, choose);
-  const numbers = run.verdict.text.split('\n').filter((line) => line.startsWith('least overlap'));
+  const numbers = linesOf(run, 'least overlap');
+  const exactness = linesOf(run, 'positions relative', 'the surest link', 'no link of ');
   return el('section', {id: 'verdict', class: 'verdict ' + tone},
     el('h2', {}, words),
     el('p', {}, meaning(run)),
+    exactness.map((line) => el('p', {}, line[0].toUpperCase() + line.slice(1) + '.')),
     list.length > 0 ? el('ul', {class: 'notes'}, list) : null,
     numbers.length > 0 ? el('p', {class: 'numbers'}, 'Weakest matches: ' + numbers[0] + '.') : null,
     facts(run));

@@ -7,6 +7,7 @@
 #include <pcl6d/slam6d/pose_bounds.h>
 #include <pcl6d/verification/map_verifier.h>
 #include <pcl6d/verification/pair_verifier.h>
+#include <pcl6d/verification/pose_mistake.h>
 
 namespace pcl6d::app {
 
@@ -55,6 +56,12 @@ verifyMap(const VerifySettings& s, const VerifySource& source)
   if (source.names.size() == 1)
     map.doubts.emplace_back("one scan alone: there is no other to contradict it");
   doubtCopies(source, map);
+  if (map.trust == MapTrust::kDoubtful) {
+    const std::string mistake =
+        likelyPoseMistake(source.scans.scans(), source.poses, s.num_threads);
+    if (!mistake.empty())
+      map.doubts.push_back("poses: " + mistake);
+  }
   return map;
 }
 

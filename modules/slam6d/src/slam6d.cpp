@@ -11,7 +11,9 @@
 #include <pcl6d/slam6d/scan_preparation.h>
 #include <pcl6d/slam6d/slam6d.h>
 #include <pcl6d/verification/map_verifier.h>
+#include <pcl6d/verification/pose_mistake.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <deque>
@@ -177,6 +179,26 @@ private:
     result_.verification = MapVerifier(verified_, files, options).verify(poses);
     boundPoses(poses, *result_.verification, options_.num_threads);
     takeCovariances(*result_.verification);
+    explainDoubts(*result_.verification);
+  }
+
+  /** Where much is loose the initial poses may be wrong as a whole. */
+  void
+  explainDoubts(MapVerification& map) const
+  {
+    const auto loose = std::count_if(map.scans.begin(),
+                                     map.scans.end(),
+                                     [](const ScanCheck& scan) { return !scan.tied; });
+    if (map.trust != MapTrust::kDoubtful ||
+        3 * static_cast<std::size_t>(loose) < map.scans.size())
+      return;
+    std::vector<Eigen::Isometry3d> initial;
+    for (const ScanResult& scan : result_.scans)
+      initial.push_back(scan.initial_pose);
+    const std::string mistake =
+        likelyPoseMistake(verified_, initial, options_.num_threads);
+    if (!mistake.empty())
+      map.doubts.push_back("initial poses: " + mistake);
   }
 
   /** Those of matching take pairs as independent, which they are not. */

@@ -6,6 +6,7 @@
 #include <pcl6d/run/run_links_io.h>
 #include <pcl6d/run/run_summary.h>
 #include <pcl6d/run/run_writer.h>
+#include <pcl6d/run/verification_io.h>
 
 #include <gtest/gtest.h>
 

@@ -74,7 +74,8 @@ TEST(PoseMistake, NamesTheUnit)
   EXPECT_EQ(with(1 / 0.3048),
             "positions are in feet, scans in metres? Then 4 of 4 pairs of scans would "
             "agree, as given 0");
-  EXPECT_PRED2(begins, with(1000), "positions are in millimetres, scans in metres? Then ");
+  EXPECT_PRED2(
+      begins, with(1000), "positions are in millimetres, scans in metres? Then ");
   EXPECT_PRED2(begins, with(0.3048), "scans are in feet, positions in metres? Then ");
 }
 
@@ -84,18 +85,20 @@ TEST(PoseMistake, NamesTurnedAxes)
   Poses poses;
   for (const auto& pose : way())
     poses.push_back(half_turn * pose * half_turn.inverse());
-  EXPECT_PRED2(begins,
-               likelyPoseMistake(scansOf().all(), poses),
-               "axes of the poses are turned against those of the scans: x, y, z of the "
-               "scans are (-x, -y, z) of the poses? Then ");
+  EXPECT_PRED2(
+      begins,
+      likelyPoseMistake(scansOf().all(), poses),
+      "axes of the poses are turned against those of the scans: x, y, z of the "
+      "scans are (-x, -y, z) of the poses? Then ");
 }
 
 TEST(PoseMistake, NamesMirroredScans)
 {
-  EXPECT_PRED2(begins,
-               likelyPoseMistake(scansOf(true).all(), way()),
-               "scans are mirrored against the poses (left-handed coordinates read as "
-               "right-handed?): x, y, z of the scans are (x, -y, z) of the poses? Then ");
+  EXPECT_PRED2(
+      begins,
+      likelyPoseMistake(scansOf(true).all(), way()),
+      "scans are mirrored against the poses (left-handed coordinates read as "
+      "right-handed?): x, y, z of the scans are (x, -y, z) of the poses? Then ");
 }
 
 TEST(PoseMistake, IsNoneWhereNothingExplains)
@@ -114,7 +117,8 @@ TEST(PoseMistake, OfFewOrEmptyScansIsNone)
   EXPECT_EQ(likelyPoseMistake(scans.all(), Poses(1, way()[0])), "");
   scans.add({{1, 2, 3}});
   EXPECT_EQ(likelyPoseMistake(scans.all(), Poses(2, way()[0])), "");
-  EXPECT_NE(pcl6d::test::badArgumentOf([&] { likelyPoseMistake(scans.all(), {}); })
-                .find("one per scan"),
+  EXPECT_NE(pcl6d::test::badArgumentOf([&] {
+              likelyPoseMistake(scans.all(), {});
+            }).find("one per scan"),
             std::string::npos);
 }

@@ -22,7 +22,8 @@ constexpr std::size_t kAskedPairs = 6;
 struct PoseMistake {
   std::string words;
   double scale = 1;
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< of the scans, by the poses' axes
+  Eigen::Matrix3d axes =
+      Eigen::Matrix3d::Identity(); ///< of the scans, by the poses' axes
 };
 
 /** "(y, -x, z)" */
@@ -41,8 +42,10 @@ axesText(const Eigen::Matrix3d& axes)
 void
 addUnits(std::vector<PoseMistake>& mistakes)
 {
-  constexpr std::pair<const char*, double> kUnits[] = {
-      {"feet", 0.3048}, {"inches", 0.0254}, {"centimetres", 0.01}, {"millimetres", 0.001}};
+  constexpr std::pair<const char*, double> kUnits[] = {{"feet", 0.3048},
+                                                       {"inches", 0.0254},
+                                                       {"centimetres", 0.01},
+                                                       {"millimetres", 0.001}};
   for (const auto& [name, metres] : kUnits) {
     mistakes.push_back({std::string("positions are in ") + name + ", scans in metres",
                         metres,
@@ -63,19 +66,21 @@ addAxes(std::vector<PoseMistake>& mistakes)
     for (int signs = 0; signs < 8; ++signs) {
       Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
       for (int row = 0; row < 3; ++row)
-        axes(row, order[static_cast<std::size_t>(row)]) = (signs >> row & 1) != 0 ? -1 : 1;
+        axes(row, order[static_cast<std::size_t>(row)]) =
+            (signs >> row & 1) != 0 ? -1 : 1;
       if (axes.isIdentity(0))
         continue;
       const bool is_mirror = axes.determinant() < 0;
-      found.push_back({(is_mirror ? 10 : 0) + (axes.isDiagonal(0) ? 0 : 1),
-                       {(is_mirror ? "scans are mirrored against the poses (left-handed "
-                                     "coordinates read as right-handed?): "
-                                   : "axes of the poses are turned against those of the "
-                                     "scans: ") +
-                            std::string("x, y, z of the scans are ") + axesText(axes) +
-                            " of the poses",
-                        1,
-                        axes}});
+      found.push_back(
+          {(is_mirror ? 10 : 0) + (axes.isDiagonal(0) ? 0 : 1),
+           {(is_mirror ? "scans are mirrored against the poses (left-handed "
+                         "coordinates read as right-handed?): "
+                       : "axes of the poses are turned against those of the "
+                         "scans: ") +
+                std::string("x, y, z of the scans are ") + axesText(axes) +
+                " of the poses",
+            1,
+            axes}});
     }
   while (std::next_permutation(order.begin(), order.end()));
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
@@ -104,8 +109,7 @@ agree(const VerifiedScan& first, const VerifiedScan& second, const Eigen::Isomet
   if (fit.pairs == 0 || fit.displacement() > voxel) // it has no place there
     return false;
   const SightEvidence sight = sightBothWays(first, second, T, voxel, fit);
-  return sight.patches >= kLeastPatches &&
-         sight.confirmation() >= kLeastConfirmation &&
+  return sight.patches >= kLeastPatches && sight.confirmation() >= kLeastConfirmation &&
          raysAgainst(sight.contradicted_patches, sight.patches, kBackground)
                  .probability() < kWrongAbove / 2;
 }
@@ -116,8 +120,7 @@ farthestSteps(const std::vector<Eigen::Isometry3d>& poses)
 {
   std::vector<std::pair<double, std::size_t>> steps;
   for (std::size_t i = 1; i < poses.size(); ++i)
-    steps.emplace_back(
-        -distanceBetween(poses[i - 1], poses[i]).translation, i);
+    steps.emplace_back(-distanceBetween(poses[i - 1], poses[i]).translation, i);
   std::sort(steps.begin(), steps.end());
   steps.resize(std::min(steps.size(), kAskedPairs));
   std::vector<std::size_t> scans;

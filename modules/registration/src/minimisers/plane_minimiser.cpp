@@ -9,7 +9,7 @@ namespace pcl6d {
 
 namespace {
 /** Ratio of eigenvalues, squares of lengths, below which a motion counts as free. */
-constexpr double kRankTolerance = 1e-12;
+constexpr double kPlaneRankTolerance = 1e-12;
 
 constexpr Named<RigidEstimate (*)(const PlaneSums&)> kPlaneMinimisers[] = {
     {planeStepByLinear, "linear"},
@@ -38,7 +38,7 @@ solve(const PlaneSums& sums)
   TwistEstimate estimate{Status::kOk};
   Twist along = Twist::Zero(); // the solution along the eigenvectors
   for (int i = 0; i < 6; ++i) {
-    if (eigen.values(i) > kRankTolerance * eigen.values(5))
+    if (eigen.values(i) > kPlaneRankTolerance * eigen.values(5))
       along(i) = rhs(i) / eigen.values(i);
     else
       estimate.status = Status::kRankDeficient;

@@ -164,11 +164,17 @@ TEST(Slam6D, SaysWhenIcpStoppedAtItsLimit)
 {
   Slam6DOptions options;
   options.max_iterations = 3;
+  options.verify = false;
   const Slam6DResult result = registered(makeDriftingRun(3), options);
   EXPECT_EQ(result.scans[1].state, ScanState::kUnconverged);
   EXPECT_EQ(result.scans[1].status, Status::kMaxIterations);
   EXPECT_EQ(result.scans[1].iterations, 3);
   EXPECT_FALSE(result.trusted());
+  options.verify = true;
+  const Slam6DResult verified = registered(makeDriftingRun(3), options);
+  EXPECT_EQ(verified.scans[1].state, ScanState::kUnconverged);
+  EXPECT_EQ(verified.trusted(), verified.verification->trust == pcl6d::MapTrust::kGood)
+      << "points and rays may confirm where it stopped";
 }
 
 TEST(Slam6D, DoesNotBelieveASmallOverlap)

@@ -50,7 +50,8 @@ noticedText(const std::vector<ScanCheck>& scans, const std::vector<std::string>&
            lengthText(noticed.most) + " or more (least at " + files[worst] + ")";
   std::ostringstream text;
   text << std::fixed << std::setprecision(2) << "no link of " << files[worst]
-       << " would notice a shift along " << noticed.weakest.transpose();
+       << " would notice a shift along " << noticed.weakest.x() << ' '
+       << noticed.weakest.y() << ' ' << noticed.weakest.z();
   return text.str();
 }
 } // namespace

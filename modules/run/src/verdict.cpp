@@ -83,6 +83,8 @@ describeVerification(const RunResult& run, std::ostream& text)
              : map.trusted()              ? "\nunverified: "
                                           : "\nNOT TO BE TRUSTED: ")
          << doubt;
+  if (map.scans.size() != run.scans.size()) // as of a run that was not verified whole
+    return;
   std::vector<std::string> files;
   for (const ScanResult& scan : run.scans)
     files.push_back(scan.file);

@@ -58,6 +58,9 @@ constexpr double kEvenShare = 0.1, kEvenFree = 1, kEvenConfirmed = 19;
 
 /** Parts of so many scans that follow each other are looked at, and all up to a scan. */
 constexpr std::size_t kLongestPart = 40;
+/** With fewer links nothing tells what right ones contradict here: a right pair of a lab
+ * (rooms) has 3 %. */
+constexpr std::size_t kLeastLinks = 4;
 
 /** Odds of a wrong link before anything is looked at: one in ten. */
 constexpr double kPriorOdds = 0.1;

@@ -250,7 +250,8 @@ tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double backgr
   if (num_scans == 0)
     return {};
   Cutter cutter(num_scans, links, background);
-  if (background <= kMostBackground) { // else rays are no judges
+  // Else rays are no judges, or too few links tell what right ones contradict.
+  if (background <= kMostBackground && links.size() >= kLeastLinks) {
     cutter.cutParts();
     cutter.cutBridges();
   }

@@ -118,15 +118,16 @@ votedStarts(const VerifiedScan& first,
             const Eigen::Quaterniond& level,
             const Eigen::Isometry3d& T_first_second)
 {
-  constexpr double kQuarter = 1.5707963267948966;
+  constexpr double kCosines[] = {1, 0, -1, 0}; // of quarter turns
   const double cell = std::max(cellFor(first), cellFor(second));
   const Plan fixed = planOf(first, level.toRotationMatrix(), cell);
   const Eigen::Isometry3d T_level_second = level * T_first_second;
   std::vector<Eigen::Isometry3d> starts;
   for (int quarter = 0; quarter < 4; ++quarter) {
-    Eigen::Isometry3d start =
-        Eigen::AngleAxisd(quarter * kQuarter, Eigen::Vector3d::UnitZ()) *
-        T_level_second;
+    const double c = kCosines[quarter], sine = kCosines[(quarter + 3) % 4];
+    Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+    turn.linear() << c, -sine, 0, sine, c, 0, 0, 0, 1;
+    Eigen::Isometry3d start = turn * T_level_second;
     for (const auto& shift : votedShifts(fixed, planOf(second, start.linear(), cell))) {
       start.translation() << shift.cast<double>() * cell,
           T_level_second.translation().z();

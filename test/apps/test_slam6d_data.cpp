@@ -82,7 +82,8 @@ TEST(PclSlam6dData, RelaxingImprovesTheCampusMatchedByPoints)
                                                   "--relaxation",
                                                   relaxation,
                                                   "--quiet"});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    // Verification may doubt what is a metre off before it is relaxed.
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
     return positionRms(out / "trajectory.kitti", data / "groundtruth.txt", 1);
   };
   // Measured 0.101 and 0.034.

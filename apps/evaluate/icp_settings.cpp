@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/option_table.h"
+#include "common/reduction_options.h"
 #include "evaluate/icp_settings.h"
 #include "evaluate/pair_pose.h"
 #include "evaluate/verbs.h"
@@ -87,12 +88,7 @@ addInput(OptionTable& table, IcpSettings& s)
             "poses.txt, PCD VIEWPOINT or identity, the first that is there)");
   table.add("format", &s.format, scanFormatFromName).help("auto|pcd|ply|uos|kitti|xyz");
   table.group("Range gate and reduction");
-  table.addAuto("min-range", &s.slam.min_range)
-      .help("[m] or auto: nearer points are dropped");
-  table.addAuto("max-range", &s.slam.max_range)
-      .help("[m] or auto: farther points are dropped; auto drops no-return codes");
-  table.addAuto("voxel", &s.slam.voxel)
-      .help("[m] or auto: edge length of the octree reduction");
+  addReductionOptions(table, s.slam);
 }
 
 void

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/option_table.h"
+#include "common/reduction_options.h"
 #include "evaluate/verbs.h"
 #include "evaluate/verify_settings.h"
 
@@ -48,12 +49,7 @@ void
 addRest(OptionTable& table, VerifySettings& s)
 {
   table.group("Range gate and reduction; auto: as the run, else as pcl_slam6d does");
-  table.addAuto("min-range", &s.parameters.min_range)
-      .help("[m] or auto: nearer points are dropped");
-  table.addAuto("max-range", &s.parameters.max_range)
-      .help("[m] or auto: farther points are dropped; auto drops no-return codes");
-  table.addAuto("voxel", &s.parameters.voxel)
-      .help("[m] or auto: edge length of the octree reduction");
+  addReductionOptions(table, s.parameters);
   table.group("Run");
   table.addAs<int>("rows", &s.rows)
       .within(0, kNoBound, ">= 0")

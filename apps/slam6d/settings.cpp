@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/option_table.h"
+#include "common/reduction_options.h"
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/error.h>
@@ -96,12 +97,7 @@ void
 addMatching(OptionTable& table, Settings& s)
 {
   table.group("Range gate and reduction");
-  table.addAuto("min-range", &s.slam.min_range)
-      .help("[m] or auto: nearer points are dropped");
-  table.addAuto("max-range", &s.slam.max_range)
-      .help("[m] or auto: farther points are dropped; auto drops no-return codes");
-  table.addAuto("voxel", &s.slam.voxel)
-      .help("[m] or auto: edge length of the octree reduction");
+  addReductionOptions(table, s.slam);
   addMethods(table, s);
   table.group("Limits of matching");
   table.addAuto("max-distance", &s.slam.max_distance)

@@ -17,7 +17,7 @@ string(REPLACE ";" "," all "${modules}")
 configure(${here}/consumer ${work}/consumer_targets
   -D COMPONENTS=registration -D MODULES=${all})
 string(REGEX MATCHALL "pcl6d::[a-z0-9_]+" targets "${output}")
-if(NOT targets STREQUAL "pcl6d::common;pcl6d::io;pcl6d::search;pcl6d::filters;pcl6d::registration")
+if(NOT targets STREQUAL "pcl6d::common;pcl6d::io;pcl6d::search;pcl6d::filters;pcl6d::visibility;pcl6d::registration")
   message(FATAL_ERROR "targets of COMPONENTS registration: ${targets}")
 endif()
 

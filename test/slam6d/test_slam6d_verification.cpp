@@ -2,6 +2,7 @@
 // What Slam6D says of the map that it made, and the change of agreement.
 #include "agreement.h"
 #include "registered_run.h"
+#include "support/loose_scans.h"
 #include "support/points.h"
 
 #include <cmath>
@@ -22,6 +23,7 @@ using pcl6d::slam6d::agreementChange;
 using pcl6d::slam6d::MeasuredScan;
 using pcl6d::test::DriftingRun;
 using pcl6d::test::kNan;
+using pcl6d::test::looseOf;
 using pcl6d::test::makeDriftingRun;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::registered;
@@ -68,15 +70,6 @@ makeCorridorRun(std::size_t count, std::size_t jumps_at, double jump)
   return run;
 }
 
-std::set<std::size_t>
-looseOf(const MapVerification& map)
-{
-  std::set<std::size_t> loose;
-  for (std::size_t i = 0; i < map.scans.size(); ++i)
-    if (!map.scans[i].tied)
-      loose.insert(i);
-  return loose;
-}
 } // namespace
 
 TEST(AgreementChange, IsThePairedChangeWithADeviationByCubes)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/loose_scans.h"
 #include "support/points.h"
 #include "verified_rooms.h"
 
@@ -20,6 +21,7 @@ using pcl6d::Random;
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::kNan;
 using pcl6d::test::kVoxel;
+using pcl6d::test::looseOf;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::shifted;
 using pcl6d::test::VerifiedScans;
@@ -83,16 +85,6 @@ MapVerification
 verifiedOf(const VerifiedScans& scans, const Poses& poses)
 {
   return MapVerifier(scans.all(), namesOf(scans.all().size())).verify(poses);
-}
-
-std::set<std::size_t>
-looseOf(const MapVerification& map)
-{
-  std::set<std::size_t> loose;
-  for (std::size_t i = 0; i < map.scans.size(); ++i)
-    if (!map.scans[i].tied)
-      loose.insert(i);
-  return loose;
 }
 
 void

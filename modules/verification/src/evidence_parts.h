@@ -34,20 +34,23 @@ sightBothWays(const VerifiedScan& first,
               std::vector<Contradiction>* contradictions = nullptr);
 
 /** \brief Log likelihood ratios of two kinds of wrong places against the right one, by what
- * rays contradict; those of links that share their fate add up. */
+ * rays contradict. */
 struct RaysAgainst {
   double usual = 0; ///< places that contradict much
   double even =
       0; ///< places along even surfaces, such as a corridor's, contradict little
-
-  RaysAgainst&
-  operator+=(const RaysAgainst& other);
-  /** \return the probability of a wrong place of either kind */
-  double
-  probability() const;
 };
 
+/** \param[in] background share that right links contradict \param[in] precision how evenly
+ * they share it: the sum of both parameters of a beta distribution */
 RaysAgainst
-raysAgainst(std::size_t contradicted, std::size_t patches, double background);
+raysAgainst(std::size_t contradicted,
+            std::size_t patches,
+            double background,
+            double precision);
+
+/** \return the probability of a wrong place of either kind, with the prior */
+double
+probabilityOf(const RaysAgainst& against);
 
 } // namespace pcl6d::verification

@@ -44,6 +44,81 @@ lookFrom(const VerifiedScan& from,
 
 /** Pairs are as far apart, in voxels, as matching by planes pairs them. */
 constexpr double kPairVoxels = 1.7;
+
+/** Surfaces that move to where they fit best, step by step. */
+class Settling {
+public:
+  Settling(const VerifiedScan& first,
+           const VerifiedScan& second,
+           const Eigen::Isometry3d& T_first_second,
+           const SurfaceFitOptions& options)
+  : first_(first), second_(second), options_(options), T_(T_first_second)
+  {
+    fit_ = fitSurfaces(first_, second_, T_, options_);
+    moved_ = fit_.step;
+  }
+
+  /** Makes so many steps, or fewer that lead there. A step that loses all pairs is none. */
+  void
+  go(int steps, double voxel)
+  {
+    for (int k = 0; k < steps && isMoving(voxel); ++k) {
+      const Eigen::Isometry3d T = Eigen::Translation3d(fit_.centroid) *
+                                  motionFromTwist(fit_.step) *
+                                  Eigen::Translation3d(-fit_.centroid) * T_;
+      const SurfaceFit fit = fitSurfaces(first_, second_, T, options_);
+      if (fit.spread == 0)
+        return;
+      fit_ = fit;
+      T_ = T;
+      moved_ += fit.step;
+    }
+  }
+
+  bool
+  isMoving(double voxel) const
+  {
+    return fit_.displacement() > kSettled * voxel;
+  }
+
+  const Eigen::Isometry3d&
+  place() const
+  {
+    return T_;
+  }
+
+  /** \return the last fit, with the whole way as its step */
+  SurfaceFit
+  result(bool with_covariance) const
+  {
+    SurfaceFit fit = fit_;
+    if (with_covariance) {
+      SurfaceFitOptions options = options_;
+      options.covariance = true;
+      fit = fitSurfaces(first_, second_, T_, options);
+    }
+    fit.step = moved_;
+    return fit;
+  }
+
+private:
+  const VerifiedScan& first_;
+  const VerifiedScan& second_;
+  SurfaceFitOptions options_;
+  Eigen::Isometry3d T_;
+  SurfaceFit fit_;
+  Twist moved_;
+};
+
+SurfaceFitOptions
+optionsOf(double voxel, std::size_t points)
+{
+  SurfaceFitOptions options;
+  options.max_distance = kPairVoxels * voxel;
+  options.points = points;
+  options.covariance = false;
+  return options;
+}
 } // namespace
 
 namespace verification {
@@ -56,30 +131,9 @@ settledFit(const VerifiedScan& first,
            int steps,
            bool with_covariance)
 {
-  SurfaceFitOptions options;
-  options.max_distance = kPairVoxels * voxel;
-  options.points = points;
-  Eigen::Isometry3d T = T_first_second;
-  options.covariance = with_covariance && steps == 1;
-  SurfaceFit fit = fitSurfaces(first, second, T, options);
-  Twist moved = fit.step;
-  for (int k = 1; k < steps && fit.spread > 0; ++k) {
-    options.covariance = with_covariance && k + 1 == steps;
-    Eigen::Isometry3d motion = motionFromTwist(fit.step);
-    motion = Eigen::Translation3d(fit.centroid) * motion *
-             Eigen::Translation3d(-fit.centroid);
-    const SurfaceFit next = fitSurfaces(first, second, motion * T, options);
-    if (next.spread == 0) { // it lost its pairs
-      options.covariance = with_covariance;
-      fit = fitSurfaces(first, second, T, options);
-      break;
-    }
-    T = motion * T;
-    moved += next.step;
-    fit = next;
-  }
-  fit.step = moved;
-  return fit;
+  Settling surfaces(first, second, T_first_second, optionsOf(voxel, points));
+  surfaces.go(steps - 1, voxel);
+  return surfaces.result(with_covariance);
 }
 
 SightEvidence
@@ -105,6 +159,26 @@ LinkEvidence::deviation() const
   return std::max(kDeviationFactor * fit.deviation(), kResolution * voxel);
 }
 
+namespace {
+/** Goes on where surfaces go on moving, and takes the place where they end if rays say
+ * more for it and no more against it: scans near a door slide through it as well. */
+void
+settleFarther(const VerifiedScan& first,
+              const VerifiedScan& second,
+              Settling surfaces,
+              LinkEvidence& evidence)
+{
+  const double voxel = evidence.voxel;
+  surfaces.go(kMostSteps - kSteps, voxel);
+  const SurfaceFit fit = surfaces.result(true);
+  const SightEvidence there =
+      sightBothWays(first, second, surfaces.place(), voxel, fit, nullptr);
+  if (there.confirmed_patches > evidence.sight.confirmed_patches &&
+      there.contradicted_patches <= evidence.sight.contradicted_patches)
+    evidence.fit = fit;
+}
+} // namespace
+
 LinkEvidence
 linkEvidence(const VerifiedScan& first,
              const VerifiedScan& second,
@@ -115,10 +189,15 @@ linkEvidence(const VerifiedScan& first,
   evidence.T_first_second = T_first_second;
   evidence.voxel = std::max(first.voxel(), second.voxel());
   evidence.abstained = first.abstains() || second.abstains();
-  evidence.fit = settledFit(
-      first, second, T_first_second, evidence.voxel, kPairedPoints, kSteps, true);
+  Settling surfaces(
+      first, second, T_first_second, optionsOf(evidence.voxel, kPairedPoints));
+  surfaces.go(kSteps - 1, evidence.voxel);
+  const bool is_moving = surfaces.isMoving(evidence.voxel);
+  evidence.fit = surfaces.result(true);
   evidence.sight = sightBothWays(
       first, second, T_first_second, evidence.voxel, evidence.fit, contradictions);
+  if (is_moving)
+    settleFarther(first, second, surfaces, evidence);
   return evidence;
 }
 
@@ -178,7 +257,7 @@ contradictedPoints(const VerifiedScan& from,
              at,
              T_from_at,
              voxel,
-             settledFit(from, at, T_from_at, voxel, kPairedPoints, kSteps, true),
+             settledFit(from, at, T_from_at, voxel, kPairedPoints, kMostSteps, true),
              &points);
   return points;
 }

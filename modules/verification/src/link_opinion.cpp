@@ -132,12 +132,14 @@ contradictionBackground(const std::vector<LinkEvidence>& links)
 
 namespace verification {
 RaysAgainst
-raysAgainst(std::size_t contradicted, std::size_t patches, double background)
+raysAgainst(std::size_t contradicted,
+            std::size_t patches,
+            double background,
+            double precision)
 {
   const auto n = static_cast<double>(patches), k = static_cast<double>(contradicted);
   const auto rightWith = [&](double share) {
-    const double a = share * kBackgroundPrecision;
-    return logBetaBinomial(k, n, a, kBackgroundPrecision - a);
+    return logBetaBinomial(k, n, share * precision, (1 - share) * precision);
   };
   // Nothing contradicted is never a sign of another place, however dirty the others are.
   const double right = std::max(rightWith(background),
@@ -146,23 +148,16 @@ raysAgainst(std::size_t contradicted, std::size_t patches, double background)
           logBetaBinomial(k, n, kEvenFree, kEvenConfirmed) - right};
 }
 
-RaysAgainst&
-RaysAgainst::operator+=(const RaysAgainst& other)
-{
-  usual += other.usual;
-  even += other.even;
-  return *this;
-}
-
 double
-RaysAgainst::probability() const
+probabilityOf(const RaysAgainst& against)
 {
-  constexpr double kLeast = -700;            // of a double
-  const double more = std::max(usual, even); // log of the mixture of both
-  return probabilityOf(
+  constexpr double kLeast = -700;                            // of a double
+  const double more = std::max(against.usual, against.even); // log of the mixture
+  return pcl6d::probabilityOf(
       more +
-      portableLog((1 - kEvenShare) * portableExp(std::max(usual - more, kLeast)) +
-                  kEvenShare * portableExp(std::max(even - more, kLeast))));
+      portableLog((1 - kEvenShare) *
+                      portableExp(std::max(against.usual - more, kLeast)) +
+                  kEvenShare * portableExp(std::max(against.even - more, kLeast))));
 }
 } // namespace verification
 
@@ -172,7 +167,8 @@ judgeLink(const LinkEvidence& evidence, double background)
   require(background > 0 && background < 1, "background", background, "in (0, 1)");
   const double rays = raysAgainst(evidence.sight.contradicted_patches,
                                   evidence.sight.patches,
-                                  background)
+                                  background,
+                                  kBackgroundPrecision)
                           .usual;
   const double surfaces = surfacesAgainst(evidence);
   LinkOpinion opinion;

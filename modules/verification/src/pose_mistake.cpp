@@ -110,8 +110,10 @@ agree(const VerifiedScan& first, const VerifiedScan& second, const Eigen::Isomet
     return false;
   const SightEvidence sight = sightBothWays(first, second, T, voxel, fit);
   return sight.patches >= kLeastPatches && sight.confirmation() >= kLeastConfirmation &&
-         raysAgainst(sight.contradicted_patches, sight.patches, kBackground)
-                 .probability() < kWrongAbove / 2;
+         probabilityOf(raysAgainst(sight.contradicted_patches,
+                                   sight.patches,
+                                   kBackground,
+                                   kBackgroundPrecision)) < kWrongAbove / 2;
 }
 
 /** \return the second of each pair of scans that follow each other and move most */

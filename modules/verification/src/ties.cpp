@@ -6,7 +6,9 @@
 #include <pcl6d/common/components.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace pcl6d::verification {
@@ -91,17 +93,93 @@ private:
   std::size_t clock_ = 0;
 };
 
+/** What all links across a cut say against it, one by one, by the background of the rest of
+ * the map. The rays' part of each link is kept for a ladder of backgrounds. */
+class CutEvidence {
+public:
+  explicit CutEvidence(const std::vector<LinkCheck>& links)
+  : links_(links), known_(links.size() * kLevels)
+  {}
+
+  /** \return the log likelihood ratios. Links share half of their fate: of m links as much
+   * as of the root of m, each the mean of them. */
+  RaysAgainst
+  against(const std::vector<std::size_t>& cut, double background)
+  {
+    const std::size_t level = levelOf(background);
+    RaysAgainst sum;
+    for (const std::size_t k : cut) {
+      const RaysAgainst& rays = raysOf(k, level);
+      const double surfaces = kCutSurfaces * surfacesAgainst(links_[k]);
+      sum.usual += rays.usual + surfaces;
+      sum.even += rays.even + surfaces;
+    }
+    const double root =
+        std::sqrt(static_cast<double>(std::max<std::size_t>(1, cut.size())));
+    return {sum.usual / root, sum.even / root};
+  }
+
+private:
+  static constexpr std::size_t kLevels = 16;
+  static constexpr double kLadder = 1.25; ///< to 0.057, beyond kMostBackground
+
+  static std::size_t
+  levelOf(double background)
+  {
+    std::size_t level = 0;
+    for (double b = kLeastBackground * kLadder; b < background && level + 1 < kLevels;
+         b *= kLadder)
+      ++level;
+    return level;
+  }
+
+  static double
+  backgroundOf(std::size_t level)
+  {
+    double background = kLeastBackground;
+    for (std::size_t i = 0; i < level; ++i)
+      background *= kLadder;
+    return background;
+  }
+
+  const RaysAgainst&
+  raysOf(std::size_t link, std::size_t level)
+  {
+    std::optional<RaysAgainst>& known = known_[link * kLevels + level];
+    if (!known)
+      known = raysAgainst(links_[link].contradicted,
+                          links_[link].patches,
+                          backgroundOf(level),
+                          kCutPrecision);
+    return *known;
+  }
+
+  /** A normal distribution of twice the deviation against that of once. */
+  static double
+  surfacesAgainst(const LinkCheck& link)
+  {
+    constexpr double kLogTwo = 0.69314718055994531;
+    if (link.open_directions > 0 || !(link.deviation > 0))
+      return 0;
+    const double sigmas = std::min(link.shift / link.deviation, kMostCutSigmas);
+    return 3.0 / 8 * sigmas * sigmas - kLogTwo;
+  }
+
+  const std::vector<LinkCheck>& links_;
+  std::vector<std::optional<RaysAgainst>> known_; ///< kLevels of each link
+};
+
 /** Cuts what does not hold. */
 class Cutter {
 public:
-  Cutter(std::size_t num_scans, const std::vector<LinkCheck>& links, double background)
-  : links_(links), is_cut_(links.size(), false), at_(num_scans)
+  Cutter(std::size_t num_scans, const std::vector<LinkCheck>& links)
+  : links_(links), evidence_(links), is_cut_(links.size(), false), at_(num_scans)
   {
     ties_.tied.assign(num_scans, false);
     ties_.cut_from.resize(num_scans);
     for (std::size_t k = 0; k < links.size(); ++k) {
-      against_.push_back(
-          raysAgainst(links[k].contradicted, links[k].patches, background));
+      contradicted_ += links[k].contradicted;
+      patches_ += links[k].patches;
       for (const std::size_t i : {links[k].from, links[k].to})
         at_[i].push_back(k);
     }
@@ -183,7 +261,7 @@ private:
   /** Takes a cut if what it would cut says more against it, and holds now. What links to
    * scans that nothing holds contradict is explained by these. */
   void
-  keepWorse(const std::vector<std::size_t>& crossing, Cut& worst) const
+  keepWorse(const std::vector<std::size_t>& crossing, Cut& worst)
   {
     Cut cut;
     bool is_held = false;
@@ -191,15 +269,30 @@ private:
       if (is_cut_[k] || part_[links_[k].from] != part_[links_[k].to])
         continue;
       cut.links.push_back(k);
-      cut.against += against_[k];
       is_held |= links_[k].trust == LinkTrust::kGood;
     }
     if (!is_held)
       return;
-    cut.probability = cut.against.probability();
+    cut.against = evidence_.against(cut.links, backgroundBut(cut.links));
+    cut.probability = probabilityOf(cut.against);
     if (cut.probability > worst.probability ||
         (cut.probability == worst.probability && cut.against.even > worst.against.even))
       worst = std::move(cut);
+  }
+
+  /** \return the share that the other links contradict, as good as some links tell it */
+  double
+  backgroundBut(const std::vector<std::size_t>& links) const
+  {
+    constexpr double kKnownPatches = 200; // of a link
+    auto contradicted = static_cast<double>(contradicted_);
+    auto patches = static_cast<double>(patches_);
+    for (const std::size_t k : links) {
+      contradicted -= static_cast<double>(links_[k].contradicted);
+      patches -= static_cast<double>(links_[k].patches);
+    }
+    return (contradicted + kLeastBackground * kKnownPatches) /
+           (patches + kKnownPatches);
   }
 
   /** \return whether it was worse than what can be trusted, and thus cut */
@@ -236,10 +329,11 @@ private:
   }
 
   const std::vector<LinkCheck>& links_;
-  std::vector<RaysAgainst> against_;         ///< one per link
-  std::vector<bool> is_cut_;                 ///< one per link
-  std::vector<std::vector<std::size_t>> at_; ///< links of each scan
-  std::vector<std::size_t> part_;            ///< of each scan: what holds it
+  CutEvidence evidence_;
+  std::size_t contradicted_ = 0, patches_ = 0; ///< of all links
+  std::vector<bool> is_cut_;                   ///< one per link
+  std::vector<std::vector<std::size_t>> at_;   ///< links of each scan
+  std::vector<std::size_t> part_;              ///< of each scan: what holds it
   Ties ties_;
 };
 } // namespace
@@ -249,7 +343,7 @@ tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double backgr
 {
   if (num_scans == 0)
     return {};
-  Cutter cutter(num_scans, links, background);
+  Cutter cutter(num_scans, links);
   // Else rays are no judges, or too few links tell what right ones contradict.
   if (background <= kMostBackground && links.size() >= kLeastLinks) {
     cutter.cutParts();

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
+#include <pcl6d/io/json_object.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace pcl6d {
+namespace {
+using Json = JsonValue::Json;
+} // namespace
+
+JsonValue
+parseJson(const std::string& text, const std::string& name)
+{
+  try {
+    return {name, Json::parse(text, nullptr, true, true)}; // comments are allowed
+  } catch (const Json::parse_error& e) {
+    const auto end =
+        text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
+    const auto line = 1 + std::count(text.begin(), end, '\n');
+    throw IoFailed(name + ": line " + std::to_string(line) +
+                   ": not the syntax of JSON");
+  } catch (const Json::exception& e) {
+    throw IoFailed(name + ": " + e.what());
+  }
+}
+
+JsonValue
+readJson(const std::filesystem::path& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || stream.peek() == std::char_traits<char>::eof())
+    throw IoFailed(file.string() + ": cannot be read or is empty");
+  return parseJson({std::istreambuf_iterator<char>(stream), {}}, file.string());
+}
+
+std::string
+jsonText(const std::string& text)
+{
+  return Json(text).dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+bool
+isUtf8(const std::string& text)
+{
+  try {
+    Json(text).dump();
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
+Json
+rowByRow(const Eigen::Ref<const Eigen::MatrixXd>& matrix)
+{
+  Json numbers = Json::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+      numbers.push_back(matrix(row, column));
+  return numbers;
+}
+
+void
+fill(const Json& json, const std::string& name, Eigen::Ref<Eigen::MatrixXd> matrix)
+{
+  const auto values = json.get<std::vector<double>>();
+  if (values.size() != static_cast<std::size_t>(matrix.size()))
+    throw std::invalid_argument(name + ": expected " + std::to_string(matrix.size()) +
+                                " numbers, got " + std::to_string(values.size()));
+  for (Eigen::Index i = 0; i < matrix.size(); ++i)
+    matrix(i / matrix.cols(), i % matrix.cols()) = values[static_cast<std::size_t>(i)];
+}
+
+std::string
+reasonOf(const std::exception& error)
+{
+  const std::string message = error.what();
+  const std::size_t end = message.find("] ");
+  return end == std::string::npos ? message : message.substr(end + 2);
+}
+
+std::string
+jsonFileText(const Json& json, int indent)
+{
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+void
+writeJson(const std::filesystem::path& path, const Json& json, int indent)
+{
+  const std::string text = jsonFileText(json, indent);
+  writeFileAtomically(path, [&](std::ostream& stream) { stream << text; });
+}
+
+} // namespace pcl6d

@@ -214,19 +214,21 @@ TEST(SurfaceFit, CovarianceIsThatOfSimulatedNoise)
   const PillarRoom room;
   SurfaceFitOptions options;
   options.max_distance = 1.7 * kSide;
+  options.shared_error = 0; // its sign is the same in all trials
   double sum = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     Random random(100 + static_cast<std::uint64_t>(trial));
     pcl6d::ReductionOptions reduction;
     reduction.voxel = kSide;
-    const auto surfaces = [&](const Eigen::Isometry3d& T) {
-      return IcpModel(pcl6d::reducePoints(room.scan(T, random, 0.07, 0.02), reduction),
-                      surfaceOptions(kSide));
-    };
-    const IcpModel first = surfaces(pair.T_world_first);
-    const IcpModel second = surfaces(pair.T_world_first * pair.T_first_second);
-    const SurfaceFit fit = fitSurfaces(VerifiedScan({}, first, kSide),
-                                       VerifiedScan({}, second, kSide),
+    const Points at_first = room.scan(pair.T_world_first, random, 0.07, 0.02);
+    const Points at_second =
+        room.scan(pair.T_world_first * pair.T_first_second, random, 0.07, 0.02);
+    const IcpModel first(pcl6d::reducePoints(at_first, reduction),
+                         surfaceOptions(kSide));
+    const IcpModel second(pcl6d::reducePoints(at_second, reduction),
+                          surfaceOptions(kSide));
+    const SurfaceFit fit = fitSurfaces(VerifiedScan(at_first, first, kSide),
+                                       VerifiedScan(at_second, second, kSide),
                                        pair.T_first_second,
                                        options);
     sum += fit.mahalanobisSq() / 6;
@@ -234,6 +236,22 @@ TEST(SurfaceFit, CovarianceIsThatOfSimulatedNoise)
   RecordProperty("nees", std::to_string(sum / kTrials));
   EXPECT_GT(sum / kTrials, 0.5);
   EXPECT_LT(sum / kTrials, 2);
+}
+
+TEST(SurfaceFit, CovarianceHoldsWhatAllPairsShare)
+{
+  const pcl6d::test::ScannedPair pair;
+  const VerifiedScans scans = pair.verified();
+  SurfaceFitOptions options = optionsOf();
+  const auto variancesWith = [&](double shared_error) {
+    options.shared_error = shared_error;
+    return Eigen::VectorXd(fitSurfaces(scans[0], scans[1], pair.T_first_second, options)
+                               .covariance.diagonal());
+  };
+  const Eigen::VectorXd none = variancesWith(0), some = variancesWith(0.5),
+                        twice = variancesWith(1);
+  EXPECT_GT((some - none).minCoeff(), 0);
+  EXPECT_TRUE((twice - none).isApprox(4 * (some - none), 1e-9)) << "a deviation";
 }
 
 TEST(SurfaceFit, CovarianceShrinksWithNoise)
@@ -323,4 +341,8 @@ TEST(SurfaceFit, NamesTheOptionThatBreaksItsRule)
     EXPECT_EQ(
         errorOf([wrong](auto& o) { o.cube_voxels = wrong; }).find("cube_voxels = "), 0u)
         << wrong;
+  EXPECT_EQ(errorOf([](auto& o) { o.shared_error = -0.5; }),
+            "shared_error = -0.5, but must be finite and >= 0");
+  EXPECT_EQ(errorOf([](auto& o) { o.shared_error = kNan; }),
+            "shared_error = nan, but must be finite and >= 0");
 }

@@ -74,15 +74,20 @@ graphOf(const std::vector<Eigen::Isometry3d>& poses,
   return graph;
 }
 
-/** \return how much larger covariances are than the links say, as cycles do not close */
+/** \return how much larger covariances are than the links say: as cycles do not close, and as
+ * links of a scan share its errors, so that of m links to a scan as much is new as of the
+ * root of m. Half of what they say being shared is what NEES of simulated scenes asks for. */
 double
 excessOf(const PoseGraphResult& result, std::size_t links, std::size_t poses)
 {
   const std::size_t conditions = 6 * links, unknowns = 6 * (poses - 1);
-  return conditions > unknowns
-             ? std::max(1.0,
-                        result.chi2_after / static_cast<double>(conditions - unknowns))
-             : 1;
+  const double links_per_pose =
+      static_cast<double>(links) / static_cast<double>(poses - 1);
+  const double unclosed =
+      conditions > unknowns
+          ? result.chi2_after / static_cast<double>(conditions - unknowns)
+          : 1;
+  return std::max(1.0, unclosed) * std::sqrt(std::max(1.0, links_per_pose));
 }
 
 /** \return [m] the longest half axis of the 95 % ellipsoid of the position */

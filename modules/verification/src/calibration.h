@@ -4,7 +4,7 @@
 #include <cstddef>
 
 /** \file The constants of verification, and where each comes from. "Fitted" ones were chosen
- * from what `measure_verification` (test/benchmark) prints of eight recorded and simulated
+ * from what `bench_verification` (test/benchmark) prints of eight recorded and simulated
  * sets; share/doc/trust.md has the table, with sets that were not looked at before. */
 namespace pcl6d::verification {
 
@@ -90,10 +90,6 @@ constexpr std::size_t kLeastOwnPatches = 12;
 constexpr double kGoodBelow = 0.01;
 /** ... and contradicts the map if it is wrong with a larger one. */
 constexpr double kWrongAbove = 0.9;
-
-/** Cluster covariances are so many times too small, in standard deviations, as errors of a
- * surface's shape hang together beyond a cube. Fitted to exact truths: 1.1 to 1.4. */
-constexpr double kDeviationFactor = 1.4;
 
 /** Links are not told apart from right ones nearer than this share of a voxel, about a
  * third of what the reduction moves points by. */

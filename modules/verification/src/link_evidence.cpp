@@ -156,7 +156,7 @@ sightBothWays(const VerifiedScan& first,
 double
 LinkEvidence::deviation() const
 {
-  return std::max(kDeviationFactor * fit.deviation(), kResolution * voxel);
+  return std::max(fit.deviation(), kResolution * voxel);
 }
 
 namespace {
@@ -239,8 +239,7 @@ linkCheck(std::size_t from,
   link.open_directions = evidence.fit.open_directions;
   link.reason = opinion.reason;
   const Eigen::Matrix<double, 6, 6> J = intoSecondScan(evidence);
-  link.covariance =
-      kDeviationFactor * kDeviationFactor * J * evidence.fit.covariance * J.transpose();
+  link.covariance = J * evidence.fit.covariance * J.transpose();
   link.pull = J * evidence.fit.step;
   return link;
 }

@@ -120,11 +120,50 @@ clustered(const std::vector<SurfacePair>& pairs,
   return sum * (count / std::max(count - 6, 1.0));
 }
 
+/** \return the standard deviation of what the step leaves of residuals, by their median:
+ * edges do not count */
+double
+usualResidual(const std::vector<SurfacePair>& pairs, const SurfaceFit& fit)
+{
+  constexpr double kOfMedian = 1.4826; // of a normal distribution
+  std::vector<double> sizes;
+  for (const SurfacePair& pair : pairs)
+    sizes.push_back(
+        std::abs(pair.residual - jacobianOf(pair, fit.centroid).dot(fit.step)));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return kOfMedian * *middle;
+}
+
+/** \return variances along the directions of an eigen system of errors that all pairs
+ * share. Points of a scan lie denser where it stands, so that pairs of rough surfaces pull
+ * scans together as they slide along what is oblique to their motion: in a gallery nearly
+ * all, in a room with square walls nearly none.
+ * \param[in] size [m] of the error of a pair */
+Twist
+sharedVariances(const std::vector<SurfacePair>& pairs,
+                const SurfaceFit& fit,
+                double size,
+                const Matrix6& axes,
+                const Twist& inverse)
+{
+  Twist pull = Twist::Zero();
+  for (const SurfacePair& pair : pairs) {
+    const Twist along = axes.transpose() * jacobianOf(pair, fit.centroid);
+    for (int k = 0; k < 6; ++k) {
+      const double cosine = std::min(1.0, std::abs(along(k)));
+      pull(k) += cosine * std::sqrt(1 - cosine * cosine);
+    }
+  }
+  return (size * inverse.cwiseProduct(pull)).cwiseAbs2();
+}
+
 /** Solves for the step, and gives the covariance of the pose. */
 void
 solve(const std::vector<SurfacePair>& pairs,
-      double cube,
-      bool with_covariance,
+      double voxel,
+      double noise_sq,
+      const SurfaceFitOptions& options,
       SurfaceFit& fit)
 {
   Matrix6 H = Matrix6::Zero();
@@ -151,15 +190,19 @@ solve(const std::vector<SurfacePair>& pairs,
   const Matrix6 V = unit.asDiagonal() * eigen.vectors;
   const Matrix6 H_inverse = V * inverse.asDiagonal() * V.transpose();
   fit.step = H_inverse * b;
-  if (!with_covariance)
+  if (!options.covariance)
     return;
   Matrix6 spread = Matrix6::Zero();
   for (const auto& shift : kShifts)
-    spread += clustered(pairs, fit, cube, shift) / 4;
+    spread += clustered(pairs, fit, options.cube_voxels * voxel, shift) / 4;
+  const double usual = usualResidual(pairs, fit);
+  const double rough = std::sqrt(std::max(0.0, usual * usual - noise_sq));
+  const Twist shared =
+      sharedVariances(pairs, fit, options.shared_error * rough, V, inverse);
   // Few cubes leave directions without an error: a tenth of that of independent points.
-  const double noise_sq = 0.1 * fit.residual * fit.residual;
-  fit.covariance = H_inverse * (spread + noise_sq * H) * H_inverse +
-                   V * open.asDiagonal() * V.transpose();
+  fit.covariance =
+      H_inverse * (spread + 0.1 * fit.residual * fit.residual * H) * H_inverse +
+      V * (open + shared).asDiagonal() * V.transpose();
 }
 } // namespace
 
@@ -175,6 +218,10 @@ SurfaceFitOptions::validate() const
           "cube_voxels",
           cube_voxels,
           "finite and > 0");
+  require(std::isfinite(shared_error) && shared_error >= 0,
+          "shared_error",
+          shared_error,
+          "finite and >= 0");
 }
 
 double
@@ -238,7 +285,9 @@ fitSurfaces(const VerifiedScan& first,
   fit.residual = std::sqrt(residual_sq / static_cast<double>(fit.pairs));
   fit.spread = std::sqrt(spread_sq / static_cast<double>(fit.pairs));
   const double voxel = std::max(first.voxel(), second.voxel());
-  solve(found.pairs, options.cube_voxels * voxel, options.covariance, fit);
+  const double noise_sq =
+      first.noise() * first.noise() + second.noise() * second.noise();
+  solve(found.pairs, voxel, noise_sq, options, fit);
   return fit;
 }
 

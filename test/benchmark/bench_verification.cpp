@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Right and wrong links of folders with a reference, and what verification sees of each, as
 // CSV: the material that its constants are fitted to (share/doc/trust.md).
-// usage: measure_verification [every=N] [gap=N] [scans=N] [pairs=N] FOLDER ...
+// usage: bench_verification [every=N] [gap=N] [scans=N] [pairs=N] FOLDER ...
+#include "verification_fit.h"
 #include "verification_links.h"
 
 #include <pcl6d/verification/link_evidence.h>
@@ -63,6 +64,7 @@ run(const std::vector<std::string>& arguments)
       << "set,kind,first,second,off,turn,voxel,noise,confirmed,free,points,patches,"
          "contradicted,overlap,residual,displacement,deviation,mahalanobis_sq,open,"
          "spread,pairs,ms,background,wrong,trust\n";
+  std::vector<JudgedLink> judged;
   for (const std::string& argument : arguments) {
     const auto equals = argument.find('=');
     if (equals != std::string::npos) {
@@ -87,9 +89,19 @@ run(const std::vector<std::string>& arguments)
         right.push_back(links.back().evidence);
     }
     const double background = contradictionBackground(right);
-    for (const SeenLink& link : links)
-      print(set, link, background);
+    for (const SeenLink& one : links) {
+      print(set, one, background);
+      const TestedLink& link = one.link;
+      judged.push_back({set.name,
+                        link.kind,
+                        link.off,
+                        link.turn,
+                        one.evidence,
+                        judgeLink(one.evidence, background).trust});
+    }
   }
+  printVerdicts(judged, std::cerr);
+  printLeaveOneOut(judged, std::cerr);
   return 0;
 }
 } // namespace

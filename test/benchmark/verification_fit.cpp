@@ -59,13 +59,15 @@ linksWhere(const std::vector<JudgedLink>& links,
 std::size_t
 countOf(const Links& links, const std::function<bool(const JudgedLink&)>& holds)
 {
-  return static_cast<std::size_t>(std::count_if(
-      links.begin(), links.end(), [&](const JudgedLink* link) { return holds(*link); }));
+  return static_cast<std::size_t>(
+      std::count_if(links.begin(), links.end(), [&](const JudgedLink* link) {
+        return holds(*link);
+      }));
 }
 
 /** What rays contradict in right links and at other places. */
 struct ContradictionFit {
-  double background = 0;     ///< mean share of right links
+  double background = 0;  ///< mean share of right links
   double free, confirmed; ///< parameters of the beta distribution at other places
 };
 
@@ -153,7 +155,9 @@ ratio(std::size_t count, std::size_t of)
 }
 
 void
-printLeftOut(const std::vector<JudgedLink>& all, const std::string& set, std::ostream& out)
+printLeftOut(const std::vector<JudgedLink>& all,
+             const std::string& set,
+             std::ostream& out)
 {
   const Links others = linksWhere(all, [&](const auto& l) { return l.set != set; });
   const Links right =
@@ -182,7 +186,8 @@ printLeftOut(const std::vector<JudgedLink>& all, const std::string& set, std::os
 void
 printVerdicts(const std::vector<JudgedLink>& links, std::ostream& out)
 {
-  out << "| set | right: good / weak / wrong | other places: good / of | wrong shifts and "
+  out << "| set | right: good / weak / wrong | other places: good / of | wrong shifts "
+         "and "
          "turns called good / of |\n|---|---|---|---|\n";
   for (const std::string& set : setsOf(links)) {
     const auto of = [&](const auto& holds) {
@@ -194,8 +199,8 @@ printVerdicts(const std::vector<JudgedLink>& links, std::ostream& out)
     const Links right = of(isRight), wrong = of(isElsewhere), shifted = of(isShifted);
     const std::size_t good = countOf(right, with(LinkTrust::kGood));
     const std::size_t doubted = countOf(right, with(LinkTrust::kWrong));
-    out << "| " << set << " | " << good << " / " << right.size() - good - doubted << " / "
-        << doubted << " | "
+    out << "| " << set << " | " << good << " / " << right.size() - good - doubted
+        << " / " << doubted << " | "
         << ratio(countOf(wrong, with(LinkTrust::kGood)), wrong.size()) << " | "
         << ratio(countOf(shifted, with(LinkTrust::kGood)), shifted.size()) << " |\n";
   }

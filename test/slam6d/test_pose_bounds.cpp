@@ -98,13 +98,13 @@ TEST(PoseBounds, GrowAlongAChainAsItsErrorsAdd)
   EXPECT_NEAR(*map.scans[3].bound, std::sqrt(kChi2Of95 * across), 1e-7);
 }
 
-TEST(PoseBounds, AreHalfTheVarianceWithTwiceTheLinks)
+TEST(PoseBounds, ShrinkWithTheFourthRootOfTheLinksAsTheseShareErrors)
 {
   const auto one = bounded(line(2), mapOf(2, {link(0, 1, diagonal(0.02, 0.01))}));
   const auto two = bounded(
       line(2),
       mapOf(2, {link(0, 1, diagonal(0.02, 0.01)), link(0, 1, diagonal(0.02, 0.01))}));
-  EXPECT_NEAR(*two.scans[1].bound, *one.scans[1].bound / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(*two.scans[1].bound, *one.scans[1].bound / std::pow(2.0, 0.25), 1e-9);
 }
 
 TEST(PoseBounds, CountTheWayThatTheLinksAskFor)

@@ -162,7 +162,6 @@ sharedVariances(const std::vector<SurfacePair>& pairs,
 void
 solve(const std::vector<SurfacePair>& pairs,
       double voxel,
-      double noise_sq,
       const SurfaceFitOptions& options,
       SurfaceFit& fit)
 {
@@ -195,10 +194,8 @@ solve(const std::vector<SurfacePair>& pairs,
   Matrix6 spread = Matrix6::Zero();
   for (const auto& shift : kShifts)
     spread += clustered(pairs, fit, options.cube_voxels * voxel, shift) / 4;
-  const double usual = usualResidual(pairs, fit);
-  const double rough = std::sqrt(std::max(0.0, usual * usual - noise_sq));
-  const Twist shared =
-      sharedVariances(pairs, fit, options.shared_error * rough, V, inverse);
+  const double error = options.shared_error * usualResidual(pairs, fit);
+  const Twist shared = sharedVariances(pairs, fit, error, V, inverse);
   // Few cubes leave directions without an error: a tenth of that of independent points.
   fit.covariance =
       H_inverse * (spread + 0.1 * fit.residual * fit.residual * H) * H_inverse +
@@ -285,9 +282,7 @@ fitSurfaces(const VerifiedScan& first,
   fit.residual = std::sqrt(residual_sq / static_cast<double>(fit.pairs));
   fit.spread = std::sqrt(spread_sq / static_cast<double>(fit.pairs));
   const double voxel = std::max(first.voxel(), second.voxel());
-  const double noise_sq =
-      first.noise() * first.noise() + second.noise() * second.noise();
-  solve(found.pairs, voxel, noise_sq, options, fit);
+  solve(found.pairs, voxel, options, fit);
   return fit;
 }
 

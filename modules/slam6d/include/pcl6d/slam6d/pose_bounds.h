@@ -13,10 +13,11 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief How exactly the links of a verified map fix its poses: fills covariance and bound of
  * every scan that they tie to the first one; of none if that is not tied itself.
  *
- * Links that rays confirm, with those whose surfaces ask for a shift, are measurements of a graph: each says by how much its surfaces would move its
- * scans, with what covariance. The covariance of a pose is that of the optimum of this graph,
- * times chi2 per degree of freedom if cycles close worse than the links promise, plus the
- * square of the way from the pose to that optimum.
+ * Links that rays confirm, with those whose surfaces ask for a shift, are measurements of a
+ * graph: each says by how much its surfaces would move its scans, with what covariance. The
+ * covariance of a pose is that of the optimum of this graph, times chi2 per degree of freedom
+ * if cycles close worse than the links promise, times the root of the links per pose, as
+ * links of a scan share its errors, plus the square of the way from the pose to that optimum.
  * \param[in,out] map of MapVerifier, of these poses
  * \param[in] num_threads 0: one per core; never changes the result
  * \throws BadArgument not one pose per scan of the map

@@ -38,8 +38,9 @@ struct SurfaceFit {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero(); ///< [m] of the pairs
   double spread = 0;          ///< [m] rms distance of the pairs from it
   Twist step = Twist::Zero(); ///< the motion that fits best, by one Gauss-Newton step
-  /** of the pose: points of a cube count as one, as their errors hang together; directions
-   * that the surfaces leave open are as uncertain as the pairs are spread */
+  /** of the pose: points of a cube count as one, as their errors hang together, and an error
+   * that all pairs share is added; directions that the surfaces leave open are as uncertain
+   * as the pairs are spread */
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int open_directions = 0; ///< motions that the surfaces do not fix
 

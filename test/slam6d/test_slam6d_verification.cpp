@@ -70,6 +70,18 @@ makeCorridorRun(std::size_t count, std::size_t jumps_at, double jump)
   return run;
 }
 
+/** \return the run in a world so many times as large */
+DriftingRun
+scaled(DriftingRun run, double scale)
+{
+  for (auto& scan : run.scans)
+    for (auto& p : scan)
+      p = (scale * p.cast<double>()).cast<float>();
+  for (auto* poses : {&run.truth, &run.odometry})
+    for (auto& pose : *poses)
+      pose.translation() *= scale;
+  return run;
+}
 } // namespace
 
 TEST(AgreementChange, IsThePairedChangeWithADeviationByCubes)
@@ -288,4 +300,28 @@ TEST(Slam6DVerification, NamesFilesWithoutTheirFolders)
   ASSERT_FALSE(map.doubts.empty());
   EXPECT_EQ(map.doubts[0].find("1 scan not tied to the rest: b.pcd (with a.pcd: "), 0u)
       << map.doubts[0];
+}
+
+TEST(Slam6DVerification, SaysTheSameOfAWorldAHundredTimesAsLargeOrSmall)
+{
+  // Matching and verdict: what of them is a length scales with the world, the rest stays.
+  for (const auto& [run, is_right] : {std::pair{makeDriftingRun(6), true},
+                                      std::pair{makeCorridorRun(12, 6, 9), false}}) {
+    const Slam6DResult usual = registered(run);
+    ASSERT_EQ(usual.trusted(), is_right);
+    for (const double scale : {100.0, 0.01}) {
+      SCOPED_TRACE(scale);
+      const Slam6DResult other = registered(scaled(run, scale));
+      EXPECT_EQ(other.trusted(), is_right);
+      EXPECT_EQ(other.verification->trust, usual.verification->trust);
+      EXPECT_EQ(looseOf(*other.verification), looseOf(*usual.verification));
+      for (std::size_t i = 0; i < run.scans.size(); ++i) { // epsilons are metres
+        EXPECT_LT((other.scans[i].T_world_scan.translation() / scale -
+                   usual.scans[i].T_world_scan.translation())
+                      .norm(),
+                  kNear)
+            << i;
+      }
+    }
+  }
 }

@@ -73,7 +73,7 @@ TEST(LinkOpinion, GetsBetterWithEachConfirmedPatch)
   }
 }
 
-TEST(LinkOpinion, IsTheRatioOfTwoBetaBinomials)
+TEST(LinkOpinion, IsTheRatioOfBetaBinomials)
 {
   // 2 of 3 patches, worked out by hand: (a)_k (b)_(n-k) / (a + b)_n of both, rising
   // factorials, at odds of one in ten before.
@@ -81,11 +81,13 @@ TEST(LinkOpinion, IsTheRatioOfTwoBetaBinomials)
     return a * (a + 1) * b / ((a + b) * (a + b + 1) * (a + b + 2));
   };
   const auto wrong = [](double odds) {
-    // Surfaces that stay have odds of exp(-4^2 / 2), and are asked for themselves.
-    const double beside = 0.1 * std::exp(-8.0);
+    // Surfaces that stay have odds of exp(-3.3^2 / 2), and are asked for themselves.
+    const double beside = 0.1 * std::exp(-3.3 * 3.3 / 2);
     return 1 - 1 / (1 + odds) / (1 + beside);
   };
-  const double odds = 0.1 * probability(2.75, 3.8) / probability(0.4, 39.6);
+  const double odds = 0.1 *
+                      (0.985 * probability(2.75, 3.8) + 0.015 * probability(1, 19)) /
+                      probability(0.4, 39.6);
   EXPECT_NEAR(judgeLink(seen(2, 3), 0.01).probability_wrong, wrong(odds), 1e-12);
   EXPECT_NEAR(judgeLink(seen(0, 0), 0.01).probability_wrong, wrong(0.1), 1e-15);
 }
@@ -125,10 +127,12 @@ TEST(LinkOpinion, AsksForAnyPartOfThePointsToBeConfirmed)
   EXPECT_EQ(judged(evidence).reason, "rays confirm only 9.5 % of the points");
 }
 
-TEST(LinkOpinion, AllowsThreeDeviationsOfSurfaces)
+TEST(LinkOpinion, AllowsTwoAndAHalfDeviationsOfSurfaces)
 {
-  EXPECT_EQ(judged(leaving(2.9)).trust, LinkTrust::kGood);
-  EXPECT_EQ(judged(leaving(3.5)).trust, LinkTrust::kWeak);
+  EXPECT_EQ(judged(leaving(2.4)).trust, LinkTrust::kGood);
+  EXPECT_EQ(judged(leaving(2.6)).trust, LinkTrust::kWeak);
+  EXPECT_EQ(judged(leaving(4.4)).trust, LinkTrust::kWeak);
+  EXPECT_EQ(judged(leaving(4.6)).trust, LinkTrust::kWrong);
   double before = 0;
   for (double sigmas = 0; sigmas < 6; sigmas += 0.5) {
     EXPECT_GT(judged(leaving(sigmas)).probability_wrong, before) << sigmas;

@@ -49,6 +49,10 @@ raysAgainst(std::size_t contradicted,
             double background,
             double precision);
 
+/** \return that of wrong places of either kind, as often as they are */
+double
+logRatioOf(const RaysAgainst& against);
+
 /** \return the probability of a wrong place of either kind, with the prior */
 double
 probabilityOf(const RaysAgainst& against);

@@ -149,15 +149,20 @@ raysAgainst(std::size_t contradicted,
 }
 
 double
+logRatioOf(const RaysAgainst& against)
+{
+  constexpr double kLeast = -700; // of a double
+  const double more = std::max(against.usual, against.even);
+  return more +
+         portableLog((1 - kEvenShare) *
+                         portableExp(std::max(against.usual - more, kLeast)) +
+                     kEvenShare * portableExp(std::max(against.even - more, kLeast)));
+}
+
+double
 probabilityOf(const RaysAgainst& against)
 {
-  constexpr double kLeast = -700;                            // of a double
-  const double more = std::max(against.usual, against.even); // log of the mixture
-  return pcl6d::probabilityOf(
-      more +
-      portableLog((1 - kEvenShare) *
-                      portableExp(std::max(against.usual - more, kLeast)) +
-                  kEvenShare * portableExp(std::max(against.even - more, kLeast))));
+  return pcl6d::probabilityOf(logRatioOf(against));
 }
 } // namespace verification
 
@@ -165,11 +170,10 @@ LinkOpinion
 judgeLink(const LinkEvidence& evidence, double background)
 {
   require(background > 0 && background < 1, "background", background, "in (0, 1)");
-  const double rays = raysAgainst(evidence.sight.contradicted_patches,
-                                  evidence.sight.patches,
-                                  background,
-                                  kBackgroundPrecision)
-                          .usual;
+  const double rays = logRatioOf(raysAgainst(evidence.sight.contradicted_patches,
+                                             evidence.sight.patches,
+                                             background,
+                                             kBackgroundPrecision));
   const double surfaces = surfacesAgainst(evidence);
   LinkOpinion opinion;
   // Elsewhere, which rays tell, or beside, which surfaces tell: neither speaks for the other.

@@ -2,11 +2,11 @@
 # From the installed simulator to a map by the example program.
 include(${SETTINGS})
 file(REMOVE_RECURSE ${work}/scans ${work}/map.pcd)
-run(COMMAND env -i ${prefix}/bin/pcl_slam6d_simulate corridor -o ${work}/scans --scans 10
+run(COMMAND env -i ${prefix}/bin/pcl_slam6d_simulate corridor -o ${work}/scans --scans 14
   --quiet)
 set(example ${work}/examples_build/map_in_20_lines)
 run(COMMAND ${example} ${work}/scans ${work}/map.pcd OUTPUT text
-  PRINTS "9 of 9 scans matched to the first, [1-9][0-9]+ points in")
+  PRINTS "13 of 13 scans matched to the first, [1-9][0-9]+ points in")
 
 string(REGEX MATCH "[0-9]+ points" points "${text}")
 string(REPLACE " points" "" points "${points}")

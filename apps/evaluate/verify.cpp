@@ -56,11 +56,13 @@ verifyMap(const VerifySettings& s, const VerifySource& source)
   if (source.names.size() == 1)
     map.doubts.emplace_back("one scan alone: there is no other to contradict it");
   doubtCopies(source, map);
-  if (map.trust == MapTrust::kDoubtful) {
+  if (map.trust == MapTrust::kDoubtful || map.trust == MapTrust::kUnverified) {
     const std::string mistake =
         likelyPoseMistake(source.scans.scans(), source.poses, s.num_threads);
-    if (!mistake.empty())
+    if (!mistake.empty()) {
+      map.trust = MapTrust::kDoubtful;
       map.doubts.push_back("poses: " + mistake);
+    }
   }
   return map;
 }

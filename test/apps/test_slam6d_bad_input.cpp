@@ -2,6 +2,8 @@
 // What a user may get wrong: one line that says what and where, and nothing half-written.
 #include "bad_input.h"
 
+#include <pcl6d/io/trajectory_io.h>
+
 namespace {
 namespace fs = std::filesystem;
 using pcl6d::test::BadInput;
@@ -200,4 +202,40 @@ TEST_F(BadInput, BrokenConfig)
   writeText(config, "voxle = 1\n");
   expectUsageError({in.string(), "-o", out.string(), "--config", config},
                    {"run.cfg", "voxle"});
+}
+
+TEST(PosesInFeet, AreNamedThoughRaysAreNoJudgesThere)
+{
+  // Where all places are wrong rays contradict as much as a bad scanner's: that alone is
+  // "unverified".
+  constexpr double kFeetPerMetre = 3.280839895;
+  const pcl6d::test::TempFolder folder;
+  const std::string scans = folder / "scans";
+  pcl6d::test::runProgram("pcl_slam6d_simulate",
+                          {"crowd",
+                           "-o",
+                           scans,
+                           "--scans",
+                           "30",
+                           "--resolution",
+                           "3",
+                           "--seed",
+                           "4",
+                           "--quiet"});
+  pcl6d::Trajectory odometry = pcl6d::readTrajectory(folder / "scans/odometry.txt");
+  for (auto& pose : odometry.poses)
+    pose.translation() *= kFeetPerMetre;
+  pcl6d::writeTrajectoryKitti(folder / "feet.txt", odometry);
+  const auto outcome = pcl6d::test::runProgram(kName,
+                                               {scans,
+                                                "-o",
+                                                folder / "out",
+                                                "--poses",
+                                                folder / "feet.txt",
+                                                "--last",
+                                                "12",
+                                                "--no-picture"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_NE(outcome.out.find("initial poses: positions are in feet"), std::string::npos)
+      << outcome.out;
 }

@@ -182,23 +182,26 @@ private:
     explainDoubts(*result_.verification);
   }
 
-  /** Where much is loose the initial poses may be wrong as a whole. */
+  /** Where much is loose, or rays are no judges, the initial poses may be wrong as a whole. */
   void
   explainDoubts(MapVerification& map) const
   {
     const auto loose = std::count_if(map.scans.begin(),
                                      map.scans.end(),
                                      [](const ScanCheck& scan) { return !scan.tied; });
-    if (map.trust != MapTrust::kDoubtful ||
-        3 * static_cast<std::size_t>(loose) < map.scans.size())
+    const bool is_loose = map.trust == MapTrust::kDoubtful &&
+                          3 * static_cast<std::size_t>(loose) >= map.scans.size();
+    if (!is_loose && map.trust != MapTrust::kUnverified)
       return;
     std::vector<Eigen::Isometry3d> initial;
     for (const ScanResult& scan : result_.scans)
       initial.push_back(scan.initial_pose);
     const std::string mistake =
         likelyPoseMistake(verified_, initial, options_.num_threads);
-    if (!mistake.empty())
-      map.doubts.push_back("initial poses: " + mistake);
+    if (mistake.empty())
+      return;
+    map.trust = MapTrust::kDoubtful;
+    map.doubts.push_back("initial poses: " + mistake);
   }
 
   /** Those of matching take pairs as independent, which they are not. */

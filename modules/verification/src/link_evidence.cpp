@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 #include "evidence_parts.h"
+#include "surface_pairs.h"
 
 #include <pcl6d/registration/twist.h>
 #include <pcl6d/verification/link_evidence.h>
@@ -54,7 +55,8 @@ public:
            const SurfaceFitOptions& options)
   : first_(first), second_(second), options_(options), T_(T_first_second)
   {
-    fit_ = fitSurfaces(first_, second_, T_, options_);
+    pairs_ = pairSurfaces(first_, second_, T_, options_);
+    fit_ = fitOf(pairs_, options_);
     moved_ = fit_.step;
   }
 
@@ -66,9 +68,11 @@ public:
       const Eigen::Isometry3d T = Eigen::Translation3d(fit_.centroid) *
                                   motionFromTwist(fit_.step) *
                                   Eigen::Translation3d(-fit_.centroid) * T_;
-      const SurfaceFit fit = fitSurfaces(first_, second_, T, options_);
+      SurfacePairs pairs = pairSurfaces(first_, second_, T, options_);
+      const SurfaceFit fit = fitOf(pairs, options_);
       if (fit.spread == 0)
         return;
+      pairs_ = std::move(pairs);
       fit_ = fit;
       T_ = T;
       moved_ += fit.step;
@@ -95,7 +99,7 @@ public:
     if (with_covariance) {
       SurfaceFitOptions options = options_;
       options.covariance = true;
-      fit = fitSurfaces(first_, second_, T_, options);
+      fit = fitOf(pairs_, options);
     }
     fit.step = moved_;
     return fit;
@@ -106,7 +110,8 @@ private:
   const VerifiedScan& second_;
   SurfaceFitOptions options_;
   Eigen::Isometry3d T_;
-  SurfaceFit fit_;
+  SurfacePairs pairs_; // at T_
+  SurfaceFit fit_;     // of these
   Twist moved_;
 };
 

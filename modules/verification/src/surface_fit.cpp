@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "surface_pairs.h"
+
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/voxel_key.h>
 #include <pcl6d/registration/localizability.h>
-#include <pcl6d/verification/surface_fit.h>
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
-#include <vector>
 
 namespace pcl6d {
+using verification::SurfacePair;
+using verification::SurfacePairs;
 
 namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-/** A pair across a surface, in the frame of the first scan. */
-struct SurfacePair {
-  Eigen::Vector3d place;  ///< [m] of the second scan's point
-  Eigen::Vector3d normal; ///< unit
-  double residual;        ///< [m] what is missing along the normal
-};
 
 /** Shifts of the grid of cubes, in cubes, over which the covariance is averaged. */
 constexpr double kShifts[][3] = {{0, 0, 0},
@@ -255,16 +250,23 @@ SurfaceFit::mahalanobisSq() const
   return sum;
 }
 
-SurfaceFit
-fitSurfaces(const VerifiedScan& first,
-            const VerifiedScan& second,
-            const Eigen::Isometry3d& T_first_second,
-            const SurfaceFitOptions& options)
+SurfacePairs
+verification::pairSurfaces(const VerifiedScan& first,
+                           const VerifiedScan& second,
+                           const Eigen::Isometry3d& T_first_second,
+                           const SurfaceFitOptions& options)
 {
   options.validate();
   PairCollector found(options);
   found.add(second, first, T_first_second, Eigen::Isometry3d::Identity(), true);
   found.add(first, second, T_first_second.inverse(), T_first_second, false);
+  return {
+      std::move(found.pairs), found.looked_at, std::max(first.voxel(), second.voxel())};
+}
+
+SurfaceFit
+verification::fitOf(const SurfacePairs& found, const SurfaceFitOptions& options)
+{
   SurfaceFit fit;
   fit.pairs = found.pairs.size();
   if (found.looked_at > 0)
@@ -281,9 +283,18 @@ fitSurfaces(const VerifiedScan& first,
   }
   fit.residual = std::sqrt(residual_sq / static_cast<double>(fit.pairs));
   fit.spread = std::sqrt(spread_sq / static_cast<double>(fit.pairs));
-  const double voxel = std::max(first.voxel(), second.voxel());
-  solve(found.pairs, voxel, options, fit);
+  solve(found.pairs, found.voxel, options, fit);
   return fit;
+}
+
+SurfaceFit
+fitSurfaces(const VerifiedScan& first,
+            const VerifiedScan& second,
+            const Eigen::Isometry3d& T_first_second,
+            const SurfaceFitOptions& options)
+{
+  return verification::fitOf(
+      verification::pairSurfaces(first, second, T_first_second, options), options);
 }
 
 } // namespace pcl6d

@@ -14,7 +14,7 @@ namespace {
 /** Neighbours of a patch: the first hold several lines of most scans; more are taken
  * until the patch is wider than a line and than its noise. */
 constexpr std::array<std::size_t, 3> kNeighbours{48, 192, 768};
-constexpr std::size_t kPatches = 200; ///< that are looked at
+constexpr std::size_t kPatches = 100; ///< that are looked at
 /** So many points are enough: the first ones, as a part of a scan is as noisy as another,
  * but every n-th point would be as far from the next as the surface bends. */
 constexpr std::size_t kMostPoints = 200000;

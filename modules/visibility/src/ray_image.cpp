@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstring>
 
 namespace pcl6d {
 
@@ -47,16 +47,15 @@ float
 rangeOf(std::uint16_t code)
 {
   const float place = (static_cast<float>(code) + 0.5F) / kSteps;
-  const float whole = std::floor(place);
-  return std::ldexp(0.5F * (place - whole + 1),
-                    static_cast<int>(whole) + kLeastExponent);
+  const int whole = static_cast<int>(place);
+  // The power of two as IEEE 754 writes it: std::ldexp() takes as long as all else.
+  constexpr int kBias = 127, kMantissaBits = 23;
+  const auto bits = static_cast<std::uint32_t>(whole + kLeastExponent + kBias)
+                    << kMantissaBits;
+  float power = 0;
+  std::memcpy(&power, &bits, sizeof power);
+  return 0.5F * (place - static_cast<float>(whole) + 1) * power;
 }
-
-/** The place of a direction on the faces of the cube, in [-1, 1] along u and v. */
-struct OnCube {
-  std::size_t face;
-  float u, v;
-};
 
 /** Spreads equal angles over about equal lengths: within 14 % of the mean, where the
  * tangent would stretch twofold. */
@@ -67,7 +66,7 @@ evenly(float tangent)
   return tangent * (kSlope - (kSlope - 1) * std::abs(tangent));
 }
 
-OnCube
+visibility::OnCube
 onCube(const Eigen::Vector3f& ray)
 {
   Eigen::Index axis = 0;
@@ -85,31 +84,10 @@ cellAlong(float place, int side)
 }
 
 std::size_t
-cellOf(const OnCube& place, int side)
+cellOf(const visibility::OnCube& place, int side)
 {
   return static_cast<std::size_t>(cellAlong(place.v, side) * side +
                                   cellAlong(place.u, side));
-}
-
-/** A cell by its face, its row (along v) and its column (along u). */
-struct CellOnCube {
-  std::size_t face;
-  int row, col;
-};
-
-/** \return the cell itself or, of one beyond an edge of its face, the cell of the other
- * face there: both count the cells along their common edge alike */
-CellOnCube
-acrossEdge(const CellOnCube& cell, int side)
-{
-  // Along the axis of its face the cell is at the border of the face that it comes to.
-  const std::size_t axis = cell.face / 2;
-  const int border = cell.face % 2 == 0 ? side - 1 : 0;
-  if (cell.col < 0 || cell.col >= side)
-    return {2 * ((axis + 1) % 3) + (cell.col < 0 ? 1 : 0), border, cell.row};
-  if (cell.row < 0 || cell.row >= side)
-    return {2 * ((axis + 2) % 3) + (cell.row < 0 ? 1 : 0), cell.col, border};
-  return cell;
 }
 } // namespace
 
@@ -160,12 +138,13 @@ RayImage::RayImage(const Points& measured, const RayImageOptions& options)
 {
   options.validate();
   constexpr double kFace = 1.5707963267948966; // [rad] width of a face
-  Points rays;
+  std::vector<visibility::CodedRay> rays;
   rays.reserve(measured.size());
   for (const auto& p : measured) {
-    const float range = (p - origin_).norm();
+    const Eigen::Vector3f ray = p - origin_;
+    const float range = ray.norm();
     if (range > 0 && std::isfinite(range)) // not if the square leaves float
-      rays.push_back(p - origin_);
+      rays.push_back({onCube(ray), codeOf(range)});
   }
   if (rays.empty())
     return;
@@ -178,56 +157,26 @@ RayImage::RayImage(const Points& measured, const RayImageOptions& options)
   }
 }
 
-RayImage::Interval
-RayImage::halo(const Faces& measured, std::size_t face, int cell, int side)
-{
-  const int row = cell / side, col = cell % side;
-  Interval around;
-  around.nearest = std::numeric_limits<std::uint16_t>::max();
-  int filled = 0;
-  for (int r = row - 1; r <= row + 1; ++r)
-    for (int c = col - 1; c <= col + 1; ++c) {
-      if ((r < 0 || r >= side) && (c < 0 || c >= side))
-        continue; // a corner of the cube
-      const CellOnCube at = acrossEdge({face, r, c}, side);
-      if (measured[at.face].empty())
-        continue;
-      const Interval& one =
-          measured[at.face][static_cast<std::size_t>(at.row * side + at.col)];
-      if (one.nearest == 0)
-        continue;
-      ++filled;
-      around.nearest = std::min(around.nearest, one.nearest);
-      around.farthest = std::max(around.farthest, one.farthest);
-    }
-  return filled >= kFilled ? around : Interval{};
-}
-
 double
-RayImage::fill(const Points& rays, Level& level)
+RayImage::fill(const std::vector<visibility::CodedRay>& rays, Level& level)
 {
   const int side = level.side;
   const auto cells = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  Faces measured;
-  for (const auto& ray : rays) {
-    const OnCube place = onCube(ray);
-    auto& face = measured[place.face];
+  visibility::Faces measured;
+  for (const visibility::CodedRay& ray : rays) {
+    auto& face = measured[ray.direction.face];
     if (face.empty())
       face.resize(cells);
-    Interval& interval = face[cellOf(place, side)];
-    const std::uint16_t code = codeOf(ray.norm());
-    interval.nearest = interval.nearest == 0 ? code : std::min(interval.nearest, code);
-    interval.farthest = std::max(interval.farthest, code);
+    face[cellOf(ray.direction, side)].add(ray.code);
   }
   std::size_t occupied = 0, answering = 0;
   for (std::size_t f = 0; f < measured.size(); ++f) {
-    level.faces[f].resize(measured[f].size());
-    for (std::size_t cell = 0; cell < measured[f].size(); ++cell) {
-      const Interval around = halo(measured, f, static_cast<int>(cell), side);
-      level.faces[f][cell] = around;
-      occupied += measured[f][cell].nearest > 0 ? 1 : 0;
-      answering += measured[f][cell].nearest > 0 && around.nearest > 0 ? 1 : 0;
-    }
+    level.faces[f] = visibility::haloOf(measured, f, side, kFilled);
+    for (std::size_t cell = 0; cell < measured[f].size(); ++cell)
+      if (!measured[f][cell].isEmpty()) {
+        ++occupied;
+        answering += level.faces[f][cell].isEmpty() ? 0 : 1;
+      }
   }
   return occupied == 0 ? 0
                        : static_cast<double>(answering) / static_cast<double>(occupied);
@@ -240,13 +189,13 @@ RayImage::look(const Eigen::Vector3f& place, float sigma) const
   const float range = ray.norm();
   if (levels_.empty() || !(range > 0) || !std::isfinite(range))
     return {};
-  const OnCube direction = onCube(ray);
+  const visibility::OnCube direction = onCube(ray);
   for (const Level& level : levels_) {
     const auto& face = level.faces[direction.face];
     if (face.empty())
       continue;
-    const Interval& around = face[cellOf(direction, level.side)];
-    if (around.nearest == 0)
+    const visibility::Interval& around = face[cellOf(direction, level.side)];
+    if (around.isEmpty())
       continue;
     const auto noise = static_cast<float>(noise_);
     const float deviation = std::sqrt(noise * noise + sigma * sigma);

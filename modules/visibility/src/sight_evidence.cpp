@@ -14,6 +14,9 @@ constexpr std::size_t kLeastOfPatch = 4;
 /** ... and is contradicted by so many, and half of them (algorithms.md T.1). */
 constexpr std::size_t kLeastFree = 3;
 
+/** So many of a scan's own points are looked at: a share of 5 % of them is known to a tenth. */
+constexpr std::size_t kLookedAtOwn = 5000;
+
 /** A point that says something, and of which patch it is. */
 struct Witness {
   VoxelKey patch;
@@ -160,8 +163,9 @@ selfContradiction(const Points& measured, const Eigen::Vector3f& origin, double 
   options.noise = noise;
   const RayImage image(imaged, options);
   SightEvidence evidence;
-  for (const auto& p : looked_at) {
-    const Sight sight = image.look(p, static_cast<float>(noise)).sight;
+  const std::size_t stride = std::max<std::size_t>(1, looked_at.size() / kLookedAtOwn);
+  for (std::size_t i = 0; i < looked_at.size(); i += stride) {
+    const Sight sight = image.look(looked_at[i], static_cast<float>(noise)).sight;
     evidence.confirmed += sight == Sight::kConfirmed ? 1 : 0;
     evidence.free += sight == Sight::kFree ? 1 : 0;
   }

@@ -3,10 +3,8 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
+#include <pcl6d/visibility/cube_faces.h>
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
@@ -95,23 +93,14 @@ public:
   }
 
 private:
-  /** Ranges around a cell, as codes that grow with the range; empty: nearest 0. */
-  struct Interval {
-    std::uint16_t nearest = 0;
-    std::uint16_t farthest = 0;
-  };
-  using Faces = std::array<std::vector<Interval>, 6>; ///< empty: nothing was measured
   struct Level {
-    double cell = 0; ///< [rad]
-    int side = 0;    ///< cells along an edge of a face
-    Faces faces;     ///< of each cell what was measured in it and around it
+    double cell = 0;         ///< [rad]
+    int side = 0;            ///< cells along an edge of a face
+    visibility::Faces faces; ///< of each cell what was measured in it and around it
   };
-  /** \return what was measured in a cell and around it; empty if too little */
-  static Interval
-  halo(const Faces& measured, std::size_t face, int cell, int side);
   /** \return the share of measured cells that have enough measured neighbours */
   static double
-  fill(const Points& rays, Level& level);
+  fill(const std::vector<visibility::CodedRay>& rays, Level& level);
 
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
   double noise_ = 0;

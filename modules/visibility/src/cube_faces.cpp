@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/visibility/cube_faces.h>
+
+#include <limits>
+
+namespace pcl6d::visibility {
+
+namespace {
+constexpr std::uint16_t kNone = std::numeric_limits<std::uint16_t>::max();
+
+/** A cell by its face, its row and its column. */
+struct CellOnCube {
+  std::size_t face;
+  int row, col;
+};
+
+/** \return the cell itself or, of one beyond an edge of its face, the cell of the other
+ * face there: both count the cells along their common edge alike */
+CellOnCube
+acrossEdge(const CellOnCube& cell, int side)
+{
+  // Along the axis of its face the cell is at the border of the face that it comes to.
+  const std::size_t axis = cell.face / 2;
+  const int border = cell.face % 2 == 0 ? side - 1 : 0;
+  if (cell.col < 0 || cell.col >= side)
+    return {2 * ((axis + 1) % 3) + (cell.col < 0 ? 1 : 0), border, cell.row};
+  if (cell.row < 0 || cell.row >= side)
+    return {2 * ((axis + 2) % 3) + (cell.row < 0 ? 1 : 0), cell.col, border};
+  return cell;
+}
+
+/** A face with the cells beside it all around (none at the corners), each number in an
+ * array of its own, so that the compiler takes many cells at once. */
+class BorderedFace {
+public:
+  BorderedFace(const Faces& measured, std::size_t face, int side)
+  : side_(side)
+  , width_(static_cast<std::size_t>(side) + 2)
+  , nearest_(width_ * width_, kNone)
+  , farthest_(width_ * width_, 0)
+  , filled_(width_ * width_, 0)
+  {
+    for (int row = 0; row < side; ++row)
+      for (int col = 0; col < side; ++col)
+        set(row, col, measured[face][static_cast<std::size_t>(row * side + col)]);
+    for (int k = 0; k < side; ++k)
+      for (const auto& [row, col] :
+           {std::pair(-1, k), std::pair(side, k), std::pair(k, -1), std::pair(k, side)}) {
+        const CellOnCube at = acrossEdge({face, row, col}, side);
+        if (!measured[at.face].empty())
+          set(row, col, measured[at.face][static_cast<std::size_t>(at.row * side + at.col)]);
+      }
+  }
+
+  /** Each cell becomes what it and the two cells so many places before and after it are. */
+  void
+  dilate(std::size_t step)
+  {
+    join(nearest_, step, [](auto a, auto b) { return std::min(a, b); });
+    join(farthest_, step, [](auto a, auto b) { return std::max(a, b); });
+    join(filled_, step, [](auto a, auto b) { return static_cast<std::uint16_t>(a + b); });
+  }
+
+  std::size_t
+  width() const
+  {
+    return width_;
+  }
+
+  std::vector<Interval>
+  cells(int filled) const
+  {
+    std::vector<Interval> cells(static_cast<std::size_t>(side_) *
+                                static_cast<std::size_t>(side_));
+    auto* cell = cells.data();
+    for (int row = 0; row < side_; ++row)
+      for (int col = 0; col < side_; ++col, ++cell)
+        if (const std::size_t i = place(row, col); filled_[i] >= filled)
+          *cell = {nearest_[i], farthest_[i]};
+    return cells;
+  }
+
+private:
+  std::size_t
+  place(int row, int col) const
+  {
+    return static_cast<std::size_t>(row + 1) * width_ + static_cast<std::size_t>(col + 1);
+  }
+
+  void
+  set(int row, int col, const Interval& interval)
+  {
+    if (interval.isEmpty())
+      return;
+    const std::size_t i = place(row, col);
+    nearest_[i] = interval.nearest;
+    farthest_[i] = interval.farthest;
+    filled_[i] = 1;
+  }
+
+  template <typename Join>
+  static void
+  join(std::vector<std::uint16_t>& cells, std::size_t step, Join of)
+  {
+    const std::vector<std::uint16_t> before = cells;
+    const std::uint16_t* from = before.data();
+    std::uint16_t* to = cells.data();
+    for (std::size_t i = step; i + step < cells.size(); ++i)
+      to[i] = of(of(from[i - step], from[i]), from[i + step]);
+  }
+
+  int side_;
+  std::size_t width_;
+  std::vector<std::uint16_t> nearest_, farthest_, filled_;
+};
+} // namespace
+
+std::vector<Interval>
+haloOf(const Faces& measured, std::size_t face, int side, int filled)
+{
+  if (measured[face].empty())
+    return {};
+  BorderedFace bordered(measured, face, side);
+  bordered.dilate(1); // wraps around at the borders only, which are not asked for
+  bordered.dilate(bordered.width());
+  return bordered.cells(filled);
+}
+
+} // namespace pcl6d::visibility

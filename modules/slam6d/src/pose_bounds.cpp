@@ -74,11 +74,33 @@ graphOf(const std::vector<Eigen::Isometry3d>& poses,
   return graph;
 }
 
-/** \return how much larger covariances are than the links say: as cycles do not close, and as
- * links of a scan share its errors, so that of m links to a scan as much is new as of the
- * root of m. Half of what they say being shared is what NEES of simulated scenes asks for. */
+/** \return the mean squared shift that surfaces ask for, in their standard deviations: above
+ * 1 covariances of links are too small for these scans (the variance factor of geodesy,
+ * a posteriori). Where scans leave much open their surfaces go on moving when they are
+ * followed, all in one sense, which no cycle shows. */
 double
-excessOf(const PoseGraphResult& result, std::size_t links, std::size_t poses)
+varianceFactorOf(const MapVerification& map)
+{
+  double sum = 0;
+  std::size_t links = 0;
+  for (const LinkCheck& link : map.links)
+    if (measures(link, map) && link.deviation > 0) {
+      const double sigmas = link.shift / link.deviation;
+      sum += sigmas * sigmas;
+      ++links;
+    }
+  return links > 0 ? sum / static_cast<double>(links) : 1;
+}
+
+/** \return how much larger covariances are than the links say: as cycles do not close, as
+ * surfaces ask for more than covariances say, and as links of a scan share its errors, so
+ * that of m links to a scan as much is new as of the root of m. Half of what they say being
+ * shared is what NEES of simulated scenes asks for. */
+double
+excessOf(const PoseGraphResult& result,
+         std::size_t links,
+         std::size_t poses,
+         const MapVerification& map)
 {
   const std::size_t conditions = 6 * links, unknowns = 6 * (poses - 1);
   const double links_per_pose =
@@ -87,7 +109,8 @@ excessOf(const PoseGraphResult& result, std::size_t links, std::size_t poses)
       conditions > unknowns
           ? result.chi2_after / static_cast<double>(conditions - unknowns)
           : 1;
-  return std::max(1.0, unclosed) * std::sqrt(std::max(1.0, links_per_pose));
+  return std::max({1.0, unclosed, varianceFactorOf(map)}) *
+         std::sqrt(std::max(1.0, links_per_pose));
 }
 
 /** \return [m] the longest half axis of the 95 % ellipsoid of the position */
@@ -126,7 +149,7 @@ boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
   PoseGraphOptimizer optimizer(std::move(graph), options);
   const PoseGraphResult& best = optimizer.optimize();
   const std::vector<Matrix6> covariances = optimizer.marginalCovariances();
-  const double excess = excessOf(best, links, scans.size());
+  const double excess = excessOf(best, links, scans.size(), map);
   for (std::size_t v = 1; v < scans.size(); ++v) {
     const Twist way = smallMotion(T_world_scan[scans[v]].inverse() * best.poses[v]);
     ScanCheck& scan = map.scans[scans[v]];

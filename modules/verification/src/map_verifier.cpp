@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "calibration.h"
+#include "map_doubts.h"
 #include "ties.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
-#include <pcl6d/io/text.h>
 #include <pcl6d/verification/map_verifier.h>
 #include <pcl6d/verification/twin_search.h>
 
@@ -28,9 +27,6 @@ constexpr double kLeastSpeaking = 0.05;
 
 /** A second place is as good if so large a share of the surface is confirmed there. */
 constexpr double kTwinShare = 0.5;
-
-/** Words name so many scans. */
-constexpr std::size_t kMostNamed = 8;
 
 Eigen::Vector3d
 centreOf(const Points& points)
@@ -71,17 +67,6 @@ surestLinkOf(std::size_t scan, const MapVerification& map)
         (!most || link.patches > most->patches))
       most = &link;
   return most;
-}
-
-std::string
-listed(const std::vector<std::string>& names)
-{
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
-    text += (i > 0 ? ", " : "") + names[i];
-  return names.size() > kMostNamed
-             ? text + " and " + std::to_string(names.size() - kMostNamed) + " more"
-             : text;
 }
 } // namespace
 
@@ -147,108 +132,6 @@ MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
   for (const auto& of_scan : chosen)
     pairs.insert(pairs.end(), of_scan.begin(), of_scan.end());
   return pairs;
-}
-
-/** \return why a scan is not tied: the link of it that says most */
-std::string
-MapVerifier::reasonFor(std::size_t scan, const MapVerification& map) const
-{
-  const LinkCheck* telling = nullptr;
-  for (const LinkCheck& link : map.links)
-    if ((link.from == scan || link.to == scan) && !link.reason.empty() &&
-        (!telling || link.patches > telling->patches))
-      telling = &link;
-  if (!telling)
-    return "no other scan sees the same surfaces";
-  const std::size_t other = telling->from == scan ? telling->to : telling->from;
-  return "with " + names_[other] + ": " + telling->reason;
-}
-
-void
-MapVerifier::doubt(MapVerification& map) const
-{
-  std::vector<std::string> loose, abstaining, contradicted, outvoted, twins;
-  const bool is_silent = map.background > verification::kMostBackground;
-  std::vector<int> votes(scans_.size(), 0); // links that hold less wrong ones
-  for (const LinkCheck& link : map.links)
-    for (const std::size_t i : {link.from, link.to})
-      votes[i] += link.trust == LinkTrust::kWrong  ? -1
-                  : link.trust == LinkTrust::kWeak ? 0
-                                                   : 1;
-  std::string why; // the first one is loose
-  for (std::size_t i = 0; i < scans_.size(); ++i)
-    if (map.scans[i].tied && !map.scans[i].doubt.empty()) // what findTwinsOf() found
-      twins.push_back(names_[i] + " (" + map.scans[i].doubt + ")");
-  for (std::size_t i = 0; i < scans_.size(); ++i) {
-    ScanCheck& scan = map.scans[i];
-    if (scan.abstains)
-      abstaining.push_back(names_[i]);
-    if (scan.tied || scans_[i].isTooSmall()) // nothing can tell where that is
-      continue;
-    if (scan.doubt.empty())
-      scan.doubt = reasonFor(i, map);
-    else
-      why = scan.doubt; // the link that would have held them
-    if (why.empty())
-      why = scan.doubt;
-    loose.push_back(names_[i]);
-  }
-  for (std::size_t k = 0; k < map.links.size(); ++k) {
-    const LinkCheck& link = map.links[k];
-    if (link.trust == LinkTrust::kWrong && map.scans[link.from].tied &&
-        map.scans[link.to].tied) {
-      // Glass, doors and things that move deceive rays, and a small overlap deceives
-      // surfaces: one of both against the most of both scans' links is no proof.
-      const bool both_object =
-          !is_silent && opinions_[k].elsewhere > 0.5 && opinions_[k].beside > 0.5;
-      auto& named = votes[link.from] >= 0 && votes[link.to] >= 0 && !both_object
-                        ? outvoted
-                        : contradicted;
-      named.push_back(names_[link.from] + " and " + names_[link.to] + " (" +
-                      link.reason + ")");
-      if (&named == &outvoted)
-        continue;
-      for (const std::size_t i : {link.from, link.to})
-        if (map.scans[i].doubt.empty())
-          map.scans[i].doubt = "contradicts " +
-                               names_[i == link.from ? link.to : link.from] + ": " +
-                               link.reason;
-    }
-  }
-  if (!loose.empty())
-    map.doubts.push_back(text::counted(loose.size(), "scan") +
-                         " not tied to the rest: " + listed(loose) + " (" + why +
-                         "); better initial poses or scans in between would help");
-  if (!contradicted.empty())
-    map.doubts.push_back("scans contradict each other: " + listed(contradicted));
-  if (!abstaining.empty())
-    map.doubts.push_back(
-        text::counted(abstaining.size(), "scan") +
-        " cannot be verified: too few surfaces, or rays that contradict "
-        "its own points (merged scans, motion during the scan?): " +
-        listed(abstaining));
-  if (is_silent) {
-    std::ostringstream share;
-    share << std::fixed << std::setprecision(0) << 100 * map.background;
-    map.doubts.push_back("rays contradict " + share.str() +
-                         " % of the surface even where scans fit best (glass, motion "
-                         "during the scan, errors of the scanner?): they cannot say "
-                         "whether scans are at places that look alike");
-  }
-  if (!outvoted.empty())
-    map.doubts.push_back("most links of these scans agree with the map, one does not "
-                         "(glass, things that moved, little in common?): " +
-                         listed(outvoted));
-  if (!twins.empty())
-    map.doubts.push_back(
-        "AMBIGUOUS, two places fit: " + listed(twins) +
-        "; rough initial poses, or scans on the way between, would decide");
-  const bool is_doubtful = !loose.empty() || !contradicted.empty();
-  const bool is_unverified = scans_.size() < 2 || !abstaining.empty() || is_silent;
-  map.trust = is_doubtful      ? MapTrust::kDoubtful
-              : !twins.empty() ? MapTrust::kAmbiguous
-              : is_unverified  ? MapTrust::kUnverified
-                               : MapTrust::kGood;
 }
 
 /** \return whether a scan at another place is as good a link with the scan beside it as at its
@@ -387,7 +270,7 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
     });
   if (options_.probe)
     probe(T_world_scan, map);
-  doubt(map);
+  verification::MapDoubts(scans_, names_, opinions_).tell(map);
   return map;
 }
 

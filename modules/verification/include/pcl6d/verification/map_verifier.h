@@ -81,10 +81,6 @@ private:
                 const MapVerification& map) const;
   void
   probe(const std::vector<Eigen::Isometry3d>& poses, MapVerification& map) const;
-  void
-  doubt(MapVerification& map) const;
-  std::string
-  reasonFor(std::size_t scan, const MapVerification& map) const;
 
   const std::deque<VerifiedScan>& scans_;
   std::vector<std::string> names_;

@@ -69,6 +69,7 @@ public:
   : earlier_(openEarlier(settings))
   , folder_(openFolder(settings, earlier_))
   , scans_(openScans(folder_, settings))
+  , clouds_(scans_, app::cloudBudget())
   , settings_(resolved(settings, folder_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings))
@@ -93,7 +94,7 @@ public:
     }
     const bool complete = match();
     app::RunOutput output(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
-    const RunResult& summary = output.write(complete, std::move(log_));
+    const RunResult& summary = output.write(complete, log_, clouds_);
     const auto written = out_.publish();
     for (const auto& warning : summary.warnings)
       bar_.warn(warning);
@@ -165,7 +166,7 @@ private:
         slam_.addScan(scan.points, folder_.initialPose(i), file);
       }
       window_.add(scan.points, folder_.initialPose(i));
-      log_.clouds.push_back(std::move(scan.cloud));
+      clouds_.add(std::move(scan.cloud));
       show({"reading", i + 1, folder_.size()});
     }
     return true;
@@ -227,6 +228,7 @@ private:
   const std::optional<RunFolder> earlier_;
   const ScanFolder folder_;
   app::RunScans scans_;
+  app::KeptClouds clouds_;
   const Settings settings_;
   const app::Interrupt interrupt_;
   app::ProgressBar bar_;

@@ -101,7 +101,7 @@ RunOutput::RunOutput(const Settings& settings,
 {}
 
 const RunResult&
-RunOutput::write(bool complete, RunLog log)
+RunOutput::write(bool complete, const RunLog& log, KeptClouds& clouds)
 {
   describe(complete, log);
   const RunWriter writer(out_.staging(), run_);
@@ -114,7 +114,7 @@ RunOutput::write(bool complete, RunLog log)
       writer.writeGraph(result_.graph);
     writer.writeVerification();
     MapBuilder fine_map(planeVoxel(voxel), run_.world_offset);
-    run_.complete = writeScans(log.clouds, map, settings_.planes ? &fine_map : nullptr);
+    run_.complete = writeScans(clouds, map, settings_.planes ? &fine_map : nullptr);
     if (run_.complete && !settings_.no_picture)
       drawTopView(map);
     if (run_.complete && settings_.planes)
@@ -183,9 +183,7 @@ RunOutput::warnOfOdometry()
 
 /** Writes scans/ and map.pcd, and gives the clouds up. \return false if interrupted */
 bool
-RunOutput::writeScans(std::vector<pcl::PCLPointCloud2>& clouds,
-                      MapBuilder& map,
-                      MapBuilder* fine_map)
+RunOutput::writeScans(KeptClouds& clouds, MapBuilder& map, MapBuilder* fine_map)
 {
   const StageTimer timer("writing", run_.stages);
   const RunWriter writer(out_.staging(), run_);
@@ -197,11 +195,14 @@ RunOutput::writeScans(std::vector<pcl::PCLPointCloud2>& clouds,
       return false;
     }
     const std::size_t end = std::min(begin + kBatch, clouds.size());
-    parallelFor(end - begin, settings_.slam.num_threads, [&](std::size_t k) {
-      writer.writeScan(begin + k, clouds[begin + k]);
+    std::vector<pcl::PCLPointCloud2> batch;
+    for (std::size_t i = begin; i < end; ++i)
+      batch.push_back(clouds.take(i));
+    parallelFor(batch.size(), settings_.slam.num_threads, [&](std::size_t k) {
+      writer.writeScan(begin + k, batch[k]);
     });
     for (std::size_t i = begin; i < end; ++i) {
-      const pcl::PCLPointCloud2 cloud = std::exchange(clouds[i], {});
+      const pcl::PCLPointCloud2 cloud = std::exchange(batch[i - begin], {});
       Points points = coordinatesOf(cloud);
       maskOutOfRange(result_.parameters.min_range.value,
                      result_.parameters.max_range.value,

@@ -4,6 +4,7 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
+#include "slam6d/kept_clouds.h"
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/plane.h>
@@ -11,8 +12,6 @@
 #include <pcl6d/filters/map_builder.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/slam6d/slam6d_result.h>
-
-#include <pcl/PCLPointCloud2.h>
 
 #include <chrono>
 #include <string>
@@ -26,8 +25,7 @@ runFolderRules(const Settings& settings);
 
 /** \brief What a run gathers on its way. */
 struct RunLog {
-  std::vector<pcl::PCLPointCloud2> clouds; ///< the scans as they are registered
-  std::vector<std::size_t> dropped;        ///< per scan: points that were not finite
+  std::vector<std::size_t> dropped; ///< per scan: points that were not finite
   std::vector<RunResult::Stage> stages;
 };
 
@@ -58,10 +56,10 @@ public:
             const Interrupt& interrupt);
 
   /** \brief Of an interrupted run, be it before (not complete) or now, only poses, history
-   * and summary are written. \param[in] log its clouds are given up as they are written
-   * \return the run, as its summary tells */
+   * and summary are written. \param[in] clouds the scans as they were registered, which are given up as they
+   * are written \return the run, as its summary tells */
   const RunResult&
-  write(bool complete, RunLog log);
+  write(bool complete, const RunLog& log, KeptClouds& clouds);
 
 private:
   void
@@ -69,9 +67,7 @@ private:
   void
   warnOfOdometry();
   bool
-  writeScans(std::vector<pcl::PCLPointCloud2>& clouds,
-             MapBuilder& map,
-             MapBuilder* fine_map);
+  writeScans(KeptClouds& clouds, MapBuilder& map, MapBuilder* fine_map);
   std::vector<Plane>
   writePlanesOf(const MapBuilder& map);
   void

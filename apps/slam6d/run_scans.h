@@ -28,7 +28,8 @@ public:
     return folder_;
   }
 
-  /** \brief Reads the i-th selected scan, which is to be done once. \throws IoFailed as ScanFolder::read(), or its times are missing or broken */
+  /** \brief Reads the i-th selected scan. \throws IoFailed as ScanFolder::read(), or its
+   * times are missing or broken */
   Scan
   read(std::size_t i);
 

@@ -44,11 +44,15 @@ public:
       for (int col = 0; col < side; ++col)
         set(row, col, measured[face][static_cast<std::size_t>(row * side + col)]);
     for (int k = 0; k < side; ++k)
-      for (const auto& [row, col] :
-           {std::pair(-1, k), std::pair(side, k), std::pair(k, -1), std::pair(k, side)}) {
+      for (const auto& [row, col] : {std::pair(-1, k),
+                                     std::pair(side, k),
+                                     std::pair(k, -1),
+                                     std::pair(k, side)}) {
         const CellOnCube at = acrossEdge({face, row, col}, side);
         if (!measured[at.face].empty())
-          set(row, col, measured[at.face][static_cast<std::size_t>(at.row * side + at.col)]);
+          set(row,
+              col,
+              measured[at.face][static_cast<std::size_t>(at.row * side + at.col)]);
       }
   }
 
@@ -58,7 +62,9 @@ public:
   {
     join(nearest_, step, [](auto a, auto b) { return std::min(a, b); });
     join(farthest_, step, [](auto a, auto b) { return std::max(a, b); });
-    join(filled_, step, [](auto a, auto b) { return static_cast<std::uint16_t>(a + b); });
+    join(filled_, step, [](auto a, auto b) {
+      return static_cast<std::uint16_t>(a + b);
+    });
   }
 
   std::size_t
@@ -84,7 +90,8 @@ private:
   std::size_t
   place(int row, int col) const
   {
-    return static_cast<std::size_t>(row + 1) * width_ + static_cast<std::size_t>(col + 1);
+    return static_cast<std::size_t>(row + 1) * width_ +
+           static_cast<std::size_t>(col + 1);
   }
 
   void

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/graph_relaxation/loop_detection.h>
@@ -292,10 +293,15 @@ detectLoops(const std::vector<NetworkScan>& scans,
       loop.to = n;
       loop.kind = LinkKind::kLoop;
       loop.distance = (poses[n].translation() - poses[j].translation()).norm();
-      matchLoop(scans, poses, usable, options, loop);
       loops.push_back(loop);
     }
   }
+  // One loop after the other would wait for the slowest thread in each step of ICP.
+  LoopDetectionOptions of_one = options;
+  of_one.icp.num_threads = 1;
+  parallelFor(loops.size(), options.icp.num_threads, [&](std::size_t k) {
+    matchLoop(scans, poses, usable, of_one, loops[k]);
+  });
   refuseContradicted(loops, poses, options);
   return loops;
 }

@@ -13,8 +13,17 @@ namespace {
 constexpr double kLeastOverlap = 0.05;
 /** Partners are so many voxels apart at most. */
 constexpr double kPartnerVoxels = 2;
-/** So many points of a scan tell what it says of another. */
-constexpr std::size_t kSample = 700;
+/** So many points of a scan tell what it says of another; of more pairs than so many to a
+ * scan fewer points each, so that all of them take as long, down to so many. */
+constexpr std::size_t kSample = 700, kPairsPerScan = 40, kLeastSample = 100;
+
+/** \return how many points of a scan are looked at in each pair */
+std::size_t
+sampleFor(std::size_t pairs, std::size_t scans)
+{
+  const std::size_t full = kPairsPerScan * scans;
+  return pairs <= full ? kSample : std::max(kLeastSample, kSample * full / pairs);
+}
 
 constexpr double kTotalTolerance = 0.005;
 constexpr double kScanTolerance = 0.05;
@@ -55,12 +64,13 @@ agreementOver(const std::vector<ScanPair>& pairs,
             std::max(pair.first, pair.second),
             "one of the scans");
   const double distance = agreementDistance(voxel);
+  const std::size_t sample = sampleFor(pairs.size(), scans.size());
   std::vector<PointVotes> votes(pairs.size());
   parallelFor(pairs.size(), num_threads, [&](std::size_t k) {
     const auto [a, b] = pairs[k];
     const Eigen::Isometry3d T_a_b = poses[a].inverse() * poses[b];
     const auto stride = [&](std::size_t scan) {
-      return std::max<std::size_t>(1, scans[scan].model().points().size() / kSample);
+      return std::max<std::size_t>(1, scans[scan].model().points().size() / sample);
     };
     votes[k] = votesOf(scans[b], scans[a], T_a_b, distance, stride(b));
     votes[k] += votesOf(scans[a], scans[b], T_a_b.inverse(), distance, stride(a));

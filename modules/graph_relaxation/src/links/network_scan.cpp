@@ -10,6 +10,10 @@ namespace pcl6d {
 namespace {
 constexpr std::size_t kSample = 250; ///< points that tell an overlap
 
+/** Of the scans before it, a scan is compared with so many: the nearest. On a long drive all
+ * places are seen by many scans, and more pairs of them say nothing new. */
+constexpr std::size_t kCompared = 64;
+
 /** Standard deviation of a point, of the distance within which points are near: three of
  * it are twice that distance. */
 constexpr double kPlaceSigma = 2.0 / 3;
@@ -30,6 +34,31 @@ sampledShare(const NetworkScan& scan,
     near += other.model().tree().nearest(p, limit_sq).index >= 0;
   }
   return looked > 0 ? static_cast<double>(near) / static_cast<double>(looked) : 0;
+}
+
+/** \return the earlier scans whose bounding spheres meet that of b, in their order; of many
+ * the nearest */
+std::vector<std::size_t>
+candidatesOf(std::size_t b,
+             const std::vector<NetworkScan>& scans,
+             const std::vector<Eigen::Vector3d>& centres,
+             double distance)
+{
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t a = 0; a < b; ++a) {
+    const double apart = (centres[a] - centres[b]).norm();
+    if (apart <= scans[a].radius() + scans[b].radius() + distance)
+      near.emplace_back(apart, a);
+  }
+  if (near.size() > kCompared) {
+    std::nth_element(near.begin(), near.begin() + kCompared, near.end());
+    near.resize(kCompared);
+  }
+  std::vector<std::size_t> candidates;
+  for (const auto& [apart, a] : near)
+    candidates.push_back(a);
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
 }
 } // namespace
 
@@ -105,16 +134,15 @@ overlappingPairs(const std::vector<NetworkScan>& scans,
                  const std::function<double(const ScanPair&)>& min_overlap,
                  unsigned int num_threads)
 {
+  std::vector<Eigen::Vector3d> centres;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    centres.emplace_back(poses[i] * scans[i].centre());
   std::vector<std::vector<ScanPair>> found(scans.size()); // of each second scan
   parallelFor(scans.size(), num_threads, [&](std::size_t b) {
-    const Eigen::Vector3d centre = poses[b] * scans[b].centre();
-    for (std::size_t a = 0; a < b; ++a) {
-      const double apart = (poses[a] * scans[a].centre() - centre).norm();
-      if (apart <= scans[a].radius() + scans[b].radius() + distance &&
-          overlapOf(scans[a], scans[b], poses[a].inverse() * poses[b], distance) >=
-              min_overlap({a, b}))
+    for (const std::size_t a : candidatesOf(b, scans, centres, distance))
+      if (overlapOf(scans[a], scans[b], poses[a].inverse() * poses[b], distance) >=
+          min_overlap({a, b}))
         found[b].emplace_back(a, b);
-    }
   });
   std::vector<ScanPair> pairs;
   for (const auto& of_one : found)

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace pcl6d {
 
@@ -19,6 +21,8 @@ constexpr double kMoved = 0.2, kTurned = 0.01; // [rad]
 /** Finds the partner in scan a of points of scan b. */
 class PartnerSearch {
 public:
+  using RememberedPartner = ScanNetwork::RememberedPartner;
+
   PartnerSearch(const NetworkScan& a,
                 const NetworkScan& b,
                 const Eigen::Isometry3d& T_a_b,
@@ -26,6 +30,7 @@ public:
   : a_(a.model())
   , b_(b.model())
   , T_a_b_(T_a_b)
+  , limit_(static_cast<float>(max_distance))
   , limit_sq_(static_cast<float>(max_distance * max_distance))
   {}
 
@@ -33,15 +38,62 @@ public:
   int
   operator()(std::size_t i) const
   {
-    const Eigen::Vector3f p = (T_a_b_ * b_.points()[i].cast<double>()).cast<float>();
-    return a_.tree().nearest(p, limit_sq_).index;
+    return a_.tree().nearest(place(i), limit_sq_).index;
+  }
+
+  /** The same, without a search where no other point can have become nearer. */
+  int
+  operator()(std::size_t i, RememberedPartner& last) const
+  {
+    constexpr float kRounding = 16 * std::numeric_limits<float>::epsilon();
+    const Eigen::Vector3f p = place(i);
+    const float own_sq = distanceSqTo(last.index, p), own = std::sqrt(own_sq);
+    const float sizes =
+        p.cwiseAbs().maxCoeff() + last.others + (last.index < 0 ? 0 : own);
+    const float others = last.others - (p - last.at).norm() - kRounding * sizes;
+    if (own < others || (own >= limit_ && others >= limit_))
+      return own_sq < limit_sq_ ? last.index : -1;
+    search(p, own_sq, last);
+    return distanceSqTo(last.index, p) < limit_sq_ ? last.index : -1;
   }
 
 private:
+  Eigen::Vector3f
+  place(std::size_t i) const
+  {
+    return (T_a_b_ * b_.points()[i].cast<double>()).cast<float>();
+  }
+
+  float
+  distanceSqTo(int index, const Eigen::Vector3f& p) const
+  {
+    return index < 0 ? std::numeric_limits<float>::infinity()
+                     : distanceSq(p, a_.points()[static_cast<std::size_t>(index)]);
+  }
+
+  void
+  search(const Eigen::Vector3f& p, float own_sq, RememberedPartner& last) const
+  {
+    const float reach = (1 + kReach) * limit_, reach_sq = reach * reach;
+    TwoNearest best{{-1, reach_sq}, reach_sq};
+    const bool has_candidate = own_sq < reach_sq;
+    if (has_candidate) {
+      const float second = std::sqrt(own_sq) + kReach * limit_;
+      best = {{last.index, own_sq}, std::min(reach_sq, second * second)};
+    }
+    a_.tree().improveTwo(p, best, has_candidate ? last.index : -1);
+    last.at = p;
+    last.index = best.nearest.index;
+    last.others = std::sqrt(best.second_sq);
+  }
+
+  /** Searches go farther by so large a part of the limit: rounds move scans by less. */
+  static constexpr float kReach = 0.2F;
+
   const IcpModel& a_;
   const IcpModel& b_;
   Eigen::Isometry3d T_a_b_;
-  float limit_sq_;
+  float limit_, limit_sq_; ///< [m], [m^2]
 };
 
 /** The norm of a pair in the axes of the world, by the normals of both points. */
@@ -55,6 +107,12 @@ normOf(Metric metric,
     return planeToPlane(normal_a, normal_b, epsilon);
   return normal_a * normal_a.transpose();
 }
+
+/** Links of a scan, on average, that are given all their points; more share them. */
+constexpr std::size_t kLinksPerScan = 32;
+
+/** Fewer points of a link would leave some without the pairs that relaxation asks for. */
+constexpr std::size_t kLeastPoints = 200;
 
 std::size_t
 strideFor(std::size_t points, std::size_t wanted)
@@ -180,10 +238,24 @@ ScanNetwork::choose(const Poses& poses)
     if (usable_[link.first] && usable_[link.second])
       chosen.insert(link);
   chosen_ = std::move(chosen);
+  for (auto link = remembered_.begin(); link != remembered_.end();)
+    link = chosen_.count(link->first) > 0 ? std::next(link) : remembered_.erase(link);
+}
+
+std::size_t
+ScanNetwork::pointsPerLink() const
+{
+  const std::size_t full = kLinksPerScan * scans_.size();
+  if (chosen_.size() <= full)
+    return options_.points_per_link;
+  return std::max(std::min(kLeastPoints, options_.points_per_link),
+                  options_.points_per_link * full / chosen_.size());
 }
 
 LinkPairs
-ScanNetwork::pairsOf(const ScanPair& link, const Poses& poses) const
+ScanNetwork::pairsOf(const ScanPair& link,
+                     const Poses& poses,
+                     std::vector<RememberedPartner>& remembered) const
 {
   const auto [a, b] = link;
   LinkPairs pairs;
@@ -194,9 +266,12 @@ ScanNetwork::pairsOf(const ScanPair& link, const Poses& poses) const
   const IcpModel &from = scans_[a].model(), &to = scans_[b].model();
   const PartnerSearch partnerOf(
       scans_[a], scans_[b], poses[a].inverse() * poses[b], options_.max_distance);
-  const std::size_t stride = strideFor(to.points().size(), options_.points_per_link);
+  const std::size_t stride = strideFor(to.points().size(), pointsPerLink());
+  const std::size_t looked_at = (to.points().size() + stride - 1) / stride;
+  if (remembered.size() != looked_at) // other points
+    remembered.assign(looked_at, {});
   for (std::size_t i = 0; i < to.points().size(); i += stride) {
-    const int partner = partnerOf(i);
+    const int partner = partnerOf(i, remembered[i / stride]);
     if (partner < 0)
       continue;
     if (options_.metric != Metric::kPoint) {
@@ -219,9 +294,12 @@ ScanNetwork::pairs(const Poses& poses)
   require(poses.size() == scans_.size(), "poses", poses.size(), "one per scan");
   choose(poses);
   const std::vector<ScanPair> links(chosen_.begin(), chosen_.end());
+  std::vector<std::vector<RememberedPartner>*> remembered;
+  for (const ScanPair& link : links)
+    remembered.push_back(&remembered_[link]);
   std::vector<LinkPairs> found(links.size());
   parallelFor(links.size(), options_.num_threads, [&](std::size_t k) {
-    found[k] = pairsOf(links[k], poses);
+    found[k] = pairsOf(links[k], poses, *remembered[k]);
   });
   return found;
 }
@@ -244,7 +322,7 @@ ScanNetwork::describeLink(const ScanPair& pair, const Poses& poses) const
   const IcpModel &from = scans_[a].model(), &to = scans_[b].model();
   const Eigen::Isometry3d T_a_b = poses[a].inverse() * poses[b];
   const PartnerSearch partnerOf(scans_[a], scans_[b], T_a_b, options_.max_distance);
-  const std::size_t stride = strideFor(to.points().size(), options_.points_per_link);
+  const std::size_t stride = strideFor(to.points().size(), pointsPerLink());
   PlaneAccumulator planes;
   double sum_sq = 0;
   std::size_t looked = 0;

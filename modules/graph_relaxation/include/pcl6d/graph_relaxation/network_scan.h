@@ -88,7 +88,8 @@ overlapOf(const NetworkScan& a,
           double distance);
 
 /** \return all pairs of scans that see common places: overlapOf() at the poses is at
- * least what a pair needs. Candidates come from bounding spheres.
+ * least what a pair needs. Candidates come from bounding spheres; of those before it a scan
+ * is compared with the 64 nearest, so that the pairs grow with the scans, not their square.
  * \param[in] distance [m] within which points are partners
  * \param[in] min_overlap of a pair; called from several threads
  * \param[in] num_threads 0: one per core; never changes the result */

@@ -6,6 +6,7 @@
 #include <pcl6d/graph_relaxation/network_scan.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
 
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -32,11 +33,13 @@ struct ScanNetworkOptions {
   LinkRule rule = LinkRule::kOverlap;
   double max_distance = 0.25; ///< [m] largest distance of paired points; > 0
   double min_overlap = 0.6; ///< of kOverlap: share of points with a partner; in [0, 1]
-  double link_distance = 7.5;        ///< [m] of kDistance: between the positions; > 0
-  std::size_t points_per_link = 600; ///< so many points of a scan are paired; > 0
-  Metric metric = Metric::kPoint;    ///< how the pairs are to be weighed
-  double gicp_epsilon = 0.1;         ///< as IcpOptions::gicp_epsilon; in (0, 1]
-  unsigned int num_threads = 0;      ///< 0: one per core; never changes the result
+  double link_distance = 7.5; ///< [m] of kDistance: between the positions; > 0
+  /** so many points of a scan are paired; > 0. Of more than 32 links to a scan, on average,
+   * fewer, down to 200, as all of them together say the same. */
+  std::size_t points_per_link = 600;
+  Metric metric = Metric::kPoint; ///< how the pairs are to be weighed
+  double gicp_epsilon = 0.1;      ///< as IcpOptions::gicp_epsilon; in (0, 1]
+  unsigned int num_threads = 0;   ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -77,6 +80,15 @@ public:
   std::vector<ScanLink>
   describe(const Poses& poses) const;
 
+  /** \brief What a point knows of its partner in the other scan: rounds move scans by so
+   * little that most partners stay, which needs no search. */
+  struct RememberedPartner {
+    Eigen::Vector3f at = Eigen::Vector3f::Constant(
+        std::numeric_limits<float>::infinity()); ///< [m] where the point was then
+    float others = 0; ///< [m] all other points were no nearer than this
+    int index = -1;
+  };
+
 private:
   struct Kept {
     LinkKind kind;
@@ -93,8 +105,12 @@ private:
   choose(const Poses& poses);
   ScanLink
   describeLink(const ScanPair& pair, const Poses& poses) const;
+  std::size_t
+  pointsPerLink() const;
   LinkPairs
-  pairsOf(const ScanPair& link, const Poses& poses) const;
+  pairsOf(const ScanPair& link,
+          const Poses& poses,
+          std::vector<RememberedPartner>& remembered) const;
 
   const std::vector<NetworkScan>& scans_;
   std::vector<bool> usable_;
@@ -102,6 +118,7 @@ private:
   std::map<ScanPair, Kept> kept_;
   std::set<ScanPair> chosen_;
   Poses chosen_at_;
+  std::map<ScanPair, std::vector<RememberedPartner>> remembered_; // of chosen links
 };
 
 } // namespace pcl6d

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "slam6d/run_scans.h"
+
+#include <pcl/PCLPointCloud2.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \brief The clouds of a run from reading to writing: in memory as far as a budget goes, the
+ * others are read again when they are written. */
+class KeptClouds {
+public:
+  /** Keeps a reference to the scans. \param[in] budget [bytes] of the clouds in memory */
+  KeptClouds(RunScans& scans, std::size_t budget) : scans_(scans), budget_(budget) {}
+
+  /** \brief The next cloud, as it was read. */
+  void
+  add(pcl::PCLPointCloud2 cloud);
+
+  std::size_t
+  size() const
+  {
+    return clouds_.size();
+  }
+
+  /** \brief Gives a cloud up. \throws IoFailed its file cannot be read again, or holds
+   * another number of points now */
+  pcl::PCLPointCloud2
+  take(std::size_t i);
+
+private:
+  struct Kept {
+    pcl::PCLPointCloud2 cloud; ///< without data if it is to be read again
+    std::size_t points = 0;
+    bool in_memory = false;
+  };
+
+  RunScans& scans_;
+  std::size_t budget_;
+  std::size_t used_ = 0; ///< [bytes]
+  std::vector<Kept> clouds_;
+};
+
+/** \return [bytes] a quarter of the machine's memory: as much again as the clouds is what
+ * matching, relaxing and verifying keep of them */
+std::size_t
+cloudBudget();
+
+} // namespace pcl6d::app

@@ -12,8 +12,11 @@
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/version.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/run/run_folder.h>
+#include <pcl6d/slam6d/run_journal.h>
 #include <pcl6d/slam6d/slam6d.h>
 #include <pcl6d/visualization/private_display.h>
 
@@ -92,10 +95,16 @@ public:
       bar_.say("interrupted while reading; nothing is written");
       return app::kInterrupted;
     }
+    openJournal();
     const bool complete = match();
     app::RunOutput output(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
     const RunResult& summary = output.write(complete, log_, clouds_);
     const auto written = out_.publish();
+    if (summary.complete)
+      journal_->remove();
+    else
+      bar_.say(
+          "what was done is kept: the same command goes on with it, --fresh drops it");
     for (const auto& warning : summary.warnings)
       bar_.warn(warning);
     if (!settings_.quiet)
@@ -109,6 +118,32 @@ public:
   }
 
 private:
+  /** \throws IoFailed an interrupted run with other options is in the folder */
+  void
+  openJournal()
+  {
+    const auto path = out_.journal();
+    if (settings_.fresh)
+      std::filesystem::remove(path);
+    RunJournal::Conditions conditions{{"the version of the program", PCL6D_VERSION}};
+    for (const auto& word : settings_.conditions)
+      conditions.emplace_back("--" + word.name, word.value);
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < folder_.size(); ++i)
+      names.push_back(folder_.file(i).string());
+    try {
+      journal_.emplace(path, conditions, names);
+    } catch (const IoFailed& e) {
+      throw IoFailed(std::string(e.what()) + " (--fresh drops it)");
+    }
+    if (journal_->numMatched() > 0)
+      bar_.say("going on with an interrupted run, which has matched " +
+               text::counted(journal_->numMatched(), "scan"));
+    else if (settings_.resume)
+      bar_.warn(settings_.out + ": there is no interrupted run to go on with");
+    slam_.setMemory(&*journal_);
+  }
+
   /** Starts what the picture needs while there is other work to do. Failing, it is tried
    * again when the picture is drawn, where its error is told. */
   std::future<void>
@@ -235,6 +270,7 @@ private:
   app::OutputFolder out_;
   app::LiveWindow window_;
   Slam6D slam_;
+  std::optional<RunJournal> journal_;
   app::RunLog log_;
 };
 } // namespace

@@ -29,29 +29,58 @@ isMarkerOf(const fs::path& file, const std::string& program)
   return json.is_object() && json.value("generator", nlohmann::json()) == program;
 }
 
-/** Removes the hidden folders of programs that were killed. */
+/** \return whether a process runs: one that has ended and waits for its parent does not */
+bool
+isRunning(int pid)
+{
+  if (pid <= 0 || ::kill(pid, 0) != 0)
+    return false;
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string line;
+  if (!std::getline(stat, line)) // no /proc
+    return true;
+  const auto name_end = line.rfind(')'); // "pid (name) state ..."
+  const char state = name_end + 2 < line.size() ? line[name_end + 2] : 'R';
+  return state != 'Z' && state != 'X';
+}
+
+/** Removes the hidden folders of programs that were killed.
+ * \throws IoFailed another process writes into the folder */
 void
-removeLeftovers(const fs::path& folder)
+removeLeftovers(const fs::path& folder, const std::string& name)
 {
   const std::string prefix = kStagingPrefix;
   std::vector<fs::path> dead;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind(prefix, 0) != 0)
+    const std::string file = entry.path().filename().string();
+    if (file.rfind(prefix, 0) != 0)
       continue;
-    const int pid = std::atoi(name.c_str() + prefix.size());
-    if (pid <= 0 || ::kill(pid, 0) != 0)
-      dead.push_back(entry.path());
+    const int pid = std::atoi(file.c_str() + prefix.size());
+    if (pid != ::getpid() && isRunning(pid))
+      throw IoFailed(name + ": another run (process " + std::to_string(pid) +
+                     ") is writing into this folder");
+    dead.push_back(entry.path());
   }
   std::error_code ignored;
   for (const auto& path : dead)
     fs::remove_all(path, ignored);
 }
 
+/** \return whether there is nothing but the journal of an interrupted run */
+bool
+countsAsEmpty(const fs::path& folder, const std::string& journal)
+{
+  return std::all_of(fs::directory_iterator(folder),
+                     fs::directory_iterator(),
+                     [&](const fs::directory_entry& entry) {
+                       return entry.path().filename() == journal;
+                     });
+}
+
 void
 refuseForeignFolder(const fs::path& folder, const OutputRules& rules)
 {
-  if (rules.force || fs::is_empty(folder) ||
+  if (rules.force || countsAsEmpty(folder, rules.journal) ||
       isMarkerOf(folder / rules.marker, rules.program))
     return;
   if (rules.marker.empty())
@@ -126,7 +155,7 @@ OutputFolder::OutputFolder(OutputRules rules)
   if (fs::exists(folder_, error) && !fs::is_directory(folder_))
     throw IoFailed(name + ": output is a file, not a folder");
   if (fs::is_directory(folder_, error)) {
-    removeLeftovers(folder_);
+    removeLeftovers(folder_, name);
     refuseForeignFolder(folder_, rules_);
     refuseLinkedFolders(folder_, name);
     holds_earlier_run_ = isMarkerOf(folder_ / rules_.marker, rules_.program);
@@ -146,7 +175,14 @@ OutputFolder::OutputFolder(OutputRules rules)
 OutputFolder::~OutputFolder()
 {
   std::error_code ignored;
-  fs::remove_all(made_.empty() ? staging_ : made_, ignored);
+  fs::remove_all(made_.empty() || holdsJournal() ? staging_ : made_, ignored);
+}
+
+bool
+OutputFolder::holdsJournal() const
+{
+  std::error_code ignored;
+  return !rules_.journal.empty() && fs::exists(journal(), ignored);
 }
 
 fs::path

@@ -19,6 +19,9 @@ struct OutputRules {
   std::string marker;
   std::regex files;   ///< relative paths of all files that a run may leave
   bool force = false; ///< accept a folder that holds other things
+  /** name of a file in the folder that outlives a run which fails; empty: none. A folder that
+   * holds it alone counts as empty */
+  std::string journal = {};
 };
 
 /** \brief The folder that a program writes: whole or not at all.
@@ -41,6 +44,13 @@ public:
   /** \return where to write a file, such as "scans/scan000.pcd"; its folder is made */
   std::filesystem::path
   operator/(const std::string& name) const;
+
+  /** \return where the journal is, or is to be */
+  std::filesystem::path
+  journal() const
+  {
+    return folder_ / rules_.journal;
+  }
 
   /** \brief Takes back what was written below a name. */
   void
@@ -69,6 +79,8 @@ public:
 private:
   void
   removeOldRun() const;
+  bool
+  holdsJournal() const;
 
   OutputRules rules_;
   std::filesystem::path folder_;

@@ -30,9 +30,9 @@ KeptClouds::take(std::size_t i)
   pcl::PCLPointCloud2 cloud = scans_.read(i).cloud;
   const std::size_t points = static_cast<std::size_t>(cloud.width) * cloud.height;
   if (points != kept.points)
-    throw IoFailed(scans_.folder().file(i).string() + ": has changed since it was read (" +
-                   std::to_string(points) + " points now, " +
-                   std::to_string(kept.points) + " before)");
+    throw IoFailed(scans_.folder().file(i).string() +
+                   ": has changed since it was read (" + std::to_string(points) +
+                   " points now, " + std::to_string(kept.points) + " before)");
   return cloud;
 }
 

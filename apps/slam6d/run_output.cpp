@@ -83,6 +83,7 @@ runFolderRules(const Settings& settings)
       "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
       planeFilePattern());
   rules.force = settings.force;
+  rules.journal = ".pcl6d-journal";
   return rules;
 }
 

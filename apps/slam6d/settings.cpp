@@ -172,6 +172,12 @@ addRun(OptionTable& table, Settings& s)
   table.add("live-view", &s.live_view)
       .help("show the map in a window while it grows, and at the end until that is "
             "closed; without a display the run goes on without");
+  table.add("resume", &s.resume)
+      .help(
+          "go on where an interrupted run into OUT_DIR stopped, which happens anyway; "
+          "warns if there is none");
+  table.add("fresh", &s.fresh)
+      .help("start anew, and drop what an interrupted run has done");
   table.add("force", &s.force).help("write into a folder that holds other files");
   table.add("quiet", &s.quiet).help("print warnings and errors only");
   table.add("verbose", &s.verbose).help("print a line per scan");
@@ -221,6 +227,27 @@ constexpr const char* kWords[] = {"first",
                                   "no-picture",
                                   "no-verification",
                                   "seed"};
+
+/** \return the options that poses follow from: an interrupted run goes on with the same
+ * alone. Given poses, links and runs are told apart by what they hold. */
+std::vector<OptionWord>
+conditionsOf(const std::vector<OptionWord>& words, const OptionTable& table)
+{
+  const std::set<std::string> others = {"poses",
+                                        "graph-in",
+                                        "continue",
+                                        "planes",
+                                        "report",
+                                        "threads",
+                                        "no-picture",
+                                        "no-verification"};
+  std::vector<OptionWord> conditions = table.words(
+      {"min-range", "max-range", "voxel", "max-distance", "max-distance-start"});
+  for (const OptionWord& word : words)
+    if (others.count(word.name) == 0)
+      conditions.push_back(word);
+  return conditions;
+}
 } // namespace
 
 void
@@ -273,7 +300,10 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
       },
       {{"max_iterations", "iterations"}});
   settings.slam.verify = !settings.no_verification;
+  if (settings.resume && settings.fresh)
+    throw UsageError("--resume and --fresh contradict each other");
   settings.words = table.words({std::begin(kWords), std::end(kWords)});
+  settings.conditions = conditionsOf(settings.words, table);
   const bool planes = settings.slam.metric != Metric::kPoint;
   const bool relaxes = settings.slam.relaxation.has_value();
   settings.without_effect = table.withoutEffect(

@@ -30,11 +30,14 @@ struct Settings {
   bool report = false;          ///< write report.html
   bool no_picture = false;      ///< do not draw the map from above
   bool no_verification = false; ///< do not judge the map in the end
+  bool resume = false;          ///< say so if there is nothing to go on with
+  bool fresh = false;           ///< drop what an interrupted run has done
   bool force = false;
   bool quiet = false;
   bool verbose = false;
-  std::vector<OptionWord> words; ///< those of the summary
-  std::string without_effect;    ///< words that were given for nothing; else empty
+  std::vector<OptionWord> words;      ///< those of the summary
+  std::vector<OptionWord> conditions; ///< those that poses follow from
+  std::string without_effect;         ///< words that were given for nothing; else empty
 
   /** Decides what --initial-guess auto means for a folder. */
   void

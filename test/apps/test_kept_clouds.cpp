@@ -57,7 +57,8 @@ TEST_F(KeptCloudsTest, AreTheSameWithAnyBudget)
 {
   const pcl6d::ScanFolder folder(path_.path());
   RunScans scans(folder);
-  for (const std::size_t budget : {std::size_t{0}, std::size_t{200}, std::size_t{1000000}}) {
+  for (const std::size_t budget :
+       {std::size_t{0}, std::size_t{200}, std::size_t{1000000}}) {
     KeptClouds clouds(scans, budget);
     keepAll(clouds, scans);
     ASSERT_EQ(clouds.size(), 3U);
@@ -92,9 +93,10 @@ TEST_F(KeptCloudsTest, NameAFileThatHasChangedMeanwhile)
     FAIL() << "a changed file was taken";
   } catch (const pcl6d::IoFailed& e) {
     const std::string message = e.what();
-    EXPECT_NE(message.find("scan002.xyz: has changed since it was read (7 points now, 30 "
-                           "before)"),
-              std::string::npos)
+    EXPECT_NE(
+        message.find("scan002.xyz: has changed since it was read (7 points now, 30 "
+                     "before)"),
+        std::string::npos)
         << message;
   }
 }

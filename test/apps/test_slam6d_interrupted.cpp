@@ -98,6 +98,9 @@ TEST(PclSlam6d, InterruptedWritesPosesSoFarAndMarksThemPartial)
     if (name.find('/') == std::string::npos)
       names.insert(name);
   EXPECT_EQ(names,
-            (std::set<std::string>{
-                "frames", "summary.json", "trajectory.kitti", "trajectory.tum"}));
+            (std::set<std::string>{".pcl6d-journal",
+                                   "frames",
+                                   "summary.json",
+                                   "trajectory.kitti",
+                                   "trajectory.tum"}));
 }

@@ -6,9 +6,8 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/run/run_folder.h>
 
-#include <evaluate/child_process.h>
-
 #include <cmath>
+#include <evaluate/child_process.h>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -51,8 +50,8 @@ knobsOf(const std::vector<std::string>& arguments)
   for (const std::string& argument : arguments) {
     const auto equals = argument.find('=');
     const std::string name = argument.substr(0, equals),
-                      value =
-                          equals == std::string::npos ? "" : argument.substr(equals + 1);
+                      value = equals == std::string::npos ? ""
+                                                          : argument.substr(equals + 1);
     if (name == "scene")
       knobs.scene = value;
     else if (name == "threads")
@@ -146,9 +145,10 @@ runAll(const std::vector<std::string>& arguments, const fs::path& programs)
 {
   const Knobs knobs = knobsOf(arguments);
   fs::create_directories(knobs.folder);
-  std::cout << "| scans | processor [s] | a scan [s] | matching a scan [s] | relaxation a "
-               "scan [s] | links | peak [MB] | a scan [MB] |\n"
-               "|---|---|---|---|---|---|---|---|\n";
+  std::cout
+      << "| scans | processor [s] | a scan [s] | matching a scan [s] | relaxation a "
+         "scan [s] | links | peak [MB] | a scan [MB] |\n"
+         "|---|---|---|---|---|---|---|---|\n";
   std::vector<std::pair<double, double>> time, memory, relaxation;
   for (const std::size_t scans : knobs.scans) {
     const ScaledRun one = run(knobs, programs, scans);

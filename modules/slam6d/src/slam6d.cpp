@@ -3,6 +3,7 @@
 #include "scan_matcher.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/fingerprint.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/graph_relaxation/parameterisations.h>
@@ -54,6 +55,7 @@ public:
       predict(place);
     unreduced_.push_back(points);
     names_.push_back(name);
+    inputs_.push_back(inputsOf(points, result_.scans.back()));
     try {
       if (matcher_ || unreduced_.size() >= kScansForParameters)
         reducePending();
@@ -108,6 +110,7 @@ public:
 
   ProgressCallback progress;
   Observer observer;
+  TaskMemory* memory = nullptr;
   std::atomic<bool> cancelled_{false};
   Slam6DResult result_;
 
@@ -117,6 +120,37 @@ private:
   nameOf(const std::string& given) const
   {
     return given.empty() ? "scan " + std::to_string(result_.scans.size()) : given;
+  }
+
+  /** \return what a scan and all before it are */
+  std::uint64_t
+  inputsOf(const Points& points, const ScanResult& scan) const
+  {
+    Fingerprint sum;
+    if (!inputs_.empty())
+      sum.add(inputs_.back());
+    sum.add(points);
+    sum.add(scan.initial_pose);
+    if (scan.state != ScanState::kPending) // by an earlier run
+      sum.add(scan.T_world_scan);
+    return sum.value();
+  }
+
+  /** \return the name of the task that ends with a scan */
+  std::uint64_t
+  taskOf(std::size_t scan, const std::vector<ScanPair>& links = {}) const
+  {
+    Fingerprint sum;
+    sum.add(inputs_[scan]);
+    const Slam6DParameters& p = result_.parameters;
+    for (const Parameter& one :
+         {p.min_range, p.max_range, p.voxel, p.max_distance, p.max_distance_start})
+      sum.add(one.value);
+    for (const auto& [from, to] : links) {
+      sum.add(static_cast<std::uint64_t>(from));
+      sum.add(static_cast<std::uint64_t>(to));
+    }
+    return sum.value();
   }
 
   void
@@ -228,6 +262,7 @@ private:
   {
     result_.scans.resize(place);
     names_.resize(place);
+    inputs_.resize(place);
     if (reduced_.size() + unreduced_.size() > place)
       unreduced_.pop_back();
   }
@@ -254,13 +289,30 @@ private:
   registerScan(std::size_t i)
   {
     ScanResult& scan = result_.scans[i];
+    const std::uint64_t task = taskOf(i);
+    if (auto known = memory ? memory->matched(i, task) : std::nullopt) {
+      scan = *std::move(known);
+      matcher_->takeIn(reduced_[i], measured_[i], scan);
+    }
+    else {
+      matchScan(i);
+      if (memory)
+        memory->keepMatched(i, task, scan);
+    }
+    if (i > 0)
+      measured_[i - 1] = MeasuredScan(); // needed no more
+  }
+
+  void
+  matchScan(std::size_t i)
+  {
+    ScanResult& scan = result_.scans[i];
     predict(i);
     if (i == 0)
       return matcher_->fix(reduced_[i], measured_[i], scan);
     const Eigen::Isometry3d odometry =
         result_.scans[i - 1].initial_pose.inverse() * scan.initial_pose;
     matcher_->match(reduced_[i], measured_[i], odometry, scan);
-    measured_[i - 1] = MeasuredScan(); // needed no more
   }
 
   /** Chapter 5, when all scans are matched. \return false if cancelled */
@@ -269,6 +321,28 @@ private:
   {
     if (options_.loop_closing == LoopClosing::kNone && !options_.relaxation)
       return true;
+    const std::uint64_t task = taskOf(result_.scans.size() - 1, options_.given_links);
+    if (auto known = memory ? memory->relaxed(task) : std::nullopt) {
+      known->parameters = result_.parameters;
+      result_ = *std::move(known);
+    }
+    else {
+      if (!runGraphStage())
+        return false;
+      if (memory)
+        memory->keepRelaxed(task, result_);
+    }
+    improved_ = result_.scans.size();
+    matcher_.emplace(options_, result_.parameters); // further scans meet the new poses
+    for (std::size_t i = 0; i < improved_; ++i)
+      matcher_->takeIn(reduced_[i], measured_[i], result_.scans[i]);
+    return true;
+  }
+
+  /** \return false if cancelled */
+  bool
+  runGraphStage()
+  {
     GraphStage stage(options_,
                      result_.parameters,
                      matcher_->icpOptions(reduced_.front().points().size()),
@@ -283,18 +357,14 @@ private:
       return !cancelled_.exchange(false);
     });
     cancelled_ = false;
-    if (!done)
-      return false;
-    result_ = std::move(improved);
-    improved_ = result_.scans.size();
-    matcher_.emplace(options_, result_.parameters); // further scans meet the new poses
-    for (std::size_t i = 0; i < improved_; ++i)
-      matcher_->takeIn(reduced_[i], measured_[i], result_.scans[i]);
-    return true;
+    if (done)
+      result_ = std::move(improved);
+    return done;
   }
 
   Slam6DOptions options_;
   std::vector<std::string> names_;
+  std::vector<std::uint64_t> inputs_; ///< of each scan: what it and those before are
   std::deque<Points> unreduced_;      ///< scans that wait for the parameters
   std::deque<IcpModel> reduced_;      ///< a deque: the matcher refers to its elements
   std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next
@@ -357,6 +427,12 @@ void
 Slam6D::setProgressCallback(ProgressCallback callback)
 {
   implementation_->progress = std::move(callback);
+}
+
+void
+Slam6D::setMemory(TaskMemory* memory)
+{
+  implementation_->memory = memory;
 }
 
 void

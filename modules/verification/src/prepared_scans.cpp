@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/fingerprint.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/verification/prepared_scans.h>
 
-#include <cstring>
 #include <sstream>
 
 namespace pcl6d {
@@ -38,20 +38,6 @@ reduced(const Points& points, const std::string& name, double voxel)
     throw ComputeFailed(name + ": " + e.what() + " (see voxel and max range)");
   }
 }
-
-/** FNV-1a of the coordinates: equal points have equal ones. */
-std::uint64_t
-fingerprintOf(const Points& points)
-{
-  std::uint64_t sum = 14695981039346656037U;
-  for (const auto& p : points)
-    for (int axis = 0; axis < 3; ++axis) {
-      std::uint32_t bits = 0;
-      std::memcpy(&bits, &p[axis], sizeof bits);
-      sum = (sum ^ bits) * 1099511628211U;
-    }
-  return sum;
-}
 } // namespace
 
 PreparedScans::PreparedScans(std::size_t count,
@@ -76,7 +62,9 @@ PreparedScans::set(std::size_t place, const Points& measured, const std::string&
   options.num_threads = num_threads_;
   surfaces_.at(place).emplace(reduced(points, name, voxel), options);
   scans_[place] = VerifiedScan(points, *surfaces_[place], voxel);
-  fingerprints_[place] = fingerprintOf(points);
+  Fingerprint fingerprint;
+  fingerprint.add(points);
+  fingerprints_[place] = fingerprint.value();
 }
 
 std::size_t

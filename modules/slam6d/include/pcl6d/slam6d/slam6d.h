@@ -7,6 +7,7 @@
 #include <pcl6d/common/progress.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
+#include <pcl6d/slam6d/task_memory.h>
 
 #include <functional>
 #include <memory>
@@ -115,6 +116,11 @@ public:
   setProgressCallback(ProgressCallback callback);
   void
   setObserver(Observer observer);
+
+  /** \brief Tasks whose results it knows are not done again. \param[in] memory asked and
+   * told during optimize(); null: none. Kept by reference */
+  void
+  setMemory(TaskMemory* memory);
 
 private:
   class Implementation;

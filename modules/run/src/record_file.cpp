@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/text.h>
+#include <pcl6d/run/record_file.h>
+
+#include <boost/crc.hpp>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace pcl6d {
+
+namespace {
+constexpr char kMagic[] = "pcl6d records 1\n"; ///< the number is that of the version
+constexpr std::size_t kMagicSize = sizeof kMagic - 1;
+
+/** What stands before a record. */
+struct Head {
+  std::uint64_t size;
+  std::uint64_t checksum; ///< CRC-32 of the size and the record
+};
+
+std::uint32_t
+checksumOf(std::uint64_t size, const char* record)
+{
+  boost::crc_32_type crc;
+  crc.process_bytes(&size, sizeof size);
+  crc.process_bytes(record, size);
+  return crc.checksum();
+}
+
+[[noreturn]] void
+failWithErrno(const std::filesystem::path& path, const std::string& what)
+{
+  throw IoFailed(path.string() + ": " + what + ": " + std::strerror(errno));
+}
+
+/** \return false if it could not be written; errno says why */
+bool
+writeAll(int file, const std::string& bytes)
+{
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = ::write(file, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR)
+      continue;
+    if (count <= 0)
+      return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+} // namespace
+
+RecordFile::RecordFile(const std::filesystem::path& path) : path_(path)
+{
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file_ < 0)
+    failWithErrno(path, "cannot be opened");
+  try {
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
+      throw IoFailed(path.string() + ": another process is writing it");
+    const std::string content = text::readFile(path);
+    const std::string head = content.substr(0, kMagicSize);
+    if (head != std::string(kMagic).substr(0, head.size()))
+      throw IoFailed(path.string() + ": is no file of records of this version");
+    if (head.size() == kMagicSize)
+      size_ = readRecords(content);
+    dropped_ = content.size() - size_;
+    if (::ftruncate(file_, static_cast<off_t>(size_)) != 0 ||
+        ::lseek(file_, 0, SEEK_END) < 0)
+      failWithErrno(path, "cannot be written");
+    if (size_ == 0) {
+      dropped_ = 0; // a part of the first line at most
+      if (!writeAll(file_, kMagic))
+        failWithErrno(path, "cannot be written");
+      size_ = kMagicSize;
+    }
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+}
+
+RecordFile::~RecordFile()
+{
+  if (file_ < 0)
+    return;
+  ::fdatasync(file_);
+  ::close(file_);
+}
+
+/** \return [bytes] up to the first record that is cut or damaged */
+std::size_t
+RecordFile::readRecords(const std::string& content)
+{
+  std::size_t place = kMagicSize;
+  Head head{};
+  while (content.size() - place >= sizeof head) {
+    std::memcpy(&head, content.data() + place, sizeof head);
+    const std::size_t begin = place + sizeof head;
+    if (head.size > content.size() - begin ||
+        head.checksum != checksumOf(head.size, content.data() + begin))
+      break;
+    records_.push_back(content.substr(begin, head.size));
+    place = begin + head.size;
+  }
+  return place;
+}
+
+void
+RecordFile::append(const std::string& record)
+{
+  if (file_ < 0)
+    throw BadArgument(path_.string() + ": was removed");
+  const Head head{record.size(), checksumOf(record.size(), record.data())};
+  std::string bytes(sizeof head, '\0');
+  std::memcpy(bytes.data(), &head, sizeof head);
+  bytes += record;
+  if (!writeAll(file_, bytes)) {
+    const int error = errno;
+    if (::ftruncate(file_, static_cast<off_t>(size_)) == 0)
+      ::lseek(file_, 0, SEEK_END);
+    errno = error;
+    failWithErrno(path_, "cannot be written");
+  }
+  size_ += bytes.size();
+  if (Clock::now() - synced_ >= std::chrono::seconds(1)) {
+    ::fdatasync(file_);
+    synced_ = Clock::now();
+  }
+}
+
+void
+RecordFile::remove()
+{
+  if (file_ < 0)
+    return;
+  std::error_code ignored; // gone already
+  std::filesystem::remove(path_, ignored);
+  ::close(file_);
+  file_ = -1;
+}
+
+} // namespace pcl6d

@@ -2,6 +2,7 @@
 // A folder of scans with rough poses in, a registered map out: options, then Slam6D, then
 // files.
 #include "common/app.h"
+#include "common/build_id.h"
 #include "common/interrupt.h"
 #include "common/open_scans.h"
 #include "common/output_folder.h"
@@ -99,12 +100,17 @@ public:
     const bool complete = match();
     app::RunOutput output(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
     const RunResult& summary = output.write(complete, log_, clouds_);
-    const auto written = out_.publish();
+    // What goes on in its own folder is not replaced by a part of it.
+    const bool replaces = summary.complete || !earlier_ || !out_.holdsEarlierRun();
+    const auto written =
+        replaces ? out_.publish() : std::vector<std::filesystem::path>();
     if (summary.complete)
       journal_->remove();
     else
-      bar_.say(
-          "what was done is kept: the same command goes on with it, --fresh drops it");
+      bar_.say("what was done is kept: the same command goes on with it, --fresh drops "
+               "it");
+    if (!replaces)
+      bar_.say(settings_.out + ": the run that was to go on is as it was");
     for (const auto& warning : summary.warnings)
       bar_.warn(warning);
     if (!settings_.quiet)
@@ -125,7 +131,8 @@ private:
     const auto path = out_.journal();
     if (settings_.fresh)
       std::filesystem::remove(path);
-    RunJournal::Conditions conditions{{"the version of the program", PCL6D_VERSION}};
+    RunJournal::Conditions conditions{{"the version of the program", PCL6D_VERSION},
+                                      {"the build of the program", app::buildId()}};
     for (const auto& word : settings_.conditions)
       conditions.emplace_back("--" + word.name, word.value);
     std::vector<std::string> names;

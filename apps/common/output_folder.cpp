@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <fcntl.h>
 #include <fstream>
+#include <sys/file.h>
 #include <unistd.h>
 #include <utility>
 
@@ -29,11 +32,11 @@ isMarkerOf(const fs::path& file, const std::string& program)
   return json.is_object() && json.value("generator", nlohmann::json()) == program;
 }
 
-/** \return whether a process runs: one that has ended and waits for its parent does not */
+/** \return whether a process may run: one that has ended and waits for its parent does not */
 bool
-isRunning(int pid)
+mayRun(int pid)
 {
-  if (pid <= 0 || ::kill(pid, 0) != 0)
+  if (pid <= 0 || (::kill(pid, 0) != 0 && errno != EPERM))
     return false;
   std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
   std::string line;
@@ -42,6 +45,21 @@ isRunning(int pid)
   const auto name_end = line.rfind(')'); // "pid (name) state ..."
   const char state = name_end + 2 < line.size() ? line[name_end + 2] : 'R';
   return state != 'Z' && state != 'X';
+}
+
+/** Locks a hidden folder for as long as the file that is returned is open.
+ * \return the file; -1: another one has the lock. Without locks the process that made the
+ * folder is asked for */
+int
+lockFolder(const fs::path& folder, int pid)
+{
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0 || ::flock(file, LOCK_EX | LOCK_NB) == 0)
+    return file;
+  if (errno != EWOULDBLOCK && (pid == ::getpid() || !mayRun(pid)))
+    return file;
+  ::close(file);
+  return -1;
 }
 
 /** Removes the hidden folders of programs that were killed.
@@ -55,10 +73,12 @@ removeLeftovers(const fs::path& folder, const std::string& name)
     const std::string file = entry.path().filename().string();
     if (file.rfind(prefix, 0) != 0)
       continue;
-    const int pid = std::atoi(file.c_str() + prefix.size());
-    if (pid != ::getpid() && isRunning(pid))
-      throw IoFailed(name + ": another run (process " + std::to_string(pid) +
+    const std::string pid = file.substr(prefix.size());
+    const int lock = lockFolder(entry.path(), std::atoi(pid.c_str()));
+    if (lock < 0)
+      throw IoFailed(name + ": another run (process " + pid +
                      ") is writing into this folder");
+    ::close(lock);
     dead.push_back(entry.path());
   }
   std::error_code ignored;
@@ -66,21 +86,39 @@ removeLeftovers(const fs::path& folder, const std::string& name)
     fs::remove_all(path, ignored);
 }
 
-/** \return whether there is nothing but the journal of an interrupted run */
-bool
-countsAsEmpty(const fs::path& folder, const std::string& journal)
+/** \return the files below a folder, relative to it */
+std::vector<fs::path>
+filesBelow(const fs::path& folder)
 {
-  return std::all_of(fs::directory_iterator(folder),
-                     fs::directory_iterator(),
-                     [&](const fs::directory_entry& entry) {
-                       return entry.path().filename() == journal;
-                     });
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory() || entry.is_symlink())
+      files.push_back(
+          fs::relative(entry.path().parent_path(), folder).lexically_normal() /
+          entry.path().filename());
+  for (auto& file : files)
+    file = file.lexically_normal();
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/** \return whether there is nothing but an interrupted run: its journal and, if it was killed
+ * while its files were moved to their places, some of these */
+bool
+holdsInterruptedRun(const fs::path& folder, const OutputRules& rules)
+{
+  if (rules.journal.empty() || !fs::exists(folder / rules.journal))
+    return false;
+  const auto files = filesBelow(folder);
+  return std::all_of(files.begin(), files.end(), [&](const fs::path& file) {
+    return file == rules.journal || std::regex_match(file.string(), rules.files);
+  });
 }
 
 void
 refuseForeignFolder(const fs::path& folder, const OutputRules& rules)
 {
-  if (rules.force || countsAsEmpty(folder, rules.journal) ||
+  if (rules.force || fs::is_empty(folder) || holdsInterruptedRun(folder, rules) ||
       isMarkerOf(folder / rules.marker, rules.program))
     return;
   if (rules.marker.empty())
@@ -125,22 +163,6 @@ topmostMissing(const fs::path& folder)
     missing = p;
   return missing;
 }
-
-/** \return the files below a folder, relative to it */
-std::vector<fs::path>
-filesBelow(const fs::path& folder)
-{
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (!entry.is_directory() || entry.is_symlink())
-      files.push_back(
-          fs::relative(entry.path().parent_path(), folder).lexically_normal() /
-          entry.path().filename());
-  for (auto& file : files)
-    file = file.lexically_normal();
-  std::sort(files.begin(), files.end());
-  return files;
-}
 } // namespace
 
 OutputFolder::OutputFolder(OutputRules rules)
@@ -170,12 +192,15 @@ OutputFolder::OutputFolder(OutputRules rules)
       fs::remove_all(std::exchange(made_, fs::path()), error);
     throw IoFailed(name + ": cannot write into the output folder: " + error.message());
   }
+  lock_ = lockFolder(staging_, ::getpid());
 }
 
 OutputFolder::~OutputFolder()
 {
   std::error_code ignored;
   fs::remove_all(made_.empty() || holdsJournal() ? staging_ : made_, ignored);
+  if (lock_ >= 0)
+    ::close(lock_);
 }
 
 bool
@@ -198,11 +223,13 @@ OutputFolder::discard(const std::string& name) const
   fs::remove_all(staging_ / name);
 }
 
+/** \param[in] files those of the new run */
 void
-OutputFolder::removeOldRun() const
+OutputFolder::removeOldRun(const std::vector<fs::path>& files) const
 {
   for (const auto& file : filesBelow(folder_))
-    if (std::regex_match(file.string(), rules_.files)) {
+    if (std::regex_match(file.string(), rules_.files) &&
+        !std::binary_search(files.begin(), files.end(), file)) {
       fs::remove(folder_ / file);
       const fs::path parent = (folder_ / file).parent_path();
       if (parent != folder_ && fs::is_empty(parent))
@@ -218,16 +245,26 @@ OutputFolder::publish()
     if (fs::is_directory(folder_ / file))
       throw IoFailed((folder_ / file).string() + ": is a folder, but a file is to be "
                                                  "written there");
-  if (holds_earlier_run_)
-    removeOldRun();
-  std::vector<fs::path> written;
-  for (const auto& file : files) {
+  const auto move = [&](const fs::path& file) {
     fs::create_directories((folder_ / file).parent_path());
     fs::rename(staging_ / file, folder_ / file);
+  };
+  // The marker last: with it the folder tells of a run that is whole.
+  std::vector<fs::path> written;
+  bool has_marker = false;
+  for (const auto& file : files) {
+    if (file == rules_.marker)
+      has_marker = true;
+    else
+      move(file);
     const fs::path top = folder_ / *file.begin();
     if (written.empty() || written.back() != top)
       written.push_back(top);
   }
+  if (has_marker)
+    move(rules_.marker);
+  if (holds_earlier_run_)
+    removeOldRun(files);
   made_.clear();
   return written;
 }

@@ -20,17 +20,17 @@ struct OutputRules {
   std::regex files;   ///< relative paths of all files that a run may leave
   bool force = false; ///< accept a folder that holds other things
   /** name of a file in the folder that outlives a run which fails; empty: none. A folder that
-   * holds it alone counts as empty */
+   * holds it, and at most files of a run besides, is no foreign one */
   std::string journal = {};
 };
 
 /** \brief The folder that a program writes: whole or not at all.
  *
  * Files are written to a hidden folder inside it and moved to their places by publish(),
- * together. What an earlier run of the program left is then removed, and nothing else: a
+ * together, the marker last. What an earlier run of the program left is then removed, and nothing else: a
  * folder that holds other things is refused without `force`, and with it only files of the
  * same name are replaced. Inputs are never touched. If publish() is not reached, all is as
- * it was before. */
+ * it was before, but for the journal. */
 class OutputFolder {
 public:
   /** \throws IoFailed the path leads through a file, is or holds an input, holds foreign
@@ -78,7 +78,7 @@ public:
 
 private:
   void
-  removeOldRun() const;
+  removeOldRun(const std::vector<std::filesystem::path>& files) const;
   bool
   holdsJournal() const;
 
@@ -86,6 +86,7 @@ private:
   std::filesystem::path folder_;
   std::filesystem::path staging_;
   std::filesystem::path made_; ///< topmost folder that was made here; empty if none
+  int lock_ = -1;              ///< file that locks the hidden folder; -1: none
   bool holds_earlier_run_ = false;
 };
 

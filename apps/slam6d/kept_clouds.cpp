@@ -2,22 +2,37 @@
 #include "slam6d/kept_clouds.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/fingerprint.h>
 
 #include <unistd.h>
 #include <utility>
 
 namespace pcl6d::app {
 
+namespace {
+std::uint64_t
+fingerprintOf(const pcl::PCLPointCloud2& cloud)
+{
+  Fingerprint sum;
+  sum.add(cloud.width);
+  sum.add(cloud.height);
+  for (const auto byte : cloud.data)
+    sum.add(static_cast<std::uint32_t>(byte));
+  return sum.value();
+}
+} // namespace
+
 void
 KeptClouds::add(pcl::PCLPointCloud2 cloud)
 {
   Kept kept;
-  kept.points = static_cast<std::size_t>(cloud.width) * cloud.height;
   kept.in_memory = used_ + cloud.data.size() <= budget_;
   if (kept.in_memory) {
     used_ += cloud.data.size();
     kept.cloud = std::move(cloud);
   }
+  else
+    kept.fingerprint = fingerprintOf(cloud);
   clouds_.push_back(std::move(kept));
 }
 
@@ -28,11 +43,9 @@ KeptClouds::take(std::size_t i)
   if (kept.in_memory)
     return std::move(kept.cloud);
   pcl::PCLPointCloud2 cloud = scans_.read(i).cloud;
-  const std::size_t points = static_cast<std::size_t>(cloud.width) * cloud.height;
-  if (points != kept.points)
+  if (fingerprintOf(cloud) != kept.fingerprint)
     throw IoFailed(scans_.folder().file(i).string() +
-                   ": has changed since it was read (" + std::to_string(points) +
-                   " points now, " + std::to_string(kept.points) + " before)");
+                   ": has changed since it was read in this run");
   return cloud;
 }
 

@@ -6,6 +6,7 @@
 #include <pcl/PCLPointCloud2.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace pcl6d::app {
@@ -28,14 +29,14 @@ public:
   }
 
   /** \brief Gives a cloud up. \throws IoFailed its file cannot be read again, or holds
-   * another number of points now */
+   * something else now */
   pcl::PCLPointCloud2
   take(std::size_t i);
 
 private:
   struct Kept {
-    pcl::PCLPointCloud2 cloud; ///< without data if it is to be read again
-    std::size_t points = 0;
+    pcl::PCLPointCloud2 cloud;     ///< without data if it is to be read again
+    std::uint64_t fingerprint = 0; ///< of what is to be read again
     bool in_memory = false;
   };
 

@@ -6,6 +6,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/link_list_io.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/registration/minimisers.h>
 #include <pcl6d/run/run_summary.h>
 
@@ -256,9 +257,10 @@ Settings::resolveGuess(bool has_poses)
   if (!auto_guess)
     return;
   slam.initial_guess = has_poses ? InitialGuess::kOdometry : InitialGuess::kFeatures;
-  for (auto& word : words)
-    if (word.name == "initial-guess")
-      word.value = toString(slam.initial_guess);
+  for (auto* options : {&words, &conditions})
+    for (auto& word : *options)
+      if (word.name == "initial-guess")
+        word.value = toString(slam.initial_guess);
 }
 
 void
@@ -304,6 +306,11 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
     throw UsageError("--resume and --fresh contradict each other");
   settings.words = table.words({std::begin(kWords), std::end(kWords)});
   settings.conditions = conditionsOf(settings.words, table);
+  // Words have six digits; lengths are compared to the last bit by the tasks' names.
+  for (const auto& [name, value] :
+       {std::pair("min-overlap", settings.slam.min_overlap),
+        std::pair("max-correction", settings.slam.max_correction)})
+    settings.conditions.push_back({name, text::shortest(value), true});
   const bool planes = settings.slam.metric != Metric::kPoint;
   const bool relaxes = settings.slam.relaxation.has_value();
   settings.without_effect = table.withoutEffect(

@@ -87,16 +87,14 @@ TEST_F(KeptCloudsTest, NameAFileThatHasChangedMeanwhile)
   RunScans scans(folder);
   KeptClouds clouds(scans, 0);
   keepAll(clouds, scans);
-  writeXyz(path_ / "scan002.xyz", 7);
+  std::ofstream(path_ / "scan002.xyz", std::ios::in) << "0 3 0.5"; // as many points
   try {
     clouds.take(2);
     FAIL() << "a changed file was taken";
   } catch (const pcl6d::IoFailed& e) {
     const std::string message = e.what();
-    EXPECT_NE(
-        message.find("scan002.xyz: has changed since it was read (7 points now, 30 "
-                     "before)"),
-        std::string::npos)
+    EXPECT_NE(message.find("scan002.xyz: has changed since it was read in this run"),
+              std::string::npos)
         << message;
   }
 }

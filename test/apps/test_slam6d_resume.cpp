@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <fstream>
 #include <regex>
 #include <thread>
 
@@ -27,7 +28,8 @@ withoutTimes(const fs::path& run)
   static const std::regex times("\"(seconds|peak_memory_mb)\": [^,\n]*");
   std::map<std::string, std::string> files;
   for (const auto& [name, content] : contentOf(run))
-    files[name] = name == "summary.json" ? std::regex_replace(content, times, "") : content;
+    files[name] =
+        name == "summary.json" ? std::regex_replace(content, times, "") : content;
   return files;
 }
 
@@ -103,7 +105,8 @@ TEST_F(Resume, StoppedByTheUserItGoesOnToo)
 {
   EXPECT_EQ(endAt("matching 15/15", SIGINT), 130);
   EXPECT_TRUE(fs::exists(journal));
-  EXPECT_NE(readText(folder / "err").find("the same command goes on"), std::string::npos);
+  EXPECT_NE(readText(folder / "err").find("the same command goes on"),
+            std::string::npos);
   const Outcome outcome = again();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(withoutTimes(out), undisturbed());
@@ -115,8 +118,9 @@ TEST_F(Resume, OtherOptionsAreRefusedAndFreshDropsWhatWasDone)
   ASSERT_TRUE(fs::exists(journal));
   const Outcome refused = again({"--min-overlap", "0.2"});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_NE(refused.err.find("--min-overlap was 0.1, and is 0.2 now (--fresh drops it)"),
-            std::string::npos)
+  EXPECT_NE(
+      refused.err.find("--min-overlap was 0.1, and is 0.2 now (--fresh drops it)"),
+      std::string::npos)
       << refused.err;
   EXPECT_TRUE(fs::exists(journal));
   const Outcome fresh = again({"--min-overlap", "0.2", "--fresh"});
@@ -135,6 +139,53 @@ TEST_F(Resume, NothingToGoOnWithIsSaid)
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_NE(both.err.find("--resume and --fresh contradict"), std::string::npos)
       << both.err;
+}
+
+TEST_F(Resume, KilledWhileFilesMoveToTheirPlacesItGoesOnToo)
+{
+  endAt("matching 15/15", SIGKILL);
+  ASSERT_TRUE(fs::exists(journal));
+  fs::create_directories(out / "frames"); // as after the first renames
+  std::ofstream(out / "frames" / "scan000.frames") << "half";
+  std::ofstream(out / "map.pcd") << "half";
+  const Outcome outcome = again();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(withoutTimes(out), undisturbed());
+}
+
+TEST_F(Resume, AForeignFileBesideTheJournalIsStillRefused)
+{
+  endAt("matching 15/15", SIGKILL);
+  std::ofstream(out / "notes.txt") << "mine";
+  const Outcome outcome = again();
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(fs::exists(journal));
+  EXPECT_TRUE(fs::exists(out / "notes.txt"));
+}
+
+TEST_F(Resume, ARunThatGoesOnInItsOwnFolderIsNotReplacedByAPart)
+{
+  ASSERT_EQ(slam(scans(), out, {"--last", "9", "--no-picture"}).exit_code, 0);
+  const auto before = contentOf(out);
+  const std::string err = folder / "err";
+  const std::vector<std::string> arguments = {
+      scans().string(), "--continue", out.string(), "--last", "30", "--no-picture"};
+  bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
+                    bp::args = arguments,
+                    bp::std_out > bp::null,
+                    bp::std_err > err);
+  while (program.running() && readText(err).find("matching") == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ::kill(program.id(), SIGINT);
+  program.wait();
+  EXPECT_EQ(program.exit_code(), 130) << readText(err);
+  auto after = contentOf(out);
+  after.erase(".pcl6d-journal");
+  EXPECT_EQ(after, before);
+  const Outcome outcome = pcl6d::test::runProgram("pcl_slam6d", arguments);
+  EXPECT_NE(outcome.exit_code, 1) << outcome.err;
+  EXPECT_TRUE(fs::exists(out / "scans" / "scan030.pcd")) << outcome.err;
+  EXPECT_FALSE(fs::exists(journal));
 }
 
 TEST_F(Resume, TwoRunsIntoOneFolderAreOneTooMany)

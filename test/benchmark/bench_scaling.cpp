@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs over more and more scans of one drive: processor time, memory and links of each,
+// Whole runs over the first scans of one drive, more and more of them: processor time, memory and links of each,
 // and the powers of the number of scans that they grow with (share/doc/scaling.md).
 // usage: bench_scaling FOLDER [scene=campus] [threads=1] [scans=50,100,200,500,1000,2000]
 //        [option=value ...]   further options go to pcl_slam6d
 #include <pcl6d/common/error.h>
 #include <pcl6d/run/run_folder.h>
 
+#include <algorithm>
 #include <cmath>
 #include <evaluate/child_process.h>
 #include <filesystem>
@@ -88,18 +89,32 @@ endOf(const app::ProcessStart& start)
   }
 }
 
+/** \return the folder of the whole drive, simulated if it is not there */
+fs::path
+driveOf(const Knobs& knobs, const fs::path& programs)
+{
+  const std::string scans =
+      std::to_string(*std::max_element(knobs.scans.begin(), knobs.scans.end()));
+  const fs::path drive = knobs.folder / (knobs.scene + scans);
+  if (!fs::exists(drive / "odometry.txt"))
+    endOf({programs / "pcl_slam6d_simulate",
+           {knobs.scene, "-o", drive, "--scans", scans, "--quiet"},
+           knobs.folder / "simulate.log",
+           0});
+  return drive;
+}
+
 ScaledRun
-run(const Knobs& knobs, const fs::path& programs, std::size_t scans)
+run(const Knobs& knobs,
+    const fs::path& programs,
+    const fs::path& drive,
+    std::size_t scans)
 {
   const std::string name = knobs.scene + std::to_string(scans);
-  const fs::path data = knobs.folder / name, out = knobs.folder / (name + "_out");
-  if (!fs::exists(data / "odometry.txt"))
-    endOf({programs / "pcl_slam6d_simulate",
-           {knobs.scene, "-o", data, "--scans", std::to_string(scans), "--quiet"},
-           knobs.folder / (name + ".log"),
-           0});
+  const fs::path out = knobs.folder / (name + "_out");
   fs::remove_all(out);
-  std::vector<std::string> arguments{data, "-o", out};
+  std::vector<std::string> arguments{
+      drive, "-o", out, "--last", std::to_string(scans - 1)};
   arguments.insert(arguments.end(), knobs.options.begin(), knobs.options.end());
   const app::ProcessEnd end =
       endOf({programs / "pcl_slam6d", arguments, knobs.folder / (name + ".log"), 0});
@@ -145,13 +160,14 @@ runAll(const std::vector<std::string>& arguments, const fs::path& programs)
 {
   const Knobs knobs = knobsOf(arguments);
   fs::create_directories(knobs.folder);
+  const fs::path drive = driveOf(knobs, programs);
   std::cout
       << "| scans | processor [s] | a scan [s] | matching a scan [s] | relaxation a "
          "scan [s] | links | peak [MB] | a scan [MB] |\n"
          "|---|---|---|---|---|---|---|---|\n";
   std::vector<std::pair<double, double>> time, memory, relaxation;
   for (const std::size_t scans : knobs.scans) {
-    const ScaledRun one = run(knobs, programs, scans);
+    const ScaledRun one = run(knobs, programs, drive, scans);
     print(one);
     const auto n = static_cast<double>(scans);
     time.emplace_back(n, one.process.cpu_seconds);

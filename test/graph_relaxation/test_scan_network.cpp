@@ -226,3 +226,40 @@ TEST(ScanNetworkOptions, NamesTheFieldThatBreaksItsRule)
   expectRefused("gicp_epsilon", [](auto& o) { o.gicp_epsilon = 0; });
   expectRefused("gicp_epsilon", [](auto& o) { o.gicp_epsilon = 2; });
 }
+
+TEST(ScanNetwork, RemembersNoPartnerThatASearchWouldNotFind)
+{
+  // A fresh network searches for all partners; the other one remembers those of poses before.
+  const NetworkScans room = pcl6d::test::scansFrom(pcl6d::test::ringPoses(4));
+  Poses poses = room.truth;
+  ScanNetworkOptions options;
+  options.min_overlap = 0.2;
+  options.max_distance = 0.4;
+  ScanNetwork remembering(room.scans, std::vector<bool>(4, true), options);
+  pcl6d::Random random(3);
+  for (int round = 0; round < 12; ++round) {
+    ScanNetwork fresh(room.scans, std::vector<bool>(4, true), options);
+    const auto expected = fresh.pairs(poses), found = remembering.pairs(poses);
+    for (const LinkPairs& link : found) {
+      const auto same =
+          std::find_if(expected.begin(), expected.end(), [&](const LinkPairs& other) {
+            return other.from == link.from && other.to == link.to;
+          });
+      if (same == expected.end())
+        continue; // kept until a tenth below
+      ASSERT_EQ(link.points_from.size(), same->points_from.size()) << round;
+      for (std::size_t i = 0; i < link.points_from.size(); ++i) {
+        ASSERT_EQ(link.points_from[i], same->points_from[i]) << round;
+        ASSERT_EQ(link.points_to[i], same->points_to[i]) << round;
+      }
+    }
+    // From motions within what is remembered to far beyond it.
+    const double size = 0.002 * (1 << (round % 9));
+    for (std::size_t i = 1; i < poses.size(); ++i)
+      poses[i] =
+          poses[i] * pcl6d::poseFromEuler({random.uniform(-size, size),
+                                           random.uniform(-size, size),
+                                           random.uniform(-size, size)},
+                                          {0, 0, random.uniform(-size, size) / 4});
+  }
+}

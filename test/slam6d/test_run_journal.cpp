@@ -204,6 +204,55 @@ TEST_F(RunJournalTest, OtherConditionsAreNamed)
   }
 }
 
+TEST_F(RunJournalTest, AResultThatCannotBeKeptIsNotComputedTwice)
+{
+  /** As on a full disk, until there is room. */
+  class FullDisk : public CountingJournal {
+  public:
+    using CountingJournal::CountingJournal;
+    void
+    keepMatched(std::size_t scan,
+                std::uint64_t inputs,
+                const ScanResult& result) override
+    {
+      if (full && scan == 3) {
+        full = false;
+        throw IoFailed("No space left on device");
+      }
+      CountingJournal::keepMatched(scan, inputs, result);
+    }
+    bool full = true;
+  };
+  FullDisk disk(path, {{"version", "1"}});
+  Slam6D slam;
+  slam.setMemory(&disk);
+  for (std::size_t i = 0; i < sampleRun().scans.size(); ++i)
+    slam.addScan(sampleRun().scans[i], sampleRun().odometry[i]);
+  EXPECT_THROW(slam.optimize(), IoFailed);
+  EXPECT_TRUE(slam.optimize()); // there is room again
+  expectSameRun(slam.result(), undisturbed());
+}
+
+TEST_F(RunJournalTest, MatchesAgainstRelaxedScansAreNotThoseOfOneGo)
+{
+  const auto addTo = [](Slam6D& slam, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      slam.addScan(sampleRun().scans[i], sampleRun().odometry[i]);
+  };
+  {
+    auto first = journal();
+    Slam6D slam;
+    slam.setMemory(&first);
+    addTo(slam, 0, 4);
+    EXPECT_TRUE(slam.optimize());
+    addTo(slam, 4, 7);
+    EXPECT_TRUE(slam.optimize());
+    EXPECT_EQ(first.matched_now, 7);
+  }
+  auto second = journal();
+  EXPECT_THROW(run(second), IoFailed); // scan 4 was matched against other poses
+}
+
 TEST_F(RunJournalTest, LeavesNoFileWhereNothingWasDone)
 {
   const auto unused = journal();

@@ -53,6 +53,18 @@ writeAll(int file, const std::string& bytes)
   }
   return true;
 }
+
+/** A new file is there after a power cut when its folder knows of it. */
+void
+syncFolder(const std::filesystem::path& file)
+{
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (handle < 0)
+    return;
+  ::fsync(handle);
+  ::close(handle);
+}
 } // namespace
 
 RecordFile::RecordFile(const std::filesystem::path& path) : path_(path)
@@ -61,7 +73,8 @@ RecordFile::RecordFile(const std::filesystem::path& path) : path_(path)
   if (file_ < 0)
     failWithErrno(path, "cannot be opened");
   try {
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
+    // Some file systems know no locks.
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw IoFailed(path.string() + ": another process is writing it");
     const std::string content = text::readFile(path);
     const std::string head = content.substr(0, kMagicSize);
@@ -78,6 +91,7 @@ RecordFile::RecordFile(const std::filesystem::path& path) : path_(path)
       if (!writeAll(file_, kMagic))
         failWithErrno(path, "cannot be written");
       size_ = kMagicSize;
+      syncFolder(path);
     }
   } catch (...) {
     ::close(file_);
@@ -87,10 +101,8 @@ RecordFile::RecordFile(const std::filesystem::path& path) : path_(path)
 
 RecordFile::~RecordFile()
 {
-  if (file_ < 0)
-    return;
-  ::fdatasync(file_);
-  ::close(file_);
+  if (file_ >= 0)
+    ::close(file_);
 }
 
 /** \return [bytes] up to the first record that is cut or damaged */
@@ -128,10 +140,7 @@ RecordFile::append(const std::string& record)
     failWithErrno(path_, "cannot be written");
   }
   size_ += bytes.size();
-  if (Clock::now() - synced_ >= std::chrono::seconds(1)) {
-    ::fdatasync(file_);
-    synced_ = Clock::now();
-  }
+  ::fdatasync(file_);
 }
 
 void

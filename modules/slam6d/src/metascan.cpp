@@ -104,10 +104,13 @@ Metascan::node(const Place& place)
   IcpModel model = all.normals.size() == all.points.size() && !all.points.empty()
                        ? IcpModel(all.points, all.normals, options_)
                        : IcpModel(all.points, options_);
-  // Its halves are never asked for again, unless the last scans alone are the target.
+  // Its parts are never asked for again, unless the last scans alone are the target.
   if (max_scans_ == std::numeric_limits<std::size_t>::max())
-    for (const std::size_t half : {2 * place.second, 2 * place.second + 1})
-      nodes_.erase({place.first - 1, half});
+    for (int level = place.first - 1; level > 0; --level) {
+      const std::size_t parts = std::size_t{1} << (place.first - level);
+      nodes_.erase(nodes_.lower_bound({level, place.second * parts}),
+                   nodes_.lower_bound({level, (place.second + 1) * parts}));
+    }
   return nodes_.emplace(place, Node{origin, std::move(model)}).first->second;
 }
 

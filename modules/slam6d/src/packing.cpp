@@ -169,6 +169,7 @@ unpack(const std::string& bytes, ScanResult& scan)
 {
   Unpacker unpacker(bytes);
   Fields<Unpacker>{unpacker}.all(scan);
+  unpacker.finish();
 }
 
 void
@@ -176,6 +177,7 @@ unpack(const std::string& bytes, Slam6DResult& result)
 {
   Unpacker unpacker(bytes);
   Fields<Unpacker>{unpacker}.resultFields(result);
+  unpacker.finish();
 }
 
 } // namespace pcl6d::slam6d

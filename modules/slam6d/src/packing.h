@@ -78,6 +78,14 @@ public:
     value(v.matrix());
   }
 
+  /** \throws IoFailed bytes are left */
+  void
+  finish() const
+  {
+    if (place_ != bytes_.size())
+      throw IoFailed("a record of the journal is too long");
+  }
+
 private:
   const char*
   next(std::size_t size)
@@ -98,7 +106,7 @@ packed(const ScanResult& scan);
 std::string
 packed(const Slam6DResult& result);
 
-/** \throws IoFailed there are too few bytes */
+/** \throws IoFailed there are too few bytes, or too many */
 void
 unpack(const std::string& bytes, ScanResult& scan);
 void

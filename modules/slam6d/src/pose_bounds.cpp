@@ -74,17 +74,20 @@ graphOf(const std::vector<Eigen::Isometry3d>& poses,
   return graph;
 }
 
-/** \return the mean squared shift that surfaces ask for, in their standard deviations: above
+/** \param[in] scans of the graph \return the mean squared shift that surfaces ask for, in their standard deviations: above
  * 1 covariances of links are too small for these scans (the variance factor of geodesy,
  * a posteriori). Where scans leave much open their surfaces go on moving when they are
  * followed, all in one sense, which no cycle shows. */
 double
-varianceFactorOf(const MapVerification& map)
+varianceFactorOf(const MapVerification& map, const std::vector<std::size_t>& scans)
 {
+  std::vector<bool> is_in_graph(map.scans.size(), false);
+  for (const std::size_t i : scans)
+    is_in_graph[i] = true;
   double sum = 0;
   std::size_t links = 0;
   for (const LinkCheck& link : map.links)
-    if (measures(link, map) && link.deviation > 0) {
+    if (is_in_graph[link.from] && measures(link, map) && link.deviation > 0) {
       const double sigmas = link.shift / link.deviation;
       sum += sigmas * sigmas;
       ++links;
@@ -99,17 +102,17 @@ varianceFactorOf(const MapVerification& map)
 double
 excessOf(const PoseGraphResult& result,
          std::size_t links,
-         std::size_t poses,
+         const std::vector<std::size_t>& scans,
          const MapVerification& map)
 {
-  const std::size_t conditions = 6 * links, unknowns = 6 * (poses - 1);
+  const std::size_t conditions = 6 * links, unknowns = 6 * (scans.size() - 1);
   const double links_per_pose =
-      static_cast<double>(links) / static_cast<double>(poses - 1);
+      static_cast<double>(links) / static_cast<double>(scans.size() - 1);
   const double unclosed =
       conditions > unknowns
           ? result.chi2_after / static_cast<double>(conditions - unknowns)
           : 1;
-  return std::max({1.0, unclosed, varianceFactorOf(map)}) *
+  return std::max({1.0, unclosed, varianceFactorOf(map, scans)}) *
          std::sqrt(std::max(1.0, links_per_pose));
 }
 
@@ -149,7 +152,7 @@ boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
   PoseGraphOptimizer optimizer(std::move(graph), options);
   const PoseGraphResult& best = optimizer.optimize();
   const std::vector<Matrix6> covariances = optimizer.marginalCovariances();
-  const double excess = excessOf(best, links, scans.size(), map);
+  const double excess = excessOf(best, links, scans, map);
   for (std::size_t v = 1; v < scans.size(); ++v) {
     const Twist way = smallMotion(T_world_scan[scans[v]].inverse() * best.poses[v]);
     ScanCheck& scan = map.scans[scans[v]];

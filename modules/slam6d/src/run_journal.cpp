@@ -77,17 +77,21 @@ void
 RunJournal::open()
 {
   file_.emplace(path_);
-  const auto& records = file_->records();
-  if (records.empty()) {
-    file_->append(recordOf(conditions_));
-    return;
+  try {
+    const auto& records = file_->records();
+    if (records.empty())
+      return file_->append(recordOf(conditions_));
+    if (const auto difference =
+            differenceOf(conditionsOf(records.front()), conditions_);
+        !difference.empty())
+      throw IoFailed(path_.string() + ": an interrupted run is kept here, but " +
+                     difference);
+    for (std::size_t i = 1; i < records.size(); ++i)
+      take(records[i]);
+  } catch (...) {
+    file_.reset();
+    throw;
   }
-  if (const auto difference = differenceOf(conditionsOf(records.front()), conditions_);
-      !difference.empty())
-    throw IoFailed(path_.string() + ": an interrupted run is kept here, but " +
-                   difference);
-  for (std::size_t i = 1; i < records.size(); ++i)
-    take(records[i]);
 }
 
 void
@@ -126,11 +130,12 @@ RunJournal::matched(std::size_t scan, std::uint64_t inputs)
   if (known == matched_.end())
     return std::nullopt;
   if (known->second.first != inputs)
-    throw IoFailed((scan < names_.size() ? names_[scan]
-                                         : "scan " + std::to_string(scan)) +
-                   ": has changed since the interrupted run that " + path_.string() +
-                   " keeps (its points, its initial pose, or one before it); that needs a fresh "
-                   "start");
+    throw IoFailed(
+        (scan < names_.size() ? names_[scan] : "scan " + std::to_string(scan)) +
+        ": has changed since the interrupted run that " + path_.string() +
+        " keeps (its points, its initial pose, the derived parameters, or a scan "
+        "before it); that needs a fresh "
+        "start");
   return known->second.second;
 }
 

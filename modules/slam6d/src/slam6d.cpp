@@ -89,8 +89,6 @@ public:
     takeInRegistered();
     while (next_ < total && !cancelled_.exchange(false)) {
       registerScan(next_);
-      result_.scans[next_].matched_pose = result_.scans[next_].T_world_scan;
-      ++next_;
       if (observer)
         observer(next_ - 1, result_.scans[next_ - 1]);
       if (progress)
@@ -131,8 +129,10 @@ private:
       sum.add(inputs_.back());
     sum.add(points);
     sum.add(scan.initial_pose);
-    if (scan.state != ScanState::kPending) // by an earlier run
+    if (scan.state != ScanState::kPending) { // by an earlier run
       sum.add(scan.T_world_scan);
+      sum.add(static_cast<std::uint32_t>(scan.state));
+    }
     return sum.value();
   }
 
@@ -146,6 +146,8 @@ private:
     for (const Parameter& one :
          {p.min_range, p.max_range, p.voxel, p.max_distance, p.max_distance_start})
       sum.add(one.value);
+    for (std::size_t i = 0; i < improved_; ++i) // an earlier optimize() moved them
+      sum.add(result_.scans[i].T_world_scan);
     for (const auto& [from, to] : links) {
       sum.add(static_cast<std::uint64_t>(from));
       sum.add(static_cast<std::uint64_t>(to));
@@ -228,8 +230,11 @@ private:
     if (!is_loose && map.trust != MapTrust::kUnverified)
       return;
     std::vector<Eigen::Isometry3d> initial;
-    for (const ScanResult& scan : result_.scans)
+    for (const ScanResult& scan : result_.scans) {
+      if (scan.start == InitialGuess::kFeatures && !is_loose)
+        return; // which started from no pose
       initial.push_back(scan.initial_pose);
+    }
     const std::string mistake =
         likelyPoseMistake(verified_, initial, options_.num_threads);
     if (mistake.empty())
@@ -285,22 +290,25 @@ private:
     }
   }
 
+  /** Goes on to the next one also if the result cannot be kept. */
   void
   registerScan(std::size_t i)
   {
     ScanResult& scan = result_.scans[i];
     const std::uint64_t task = taskOf(i);
-    if (auto known = memory ? memory->matched(i, task) : std::nullopt) {
-      scan = *std::move(known);
+    auto known = memory ? memory->matched(i, task) : std::nullopt;
+    if (known) {
+      scan = *known;
       matcher_->takeIn(reduced_[i], measured_[i], scan);
     }
-    else {
+    else
       matchScan(i);
-      if (memory)
-        memory->keepMatched(i, task, scan);
-    }
+    scan.matched_pose = scan.T_world_scan;
     if (i > 0)
       measured_[i - 1] = MeasuredScan(); // needed no more
+    next_ = i + 1;
+    if (memory && !known)
+      memory->keepMatched(i, task, scan);
   }
 
   void
@@ -322,20 +330,19 @@ private:
     if (options_.loop_closing == LoopClosing::kNone && !options_.relaxation)
       return true;
     const std::uint64_t task = taskOf(result_.scans.size() - 1, options_.given_links);
-    if (auto known = memory ? memory->relaxed(task) : std::nullopt) {
+    auto known = memory ? memory->relaxed(task) : std::nullopt;
+    if (known) {
       known->parameters = result_.parameters;
-      result_ = *std::move(known);
+      result_ = *known;
     }
-    else {
-      if (!runGraphStage())
-        return false;
-      if (memory)
-        memory->keepRelaxed(task, result_);
-    }
+    else if (!runGraphStage())
+      return false;
     improved_ = result_.scans.size();
     matcher_.emplace(options_, result_.parameters); // further scans meet the new poses
     for (std::size_t i = 0; i < improved_; ++i)
       matcher_->takeIn(reduced_[i], measured_[i], result_.scans[i]);
+    if (memory && !known)
+      memory->keepRelaxed(task, result_);
     return true;
   }
 

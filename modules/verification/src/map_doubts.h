@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/map_verification.h>
 #include <pcl6d/verification/link_evidence.h>
 #include <pcl6d/verification/verified_scan.h>
@@ -12,7 +13,7 @@
 namespace pcl6d::verification {
 
 /** What is said of a map whose links are judged: its doubts in words, and its trust. */
-class MapDoubts {
+class PCL6D_EXPORTS MapDoubts { // shown to its test
 public:
   /** \param[in] scans, names, opinions of the links: kept by reference */
   MapDoubts(const std::deque<VerifiedScan>& scans,

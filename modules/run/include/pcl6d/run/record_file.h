@@ -3,7 +3,6 @@
 
 #include <pcl6d/common/export.h>
 
-#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -15,8 +14,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * record has its length and a checksum before it.
  *
  * Opening it reads all records up to the first that is cut or damaged, and drops the rest.
- * It is locked while it is open. What was appended survives the end of the process at once,
- * that of the machine after a second. \ingroup run */
+ * It is locked while it is open, where the file system knows locks. What was appended
+ * survives the end of the process and of the machine. \ingroup run */
 class RecordFile {
 public:
   /** \brief Opens the file, or makes it.
@@ -52,8 +51,6 @@ public:
   remove();
 
 private:
-  using Clock = std::chrono::steady_clock;
-
   std::size_t
   readRecords(const std::string& content);
 
@@ -62,7 +59,6 @@ private:
   std::size_t size_ = 0; ///< [bytes] of whole records
   std::size_t dropped_ = 0;
   std::vector<std::string> records_;
-  Clock::time_point synced_ = Clock::now();
 };
 
 } // namespace pcl6d

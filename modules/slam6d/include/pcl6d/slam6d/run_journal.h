@@ -44,7 +44,9 @@ public:
   std::optional<ScanResult>
   matched(std::size_t scan, std::uint64_t inputs) override;
   void
-  keepMatched(std::size_t scan, std::uint64_t inputs, const ScanResult& result) override;
+  keepMatched(std::size_t scan,
+              std::uint64_t inputs,
+              const ScanResult& result) override;
   std::optional<Slam6DResult>
   relaxed(std::uint64_t inputs) override;
   void

@@ -11,7 +11,7 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief What Slam6D asks before each task, and tells after it, so that a run that was
  * interrupted goes on where it was. Tasks: matching of a scan, and the graph stage (loops and
  * relaxation). Each is named by a hash of all that it follows from: points and initial poses
- * of the scans so far, parameters, given links. Options are not in it; who keeps results
+ * of the scans so far, parameters, given links, poses that an earlier optimize() relaxed. Options are not in it; who keeps results
  * longer than a process must compare those. \ingroup slam6d */
 class TaskMemory {
 public:

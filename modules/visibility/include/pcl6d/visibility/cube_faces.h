@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -51,7 +53,7 @@ struct CodedRay {
  * the eight) are not
  * \return for each cell of a face what was measured in it and around it; none for a face
  * without cells */
-std::vector<Interval>
+PCL6D_EXPORTS std::vector<Interval>
 haloOf(const Faces& measured, std::size_t face, int side, int filled);
 
 } // namespace pcl6d::visibility

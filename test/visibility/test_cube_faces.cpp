@@ -65,8 +65,7 @@ expectedHalo(const std::map<Place, Interval>& cells,
   for (int r = row - 1; r <= row + 1; ++r)
     for (int c = col - 1; c <= col + 1; ++c) {
       const bool corner = (r < 0 || r >= side) && (c < 0 || c >= side);
-      const auto cell =
-          corner ? cells.end() : cells.find(placeOf(face, r, c, side));
+      const auto cell = corner ? cells.end() : cells.find(placeOf(face, r, c, side));
       if (cell == cells.end() || cell->second.isEmpty())
         continue;
       ++count;
@@ -86,15 +85,15 @@ TEST(HaloOf, IsThatOfAllNineCellsAcrossTheEdgesToo)
         std::map<Place, Interval> cells;
         for (std::size_t f = 0; f < faces.size(); ++f)
           for (std::size_t i = 0; i < faces[f].size(); ++i)
-            cells[placeOf(f,
-                          static_cast<int>(i) / side,
-                          static_cast<int>(i) % side,
-                          side)] = faces[f][i];
+            cells[placeOf(
+                f, static_cast<int>(i) / side, static_cast<int>(i) % side, side)] =
+                faces[f][i];
         for (std::size_t f = 0; f < faces.size(); ++f) {
           const auto halo = haloOf(faces, f, side, 6);
           ASSERT_EQ(halo.size(), faces[f].size());
           for (std::size_t i = 0; i < halo.size(); ++i) {
-            const int row = static_cast<int>(i) / side, col = static_cast<int>(i) % side;
+            const int row = static_cast<int>(i) / side,
+                      col = static_cast<int>(i) % side;
             const Interval expected = expectedHalo(cells, f, row, col, side, 6);
             ASSERT_EQ(halo[i].nearest, expected.nearest)
                 << "side " << side << " face " << f << " row " << row << " col " << col;

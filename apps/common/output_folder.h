@@ -27,7 +27,8 @@ struct OutputRules {
 /** \brief The folder that a program writes: whole or not at all.
  *
  * Files are written to a hidden folder inside it and moved to their places by publish(),
- * together, the marker last. What an earlier run of the program left is then removed, and nothing else: a
+ * together, the marker last. What an earlier run of the program left is then removed, and
+ * nothing else: a
  * folder that holds other things is refused without `force`, and with it only files of the
  * same name are replaced. Inputs are never touched. If publish() is not reached, all is as
  * it was before, but for the journal. */

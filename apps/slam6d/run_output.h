@@ -56,8 +56,9 @@ public:
             const Interrupt& interrupt);
 
   /** \brief Of an interrupted run, be it before (not complete) or now, only poses, history
-   * and summary are written. \param[in] clouds the scans as they were registered, which are given up as they
-   * are written \return the run, as its summary tells */
+   * and summary are written.
+   * \param[in] clouds the scans as they were registered; given up as they are written
+   * \return the run, as its summary tells */
   const RunResult&
   write(bool complete, const RunLog& log, KeptClouds& clouds);
 

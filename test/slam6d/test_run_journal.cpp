@@ -80,6 +80,14 @@ protected:
     return slam.result();
   }
 
+  /** A run before; 0: that was not interrupted. */
+  void
+  interruptedRun(std::size_t stop_after) const
+  {
+    auto before = journal();
+    run(before, sampleRun(), stop_after);
+  }
+
   pcl6d::test::TempFolder folder;
   const std::filesystem::path path = folder / "journal";
 };
@@ -145,10 +153,7 @@ TEST_F(RunJournalTest, WhatIsDoneIsNotDoneAgain)
 
 TEST_F(RunJournalTest, ACutJournalCostsTheLastTaskAlone)
 {
-  {
-    auto first = journal();
-    run(first);
-  }
+  interruptedRun(0);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
   auto second = journal();
   expectSameRun(run(second), undisturbed());
@@ -158,10 +163,7 @@ TEST_F(RunJournalTest, ACutJournalCostsTheLastTaskAlone)
 
 TEST_F(RunJournalTest, GivenLinksMakeAnotherRelaxation)
 {
-  {
-    auto first = journal();
-    run(first);
-  }
+  interruptedRun(0);
   auto second = journal();
   Slam6DOptions options;
   options.given_links = {{0, 5}};
@@ -172,10 +174,7 @@ TEST_F(RunJournalTest, GivenLinksMakeAnotherRelaxation)
 
 TEST_F(RunJournalTest, AChangedScanIsNamed)
 {
-  {
-    auto first = journal();
-    run(first, sampleRun(), 4);
-  }
+  interruptedRun(4);
   DriftingRun changed = sampleRun();
   changed.scans[2].front().x() += 0.001F;
   auto second = journal();
@@ -190,10 +189,7 @@ TEST_F(RunJournalTest, AChangedScanIsNamed)
 
 TEST_F(RunJournalTest, OtherConditionsAreNamed)
 {
-  {
-    auto first = journal();
-    run(first, sampleRun(), 2);
-  }
+  interruptedRun(2);
   try {
     journal("0.2");
     FAIL() << "a journal of other options was taken";

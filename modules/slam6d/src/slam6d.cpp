@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_stage.h"
+#include "run_verification.h"
 #include "scan_matcher.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/fingerprint.h>
-#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
-#include <pcl6d/graph_relaxation/parameterisations.h>
 #include <pcl6d/slam6d/auto_parameters.h>
-#include <pcl6d/slam6d/pose_bounds.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 #include <pcl6d/slam6d/slam6d.h>
-#include <pcl6d/verification/map_verifier.h>
-#include <pcl6d/verification/pose_mistake.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <deque>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,7 +27,8 @@ constexpr std::size_t kScansForParameters = 16;
 
 class Slam6D::Implementation {
 public:
-  explicit Implementation(const Slam6DOptions& options) : options_(options)
+  explicit Implementation(const Slam6DOptions& options)
+  : options_(options), verification_(options.num_threads)
   {
     options_.validate();
   }
@@ -83,7 +78,11 @@ public:
     if (result_.scans.empty())
       throw BadArgument("no scan was added");
     reducePending();
-    prepareVerification();
+    if (options_.verify)
+      verification_.prepare(reduced_,
+                            measured_,
+                            matcher_->modelOptions(true),
+                            result_.parameters.voxel.value);
     const auto start = std::chrono::steady_clock::now();
     const std::size_t total = result_.scans.size();
     takeInRegistered();
@@ -102,7 +101,8 @@ public:
       predict(i);
     if (next_ < total || (improved_ < total && !improve()))
       return false;
-    verify();
+    if (options_.verify)
+      verification_.verify(names_, result_);
     return true;
   }
 
@@ -176,89 +176,6 @@ private:
     const ScanResult& before = result_.scans[i - 1];
     scan.T_world_scan = extrapolateOdometry(
         before.T_world_scan, before.initial_pose, scan.initial_pose);
-  }
-
-  /** Images of the rays of all scans, while their measured points are there. */
-  void
-  prepareVerification()
-  {
-    if (!options_.verify)
-      return;
-    const std::size_t done = verified_.size();
-    verified_.resize(reduced_.size());
-    surfaces_.resize(reduced_.size());
-    parallelFor(reduced_.size() - done, options_.num_threads, [&](std::size_t k) {
-      const std::size_t i = done + k;
-      if (reduced_[i].normals().empty())
-        surfaces_[i].emplace(reduced_[i].points(), matcher_->modelOptions(true));
-      verified_[i] = VerifiedScan(measured_[i].points(),
-                                  surfaces_[i] ? *surfaces_[i] : reduced_[i],
-                                  result_.parameters.voxel.value);
-    });
-  }
-
-  void
-  verify()
-  {
-    if (!options_.verify)
-      return;
-    std::vector<Eigen::Isometry3d> poses;
-    for (const ScanResult& scan : result_.scans)
-      poses.push_back(scan.T_world_scan);
-    std::vector<std::string> files; // names may be whole paths, which words do not need
-    for (const std::string& name : names_)
-      files.push_back(std::filesystem::path(name).filename().string());
-    MapVerifierOptions options;
-    options.num_threads = options_.num_threads;
-    for (const ScanResult& scan : result_.scans)
-      options.unsure.push_back(scan.start == InitialGuess::kFeatures);
-    result_.verification = MapVerifier(verified_, files, options).verify(poses);
-    boundPoses(poses, *result_.verification, options_.num_threads);
-    takeCovariances(*result_.verification);
-    explainDoubts(*result_.verification);
-  }
-
-  /** Where much is loose, or rays are no judges, the initial poses may be wrong as a whole. */
-  void
-  explainDoubts(MapVerification& map) const
-  {
-    const auto loose = std::count_if(map.scans.begin(),
-                                     map.scans.end(),
-                                     [](const ScanCheck& scan) { return !scan.tied; });
-    const bool is_loose = map.trust == MapTrust::kDoubtful &&
-                          3 * static_cast<std::size_t>(loose) >= map.scans.size();
-    if (!is_loose && map.trust != MapTrust::kUnverified)
-      return;
-    std::vector<Eigen::Isometry3d> initial;
-    for (const ScanResult& scan : result_.scans) {
-      if (scan.start == InitialGuess::kFeatures && !is_loose)
-        return; // which started from no pose
-      initial.push_back(scan.initial_pose);
-    }
-    const std::string mistake =
-        likelyPoseMistake(verified_, initial, options_.num_threads);
-    if (mistake.empty())
-      return;
-    map.trust = MapTrust::kDoubtful;
-    map.doubts.push_back("initial poses: " + mistake);
-  }
-
-  /** Those of matching take pairs as independent, which they are not. */
-  void
-  takeCovariances(const MapVerification& map)
-  {
-    for (std::size_t i = 0; i < map.scans.size(); ++i) {
-      ScanResult& scan = result_.scans[i];
-      if (!map.scans[i].covariance || !scan.covariance) // predicted poses have none
-        continue;
-      PoseCovariance turn = PoseCovariance::Zero();
-      turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
-          scan.T_world_scan.linear();
-      const PoseCovariance covariance = eulerCovariance(
-          scan.T_world_scan, turn * *map.scans[i].covariance * turn.transpose());
-      if (covariance.allFinite())
-        scan.covariance = covariance;
-    }
   }
 
   /** Takes back a scan that was just added and could not be reduced. */
@@ -375,8 +292,7 @@ private:
   std::deque<Points> unreduced_;      ///< scans that wait for the parameters
   std::deque<IcpModel> reduced_;      ///< a deque: the matcher refers to its elements
   std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next
-  std::deque<std::optional<IcpModel>> surfaces_; ///< where reduced ones have no normals
-  std::deque<VerifiedScan> verified_;
+  RunVerification verification_;
   std::optional<ScanMatcher> matcher_;
   std::size_t num_registered_ =
       0;                     ///< so many first scans an earlier run has registered

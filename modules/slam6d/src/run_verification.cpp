@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_verification.h"
+
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/graph_relaxation/parameterisations.h>
+#include <pcl6d/slam6d/pose_bounds.h>
+#include <pcl6d/verification/map_verifier.h>
+#include <pcl6d/verification/pose_mistake.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace pcl6d::slam6d {
+
+namespace {
+/** Those of matching take pairs as independent, which they are not. */
+void
+takeCovariances(const MapVerification& map, std::vector<ScanResult>& scans)
+{
+  for (std::size_t i = 0; i < map.scans.size(); ++i) {
+    ScanResult& scan = scans[i];
+    if (!map.scans[i].covariance || !scan.covariance) // predicted poses have none
+      continue;
+    PoseCovariance turn = PoseCovariance::Zero();
+    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
+        scan.T_world_scan.linear();
+    const PoseCovariance covariance = eulerCovariance(
+        scan.T_world_scan, turn * *map.scans[i].covariance * turn.transpose());
+    if (covariance.allFinite())
+      scan.covariance = covariance;
+  }
+}
+} // namespace
+
+void
+RunVerification::prepare(const std::deque<IcpModel>& reduced,
+                         const std::deque<MeasuredScan>& measured,
+                         const IcpModel::Options& normals,
+                         double voxel)
+{
+  const std::size_t done = scans_.size();
+  scans_.resize(reduced.size());
+  surfaces_.resize(reduced.size());
+  parallelFor(reduced.size() - done, num_threads_, [&](std::size_t k) {
+    const std::size_t i = done + k;
+    if (reduced[i].normals().empty())
+      surfaces_[i].emplace(reduced[i].points(), normals);
+    scans_[i] = VerifiedScan(
+        measured[i].points(), surfaces_[i] ? *surfaces_[i] : reduced[i], voxel);
+  });
+}
+
+void
+RunVerification::verify(const std::vector<std::string>& names,
+                        Slam6DResult& result) const
+{
+  std::vector<Eigen::Isometry3d> poses;
+  MapVerifierOptions options;
+  options.num_threads = num_threads_;
+  for (const ScanResult& scan : result.scans) {
+    poses.push_back(scan.T_world_scan);
+    options.unsure.push_back(scan.start == InitialGuess::kFeatures);
+  }
+  std::vector<std::string> files; // names may be whole paths, which words do not need
+  for (const std::string& name : names)
+    files.push_back(std::filesystem::path(name).filename().string());
+  MapVerification map = MapVerifier(scans_, files, options).verify(poses);
+  boundPoses(poses, map, num_threads_);
+  takeCovariances(map, result.scans);
+  explainDoubts(result.scans, map);
+  result.verification = std::move(map);
+}
+
+/** Where much is loose, or rays are no judges, the initial poses may be wrong as a whole. */
+void
+RunVerification::explainDoubts(const std::vector<ScanResult>& scans,
+                               MapVerification& map) const
+{
+  const auto loose = std::count_if(map.scans.begin(),
+                                   map.scans.end(),
+                                   [](const ScanCheck& scan) { return !scan.tied; });
+  const bool is_loose = map.trust == MapTrust::kDoubtful &&
+                        3 * static_cast<std::size_t>(loose) >= map.scans.size();
+  if (!is_loose && map.trust != MapTrust::kUnverified)
+    return;
+  std::vector<Eigen::Isometry3d> initial;
+  for (const ScanResult& scan : scans) {
+    if (scan.start == InitialGuess::kFeatures && !is_loose)
+      return; // which started from no pose
+    initial.push_back(scan.initial_pose);
+  }
+  const std::string mistake = likelyPoseMistake(scans_, initial, num_threads_);
+  if (mistake.empty())
+    return;
+  map.trust = MapTrust::kDoubtful;
+  map.doubts.push_back("initial poses: " + mistake);
+}
+
+} // namespace pcl6d::slam6d

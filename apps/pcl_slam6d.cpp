@@ -4,6 +4,7 @@
 #include "common/app.h"
 #include "common/build_id.h"
 #include "common/interrupt.h"
+#include "common/memory_budget.h"
 #include "common/open_scans.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
@@ -73,10 +74,11 @@ public:
   : earlier_(openEarlier(settings))
   , folder_(openFolder(settings, earlier_))
   , scans_(openScans(folder_, settings))
-  , clouds_(scans_, app::cloudBudget())
   , settings_(resolved(settings, folder_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings))
+  , memory_(settings.memory, out_.staging())
+  , clouds_(scans_, memory_.bytes() / 4)
   , window_(settings_.live_view, std::string(kName) + ' ' + settings_.input, bar_)
   , slam_(settings_.slam)
   {}
@@ -198,6 +200,7 @@ private:
                        " points with finite coordinates (" +
                        std::to_string(scan.dropped) +
                        " without), but at least 3 are needed");
+      memory_.require(scan.points.size(), file);
       if (i < folder_.numRegistered()) {
         const ScanResult& earlier = earlier_->summary().scans.at(i);
         log_.dropped.push_back(earlier.dropped);
@@ -270,11 +273,12 @@ private:
   const std::optional<RunFolder> earlier_;
   const ScanFolder folder_;
   app::RunScans scans_;
-  app::KeptClouds clouds_;
   const Settings settings_;
   const app::Interrupt interrupt_;
   app::ProgressBar bar_;
   app::OutputFolder out_;
+  const app::MemoryBudget memory_;
+  app::KeptClouds clouds_; ///< a quarter of the budget; the rest is for the work
   app::LiveWindow window_;
   Slam6D slam_;
   std::optional<RunJournal> journal_;

@@ -148,6 +148,7 @@ run(const std::vector<std::string>& arguments)
   if (!app::parsePlaneSettings(arguments, s))
     return app::kDone;
   app::FolderJob job(s.quiet, s.without_effect, outputRules(s));
+  const app::MemoryBudget memory(s.memory, job.out->staging());
   try {
     const SceneCloud cloud = readInput(s, job);
     const PlaneFinder finder(s.step);

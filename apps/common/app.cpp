@@ -41,8 +41,9 @@ try {
   return report(name, e.what(), kUsage);
 } catch (const boost::program_options::error& e) {
   return report(name, e.what(), kUsage);
-} catch (const std::bad_alloc&) {
-  return report(name, "not enough memory", kFailed);
+} catch (const std::bad_alloc& e) {
+  const std::string said = e.what();
+  return report(name, said == "std::bad_alloc" ? "not enough memory" : said, kFailed);
 } catch (const std::exception& e) {
   return report(name, e.what(), kFailed);
 }

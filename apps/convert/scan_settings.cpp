@@ -40,7 +40,8 @@ addOptions(OptionTable& table, ScanSettings& s)
   table.add("first N", &s.folder.first).help("first scan of a folder");
   table.add("last N", &s.folder.last).help("last scan of a folder");
   table.add("every N", &s.folder.every).help("each N-th scan of a folder");
-  table.group("Messages");
+  table.group("Run");
+  s.memory.addTo(table);
   table.add("quiet", &s.quiet).help("no progress");
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/memory_budget.h"
+
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/scan_writer.h>
 
@@ -17,6 +19,7 @@ struct ScanSettings {
   ScanFolderOptions folder; ///< format of a file, too
   std::string encoding = "auto";
   bool full = false; ///< join the scans of a folder into one file
+  MemoryOption memory;
   bool quiet = false;
   std::string without_effect; ///< options that do not count here, in words
 };

@@ -189,6 +189,7 @@ runScans(const std::vector<std::string>& arguments)
   ScanSettings settings;
   if (!parseScanSettings(arguments, settings))
     return kDone;
+  const MemoryBudget memory(settings.memory, settings.output);
   const int code = settings.full                      ? joinScans(settings)
                    : fs::is_directory(settings.input) ? convertFolder(settings)
                                                       : convertFile(settings);

@@ -82,6 +82,7 @@ addOptions(OptionTable& table, PlaneSettings& s, Words& words)
   table.addAs<int>("threads", &s.step.num_threads)
       .within(0, 1024, "0 to 1024")
       .help("0: one per core; never changes the result");
+  s.memory.addTo(table);
   table.add("quiet", &s.quiet).help("print warnings and errors only");
   table.add("verbose", &s.verbose).help("explain each label");
 }

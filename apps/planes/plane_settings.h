@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/memory_budget.h"
+
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/scene_interpretation/plane_finder.h>
 
@@ -21,6 +23,7 @@ struct PlaneSettings {
   std::optional<double> voxel;     ///< [m] of the map of a folder; none: derived
   PlaneFinderOptions step;
   bool force = false;
+  MemoryOption memory;
   bool quiet = false;
   bool verbose = false;       ///< explain the labels
   std::string without_effect; ///< options that were given for nothing; else empty

@@ -145,6 +145,7 @@ runAnimation(const std::vector<std::string>& arguments)
   AnimationSettings s;
   if (!parseAnimationSettings(arguments, s))
     return kDone;
+  const MemoryBudget memory(s.memory, s.output);
   const RunFolder run(s.run);
   const RunAnimation animation(run, s);
   return s.isVideo() ? writeVideo(animation, s) : writeFrames(animation, s);

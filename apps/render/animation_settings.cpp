@@ -99,6 +99,7 @@ parseAnimationSettings(const std::vector<std::string>& arguments, AnimationSetti
       .above(0, "above 0, up to 240", 240)
       .help("frames per second of the video; by default 25, of growth 8");
   table.add("force", &s.force).help("write into a folder that holds other files");
+  s.memory.addTo(table);
   table.add("quiet", &s.quiet).help("print errors only");
   addFilm(table, s);
   if (!table.parse(arguments))

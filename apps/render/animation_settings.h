@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/memory_budget.h"
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -27,6 +29,7 @@ struct AnimationSettings {
   double fps = 0;           ///< [1/s] of the video
   std::size_t points = 1000000;
   bool force = false;
+  MemoryOption memory;
   bool quiet = false;
 
   /** \return whether the output is one video file, else a folder */

@@ -58,6 +58,7 @@ runPicture(const std::vector<std::string>& arguments)
   PictureSettings s;
   if (!parsePictureSettings(arguments, s))
     return kDone;
+  const MemoryBudget memory(s.memory, s.output.empty() ? s.run : s.output);
   const RunFolder run(s.run);
   if (const std::string lack = lackOf(run); !lack.empty())
     std::cerr << kRender << ": " << s.run << " lacks " << lack << '\n';

@@ -68,6 +68,7 @@ addOutput(OptionTable& table, PictureSettings& s, std::vector<std::string>& view
       .help("by their names, see above; by default all that suit the run");
   table.addWord("size WxH", "auto", [&s](const auto& size) { takeSize(size, s); })
       .help("[px] 200 to 8192 each");
+  s.memory.addTo(table);
   table.add("title TEXT", &s.title).help("top left");
 }
 

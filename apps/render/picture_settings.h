@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/memory_budget.h"
+
 #include <pcl6d/visualization/map_cloud.h>
 
 #include <cstddef>
@@ -12,7 +14,8 @@ namespace pcl6d::app {
 
 /** \brief What `picture` is asked for. */
 struct PictureSettings {
-  std::string run;                ///< folder of a run
+  std::string run; ///< folder of a run
+  MemoryOption memory;
   std::string output;             ///< file or folder; empty: pictures/ in the run
   std::vector<std::string> views; ///< names; empty: all that suit the run
   std::optional<PointColour> colour;

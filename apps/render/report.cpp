@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/memory_budget.h"
 #include "common/option_table.h"
 #include "common/progress_bar.h"
 #include "render/verbs.h"
@@ -17,6 +18,7 @@ struct ReportSettings {
   std::string output;
   std::string title;
   ReportOptions options;
+  MemoryOption memory;
   bool quiet = false;
 };
 
@@ -35,6 +37,7 @@ What the run lacks is named on it.
   table.add("title", &s.title).help("default: the name of the folder RUN");
   table.add("max-points", &s.options.max_points)
       .help("of the map, which is thinned evenly; 12 bytes each");
+  s.memory.addTo(table);
   table.add("quiet", &s.quiet).help("print warnings and errors only");
   if (!table.parse(arguments))
     return false;
@@ -51,6 +54,7 @@ runReport(const std::vector<std::string>& arguments)
   ReportSettings settings;
   if (!parse(arguments, settings))
     return kDone;
+  const MemoryBudget memory(settings.memory, settings.output);
   ProgressBar bar(settings.quiet);
   const ReportData data =
       gatherReport(RunFolder(settings.run), settings.title, settings.options);

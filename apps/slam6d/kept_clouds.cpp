@@ -4,7 +4,6 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/fingerprint.h>
 
-#include <unistd.h>
 #include <utility>
 
 namespace pcl6d::app {
@@ -47,16 +46,6 @@ KeptClouds::take(std::size_t i)
     throw IoFailed(scans_.folder().file(i).string() +
                    ": has changed since it was read in this run");
   return cloud;
-}
-
-std::size_t
-cloudBudget()
-{
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGE_SIZE);
-  constexpr std::size_t kUnknown = std::size_t{1} << 30;
-  if (pages <= 0 || page <= 0)
-    return kUnknown;
-  return static_cast<std::size_t>(pages) / 4 * static_cast<std::size_t>(page);
 }
 
 } // namespace pcl6d::app

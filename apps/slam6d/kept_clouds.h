@@ -46,9 +46,4 @@ private:
   std::vector<Kept> clouds_;
 };
 
-/** \return [bytes] a quarter of the machine's memory: as much again as the clouds is what
- * matching, relaxing and verifying keep of them */
-std::size_t
-cloudBudget();
-
 } // namespace pcl6d::app

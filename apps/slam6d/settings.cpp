@@ -156,6 +156,7 @@ addRun(OptionTable& table, Settings& s)
   table.addAs<int>("threads", &s.slam.num_threads)
       .within(0, 1024, "in [0, 1024]")
       .help("0: one per core; never changes the result");
+  s.memory.addTo(table);
   table.add("planes", &s.planes)
       .help(
           "find the planes of the map and say what they are: planes.json, planes.pcd, "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/memory_budget.h"
 #include "common/option_table.h"
 
 #include <pcl6d/filters/motion_correction.h>
@@ -20,6 +21,7 @@ struct Settings {
   std::string out;
   ScanFolderOptions folder;
   Slam6DOptions slam;
+  MemoryOption memory;
   std::string continued;  ///< folder of a run that goes on; empty: none
   std::string graph_in;   ///< file of given links; empty: none
   bool auto_guess = true; ///< the initial guess follows from the poses that are there

@@ -98,8 +98,3 @@ TEST_F(KeptCloudsTest, NameAFileThatHasChangedMeanwhile)
         << message;
   }
 }
-
-TEST(CloudBudget, IsAPartOfTheMachinesMemory)
-{
-  EXPECT_GT(pcl6d::app::cloudBudget(), std::size_t{1} << 24);
-}

@@ -43,7 +43,7 @@ MapBuilder::addScan(const Points& points,
   grid_origin_ = grid_origin;
   has_intensity_ = has_intensity_ && intensities.size() == points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite() || !occupied_.insert(keys[i]).second)
+    if (!points[i].allFinite() || !occupied_.add(keys[i]).second)
       continue;
     points_.push_back(moved[i]);
     scans_.push_back(scan);

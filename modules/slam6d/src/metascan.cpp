@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "metascan.h"
 
-#include <pcl6d/common/voxel_key.h>
+#include <pcl6d/common/voxel_numbers.h>
 
 #include <algorithm>
 #include <limits>
-#include <unordered_set>
 
 namespace pcl6d::slam6d {
 
@@ -22,7 +21,7 @@ public:
     for (std::size_t i = 0; i < scan.points().size(); ++i) {
       const Eigen::Vector3f p = (T * scan.points()[i].cast<double>()).cast<float>();
       const bool in_grid = p.cwiseAbs().maxCoeff() < kGridCells * voxel_;
-      if (in_grid && !occupied_.insert(voxelKey(p, voxel_)).second)
+      if (in_grid && !occupied_.add(voxelKey(p, voxel_)).second)
         continue;
       points.push_back(p);
       if (has_normals)
@@ -37,7 +36,7 @@ public:
 private:
   static constexpr double kGridCells = (1 << 20) - 1; // voxelKey(); one for rounding
   double voxel_;
-  std::unordered_set<VoxelKey> occupied_;
+  VoxelNumbers occupied_;
 };
 } // namespace
 

@@ -3,12 +3,11 @@
 
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/require.h>
-#include <pcl6d/common/voxel_key.h>
+#include <pcl6d/common/voxel_numbers.h>
 #include <pcl6d/registration/localizability.h>
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace pcl6d {
 using verification::SurfacePair;
@@ -95,18 +94,17 @@ clustered(const std::vector<SurfacePair>& pairs,
           double cube,
           const double (&shift)[3])
 {
-  std::unordered_map<VoxelKey, std::size_t> cubes; // in the order of their first pairs
+  VoxelNumbers cubes;
   std::vector<Twist> gradients;
   const Eigen::Vector3d offset = cube * Eigen::Vector3d(shift[0], shift[1], shift[2]);
   for (const SurfacePair& pair : pairs) {
     const Twist j = jacobianOf(pair, fit.centroid);
     const double left = pair.residual - j.dot(fit.step);
     const Eigen::Vector3d place = pair.place - fit.centroid + offset;
-    const auto [entry, is_new] =
-        cubes.try_emplace(voxelKey(place.cast<float>(), cube), gradients.size());
+    const auto [number, is_new] = cubes.add(voxelKey(place.cast<float>(), cube));
     if (is_new)
       gradients.emplace_back(Twist::Zero());
-    gradients[entry->second] += left * j;
+    gradients[number] += left * j;
   }
   Matrix6 sum = Matrix6::Zero();
   for (const Twist& gradient : gradients)

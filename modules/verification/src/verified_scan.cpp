@@ -2,13 +2,12 @@
 #include "calibration.h"
 
 #include <pcl6d/common/require.h>
-#include <pcl6d/common/voxel_key.h>
+#include <pcl6d/common/voxel_numbers.h>
 #include <pcl6d/verification/verified_scan.h>
 #include <pcl6d/visibility/range_noise.h>
 #include <pcl6d/visibility/sight_evidence.h>
 
 #include <cmath>
-#include <unordered_map>
 
 namespace pcl6d {
 
@@ -18,11 +17,18 @@ std::size_t
 patchesOf(const Points& points, double cube)
 {
   constexpr std::size_t kLeastOfPatch = 4;
-  std::unordered_map<VoxelKey, std::size_t> counts;
+  VoxelNumbers cubes;
+  std::vector<std::size_t> counts;
   std::size_t patches = 0;
-  for (const auto& p : points)
-    if (p.allFinite() && ++counts[voxelKey(p, cube)] == kLeastOfPatch)
+  for (const auto& p : points) {
+    if (!p.allFinite())
+      continue;
+    const auto [number, is_new] = cubes.add(voxelKey(p, cube));
+    if (is_new)
+      counts.push_back(0);
+    if (++counts[number] == kLeastOfPatch)
       ++patches;
+  }
   return patches;
 }
 } // namespace

@@ -3,7 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
-#include <pcl6d/common/voxel_key.h>
+#include <pcl6d/common/voxel_numbers.h>
 
 #include <pcl/PCLPointCloud2.h>
 
@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <unordered_set>
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
@@ -76,7 +75,7 @@ private:
   Points points_;
   std::vector<float> intensities_;
   std::vector<std::uint32_t> scans_;
-  std::unordered_set<VoxelKey> occupied_;
+  VoxelNumbers occupied_;
 };
 
 } // namespace pcl6d

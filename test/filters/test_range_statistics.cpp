@@ -123,6 +123,21 @@ TEST(MedianRange, IsTheMiddleOneOrTheUpperOfTwo)
   EXPECT_EQ(medianRange({{kNan, 0, 0}}), 0);
 }
 
+TEST(MedianSpread, IsTheSizeOfWhatIsSeenWhereverItIs)
+{
+  using pcl6d::medianSpread;
+  const Points cross{{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 0}};
+  Points far, with_nan = cross;
+  for (const auto& p : cross)
+    far.push_back(p + Eigen::Vector3f(64, -32, 8));
+  with_nan.push_back({kNan, 0, 0});
+  EXPECT_EQ(medianSpread(cross), 1);
+  EXPECT_EQ(medianSpread(far), 1);
+  EXPECT_EQ(medianSpread(with_nan), 1);
+  EXPECT_EQ(medianSpread({{3, 4, 5}}), 0);
+  EXPECT_EQ(medianSpread({}), 0);
+}
+
 TEST(MedianSpacing, IsExactOnAGrid)
 {
   Points grid;

@@ -131,6 +131,33 @@ TEST(ReducePoints, AveragesEachVoxel)
   }
 }
 
+TEST(ReducePoints, AveragesToTheBitsOfTheGroups)
+{
+  Random random(8);
+  Points points;
+  for (int i = 0; i < 5003; ++i) // no multiple of what is looked at at once
+    points.emplace_back(static_cast<float>(random.uniform(-9, 9)),
+                        static_cast<float>(random.uniform(-2, 2)),
+                        static_cast<float>(random.uniform(-0.1, 5)));
+  points[7].setConstant(kNan);
+  points[9] = points[11] = {-0.0F, -0.0F, 0.0F}; // zeros of sums are positive
+  points[5000] = {-0.0F, 8.0F, -0.0F};
+  for (const double voxel : {0.02, 0.3, 2.0, 1e-5, 1e-9 + 3e-5}) {
+    const pcl6d::VoxelGroups groups(points, voxel);
+    ReductionOptions options;
+    options.voxel = voxel;
+    const Points means = reducePoints(points, options);
+    ASSERT_EQ(means.size(), groups.size());
+    for (std::size_t g = 0; g < means.size(); ++g) {
+      const Eigen::Vector3f mean = meanOf(points, groups.indices(g));
+      for (int axis = 0; axis < 3; ++axis) {
+        ASSERT_EQ(means[g][axis], mean[axis]);
+        ASSERT_EQ(std::signbit(means[g][axis]), std::signbit(mean[axis]));
+      }
+    }
+  }
+}
+
 TEST(ReducePoints, KeepsMeasuredPointsAtRandom)
 {
   const Points points = samplePoints();
@@ -262,4 +289,12 @@ TEST(ReductionOptions, NameTheValueThatBreaksItsRule)
   o.points_per_voxel = 0;
   EXPECT_EQ(badArgumentOf([&] { o.validate(); }),
             "points_per_voxel = 0, but must be >= 1");
+}
+
+TEST(ReductionMethodNames, AreThoseOfTheMethods)
+{
+  for (const auto& name : pcl6d::reductionMethodNames())
+    EXPECT_EQ(toString(pcl6d::reductionMethodFromName(name)), name);
+  EXPECT_EQ(pcl6d::reductionMethodNames().front(), "mean");
+  EXPECT_THROW(pcl6d::reductionMethodFromName("median"), pcl6d::BadArgument);
 }

@@ -29,8 +29,10 @@ searchAll(const Points& points, const Points& queries)
     tree.improveTwo(q, two);
     add(two.nearest);
     all.push_back({-1, two.second_sq});
-    for (const auto& found : tree.nearestK(q, 10))
-      add(found);
+    for (const std::size_t k : {5, 10, 20, 30, 50})
+      for (const auto& found : tree.nearestK(q, k))
+        add(found);
+    all.push_back({tree.hasNeighbour(q, 0.5f) ? 1 : 0, 0});
     for (const auto& found : tree.withinRadius(q, 1.0f))
       add(found);
   }

@@ -35,6 +35,23 @@ TEST(PointTree, FindsTheSameFromAnyCandidate)
                   tree.nearest(q, limit_sq).index);
 }
 
+TEST(PointTree, HasANeighbourWhereItFindsANearest)
+{
+  Random random(6);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const Points& points :
+       {randomCube(random, 3000, 20), gridWithDuplicates(random, 500), Points{}}) {
+    const PointTree tree(points);
+    Points queries = randomCube(random, 300, 24);
+    const Points on_points = gridWithDuplicates(random, 50); // ties with the limit
+    queries.insert(queries.end(), on_points.begin(), on_points.end());
+    queries.insert(queries.end(), {{nan, 0, 0}, {0, kInfinity, 0}, {1e30f, 0, 0}});
+    for (const auto& q : queries)
+      for (const float limit_sq : {-1.0f, 0.0f, 0.25f, 1.0f, 2.0f, kInfinity, nan})
+        EXPECT_EQ(tree.hasNeighbour(q, limit_sq), tree.nearest(q, limit_sq).index >= 0);
+  }
+}
+
 /** Large enough that the build is shared. An approximate search shows the tree itself. */
 TEST(PointTree, IsTheSameForEveryThreadCount)
 {

@@ -223,8 +223,22 @@ TEST(NearestK, IntoAnArrayAreTheFirstOfAllPoints)
     const PointTree tree(points);
     for (const auto& q : queries) {
       const auto all = allWithin(points, q, kInfinity);
-      for (const std::size_t k :
-           {0u, 1u, 2u, 7u, 8u, 10u, 20u, 32u, 33u, 64u, 65u, 200u}) {
+      for (const std::size_t k : {0u,
+                                  1u,
+                                  2u,
+                                  7u,
+                                  8u,
+                                  9u,
+                                  10u,
+                                  12u,
+                                  13u,
+                                  20u,
+                                  21u,
+                                  32u,
+                                  33u,
+                                  64u,
+                                  65u,
+                                  200u}) {
         const Neighbour untouched{-7, -7};
         std::vector<Neighbour> found(k + 1, untouched);
         const std::size_t count = tree.nearestK(q, k, found.data());

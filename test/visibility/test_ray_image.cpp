@@ -371,3 +371,30 @@ TEST(RayImage, AnswersWithCoarseOptionsWhereTheRaysAreFarApart)
     EXPECT_EQ(coarse.look(8 * direction, 0).sight, Sight::kBehind);
   }
 }
+
+TEST(RayImage, SaysOfManyPlacesWhatItSaysOfEach)
+{
+  const RayImage image(scanAround(kRays, kOrigin, wavyRange), filledOptions());
+  Points places{{kNan, 0, 0}, kOrigin.cast<float>(), {1e30F, 0, 0}};
+  std::vector<float> sigmas{0.1F, 0.1F, 0.1F};
+  for (std::size_t i = 0; i < 100; ++i) { // no multiple of what is fetched at once
+    places.push_back(placeAt(3 + 0.05 * static_cast<double>(i), directionOf(i, 100)));
+    sigmas.push_back(0.01F * static_cast<float>(i));
+  }
+  const auto expectSame = [&](const RayImage& asked, const std::vector<float>& of_all) {
+    const std::vector<SightOfPlace> seen = asked.look(places, of_all);
+    ASSERT_EQ(seen.size(), places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const SightOfPlace one =
+          asked.look(places[i], of_all.size() == 1 ? of_all[0] : of_all[i]);
+      EXPECT_EQ(seen[i].sight, one.sight) << i;
+      EXPECT_EQ(seen[i].beyond, one.beyond) << i;
+      EXPECT_EQ(seen[i].sigmas, one.sigmas) << i;
+    }
+  };
+  expectSame(image, sigmas);
+  expectSame(image, {0.05F});
+  expectSame(RayImage(), sigmas);
+  EXPECT_TRUE(image.look({}, std::vector<float>{}).empty());
+  EXPECT_NE(badArgumentOf([&] { image.look(places, {0.1F, 0.2F}); }), "");
+}

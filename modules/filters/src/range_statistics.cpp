@@ -87,6 +87,24 @@ medianRange(const Points& points)
   return upperMedian(rangesOf(points));
 }
 
+double
+medianSpread(const Points& points)
+{
+  Eigen::Vector3f middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> coordinates;
+    for (const auto& p : points)
+      if (p.allFinite())
+        coordinates.push_back(p[axis]);
+    middle[axis] = static_cast<float>(upperMedian(std::move(coordinates)));
+  }
+  std::vector<double> distances;
+  for (const auto& p : points)
+    if (p.allFinite())
+      distances.push_back((p - middle).cast<double>().norm());
+  return upperMedian(std::move(distances));
+}
+
 namespace {
 /** \return about 1000 evenly chosen points, equal ones side by side */
 Points

@@ -96,13 +96,15 @@ deriveScanParameters(const ScanParameterOptions& options,
 {
   ScanParameters p;
   p.max_range = orDerived(options.max_range, gateBelowCode(scans));
-  std::vector<double> ranges, spacings;
+  std::vector<double> ranges, spreads, spacings;
   for (const auto& scan : scans) {
     const Points seen = gateByRange(scan, 0, p.max_range.value);
     ranges.push_back(medianRange(seen));
+    spreads.push_back(medianSpread(seen));
     spacings.push_back(medianSpacing(seen));
   }
   const double range = upperMedian(ranges), spacing = upperMedian(spacings);
+  p.median_range = range;
 
   // The scanner's own housing and the robot are nearer than any room; 0.2 m holds for
   // scanners of rooms, the tenth of the range for small objects.
@@ -111,13 +113,17 @@ deriveScanParameters(const ScanParameterOptions& options,
       derivedParameter(std::min(0.2, 0.1 * range),
                        "0.2 m, at most a tenth of the median range " + metres(range)));
   // Fine enough to keep a surface's shape at the typical range, coarse enough that most
-  // voxels average several points.
-  const double voxel = std::max(2.5 * spacing, range / 60);
+  // voxels average several points. What is small beside its range, such as an object on a
+  // turntable, keeps its own shape: half of its points are within a spread of its middle.
+  const double size = 4 * upperMedian(spreads);
+  const std::string scale = size < range ? "size of what is seen " + metres(size)
+                                         : "median range " + metres(range);
+  const double voxel = std::max(2.5 * spacing, std::min(size, range) / 60);
   p.voxel =
       orDerived(options.voxel,
                 derivedParameter(std::max(voxel, 1e-6),
                                  "larger of 2.5 x median spacing " + metres(spacing) +
-                                     " and median range " + metres(range) + " / 60"));
+                                     " and " + scale + " / 60"));
   const Parameter grid = gateAtGrid(p.voxel.value);
   if (!options.max_range && grid.value < p.max_range.value)
     p.max_range = grid;

@@ -1,14 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "voxel_sort.h"
 
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/voxel_reduction.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl6d {
+
+namespace {
+constexpr Named<ReductionMethod> kReductionMethods[] = {
+    {ReductionMethod::kMean, "mean"},
+    {ReductionMethod::kCentre, "centre"},
+    {ReductionMethod::kRandom, "random"}};
+} // namespace
+
+ReductionMethod
+reductionMethodFromName(const std::string& name)
+{
+  return fromName(kReductionMethods, "reduction", name);
+}
+
+std::vector<std::string>
+reductionMethodNames()
+{
+  return namesOf(kReductionMethods);
+}
+
+std::string
+toString(ReductionMethod method)
+{
+  return nameOf(kReductionMethods, method);
+}
 
 void
 ReductionOptions::validate() const
@@ -59,6 +86,9 @@ Points
 reducePoints(const Points& points, const ReductionOptions& options)
 {
   options.validate();
+  if (options.method == ReductionMethod::kMean)
+    if (auto means = filters::meansByVoxel(points, options.voxel))
+      return std::move(*means);
   const VoxelGroups groups(points, options.voxel);
   Points reduced;
   reduced.reserve(groups.size());

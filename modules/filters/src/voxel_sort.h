@@ -4,6 +4,7 @@
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/voxel_key.h>
 
+#include <optional>
 #include <vector>
 
 namespace pcl6d::filters {
@@ -22,5 +23,10 @@ struct VoxelOrder {
  * \throws BadArgument a point does not fit into the grid (see voxelKey()) */
 VoxelOrder
 sortByVoxel(const Points& points, double voxel);
+
+/** \return the means of the points of the voxels in that order, without the lists in
+ * between; nothing if the points are too many, or the voxels too small, for short keys */
+std::optional<Points>
+meansByVoxel(const Points& points, double voxel);
 
 } // namespace pcl6d::filters

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Searches of PointTree for more than the nearest point.
 #include "point_tree_traversal.h"
+#include "sorted_few.h"
+
+#include <memory>
 
 namespace pcl6d {
 
@@ -63,76 +66,76 @@ private:
   }
 };
 
-/** Keeps the k nearest: sorted if they are few, else as a heap. */
-struct TreeNearestK {
-  static constexpr std::size_t kShort = 64;
-  Neighbour* const out;
-  const std::size_t k;
+/** Keeps the k nearest of few. */
+template <int Registers>
+struct TreeNearestFew {
+  SortedFew<Registers> nearest;
   const float shrink; ///< of the squared bound once there are k points
-  std::size_t count = 0;
 
-  bool
-  isShort() const
-  {
-    return k <= kShort;
-  }
-  /** \return the distance beyond which a point is of no use */
-  float
-  worst() const
-  {
-    return count < k ? kInfinity : out[isShort() ? k - 1 : 0].distance_sq;
-  }
   float
   bound() const
   {
-    return count < k ? kInfinity : worst() * shrink;
+    return nearest.worst() < kInfinity ? nearest.worst() * shrink : kInfinity;
   }
 
   PCL6D_INLINE void
   meet(const PointTree::Leaf& leaf, std::size_t, const Vector8& distances)
   {
-    const Bits8 passes = distances <= std::min(worst(), kUsed); // none is infinite
-    int lanes[8], num_lanes = 0; // without branches; add() looks again
-    for (int i = 0; i < 8; ++i) {
-      lanes[num_lanes] = i;
-      num_lanes -= passes[i];
-    }
-    for (int i = 0; i < num_lanes; ++i)
-      add({leaf.index[lanes[i]], distances[lanes[i]]});
+    // None that is infinite. One as far as the worst may have a smaller index.
+    const unsigned int chosen = bitsOf(distances <= std::min(nearest.worst(), kUsed));
+    if (chosen == 0)
+      return;
+    alignas(32) NeighbourKey keys[8];
+    neighbourKeysOf(distances, leaf.index, keys);
+    nearest.add(keys, chosen);
+  }
+};
+
+/** Keeps the k nearest of many: in any order, until half as many again are there, of which
+ * the k nearest stay. */
+struct TreeNearestMany {
+  NeighbourKey* const keys; ///< has room for most, and a leaf more
+  const std::size_t k, most;
+  const float shrink; ///< as above
+  std::size_t count = 0;
+  float worst = kInfinity; ///< of the k nearest, when they were chosen last
+
+  float
+  bound() const
+  {
+    return worst < kInfinity ? worst * shrink : kInfinity;
+  }
+
+  PCL6D_INLINE void
+  meet(const PointTree::Leaf& leaf, std::size_t, const Vector8& distances)
+  {
+    unsigned int chosen = bitsOf(distances <= std::min(worst, kUsed));
+    if (chosen == 0)
+      return;
+    alignas(32) NeighbourKey met[8];
+    neighbourKeysOf(distances, leaf.index, met);
+    for (; chosen != 0; chosen &= chosen - 1)
+      keys[count++] = met[__builtin_ctz(chosen)];
+    if (count >= (worst < kInfinity ? most : k))
+      choose();
   }
 
   void
+  choose()
+  {
+    std::nth_element(keys, keys + k - 1, keys + count);
+    worst = neighbourOf(keys[k - 1]).distance_sq;
+    count = k;
+  }
+
+  /** \return the number of neighbours, which are sorted */
+  std::size_t
   sort()
   {
-    if (!isShort())
-      std::sort(out, out + count);
-  }
-
-private:
-  PCL6D_INLINE void
-  add(const Neighbour& candidate)
-  {
-    if (!isShort())
-      return addToHeap(candidate);
-    std::size_t place = count;
-    if (count < k)
-      ++count;
-    else if (!(candidate < out[--place]))
-      return;
-    for (; place > 0 && candidate < out[place - 1]; --place)
-      out[place] = out[place - 1];
-    out[place] = candidate;
-  }
-  void
-  addToHeap(const Neighbour& candidate)
-  {
-    if (count == k) {
-      if (!(candidate < out[0]))
-        return;
-      std::pop_heap(out, out + count--);
-    }
-    out[count++] = candidate;
-    std::push_heap(out, out + count);
+    if (count > k)
+      choose();
+    std::sort(keys, keys + count);
+    return count;
   }
 };
 
@@ -143,9 +146,71 @@ visitTwo(const PointTree::View& tree, const float* q, TreeTwoNearest& visitor)
 }
 
 PCL6D_SIMD_CLONES void
-visitK(const PointTree::View& tree, const float* q, TreeNearestK& visitor)
+visitFew(const PointTree::View& tree, const float* q, TreeNearestFew<2>& visitor)
 {
   visit(tree, q, visitor);
+}
+
+PCL6D_SIMD_CLONES void
+visitFew(const PointTree::View& tree, const float* q, TreeNearestFew<3>& visitor)
+{
+  visit(tree, q, visitor);
+}
+
+PCL6D_SIMD_CLONES void
+visitFew(const PointTree::View& tree, const float* q, TreeNearestFew<5>& visitor)
+{
+  visit(tree, q, visitor);
+}
+
+PCL6D_SIMD_CLONES void
+visitFew(const PointTree::View& tree, const float* q, TreeNearestFew<8>& visitor)
+{
+  visit(tree, q, visitor);
+}
+
+PCL6D_SIMD_CLONES void
+visitMany(const PointTree::View& tree, const float* q, TreeNearestMany& visitor)
+{
+  visit(tree, q, visitor);
+}
+
+template <int Registers>
+std::size_t
+collectFew(const PointTree::View& tree,
+           const float* q,
+           std::size_t k,
+           float shrink,
+           Neighbour* out)
+{
+  TreeNearestFew<Registers> visitor{SortedFew<Registers>(k), shrink};
+  visitFew(tree, q, visitor);
+  std::size_t count = 0;
+  for (; count < k; ++count) {
+    out[count] = neighbourOf(visitor.nearest.key(4 * Registers - k + count));
+    if (out[count].distance_sq == kInfinity)
+      break;
+  }
+  return count;
+}
+
+std::size_t
+collectMany(const PointTree::View& tree,
+            const float* q,
+            std::size_t k,
+            float shrink,
+            Neighbour* out)
+{
+  // What an approximate search finds depends on its bound, which is that of all it met.
+  const std::size_t most = shrink < 1 ? k : k + k / 2;
+  const std::unique_ptr<NeighbourKey[]> keys(
+      new NeighbourKey[most + PointTree::kLeafSize]);
+  TreeNearestMany visitor{keys.get(), k, most, shrink};
+  visitMany(tree, q, visitor);
+  const std::size_t count = visitor.sort();
+  for (std::size_t i = 0; i < count; ++i)
+    out[i] = neighbourOf(keys[i]);
+  return count;
 }
 } // namespace search
 
@@ -168,11 +233,14 @@ PointTree::collectK(const Eigen::Vector3f& query,
                     float shrink,
                     Neighbour* out) const
 {
-  TreeNearestK visitor{out, k, shrink};
-  if (k > 0 && canAnswer(query))
-    visitK(view(), query.data(), visitor);
-  visitor.sort();
-  return visitor.count;
+  if (k == 0 || !canAnswer(query))
+    return 0;
+  const auto collect = k <= 8    ? collectFew<2>
+                       : k <= 12 ? collectFew<3>
+                       : k <= 20 ? collectFew<5>
+                       : k <= 32 ? collectFew<8>
+                                 : collectMany;
+  return collect(view(), query.data(), k, shrink, out);
 }
 
 std::size_t

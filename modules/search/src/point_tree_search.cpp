@@ -21,6 +21,26 @@ struct TreeNearest : NearestVisitor {
   }
 };
 
+/** Is content with any point within a limit. */
+struct TreeAny {
+  float limit_sq; ///< below all distances once there is one
+  bool found = false;
+
+  float
+  bound() const
+  {
+    return limit_sq;
+  }
+  PCL6D_INLINE void
+  meet(const PointTree::Leaf&, std::size_t, const Vector8& distances)
+  {
+    if (!(smallest(distances) < limit_sq))
+      return;
+    found = true;
+    limit_sq = -1;
+  }
+};
+
 struct TreeCollect : CollectVisitor {
   PCL6D_INLINE void
   meet(const PointTree::Leaf& leaf, std::size_t, const Vector8& distances)
@@ -35,6 +55,12 @@ struct TreeCollect : CollectVisitor {
 
 PCL6D_SIMD_CLONES void
 visitNearest(const PointTree::View& tree, const float* q, TreeNearest& visitor)
+{
+  visit(tree, q, visitor);
+}
+
+PCL6D_SIMD_CLONES void
+visitAny(const PointTree::View& tree, const float* q, TreeAny& visitor)
 {
   visit(tree, q, visitor);
 }
@@ -107,6 +133,15 @@ PointTree::nearest(const Eigen::Vector3f& query, float max_distance_sq) const
   return visitor.result();
 }
 
+bool
+PointTree::hasNeighbour(const Eigen::Vector3f& query, float max_distance_sq) const
+{
+  TreeAny visitor{max_distance_sq};
+  if (canAnswer(query))
+    visitAny(view(), query.data(), visitor);
+  return visitor.found;
+}
+
 Neighbour
 PointTree::nearest(const Eigen::Vector3f& query,
                    float max_distance_sq,
@@ -127,7 +162,7 @@ PointTree::nearestFrom(int& leaf,
                        const Eigen::Vector3f& query,
                        float max_distance_sq) const
 {
-  if (size_ > 0 && cells_.empty())
+  if (!keepsCells())
     throw BadArgument("PointTree: cached search in a tree that keeps no cells");
   if (leaf >= 0 && static_cast<std::size_t>(leaf) >= leaves_.size())
     throw BadArgument("PointTree: leaf " + std::to_string(leaf) + " of " +

@@ -102,13 +102,15 @@ descend(const PointTree::View& tree,
     std::memcpy(&bits, &key, sizeof(bits));
     const int child = bits & 7;
     bits &= ~7;
-    float distance_sq;
-    std::memcpy(&distance_sq, &bits, sizeof(bits));
-    if (!(distance_sq <= std::min(visitor.bound(), kLargest))) {
+    const float bound = visitor.bound() < kLargest ? visitor.bound() : kLargest;
+    std::int32_t bound_bits; // in the order of the floats; below 0 if bound is
+    std::memcpy(&bound_bits, &bound, sizeof(bound));
+    if (bits > bound_bits) {
       --top;
       continue;
     }
-    reinterpret_cast<float*>(&node.keys)[child] = kUsed;
+    const Bits8 lanes{0, 1, 2, 3, 4, 5, 6, 7}; // a part written alone is slow to read
+    node.keys = lanes == Bits8{} + child ? Vector8{} + kUsed : node.keys;
     const std::size_t place = 8 * node.place + child;
     if (node.level + 1 == tree.leaf_level)
       scanLeaf(tree, place, q, visitor);

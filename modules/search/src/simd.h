@@ -6,12 +6,17 @@
 #include <cstdint>
 #include <cstring>
 
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
 /** \file
  * Vectors of four and eight lanes. */
 namespace pcl6d::search {
 
 using Vector4 = float __attribute__((vector_size(16)));
 using Vector8 = float __attribute__((vector_size(32)));
+using Doubles4 = double __attribute__((vector_size(32)));
 using Bits8 = std::int32_t __attribute__((vector_size(32)));
 
 template <typename Vector, typename Scalar>
@@ -36,6 +41,23 @@ smallest(const Vector8& v)
   const Vector4 crossed{four[2], four[3], four[0], four[1]};
   const Vector4 two = four < crossed ? four : crossed;
   return two[0] < two[1] ? two[0] : two[1];
+}
+
+/** \return a bit for each lane that is true (-1), that of the first lane last */
+PCL6D_INLINE unsigned int
+bitsOf(const Bits8& truth)
+{
+#ifdef __SSE2__
+  __m128 low, high;
+  std::memcpy(&low, &truth, sizeof(low));
+  std::memcpy(&high, reinterpret_cast<const char*>(&truth) + sizeof(low), sizeof(high));
+  return static_cast<unsigned int>(_mm_movemask_ps(low) | (_mm_movemask_ps(high) << 4));
+#else
+  unsigned int bits = 0;
+  for (unsigned int i = 0; i < 8; ++i)
+    bits |= truth[i] != 0 ? 1U << i : 0U;
+  return bits;
+#endif
 }
 
 } // namespace pcl6d::search

@@ -3,6 +3,7 @@
 #include <pcl6d/visibility/ray_image.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -182,14 +183,61 @@ RayImage::fill(const std::vector<visibility::CodedRay>& rays, Level& level)
                        : static_cast<double>(answering) / static_cast<double>(occupied);
 }
 
-SightOfPlace
-RayImage::look(const Eigen::Vector3f& place, float sigma) const
+RayImage::Aim
+RayImage::aim(const Eigen::Vector3f& place) const
 {
   const Eigen::Vector3f ray = place - origin_;
   const float range = ray.norm();
   if (levels_.empty() || !(range > 0) || !std::isfinite(range))
     return {};
-  const visibility::OnCube direction = onCube(ray);
+  return {onCube(ray), range};
+}
+
+/** Asks for the cell that is likely to answer. */
+void
+RayImage::fetch(const Aim& aim) const
+{
+  if (aim.range == 0)
+    return;
+  const Level& finest = levels_.front();
+  const auto& face = finest.faces[aim.direction.face];
+  if (!face.empty())
+    __builtin_prefetch(&face[cellOf(aim.direction, finest.side)]);
+}
+
+SightOfPlace
+RayImage::look(const Eigen::Vector3f& place, float sigma) const
+{
+  return lookAlong(aim(place), sigma);
+}
+
+std::vector<SightOfPlace>
+RayImage::look(const Points& places, const std::vector<float>& sigmas) const
+{
+  require(sigmas.size() == places.size() || sigmas.size() == 1,
+          "sigmas",
+          sigmas.size(),
+          "one per place, or one for all");
+  constexpr std::size_t kAhead = 16;
+  std::array<Aim, kAhead> aims;
+  std::vector<SightOfPlace> seen(places.size());
+  for (std::size_t begin = 0; begin < places.size(); begin += kAhead) {
+    const std::size_t count = std::min(kAhead, places.size() - begin);
+    for (std::size_t i = 0; i < count; ++i)
+      fetch(aims[i] = aim(places[begin + i]));
+    for (std::size_t i = 0; i < count; ++i)
+      seen[begin + i] =
+          lookAlong(aims[i], sigmas.size() == 1 ? sigmas[0] : sigmas[begin + i]);
+  }
+  return seen;
+}
+
+SightOfPlace
+RayImage::lookAlong(const Aim& aim, float sigma) const
+{
+  const auto& [direction, range] = aim;
+  if (range == 0)
+    return {};
   for (const Level& level : levels_) {
     const auto& face = level.faces[direction.face];
     if (face.empty())

@@ -75,6 +75,35 @@ varianceAlong(const Eigen::Vector3d& place,
   return uncertainty.noise * uncertainty.noise +
          std::max(0.0, j.dot(uncertainty.motion * j));
 }
+
+/** Points that are finite, their places in an image, and how exactly they are known. */
+struct UncertainPlaces {
+  Points points, places;
+  std::vector<float> sigmas; ///< [m] one per place
+};
+
+UncertainPlaces
+placesOf(const RayImage& image,
+         const Points& points,
+         const Eigen::Isometry3d& T_image_points,
+         const PlaceUncertainty& uncertainty)
+{
+  UncertainPlaces all;
+  all.points.reserve(points.size());
+  all.places.reserve(points.size());
+  all.sigmas.reserve(points.size());
+  for (const auto& p : points) {
+    if (!p.allFinite())
+      continue;
+    const Eigen::Vector3d place = T_image_points * p.cast<double>();
+    const Eigen::Vector3d ray = place - image.origin().cast<double>();
+    all.points.push_back(p);
+    all.places.emplace_back(place.cast<float>());
+    all.sigmas.push_back(
+        static_cast<float>(std::sqrt(varianceAlong(place, ray, uncertainty))));
+  }
+  return all;
+}
 } // namespace
 
 SightEvidence&
@@ -116,14 +145,12 @@ sightEvidence(const RayImage& image,
   std::vector<Witness> witnesses;
   // The list of the caller stays as it is if a point throws.
   std::vector<Contradiction> found;
-  for (const auto& p : points) {
-    if (!p.allFinite())
-      continue;
-    const Eigen::Vector3d place = T_image_points * p.cast<double>();
-    const Eigen::Vector3d ray = place - image.origin().cast<double>();
-    const SightOfPlace seen = image.look(
-        place.cast<float>(),
-        static_cast<float>(std::sqrt(varianceAlong(place, ray, uncertainty))));
+  const auto [finite, places, sigmas] =
+      placesOf(image, points, T_image_points, uncertainty);
+  const std::vector<SightOfPlace> sights = image.look(places, sigmas);
+  for (std::size_t i = 0; i < finite.size(); ++i) {
+    const Eigen::Vector3f& p = finite[i];
+    const SightOfPlace& seen = sights[i];
     switch (seen.sight) {
     case Sight::kUnseen:
       ++evidence.unseen;

@@ -38,6 +38,12 @@ noReturnRange(const Points& points);
 double
 medianRange(const Points& points);
 
+/** \return the median distance of the finite points from their middle, which is the median of
+ * each coordinate [m]: for a scanner with surfaces all around about their range, for a small
+ * object far away a part of its size; 0 without finite points */
+double
+medianSpread(const Points& points);
+
 /** \return the median distance from a point to the nearest other one [m], over about
  * 1000 evenly chosen points. Exact duplicates are no other points: their distance of 0
  * says nothing of the spacing. 0 with fewer than 2 different points */

@@ -37,9 +37,10 @@ struct ScanParameterOptions {
 
 /** \brief Range gate and reduction of scans. */
 struct ScanParameters {
-  Parameter min_range; ///< [m]
-  Parameter max_range; ///< [m] infinite only if given so
-  Parameter voxel;     ///< [m]
+  Parameter min_range;     ///< [m]
+  Parameter max_range;     ///< [m] infinite only if given so
+  Parameter voxel;         ///< [m]
+  double median_range = 0; ///< [m] of the scans that they were derived from
 };
 
 /** \brief Fills in what the user left open, from some scans. Derived values are rounded to

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
@@ -17,6 +18,18 @@ enum class ReductionMethod {
   kMean,   ///< the mean of the voxel's points: always inside the voxel
   kRandom  ///< measured points chosen at random: no averaging across surfaces
 };
+
+/** \return the method called "mean", "centre" or "random" \throws BadArgument another */
+ReductionMethod
+reductionMethodFromName(const std::string& name);
+
+/** \return the names of all methods */
+std::vector<std::string>
+reductionMethodNames();
+
+/** \return the method's name */
+std::string
+toString(ReductionMethod method);
 
 /** \brief Knobs of the octree reduction. */
 struct ReductionOptions {

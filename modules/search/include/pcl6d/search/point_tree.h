@@ -47,13 +47,25 @@ public:
     return size_;
   }
 
+  /** \return whether nearestFrom() may be asked */
+  bool
+  keepsCells() const
+  {
+    return size_ == 0 || !cells_.empty();
+  }
+
   /** \brief The nearest point within a distance.
    * \param[in] max_distance_sq [m^2]; a point at exactly this distance is not accepted
    * \return index -1 if there is none, or the query is not finite */
   Neighbour
   nearest(const Eigen::Vector3f& query, float max_distance_sq) const;
 
-  /** \brief The same with a first candidate, which often is the neighbour of the last
+  /** \brief Whether there is a point within a distance: whether nearest() finds one, in
+   * less time, as any will do. \return false if the query is not finite */
+  bool
+  hasNeighbour(const Eigen::Vector3f& query, float max_distance_sq) const;
+
+  /** \brief nearest() with a first candidate, which often is the neighbour of the last
    * ICP iteration. It makes the search faster and never changes its result. \param[in]
    * candidate a place in the input points, or -1 \param[in] candidate_point the
    * coordinates of that point */
@@ -112,8 +124,8 @@ public:
   std::vector<Neighbour>
   nearestK(const Eigen::Vector3f& query, std::size_t k, double epsilon = 0) const;
 
-  /** \brief The same into the caller's array: takes no memory, meant for many queries
-   * with a small k.
+  /** \brief The same into the caller's array: takes no memory for k <= 32, meant for many
+   * queries with a small k.
    * \param[out] out place for k \return how many there are: k, or all if there are fewer;
    * 0 if the query is not finite */
   std::size_t

@@ -11,6 +11,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+/** \return whether a point has no fields beside x, y, z */
+template <typename PointT>
+constexpr bool
+hasOnlyCoordinates()
+{
+  using Fields = typename pcl::traits::fieldList<PointT>::type;
+  return boost::mpl::size<Fields>::value == 3;
+}
+
 /** Gives a point the mean fields of the members, and their mean place.
  * \param[in] points of the core; their mean is summed in double, where PCL's float sum
  * drifts away far from the origin \param[in] pointOf the PCL point of a member */
@@ -21,8 +30,7 @@ averageMembers(const Points& points,
                const PointOf& pointOf,
                PointT& point)
 {
-  using Fields = typename pcl::traits::fieldList<PointT>::type;
-  if constexpr (boost::mpl::size<Fields>::value > 3) { // than x, y, z
+  if constexpr (!hasOnlyCoordinates<PointT>()) {
     pcl::CentroidPoint<PointT> mean;
     for (const auto i : members)
       mean.add(pointOf(i));

@@ -25,11 +25,26 @@ OctreeReduction<PointT>::applyFilter(PointCloud& output)
   const auto pointOf = [&](pcl::index_t i) -> const PointT& {
     return input[chosen[i]];
   };
-  const Points points = toPoints(input, chosen);
+  Points points(chosen.size()); // where toPoints() would ask for room at each point
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PointT& p = input[chosen[i]];
+    points[i] = {p.x, p.y, p.z};
+  }
+  const auto begin = [&] {
+    output.clear();
+    output.header = input.header;
+    output.is_dense = true;
+  };
+  if (options_.method == ReductionMethod::kMean && hasOnlyCoordinates<PointT>()) {
+    const Points means = reducePoints(points, options_);
+    begin();
+    output.resize(means.size());
+    for (std::size_t i = 0; i < means.size(); ++i)
+      output[i].getVector3fMap() = means[i];
+    return;
+  }
   const VoxelGroups groups(points, options_.voxel);
-  output.clear();
-  output.header = input.header;
-  output.is_dense = true;
+  begin();
   if (options_.method == ReductionMethod::kRandom) {
     for (const auto i : groups.chooseRandom(options_.points_per_voxel, options_.seed))
       output.push_back(pointOf(i));

@@ -6,6 +6,9 @@ find_package(Boost 1.71 REQUIRED COMPONENTS program_options filesystem)
 find_package(Threads REQUIRED)
 find_package(nlohmann_json 3.9 REQUIRED)
 find_package(embree 3 REQUIRED)
+if(PCL6D_MPI)
+  find_package(MPI QUIET COMPONENTS C)
+endif()
 find_package(OpenCV 4 REQUIRED COMPONENTS
   core imgproc imgcodecs calib3d objdetect videoio)
 find_package(VTK 9 REQUIRED COMPONENTS

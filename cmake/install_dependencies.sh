@@ -21,10 +21,12 @@ needs=(
   "libflann-dev /usr/include/flann/flann.hpp"
   "libgtest-dev /usr/include/gtest/gtest.h"
   "libbenchmark-dev /usr/include/benchmark/benchmark.h"
+  "libopenmpi-dev mpicc"
   "libopencv-dev /usr/include/opencv4/opencv2/calib3d.hpp"
   "libpcl-dev /usr/include/pcl-*/pcl/point_cloud.h"
   "libvtk9-dev /usr/include/vtk-9*/vtkVersion.h"
   "libx11-dev /usr/include/X11/Xlib.h"
+  "openmpi-bin mpirun"
   "nlohmann-json3-dev /usr/include/nlohmann/json.hpp"
 )
 

@@ -25,8 +25,9 @@ using pcl6d::test::RoomPair;
 using pcl6d::test::sameBits;
 
 namespace {
-constexpr SearchMethod kExact[] = {SearchMethod::kCached,
+constexpr SearchMethod kExact[] = {SearchMethod::kRemembered,
                                    SearchMethod::kKdTree,
+                                   SearchMethod::kCachedTree,
                                    SearchMethod::kOctree,
                                    SearchMethod::kBruteForce};
 
@@ -56,7 +57,7 @@ TEST(IcpBasin, FindsBackFromNearby)
     SCOPED_TRACE(toString(metric));
     const IcpVariant variant{metric,
                              metric == Metric::kPoint ? "quaternion" : "helix",
-                             SearchMethod::kCached};
+                             SearchMethod::kRemembered};
     const IcpBasin basin = evaluateRoom({variant}, nearStarts());
     ASSERT_EQ(basin.rows.size(), 1u);
     EXPECT_EQ(basin.best[0].doubt, "");
@@ -88,7 +89,7 @@ TEST(IcpBasin, IsTheSameForAllExactSearches)
     for (const SearchMethod search : kExact)
       variants.push_back({metric, "helix", search});
     const IcpBasin basin = evaluateRoom(variants, o);
-    ASSERT_EQ(basin.rows.size(), 4u);
+    ASSERT_EQ(basin.rows.size(), std::size(kExact));
     EXPECT_GT(basin.rows[0].summary.success, 0.1) << "or the test would tell nothing";
     EXPECT_LT(basin.rows[0].summary.success, 0.95);
     for (const IcpBasinRow& row : basin.rows) {
@@ -103,7 +104,7 @@ TEST(IcpBasin, IsTheSameForAnyNumberOfThreads)
   IcpBasinOptions o = nearStarts();
   const std::vector<IcpVariant> variants = {
       {Metric::kPoint, "quaternion", SearchMethod::kApproximate},
-      {Metric::kGicp, "linear", SearchMethod::kCached}};
+      {Metric::kGicp, "linear", SearchMethod::kRemembered}};
   o.num_threads = 1;
   const IcpBasin alone = evaluateRoom(variants, o);
   o.num_threads = 3;

@@ -83,8 +83,8 @@ TEST(IcpBasin, DoubtsABestPoseThatIcpLeaves)
 TEST(IcpBasin, SaysWhichBestPosesAreNotTheSame)
 {
   const std::vector<IcpVariant> variants = {
-      {Metric::kPoint, "quaternion", SearchMethod::kCached},
-      {Metric::kPlane, "helix", SearchMethod::kCached}};
+      {Metric::kPoint, "quaternion", SearchMethod::kRemembered},
+      {Metric::kPlane, "helix", SearchMethod::kRemembered}};
   IcpBasinOptions o = nearStarts();
   EXPECT_TRUE(evaluateRoom(variants, o).disagreements.empty());
 
@@ -111,8 +111,8 @@ TEST(IcpBasin, MeasuresTheOtherMetricsIfOneFails)
   o.icp.max_iterations = 8;       // too few for points,
   o.icp.max_distance_start = 0.5; // enough for planes from the truth
   const std::vector<IcpVariant> variants = {
-      {Metric::kPoint, "quaternion", SearchMethod::kCached},
-      {Metric::kPlane, "helix", SearchMethod::kCached}};
+      {Metric::kPoint, "quaternion", SearchMethod::kRemembered},
+      {Metric::kPlane, "helix", SearchMethod::kRemembered}};
   const IcpBasin basin = evaluateRoom(variants, o);
   ASSERT_EQ(basin.best.size(), 2u);
   EXPECT_EQ(basin.best[0].doubt, "ICP stopped: iteration limit");
@@ -124,8 +124,8 @@ TEST(IcpBasin, MeasuresTheOtherMetricsIfOneFails)
 TEST(IcpBasin, StopsWhenTheObserverSaysSo)
 {
   const std::vector<IcpVariant> variants = {
-      {Metric::kPoint, "quaternion", SearchMethod::kCached},
-      {Metric::kPoint, "svd", SearchMethod::kCached}};
+      {Metric::kPoint, "quaternion", SearchMethod::kRemembered},
+      {Metric::kPoint, "svd", SearchMethod::kRemembered}};
   std::vector<std::size_t> seen;
   const auto run = [&](std::size_t last) {
     seen.clear();
@@ -181,7 +181,7 @@ TEST(IcpBasin, RefusesBadOptions)
         << start << ": " << message(change);
 
   EXPECT_NE(badArgumentOf([] { evaluateRoom({}, nearStarts()); }), "");
-  const IcpVariant unknown{Metric::kPlane, "svd", SearchMethod::kCached};
+  const IcpVariant unknown{Metric::kPlane, "svd", SearchMethod::kRemembered};
   EXPECT_NE(badArgumentOf([&] { evaluateRoom({unknown}, nearStarts()); }).find("svd"),
             std::string::npos);
   Isometry3d guess = Isometry3d::Identity();

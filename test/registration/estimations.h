@@ -29,6 +29,7 @@ using Estimation =
 /** \brief What an estimation minimises. */
 enum class Goal {
   kPoints,        ///< distance of points
+  kSimilarity,    ///< the same, of the source times a scale
   kUnconstrained, ///< the same, with the position spoilt by the scale
   kPlanes         ///< distance of points to planes
 };
@@ -63,7 +64,8 @@ allEstimations()
       namedEstimation<TransformationEstimationQuaternion>("Quaternion"),
       namedEstimation<TransformationEstimationOrthonormal>("Orthonormal"),
       namedEstimation<TransformationEstimationDualQuaternion>("DualQuaternion"),
-      namedEstimation<TransformationEstimationScaleQuaternion>("ScaleQuaternion"),
+      namedEstimation<TransformationEstimationScaleQuaternion>("ScaleQuaternion",
+                                                               Goal::kSimilarity),
       namedEstimation<TransformationEstimationHelix>("Helix"),
       namedEstimation<TransformationEstimationSmallAngle>("SmallAngle"),
       namedEstimation<TransformationEstimationEuler>("Euler"),

@@ -40,7 +40,7 @@ struct Surface {
     return result;
   }
   IcpModel
-  model(SearchMethod search = SearchMethod::kCached) const
+  model(SearchMethod search = SearchMethod::kRemembered) const
   {
     IcpModel::Options options;
     options.search = search;

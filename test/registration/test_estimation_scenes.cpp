@@ -48,6 +48,20 @@ expectedInIcp(const Scene& scene, Goal goal, const Eigen::Vector3d& origin)
   return T;
 }
 
+/** \return the motion of a similarity that leaves the centroid where the similarity has it;
+ * any other motion as it is */
+Eigen::Isometry3d
+withoutScale(const Scene& scene, Goal goal, const Eigen::Matrix4d& matrix)
+{
+  Eigen::Isometry3d T(matrix);
+  if (goal != Goal::kSimilarity)
+    return T;
+  const Eigen::Vector3d centroid = scene.sourceCentroid(), place = T * centroid;
+  T.linear() /= std::cbrt(T.linear().determinant());
+  T.translation() = place - T.linear() * centroid;
+  return T;
+}
+
 /** Expects the motions equal in what they do to the scene.
  * \param[in] tolerance at the centroid */
 void
@@ -105,9 +119,14 @@ TEST_P(EstimationScenes, Alone)
   }
   estimate();
   expectMotion(scene_,
-               Eigen::Isometry3d(matrix),
+               withoutScale(scene_, estimation_.goal, matrix),
                expectedAlone(scene_, estimation_.goal),
                scene_.exact_tol);
+  if (estimation_.goal == Goal::kSimilarity) {
+    EXPECT_NEAR(std::cbrt(matrix.topLeftCorner<3, 3>().determinant()),
+                scaleOracle(scene_.pairs()),
+                1e-9);
+  }
 }
 
 TEST_P(EstimationScenes, InPclsIcp)
@@ -122,7 +141,8 @@ TEST_P(EstimationScenes, InPclsIcp)
     return;
   }
   align(icp); // prints that two pairs are too few
-  const Eigen::Isometry3d found(icp.getFinalTransformation());
+  const Eigen::Isometry3d found =
+      withoutScale(scene_, estimation_.goal, icp.getFinalTransformation());
   EXPECT_EQ(icp.hasConverged(), outcome_ == Outcome::kPose);
   expectMotion(scene_,
                found,

@@ -6,6 +6,7 @@
 #include <pcl6d/search/pcl/cached_kd_tree.h>
 
 #include <pcl/registration/correspondence_rejection_distance.h>
+#include <pcl/registration/icp.h>
 #include <pcl/registration/transformation_estimation_svd.h>
 
 using namespace pcl6d::test;
@@ -148,6 +149,50 @@ TYPED_TEST(Icp6DTrees, KnowThatAPlaneIsOpen)
     EXPECT_FALSE(icp.hasConverged()) << toString(metric);
     EXPECT_EQ(icp.result().status, Status::kRankDeficient) << toString(metric);
   }
+}
+
+TEST(Icp6DTree, OfTheCachedKindStartsAtItsLeaves)
+{
+  std::vector<pcl6d::IcpIteration> seen[2];
+  Eigen::Isometry3d found[2];
+  for (const bool cached : {false, true}) {
+    Icp icp;
+    setUpCorner(icp);
+    if (cached)
+      icp.setSearchMethodTarget(pcl::make_shared<pcl6d::CachedKdTree<Point>>());
+    icp.setObserver([&](const pcl6d::IcpIteration& i) {
+      seen[cached].push_back(i);
+      return true;
+    });
+    for (int run = 0; run < 2; ++run) { // the second one with leaves of its own
+      seen[cached].clear();
+      alignFrom(icp);
+    }
+    found[cached] = icp.result().T_target_source;
+  }
+  EXPECT_TRUE(sameBits(found[0], found[1]));
+  ASSERT_EQ(seen[0].size(), seen[1].size());
+  EXPECT_EQ(seen[0].back().from_leaf, 0u);
+  EXPECT_EQ(seen[1].front().from_leaf, 0u);
+  EXPECT_EQ(seen[1].back().searched, cornerData<Point>()->size());
+  EXPECT_GT(seen[1].back().from_leaf, cornerData<Point>()->size() * 9 / 10);
+}
+
+TEST(PclIcp, FindsTheSameFromTheLeavesOfTheCachedTree)
+{
+  const auto cached = pcl::make_shared<pcl6d::CachedKdTree<Point>>();
+  const auto align = [](const pcl::search::KdTree<Point>::Ptr& tree) {
+    pcl::IterativeClosestPoint<Point, Point> icp;
+    icp.setSearchMethodTarget(tree);
+    setUpCorner(icp);
+    Cloud aligned;
+    icp.align(aligned);
+    EXPECT_TRUE(icp.hasConverged());
+    return icp.getFinalTransformation();
+  };
+  const Eigen::Matrix4f expected = align(pcl::make_shared<pcl6d::KdTree<Point>>());
+  EXPECT_TRUE(sameBits(align(cached), expected));
+  EXPECT_GE(cached->numRemembered(), cornerData<Point>()->size());
 }
 
 TEST(Icp6DTree, OfAnotherCloudIsRefused)

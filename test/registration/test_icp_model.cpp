@@ -10,6 +10,7 @@ using pcl6d::test::Surface;
 
 namespace {
 constexpr SearchMethod kExact[] = {SearchMethod::kKdTree,
+                                   SearchMethod::kCachedTree,
                                    SearchMethod::kOctree,
                                    SearchMethod::kBruteForce};
 const Eigen::Isometry3d kStart =
@@ -84,11 +85,16 @@ TEST(IcpModel, OutlivesCopiesAndMoves)
 TEST(SearchMethod, HasNames)
 {
   EXPECT_EQ(searchMethodNames(),
-            (std::vector<std::string>{
-                "kdtree", "cached", "approximate", "octree", "brute-force"}));
+            (std::vector<std::string>{"kdtree",
+                                      "cached-tree",
+                                      "remembered",
+                                      "approximate",
+                                      "octree",
+                                      "brute-force"}));
   for (const auto& name : searchMethodNames())
     EXPECT_EQ(toString(searchMethodFromName(name)), name);
   const std::string message = badArgumentOf([] { searchMethodFromName("flann"); });
   for (const auto& name : searchMethodNames())
     EXPECT_NE(message.find(name), std::string::npos) << message;
+  EXPECT_EQ(searchMethodFromName("cached"), SearchMethod::kRemembered) << "as it was";
 }

@@ -14,6 +14,7 @@ using pcl6d::test::traceOf;
 
 namespace {
 constexpr SearchMethod kExact[] = {SearchMethod::kKdTree,
+                                   SearchMethod::kCachedTree,
                                    SearchMethod::kOctree,
                                    SearchMethod::kBruteForce};
 
@@ -36,7 +37,7 @@ expectOneTrace(const Surface& target,
   }
   const IcpModel model = target.model();
   for (const bool remember : {false, true}) {
-    SCOPED_TRACE(remember ? "cached, remembers" : "cached, forgets");
+    SCOPED_TRACE(remember ? "remembers" : "forgets");
     options.remember_neighbours = remember;
     expectSameTrace(traceOf({model.part()}, data.source(), options, guess), expected);
   }
@@ -183,7 +184,39 @@ TEST(IcpNeighbours, AreRememberedNearTheEnd)
   EXPECT_LT(trace.seen.back().searched, source.points.size() / 5);
   options.remember_neighbours = false;
   const Trace forgets = traceOf({model.part()}, data.source(), options, kStart);
-  EXPECT_GT(forgets.seen.back().searched, source.points.size() * 9 / 10);
+  EXPECT_EQ(forgets.seen.back().searched, source.points.size());
+}
+
+TEST(IcpNeighbours, AreSearchedFromTheirLeavesByTheCachedTree)
+{
+  Random random(8);
+  Surface target = corner(random, 9000, 4, 0.01);
+  Surface source = corner(random, 3000, 4, 0.01);
+  source.points[0].x() = kNan;             // never has a leaf,
+  source.points[1] = {100.0f, 0.0f, 0.0f}; // nor has what finds nothing
+  const std::size_t all = source.points.size();
+  const IcpModel data = source.model();
+  IcpOptions options;
+  for (const bool remember : {true, false}) { // another memory
+    options.remember_neighbours = remember;
+    const IcpModel model = target.model(SearchMethod::kCachedTree);
+    const Trace trace = traceOf({model.part()}, data.source(), options, kStart);
+    ASSERT_GT(trace.seen.size(), 3u);
+    EXPECT_EQ(trace.seen.front().from_leaf, 0u);
+    for (std::size_t i = 0; i < trace.seen.size(); ++i) {
+      EXPECT_EQ(trace.seen[i].searched, all) << "each in each iteration";
+      if (i > 0) {
+        EXPECT_GT(trace.seen[i].from_leaf, all * 9 / 10);
+        EXPECT_LE(trace.seen[i].from_leaf, all - 2);
+      }
+    }
+  }
+  for (const SearchMethod search : {SearchMethod::kKdTree, SearchMethod::kOctree}) {
+    const IcpModel model = target.model(search);
+    const Trace trace = traceOf({model.part()}, data.source(), {}, kStart);
+    EXPECT_EQ(trace.seen.back().searched, all) << "remembers nothing";
+    EXPECT_EQ(trace.seen.back().from_leaf, 0u);
+  }
 }
 
 TEST(IcpNeighbours, AreNearestOnAScriptedWalk)

@@ -26,7 +26,7 @@ struct Puzzle {
   Puzzle(Random& random,
          std::size_t count,
          double extent,
-         SearchMethod search = SearchMethod::kCached)
+         SearchMethod search = SearchMethod::kRemembered)
   {
     whole = corner(random, 1800, 2, 0.01);
     std::vector<Surface> parts(count);
@@ -116,8 +116,10 @@ TEST(IcpParts, MayBeSearchedInDifferentWays)
   IcpOptions options;
   const Trace expected = traceOf(puzzle.target(), data.source(), options, kStart);
   for (std::size_t special = 0; special < 3; ++special)
-    for (const SearchMethod search :
-         {SearchMethod::kKdTree, SearchMethod::kOctree, SearchMethod::kBruteForce}) {
+    for (const SearchMethod search : {SearchMethod::kKdTree,
+                                      SearchMethod::kCachedTree,
+                                      SearchMethod::kOctree,
+                                      SearchMethod::kBruteForce}) {
       SCOPED_TRACE(testing::Message() << toString(search) << " of part " << special);
       IcpTarget mixed = puzzle.target();
       IcpModel::Options of_model;
@@ -204,6 +206,36 @@ TEST(IcpParts, GiveTheSameBitsForEveryNumberOfThreads)
         EXPECT_TRUE(sameBits(*trace.result.information, *first.result.information));
       }
     }
+}
+
+TEST(IcpParts, MayAllBeCachedTrees)
+{
+  for (int trial = 0; trial < 10; ++trial) {
+    Random random(20 + trial), again(20 + trial);
+    const Puzzle puzzle(random, 5, 5);
+    const Puzzle cached(again, 5, 5, SearchMethod::kCachedTree);
+    const IcpModel data = corner(random, 900, 2, 0.01).model();
+    const Trace trace = traceOf(cached.target(), data.source(), {}, kStart);
+    expectSameTrace(trace, traceOf(puzzle.target(), data.source(), {}, kStart));
+    EXPECT_EQ(trace.seen.back().searched, data.points().size());
+    EXPECT_GT(trace.seen.back().from_leaf, data.points().size() / 2);
+  }
+}
+
+TEST(IcpParts, RememberNoLeavesWithoutTheCellsOfATree)
+{
+  const Points points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const PointTree tree(points), with_cells(points, 1, PointTree::Cells::kKeep);
+  const IcpModel data(points, {});
+  IcpTargetPart part;
+  part.points = &points;
+  part.memory = SearchMemory::kLeaves;
+  part.tree = &tree;
+  EXPECT_THROW(icp({part}, data.source(), kIdentity, {}), BadArgument);
+  part.tree = &with_cells;
+  EXPECT_NO_THROW(icp({part}, data.source(), kIdentity, {}));
+  part.search = [](const Eigen::Vector3f&, float) { return Neighbour(); };
+  EXPECT_THROW(icp({part}, data.source(), kIdentity, {}), BadArgument);
 }
 
 TEST(IcpParts, NeedPointsAndASearch)

@@ -50,6 +50,27 @@ TEST(Similarity, IsThatOfUmeyama)
                                                      found.rigid.transform.linear() * //
                                                      sums.mean_source;
     EXPECT_LT((t - expected.topRightCorner<3, 1>()).norm(), kPositionTol * scale);
+    EXPECT_LT((found.transform.matrix() - expected).norm(), kPositionTol * scale);
+  }
+}
+
+TEST(Similarity, IsRigidWhereThePairsFixNoScale)
+{
+  Random random(14);
+  Pairs one, same, line;
+  one.source = one.target = {{1, 2, 3}};
+  same.source.assign(5, Eigen::Vector3d(1, 2, 3));
+  same.target = randomPoints(random, 5, kHalf);
+  for (int i = 0; i < 5; ++i) {
+    line.source.emplace_back(i, 2 * i, 0);
+    line.target.emplace_back(2 * i, 4 * i, 0);
+  }
+  for (const Pairs& pairs :
+       {one, same, line, Pairs{same.target, same.source}, Pairs()}) {
+    const auto found = pcl6d::similarityByQuaternion(pairs.sums());
+    EXPECT_NE(found.rigid.status, Status::kOk);
+    EXPECT_EQ(found.scale, 1);
+    EXPECT_EQ(found.transform.matrix(), found.rigid.transform.matrix());
   }
 }
 

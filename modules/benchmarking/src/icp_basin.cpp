@@ -97,9 +97,9 @@ public:
   , variants_(variants)
   , observer_(observer)
   , starts_(icpStarts(options))
-  , source_(source, modelOptions(SearchMethod::kCached))
+  , source_(source, modelOptions(SearchMethod::kRemembered))
   {
-    addTarget(target, SearchMethod::kCached);
+    addTarget(target, SearchMethod::kRemembered);
     for (const IcpVariant& variant : variants)
       addTarget(target, variant.search);
   }
@@ -168,7 +168,7 @@ private:
   IcpBestPose
   bestPose(IcpVariant variant, const Eigen::Isometry3d& guess) const
   {
-    variant.search = SearchMethod::kCached;
+    variant.search = SearchMethod::kRemembered;
     IcpBestPose best =
         judgedBestPose(variant.metric, match(variant, guess, o_.num_threads), o_);
     if (best.doubt.empty())
@@ -216,6 +216,7 @@ private:
     run.pairs = result.pairs;
     run.rms = result.rms;
     run.T_target_source = result.T_target_source;
+    run.scale = result.scale;
     const MotionSize error = distanceBetween(goal, run.T_target_source);
     run.position_error = error.translation;
     run.orientation_error = error.rotation;

@@ -46,7 +46,7 @@ withVariant(IcpOptions options, const IcpVariant& variant)
     options.minimiser = minimiserFromName(variant.minimiser);
   else
     options.plane_minimiser = planeMinimiserFromName(variant.minimiser);
-  options.remember_neighbours = variant.search == SearchMethod::kCached;
+  options.remember_neighbours = variant.search == SearchMethod::kRemembered;
   return options;
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace pcl6d::registration {
 
@@ -31,8 +30,8 @@ isIdentity(const Eigen::Isometry3d& T)
 
 struct CorrespondenceSearch::Look {
   std::size_t stride;
-  Eigen::Isometry3d T_target_source;
-  std::vector<Eigen::Isometry3d> T_part_source;
+  Placement source;
+  std::vector<Placement> source_in_part;
   float limit;    ///< [m]
   float reach;    ///< [m] the search goes so much beyond the neighbour, for later
   float reach_sq; ///< [m^2] of limit + reach
@@ -45,9 +44,17 @@ CorrespondenceSearch::CorrespondenceSearch(const IcpTarget& target,
 , source_(*source.points)
 , source_normals_(options.metric == Metric::kGicp ? source.normals : nullptr)
 , options_(options)
+, remembers_(options.remember_neighbours &&
+             std::all_of(target.begin(),
+                         target.end(),
+                         [](const IcpTargetPart& part) {
+                           return part.memory == SearchMemory::kNeighbours;
+                         }))
 , partners_(source_.size())
 {
   for (const auto& part : target_) {
+    const bool of_leaves = part.memory == SearchMemory::kLeaves;
+    leaves_.emplace_back(of_leaves ? source_.size() : 0, -1);
     is_identity_.push_back(isIdentity(part.T_target_part));
     frames_ =
         std::max(frames_, static_cast<float>(part.T_target_part.translation().norm()));
@@ -55,59 +62,69 @@ CorrespondenceSearch::CorrespondenceSearch(const IcpTarget& target,
 }
 
 void
-CorrespondenceSearch::update(const Eigen::Isometry3d& T_target_source,
+CorrespondenceSearch::update(const Placement& source,
                              double limit,
                              double next_motion,
                              int stride)
 {
   Look look;
   look.stride = stride;
-  look.T_target_source = T_target_source;
-  for (std::size_t i = 0; i < target_.size(); ++i)
-    look.T_part_source.push_back(
-        is_identity_[i]
-            ? T_target_source
-            : Eigen::Isometry3d(target_[i].T_target_part.inverse() * T_target_source));
+  look.source = source;
+  for (std::size_t i = 0; i < target_.size(); ++i) {
+    look.source_in_part.push_back(source);
+    if (!is_identity_[i])
+      look.source_in_part.back().T = target_[i].T_target_part.inverse() * source.T;
+  }
   look.limit = std::sqrt(squared(limit));
-  look.reach = options_.remember_neighbours ? static_cast<float>(next_motion) : 0;
+  look.reach = remembers_ ? static_cast<float>(next_motion) : 0;
   look.reach_sq = squared(limit + look.reach);
-  searched_.assign((source_.size() + kBlockSize - 1) / kBlockSize, 0);
+  searches_.assign((source_.size() + kBlockSize - 1) / kBlockSize, {});
   parallelBlocks(source_.size(), kBlockSize, options_.num_threads, [&](const Block& b) {
-    searched_[b.index] = updateBlock(look, b);
+    searches_[b.index] = updateBlock(look, b);
   });
 }
 
 /** Keeps a neighbour if no other point can have become nearer, by the triangle inequality
  * and with room for the rounding of all distances that it compares. */
-std::size_t
+CorrespondenceSearch::Searches
 CorrespondenceSearch::updateBlock(const Look& look, const Block& block)
 {
   constexpr float kRounding = 16 * std::numeric_limits<float>::epsilon();
   const float limit_sq = look.limit * look.limit;
-  std::size_t searched = 0;
+  Searches searches;
   for (std::size_t i = block.begin; i < block.end; ++i) {
     Partner& partner = partners_[i];
     if (i % look.stride != 0) {
       partner.weight = 0;
       continue;
     }
-    const Eigen::Vector3f p =
-        (look.T_target_source * source_[i].cast<double>()).cast<float>();
+    const Eigen::Vector3f p = look.source(source_[i]).cast<float>();
     const float own = partner.index < 0 ? kInfinity : (p - partner.point).norm();
     const float moved = (p - partner.searched_at).norm();
     const float sizes = p.cwiseAbs().maxCoeff() + frames_ + partner.others +
                         (partner.index < 0 ? 0 : own);
     const float others = partner.others - moved - kRounding * sizes;
-    if (!(own < others || (own >= look.limit && others >= look.limit))) {
+    const bool is_known =
+        remembers_ && (own < others || (own >= look.limit && others >= look.limit));
+    if (!is_known) {
+      ++searches.all;
+      searches.from_leaf += knowsLeaf(i) ? 1 : 0;
       search(look, i, p, own);
-      ++searched;
     }
     partner.distance_sq =
         partner.index < 0 ? kInfinity : pcl6d::distanceSq(p, partner.point);
     partner.weight =
         partner.usable && partner.distance_sq < limit_sq && facesAlike(look, i) ? 1 : 0;
   }
-  return searched;
+  return searches;
+}
+
+bool
+CorrespondenceSearch::knowsLeaf(std::size_t i) const
+{
+  return std::any_of(leaves_.begin(), leaves_.end(), [i](const auto& of_part) {
+    return !of_part.empty() && of_part[i] >= 0;
+  });
 }
 
 /** Normals with a smaller cosine point apart: clearly, as pairs that come and go with the
@@ -121,7 +138,7 @@ CorrespondenceSearch::facesAlike(const Look& look, std::size_t i) const
   if (!options_.facing_normals || !source_normals_)
     return true;
   const Eigen::Vector3d normal =
-      look.T_target_source.linear() * (*source_normals_)[i].cast<double>();
+      look.source.T.linear() * (*source_normals_)[i].cast<double>();
   return normal.dot(partners_[i].normal.cast<double>()) > kOpposite;
 }
 
@@ -159,11 +176,10 @@ CorrespondenceSearch::searchPart(const Look& look,
                                  std::size_t i,
                                  int place,
                                  int candidate,
-                                 TwoNearest& best) const
+                                 TwoNearest& best)
 {
   const IcpTargetPart& part = target_[place];
-  const Eigen::Vector3f q =
-      (look.T_part_source[place] * source_[i].cast<double>()).cast<float>();
+  const Eigen::Vector3f q = look.source_in_part[place](source_[i]).cast<float>();
   if (look.reach > 0 && !part.search) {
     if (candidate >= 0) {
       const float own_sq = distanceSq(q, (*part.points)[candidate]);
@@ -175,6 +191,8 @@ CorrespondenceSearch::searchPart(const Look& look,
   const float limit_sq = best.nearest.distance_sq;
   const Neighbour found =
       part.search ? part.search(q, limit_sq)
+      : part.memory == SearchMemory::kLeaves
+          ? part.tree->nearestFrom(leaves_[place][i], q, limit_sq)
       : candidate >= 0
           ? part.tree->nearest(q, limit_sq, candidate, (*part.points)[candidate])
           : part.tree->nearest(q, limit_sq);
@@ -269,10 +287,15 @@ CorrespondenceSearch::count() const
   });
 }
 
-std::size_t
-CorrespondenceSearch::searched() const
+CorrespondenceSearch::Searches
+CorrespondenceSearch::searches() const
 {
-  return std::accumulate(searched_.begin(), searched_.end(), std::size_t{0});
+  Searches sum;
+  for (const Searches& of_block : searches_) {
+    sum.all += of_block.all;
+    sum.from_leaf += of_block.from_leaf;
+  }
+  return sum;
 }
 
 } // namespace pcl6d::registration

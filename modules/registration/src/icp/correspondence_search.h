@@ -23,9 +23,22 @@ struct alignas(64) Partner {
   bool usable = false;   ///< the neighbour and its normal are what the metric needs
 };
 
-/** The closest pairs at one pose after the other. Whether another point has become the
- * nearest is known without a search as long as the source point has not moved half-way from
- * its neighbour to the next one: exact. */
+/** Where ICP has the source: at a pose, scaled beforehand. */
+struct Placement {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity(); ///< to the target's frame
+  double scale = 1;
+
+  /** \return where a source point is; with scale 1 the bits of T * p */
+  Eigen::Vector3d
+  operator()(const Eigen::Vector3f& p) const
+  {
+    return T * (scale * p.cast<double>());
+  }
+};
+
+/** The closest pairs at one pose after the other. With SearchMemory::kNeighbours, whether
+ * another point has become the nearest is known without a search as long as the source point
+ * has not moved half-way from its neighbour to the next one: exact. */
 class CorrespondenceSearch {
 public:
   static constexpr std::size_t kBlockSize = 256; ///< source points
@@ -39,10 +52,7 @@ public:
    * \param[in] next_motion [m] how far points are likely to move in further iterations
    * \param[in] stride only every n-th source point is looked at */
   void
-  update(const Eigen::Isometry3d& T_target_source,
-         double limit,
-         double next_motion,
-         int stride);
+  update(const Placement& source, double limit, double next_motion, int stride);
 
   /** Takes the pairs of a caller instead. \throws BadArgument an index is out of range */
   void
@@ -62,24 +72,33 @@ public:
   std::size_t
   count() const;
 
-  /** \return the number of searches in the last update() */
-  std::size_t
-  searched() const;
+  /** The searches of an update(). */
+  struct Searches {
+    std::size_t all = 0;       ///< source points that had to be searched
+    std::size_t from_leaf = 0; ///< of these, from a remembered leaf
+  };
+
+  /** \return those of the last update() */
+  Searches
+  searches() const;
 
 private:
   /** A pose, and what is needed to look for neighbours there. */
   struct Look;
-  std::size_t
+  Searches
   updateBlock(const Look& look, const Block& block);
   void
   search(const Look& look, std::size_t i, const Eigen::Vector3f& p, float own);
+  /** \return whether the next search of a source point starts at a leaf */
+  bool
+  knowsLeaf(std::size_t i) const;
   /** \return whether best is now a point of the part; a candidate is one */
   bool
   searchPart(const Look& look,
              std::size_t i,
              int place,
              int candidate,
-             TwoNearest& best) const;
+             TwoNearest& best);
   void
   setPartner(std::size_t i, int part, int index);
   bool
@@ -92,10 +111,14 @@ private:
   const Normals* source_normals_; ///< null unless the metric needs them
   const IcpOptions& options_;
   float frames_ =
-      0; ///< [m] largest distance of a part's origin from that of the target
+      0;           ///< [m] largest distance of a part's origin from that of the target
+  bool remembers_; ///< neighbours, see SearchMemory
   std::vector<char> is_identity_; ///< T_target_part, per part
   std::vector<Partner> partners_;
-  std::vector<std::size_t> searched_; ///< per block
+  /** per part and source point, where its last search ended, -1: nowhere; of parts without
+   * SearchMemory::kLeaves empty */
+  std::vector<std::vector<int>> leaves_;
+  std::vector<Searches> searches_; ///< per block
 };
 
 } // namespace pcl6d::registration

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icp/correspondence_search.h"
 #include "icp/icp_metric.h"
+#include "icp/sampled_localizability.h"
 
 #include <pcl6d/common/name_table.h>
 #include <pcl6d/common/require.h>
@@ -43,64 +44,6 @@ extentOf(const Points& points)
   return largest;
 }
 
-constexpr std::size_t kSample = 400; ///< pairs: a few per cent of error, under 1 ms
-constexpr std::size_t kNeighbours = 10;
-
-/** \return the k-th of count places in [0, size): multiples of the golden section, which
- * keep no step with scan lines or faces that take turns; all places if count is size */
-std::size_t
-spread(std::size_t k, std::size_t count, std::size_t size)
-{
-  if (count == size)
-    return k;
-  constexpr double kGolden = 0.6180339887498949;
-  const double share = kGolden * static_cast<double>(k);
-  return static_cast<std::size_t>((share - std::floor(share)) *
-                                  static_cast<double>(size));
-}
-
-/** \return the normal at a partner, in the target's frame */
-Eigen::Vector3d
-normalOf(const IcpTargetPart& part, const Partner& partner)
-{
-  const Eigen::Vector3f& point = (*part.points)[partner.index];
-  const Eigen::Vector3f normal =
-      part.normals ? (*part.normals)[partner.index]
-                   : normalAt(point, *part.tree, *part.points, kNeighbours);
-  return part.T_target_part.linear() * normal.cast<double>();
-}
-
-/** Localizability from a sample of the pairs; normals that the target lacks are
- * estimated at the sampled points.
- * \return none without a pair, or if a part with a sampled point has neither normals nor
- * a tree */
-std::optional<Localizability>
-localizabilityOf(const IcpTarget& target,
-                 const Points& source,
-                 const Eigen::Isometry3d& T_target_source,
-                 const std::vector<Partner>& partners)
-{
-  std::vector<std::size_t> paired;
-  for (std::size_t i = 0; i < partners.size(); ++i)
-    if (partners[i].weight > 0)
-      paired.push_back(i);
-  const std::size_t count = std::min(kSample, paired.size());
-  PlaneAccumulator sums;
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = paired[spread(k, count, paired.size())];
-    const Partner& partner = partners[i];
-    const IcpTargetPart& part = target[partner.part];
-    if (!part.normals && !part.tree)
-      return std::nullopt;
-    sums.add(T_target_source * source[i].cast<double>(),
-             partner.point.cast<double>(),
-             normalOf(part, partner));
-  }
-  if (sums.sums().count == 0)
-    return std::nullopt;
-  return localizabilityOf(sums.sums());
-}
-
 class IcpRun {
 public:
   IcpRun(const IcpTarget& target,
@@ -131,8 +74,10 @@ public:
       limit = std::max(o_.max_distance, o_.distance_decay * limit);
     }
     result_.status = statusOf(result_.stop);
-    if (result_.status == Status::kTooFewPairs || result_.status == Status::kDiverged)
+    if (result_.status == Status::kTooFewPairs || result_.status == Status::kDiverged) {
       result_.T_target_source = guess;
+      result_.scale = 1;
+    }
     finish();
     return result_;
   }
@@ -143,18 +88,37 @@ private:
   iterate(double limit)
   {
     findPairs(limit);
-    MetricStep step = problem_.step(result_.T_target_source, finder_.partners());
+    MetricStep step = problem_.step(placement(), finder_.partners());
     if (hooks_.minimise && step.pairs >= 3)
       step.motion = hooks_.minimise(result_.T_target_source, finder_.pairs());
     if (step.pairs < 3 || step.motion.status == Status::kTooFewPairs)
       return IcpStop::kTooFewPairs;
     const Eigen::Isometry3d& motion = step.motion.transform;
     if (step.motion.status == Status::kDiverged || !motion.matrix().allFinite() ||
-        hasGrown(step, limit))
+        hasGrown(step, limit) || !takeScale(step))
       return IcpStop::kDiverged;
     is_unique_ = step.motion.status == Status::kOk;
     result_.T_target_source = rigid(motion * result_.T_target_source);
     return observe(step, limit);
+  }
+
+  Placement
+  placement() const
+  {
+    return {result_.T_target_source, result_.scale};
+  }
+
+  /** Scales the source about the centroid of its pairs, before their motion.
+   * \return whether the scale is still within its limit */
+  bool
+  takeScale(const MetricStep& step)
+  {
+    if (!o_.estimate_scale)
+      return true;
+    result_.scale *= step.scale;
+    Eigen::Isometry3d& T = result_.T_target_source;
+    T.translation() = step.centroid + step.scale * (T.translation() - step.centroid);
+    return result_.scale <= o_.max_scale && result_.scale >= 1 / o_.max_scale;
   }
 
   void
@@ -164,12 +128,14 @@ private:
     if (hooks_.find)
       finder_.setPairs(hooks_.find(T, limit));
     else
-      finder_.update(
-          T, limit, next_motion_, limit > o_.max_distance ? o_.shrinking_stride : 1);
+      finder_.update(placement(),
+                     limit,
+                     next_motion_,
+                     limit > o_.max_distance ? o_.shrinking_stride : 1);
     if (hooks_.reject)
       finder_.setPairs(hooks_.reject(T, finder_.pairs()));
     pairs_found_ = finder_.count();
-    problem_.weigh(T, finder_.partners());
+    problem_.weigh(placement(), finder_.partners());
   }
 
   /** Whether the error is more than three times its best at this limit, with no more pairs
@@ -203,13 +169,16 @@ private:
     // where the origin is, as the translation part of the motion would.
     seen.translation = (step.motion.transform * step.centroid - step.centroid).norm();
     seen.rotation = rotationAngle(step.motion.transform.linear());
-    seen.searched = finder_.searched();
+    seen.searched = finder_.searches().all;
+    seen.from_leaf = finder_.searches().from_leaf;
     seen.T_target_source = result_.T_target_source;
+    seen.scale = result_.scale;
     next_motion_ = likelyMotion(seen);
     if (hooks_.observer && !hooks_.observer(seen))
       return IcpStop::kObserver;
     if (limit <= o_.max_distance && seen.translation <= o_.translation_epsilon &&
-        seen.rotation <= o_.rotation_epsilon)
+        seen.rotation <= o_.rotation_epsilon &&
+        std::abs(step.scale - 1) <= o_.rotation_epsilon)
       return IcpStop::kAtRest;
     return std::nullopt;
   }
@@ -250,7 +219,7 @@ private:
     result_.overlap = finite > 0 ? static_cast<double>(pairs_found_) / finite : 0;
     problem_.rate(finder_.partners(), result_);
     result_.localizability =
-        localizabilityOf(target_, source_, result_.T_target_source, finder_.partners());
+        sampledLocalizability(target_, source_, placement(), finder_.partners());
     if (result_.status == Status::kOk && result_.localizability &&
         result_.localizability->openDirections() > 0)
       result_.status = Status::kRankDeficient;
@@ -297,6 +266,11 @@ requireUsable(const IcpTarget& target,
             "target part",
             "null",
             "points with a tree or a search");
+    require(part.memory != SearchMemory::kLeaves ||
+                (part.tree && !part.search && part.tree->keepsCells()),
+            "memory of a target part",
+            "kLeaves",
+            "of a tree that keeps its cells, without another search");
     if (part.normals || options.metric != Metric::kPoint)
       requireNormals(part.normals, *part.points, "target normals");
   }
@@ -304,6 +278,10 @@ requireUsable(const IcpTarget& target,
           "parts of the target",
           target.size(),
           "1 with hooks of pairs");
+  require(!options.estimate_scale || !(hooks.find || hooks.reject || hooks.minimise),
+          "estimate_scale",
+          "true",
+          "false with hooks of pairs, which see a pose without a scale");
 }
 } // namespace
 

@@ -15,9 +15,9 @@ template <typename Accumulator, typename Sums, typename Add>
 Sums
 sumPairs(const std::vector<Partner>& partners, unsigned int num_threads, Add add)
 {
-  constexpr std::size_t kBlockSize = CorrespondenceSearch::kBlockSize;
-  std::vector<Sums> partials((partners.size() + kBlockSize - 1) / kBlockSize);
-  parallelBlocks(partners.size(), kBlockSize, num_threads, [&](const Block& block) {
+  constexpr std::size_t kSources = CorrespondenceSearch::kBlockSize;
+  std::vector<Sums> partials((partners.size() + kSources - 1) / kSources);
+  parallelBlocks(partners.size(), kSources, num_threads, [&](const Block& block) {
     Accumulator accumulator;
     for (std::size_t i = block.begin; i < block.end; ++i)
       if (partners[i].weight > 0)
@@ -105,12 +105,11 @@ weightPairs(const IcpOptions& options,
 } // namespace
 
 PairSums
-IcpMetric::pairSums(const Eigen::Isometry3d& T,
-                    const std::vector<Partner>& partners) const
+IcpMetric::pairSums(const Placement& at, const std::vector<Partner>& partners) const
 {
   return sumPairs<PairAccumulator, PairSums>(
       partners, options_.num_threads, [&](PairAccumulator& sums, std::size_t i) {
-        sums.add(T * (*source_.points)[i].cast<double>(),
+        sums.add(at((*source_.points)[i]),
                  partners[i].point.cast<double>(),
                  partners[i].weight);
       });
@@ -144,25 +143,25 @@ IcpMetric::normOf(const Eigen::Isometry3d& T,
 }
 
 void
-IcpMetric::weigh(const Eigen::Isometry3d& T, std::vector<Partner>& partners) const
+IcpMetric::weigh(const Placement& at, std::vector<Partner>& partners) const
 {
   if (options_.robust == RobustKernel::kNone && options_.kept_share >= 1)
     return;
   std::vector<float> residuals(partners.size());
-  constexpr std::size_t kBlockSize = CorrespondenceSearch::kBlockSize;
+  constexpr std::size_t kSources = CorrespondenceSearch::kBlockSize;
   parallelBlocks(
-      partners.size(), kBlockSize, options_.num_threads, [&](const Block& block) {
+      partners.size(), kSources, options_.num_threads, [&](const Block& block) {
         for (std::size_t i = block.begin; i < block.end; ++i) {
           const Partner& partner = partners[i];
           if (partner.weight == 0)
             continue;
           const Eigen::Vector3d e =
-              partner.point.cast<double>() - T * (*source_.points)[i].cast<double>();
+              partner.point.cast<double>() - at((*source_.points)[i]);
           double residual_sq = e.squaredNorm();
           if (options_.metric == Metric::kPlane)
             residual_sq = squared(partner.normal.cast<double>().dot(e));
           else if (options_.metric == Metric::kGicp)
-            residual_sq = e.dot(normOf(T, partner, i) * e);
+            residual_sq = e.dot(normOf(at.T, partner, i) * e);
           residuals[i] = static_cast<float>(std::sqrt(residual_sq));
         }
       });
@@ -170,16 +169,22 @@ IcpMetric::weigh(const Eigen::Isometry3d& T, std::vector<Partner>& partners) con
 }
 
 MetricStep
-IcpMetric::step(const Eigen::Isometry3d& T, const std::vector<Partner>& partners) const
+IcpMetric::step(const Placement& at, const std::vector<Partner>& partners) const
 {
   if (options_.metric == Metric::kPoint) {
-    const PairSums sums = pairSums(T, partners);
+    const PairSums sums = pairSums(at, partners);
     const double error = sums.errorSq(Eigen::Isometry3d::Identity());
     MetricStep step = stepOf(sums, error, error);
-    step.motion = options_.minimiser(sums);
+    if (options_.estimate_scale) {
+      const SimilarityEstimate similarity = similarityByQuaternion(sums);
+      step.motion = similarity.rigid;
+      step.scale = similarity.scale;
+    }
+    else
+      step.motion = options_.minimiser(sums);
     return step;
   }
-  const PlaneSums sums = planeSums(T, partners);
+  const PlaneSums sums = planeSums(at.T, partners);
   MetricStep step = stepOf(sums, sums.distance_sq, sums.residual_sq);
   step.motion = options_.plane_minimiser(sums);
   return step;
@@ -198,7 +203,7 @@ IcpMetric::rate(const std::vector<Partner>& partners, IcpResult& result) const
     result.covariance = poseCovariance(sums, T);
   };
   if (options_.metric == Metric::kPoint) {
-    const PairSums sums = pairSums(T, partners);
+    const PairSums sums = pairSums({T, result.scale}, partners);
     const double error = sums.errorSq(Eigen::Isometry3d::Identity());
     fill(sums, error, error);
   }

@@ -13,6 +13,7 @@ struct MetricStep {
   Eigen::Vector3d centroid =
       Eigen::Vector3d::Zero(); ///< of the moved source points [m]
   RigidEstimate motion;        ///< in the target's frame, to be put before the pose
+  double scale = 1; ///< of the moved points about their centroid, if estimated
 };
 
 /** \brief One metric over the pairs of a CorrespondenceSearch. */
@@ -24,11 +25,11 @@ public:
 
   /** Applies trimming and robust weights to the pairs, if they are asked for. */
   void
-  weigh(const Eigen::Isometry3d& T, std::vector<Partner>& partners) const;
+  weigh(const Placement& at, std::vector<Partner>& partners) const;
 
   /** \return the best step from a pose */
   MetricStep
-  step(const Eigen::Isometry3d& T, const std::vector<Partner>& partners) const;
+  step(const Placement& at, const std::vector<Partner>& partners) const;
 
   /** Fills in how well the pairs fix the pose. */
   void
@@ -36,7 +37,7 @@ public:
 
 private:
   PairSums
-  pairSums(const Eigen::Isometry3d& T, const std::vector<Partner>& partners) const;
+  pairSums(const Placement& at, const std::vector<Partner>& partners) const;
   PlaneSums
   planeSums(const Eigen::Isometry3d& T, const std::vector<Partner>& partners) const;
 

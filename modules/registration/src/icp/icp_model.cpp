@@ -13,10 +13,12 @@ namespace {
 constexpr double kApproximation = 0.1; ///< epsilon of the approximate search
 
 constexpr Named<SearchMethod> kMethods[] = {{SearchMethod::kKdTree, "kdtree"},
-                                            {SearchMethod::kCached, "cached"},
+                                            {SearchMethod::kCachedTree, "cached-tree"},
+                                            {SearchMethod::kRemembered, "remembered"},
                                             {SearchMethod::kApproximate, "approximate"},
                                             {SearchMethod::kOctree, "octree"},
                                             {SearchMethod::kBruteForce, "brute-force"}};
+constexpr char kFormerWord[] = "cached"; ///< of kRemembered, in older command lines
 
 /** \return the plain search of a structure that is made here */
 template <typename Structure>
@@ -39,7 +41,8 @@ searchMethodNames()
 SearchMethod
 searchMethodFromName(const std::string& name)
 {
-  return fromName(kMethods, "search", name);
+  return name == kFormerWord ? SearchMethod::kRemembered
+                             : fromName(kMethods, "search", name);
 }
 
 const char*
@@ -82,9 +85,17 @@ IcpModel::makeNormals(const Options& options) const
 void
 IcpModel::build(const Options& options)
 {
-  tree_ = std::make_shared<const PointTree>(points_, options.num_threads);
+  const bool starts_at_leaves = options.search == SearchMethod::kCachedTree;
+  tree_ = std::make_shared<const PointTree>(points_,
+                                            options.num_threads,
+                                            starts_at_leaves ? PointTree::Cells::kKeep
+                                                             : PointTree::Cells::kNone);
   switch (options.search) {
-  case SearchMethod::kCached:
+  case SearchMethod::kRemembered:
+    memory_ = SearchMemory::kNeighbours;
+    break;
+  case SearchMethod::kCachedTree:
+    memory_ = SearchMemory::kLeaves;
     break;
   case SearchMethod::kKdTree:
     search_ = [tree = tree_](const Eigen::Vector3f& query, float max_distance_sq) {
@@ -118,7 +129,8 @@ IcpModel::part(const Eigen::Isometry3d& T_target_part) const
           &points_,
           has_normals_ ? &normals_ : nullptr,
           T_target_part,
-          search_};
+          search_,
+          memory_};
 }
 
 } // namespace pcl6d

@@ -86,6 +86,11 @@ IcpOptions::validate() const
           distance_decay,
           "in (0, 1)");
   require(shrinking_stride > 0, "shrinking_stride", shrinking_stride, "> 0");
+  require(!estimate_scale || metric == Metric::kPoint,
+          "estimate_scale",
+          "true",
+          "false for the metrics with planes, whose minimisers have no scale");
+  require(max_scale > 1, "max_scale", max_scale, "> 1");
   require(kept_share > 0 && kept_share <= 1, "kept_share", kept_share, "in (0, 1]");
   require(translation_epsilon >= 0, "translation_epsilon", translation_epsilon, ">= 0");
   require(rotation_epsilon >= 0, "rotation_epsilon", rotation_epsilon, ">= 0");

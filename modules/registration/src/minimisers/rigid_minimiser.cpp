@@ -6,6 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
+/** \file
+ * The closed forms are constrained extrema (book, Appendix A.5), stationary points of
+ * f - lambda . c:
+ * - quaternion: q^T N q with |q| = 1, hence N q = lambda q, the largest eigenvalue;
+ * - dual quaternion: real part r and dual part s with |r| = 1 and r . s = 0; the second
+ *   condition gives s in terms of r, the first again an eigenvector;
+ * - svd: trace(R S) with R^T R = I, whose multipliers are a symmetric matrix L with
+ *   S^T = L R: the singular vectors; det R = 1 by the sign of the smallest;
+ * - orthonormal: the same, L by the square root of S^T S.
+ * An eigenvalue that is not simple means a family of minimisers: kRankDeficient. */
 namespace pcl6d {
 
 namespace {
@@ -206,9 +216,17 @@ similarityByQuaternion(const PairSums& sums)
 {
   SimilarityEstimate estimate;
   estimate.rigid = minimiseByQuaternion(sums);
-  if (estimate.rigid.status == Status::kOk)
-    estimate.scale =
-        (estimate.rigid.transform.linear() * sums.cross).trace() / sums.sourceSq();
+  estimate.transform = estimate.rigid.transform;
+  if (estimate.rigid.status != Status::kOk)
+    return estimate;
+  const Eigen::Matrix3d R = estimate.rigid.transform.linear();
+  const double scale = (R * sums.cross).trace() / sums.sourceSq();
+  if (!(scale > 0))
+    return estimate;
+  estimate.scale = scale;
+  estimate.transform.linear() = scale * R;
+  estimate.transform.translation() =
+      sums.mean_target - estimate.transform.linear() * sums.mean_source;
   return estimate;
 }
 

@@ -36,7 +36,8 @@ struct IcpBasinOptions {
    * apart: no scatter, but another basin; > 0 */
   double disagreement_sigmas = 10;
   std::size_t normal_neighbours = 20; ///< points of a normal; in [3, 64]
-  IcpOptions icp; ///< its metric and minimisers are those of the variant
+  IcpOptions icp; ///< its metric and minimisers are those of the variant; an estimated
+                  ///< scale begins at 1 in each run and is not judged
   unsigned int num_threads =
       0; ///< runs at once; 0: one per core; never changes results
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
@@ -97,6 +98,7 @@ struct IcpBasinRun {
   std::size_t pairs = 0; ///< at the end, within max_distance
   double rms = 0;        ///< [m] distance of these pairs
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity(); ///< the end
+  double scale = 1;   ///< there, see IcpResult
   double seconds = 0; ///< processor time, on one thread; without the making of trees
 };
 

@@ -15,7 +15,7 @@ struct IcpVariant {
   Metric metric = Metric::kPoint;
   std::string minimiser = "quaternion"; ///< of minimiserNames() for kPoint, else of
                                         ///< planeMinimiserNames()
-  SearchMethod search = SearchMethod::kCached;
+  SearchMethod search = SearchMethod::kRemembered;
 };
 
 bool
@@ -27,7 +27,7 @@ struct IcpMethods {
   std::vector<std::string> minimisers = {"quaternion"}; ///< of the metric kPoint
   std::vector<std::string> plane_minimisers = {
       "helix"}; ///< of the metrics with normals
-  std::vector<SearchMethod> searches = {SearchMethod::kCached};
+  std::vector<SearchMethod> searches = {SearchMethod::kRemembered};
 };
 
 /** \brief Which methods are run together. */

@@ -20,6 +20,18 @@ struct IcpSource {
   const Normals* normals = nullptr; ///< for the metric kGicp
 };
 
+/** \brief What ICP remembers of the searches in a part, for the next iteration. Never
+ * changes a result. */
+enum class SearchMemory {
+  kNone, ///< nothing: each point is searched anew in each iteration
+  /** the neighbour, and how near any other point came: no search as long as the triangle
+   * inequality says that none can have become nearer */
+  kNeighbours,
+  /** the leaf of the tree in which the neighbour was found, where the next search starts:
+   * the cached k-d tree, PointTree::nearestFrom(); the tree must keep its cells */
+  kLeaves
+};
+
 /** \brief A part of the model, such as one scan; refers to what its maker owns. */
 struct IcpTargetPart {
   const PointTree* tree = nullptr; ///< over the points
@@ -29,6 +41,8 @@ struct IcpTargetPart {
   /** another search than that of the tree (which may then be null): the nearest point
    * within the root of a squared distance */
   std::function<Neighbour(const Eigen::Vector3f&, float)> search = {};
+  /** kNeighbours only if it is so for all parts of a target */
+  SearchMemory memory = SearchMemory::kNeighbours;
 };
 
 /** \brief The model of ICP: the union of its parts, each with a tree of its own, so
@@ -44,14 +58,16 @@ struct IcpPair {
 
 /** \brief One iteration, as an observer sees it. */
 struct IcpIteration {
-  int number = 0;           ///< from 1
-  std::size_t pairs = 0;    ///< pairs that counted
-  double rms = 0;           ///< [m] distance of these pairs, before the step
-  double max_distance = 0;  ///< [m] the limit of this iteration
-  double translation = 0;   ///< [m] way of the pairs' centroid in this step
-  double rotation = 0;      ///< [rad] angle of the step
-  std::size_t searched = 0; ///< source points whose neighbour had to be searched
+  int number = 0;            ///< from 1
+  std::size_t pairs = 0;     ///< pairs that counted
+  double rms = 0;            ///< [m] distance of these pairs, before the step
+  double max_distance = 0;   ///< [m] the limit of this iteration
+  double translation = 0;    ///< [m] way of the pairs' centroid in this step
+  double rotation = 0;       ///< [rad] angle of the step
+  std::size_t searched = 0;  ///< source points whose neighbour had to be searched
+  std::size_t from_leaf = 0; ///< of these, searches that started at a remembered leaf
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity(); ///< after the step
+  double scale = 1; ///< after the step, see IcpResult
 };
 
 /** \brief Called after each iteration. \return false to stop (status kMaxIterations) */
@@ -91,6 +107,10 @@ struct IcpResult {
   Status status = Status::kTooFewPairs;
   IcpStop stop = IcpStop::kTooFewPairs;
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
+  /** how many times as large as the source the target is: m = T_target_source (scale d); 1
+   * unless it was to be estimated (IcpOptions::estimate_scale), and with kTooFewPairs and
+   * kDiverged */
+  double scale = 1;
   int iterations = 0;
   std::size_t pairs = 0; ///< pairs at the final pose that count
   double rms = 0;        ///< [m] distance of these pairs
@@ -110,8 +130,9 @@ struct IcpResult {
  * together, until it stops.
  *
  * The same bits for any number of threads: blocks of source points, merged in a fixed
- * order (4.1.6). A neighbour is searched only if the point has moved so far since the
- * last search that another could be nearer: exact. The limit may shrink from
+ * order (4.1.6). Unless a part says otherwise (SearchMemory), a neighbour is searched only
+ * if the point has moved so far since the last search that another could be nearer: exact.
+ * The limit may shrink from
  * max_distance_start to max_distance (4.1.5); the iteration does not stop before it has
  * arrived there. Points that are not finite are skipped; so are pairs without the
  * normals that kPlane needs.
@@ -120,7 +141,8 @@ struct IcpResult {
  * \return never throws on data. kTooFewPairs and kDiverged return the guess, others the
  * last iterate
  * \throws BadArgument an option breaks its rule, normals are missing or not one per
- * point, or hooks of pairs meet a target of several parts */
+ * point, hooks of pairs meet a target of several parts or an estimated scale, or leaves are to be remembered of a
+ * tree that keeps no cells */
 IcpResult
 icp(const IcpTarget& target,
     const IcpSource& source,

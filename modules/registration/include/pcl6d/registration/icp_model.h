@@ -11,17 +11,28 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief How ICP looks for closest points (book 4.1.4). All but kApproximate are exact and
  * give the same result. */
 enum class SearchMethod {
-  kKdTree,      ///< the k-d tree, searched for each point in each iteration
-  kCached,      ///< the k-d tree with remembered neighbours: the fastest
+  kKdTree, ///< the k-d tree, searched from its root for each point in each iteration
+  /** the cached k-d tree (A. Nüchter, K. Lingemann, J. Hertzberg, "Cached k-d tree search for
+   * ICP algorithms", 3DIM 2007): searched for each point in each iteration, from the leaf of
+   * its last neighbour */
+  kCachedTree,
+  /** ours, the fastest: the k-d tree, searched only for points that may have a new
+   * neighbour. One that has moved by m since its search, where its neighbour was at a
+   * distance a and any other point at b at least, keeps its neighbour while it is nearer to
+   * it than b - m, hence surely for m < (b - a) / 2, by the triangle inequality. */
+  kRemembered,
   kApproximate, ///< the k-d tree; a neighbour may be farther by a tenth than the nearest
   kOctree,
-  kBruteForce ///< every point: the oracle of tests
+  kBruteForce, ///< every point: the oracle of tests
+  kCached [[deprecated("it is kRemembered; the published one is kCachedTree")]] =
+      kRemembered
 };
 
-/** \return kdtree, cached, approximate, octree, brute-force */
+/** \return kdtree, cached-tree, remembered, approximate, octree, brute-force */
 std::vector<std::string>
 searchMethodNames();
-/** \throws BadArgument no such name; the message lists all */
+/** \brief Also takes "cached", the former word for remembered.
+ * \throws BadArgument no such name; the message lists all */
 SearchMethod
 searchMethodFromName(const std::string& name);
 const char*
@@ -32,7 +43,7 @@ toString(SearchMethod method);
 class IcpModel {
 public:
   struct Options {
-    SearchMethod search = SearchMethod::kCached;
+    SearchMethod search = SearchMethod::kRemembered;
     bool normals = false;        ///< estimate them; towards the origin of the points
     std::size_t neighbours = 20; ///< of a normal; in [3, 64]
     double normal_voxel = 0; ///< [m] normals are those of the points reduced by this
@@ -81,6 +92,7 @@ private:
   Normals normals_;
   bool has_normals_;
   std::shared_ptr<const PointTree> tree_;
+  SearchMemory memory_ = SearchMemory::kNone;
   std::function<Neighbour(const Eigen::Vector3f&, float)> search_;
 };
 

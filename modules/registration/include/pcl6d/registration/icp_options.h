@@ -69,12 +69,19 @@ struct IcpOptions {
       1; ///< while the limit shrinks, only every n-th source point is
          ///< looked at, which is enough to come near; > 0
   RobustKernel robust = RobustKernel::kNone;
+  /** of kPoint: the source is scaled, too, by similarityByQuaternion() in place of the
+   * minimiser; for what was not measured in one unit, as scans of one scanner are */
+  bool estimate_scale = false;
+  double max_scale =
+      2; ///< a scale above it, or below its inverse, is kDiverged: a source
+         ///< that shrinks comes ever nearer to the target; > 1
   double kept_share = 1; ///< trimmed ICP (Chetverikov 2002): only the closest of the
                          ///< pairs count; in (0, 1]
   double translation_epsilon = 1e-4; ///< [m] stop at a step no longer ...
-  double rotation_epsilon = 1e-5;    ///< [rad] ... that also turns no more; >= 0
-  bool remember_neighbours = true;   ///< skip searches whose outcome is known; exact
-  unsigned int num_threads = 0;      ///< 0: one per core; never changes the result
+  double rotation_epsilon = 1e-5;    ///< [rad] ... that also turns no more (and scales
+                                     ///< by no larger a share); >= 0
+  bool remember_neighbours = true; ///< false: SearchMemory::kNeighbours counts as kNone
+  unsigned int num_threads = 0;    ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

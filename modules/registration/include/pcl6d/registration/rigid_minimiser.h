@@ -71,16 +71,20 @@ minimiseByDualQuaternion(const PairSums& sums);
 struct SimilarityEstimate {
   RigidEstimate rigid; ///< the best motion without the scale
   double scale = 1;    ///< > 0; how much larger the target is; 1 unless kOk
+  /** the best similarity m = s R d + t: the linear part is s R; rigid unless kOk */
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
 };
 
 /** \brief Horn's unit quaternion with scale: the closed form of min sum w |m - (s R d +
  * t)|^2 over s, R and t.
  *
  * Rotation and scale are independent, so the rigid part (R and t = c_m - R c_d) is that
- * of minimiseByQuaternion(). Laser scans have one scale, hence registration drops it;
- * it tells of wrong units or a range scale that is off. Noise of the source makes it
- * too small, by the noise's share of the source's variance. To apply it, use
- * t = c_m - s R c_d; to keep that t without s would be wrong by |s - 1| |c_d|. */
+ * of minimiseByQuaternion(), and of the similarity t = c_m - s R c_d; to keep that t
+ * without s would be wrong by |s - 1| |c_d|. Laser scans have one scale; another one tells
+ * of wrong units or a range scale that is off. Noise of the source makes it too small, by
+ * the noise's share of the source's variance. Where the pairs fix no rotation (equal points,
+ * one point, a line, a mirrored figure of rotation), and where no scale above 0 is best, it
+ * is 1. \note Source: Horn 1987, as above; the scale is Umeyama's (1991). */
 SimilarityEstimate
 similarityByQuaternion(const PairSums& sums);
 

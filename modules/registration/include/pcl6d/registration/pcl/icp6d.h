@@ -29,8 +29,10 @@ namespace PCL6D_EXPORTS pcl6d {
  * [m^2], as in PCL), setTransformationRotationEpsilon (cosine, as in PCL), setIndices,
  * setTransformationEstimation (ours, points to points or to planes, which sets the metric;
  * also PCL's), setCorrespondenceEstimation, addCorrespondenceRejector,
- * setSearchMethodTarget. The target's tree is built once; FLANN never, unless it is given
- * as search method. Without effect: setEuclideanFitnessEpsilon, the RANSAC settings,
+ * setSearchMethodTarget (a CachedKdTree: each source point starts at the leaf of its last
+ * neighbour; else it is searched only when it may have a new one, see SearchMethod). The
+ * target's tree is built once; FLANN never, unless it is given as search method. Without
+ * effect: setEuclideanFitnessEpsilon, the RANSAC settings,
  * visualisation callbacks (see setObserver()). align() never throws on data, be they empty or
  * NaN; not converged, getFinalTransformation() is the last good estimate or the guess. What a
  * plugged class throws passes through.
@@ -109,6 +111,18 @@ public:
     options_.robust = kernel;
   }
 
+  /** \brief Whether the source is scaled, too: by Horn's unit quaternion with scale, in
+   * place of the transformation estimation; false unless set. getFinalTransformation() then
+   * is s R and t as with PCL's TransformationEstimationSVDScale, result() has both apart. A
+   * guess is a rigid motion. Points to points only, and without correspondence estimations,
+   * rejectors, estimations of PCL's and reciprocal pairs. \throws BadArgument by align(), if
+   * any of them is set */
+  void
+  setEstimateScale(bool estimate)
+  {
+    options_.estimate_scale = estimate;
+  }
+
   /** \brief Only so large a share of the pairs, the closest ones, counts (trimmed ICP). */
   void
   setKeptShare(double share)
@@ -178,6 +192,8 @@ private:
   store(const IcpResult& found,
         const Eigen::Vector3d& origin,
         PointCloudSource& output);
+  void
+  moveOutput(PointCloudSource& output) const;
 
   bool reciprocal_ = false;
   IcpObserver observer_;

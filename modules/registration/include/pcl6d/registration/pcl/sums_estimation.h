@@ -45,6 +45,14 @@ public:
     return minimise(sums);
   }
 
+  /** \brief What PCL's overloads give out: \return the matrix of a motion that was found
+   * \param[in] sums of the last pass over the pairs */
+  virtual Eigen::Matrix4d
+  toMatrix(const Eigen::Isometry3d& motion, const Sums& /*sums*/) const
+  {
+    return motion.matrix();
+  }
+
   /** \throws BadArgument the two sides differ in size
    * \throws ComputeFailed the pairs do not fix a motion; the matrix stays as it was */
   void

@@ -7,10 +7,13 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Closed-form motion and scale between matched points by the unit quaternion, the
- * scale dropped: the matrix is rigid, as pcl6d's maps have one scale. Ask
- * similarityByQuaternion() for the scale.
+/** \brief Closed-form motion and scale between matched points by the unit quaternion:
+ * similarityByQuaternion(). The counterpart of
+ * pcl::registration::TransformationEstimationSVDScale, with its meaning of the matrix: s R
+ * and t, where R is that of TransformationEstimationQuaternion.
  *
+ * Inside pcl::IterativeClosestPoint the scale is applied in each iteration. ICP6D takes the
+ * rigid part, unless it is told to estimate the scale (ICP6D::setEstimateScale()).
  * \throws BadArgument the two sides differ in size
  * \throws ComputeFailed fewer than 3 pairs, or all pairs on one line \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
@@ -26,6 +29,12 @@ public:
   minimise(const PairSums& sums) const override
   {
     return minimiseByScaleQuaternion(sums);
+  }
+
+  Eigen::Matrix4d
+  toMatrix(const Eigen::Isometry3d& /*motion*/, const PairSums& sums) const override
+  {
+    return similarityByQuaternion(sums).transform.matrix();
   }
 };
 

@@ -8,6 +8,7 @@
 #include <pcl6d/registration/pcl/icp6d.h>
 #include <pcl6d/registration/pcl/impl/icp6d_adapters.hpp>
 #include <pcl6d/registration/pcl/transformation_estimation_quaternion.h>
+#include <pcl6d/search/pcl/cached_kd_tree.h>
 
 #include <pcl/common/transforms.h>
 
@@ -27,6 +28,7 @@ struct ICP6D<PointSource, PointTarget, Scalar>::Target {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< [m]
   Points points;
   std::shared_ptr<const PointTree> tree;
+  SearchMemory memory = SearchMemory::kNeighbours;
   std::function<Neighbour(const Eigen::Vector3f&, float)> search;
   Normals normals; ///< if a metric needed them
   std::size_t normal_neighbours = 0;
@@ -217,6 +219,8 @@ ICP6D<PointSource, PointTarget, Scalar>::makeTarget(const IcpOptions& options)
     p -= made_->origin.template cast<float>();
   if (ours) {
     made_->tree = ours->tree();
+    if (std::dynamic_pointer_cast<CachedKdTree<PointTarget>>(this->tree_))
+      made_->memory = SearchMemory::kLeaves;
   }
   else { // a tree of ours all the same, which judges how well the surfaces fix the pose
     made_->search = registration::searchOf<PointTarget>(this->tree_);
@@ -317,6 +321,7 @@ ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource&
   part.points = &target.points;
   part.normals = options.metric == Metric::kPoint ? nullptr : &target.normals;
   part.search = target.search;
+  part.memory = target.memory;
   IcpSource source{&sides.source, nullptr};
   if (options.metric == Metric::kGicp)
     source.normals = &sides.source_normals;
@@ -338,9 +343,23 @@ ICP6D<PointSource, PointTarget, Scalar>::store(const IcpResult& found,
     result_.localizability->centroid += origin;
   this->converged_ = result_.status == Status::kOk;
   this->nr_iterations_ = result_.iterations;
-  this->final_transformation_ =
-      result_.T_target_source.matrix().template cast<Scalar>();
+  Eigen::Affine3d scaled = result_.T_target_source;
+  scaled.linear() *= result_.scale;
+  this->final_transformation_ = scaled.matrix().template cast<Scalar>();
   this->transformation_ = this->final_transformation_;
+  moveOutput(output);
+}
+
+/** Moves the chosen points; their normals are turned alone. */
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::moveOutput(PointCloudSource& output) const
+{
+  if (result_.scale != 1)
+    for (auto& point : output)
+      point.getVector3fMap() =
+          (result_.scale * point.getVector3fMap().template cast<double>())
+              .template cast<float>();
   const PointCloudSource chosen = output;
   const Eigen::Matrix4d T = result_.T_target_source.matrix(); // double, whatever Scalar
   if constexpr (pcl::traits::has_normal<PointSource>::value)

@@ -47,23 +47,22 @@ SumsEstimation<PointSource, PointTarget, Scalar, Accumulator>::estimate(
 {
   constexpr int kMaxPasses = 20;
   RigidEstimate total{Status::kMaxIterations, Eigen::Isometry3d::Identity()};
-  std::size_t used = 0;
+  Sums sums;
   for (int pass = 0; pass < kMaxPasses && total.status != Status::kOk; ++pass) {
     Accumulator accumulator;
     for (std::size_t i = 0; i < count; ++i) {
       const auto [s, t] = pair(i);
       addPair(accumulator, total.transform, source[s], target[t]);
     }
-    const Sums sums = accumulator.sums();
+    sums = accumulator.sums();
     const RigidEstimate found = minimise(sums);
-    used = sums.count;
-    throwUnlessOk(found, used, Accumulator::kNeeds);
+    throwUnlessOk(found, sums.count, Accumulator::kNeeds);
     total.transform = found.transform * total.transform;
     if (isFinal(sums, found.transform))
       total.status = Status::kOk;
   }
-  throwUnlessOk(total, used, Accumulator::kNeeds);
-  transformation = total.transform.matrix().template cast<Scalar>();
+  throwUnlessOk(total, sums.count, Accumulator::kNeeds);
+  transformation = toMatrix(total.transform, sums).template cast<Scalar>();
 }
 
 template <typename PointSource,

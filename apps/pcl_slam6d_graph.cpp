@@ -15,7 +15,8 @@ main(int argc, char** argv)
                      "IN -o OUT",
                      "find the poses that fit the links best",
                      runOptimize},
-                    {"info", "IN", "tell what a graph holds", runInfo}}},
+                    {"info", "IN", "tell what a graph holds", runInfo},
+                    {"convert", "IN -o OUT", "write it as g2o or TORO", runConvert}}},
                   argc,
                   argv);
 }

@@ -9,6 +9,10 @@ constexpr const char* kConvert = "pcl_slam6d_convert"; ///< the program's name
 
 /** \file What the verbs do stands in the table of pcl_slam6d_convert.cpp. */
 int
+runCalibrate(const Arguments& arguments);
+int
+runDepth(const Arguments& arguments);
+int
 runLines(const Arguments& arguments);
 int
 runScans(const Arguments& arguments);

@@ -45,7 +45,7 @@ basinOptions(const IcpSettings& s, const Slam6DParameters& p, const Points& poin
   o.icp.max_iterations = s.slam.max_iterations;
   o.icp.max_distance = p.max_distance.value;
   o.icp.max_distance_start = p.max_distance_start.value;
-  o.icp.translation_epsilon = s.slam.translation_epsilon;
+  o.icp.translation_epsilon = s.slam.translation_epsilon.value_or(1e-3 * p.voxel.value);
   o.icp.rotation_epsilon = s.slam.rotation_epsilon;
   return o;
 }

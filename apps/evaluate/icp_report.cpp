@@ -87,6 +87,8 @@ printHeader(const IcpSettings& settings, const IcpEvaluation& e)
                   best.result.overlap,
                   best.sigma_position,
                   degrees(best.sigma_orientation));
+      if (o.icp.estimate_scale)
+        std::printf("scale of %s: %.6f\n", settings.scan_b.c_str(), best.result.scale);
     }
 }
 
@@ -161,14 +163,14 @@ void
 writeRuns(std::ostream& stream, const IcpBasin& basin)
 {
   stream << "metric,minimiser,search,x,y,yaw,correct,position_error,orientation_error,"
-            "pairs,pair_rms,iterations,stop,seconds\n";
+            "pairs,pair_rms,iterations,stop,seconds,scale\n";
   for (const IcpBasinRow& row : basin.rows)
     for (const IcpBasinRun& run : row.runs)
       CsvLine(stream) << toString(row.variant.metric) << row.variant.minimiser
                       << toString(row.variant.search) << run.start.x << run.start.y
                       << run.start.yaw << run.correct << run.position_error
                       << run.orientation_error << run.pairs << run.rms << run.iterations
-                      << toString(run.stop) << run.seconds;
+                      << toString(run.stop) << run.seconds << run.scale;
 }
 
 Json
@@ -178,6 +180,7 @@ toJson(const IcpBestPose& best)
           {"believed", best.doubt.empty()},
           {"doubt", best.doubt},
           {"T_a_b", rowByRow(best.result.T_target_source.matrix())},
+          {"scale", best.result.scale},
           {"status", toString(best.result.status)},
           {"iterations", best.result.iterations},
           {"pairs", best.result.pairs},

@@ -21,9 +21,11 @@ struct Methods {
   Words metrics = {"all"};
   Words minimisers = {"quaternion", "helix", "small-angle", "euler"};
   Words plane_minimisers = {"helix", "linear"};
-  Words searches = {"cached", "kdtree", "approximate"};
+  Words searches = {"remembered", "cached-tree", "kdtree", "approximate"};
   bool all_combinations = false;
 };
+
+constexpr char kScaleMinimiser[] = "scale-quaternion";
 
 std::string
 usage()
@@ -41,6 +43,8 @@ it, in position and in orientation. The table's errors, rms (of the pairs),
 iterations and ms (processor time on one thread, without the making of trees)
 are means of the correct runs; reach is how far every start is correct, shifted
 without a turn and turned without a shift.
+With --scale one factor is estimated, too, by which B must be enlarged to be as
+large as A: for scans of two devices, or in different units.
 Exit code 3: a best pose is in doubt, because ICP fails from the unperturbed start
 or does not stay at the pose found (the metric then has no rows), or because the
 best poses of two metrics are far apart.
@@ -92,7 +96,7 @@ addInput(OptionTable& table, IcpSettings& s)
 }
 
 void
-addMethods(OptionTable& table, Methods& methods)
+addMethods(OptionTable& table, Methods& methods, bool& estimate_scale)
 {
   table.group(
       "Methods; each NAME may be repeated or all, the first is the standard one");
@@ -105,6 +109,9 @@ addMethods(OptionTable& table, Methods& methods)
       .help(joined(searchMethodNames()) +
             ": all but approximate are exact and give the same runs; brute-force takes "
             "hours on large scans");
+  table.add("scale", &estimate_scale)
+      .help("estimate the scale of B and apply it, by --metric point and --minimiser " +
+            std::string(kScaleMinimiser) + ", which it brings; at most a factor of 2");
   table.add("all-combinations", &methods.all_combinations)
       .help("run every minimiser of every metric with every search; by default the "
             "minimisers run with the first search, and the searches with the first "
@@ -172,6 +179,22 @@ interpretMethods(const Methods& typed, IcpSettings& s)
     planeMinimiserFromName(name);
 }
 
+/** --scale brings the only methods that know of one. \throws UsageError others were given */
+void
+takeScale(const OptionTable& table, const IcpSettings& s, Methods& typed)
+{
+  if (!s.basin.icp.estimate_scale)
+    return;
+  const auto bring = [&](const char* option, Words& words, const Words& only) {
+    if (table.given(option) && expanded(words, {"all"}) != only)
+      throw UsageError(std::string("--scale is estimated by --") + option + " " +
+                       only.front() + " alone, not by " + joined(words, ", "));
+    words = only;
+  };
+  bring("metric", typed.metrics, {toString(Metric::kPoint)});
+  bring("minimiser", typed.minimisers, {kScaleMinimiser});
+}
+
 std::string
 withoutEffect(const OptionTable& table, const IcpSettings& s)
 {
@@ -193,11 +216,12 @@ parseIcpSettings(const std::vector<std::string>& arguments, IcpSettings& s)
   OptionTable table(usage());
   Methods methods;
   addInput(table, s);
-  addMethods(table, methods);
+  addMethods(table, methods, s.basin.icp.estimate_scale);
   addMatching(table, s);
   addRun(table, s);
   if (!table.parse(arguments))
     return false;
+  takeScale(table, s, methods);
   s.basin.offset_xy = s.offset_xy.value_or(s.basin.offset_xy);
   checkOptions(
       [&] {

@@ -16,6 +16,7 @@ namespace {
 struct OptimizeSettings {
   std::string input;
   std::string output;
+  PoseGraphFormat format = PoseGraphFormat::kAuto;
   PoseGraphOptions options;
 };
 
@@ -27,7 +28,9 @@ addOptions(OptionTable& table, OptimizeSettings& s)
   PoseGraphOptions& options = s.options;
   table.positional("IN", &s.input);
   table.group("Output");
-  table.add("output,o FILE", &s.output).required().help("g2o file");
+  table.add("output,o FILE", &s.output).required().help("graph file");
+  table.add("format", &s.format, poseGraphFormatFromName)
+      .help("auto|g2o|toro; auto: TORO for OUT.graph and OUT.toro, else g2o");
   table.group("Optimisation");
   table.add("method NAME", &options.method, graphMethodFromName)
       .help(joined(graphMethodNames()));
@@ -53,7 +56,7 @@ bool
 parse(const std::vector<std::string>& arguments, OptimizeSettings& s)
 {
   OptionTable table(std::string("usage: ") + kGraph +
-                    R"( optimize IN -o OUT.g2o [options]
+                    R"( optimize IN -o OUT [options]
 Finds the poses that fit the links of a pose graph best and writes the graph with
 them. IN: g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT) or TORO (VERTEX3, EDGE3); without
 vertices the chain of links gives the first poses. The first pose of each component
@@ -99,7 +102,7 @@ runOptimize(const std::vector<std::string>& arguments)
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   printResult(graph, result, seconds);
   graph.poses = result.poses;
-  writePoseGraphG2o(s.output, graph);
+  writePoseGraph(s.output, graph, s.format);
   if (result.status == Status::kOk)
     return kDone;
   std::fprintf(stderr,

@@ -11,6 +11,8 @@ constexpr const char* kGraph = "pcl_slam6d_graph"; ///< the program's name
 int
 runOptimize(const Arguments& arguments);
 int
+runConvert(const Arguments& arguments);
+int
 runInfo(const Arguments& arguments);
 
 } // namespace pcl6d::app

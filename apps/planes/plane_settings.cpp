@@ -41,8 +41,12 @@ addPlanes(OptionTable& table, PlaneSettings& s, Words& words)
 {
   PlaneFinderOptions& step = s.step;
   table.group("Planes");
-  table.add("method", &step.method, planeMethodFromName)
-      .help("region-growing|ransac|hough");
+  const auto takeMethod = [&step](const std::string& word) {
+    step.method = choosePlaneMethod(word, step.segmentation);
+  };
+  table.addWord("method", toString(step.method), takeMethod)
+      .help(joined(planeMethodWords()) +
+            ": how planes are looked for; hough is hough-randomized");
   table.add("min-area", &step.segmentation.planes.min_area)
       .help("[m^2] smaller planes are dropped");
   table.add("min-points", &step.segmentation.planes.min_points)

@@ -89,6 +89,27 @@ TEST(PoseGraphIo, ToroComesBackAsItWas)
   expectSameGraph(graph, readPoseGraph(folder / "graph.txt"));
 }
 
+TEST(PoseGraphIo, TheExtensionTellsTheFormatUnlessItIsGiven)
+{
+  using pcl6d::PoseGraphFormat;
+  const TempFolder folder;
+  const PoseGraph graph = makeGraph();
+  const auto firstWord = [&](const char* name, PoseGraphFormat format) {
+    pcl6d::writePoseGraph(folder / name, graph, format);
+    const std::string text = pcl6d::test::readText(folder / name);
+    return text.substr(0, text.find(' '));
+  };
+  for (const char* const name : {"a.graph", "a.TORO"})
+    EXPECT_EQ(firstWord(name, PoseGraphFormat::kAuto), "VERTEX3") << name;
+  for (const char* const name : {"a.g2o", "a.txt", "a"})
+    EXPECT_EQ(firstWord(name, PoseGraphFormat::kAuto), "VERTEX_SE3:QUAT") << name;
+  EXPECT_EQ(firstWord("b.g2o", PoseGraphFormat::kToro), "VERTEX3");
+  EXPECT_EQ(firstWord("b.graph", PoseGraphFormat::kG2o), "VERTEX_SE3:QUAT");
+  for (const char* const name : {"auto", "g2o", "toro"})
+    EXPECT_EQ(toString(pcl6d::poseGraphFormatFromName(name)), name);
+  EXPECT_THROW(pcl6d::poseGraphFormatFromName("dot"), pcl6d::BadArgument);
+}
+
 TEST(PoseGraphIo, ADecimalCommaElsewhereChangesNothing)
 {
   const TempFolder folder;

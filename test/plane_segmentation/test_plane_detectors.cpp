@@ -217,7 +217,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(ransac(),
                     hough("HoughRandomized", pcl6d::HoughVariant::kRandomized),
                     hough("HoughProbabilistic", pcl6d::HoughVariant::kProbabilistic),
-                    hough("HoughStandard", pcl6d::HoughVariant::kStandard)),
+                    hough("HoughStandard", pcl6d::HoughVariant::kStandard),
+                    hough("HoughAdaptive", pcl6d::HoughVariant::kAdaptive),
+                    hough("HoughProgressive", pcl6d::HoughVariant::kProgressive)),
     [](const auto& detector) { return detector.param.name; });
 
 template <typename Options, typename Value>
@@ -273,5 +275,9 @@ TEST(HoughPlaneOptions, NameWhatBreaksItsRule)
   expectRefused(&Options::max_draws, 0);
   expectRefused(&Options::max_failures, 0);
   expectRefused(&Options::share, 1.1);
+  expectRefused(&Options::peaks, 0);
+  expectRefused(&Options::stable_batches, 0);
+  for (const double bad : {0.0, 1.0, nan})
+    expectRefused(&Options::chance, bad);
 }
 } // namespace

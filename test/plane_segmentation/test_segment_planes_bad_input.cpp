@@ -114,6 +114,25 @@ TEST(SegmentPlanesBadInput, OptionsThatBreakTheirRuleAreRefused)
     EXPECT_EQ(planeMethodFromName(toString(method)), method);
 }
 
+TEST(ChoosePlaneMethod, TakesNamesAndThoseOfTheVariantsOfHough)
+{
+  for (const auto& word : planeMethodWords()) {
+    PlaneSegmentationOptions options;
+    const PlaneMethod method = choosePlaneMethod(word, options);
+    if (method == PlaneMethod::kHough && word != toString(method)) {
+      EXPECT_EQ(word, "hough-" + toString(options.hough.variant));
+    }
+    else {
+      EXPECT_EQ(word, toString(method));
+    }
+  }
+  EXPECT_EQ(planeMethodWords().size(), 3u + houghVariantNames().size());
+  PlaneSegmentationOptions options;
+  for (const char* const bad : {"", "hough-", "standard", "hough-magic"})
+    EXPECT_THROW(choosePlaneMethod(bad, options), BadArgument) << bad;
+  EXPECT_THROW(houghVariantFromName("magic"), BadArgument);
+}
+
 TEST(SegmentPlanesBadInput, ACloudThatDoesNotFitItsOptionsIsRefused)
 {
   const auto refused = [](auto change) {

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scanner/expect_refused.h"
+#include "scanner/rendered_board.h"
 
 #include <pcl6d/scanner/camera_calibration.h>
 
-#include <Eigen/Geometry>
-#include <opencv2/imgproc.hpp>
-
 #include <algorithm>
-#include <cmath>
 
 namespace {
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 using pcl6d::calibrateCamera;
 using pcl6d::CalibrationView;
 using pcl6d::CameraIntrinsics;
@@ -19,106 +15,24 @@ using pcl6d::Chessboard;
 using pcl6d::findChessboard;
 using pcl6d::PinholeCamera;
 using pcl6d::Status;
+using pcl6d::test::boardCamera;
+using pcl6d::test::boardPicture;
+using pcl6d::test::boardPoses;
+using pcl6d::test::exactView;
 using pcl6d::test::expectRefused;
-
-CameraIntrinsics
-truth()
-{
-  CameraIntrinsics lens;
-  lens.width = 320;
-  lens.height = 240;
-  lens.fx = 310;
-  lens.fy = 305;
-  lens.cx = 163;
-  lens.cy = 117;
-  lens.k = {-0.25, 0.08, 0, 0, 0, 0};
-  lens.p = {1e-3, -8e-4};
-  return lens;
-}
-
-/** \return poses of the board before the camera, turned to many sides */
-std::vector<Eigen::Isometry3d>
-boardPoses(const Chessboard& board)
-{
-  const Vector3d middle(
-      (board.cols - 1) * board.square / 2, (board.rows - 1) * board.square / 2, 0);
-  std::vector<Eigen::Isometry3d> poses;
-  for (int i = 0; i < 12; ++i) {
-    const double side = i * M_PI / 6;
-    const Eigen::Quaterniond turn(
-        1, 0.25 * std::cos(side), 0.25 * std::sin(side), 0.02 * (i - 6));
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.linear() = turn.normalized().toRotationMatrix();
-    pose.translation() =
-        Vector3d(0.06 * std::sin(side), 0.04 * std::cos(side), 0.42 + 0.01 * (i % 4)) -
-        pose.linear() * middle;
-    poses.push_back(pose);
-  }
-  return poses;
-}
-
-CalibrationView
-exactView(const Chessboard& board, const Eigen::Isometry3d& T_camera_board)
-{
-  const PinholeCamera camera(truth());
-  CalibrationView view{board.corners(), {}};
-  for (const auto& corner : view.points)
-    view.pixels.push_back(*camera.project(T_camera_board * corner));
-  return view;
-}
 
 // A corner is refined in a window of 11 pixels, in which the lens bends its lines.
 constexpr double kCornerTol = 0.3; // [px]
-constexpr int kRays = 3;           // along each side of a pixel
-
-/** \return the rays through all parts of all pixels, row by row */
-const std::vector<Vector3d>&
-rays()
-{
-  static const std::vector<Vector3d> all = [] {
-    const PinholeCamera camera(truth());
-    std::vector<Vector3d> made;
-    for (int row = 0; row < 240 * kRays; ++row)
-      for (int col = 0; col < 320 * kRays; ++col)
-        made.push_back(
-            camera.undistort({(col + 0.5) / kRays - 0.5, (row + 0.5) / kRays - 0.5})
-                ->homogeneous());
-    return made;
-  }();
-  return all;
-}
-
-/** \return the picture of the board on a bright wall */
-cv::Mat
-picture(const Chessboard& board, const Eigen::Isometry3d& T_camera_board)
-{
-  const Eigen::Isometry3d T_board_camera = T_camera_board.inverse();
-  const Vector3d o = T_board_camera.translation();
-  cv::Mat bright(240 * kRays, 320 * kRays, CV_8UC1);
-  std::transform(
-      rays().begin(), rays().end(), bright.begin<std::uint8_t>(), [&](const auto& ray) {
-        const Vector3d v = T_board_camera.linear() * ray;
-        const Vector2d at = (o - o.z() / v.z() * v).template head<2>() / board.square;
-        const bool on_board =
-            (at.array() > -1).all() && at.x() < board.cols && at.y() < board.rows;
-        const int square = static_cast<int>(std::floor(at.x()) + std::floor(at.y()));
-        return static_cast<std::uint8_t>(on_board && square % 2 == 0 ? 30 : 230);
-      });
-  cv::Mat image;
-  cv::resize(bright, image, {320, 240}, 0, 0, cv::INTER_AREA);
-  return image;
-}
-
 void
 expectNear(const CameraIntrinsics& found, double pixels, double distortion)
 {
-  EXPECT_NEAR(found.fx, truth().fx, pixels);
-  EXPECT_NEAR(found.fy, truth().fy, pixels);
-  EXPECT_NEAR(found.cx, truth().cx, pixels);
-  EXPECT_NEAR(found.cy, truth().cy, pixels);
-  EXPECT_NEAR(found.k[0], truth().k[0], distortion);
-  EXPECT_NEAR(found.p[0], truth().p[0], distortion);
-  EXPECT_NEAR(found.p[1], truth().p[1], distortion);
+  EXPECT_NEAR(found.fx, boardCamera().fx, pixels);
+  EXPECT_NEAR(found.fy, boardCamera().fy, pixels);
+  EXPECT_NEAR(found.cx, boardCamera().cx, pixels);
+  EXPECT_NEAR(found.cy, boardCamera().cy, pixels);
+  EXPECT_NEAR(found.k[0], boardCamera().k[0], distortion);
+  EXPECT_NEAR(found.p[0], boardCamera().p[0], distortion);
+  EXPECT_NEAR(found.p[1], boardCamera().p[1], distortion);
 }
 } // namespace
 
@@ -143,7 +57,7 @@ TEST(CalibrateCamera, FindsTheCameraOfPictures)
   Vector2d sum = Vector2d::Zero();
   double count = 0;
   for (const auto& pose : boardPoses(board)) {
-    const auto view = findChessboard(picture(board, pose), board);
+    const auto view = findChessboard(boardPicture(board, pose), board);
     if (!view)
       continue;
     const auto exact = exactView(board, pose);
@@ -201,9 +115,9 @@ TEST(UndistortImage, MakesStraightWhatIsStraight)
   const Chessboard board;
   const auto pose = boardPoses(board)[3];
   const auto view =
-      findChessboard(undistortImage(picture(board, pose), truth()), board);
+      findChessboard(undistortImage(boardPicture(board, pose), boardCamera()), board);
   ASSERT_TRUE(view);
-  CameraIntrinsics straight = truth();
+  CameraIntrinsics straight = boardCamera();
   straight.k = {};
   straight.p = {};
   const PinholeCamera ideal(straight);
@@ -217,9 +131,11 @@ TEST(UndistortImage, MakesStraightWhatIsStraight)
     EXPECT_LT((view->pixels[reversed ? corners.size() - 1 - i : i] - expected).norm(),
               kCornerTol);
     bend = std::max(
-        bend, (*PinholeCamera(truth()).project(pose * corners[i]) - expected).norm());
+        bend,
+        (*PinholeCamera(boardCamera()).project(pose * corners[i]) - expected).norm());
   }
   EXPECT_GT(bend, 2) << "the test would see no difference";
-  expectRefused([] { undistortImage(cv::Mat(9, 9, CV_8UC1, cv::Scalar(0)), truth()); },
-                "9 x 9");
+  expectRefused(
+      [] { undistortImage(cv::Mat(9, 9, CV_8UC1, cv::Scalar(0)), boardCamera()); },
+      "9 x 9");
 }

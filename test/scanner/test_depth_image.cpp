@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace {
 using Eigen::Vector3d;
@@ -112,4 +113,57 @@ TEST(DepthImage, RefusesSenselessInput)
   expectRefused([&] { depthImageToCloud(bytes, camera()); }, "depth image = 0");
   expectRefused([&] { depthImageToCloud(depth, camera(), {}, &small); },
                 "amplitude image = 20 x 10");
+}
+
+TEST(DepthImage, OfFloatingPointIsThatOfItsSteps)
+{
+  cv::Mat steps = planeDepths({0, 0, 1}, 3, DepthKind::kAlongAxis);
+  steps.at<std::uint16_t>(70, 80) = 0;
+  cv::Mat metres(steps.rows, steps.cols, CV_32FC1);
+  for (int row = 0; row < steps.rows; ++row)
+    for (int col = 0; col < steps.cols; ++col)
+      metres.at<float>(row, col) =
+          static_cast<float>(steps.at<std::uint16_t>(row, col)); // [mm], too
+  metres.at<float>(70, 80) = std::numeric_limits<float>::quiet_NaN();
+  DepthImageOptions options;
+  options.kind = DepthKind::kAlongAxis;
+  options.max_jump = 0.5;
+  const auto expected = depthImageToCloud(steps, camera(), options);
+  const auto cloud = depthImageToCloud(metres, camera(), options);
+  ASSERT_EQ(cloud.size(), expected.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (std::isfinite(expected[i].x)) {
+      ASSERT_EQ(cloud[i].getVector3fMap(), expected[i].getVector3fMap()) << i;
+    }
+    else {
+      ASSERT_FALSE(std::isfinite(cloud[i].x)) << i;
+    }
+  metres.at<float>(1, 1) = -3;
+  metres.at<float>(1, 2) = std::numeric_limits<float>::infinity();
+  const auto holes = depthImageToCloud(metres, camera(), options);
+  EXPECT_FALSE(std::isfinite(holes.at(1, 1).x));
+  EXPECT_FALSE(std::isfinite(holes.at(2, 1).x));
+}
+
+TEST(RangesOfPhases, FollowTheModulation)
+{
+  constexpr double kModulation = 20e6; // [Hz]: a turn is 7.49481145 m
+  cv::Mat phase(1, 4, CV_16UC1, cv::Scalar(0));
+  phase.at<std::uint16_t>(0, 1) = 16384;
+  phase.at<std::uint16_t>(0, 2) = 32768;
+  const cv::Mat ranges = pcl6d::rangesOfPhases(phase, 65536, kModulation);
+  EXPECT_EQ(ranges.type(), CV_32FC1);
+  EXPECT_EQ(ranges.at<float>(0, 0), 0); // no measurement
+  EXPECT_NEAR(ranges.at<float>(0, 1), 7.49481145 / 4, 1e-6);
+  EXPECT_NEAR(ranges.at<float>(0, 2), 7.49481145 / 2, 1e-6);
+  cv::Mat angle(1, 3, CV_32FC1, cv::Scalar(0));
+  angle.at<float>(0, 1) = static_cast<float>(-M_PI / 2); // as atan2() gives it
+  angle.at<float>(0, 2) = std::numeric_limits<float>::quiet_NaN();
+  const cv::Mat turned = pcl6d::rangesOfPhases(angle, 2 * M_PI, kModulation);
+  EXPECT_NEAR(turned.at<float>(0, 1), 7.49481145 * 3 / 4, 1e-5);
+  EXPECT_EQ(turned.at<float>(0, 2), 0);
+  expectRefused([&] { pcl6d::rangesOfPhases(phase, 0, kModulation); }, "turn = 0");
+  expectRefused([&] { pcl6d::rangesOfPhases(phase, 1, 0); }, "modulation = 0");
+  const cv::Mat bytes(1, 1, CV_8UC1, cv::Scalar(1));
+  expectRefused([&] { pcl6d::rangesOfPhases(bytes, 1, 1); }, "phase image = 0");
 }

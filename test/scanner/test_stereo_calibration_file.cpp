@@ -175,7 +175,7 @@ TEST(StereoCalibrationFile, NamesWhatIsWrong)
   refused("M1: 5\n", "entry M1 is no matrix");
   refused(matrixEntry("M2", 2, {1, 0, 0, 1}), "entry M2 has 4 values");
   refused(matrixEntry("M2", 3, {1, 0, 0, 0, 1, 0, 0, 0, 2}), "M2 is no camera matrix");
-  refused(matrixEntry("M1", 3, {-9, 0, 0, 0, 1, 0, 0, 0, 1}), "camera 1: fx = -9");
+  refused(matrixEntry("M1", 3, {-9, 0, 0, 0, 1, 0, 0, 0, 1}), "entry M1: fx = -9");
   refused(matrixEntry("D1", 1, {1, 2, 3}), "entry D1 has 3 values");
   refused(matrixEntry("D2", 1, std::vector<double>(14, 0.1)), "D2 has a coefficient");
   refused(matrixEntry("R", 3, std::vector<double>(9, 0.3)), "R is no rotation");

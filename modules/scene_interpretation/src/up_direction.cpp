@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/line.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/scene_interpretation/interpretation.h>
 
@@ -11,7 +12,8 @@
 
 namespace pcl6d {
 namespace {
-constexpr std::size_t kLargest = 40; // planes whose crossings are tried
+constexpr std::size_t kLargest = 40; // planes whose edges are tried
+constexpr double kLeastSine = 0.5;   // of the angle at an edge: 30 deg
 
 enum class Fit { kNone, kLevel, kUpright };
 
@@ -38,10 +40,12 @@ candidates(const std::vector<Plane>& planes)
     directions.push_back(planes[i].normal);
   for (std::size_t a = 0; a < order.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
-      const Eigen::Vector3d cross =
-          planes[order[a]].normal.cross(planes[order[b]].normal);
-      if (cross.norm() > 0.5)
-        directions.push_back(cross.normalized());
+      const Plane &first = planes[order[a]], &second = planes[order[b]];
+      const auto edge = meetOf(PlaneEquation{first.normal, first.offset},
+                               PlaneEquation{second.normal, second.offset},
+                               kLeastSine);
+      if (edge)
+        directions.push_back(edge->direction);
     }
   for (auto& direction : directions)
     if (direction.z() < 0)

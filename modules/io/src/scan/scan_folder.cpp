@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/initial_poses.h"
 #include "scan/scan_formats.h"
-#include "text/natural_order.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/io/natural_order.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/text.h>

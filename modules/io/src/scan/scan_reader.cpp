@@ -107,6 +107,8 @@ keepPoints(const std::vector<bool>& keep, ScanCloud& scan)
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (!keep[i])
       continue;
+    if (scan.row_length > 0)
+      scan.places.push_back(static_cast<std::uint32_t>(i));
     if (kept != i)
       std::memcpy(&cloud.data[kept * step], &cloud.data[i * step], step);
     ++kept;
@@ -194,6 +196,8 @@ ScanCloud
 readScanCloud(const std::filesystem::path& path, ScanFormat format)
 {
   ScanCloud scan = readAllPoints(path, format);
+  if (scan.cloud.height > 1)
+    scan.row_length = scan.cloud.width;
   dropInvalid(path, scan);
   return scan;
 }

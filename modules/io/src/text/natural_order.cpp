@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "text/natural_order.h"
+#include <pcl6d/io/natural_order.h>
 
 #include <algorithm>
 
-namespace pcl6d::io {
+namespace pcl6d {
 
 namespace {
 
@@ -53,4 +53,4 @@ naturalLess(std::string_view a, std::string_view b)
   return whole_a < whole_b;
 }
 
-} // namespace pcl6d::io
+} // namespace pcl6d

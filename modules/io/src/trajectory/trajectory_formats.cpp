@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "text/natural_order.h"
-
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/frames_io.h>
+#include <pcl6d/io/natural_order.h>
 #include <pcl6d/io/pose_graph_io.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_formats.h>

@@ -144,7 +144,7 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
                                      refined.T_scene_model));
   const auto reach = static_cast<float>(voxel_);
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (placed.nearest(around[i], reach * reach).index >= 0)
+    if (placed.hasNeighbour(around[i], reach * reach))
       refined.points.push_back(places[i]);
   refined.check =
       checkPose(scene_, surface_, model_, refined.T_scene_model, kStrictness * voxel_);

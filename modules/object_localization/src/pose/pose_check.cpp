@@ -307,7 +307,7 @@ checkContinuation(const SceneSurface& surface,
     const auto goesOn = [&](std::uint32_t next) {
       const Eigen::Vector3d place = T_model_scene * surfels.points[next].cast<double>();
       return !surface.large[next] &&
-             model_tree.nearest(place.cast<float>(), beyond).index < 0 &&
+             !model_tree.hasNeighbour(place.cast<float>(), beyond) &&
              areJoined(surfels, element, next, near);
     };
     if (std::any_of(surfels.links.begin() + surfels.link_begin[element],

@@ -48,45 +48,51 @@ keyOf(std::size_t direction, std::int32_t offset)
          static_cast<std::int64_t>(direction);
 }
 
-/** How far the surfels are from the origin, in cells, rounded up. */
-std::int32_t
-reach(const SurfelColumns& surfels, double cell)
-{
-  float farthest = 0;
-  for (std::size_t i = 0; i < surfels.size(); ++i)
-    farthest = std::max(farthest, surfels.point(i).squaredNorm());
-  return static_cast<std::int32_t>(std::sqrt(static_cast<double>(farthest)) / cell) + 2;
-}
-} // namespace
+/** Votes of each direction, one direction after the other. */
+class DirectionVotes {
+public:
+  DirectionVotes(const SurfelColumns& surfels,
+                 const AccumulatorBall& ball,
+                 const FacingDirections& facing,
+                 double offset_cell)
+  : surfels_(surfels)
+  , by_direction_(surfels, ball)
+  , facing_(facing)
+  , per_metre_(static_cast<float>(1 / offset_cell))
+  , middle_(reachOf(surfels, offset_cell))
+  {}
 
+  /** Calls visit(offset, votes) for the cells with votes, by rising offset. */
+  template <typename Visit>
+  void
+  visit(std::size_t direction, const Visit& visit) const
+  {
+    const Eigen::Vector3f normal = facing_.centre(direction);
+    std::vector<std::uint32_t> votes; // made with the first one
+    for (const std::uint32_t facing : facing_.of(direction))
+      by_direction_.visit(facing, [&](std::size_t slot) {
+        if (votes.empty())
+          votes.assign(static_cast<std::size_t>(2 * middle_), 0);
+        const float offset = std::floor(normal.dot(surfels_.point(slot)) * per_metre_);
+        ++votes[static_cast<std::size_t>(static_cast<std::int32_t>(offset) + middle_)];
+      });
+    for (std::size_t i = 0; i < votes.size(); ++i)
+      if (votes[i] > 0)
+        visit(static_cast<std::int32_t>(i) - middle_, votes[i]);
+  }
+
+private:
+  const SurfelColumns& surfels_;
+  SurfelsByDirection by_direction_;
+  const FacingDirections& facing_;
+  float per_metre_;
+  std::int32_t middle_;
+};
+
+/** \return the cells of all directions by falling count */
 std::vector<HoughCell>
-voteForAll(const SurfelColumns& surfels,
-           const AccumulatorBall& ball,
-           const HoughVoteOptions& options)
+byCount(const std::vector<std::vector<HoughCell>>& rows)
 {
-  const SurfelsByDirection by_direction(surfels, ball);
-  std::vector<Eigen::Vector3f> centres;
-  for (std::size_t cell = 0; cell < ball.size(); ++cell)
-    centres.push_back(ball.centre(cell).cast<float>());
-  const auto cosine = static_cast<float>(portableSinCos(options.max_angle).cos);
-  const auto per_metre = static_cast<float>(1 / options.offset_cell);
-  const std::int32_t middle = reach(surfels, options.offset_cell);
-  std::vector<std::vector<HoughCell>> rows(ball.size());
-  parallelFor(ball.size(), options.num_threads, [&](std::size_t direction) {
-    const Eigen::Vector3f normal = centres[direction];
-    std::vector<std::uint32_t> votes(static_cast<std::size_t>(2 * middle), 0);
-    for (std::size_t facing = 0; facing < ball.size(); ++facing)
-      if (centres[facing].dot(normal) >= cosine)
-        by_direction.visit(facing, [&](std::size_t slot) {
-          const float offset = std::floor(normal.dot(surfels.point(slot)) * per_metre);
-          ++votes[static_cast<std::size_t>(static_cast<std::int32_t>(offset) + middle)];
-        });
-    for (std::int32_t offset = -middle; offset < middle; ++offset) {
-      const std::uint32_t count = votes[static_cast<std::size_t>(offset + middle)];
-      if (count >= options.min_votes)
-        rows[direction].push_back({direction, offset, count});
-    }
-  });
   std::vector<HoughCell> cells;
   for (const auto& row : rows)
     cells.insert(cells.end(), row.begin(), row.end());
@@ -95,6 +101,97 @@ voteForAll(const SurfelColumns& surfels,
         return a.votes > b.votes;
       });
   return cells;
+}
+} // namespace
+
+FacingDirections::FacingDirections(const AccumulatorBall& ball,
+                                   double max_angle,
+                                   unsigned int num_threads)
+: facing_(ball.size())
+{
+  for (std::size_t cell = 0; cell < ball.size(); ++cell)
+    centres_.push_back(ball.centre(cell).cast<float>());
+  const auto cosine = static_cast<float>(portableSinCos(max_angle).cos);
+  parallelFor(ball.size(), num_threads, [&](std::size_t direction) {
+    for (std::uint32_t facing = 0; facing < centres_.size(); ++facing)
+      if (centres_[facing].dot(centres_[direction]) >= cosine)
+        facing_[direction].push_back(facing);
+  });
+}
+
+std::int32_t
+reachOf(const SurfelColumns& surfels, double cell)
+{
+  float farthest = 0;
+  for (std::size_t i = 0; i < surfels.size(); ++i)
+    farthest = std::max(farthest, surfels.point(i).squaredNorm());
+  return static_cast<std::int32_t>(std::sqrt(static_cast<double>(farthest)) / cell) + 2;
+}
+
+std::vector<HoughCell>
+voteForAll(const SurfelColumns& surfels,
+           const AccumulatorBall& ball,
+           const HoughVoteOptions& options)
+{
+  const FacingDirections facing(ball, options.max_angle, options.num_threads);
+  const DirectionVotes votes(surfels, ball, facing, options.offset_cell);
+  std::vector<std::vector<HoughCell>> rows(ball.size());
+  parallelFor(ball.size(), options.num_threads, [&](std::size_t direction) {
+    votes.visit(direction, [&](std::int32_t offset, std::uint32_t count) {
+      if (count >= options.min_votes)
+        rows[direction].push_back({direction, offset, count});
+    });
+  });
+  return byCount(rows);
+}
+
+HoughVotes::HoughVotes(const AccumulatorBall& ball, const HoughVoteOptions& options)
+: ball_(ball)
+, options_(options)
+, facing_(ball, options.max_angle, options.num_threads)
+, rows_(ball.size())
+{}
+
+void
+HoughVotes::count(const SurfelColumns& surfels, int sign)
+{
+  const DirectionVotes votes(surfels, ball_, facing_, options_.offset_cell);
+  parallelFor(ball_.size(), options_.num_threads, [&](std::size_t direction) {
+    std::vector<Count> sum;
+    auto next = rows_[direction].cbegin();
+    const auto end = rows_[direction].cend();
+    votes.visit(direction, [&](std::int32_t offset, std::uint32_t count) {
+      while (next != end && next->offset < offset)
+        sum.push_back(*next++);
+      const std::uint32_t before =
+          next != end && next->offset == offset ? (next++)->votes : 0;
+      const std::uint32_t after = sign > 0 ? before + count : before - count;
+      if (after > 0)
+        sum.push_back({offset, after});
+    });
+    sum.insert(sum.end(), next, end);
+    rows_[direction] = std::move(sum);
+  });
+}
+
+std::vector<HoughCell>
+HoughVotes::cells(std::uint32_t min_votes) const
+{
+  std::vector<std::vector<HoughCell>> rows(rows_.size());
+  for (std::size_t direction = 0; direction < rows_.size(); ++direction)
+    for (const Count& cell : rows_[direction])
+      if (cell.votes >= min_votes)
+        rows[direction].push_back({direction, cell.offset, cell.votes});
+  return byCount(rows);
+}
+
+std::uint64_t
+HoughVotes::votesFor(std::size_t direction) const
+{
+  std::uint64_t votes = 0;
+  for (const Count& cell : rows_[direction])
+    votes += cell.votes;
+  return votes;
 }
 
 const HoughCell*

@@ -3,6 +3,7 @@
 
 #include "surfels/remaining_surfels.h"
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/plane_segmentation/accumulator_ball.h>
 
 #include <cstdint>
@@ -29,10 +30,86 @@ struct HoughVoteOptions {
 
 /** \brief Lets each surfel vote for all planes through it.
  * \return the cells by falling count, then by direction and offset */
-std::vector<HoughCell>
+PCL6D_EXPORTS std::vector<HoughCell> // shown to its test
 voteForAll(const SurfelColumns& surfels,
            const AccumulatorBall& ball,
            const HoughVoteOptions& options);
+
+/** \brief Which cells of an accumulator ball face so nearly the same way that surfels of
+ * the one vote for planes of the other. */
+class FacingDirections {
+public:
+  /** \param[in] max_angle [rad] between the centres of the cells */
+  FacingDirections(const AccumulatorBall& ball,
+                   double max_angle,
+                   unsigned int num_threads);
+
+  /** \return the cells for a direction, ascending, itself included */
+  const std::vector<std::uint32_t>&
+  of(std::size_t direction) const
+  {
+    return facing_[direction];
+  }
+
+  /** \return the direction in the middle of a cell, unit length */
+  const Eigen::Vector3f&
+  centre(std::size_t cell) const
+  {
+    return centres_[cell];
+  }
+
+private:
+  std::vector<Eigen::Vector3f> centres_;
+  std::vector<std::vector<std::uint32_t>> facing_;
+};
+
+/** \brief Votes that come and go: counted batch by batch, and taken back. */
+class PCL6D_EXPORTS HoughVotes { // shown to its test
+public:
+  /** Keeps a reference to the ball. \param[in] options min_votes does not count */
+  HoughVotes(const AccumulatorBall& ball, const HoughVoteOptions& options);
+
+  /** \brief Lets surfels vote, each for all planes through it. */
+  void
+  add(const SurfelColumns& surfels)
+  {
+    count(surfels, 1);
+  }
+
+  /** \brief Takes the votes of surfels back, all of which have voted. */
+  void
+  remove(const SurfelColumns& surfels)
+  {
+    count(surfels, -1);
+  }
+
+  /** \return the cells of so many votes, which is at least one, in the order of
+   * voteForAll() */
+  std::vector<HoughCell>
+  cells(std::uint32_t min_votes) const;
+
+  /** \return all votes for planes of a direction */
+  std::uint64_t
+  votesFor(std::size_t direction) const;
+
+private:
+  struct Count {
+    std::int32_t offset;
+    std::uint32_t votes;
+  };
+
+  void
+  count(const SurfelColumns& surfels, int sign);
+
+  const AccumulatorBall& ball_;
+  HoughVoteOptions options_;
+  FacingDirections facing_;
+  std::vector<std::vector<Count>> rows_; // of each direction, by offset
+};
+
+/** \return how many cells of this size [m] the surfels are from the origin, rounded up */
+std::int32_t
+reachOf(const SurfelColumns& surfels, double cell);
 
 /** \brief The peaks of the votes, one after the other: the cell with most votes that is
  * in no window of a peak before. */

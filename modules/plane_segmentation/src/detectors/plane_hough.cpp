@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "detectors/hough_votes.h"
+#include "detectors/hough_searches.h"
 #include "detectors/local_triple.h"
-#include "detectors/plane_support.h"
 
+#include <pcl6d/common/name_table.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
-#include <pcl6d/plane_segmentation/plane_hough.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,17 +18,13 @@ namespace {
 constexpr std::size_t kBlock = 256;  // draws
 constexpr std::size_t kBatch = 2048; // draws that are made before they vote
 constexpr int kLevels = 3;           // sizes of the cells that points are drawn from
-constexpr int kWindow = 4;           // steps on each side of a peak
 
-PlaneSearch
-makeSearch(const PlaneCloud& cloud, const HoughPlaneOptions& options)
-{
-  return {cloud,
-          options.max_side / (1 << (kLevels - 1)),
-          {options.max_plane_distance, options.bend},
-          portableSinCos(options.max_angle).cos,
-          options.min_surfels};
-}
+constexpr Named<HoughVariant> kVariants[] = {
+    {HoughVariant::kStandard, "standard"},
+    {HoughVariant::kProbabilistic, "probabilistic"},
+    {HoughVariant::kRandomized, "randomized"},
+    {HoughVariant::kAdaptive, "adaptive"},
+    {HoughVariant::kProgressive, "progressive"}};
 
 /** The randomized transform. */
 class RandomizedHough {
@@ -38,7 +33,7 @@ public:
   : options_(options)
   , ball_(options.slices)
   , num_threads_(cloud.numThreads())
-  , search_(makeSearch(cloud, options))
+  , search_(makeHoughSearch(cloud, options))
   {
     triple_.num_levels = kLevels;
     triple_.min_distance = options.min_side;
@@ -130,75 +125,6 @@ private:
   std::size_t num_blocks_ = 0;
 };
 
-/** The transform in which a point votes for all planes through it. */
-class FullHough {
-public:
-  FullHough(const PlaneCloud& cloud, const HoughPlaneOptions& options)
-  : options_(options)
-  , ball_(options.slices)
-  , num_threads_(cloud.numThreads())
-  , search_(makeSearch(cloud, options))
-  {}
-
-  PlaneCandidates
-  run()
-  {
-    std::size_t before = 0;
-    do {
-      before = search_.found().size();
-      takePeaks();
-    } while (search_.found().size() > before);
-    return search_.found();
-  }
-
-private:
-  double
-  share() const
-  {
-    return options_.variant == HoughVariant::kProbabilistic ? options_.share : 1;
-  }
-
-  /** Votes once, and takes the peaks that are planes. */
-  void
-  takePeaks()
-  {
-    const std::size_t size = search_.surfels().size();
-    const auto voters =
-        static_cast<std::size_t>(std::ceil(share() * static_cast<double>(size)));
-    const auto fewest = share() * static_cast<double>(options_.min_surfels);
-    HoughVoteOptions voting;
-    voting.offset_cell = options_.offset_cell;
-    voting.max_angle = options_.max_angle;
-    voting.num_threads = num_threads_;
-    voting.min_votes = static_cast<std::uint32_t>(std::max(1.0, fewest));
-    const SurfelColumns sample = search_.surfels().sample(
-        voters, mixBits(options_.seed) + search_.found().size());
-    HoughPeaks peaks(voteForAll(sample, ball_, voting), ball_, kWindow);
-    int failures = 0;
-    while (failures < options_.max_failures) {
-      const HoughCell* const peak = peaks.next();
-      if (peak == nullptr)
-        break;
-      failures = takePeak(*peak) ? 0 : failures + 1;
-    }
-  }
-
-  bool
-  takePeak(const HoughCell& peak)
-  {
-    const double offset = (peak.offset + 0.5) * options_.offset_cell;
-    Slab slab = search_.slab(ball_.centre(peak.direction).cast<float>(),
-                             static_cast<float>(offset));
-    slab.slack = static_cast<float>(options_.offset_cell / 2);
-    const Support support = search_.supportOf(slab);
-    return !support.slots.empty() && search_.take(support);
-  }
-
-  HoughPlaneOptions options_;
-  AccumulatorBall ball_;
-  unsigned int num_threads_;
-  PlaneSearch search_;
-};
 } // namespace
 
 void
@@ -224,15 +150,52 @@ HoughPlaneOptions::validate() const
   require(max_draws >= 1, "max_draws", max_draws, ">= 1");
   require(max_failures >= 1, "max_failures", max_failures, ">= 1");
   require(share > 0 && share <= 1, "share", share, "in (0, 1]");
+  require(peaks >= 1, "peaks", peaks, ">= 1");
+  require(stable_batches >= 1, "stable_batches", stable_batches, ">= 1");
+  require(chance > 0 && chance < 1, "chance", chance, "in (0, 1)");
+}
+
+PlaneSearch
+plane_segmentation::makeHoughSearch(const PlaneCloud& cloud,
+                                    const HoughPlaneOptions& options)
+{
+  return {cloud,
+          options.max_side / (1 << (kLevels - 1)),
+          {options.max_plane_distance, options.bend},
+          portableSinCos(options.max_angle).cos,
+          options.min_surfels};
 }
 
 PlaneCandidates
 houghCandidates(const PlaneCloud& cloud, const HoughPlaneOptions& options)
 {
   options.validate();
-  if (options.variant == HoughVariant::kRandomized)
+  switch (options.variant) {
+  case HoughVariant::kRandomized:
     return RandomizedHough(cloud, options).run();
-  return FullHough(cloud, options).run();
+  case HoughVariant::kProgressive:
+    return progressiveHough(cloud, options);
+  default:
+    return fullHough(cloud, options);
+  }
+}
+
+HoughVariant
+houghVariantFromName(const std::string& name)
+{
+  return fromName(kVariants, "Hough variant", name);
+}
+
+std::vector<std::string>
+houghVariantNames()
+{
+  return namesOf(kVariants);
+}
+
+std::string
+toString(HoughVariant variant)
+{
+  return nameOf(kVariants, variant);
 }
 
 } // namespace pcl6d

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/name_table.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/plane_segmentation/segment_planes.h>
 
 namespace pcl6d {
@@ -10,6 +11,7 @@ constexpr Named<PlaneMethod> kMethods[] = {
     {PlaneMethod::kRegionGrowing, "region-growing"},
     {PlaneMethod::kRansac, "ransac"},
     {PlaneMethod::kHough, "hough"}};
+const std::string kHoughPrefix = "hough-"; // of the words for its variants
 
 PlaneCandidates
 candidatesBy(const PlaneCloud& cloud,
@@ -39,6 +41,32 @@ std::string
 toString(PlaneMethod method)
 {
   return nameOf(kMethods, method, kMethods[0].name);
+}
+
+std::vector<std::string>
+planeMethodWords()
+{
+  std::vector<std::string> words = namesOf(kMethods);
+  for (const auto& variant : houghVariantNames())
+    words.push_back(kHoughPrefix + variant);
+  return words;
+}
+
+PlaneMethod
+choosePlaneMethod(const std::string& word, PlaneSegmentationOptions& options)
+{
+  if (const auto method = findNamed(kMethods, word))
+    return *method;
+  for (const auto& variant : houghVariantNames())
+    if (word == kHoughPrefix + variant) {
+      options.hough.variant = houghVariantFromName(variant);
+      return PlaneMethod::kHough;
+    }
+  std::string rule = "one of ";
+  for (const auto& known : planeMethodWords())
+    rule += (known == kMethods[0].name ? "" : ", ") + known;
+  require(false, "plane method", word, rule);
+  return {};
 }
 
 void

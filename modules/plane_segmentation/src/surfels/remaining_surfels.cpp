@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl6d::plane_segmentation {
 
@@ -140,6 +141,28 @@ RemainingSurfels::sample(std::size_t size, std::uint64_t seed) const
     chosen.append(columns_.point(slot), columns_.normal(slot), columns_.reach[slot]);
   }
   return chosen;
+}
+
+std::vector<std::uint32_t>
+RemainingSurfels::shuffled(std::uint64_t seed) const
+{
+  std::vector<std::uint32_t> order = surfels_;
+  Random random(seed);
+  for (std::size_t left = order.size(); left > 1; --left)
+    std::swap(
+        order[left - 1],
+        order[static_cast<std::size_t>(random.uniform() * static_cast<double>(left))]);
+  return order;
+}
+
+SurfelColumns
+RemainingSurfels::columnsOf(const std::vector<std::uint32_t>& surfels) const
+{
+  SurfelColumns columns;
+  for (const auto surfel : surfels)
+    if (const std::uint32_t slot = slots_[surfel]; slot != kGone)
+      columns.append(columns_.point(slot), columns_.normal(slot), columns_.reach[slot]);
+  return columns;
 }
 
 std::vector<std::uint32_t>

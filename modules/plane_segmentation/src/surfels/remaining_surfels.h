@@ -10,10 +10,10 @@
 namespace pcl6d::plane_segmentation {
 
 /** \brief Surfels side by side, for loops over all of them. */
-struct SurfelColumns {
-  std::vector<float> x, y, z;    ///< [m]
-  std::vector<float> nx, ny, nz; ///< unit normals
-  std::vector<float> reach;      ///< [m] that a plane may be away
+struct PCL6D_EXPORTS SurfelColumns { // shown to a test
+  std::vector<float> x, y, z;        ///< [m]
+  std::vector<float> nx, ny, nz;     ///< unit normals
+  std::vector<float> reach;          ///< [m] that a plane may be away
 
   std::size_t
   size() const
@@ -64,6 +64,28 @@ public:
   {
     return columns_;
   }
+
+  /** \return the surfel of a slot, by which it is known when slots have changed */
+  std::uint32_t
+  surfel(std::size_t slot) const
+  {
+    return surfels_[slot];
+  }
+
+  /** \return the slot of a surfel, or kGone */
+  std::uint32_t
+  slotOf(std::uint32_t surfel) const
+  {
+    return slots_[surfel];
+  }
+
+  /** \return the surfels that remain, in an order of chance */
+  std::vector<std::uint32_t>
+  shuffled(std::uint64_t seed) const;
+
+  /** \return those of some surfels that remain, in their order */
+  SurfelColumns
+  columnsOf(const std::vector<std::uint32_t>& surfels) const;
 
   /** \brief Slots from begin up to, but not with, end. */
   struct Range {

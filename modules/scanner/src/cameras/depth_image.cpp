@@ -2,6 +2,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/camera_scanner.h>
 #include <pcl6d/scanner/depth_image.h>
+#include <pcl6d/scanner/measurement_principles.h>
 
 #include <opencv2/core.hpp>
 
@@ -23,7 +24,26 @@ requireImage(const cv::Mat& image,
           std::to_string(image.cols) + " x " + std::to_string(image.rows),
           "of the camera's size, " + std::to_string(lens.width) + " x " +
               std::to_string(lens.height));
-  require(right_kind, name, image.type(), "of one channel of 16 bits (CV_16UC1, 2)");
+  require(right_kind,
+          name,
+          image.type(),
+          "of one channel of 16 bits (CV_16UC1, 2) or float (CV_32FC1, 5)");
+}
+
+bool
+isDepthKind(const cv::Mat& image)
+{
+  return image.type() == CV_16UC1 || image.type() == CV_32FC1;
+}
+
+/** \return the value of a pixel; 0 if it is not finite */
+double
+valueOf(const cv::Mat& depth, int row, int col)
+{
+  if (depth.depth() == CV_16U)
+    return depth.at<std::uint16_t>(row, col);
+  const float value = depth.at<float>(row, col);
+  return std::isfinite(value) ? value : 0;
 }
 
 /** \brief Which pixels of a depth image are to be believed. */
@@ -47,9 +67,9 @@ public:
   bool
   accepts(int row, int col) const
   {
-    const int steps = depth_.at<std::uint16_t>(row, col);
+    const double steps = valueOf(depth_, row, col);
     const double depth = steps * options_.unit;
-    if (steps == 0 || depth < options_.min_depth || depth > options_.max_depth)
+    if (!(steps > 0) || depth < options_.min_depth || depth > options_.max_depth)
       return false;
     if (amplitude_ && amplitude(row, col) < options_.min_amplitude)
       return false;
@@ -58,7 +78,7 @@ public:
 
 private:
   bool
-  isFlying(int row, int col, int steps) const
+  isFlying(int row, int col, double steps) const
   {
     constexpr std::array<std::array<int, 2>, 4> kNeighbours = {
         {{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
@@ -66,8 +86,8 @@ private:
       const int r = row + down, c = col + right;
       if (r < 0 || c < 0 || r >= depth_.rows || c >= depth_.cols)
         continue;
-      const int other = depth_.at<std::uint16_t>(r, c);
-      if (other != 0 && std::abs(other - steps) * options_.unit > options_.max_jump)
+      const double other = valueOf(depth_, r, c);
+      if (other > 0 && std::abs(other - steps) * options_.unit > options_.max_jump)
         return true;
     }
     return false;
@@ -96,7 +116,7 @@ depthImageToCloud(const cv::Mat& depth,
                   const cv::Mat* amplitude)
 {
   options.validate();
-  requireImage(depth, camera, depth.type() == CV_16UC1, "depth image");
+  requireImage(depth, camera, isDepthKind(depth), "depth image");
   if (amplitude)
     requireImage(*amplitude,
                  camera,
@@ -121,10 +141,34 @@ depthImageToCloud(const cv::Mat& depth,
       }
       const Eigen::Vector3d v = xy->homogeneous();
       const double length = options.kind == DepthKind::kRadial ? v.norm() : 1;
-      const double d = depth.at<std::uint16_t>(row, col) * options.unit;
+      const double d = valueOf(depth, row, col) * options.unit;
       point->getVector3fMap() = (R_scanner_camera * (d / length * v)).cast<float>();
     }
   return cloud;
+}
+
+cv::Mat
+rangesOfPhases(const cv::Mat& phase, double turn, double modulation)
+{
+  require(turn > 0 && std::isfinite(turn), "turn", turn, "> 0 and finite");
+  require(modulation > 0 && std::isfinite(modulation),
+          "modulation",
+          modulation,
+          "> 0 and finite");
+  require(isDepthKind(phase),
+          "phase image",
+          phase.type(),
+          "of one channel of 16 bits (CV_16UC1, 2) or float (CV_32FC1, 5)");
+  cv::Mat ranges(phase.rows, phase.cols, CV_32FC1);
+  for (int row = 0; row < phase.rows; ++row)
+    for (int col = 0; col < phase.cols; ++col) {
+      const double value = valueOf(phase, row, col);
+      ranges.at<float>(row, col) =
+          value == 0
+              ? 0.f
+              : static_cast<float>(rangeFromPhase(2 * M_PI * value / turn, modulation));
+    }
+  return ranges;
 }
 
 } // namespace pcl6d

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/natural_order.h>
 #include <pcl6d/scanner/image_files.h>
 
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <vector>
@@ -41,6 +44,29 @@ readImage(const std::filesystem::path& path, int flags)
              " pixels, but must have at most 1e8");
   return image;
 }
+
+[[noreturn]] void
+failKind(const std::filesystem::path& path,
+         const cv::Mat& image,
+         const std::string& wanted)
+{
+  fail(path,
+       "has " + std::to_string(image.channels()) + " channels of " +
+           std::to_string(8 * image.elemSize1()) + " bits, but " + wanted);
+}
+
+bool
+isImageName(const std::filesystem::path& path)
+{
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* const known :
+       {".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".pgm", ".webp"})
+    if (extension == known)
+      return true;
+  return false;
+}
 } // namespace
 
 cv::Mat
@@ -53,12 +79,38 @@ cv::Mat
 readDepthImage(const std::filesystem::path& path)
 {
   cv::Mat image = readImage(path, cv::IMREAD_UNCHANGED);
-  if (image.type() != CV_16UC1)
-    fail(path,
-         "has " + std::to_string(image.channels()) + " channels of " +
-             std::to_string(8 * image.elemSize1()) +
-             " bits, but a depth image has 1 of 16 bits");
+  if (image.type() != CV_16UC1 && image.type() != CV_32FC1)
+    failKind(
+        path, image, "a depth image has 1 of 16 bits, or of 32 bits floating point");
   return image;
+}
+
+cv::Mat
+readAmplitudeImage(const std::filesystem::path& path)
+{
+  cv::Mat image = readImage(path, cv::IMREAD_UNCHANGED);
+  if (image.type() != CV_8UC1 && image.type() != CV_16UC1)
+    failKind(path, image, "an amplitude image has 1 of 8 or 16 bits");
+  return image;
+}
+
+std::vector<std::filesystem::path>
+imagesOf(const std::filesystem::path& folder)
+{
+  std::vector<std::filesystem::path> images;
+  std::error_code error;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error))
+    if (it->is_regular_file() && isImageName(it->path()))
+      images.push_back(it->path());
+  if (error)
+    fail(folder, "cannot be read: " + error.message());
+  if (images.empty())
+    fail(folder, "holds no picture (.png .tif .tiff .jpg .jpeg .bmp .pgm .webp)");
+  std::sort(images.begin(), images.end(), [](const auto& a, const auto& b) {
+    return naturalLess(a.filename().string(), b.filename().string());
+  });
+  return images;
 }
 
 void

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/line.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/projection_scanner.h>
@@ -95,13 +96,13 @@ ProjectionScanner::lightSource() const
 double
 ProjectionScanner::range(int line, int sample, double column) const
 {
-  constexpr double kParallel = 1e-9;
   const Eigen::Hyperplane<double, 3> plane = projector_.lightPlane(column);
-  const Eigen::Vector3d direction = ray(line, sample).direction;
-  const double across = plane.normal().dot(direction);
-  if (!(std::abs(across) >= kParallel))
+  const Ray axis = ray(line, sample);
+  const auto lit = meetOf(lineAlong(axis.origin, axis.direction),
+                          PlaneEquation{plane.normal(), -plane.offset()});
+  if (!lit)
     return kNaN;
-  const double range = -plane.offset() / across;
+  const double range = axis.direction.dot(*lit - axis.origin);
   return range > 0 ? range : kNaN;
 }
 

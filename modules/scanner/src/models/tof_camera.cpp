@@ -7,7 +7,7 @@
 
 namespace pcl6d {
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoPixel = std::numeric_limits<double>::quiet_NaN();
 
 // Whether a pixel stands apart from both neighbours at (+-rows, +-cols).
 bool
@@ -76,7 +76,8 @@ TofCamera::rangeScan(const std::array<std::vector<double>, 4>& images,
         waveFromFourSamples({images[0][i], images[1][i], images[2][i], images[3][i]});
     const bool is_good =
         wave.amplitude >= gate.min_amplitude && wave.offset <= gate.max_offset;
-    scan.samples[i].range = is_good ? rangeFromPhase(wave.phase, modulation_) : kNaN;
+    scan.samples[i].range =
+        is_good ? rangeFromPhase(wave.phase, modulation_) : kNoPixel;
     scan.samples[i].intensity = wave.amplitude;
   }
   if (std::isfinite(gate.max_jump))
@@ -95,7 +96,7 @@ dropFlyingPixels(RangeScan& scan, double max_jump)
       if (isFlying(scan, row, col, max_jump))
         flying.push_back(index);
   for (const std::size_t pixel : flying)
-    scan.samples[pixel].range = kNaN;
+    scan.samples[pixel].range = kNoPixel;
   return flying.size();
 }
 

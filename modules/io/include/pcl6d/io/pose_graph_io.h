@@ -5,6 +5,7 @@
 #include <pcl6d/common/pose_graph.h>
 
 #include <filesystem>
+#include <string>
 
 namespace PCL6D_EXPORTS pcl6d {
 
@@ -45,5 +46,28 @@ writePoseGraphG2o(const std::filesystem::path& path, const PoseGraph& graph);
 /** \brief Writes TORO rows in the same way. */
 void
 writePoseGraphToro(const std::filesystem::path& path, const PoseGraph& graph);
+
+/** \brief The formats of pose graphs. kAuto, for files to be written: kToro if the extension
+ * is .graph or .toro, whatever its case, else kG2o. */
+enum class PoseGraphFormat { kAuto, kG2o, kToro };
+
+/** \return the format called "auto", "g2o" or "toro" \throws BadArgument another name */
+PoseGraphFormat
+poseGraphFormatFromName(const std::string& name);
+
+/** \return the name of the format */
+std::string
+toString(PoseGraphFormat format);
+
+/** \return the format in which a file is to be written, not kAuto */
+PoseGraphFormat
+formatToWrite(const std::filesystem::path& path, PoseGraphFormat format);
+
+/** \brief Writes a graph in a format. \throws BadArgument, IoFailed as
+ * writePoseGraphG2o() */
+void
+writePoseGraph(const std::filesystem::path& path,
+               const PoseGraph& graph,
+               PoseGraphFormat format = PoseGraphFormat::kAuto);
 
 } // namespace pcl6d

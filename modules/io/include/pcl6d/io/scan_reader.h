@@ -7,6 +7,7 @@
 #include <pcl/PCLPointCloud2.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -46,6 +47,11 @@ struct ScanCloud {
   std::size_t dropped = 0; ///< points left out because x, y or z was not finite
   /** what the file holds that is no field of a point, such as the faces of a mesh */
   std::vector<std::string> left_out;
+  /** points in a row of the file, those left out included; 0: it is one list of points */
+  std::size_t row_length = 0;
+  /** of each point in the rows of the file, counted row by row; empty if none was left
+   * out, or if there are no rows */
+  std::vector<std::uint32_t> places;
 };
 
 /** \brief One scan as it came from a file. */

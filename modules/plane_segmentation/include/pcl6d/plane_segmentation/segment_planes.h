@@ -8,6 +8,7 @@
 #include <pcl6d/plane_segmentation/plane_region_growing.h>
 
 #include <string>
+#include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
 
@@ -33,6 +34,16 @@ struct PlaneSegmentationOptions {
   void
   validate() const;
 };
+
+/** \return the words of choosePlaneMethod(), the method's names first */
+std::vector<std::string>
+planeMethodWords();
+
+/** \brief Chooses a method by a word: its name, or "hough-standard" and the like for one
+ * of the variants of kHough, which goes into the options; "hough" leaves them alone.
+ * \throws BadArgument another word */
+PlaneMethod
+choosePlaneMethod(const std::string& word, PlaneSegmentationOptions& options);
 
 /** \brief Finds the planes in a cloud: a detector, then finishPlanes().
  * The same bits for any number of threads. Fewer than 3 points, or none on a plane: no

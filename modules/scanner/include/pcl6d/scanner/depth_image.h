@@ -38,7 +38,8 @@ struct DepthImageOptions {
 
 /** \brief Turns the depth image of a time-of-flight camera into points (book 2.4):
  * p = d v / |v| (radial) or d v / v_z, v = K^-1 (u, v, 1) without distortion.
- * \param[in] depth CV_16UC1 of the camera's size; 0: no measurement
+ * \param[in] depth CV_16UC1 or CV_32FC1 of the camera's size; 0, or what is not finite:
+ * no measurement
  * \param[in] amplitude CV_16UC1 or CV_8UC1 of that size; null: none
  * \return organized cloud in the camera's place, x forward, y left, z up (the camera's
  * z, -x and -y); NaN where nothing is; intensity is the amplitude, 0 if not given
@@ -49,5 +50,15 @@ depthImageToCloud(const cv::Mat& depth,
                   const PinholeCamera& camera,
                   const DepthImageOptions& options = {},
                   const cv::Mat* amplitude = nullptr);
+
+/** \brief The radial distances [m] in the phase image of a time-of-flight camera: c phi /
+ * (4 pi f), which the true ones may exceed by multiples of c / (2 f).
+ * \param[in] phase CV_16UC1 or CV_32FC1; 0, or what is not finite: no measurement
+ * \param[in] turn value of a whole turn of the phase; > 0 \param[in] modulation f [Hz], > 0
+ * \return CV_32FC1, for depthImageToCloud() with kRadial and the unit 1
+ * \throws BadArgument turn or modulation breaks its rule, or the image is of another kind
+ * \note Source: book 2.1.2 and 2.4 \ingroup scanner */
+cv::Mat
+rangesOfPhases(const cv::Mat& phase, double turn, double modulation);
 
 } // namespace pcl6d

@@ -4,6 +4,7 @@
 #include <pcl6d/common/export.h>
 
 #include <filesystem>
+#include <vector>
 
 namespace cv {
 class Mat;
@@ -18,10 +19,22 @@ namespace PCL6D_EXPORTS pcl6d {
 cv::Mat
 readGrayImage(const std::filesystem::path& path);
 
-/** \return CV_16UC1: a depth image \throws IoFailed as readGrayImage(), or the image
- * does not have one channel of 16 bits \ingroup scanner */
+/** \return CV_16UC1 or CV_32FC1: a depth image (PNG, TIFF, ...) \throws IoFailed as
+ * readGrayImage(), or the image does not have one channel of 16 bits or of 32 bits floating
+ * point \ingroup scanner */
 cv::Mat
 readDepthImage(const std::filesystem::path& path);
+
+/** \return CV_8UC1 or CV_16UC1: an amplitude image \throws IoFailed as readGrayImage(), or
+ * the image is of another kind \ingroup scanner */
+cv::Mat
+readAmplitudeImage(const std::filesystem::path& path);
+
+/** \return the pictures of a folder (.png .tif .tiff .jpg .jpeg .bmp .pgm .webp, in capitals
+ * too), in natural order: scan2 before scan10
+ * \throws IoFailed the folder cannot be read, or holds none \ingroup scanner */
+std::vector<std::filesystem::path>
+imagesOf(const std::filesystem::path& folder);
 
 /** \brief Writes a PNG file, whole or not at all. \param[in] image CV_8UC1, CV_16UC1 or
  * CV_8UC3 (blue, green, red), not empty \throws BadArgument another kind of image

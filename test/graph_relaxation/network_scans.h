@@ -55,6 +55,22 @@ scansFrom(const Poses& poses, const PillarRoom& room = {}, double step = 0.06)
   return network;
 }
 
+/** \return the same scans in another unit */
+inline NetworkScans
+scaledBy(double scale, const NetworkScans& network)
+{
+  NetworkScans scaled;
+  for (std::size_t i = 0; i < network.scans.size(); ++i) {
+    Points points = network.scans[i].model().points();
+    for (auto& p : points)
+      p *= static_cast<float>(scale);
+    Eigen::Isometry3d pose = network.truth[i];
+    pose.translation() *= scale;
+    scaled.add(std::move(points), pose);
+  }
+  return scaled;
+}
+
 /** \return a chain of poses each of whose steps is off by the same motion */
 inline Poses
 drifted(const Poses& truth, const Eigen::Isometry3d& drift)

@@ -139,7 +139,7 @@ largestTurn(const Poses& a, const Poses& b)
 
 /** \return options that iterate fixed pairs to the last digits */
 inline GraphSlamOptions
-exactOptions(Relaxation relaxation, LinkWeights weights = LinkWeights::kUnit)
+exactOptions(Relaxation relaxation, LinkWeights weights = LinkWeights::kPairs)
 {
   GraphSlamOptions options;
   options.relaxation = relaxation;

@@ -50,8 +50,10 @@ TEST(RelaxationNames, AreThoseOfTheCommandLine)
   for (const std::string& name : names)
     EXPECT_EQ(toString(relaxationFromName(name)), name);
   EXPECT_THROW(relaxationFromName("lum"), BadArgument);
-  EXPECT_EQ(linkWeightsFromName("unit"), LinkWeights::kUnit);
-  EXPECT_EQ(linkWeightsFromName("variance"), LinkWeights::kVariance);
+  EXPECT_EQ(linkWeightsNames(),
+            (std::vector<std::string>{"unit", "pairs", "covariance"}));
+  for (const std::string& name : linkWeightsNames())
+    EXPECT_EQ(toString(linkWeightsFromName(name)), name);
   EXPECT_THROW(linkWeightsFromName("none"), BadArgument);
 }
 
@@ -78,7 +80,7 @@ TEST_P(JointMethods, ReachTheOptimumOfTheConvergedVariances)
   for (std::size_t l = 0; l < 4; ++l) // some links are noisier
     graph.links[l] =
         makePairs(random, graph.truth, graph.links[l].from, graph.links[l].to, 60, 0.3);
-  const auto result = GraphSlam(exactOptions(GetParam(), LinkWeights::kVariance))
+  const auto result = GraphSlam(exactOptions(GetParam(), LinkWeights::kCovariance))
                           .relax(graph.start, graph.links);
   ASSERT_EQ(result.status, Status::kOk);
   std::vector<double> factors;
@@ -86,6 +88,43 @@ TEST_P(JointMethods, ReachTheOptimumOfTheConvergedVariances)
     factors.push_back(1 / link.variance);
   expectSame(
       result.poses, ceresOptimum(graph.start, graph.links, factors), kOptimumTol);
+}
+
+TEST_P(JointMethods, ReachTheOptimumWithLinksThatCountAlike)
+{
+  GraphRecipe recipe;
+  GraphCase graph = makeGraph(recipe);
+  Random random(6);
+  for (std::size_t l = 0; l < 4; ++l) // some links have many more pairs, and noisy ones
+    graph.links[l] = makePairs(
+        random, graph.truth, graph.links[l].from, graph.links[l].to, 300, 0.3);
+  const GraphSlam slam(exactOptions(GetParam(), LinkWeights::kUnit));
+  const auto result = slam.relax(graph.start, graph.links);
+  ASSERT_EQ(result.status, Status::kOk);
+  std::vector<double> factors;
+  for (const LinkReport& link : result.links)
+    factors.push_back(1 / static_cast<double>(link.pairs));
+  expectSame(
+      result.poses, ceresOptimum(graph.start, graph.links, factors), kOptimumTol);
+}
+
+TEST_P(JointMethods, PairsThatComeTwiceCountOnceWhereLinksAreAlike)
+{
+  const GraphCase graph = makeGraph(GraphRecipe());
+  std::vector<LinkPairs> doubled = graph.links;
+  LinkPairs& link = doubled.front();
+  const Points from = link.points_from, to = link.points_to;
+  link.points_from.insert(link.points_from.end(), from.begin(), from.end());
+  link.points_to.insert(link.points_to.end(), to.begin(), to.end());
+  const auto poses = [&](LinkWeights weights, const std::vector<LinkPairs>& links) {
+    return GraphSlam(exactOptions(GetParam(), weights)).relax(graph.start, links).poses;
+  };
+  expectSame(poses(LinkWeights::kUnit, doubled),
+             poses(LinkWeights::kUnit, graph.links),
+             kOptimumTol);
+  EXPECT_GT(largestDistance(poses(LinkWeights::kPairs, doubled),
+                            poses(LinkWeights::kPairs, graph.links)),
+            1e-4);
 }
 
 // Norms turn with the scans, those of the oracle do not: the torque Z x N Z of a pair, against
@@ -156,7 +195,7 @@ TEST_P(JointMethods, DoNotDependOnTheOrigin)
 TEST_P(JointMethods, DoNotDependOnThePoseThatIsFixed)
 {
   const GraphCase graph = makeGraph({});
-  const GraphSlam slam(exactOptions(GetParam(), LinkWeights::kVariance));
+  const GraphSlam slam(exactOptions(GetParam(), LinkWeights::kCovariance));
   const auto forth = slam.relax(graph.start, graph.links);
   const std::size_t last = graph.start.size() - 1;
   GraphCase mirrored = graph; // numbered from the other end
@@ -182,7 +221,7 @@ TEST_P(JointMethods, ReachTheOptimumFromFarAway)
   for (recipe.seed = 1; recipe.seed <= 8; ++recipe.seed) {
     SCOPED_TRACE("seed " + std::to_string(recipe.seed));
     const GraphCase graph = makeGraph(recipe);
-    const GraphSlam slam(exactOptions(GetParam(), LinkWeights::kVariance));
+    const GraphSlam slam(exactOptions(GetParam(), LinkWeights::kCovariance));
     const auto result = slam.relax(graph.start, graph.links);
     EXPECT_EQ(result.status, Status::kOk);
     expectSame(result.poses, slam.relax(graph.truth, graph.links).poses, kOptimumTol);
@@ -233,7 +272,7 @@ TEST(PublishedMethods, GiveBackTheTruthWithoutNoise)
   const GraphCase graph = makeGraph(recipe);
   for (const Relaxation relaxation :
        {Relaxation::kQuaternionPublished, Relaxation::kSmallAngle})
-    for (const LinkWeights weights : {LinkWeights::kUnit, LinkWeights::kVariance}) {
+    for (const LinkWeights weights : {LinkWeights::kPairs, LinkWeights::kCovariance}) {
       const auto result =
           GraphSlam(exactOptions(relaxation, weights)).relax(graph.start, graph.links);
       EXPECT_EQ(result.status, Status::kOk);

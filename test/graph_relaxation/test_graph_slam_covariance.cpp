@@ -56,7 +56,7 @@ runTrials(const GraphSlamOptions& options, int count)
 // largest of 54 of them 3 of these; the mean of all about 2 to 3 %, as they are correlated.
 TEST(PoseCovariances, AreThoseOfManyRuns)
 {
-  for (const LinkWeights weights : {LinkWeights::kUnit, LinkWeights::kVariance}) {
+  for (const LinkWeights weights : {LinkWeights::kPairs, LinkWeights::kCovariance}) {
     SCOPED_TRACE(toString(weights));
     GraphSlamOptions options = exactOptions(Relaxation::kHelix, weights);
     options.translation_epsilon = options.rotation_epsilon = 1e-6;
@@ -123,6 +123,8 @@ TEST(PoseCovariances, TurnIntoEulerAnglesByTheirDerivatives)
   const Matrix6 C = root * root.transpose();
   const Matrix6 expected = H_inverse * C * H_inverse.transpose();
   EXPECT_LT((eulerCovariance(pose, C) - expected).norm(), 1e-7 * expected.norm());
+  EXPECT_LT((twistCovariance(pose, eulerCovariance(pose, C)) - C).norm(),
+            1e-12 * C.norm());
 }
 
 TEST(PoseCovariances, MoveToAnotherOriginAndBack)
@@ -141,7 +143,7 @@ TEST(LinkReports, BecomeMeasuredPosesWithTheSameOptimum)
 {
   const GraphCase graph = makeGraph({});
   const GraphSlamOptions options =
-      exactOptions(Relaxation::kHelix, LinkWeights::kVariance);
+      exactOptions(Relaxation::kHelix, LinkWeights::kCovariance);
   const auto by_pairs = GraphSlam(options).relax(graph.start, graph.links);
   std::vector<PoseLink> measured;
   for (const LinkReport& link : by_pairs.links)

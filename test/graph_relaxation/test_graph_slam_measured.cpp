@@ -50,7 +50,7 @@ TEST(MeasuredLinks, CountBesidePairsByVariance)
   const PoseLink measured = measurement(graph);
   for (const Relaxation relaxation : kJoint) {
     SCOPED_TRACE(toString(relaxation));
-    GraphSlam slam(exactOptions(relaxation, LinkWeights::kVariance));
+    GraphSlam slam(exactOptions(relaxation, LinkWeights::kCovariance));
     slam.setMeasuredLinks({measured});
     const auto result = slam.relax(graph.start, graph.links);
     ASSERT_EQ(result.status, Status::kOk);
@@ -67,7 +67,7 @@ TEST(MeasuredLinks, AreWeighedAgainstTheCommonVarianceOfUnitPairs)
 {
   const GraphCase graph = ringWithGap();
   const PoseLink measured = measurement(graph);
-  GraphSlam slam(exactOptions(Relaxation::kHelix, LinkWeights::kUnit));
+  GraphSlam slam(exactOptions(Relaxation::kHelix, LinkWeights::kPairs));
   slam.setMeasuredLinks({measured});
   const auto result = slam.relax(graph.start, graph.links);
   ASSERT_EQ(result.status, Status::kOk);
@@ -97,7 +97,7 @@ TEST(MeasuredLinks, AloneAreAPoseGraph)
   const Poses optimum = ceresOptimum(graph.start, {}, {}, measured);
   for (const Relaxation relaxation : kJoint) {
     SCOPED_TRACE(toString(relaxation));
-    GraphSlam slam(exactOptions(relaxation, LinkWeights::kVariance));
+    GraphSlam slam(exactOptions(relaxation, LinkWeights::kCovariance));
     slam.setMeasuredLinks(measured);
     const auto result = slam.relax(graph.start, std::vector<LinkPairs>{});
     EXPECT_EQ(result.status, Status::kOk);
@@ -119,7 +119,7 @@ TEST(MeasuredLinks, ThatAreExactGiveTheTruthByAllMethods)
   for (const std::string& name : relaxationNames()) {
     SCOPED_TRACE(name);
     const Relaxation relaxation = relaxationFromName(name);
-    GraphSlam slam(exactOptions(relaxation, LinkWeights::kVariance));
+    GraphSlam slam(exactOptions(relaxation, LinkWeights::kCovariance));
     slam.setMeasuredLinks(measured);
     const auto result = slam.relax(graph.start, std::vector<LinkPairs>{});
     EXPECT_EQ(result.status, Status::kOk);

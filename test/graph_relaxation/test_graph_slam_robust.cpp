@@ -52,7 +52,7 @@ corridorLink(Random& random, const Poses& truth, std::size_t from, std::size_t t
 TEST(Switching, KeepsAFalseLinkFromBendingTheMap)
 {
   for (const double off : {0.5, 3.0, 30.0})
-    for (const LinkWeights weights : {LinkWeights::kUnit, LinkWeights::kVariance}) {
+    for (const LinkWeights weights : {LinkWeights::kPairs, LinkWeights::kCovariance}) {
       SCOPED_TRACE(std::string(toString(weights)) + ", off by " + std::to_string(off));
       const GraphCase graph = makeGraph(bigRing());
       GraphSlamOptions options = exactOptions(Relaxation::kHelix, weights);
@@ -137,7 +137,7 @@ TEST(OpenDirections, OfACorridorCarryNoInformation)
   recipe.headings = 1; // the axes of the world stay those of the norms
   GraphCase graph = makeGraph(recipe);
   graph.links.push_back(corridorLink(random, graph.truth, 0, 1));
-  for (const LinkWeights weights : {LinkWeights::kUnit, LinkWeights::kVariance}) {
+  for (const LinkWeights weights : {LinkWeights::kPairs, LinkWeights::kCovariance}) {
     const auto result = GraphSlam(exactOptions(Relaxation::kHelix, weights))
                             .relax(graph.start, graph.links);
     EXPECT_EQ(result.status, Status::kOk);
@@ -160,7 +160,7 @@ TEST(OpenDirections, ThatNothingHoldsStayAsTheyWere)
   graph.start = graph.truth;
   graph.start[1].pretranslate(Eigen::Vector3d(0.5, 0.2, -0.1));
   const auto result =
-      GraphSlam(exactOptions(Relaxation::kHelix, LinkWeights::kVariance))
+      GraphSlam(exactOptions(Relaxation::kHelix, LinkWeights::kCovariance))
           .relax(graph.start, graph.links);
   EXPECT_EQ(result.status, Status::kRankDeficient);
   EXPECT_TRUE(result.open_direction[1]);

@@ -68,7 +68,7 @@ expectOnlyLastSwitchedOff(const GraphSlamResult& result)
 TEST(Switching, DoesNotGoByTheNumberOfPairs)
 {
   const GraphCase graph = ringAt(0, 0);
-  for (const LinkWeights weights : {LinkWeights::kUnit, LinkWeights::kVariance})
+  for (const LinkWeights weights : {LinkWeights::kPairs, LinkWeights::kCovariance})
     for (const std::size_t pairs : {kPairs, 3 * kPairs, 10 * kPairs, 100 * kPairs})
       for (const double off : {0.15, 3.0})
         for (const auto& [from, to] : Edges{{0, 5}, {2, 6}, {3, 9}, {11, 8}}) {
@@ -91,7 +91,7 @@ TEST(Switching, DoesNotGoByHowWellPairsAgreeWithinALink)
   auto links = graph.links;
   links.push_back(falseLink(graph.truth, 0, 5, 3, 10 * kPairs, 0));
   const auto result =
-      GraphSlam(switchingOptions(LinkWeights::kVariance)).relax(graph.start, links);
+      GraphSlam(switchingOptions(LinkWeights::kCovariance)).relax(graph.start, links);
   EXPECT_EQ(result.status, Status::kOk);
   EXPECT_LT(largestDistance(result.poses, graph.truth), kNoticeable);
   expectOnlyLastSwitchedOff(result);
@@ -105,9 +105,9 @@ TEST(Switching, WorksFromADisturbedStart)
     auto links = graph.links;
     links.push_back(falseLink(graph.truth, 0, 5, off, 10 * kPairs));
     const auto result =
-        GraphSlam(switchingOptions(LinkWeights::kVariance)).relax(graph.start, links);
+        GraphSlam(switchingOptions(LinkWeights::kCovariance)).relax(graph.start, links);
     EXPECT_EQ(result.status, Status::kOk);
-    const auto clean = GraphSlam(switchingOptions(LinkWeights::kVariance))
+    const auto clean = GraphSlam(switchingOptions(LinkWeights::kCovariance))
                            .relax(graph.start, graph.links);
     EXPECT_LT(largestDistance(result.poses, clean.poses), kNoticeable);
     expectOnlyLastSwitchedOff(result);
@@ -120,7 +120,7 @@ TEST(Switching, EndsWithinFewRounds)
   const GraphCase graph = ringAt(0, 0);
   auto links = graph.links;
   links.push_back(falseLink(graph.truth, 0, 5, 3, 10 * kPairs));
-  GraphSlamOptions options = switchingOptions(LinkWeights::kVariance);
+  GraphSlamOptions options = switchingOptions(LinkWeights::kCovariance);
   options.max_iterations = 10;
   const auto result = GraphSlam(options).relax(graph.start, links);
   EXPECT_EQ(result.status, Status::kOk);
@@ -134,7 +134,7 @@ TEST(Switching, LeavesAMapWithoutFalseLinksAlone)
   GraphCase graph = ringAt(0.3, 0.1);
   Random random(5);
   graph.links.push_back(makePairs(random, graph.truth, 0, 6, 10 * kPairs, kNoise));
-  GraphSlamOptions options = switchingOptions(LinkWeights::kVariance);
+  GraphSlamOptions options = switchingOptions(LinkWeights::kCovariance);
   options.translation_epsilon = options.rotation_epsilon = 1e-8;
   options.error_epsilon = 0;
   const auto switched = GraphSlam(options).relax(graph.start, graph.links);

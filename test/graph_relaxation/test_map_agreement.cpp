@@ -3,7 +3,9 @@
 #include "support/points.h"
 
 #include <pcl6d/graph_relaxation/map_agreement.h>
+#include <pcl6d/graph_relaxation/stage_agreement.h>
 
+using pcl6d::AgreementChange;
 using pcl6d::judgeStage;
 using pcl6d::MapAgreement;
 using pcl6d::Poses;
@@ -22,12 +24,12 @@ network()
   return scans;
 }
 
-/** The truth, with one scan moved by 0.3 m. */
+/** The truth, with one scan moved; by default by 0.3 m. */
 Poses
-oneMoved(std::size_t scan)
+oneMoved(std::size_t scan, double share = 1)
 {
   Poses poses = network().truth;
-  poses[scan] = pcl6d::test::moved(poses[scan], {0.2, 0.2, 0.1});
+  poses[scan] = pcl6d::test::moved(poses[scan], share * Eigen::Vector3d(0.2, 0.2, 0.1));
   return poses;
 }
 
@@ -36,51 +38,106 @@ judged(const Poses& before, const Poses& after, unsigned int threads = 0)
 {
   return judgeStage(network().scans, before, after, kVoxel, threads);
 }
+
+void
+expectSame(const AgreementChange& a, const AgreementChange& b)
+{
+  EXPECT_EQ(a.before, b.before);
+  EXPECT_EQ(a.after, b.after);
+  EXPECT_EQ(a.deviation, b.deviation);
+}
 } // namespace
+
+TEST(AgreementOver, FallsWhenAScanIsMoved)
+{
+  const auto& scans = network().scans;
+  const auto over = [&](const Poses& poses) {
+    return pcl6d::agreementOver(
+        pcl6d::visiblePairs(scans, poses, kVoxel), scans, poses, kVoxel);
+  };
+  const MapAgreement truth = over(network().truth), moved = over(oneMoved(2));
+  EXPECT_GT(truth.total, 0.5);
+  EXPECT_LE(truth.total, 1);
+  EXPECT_LT(moved.total, truth.total - 0.05);
+  for (std::size_t i = 0; i < 6; ++i)
+    if (i != 2) {
+      EXPECT_GT(moved.scans[i], moved.scans[2]);
+    }
+  EXPECT_EQ(pcl6d::agreementOver({}, scans, network().truth, kVoxel).total, 0);
+  const std::string outside = badArgumentOf([&] {
+    pcl6d::agreementOver({{0, 6}}, scans, network().truth, kVoxel);
+  });
+  EXPECT_NE(outside.find("scan of a pair = 6"), std::string::npos) << outside;
+}
+
+TEST(AgreementChange, IsALossBeyondChance)
+{
+  EXPECT_TRUE((AgreementChange{0.5, 0.46, 0.01}.isLoss()));
+  EXPECT_FALSE((AgreementChange{0.5, 0.48, 0.01}.isLoss()));
+  EXPECT_FALSE((AgreementChange{0.5, 0.46, 0.01}.isLoss(5)));
+  EXPECT_TRUE((AgreementChange{0.5, 0.54, 0.01}.isGain()));
+  EXPECT_FALSE((AgreementChange{0.5, 0.52, 0.01}.isGain()));
+}
 
 TEST(JudgeStage, EqualPosesChangeNothing)
 {
   const Poses& truth = network().truth;
   const StageAgreement stage = judged(truth, truth);
   EXPECT_EQ(stage.pairs, 15u) << "all see the same room";
-  EXPECT_EQ(stage.before.total, stage.after.total);
-  EXPECT_EQ(stage.before.scans, stage.after.scans);
+  EXPECT_EQ(stage.total.before, stage.total.after);
+  EXPECT_EQ(stage.total.deviation, 0);
   EXPECT_EQ(stage.worse(), "");
-  EXPECT_GT(stage.before.total, 0.5);
-  EXPECT_LE(stage.before.total, 1);
+  EXPECT_GT(stage.total.before, 0.3);
+  EXPECT_LE(stage.total.before, 1);
 }
 
 TEST(JudgeStage, AMovedScanMakesTheMapWorseAndPuttingItBackMakesItBetter)
 {
   const Poses& truth = network().truth;
   const StageAgreement worse = judged(truth, oneMoved(2));
-  EXPECT_LT(worse.after.total, worse.before.total - 0.05);
+  EXPECT_TRUE(worse.total.isLoss());
   EXPECT_EQ(worse.worse().find("agreement fell from "), 0u) << worse.worse();
+  EXPECT_NE(worse.worse().find(" standard deviations"), std::string::npos);
   for (std::size_t i = 0; i < 6; ++i)
     if (i != 2) {
-      EXPECT_GT(worse.after.scans[i], worse.after.scans[2]);
+      EXPECT_GT(worse.scans[i].after, worse.scans[2].after);
     }
   const StageAgreement better = judged(oneMoved(2), truth);
   EXPECT_EQ(better.worse(), "");
-  EXPECT_EQ(better.before.total, worse.after.total)
-      << "the same pairs, both ways round";
+  EXPECT_TRUE(better.total.isGain());
+  EXPECT_EQ(better.total.before, worse.total.after)
+      << "the same points, both ways round";
+  EXPECT_EQ(better.deviation, worse.deviation);
 }
 
-TEST(AgreementOver, IsTheHalfOfAStage)
+TEST(JudgeStage, NoticesAShiftFarBelowTheVoxel)
 {
-  const Poses moved = oneMoved(2);
-  const auto& scans = network().scans;
-  const StageAgreement stage = judged(moved, moved);
-  const auto pairs = pcl6d::visiblePairs(scans, moved, kVoxel);
-  EXPECT_EQ(pairs.size(), stage.pairs);
-  const MapAgreement agreement = pcl6d::agreementOver(pairs, scans, moved, kVoxel);
-  EXPECT_EQ(agreement.total, stage.before.total);
-  EXPECT_EQ(agreement.scans, stage.before.scans);
-  EXPECT_EQ(pcl6d::agreementOver({}, scans, moved, kVoxel).total, 0);
-  const std::string outside = badArgumentOf([&] {
-    pcl6d::agreementOver({{0, 6}}, scans, moved, kVoxel);
-  });
-  EXPECT_NE(outside.find("scan of a pair = 6"), std::string::npos) << outside;
+  // 15 mm at a voxel of 0.3 m: no point loses its neighbour, walls are bent all the same.
+  const Poses& truth = network().truth;
+  EXPECT_TRUE(judged(truth, oneMoved(2, 0.05)).total.isLoss());
+  EXPECT_TRUE(judged(oneMoved(2, 0.05), truth).total.isGain());
+}
+
+TEST(JudgeStage, KnowsNoUnits)
+{
+  for (const double scale : {0.01, 100.0}) {
+    const NetworkScans scaled = pcl6d::test::scaledBy(scale, network());
+    const auto judgedThere = [&](Poses before, Poses after) {
+      for (Poses* poses : {&before, &after})
+        for (auto& pose : *poses)
+          pose.translation() *= scale;
+      return judgeStage(scaled.scans, before, after, scale * kVoxel);
+    };
+    for (const double share : {0.01, 0.05, 1.0}) {
+      const StageAgreement here = judged(network().truth, oneMoved(3, share));
+      const StageAgreement there = judgedThere(network().truth, oneMoved(3, share));
+      EXPECT_EQ(here.pairs, there.pairs);
+      EXPECT_EQ(here.worse().empty(), there.worse().empty());
+      EXPECT_NEAR(here.total.before, there.total.before, 1e-3);
+      EXPECT_NEAR(here.total.after, there.total.after, 1e-3);
+      EXPECT_NEAR(here.deviation, there.deviation / scale, 0.01 * here.deviation);
+    }
+  }
 }
 
 TEST(JudgeStage, NamesTheScanThatGotWorseWhileTheTotalDidNot)
@@ -88,7 +145,7 @@ TEST(JudgeStage, NamesTheScanThatGotWorseWhileTheTotalDidNot)
   // Scan 1 is put right and scan 4 wrong by as much: what is lost by one is gained by
   // the other.
   StageAgreement stage = judged(oneMoved(1), oneMoved(4));
-  stage.after.total = stage.before.total;
+  stage.total.after = stage.total.before;
   EXPECT_EQ(stage.worse().find("agreement of scan 4 fell from "), 0u) << stage.worse();
   EXPECT_EQ(stage.worse({true, true, true, true, false, true}), "") << "not counted";
   EXPECT_NE(stage.worse({false, false, false, false, true, false}), "");
@@ -96,15 +153,19 @@ TEST(JudgeStage, NamesTheScanThatGotWorseWhileTheTotalDidNot)
 
 TEST(StageAgreement, HasALimitForTheTotalAndAnotherForEachScan)
 {
-  const auto worse = [](double total, double scan) {
+  const auto worse = [](double total, double scan, double deviation) {
     StageAgreement stage;
-    stage.before = {0.5, {0.5, 0.5}};
-    stage.after = {total, {0.5, scan}};
+    stage.total = {0.5, total, 0.01};
+    stage.scans = {{0.5, 0.5, 0.01}, {0.5, scan, deviation}};
     return stage.worse();
   };
-  EXPECT_EQ(worse(0.496, 0.46), "");
-  EXPECT_EQ(worse(0.494, 0.6), "agreement fell from 0.5 to 0.494");
-  EXPECT_EQ(worse(0.6, 0.44), "agreement of scan 1 fell from 0.5 to 0.44");
+  EXPECT_EQ(worse(0.48, 0.46, 0.01), "");
+  EXPECT_EQ(worse(0.46, 0.6, 0.01),
+            "agreement fell from 0.5 to 0.46, 4 standard deviations");
+  EXPECT_EQ(worse(0.6, 0.44, 0.01),
+            "agreement of scan 1 fell from 0.5 to 0.44, 6 standard deviations");
+  EXPECT_EQ(worse(0.6, 0.44, 0.02), "") << "may be chance";
+  EXPECT_EQ(worse(0.6, 0.46, 0.001), "") << "beyond chance, but little";
 }
 
 TEST(JudgeStage, LooksAtPairsThatSeeEachOtherBeforeOrAfter)
@@ -114,9 +175,20 @@ TEST(JudgeStage, LooksAtPairsThatSeeEachOtherBeforeOrAfter)
   far[5] = pcl6d::test::moved(far[5], {100, 0, 0});
   const StageAgreement stage = judged(network().truth, far);
   EXPECT_EQ(stage.pairs, 15u);
-  EXPECT_EQ(judged(far, far).pairs, 10u);
-  EXPECT_EQ(judged(far, far).before.scans[5], 0) << "without pairs";
+  const StageAgreement torn = judged(far, far);
+  EXPECT_EQ(torn.pairs, 10u);
+  EXPECT_EQ(torn.scans[5].before, 0) << "without pairs";
   EXPECT_NE(stage.worse(), "");
+}
+
+TEST(JudgeStage, BearsPosesBeyondAllNumbers)
+{
+  Poses lost = network().truth;
+  lost[5].translation().setConstant(1e100);
+  EXPECT_NE(judged(network().truth, lost).worse(), "");
+  lost[4].translation().setConstant(1e100); // and one beside it
+  EXPECT_NE(judged(network().truth, lost).worse(), "");
+  EXPECT_EQ(judgeStage({}, {}, {}, kVoxel).pairs, 0u);
 }
 
 TEST(JudgeStage, RefusesOtherNumbersOfPoses)
@@ -135,9 +207,10 @@ TEST(JudgeStage, GivesTheSameNumbersForAnyNumberOfThreads)
   for (const unsigned int threads : {2u, 8u}) {
     const StageAgreement many = judged(network().truth, oneMoved(3), threads);
     EXPECT_EQ(many.pairs, one.pairs);
-    EXPECT_EQ(many.before.total, one.before.total);
-    EXPECT_EQ(many.after.total, one.after.total);
-    EXPECT_EQ(many.before.scans, one.before.scans);
-    EXPECT_EQ(many.after.scans, one.after.scans);
+    EXPECT_EQ(many.deviation, one.deviation);
+    expectSame(many.total, one.total);
+    ASSERT_EQ(many.scans.size(), one.scans.size());
+    for (std::size_t i = 0; i < one.scans.size(); ++i)
+      expectSame(many.scans[i], one.scans[i]);
   }
 }

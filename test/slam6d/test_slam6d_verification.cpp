@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+using pcl6d::AgreementChange;
 using pcl6d::IcpModel;
 using pcl6d::MapTrust;
 using pcl6d::MapVerification;
@@ -18,7 +19,6 @@ using pcl6d::Random;
 using pcl6d::ScanState;
 using pcl6d::Slam6DOptions;
 using pcl6d::Slam6DResult;
-using pcl6d::slam6d::AgreementChange;
 using pcl6d::slam6d::agreementChange;
 using pcl6d::slam6d::MeasuredScan;
 using pcl6d::test::DriftingRun;

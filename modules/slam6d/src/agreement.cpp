@@ -45,7 +45,7 @@ sampleOf(const IcpTarget& target,
           const Eigen::Vector3d p = points[sample.places[i]].cast<double>();
           for (std::size_t k = 0; k < target.size() && !sample.near[i]; ++k) {
             const Eigen::Vector3f q = (T_part_points[k] * p).cast<float>();
-            sample.near[i] = target[k].tree->nearest(q, limit_sq).index >= 0;
+            sample.near[i] = target[k].tree->hasNeighbour(q, limit_sq);
           }
         }
       });

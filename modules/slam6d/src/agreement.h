@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/graph_relaxation/stage_agreement.h>
 #include <pcl6d/registration/icp.h>
 
 #include <optional>
@@ -18,29 +19,7 @@ agreementOf(const IcpTarget& target,
             double distance,
             unsigned int num_threads);
 
-/** \brief How many points of a scan lie on others at two poses of it. */
-struct AgreementChange {
-  double before = 0; ///< share at the first pose, in [0, 1]
-  double after = 0;  ///< share at the second pose
-  double deviation =
-      0; ///< standard deviation of their difference by chance: points of one
-         ///< cube count as one, as they come to lie on a surface together
-
-  /** \return whether the share fell by more than chance does: 3 standard deviations */
-  bool
-  isLoss() const
-  {
-    return after < before - 3 * deviation;
-  }
-  /** \return whether it rose by more than chance does */
-  bool
-  isGain() const
-  {
-    return after > before + 3 * deviation;
-  }
-};
-
-/** \brief agreementOf() at two poses, over the same points.
+/** \return agreementOf() at two poses, over the same points.
  * \param[in] cube [m] edge of the cubes whose points count as one; > 0 */
 PCL6D_EXPORTS AgreementChange // shown to its test
 agreementChange(const IcpTarget& target,

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "graph_links.h"
 #include "graph_stage.h"
-#include "relaxation_gain.h"
 
 #include <pcl6d/common/pose.h>
-#include <pcl6d/graph_relaxation/map_agreement.h>
+#include <pcl6d/common/work_sharing.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
+#include <pcl6d/graph_relaxation/simultaneous_matching.h>
+#include <pcl6d/graph_relaxation/stage_agreement.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <vector>
 
 namespace pcl6d::slam6d {
@@ -39,6 +42,13 @@ constexpr double kClosed = 0.5, kClosedTurn = 0.02; // [rad]
 /** Relaxation rests when no scan moves by more than this share of the voxel. */
 constexpr double kRestShare = 0.03;
 
+/** Simultaneous matching goes on with the neighbours of a scan that moved farther: 5 cm at a
+ * voxel of 20 cm, as published. */
+constexpr double kWakingShare = 0.25;
+
+/** Links are no better than this share of the voxel. */
+constexpr double kLeastShare = 0.005;
+
 using Clock = std::chrono::steady_clock;
 
 double
@@ -54,83 +64,29 @@ setPoses(const Poses& poses, Slam6DResult& result)
     result.scans[i].T_world_scan = poses[i];
 }
 
-/** How far odometry is off in a step: the part of its length, and what is always there. */
-constexpr double kOdometryShare = 0.05, kOdometryLeast = 0.05; // [m]
-constexpr double kOdometryTurn = 0.03;                         // [rad]
-
 /** Pairs weighed by planes are no more voxels apart than those of matching by planes. */
 constexpr double kPlaneVoxels = 1.7;
-
-/** A link that switching leaves less weight is refused. */
-constexpr double kSwitchedOff = 0.5;
-
-/** The odometry between two scans as a measured link. */
-PoseLink
-odometryBetween(const ScanResult& before, const ScanResult& scan, const ScanLink& link)
-{
-  PoseLink measured;
-  measured.from = link.from;
-  measured.to = link.to;
-  measured.T_from_to = before.initial_pose.inverse() * scan.initial_pose;
-  const double sigma =
-      kOdometryLeast + kOdometryShare * measured.T_from_to.translation().norm();
-  measured.information.diagonal().head<3>().setConstant(1 / (sigma * sigma));
-  measured.information.diagonal().tail<3>().setConstant(
-      1 / (kOdometryTurn * kOdometryTurn));
-  return measured;
-}
-
-bool
-comesBefore(const ScanLink& a, const ScanLink& b)
-{
-  return ScanPair(a.from, a.to) < ScanPair(b.from, b.to);
-}
-
-/** Writes down what relaxation made of a link. */
-void
-judge(const LinkReport& report, ScanLink& link)
-{
-  link.weight = report.used ? report.switch_weight : 0;
-  if (!report.used)
-    link.reason = std::to_string(report.pairs) + " pairs are too few";
-  else if (report.switch_weight < kSwitchedOff)
-    link.reason = "contradicts the other links";
-  if (!link.reason.empty())
-    link.verdict = LinkVerdict::kRefused;
-}
-
-/** A closed loop is one link: candidates that the network knows are taken over
- * into its links, with their matched pose, and are candidates no more.
- * \param[in,out] links of the network \param[in,out] candidates of loops */
-void
-takeLoops(std::vector<ScanLink>& links, std::vector<ScanLink>& candidates)
-{
-  for (ScanLink& link : links) {
-    const auto loop = std::find_if(
-        candidates.begin(), candidates.end(), [&](const ScanLink& candidate) {
-          return candidate.from == link.from && candidate.to == link.to &&
-                 candidate.verdict == LinkVerdict::kUsed;
-        });
-    if (loop == candidates.end())
-      continue;
-    link.T_from_to = loop->T_from_to;
-    candidates.erase(loop);
-  }
-}
 } // namespace
 
 GraphStage::GraphStage(const Slam6DOptions& options,
                        const Slam6DParameters& parameters,
                        const IcpOptions& icp,
                        const IcpModel::Options& normals,
-                       const std::deque<IcpModel>& models)
-: options_(options), parameters_(parameters), icp_(icp)
+                       WorkSharing* sharing)
+: options_(options)
+, parameters_(parameters)
+, icp_(icp)
+, normals_(normals)
+, sharing_(sharing)
+{}
+
+void
+GraphStage::add(const IcpModel& model)
 {
-  for (const IcpModel& model : models)
-    if (model.normals().empty() && !model.points().empty())
-      scans_.emplace_back(with_normals_.emplace_back(model.points(), normals));
-    else
-      scans_.emplace_back(model);
+  if (model.normals().empty() && !model.points().empty())
+    scans_.emplace_back(with_normals_.emplace_back(model.points(), normals_));
+  else
+    scans_.emplace_back(model);
 }
 
 StageResult
@@ -139,12 +95,12 @@ GraphStage::judged(StageKind kind,
                    const Poses& after,
                    const std::vector<bool>& counted) const
 {
-  const StageAgreement agreement =
-      judgeStage(scans_, before, after, parameters_.voxel.value, options_.num_threads);
+  const StageAgreement agreement = judgeStage(
+      scans_, before, after, parameters_.voxel.value, options_.num_threads, sharing_);
   StageResult stage;
   stage.kind = kind;
-  stage.agreement_before = agreement.before.total;
-  stage.agreement_after = agreement.after.total;
+  stage.agreement_before = agreement.total.before;
+  stage.agreement_after = agreement.total.after;
   stage.reason = agreement.worse(counted);
   stage.undone = !stage.reason.empty();
   return stage;
@@ -164,28 +120,61 @@ GraphStage::judgeMatching(Slam6DResult& result) const
   result.stages.push_back(stage);
 }
 
-void
-GraphStage::closeLoops(Slam6DResult& result)
+LoopDetectionOptions
+GraphStage::detectionOptions(const Slam6DResult& result, std::size_t first) const
+{
+  LoopDetectionOptions detection;
+  detection.first = first;
+  detection.max_distance = parameters_.loop_distance.value;
+  detection.max_height = 2 * parameters_.loop_distance.value; // heights drift
+  detection.min_gap = static_cast<std::size_t>(parameters_.loop_gap.value);
+  detection.min_pairs = static_cast<std::size_t>(parameters_.loop_pairs.value);
+  detection.icp = icp_;
+  detection.sharing = sharing_;
+  if (std::isfinite(options_.loop_gate)) {
+    detection.max_mahalanobis = options_.loop_gate;
+    detection.position_covariances =
+        driftOf(result.scans, scans_.size(), parameters_.voxel.value);
+  }
+  return detection;
+}
+
+/** The chain of the scans, and the loops that are closed already. */
+std::vector<LoopEdge>
+GraphStage::edgesOf(const Slam6DResult& result, const std::vector<Loop>& open) const
+{
+  std::vector<LoopEdge> edges =
+      chainOf(result.scans, scans_.size(), parameters_.voxel.value);
+  for (const ScanLink& link : result.links) {
+    const bool is_open = std::any_of(open.begin(), open.end(), [&](const Loop& loop) {
+      return loop.first == link.from && loop.last == link.to;
+    });
+    const auto cost = costOf(link);
+    if (link.verdict == LinkVerdict::kUsed && !is_open && cost)
+      edges.push_back({link.from, link.to, *cost});
+  }
+  return edges;
+}
+
+/** \param[in] first of the scans whose loops are looked for
+ * \return whether poses have changed */
+bool
+GraphStage::closeLoops(Slam6DResult& result, std::size_t first)
 {
   const auto start = Clock::now();
-  LoopDetectionOptions detection;
-  detection.icp = icp_;
-  const Poses before = posesOf(result);
+  Poses before = posesOf(result);
+  std::vector<bool> believed = believedOf(result);
+  before.resize(scans_.size());
+  believed.resize(scans_.size());
   const std::vector<ScanLink> found =
-      detectLoops(scans_, before, believedOf(result), detection);
+      detectLoops(scans_, before, believed, detectionOptions(result, first));
   const std::vector<Loop> loops = openLoops(found, before);
   result.links.insert(result.links.end(), found.begin(), found.end());
   if (loops.empty())
-    return;
-  std::vector<LoopEdge> edges;
-  for (std::size_t i = 1; i < before.size(); ++i) {
-    const double step = (before[i].translation() - before[i - 1].translation()).norm();
-    edges.push_back({i - 1, i, PerDimension::Constant(step * step + 1e-6)});
-  }
-  const ErrorDiffusionResult closed =
-      pcl6d::closeLoops(before, edges, loops, {options_.loop_closing, false});
-  StageResult stage =
-      judged(StageKind::kLoopClosing, before, closed.poses, believedOf(result));
+    return false;
+  const ErrorDiffusionResult closed = pcl6d::closeLoops(
+      before, edgesOf(result, loops), loops, {options_.loop_closing, false});
+  StageResult stage = judged(StageKind::kLoopClosing, before, closed.poses, believed);
   if (closed.status != Status::kOk && stage.reason.empty())
     stage.reason = std::string("loop closing: ") + toString(closed.status);
   stage.undone = !stage.reason.empty();
@@ -195,6 +184,13 @@ GraphStage::closeLoops(Slam6DResult& result)
     stage.history = {closed.poses};
   }
   result.stages.push_back(stage);
+  return !stage.undone;
+}
+
+bool
+GraphStage::closeLoopsOfLast(Slam6DResult& result)
+{
+  return scans_.size() > 1 && closeLoops(result, scans_.size() - 1);
 }
 
 /** \return the loops whose ends do not meet yet */
@@ -208,7 +204,8 @@ GraphStage::openLoops(const std::vector<ScanLink>& found, const Poses& poses) co
     const Eigen::Isometry3d corrected = poses[link.from] * *link.T_from_to;
     const MotionSize off = distanceBetween(corrected, poses[link.to]);
     if (off.translation > kClosed * icp_.max_distance || off.rotation > kClosedTurn)
-      loops.push_back({link.from, link.to, corrected});
+      loops.push_back(
+          {link.from, link.to, corrected, costOf(link).value_or(PerDimension::Zero())});
   }
   return loops;
 }
@@ -218,11 +215,14 @@ GraphStage::graphOptions() const
 {
   GraphSlamOptions graph;
   graph.relaxation = *options_.relaxation;
+  graph.weights = options_.link_weights;
   graph.robust = options_.robust;
-  graph.translation_epsilon = std::max(1e-3, kRestShare * parameters_.voxel.value);
+  graph.least_deviation = kLeastShare * parameters_.voxel.value;
+  graph.translation_epsilon = kRestShare * parameters_.voxel.value;
   graph.switch_links = true;
   graph.max_iterations = options_.relaxation_rounds;
   graph.num_threads = options_.num_threads;
+  graph.sharing = sharing_;
   return graph;
 }
 
@@ -231,10 +231,15 @@ GraphStage::makeNetwork(const Slam6DResult& result) const
 {
   ScanNetworkOptions network;
   network.rule = options_.links;
+  network.link_distance = parameters_.link_distance.value;
+  network.hysteresis = options_.link_hysteresis;
+  network.metric = options_.metric;
   network.max_distance =
-      std::min(icp_.max_distance, kPlaneVoxels * parameters_.voxel.value);
-  network.metric = options_.metric == Metric::kPlane ? Metric::kPlane : Metric::kGicp;
+      options_.metric == Metric::kPoint
+          ? icp_.max_distance
+          : std::min(icp_.max_distance, kPlaneVoxels * parameters_.voxel.value);
   network.num_threads = options_.num_threads;
+  network.sharing = sharing_;
   ScanNetwork links(scans_, believedOf(result), network);
   for (const ScanLink& link : result.links)
     if (link.kind == LinkKind::kLoop && link.verdict == LinkVerdict::kUsed)
@@ -253,9 +258,15 @@ GraphStage::odometryLinks(ScanNetwork& network, const Slam6DResult& result) cons
 {
   const Poses poses = posesOf(result);
   std::vector<bool> joined(result.scans.size(), false); // with the scan before
-  for (const LinkPairs& link : network.pairs(poses))
-    if (link.to == link.from + 1 && link.points_to.size() >= graphOptions().min_pairs)
-      joined[link.to] = true;
+  const std::vector<LinkPairs> found = network.pairs(poses);
+  std::vector<std::size_t> counts(found.size());
+  const auto later = [&](std::size_t k) { return found[k].to; };
+  sharedFor(sharing_, options_.num_threads, counts, later, [&](std::size_t k) {
+    counts[k] = found[k].points_to.size();
+  });
+  for (std::size_t k = 0; k < found.size(); ++k)
+    if (found[k].to == found[k].from + 1 && counts[k] >= graphOptions().min_pairs)
+      joined[found[k].to] = true;
   std::vector<ScanLink> links;
   for (std::size_t i = 1; i < result.scans.size(); ++i) {
     if (joined[i])
@@ -272,17 +283,6 @@ GraphStage::odometryLinks(ScanNetwork& network, const Slam6DResult& result) cons
   return links;
 }
 
-std::vector<PoseLink>
-GraphStage::measuredLinks(const std::vector<ScanLink>& odometry,
-                          const Slam6DResult& result)
-{
-  std::vector<PoseLink> measured;
-  for (const ScanLink& link : odometry)
-    measured.push_back(
-        odometryBetween(result.scans[link.from], result.scans[link.to], link));
-  return measured;
-}
-
 /** Takes over links, covariances, graph and components.
  * \param[in] links of the network, in the order of their scans */
 void
@@ -293,18 +293,8 @@ GraphStage::take(const GraphSlamResult& relaxed,
                  Slam6DResult& result) const
 {
   takeLoops(links, result.links);
-  result.graph.links = measuredLinks(odometry, result);
-  for (const LinkReport& report : relaxed.links) {
-    ScanLink place;
-    place.from = report.from;
-    place.to = report.to;
-    const auto link = std::lower_bound(links.begin(), links.end(), place, comesBefore);
-    if (link == links.end() || comesBefore(place, *link))
-      continue;
-    judge(report, *link);
-    if (link->verdict == LinkVerdict::kUsed)
-      result.graph.links.push_back(poseLinkOf(report, relaxed.poses));
-  }
+  result.graph.links = measuredLinks(odometry, result.scans, parameters_.voxel.value);
+  judgeLinks(relaxed, links, result.graph.links);
   result.floating = relaxed.floating();
   for (std::size_t i = 1; i < result.scans.size() && !undone; ++i) {
     const PoseCovariance covariance =
@@ -314,14 +304,7 @@ GraphStage::take(const GraphSlamResult& relaxed,
   }
   for (const std::size_t i : result.floating)
     result.scans[i].covariance.reset();
-  for (const ScanLink& link : odometry) {
-    const auto refused =
-        std::lower_bound(links.begin(), links.end(), link, comesBefore);
-    if (refused != links.end() && !comesBefore(link, *refused))
-      *refused = link; // its few pairs do not count
-    else
-      links.insert(refused, link);
-  }
+  putIn(odometry, links);
   result.graph.poses = posesOf(result);
   result.links.insert(result.links.end(), links.begin(), links.end());
 }
@@ -333,7 +316,7 @@ GraphStage::relax(Slam6DResult& result, const Observer& observer)
   ScanNetwork network = makeNetwork(result);
   GraphSlam slam(graphOptions());
   const std::vector<ScanLink> odometry = odometryLinks(network, result);
-  slam.setMeasuredLinks(measuredLinks(odometry, result));
+  slam.setMeasuredLinks(measuredLinks(odometry, result.scans, parameters_.voxel.value));
   bool stopped = false;
   slam.setObserver([&](const GraphSlamRound& round) {
     stopped = stopped || !observer(round.iteration);
@@ -351,7 +334,7 @@ GraphStage::relax(Slam6DResult& result, const Observer& observer)
       judged(StageKind::kRelaxation, before, relaxed.poses, believedOf(result));
   stage.rounds = relaxed.iterations;
   if (stage.reason.empty())
-    stage.reason = whyNotTaken(relaxed, stage);
+    stage.reason = whyNotTaken(relaxed);
   stage.undone = !stage.reason.empty();
   if (!stage.undone) {
     setPoses(relaxed.poses, result);
@@ -364,20 +347,65 @@ GraphStage::relax(Slam6DResult& result, const Observer& observer)
   return true;
 }
 
+/** Scan by scan in place of all at once (5.1.3). */
 bool
-GraphStage::run(Slam6DResult& result, const Observer& observer)
+GraphStage::matchSimultaneously(Slam6DResult& result, const Observer& observer)
+{
+  const auto start = Clock::now();
+  const Poses before = posesOf(result);
+  SimultaneousMatchingOptions matching;
+  matching.icp = icp_;
+  matching.min_pairs = static_cast<std::size_t>(parameters_.loop_pairs.value);
+  matching.min_translation = kWakingShare * parameters_.voxel.value;
+  SimultaneousMatching::Scans scans;
+  for (const NetworkScan& scan : scans_) // kept by others
+    scans.emplace_back(std::shared_ptr<const IcpModel>(), &scan.model());
+  struct Stopped {};
+  SimultaneousMatching simultaneous(matching);
+  simultaneous.setProgress([&](const Progress& progress) {
+    if (!observer(static_cast<int>(1 + progress.done / scans_.size())))
+      throw Stopped();
+  });
+  SimultaneousMatchingResult matched;
+  try {
+    matched = simultaneous.align(scans, before);
+  } catch (const Stopped&) {
+    return false;
+  }
+  StageResult stage =
+      judged(StageKind::kRelaxation, before, matched.poses, believedOf(result));
+  if (stage.reason.empty() && matched.status == Status::kTooFewPairs)
+    stage.reason = "no scan has a neighbour";
+  stage.rounds = static_cast<int>((matched.pops + scans_.size() - 1) / scans_.size());
+  stage.undone = !stage.reason.empty();
+  stage.seconds = secondsSince(start);
+  if (!stage.undone) {
+    setPoses(matched.poses, result);
+    stage.history = {matched.poses};
+  }
+  result.stages.push_back(stage);
+  return true;
+}
+
+bool
+GraphStage::run(Slam6DResult& result,
+                const ClosedLoops& online,
+                const Observer& observer)
 {
   for (ScanResult& scan : result.scans)
     scan.matched_pose = scan.T_world_scan;
   result.stages.clear();
-  result.links.clear();
+  result.links = online.links;
   result.graph = PoseGraph();
   result.floating.clear();
   if (result.scans.size() < 2)
     return true;
   judgeMatching(result);
-  if (options_.loop_closing != LoopClosing::kNone)
-    closeLoops(result);
+  result.stages.insert(result.stages.end(), online.stages.begin(), online.stages.end());
+  if (options_.loop_closing != LoopClosing::kNone && !options_.close_loops_online)
+    closeLoops(result, 0);
+  if (options_.simultaneous)
+    return matchSimultaneously(result, observer);
   if (options_.relaxation)
     return relax(result, observer);
   return true;

@@ -20,6 +20,12 @@ posesOf(const Slam6DResult& result);
 std::vector<bool>
 believedOf(const Slam6DResult& result);
 
+/** \brief Loops that were closed while scans were matched. */
+struct ClosedLoops {
+  std::vector<ScanLink> links; ///< all candidates, with their verdicts
+  std::vector<StageResult> stages;
+};
+
 /** \brief Chapter 5 on scans that were matched one by one: closes the loops that are found,
  * then relaxes the network of all scans. A stage that makes the map worse is undone. */
 class GraphStage {
@@ -28,29 +34,55 @@ public:
    */
   using Observer = std::function<bool(int)>;
 
-  /** Options, parameters and models are kept by reference.
+  /** Options and parameters are kept by reference.
    * \param[in] icp how scans are matched
    * \param[in] normals how normals are made where the models have none: links are weighed
-   * by planes, whatever the metric of matching */
+   * by planes, whatever the metric of matching
+   * \param[in] sharing of the work between processes; null: this one does all */
   GraphStage(const Slam6DOptions& options,
              const Slam6DParameters& parameters,
              const IcpOptions& icp,
              const IcpModel::Options& normals,
-             const std::deque<IcpModel>& models);
+             WorkSharing* sharing);
 
-  /** \brief Changes poses, covariances, links, stages, graph and floating of the result.
+  /** \brief The next scan. Kept by reference. */
+  void
+  add(const IcpModel& model);
+
+  /** \return the number of scans that were added */
+  std::size_t
+  size() const
+  {
+    return scans_.size();
+  }
+
+  /** \brief Looks for loops that the last scan closes, and closes them: for loops that are
+   * closed while scans are still matched. Changes poses, links and stages of the result.
+   * \param[in,out] result whose first scans are those that were added
+   * \return whether poses have changed */
+  bool
+  closeLoopsOfLast(Slam6DResult& result);
+
+  /** \brief Changes poses, covariances, links, stages, graph and floating of the result, whose
+   * scans are those that were added. \param[in] online loops that were closed before
    * \return false if the observer stopped it: the result is then half changed, and is to be
    * thrown away */
   bool
-  run(Slam6DResult& result, const Observer& observer);
+  run(Slam6DResult& result, const ClosedLoops& online, const Observer& observer);
 
 private:
   void
   judgeMatching(Slam6DResult& result) const;
-  void
-  closeLoops(Slam6DResult& result);
+  bool
+  closeLoops(Slam6DResult& result, std::size_t first);
+  LoopDetectionOptions
+  detectionOptions(const Slam6DResult& result, std::size_t first) const;
+  std::vector<LoopEdge>
+  edgesOf(const Slam6DResult& result, const std::vector<Loop>& open) const;
   bool
   relax(Slam6DResult& result, const Observer& observer);
+  bool
+  matchSimultaneously(Slam6DResult& result, const Observer& observer);
   GraphSlamOptions
   graphOptions() const;
   ScanNetwork
@@ -59,8 +91,6 @@ private:
   openLoops(const std::vector<ScanLink>& found, const Poses& poses) const;
   std::vector<ScanLink>
   odometryLinks(ScanNetwork& network, const Slam6DResult& result) const;
-  static std::vector<PoseLink>
-  measuredLinks(const std::vector<ScanLink>& odometry, const Slam6DResult& result);
   void
   take(const GraphSlamResult& relaxed,
        bool undone,
@@ -76,6 +106,8 @@ private:
   const Slam6DOptions& options_;
   const Slam6DParameters& parameters_;
   IcpOptions icp_;
+  IcpModel::Options normals_;
+  WorkSharing* sharing_;
   std::deque<IcpModel> with_normals_; ///< where those of the caller have none
   std::vector<NetworkScan> scans_;
 };

@@ -9,9 +9,7 @@
 
 namespace pcl6d {
 using slam6d::packed;
-using slam6d::Packer;
 using slam6d::unpack;
-using slam6d::Unpacker;
 
 namespace {
 /** What a record is of. */

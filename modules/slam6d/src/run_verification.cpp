@@ -9,10 +9,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 namespace pcl6d::slam6d {
 
 namespace {
+/** So many scans of each process travel at a time, a few megabytes each. */
+constexpr std::size_t kSharedAtATime = 8;
+
 /** Those of matching take pairs as independent, which they are not. */
 void
 takeCovariances(const MapVerification& map, std::vector<ScanResult>& scans)
@@ -38,16 +42,27 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
                          const IcpModel::Options& normals,
                          double voxel)
 {
-  const std::size_t done = scans_.size();
-  scans_.resize(reduced.size());
   surfaces_.resize(reduced.size());
-  parallelFor(reduced.size() - done, num_threads_, [&](std::size_t k) {
-    const std::size_t i = done + k;
-    if (reduced[i].normals().empty())
-      surfaces_[i].emplace(reduced[i].points(), normals);
-    scans_[i] = VerifiedScan(
-        measured[i].points(), surfaces_[i] ? *surfaces_[i] : reduced[i], voxel);
-  });
+  const auto surfacesOf = [&](std::size_t i) -> const IcpModel& {
+    return surfaces_[i] ? *surfaces_[i] : reduced[i];
+  };
+  while (scans_.size() < reduced.size()) {
+    const std::size_t done = scans_.size();
+    std::size_t count = reduced.size() - done;
+    if (sharing_) // bytes of all that travel at a time are in memory
+      count = std::min(count, kSharedAtATime * sharing_->numRanks());
+    std::vector<VerifiedScan> ready(count);
+    parallelFor(count, num_threads_, [&](std::size_t k) {
+      if (reduced[done + k].normals().empty())
+        surfaces_[done + k].emplace(reduced[done + k].points(), normals);
+      ready[k] = VerifiedScan(surfacesOf(done + k));
+    });
+    const auto place = [&](std::size_t k) { return done + k; };
+    sharedFor(sharing_, num_threads_, ready, place, [&](std::size_t k) {
+      ready[k] = VerifiedScan(measured[done + k].points(), surfacesOf(done + k), voxel);
+    });
+    std::move(ready.begin(), ready.end(), std::back_inserter(scans_));
+  }
 }
 
 void
@@ -57,6 +72,7 @@ RunVerification::verify(const std::vector<std::string>& names,
   std::vector<Eigen::Isometry3d> poses;
   MapVerifierOptions options;
   options.num_threads = num_threads_;
+  options.sharing = sharing_;
   for (const ScanResult& scan : result.scans) {
     poses.push_back(scan.T_world_scan);
     options.unsure.push_back(scan.start == InitialGuess::kFeatures);

@@ -3,6 +3,7 @@
 
 #include "agreement.h"
 
+#include <pcl6d/common/work_sharing.h>
 #include <pcl6d/registration/icp_model.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 #include <pcl6d/verification/verified_scan.h>
@@ -20,8 +21,16 @@ class RunVerification {
 public:
   explicit RunVerification(unsigned int num_threads) : num_threads_(num_threads) {}
 
+  /** \param[in] sharing of the work between processes; null: this one does all */
+  void
+  setSharing(WorkSharing* sharing)
+  {
+    sharing_ = sharing;
+  }
+
   /** Takes in the scans that are new.
-   * \param[in] reduced, measured of all scans; the former are kept by reference
+   * \param[in] reduced, measured of all scans; the former are kept by reference, the latter
+   * are needed of those that this process owns
    * \param[in] normals how surfaces are made where reduced scans have no normals
    * \param[in] voxel [m] of the reduction */
   void
@@ -40,6 +49,7 @@ private:
   explainDoubts(const std::vector<ScanResult>& scans, MapVerification& map) const;
 
   unsigned int num_threads_;
+  WorkSharing* sharing_ = nullptr;
   std::deque<std::optional<IcpModel>> surfaces_; ///< where reduced ones have no normals
   std::deque<VerifiedScan> scans_;
 };

@@ -23,9 +23,6 @@ constexpr double kLargestRmsShare = 0.6;
  * 0.627. */
 constexpr double kLargestRmsShareOfPlanes = 0.66;
 
-/** Points of cubes of so many voxels come to lie on a surface together. */
-constexpr double kCubeVoxels = 16;
-
 /** A match that moves the points by a smaller share of the voxel, in the mean square, is not
  * asked whether fewer of them meet: it is within what the reduction moves them by. */
 constexpr double kNoMotion = 0.25;
@@ -34,6 +31,9 @@ constexpr double kNoMotion = 0.25;
  * hku1 (pairwise, or of each third scan) move a scan by 0.57 m and more, by a third of the
  * step and more; right ones by at most 0.29 m and a fifth of the step. */
 constexpr double kSmallCorrection = 1.5;
+
+/** ICP is at rest when it moves the scan by less than this share of the voxel. */
+constexpr double kEpsilonShare = 1e-3;
 
 /** Normals of voxels so many times as wide: ten of them are a patch on which the noise of
  * kurt3d (its size is that of a voxel) averages out, and which hku1's rooms still fill. */
@@ -209,7 +209,7 @@ ScanMatcher::lossOfAgreement(const IcpTarget& target,
   const double voxel = parameters_.voxel.value;
   if (motionOf(points.points(), from, to) < kNoMotion * voxel)
     return "";
-  const double distance = agreementDistance(voxel), cube = kCubeVoxels * voxel;
+  const double distance = agreementDistance(voxel), cube = agreementCube(voxel);
   const auto loss = [](const AgreementChange& change, const char* of) {
     std::ostringstream reason;
     reason.precision(3);
@@ -251,7 +251,8 @@ ScanMatcher::icpOptions(std::size_t num_points) const
   icp.max_distance_start = parameters_.max_distance_start.value;
   // Steps towards planes come faster to rest than those towards points.
   icp.distance_decay = options_.metric == Metric::kPoint ? 0.9 : 0.75;
-  icp.translation_epsilon = options_.translation_epsilon;
+  icp.translation_epsilon =
+      options_.translation_epsilon.value_or(kEpsilonShare * parameters_.voxel.value);
   icp.rotation_epsilon = options_.rotation_epsilon;
   icp.num_threads = options_.num_threads;
   return icp;

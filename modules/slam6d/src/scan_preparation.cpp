@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
-#include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 
 #include <algorithm>
@@ -52,9 +51,11 @@ gateScan(const Points& points, const std::string& name, const Slam6DParameters& 
 }
 
 Points
-reduceScan(const Points& gated, const std::string& name, const Slam6DParameters& p)
+reduceScan(const Points& gated,
+           const std::string& name,
+           const Slam6DParameters& p,
+           ReductionOptions reduction)
 {
-  ReductionOptions reduction;
   reduction.voxel = p.voxel.value;
   try {
     return reducePoints(gated, reduction);

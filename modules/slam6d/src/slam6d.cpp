@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_stage.h"
+#include "kept_scans.h"
+#include "packing.h"
 #include "run_verification.h"
 #include "scan_matcher.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/fingerprint.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/common/work_sharing.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 #include <pcl6d/slam6d/slam6d.h>
 
 #include <atomic>
 #include <chrono>
-#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,15 +22,10 @@
 namespace pcl6d {
 using namespace slam6d;
 
-namespace {
-/** So many scans are held back in full, until the parameters are derived from them. */
-constexpr std::size_t kScansForParameters = 16;
-} // namespace
-
 class Slam6D::Implementation {
 public:
   explicit Implementation(const Slam6DOptions& options)
-  : options_(options), verification_(options.num_threads)
+  : options_(options), scans_(options_), verification_(options.num_threads)
   {
     options_.validate();
   }
@@ -40,7 +37,7 @@ public:
     const std::size_t place = result_.scans.size();
     const std::string name = nameOf(given_name);
     const std::size_t finite = countFinite(points);
-    if (finite < 3)
+    if (finite < 3 && scans_.isHere(place))
       throw BadArgument(tooFewPoints(name, finite, "with finite coordinates"));
     if (!isRigid(scan.initial_pose) || !isRigid(scan.T_world_scan))
       throw BadArgument(name + ": the initial pose is not a rigid motion");
@@ -48,14 +45,15 @@ public:
     result_.scans.push_back(scan);
     if (scan.state == ScanState::kPending)
       predict(place);
-    unreduced_.push_back(points);
-    names_.push_back(name);
-    inputs_.push_back(inputsOf(points, result_.scans.back()));
+    scans_.add(points, name);
+    inputs_.push_back(scans_.isFirst() ? inputsOf(points, result_.scans.back()) : 0);
     try {
-      if (matcher_ || unreduced_.size() >= kScansForParameters)
-        reducePending();
+      if (scans_.isFull(matcher_.has_value()))
+        prepareScans();
     } catch (...) {
-      forget(place);
+      result_.scans.resize(place);
+      inputs_.resize(place);
+      scans_.forget(place);
       throw;
     }
   }
@@ -77,17 +75,52 @@ public:
   {
     if (result_.scans.empty())
       throw BadArgument("no scan was added");
-    reducePending();
+    prepareScans();
     if (options_.verify)
-      verification_.prepare(reduced_,
-                            measured_,
+      verification_.prepare(scans_.reduced(),
+                            scans_.measured(),
                             matcher_->modelOptions(true),
                             result_.parameters.voxel.value);
+    const std::size_t total = result_.scans.size();
+    if (scans_.isFirst())
+      registerAll();
+    if (sharing)
+      takeRegistered();
+    for (std::size_t i = next_; i < total; ++i)
+      predict(i);
+    if (next_ < total || (improved_ < total && !improve()))
+      return false;
+    if (options_.verify)
+      verification_.verify(scans_.names(), result_);
+    return true;
+  }
+
+  void
+  setSharing(WorkSharing* with)
+  {
+    sharing = with;
+    scans_.setSharing(with);
+    verification_.setSharing(with);
+  }
+
+  ProgressCallback progress;
+  Observer observer;
+  WorkSharing* sharing = nullptr;
+  TaskMemory* memory = nullptr;
+  std::atomic<bool> cancelled_{false};
+  Slam6DResult result_;
+
+private:
+  void
+  registerAll()
+  {
     const auto start = std::chrono::steady_clock::now();
     const std::size_t total = result_.scans.size();
     takeInRegistered();
     while (next_ < total && !cancelled_.exchange(false)) {
       registerScan(next_);
+      if (options_.close_loops_online)
+        closeLoopsOnline(next_ - 1);
       if (observer)
         observer(next_ - 1, result_.scans[next_ - 1]);
       if (progress)
@@ -97,22 +130,28 @@ public:
     const std::chrono::duration<double> spent =
         std::chrono::steady_clock::now() - start;
     result_.matching_seconds += spent.count();
-    for (std::size_t i = next_; i < total; ++i)
-      predict(i);
-    if (next_ < total || (improved_ < total && !improve()))
-      return false;
-    if (options_.verify)
-      verification_.verify(names_, result_);
-    return true;
   }
 
-  ProgressCallback progress;
-  Observer observer;
-  TaskMemory* memory = nullptr;
-  std::atomic<bool> cancelled_{false};
-  Slam6DResult result_;
+  /** Takes over what the first process has registered. */
+  void
+  takeRegistered()
+  {
+    next_ = sharing->fromFirst(next_);
+    takeResult();
+    if (!scans_.isFirst())
+      for (std::size_t i = 0; i < next_; ++i)
+        scans_.dropMeasured(i);
+  }
 
-private:
+  void
+  takeResult()
+  {
+    const std::string bytes =
+        sharing->fromFirst(scans_.isFirst() ? packed(result_) : std::string());
+    if (!scans_.isFirst())
+      unpack(bytes, result_);
+  }
+
   /** \return the name of a scan that is about to be added */
   std::string
   nameOf(const std::string& given) const
@@ -159,9 +198,10 @@ private:
   takeInRegistered()
   {
     for (; next_ < num_registered_; ++next_) {
-      matcher_->takeIn(reduced_[next_], measured_[next_], result_.scans[next_]);
+      matcher_->takeIn(
+          scans_.reduced()[next_], scans_.measured()[next_], result_.scans[next_]);
       if (next_ > 0)
-        measured_[next_ - 1] = MeasuredScan(); // needed no more
+        scans_.dropMeasured(next_ - 1); // needed no more
     }
   }
 
@@ -178,33 +218,15 @@ private:
         before.T_world_scan, before.initial_pose, scan.initial_pose);
   }
 
-  /** Takes back a scan that was just added and could not be reduced. */
+  /** Those that wait; parameters follow from the first ones. */
   void
-  forget(std::size_t place)
-  {
-    result_.scans.resize(place);
-    names_.resize(place);
-    inputs_.resize(place);
-    if (reduced_.size() + unreduced_.size() > place)
-      unreduced_.pop_back();
-  }
-
-  void
-  reducePending()
+  prepareScans()
   {
     if (!matcher_) {
-      result_.parameters =
-          deriveParameters(options_, {unreduced_.begin(), unreduced_.end()});
+      result_.parameters = scans_.derive();
       matcher_.emplace(options_, result_.parameters);
     }
-    for (; !unreduced_.empty(); unreduced_.pop_front()) {
-      const std::size_t place = reduced_.size();
-      const Slam6DParameters& p = result_.parameters;
-      Points gated = gateScan(unreduced_.front(), names_[place], p);
-      reduced_.push_back(matcher_->prepare(reduceScan(gated, names_[place], p)));
-      measured_.emplace_back(std::move(gated));
-      result_.scans[place].reduced = reduced_.back().points().size();
-    }
+    scans_.prepare(*matcher_, result_.parameters, result_.scans);
   }
 
   /** Goes on to the next one also if the result cannot be kept. */
@@ -216,13 +238,13 @@ private:
     auto known = memory ? memory->matched(i, task) : std::nullopt;
     if (known) {
       scan = *known;
-      matcher_->takeIn(reduced_[i], measured_[i], scan);
+      matcher_->takeIn(scans_.reduced()[i], scans_.measured()[i], scan);
     }
     else
       matchScan(i);
     scan.matched_pose = scan.T_world_scan;
     if (i > 0)
-      measured_[i - 1] = MeasuredScan(); // needed no more
+      scans_.dropMeasured(i - 1); // needed no more
     next_ = i + 1;
     if (memory && !known)
       memory->keepMatched(i, task, scan);
@@ -234,51 +256,102 @@ private:
     ScanResult& scan = result_.scans[i];
     predict(i);
     if (i == 0)
-      return matcher_->fix(reduced_[i], measured_[i], scan);
+      return matcher_->fix(scans_.reduced()[i], scans_.measured()[i], scan);
     const Eigen::Isometry3d odometry =
         result_.scans[i - 1].initial_pose.inverse() * scan.initial_pose;
-    matcher_->match(reduced_[i], measured_[i], odometry, scan);
+    matcher_->match(scans_.reduced()[i], scans_.measured()[i], odometry, scan);
   }
 
   /** Chapter 5, when all scans are matched. \return false if cancelled */
   bool
   improve()
   {
-    if (options_.loop_closing == LoopClosing::kNone && !options_.relaxation)
+    online_.reset();
+    if (options_.loop_closing == LoopClosing::kNone && !options_.relaxation &&
+        !options_.simultaneous)
       return true;
+    deriveLoopParameters(options_, result_.scans, result_.parameters);
     const std::uint64_t task = taskOf(result_.scans.size() - 1, options_.given_links);
     auto known = memory ? memory->relaxed(task) : std::nullopt;
+    const bool is_known = sharing ? sharing->fromFirst(known.has_value()) : !!known;
     if (known) {
       known->parameters = result_.parameters;
       result_ = *known;
     }
-    else if (!runGraphStage())
+    if (is_known && sharing)
+      takeResult();
+    if (!is_known && !runGraphStage())
       return false;
     improved_ = result_.scans.size();
     matcher_.emplace(options_, result_.parameters); // further scans meet the new poses
-    for (std::size_t i = 0; i < improved_; ++i)
-      matcher_->takeIn(reduced_[i], measured_[i], result_.scans[i]);
+    takeIn(improved_);
     if (memory && !known)
       memory->keepRelaxed(task, result_);
     return true;
+  }
+
+  GraphStage
+  makeGraphStage(WorkSharing* with) const
+  {
+    return GraphStage(options_,
+                      result_.parameters,
+                      matcher_->icpOptions(scans_.reduced().front().points().size()),
+                      matcher_->modelOptions(true),
+                      with);
+  }
+
+  /** A loop that a scan closes is closed before the next one is matched. */
+  void
+  closeLoopsOnline(std::size_t scan)
+  {
+    if (!online_)
+      online_.emplace(makeGraphStage(nullptr));
+    while (online_->size() <= scan)
+      online_->add(scans_.reduced()[online_->size()]);
+    std::vector<ScanResult> matched(result_.scans.begin(),
+                                    result_.scans.begin() +
+                                        static_cast<std::ptrdiff_t>(scan + 1));
+    deriveLoopParameters(options_, matched, result_.parameters);
+    if (scan <
+        last_closed_ + static_cast<std::size_t>(result_.parameters.loop_gap.value))
+      return; // what comes next sees the same loop
+    result_.links = closed_.links;
+    result_.stages.clear();
+    const bool has_moved = online_->closeLoopsOfLast(result_);
+    closed_.links = std::exchange(result_.links, {});
+    for (StageResult& stage : result_.stages)
+      closed_.stages.push_back(std::move(stage));
+    result_.stages.clear();
+    if (!has_moved)
+      return;
+    last_closed_ = scan;
+    matcher_.emplace(options_, result_.parameters);
+    takeIn(scan + 1);
+  }
+
+  /** The first scans, where they are. */
+  void
+  takeIn(std::size_t count)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+      matcher_->takeIn(scans_.reduced()[i], scans_.measured()[i], result_.scans[i]);
   }
 
   /** \return false if cancelled */
   bool
   runGraphStage()
   {
-    GraphStage stage(options_,
-                     result_.parameters,
-                     matcher_->icpOptions(reduced_.front().points().size()),
-                     matcher_->modelOptions(true),
-                     reduced_);
+    GraphStage stage = makeGraphStage(sharing);
+    for (const IcpModel& model : scans_.reduced())
+      stage.add(model);
     Slam6DResult improved = result_; // taken as a whole or not at all
-    const bool done = stage.run(improved, [&](int round) {
+    const bool done = stage.run(improved, closed_, [&](int round) {
       if (progress)
         progress({"relaxing",
                   static_cast<std::size_t>(round),
                   static_cast<std::size_t>(options_.relaxation_rounds)});
-      return !cancelled_.exchange(false);
+      const bool stop = cancelled_.exchange(false);
+      return !(sharing ? sharing->fromFirst(stop) : stop);
     });
     cancelled_ = false;
     if (done)
@@ -287,13 +360,13 @@ private:
   }
 
   Slam6DOptions options_;
-  std::vector<std::string> names_;
   std::vector<std::uint64_t> inputs_; ///< of each scan: what it and those before are
-  std::deque<Points> unreduced_;      ///< scans that wait for the parameters
-  std::deque<IcpModel> reduced_;      ///< a deque: the matcher refers to its elements
-  std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next
+  KeptScans scans_;
   RunVerification verification_;
   std::optional<ScanMatcher> matcher_;
+  std::optional<GraphStage> online_; ///< closes loops while scans are matched
+  ClosedLoops closed_;               ///< by online_
+  std::size_t last_closed_ = 0;      ///< scan that online_ has closed a loop with
   std::size_t num_registered_ =
       0;                     ///< so many first scans an earlier run has registered
   std::size_t next_ = 0;     ///< first scan that is not registered
@@ -356,6 +429,12 @@ void
 Slam6D::setMemory(TaskMemory* memory)
 {
   implementation_->memory = memory;
+}
+
+void
+Slam6D::setSharing(WorkSharing* sharing)
+{
+  implementation_->setSharing(sharing);
 }
 
 void

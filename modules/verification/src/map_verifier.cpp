@@ -3,9 +3,9 @@
 #include "ties.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/work_sharing.h>
 #include <pcl6d/verification/map_verifier.h>
 #include <pcl6d/verification/twin_search.h>
 
@@ -14,6 +14,31 @@
 #include <sstream>
 
 namespace pcl6d {
+
+// For other processes.
+
+template <typename Archive>
+void
+packFields(Archive& archive, SurfaceFit& fit)
+{
+  archive(fit.pairs, fit.overlap, fit.residual, fit.centroid, fit.spread, fit.step);
+  archive(fit.covariance, fit.open_directions);
+}
+
+template <typename Archive>
+void
+packFields(Archive& archive, LinkEvidence& evidence)
+{
+  archive(evidence.sight, evidence.fit, evidence.T_first_second);
+  archive(evidence.voxel, evidence.abstained);
+}
+
+template <typename Archive>
+void
+packFields(Archive& archive, NoticedError& noticed)
+{
+  archive(noticed.least, noticed.most, noticed.turn, noticed.weakest);
+}
 
 namespace {
 /** Of the scans whose points are nearest, so many are asked how much their rays say. */
@@ -107,7 +132,7 @@ MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
 {
   const std::size_t n = scans_.size();
   std::vector<std::vector<Pair>> chosen(n);
-  parallelFor(n, options_.num_threads, [&](std::size_t i) {
+  sharedFor(options_.sharing, options_.num_threads, chosen, [&](std::size_t i) {
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t k = 0; k < i; ++k)
       near.emplace_back((poses[i] * centres_[i] - poses[k] * centres_[k]).norm(), k);
@@ -164,12 +189,27 @@ MapVerifier::fitsElsewhere(std::size_t scan,
   return true;
 }
 
-/** Looks for a second place of a scan, beside the scan before and beside the one that it
- * has most in common with. */
+/** Looks for second places of the scans whose own was found without a prior pose. */
 void
-MapVerifier::findTwinsOf(std::size_t scan,
-                         const std::vector<Eigen::Isometry3d>& poses,
-                         MapVerification& map) const
+MapVerifier::findTwins(const std::vector<Eigen::Isometry3d>& poses,
+                       MapVerification& map) const
+{
+  std::vector<std::string> doubts(scans_.size());
+  sharedFor(options_.sharing, options_.num_threads, doubts, [&](std::size_t i) {
+    if (options_.unsure[i] && map.scans[i].tied)
+      doubts[i] = twinOf(i, poses, map);
+  });
+  for (std::size_t i = 0; i < doubts.size(); ++i)
+    if (!doubts[i].empty())
+      map.scans[i].doubt = doubts[i];
+}
+
+/** Looks for a second place of a scan, beside the scan before and beside the one that it
+ * has most in common with. \return where it is, in words; empty: there is none */
+std::string
+MapVerifier::twinOf(std::size_t scan,
+                    const std::vector<Eigen::Isometry3d>& poses,
+                    const MapVerification& map) const
 {
   std::vector<std::size_t> besides;
   if (const LinkCheck* most = surestLinkOf(scan, map))
@@ -179,7 +219,7 @@ MapVerifier::findTwinsOf(std::size_t scan,
   for (const std::size_t beside : besides) {
     const Eigen::Vector3d up =
         poses[beside].linear().transpose() * Eigen::Vector3d::UnitZ();
-    for (const Eigen::Isometry3d& T : findTwins(
+    for (const Eigen::Isometry3d& T : pcl6d::findTwins(
              scans_[beside], scans_[scan], poses[beside].inverse() * poses[scan], up)) {
       const Eigen::Isometry3d place = poses[beside] * T;
       if (!fitsElsewhere(scan, beside, place, poses, map))
@@ -190,10 +230,10 @@ MapVerifier::findTwinsOf(std::size_t scan,
            << " m away, turned by " << std::setprecision(0)
            << way.rotation * 180 / 3.141592653589793 << " deg, beside "
            << names_[beside];
-      map.scans[scan].doubt = text.str();
-      return;
+      return text.str();
     }
   }
+  return "";
 }
 
 /** From how far on the surest link of each scan would notice an error. */
@@ -208,12 +248,16 @@ MapVerifier::probe(const std::vector<Eigen::Isometry3d>& poses,
       surest[i] = static_cast<std::size_t>(link - map.links.data());
       asked[surest[i]] = true;
     }
-  parallelFor(map.links.size(), options_.num_threads, [&](std::size_t k) {
-    LinkCheck& link = map.links[k];
+  std::vector<std::optional<NoticedError>> noticed(map.links.size());
+  const auto later = [&](std::size_t k) { return map.links[k].to; };
+  sharedFor(options_.sharing, options_.num_threads, noticed, later, [&](std::size_t k) {
+    const LinkCheck& link = map.links[k];
     if (asked[k])
-      link.noticed = noticedError(
+      noticed[k] = noticedError(
           scans_[link.from], scans_[link.to], evidence_[k], map.background);
   });
+  for (std::size_t k = 0; k < noticed.size(); ++k)
+    map.links[k].noticed = noticed[k];
   for (std::size_t i = 0; i < scans_.size(); ++i)
     if (surest[i] < map.links.size() && map.links[surest[i]].noticed) {
       const LinkCheck& link = map.links[surest[i]];
@@ -234,11 +278,13 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
       throw BadArgument(names_[i] + ": the pose is not a rigid motion");
   const std::vector<Pair> pairs = choosePairs(T_world_scan);
   evidence_.assign(pairs.size(), {});
-  parallelFor(pairs.size(), options_.num_threads, [&](std::size_t k) {
-    const auto [a, b] = pairs[k];
-    evidence_[k] =
-        linkEvidence(scans_[a], scans_[b], T_world_scan[a].inverse() * T_world_scan[b]);
-  });
+  const auto later = [&](std::size_t k) { return pairs[k].second; };
+  sharedFor(
+      options_.sharing, options_.num_threads, evidence_, later, [&](std::size_t k) {
+        const auto [a, b] = pairs[k];
+        evidence_[k] = linkEvidence(
+            scans_[a], scans_[b], T_world_scan[a].inverse() * T_world_scan[b]);
+      });
   MapVerification map;
   map.scans.resize(scans_.size());
   map.background = contradictionBackground(evidence_);
@@ -264,10 +310,7 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
       map.scans[i].doubt = ties.cut_from[i];
   }
   if (!options_.unsure.empty())
-    parallelFor(scans_.size(), options_.num_threads, [&](std::size_t i) {
-      if (options_.unsure[i] && map.scans[i].tied)
-        findTwinsOf(i, T_world_scan, map);
-    });
+    findTwins(T_world_scan, map);
   if (options_.probe)
     probe(T_world_scan, map);
   verification::MapDoubts(scans_, names_, opinions_).tell(map);

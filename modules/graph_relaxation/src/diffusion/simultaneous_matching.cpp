@@ -148,7 +148,7 @@ private:
     std::size_t pairs = 0;
     for (const auto& p : scans_[s]->points()) {
       const Eigen::Vector3f q = (T_n_s * p.cast<double>()).cast<float>();
-      if (scans_[n]->tree().nearest(q, max_sq).index >= 0 && ++pairs > o_.min_pairs)
+      if (scans_[n]->tree().hasNeighbour(q, max_sq) && ++pairs > o_.min_pairs)
         return true;
     }
     return false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/decompositions.h>
-#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/work_sharing.h>
 #include <pcl6d/graph_relaxation/loop_detection.h>
 #include <pcl6d/registration/icp.h>
 #include <pcl6d/registration/overlap_search.h>
@@ -14,9 +14,6 @@
 namespace pcl6d {
 
 namespace {
-/** Of a difference of positions, squared: 99 % of a chi-square of 3 degrees (5.1.2). */
-constexpr double kMahalanobisGate = 11.3;
-
 /** Of the scans near a later one, so many are tried: the nearest ones. */
 constexpr std::size_t kTriedPerScan = 2;
 
@@ -40,7 +37,7 @@ mayMeet(std::size_t j,
   if (covariances.empty())
     return true;
   const Eigen::Matrix3d of_both = covariances[j] + covariances[n];
-  return way.dot(solveSymmetric(of_both, way)) < kMahalanobisGate;
+  return way.dot(solveSymmetric(of_both, way)) < options.max_mahalanobis;
 }
 
 /** \return the scans that may close a loop with scan n, the nearest first */
@@ -205,8 +202,11 @@ matchFrom(const IcpTarget& target,
   if (found.localizability)
     link.condition = found.localizability->eigenvalues.minCoeff();
   link.T_from_to.reset();
-  if (found.stop == IcpStop::kAtRest)
+  link.covariance.reset();
+  if (found.stop == IcpStop::kAtRest) {
     link.T_from_to = found.T_target_source;
+    link.covariance = found.covariance;
+  }
   link.reason = doubtOf(found,
                         consistencyOf(scans[link.from],
                                       scans[link.to],
@@ -266,6 +266,7 @@ LoopDetectionOptions::validate() const
             "a position covariance with the trace",
             covariance.trace(),
             "symmetric and positive definite");
+  require(max_mahalanobis > 0, "max_mahalanobis", max_mahalanobis, "> 0");
   icp.validate();
 }
 
@@ -284,7 +285,7 @@ detectLoops(const std::vector<NetworkScan>& scans,
           covariances,
           "one per scan, or none");
   std::vector<ScanLink> loops;
-  for (std::size_t n = 0; n < scans.size(); ++n) {
+  for (std::size_t n = options.first; n < scans.size(); ++n) {
     if (!usable[n])
       continue;
     for (const std::size_t j : candidatesOf(n, poses, usable, options)) {
@@ -299,7 +300,7 @@ detectLoops(const std::vector<NetworkScan>& scans,
   // One loop after the other would wait for the slowest thread in each step of ICP.
   LoopDetectionOptions of_one = options;
   of_one.icp.num_threads = 1;
-  parallelFor(loops.size(), options.icp.num_threads, [&](std::size_t k) {
+  sharedFor(options.sharing, options.icp.num_threads, loops, [&](std::size_t k) {
     matchLoop(scans, poses, usable, of_one, loops[k]);
   });
   refuseContradicted(loops, poses, options);

@@ -4,7 +4,6 @@
 #include <pcl6d/graph_relaxation/map_agreement.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace pcl6d {
 
@@ -25,21 +24,20 @@ sampleFor(std::size_t pairs, std::size_t scans)
   return pairs <= full ? kSample : std::max(kLeastSample, kSample * full / pairs);
 }
 
-constexpr double kTotalTolerance = 0.005;
-constexpr double kScanTolerance = 0.05;
 } // namespace
 
 double
 agreementDistance(double voxel)
 {
-  return std::max(0.03, voxel / 2.5);
+  return voxel / 2.5;
 }
 
 std::vector<ScanPair>
 visiblePairs(const std::vector<NetworkScan>& scans,
              const Poses& poses,
              double voxel,
-             unsigned int num_threads)
+             unsigned int num_threads,
+             WorkSharing* sharing)
 {
   require(poses.size() == scans.size(), "poses", poses.size(), "one per scan");
   return overlappingPairs(
@@ -47,7 +45,8 @@ visiblePairs(const std::vector<NetworkScan>& scans,
       poses,
       kPartnerVoxels * voxel,
       [](const ScanPair&) { return kLeastOverlap; },
-      num_threads);
+      num_threads,
+      sharing);
 }
 
 MapAgreement
@@ -87,53 +86,6 @@ agreementOver(const std::vector<ScanPair>& pairs,
   for (const PointVotes& one : of_scan)
     agreement.scans.push_back(one.share());
   return agreement;
-}
-
-std::string
-StageAgreement::worse(const std::vector<bool>& counted) const
-{
-  std::ostringstream why; // read by people
-  why.precision(3);
-  if (after.total < before.total - kTotalTolerance) {
-    why << "agreement fell from " << before.total << " to " << after.total;
-    return why.str();
-  }
-  for (std::size_t i = 0; i < after.scans.size(); ++i)
-    if ((counted.empty() || counted[i]) &&
-        after.scans[i] < before.scans[i] - kScanTolerance) {
-      why << "agreement of scan " << i << " fell from " << before.scans[i] << " to "
-          << after.scans[i];
-      return why.str();
-    }
-  return "";
-}
-
-StageAgreement
-judgeStage(const std::vector<NetworkScan>& scans,
-           const Poses& before,
-           const Poses& after,
-           double voxel,
-           unsigned int num_threads)
-{
-  require(before.size() == scans.size(), "poses before", before.size(), "one per scan");
-  require(after.size() == scans.size(), "poses after", after.size(), "one per scan");
-  const std::vector<ScanPair> pairs = visiblePairs(scans, before, voxel, num_threads),
-                              others = visiblePairs(scans, after, voxel, num_threads);
-  std::vector<ScanPair> all;
-  std::set_union(pairs.begin(),
-                 pairs.end(),
-                 others.begin(),
-                 others.end(),
-                 std::back_inserter(all),
-                 [](const ScanPair& a, const ScanPair& b) {
-                   return a.second != b.second ? a.second < b.second
-                                               : a.first < b.first;
-                 });
-  StageAgreement stage;
-  stage.pairs = all.size();
-  stage.before = agreementOver(all, scans, before, voxel, num_threads);
-  stage.after = agreementOver(all, scans, after, voxel, num_threads);
-  return stage;
 }
 
 } // namespace pcl6d

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/work_sharing.h>
 #include <pcl6d/graph_relaxation/network_scan.h>
 
 #include <algorithm>
@@ -18,22 +18,63 @@ constexpr std::size_t kCompared = 64;
  * it are twice that distance. */
 constexpr double kPlaceSigma = 2.0 / 3;
 
-/** The share of a sample of points that have a partner. */
+/** The sample of a scan's points that tells an overlap: each stride-th of them. */
+struct Sample {
+  explicit Sample(const Points& all)
+  : points(all)
+  , stride(std::max<std::size_t>(1, all.size() / kSample))
+  , size((all.size() + stride - 1) / stride)
+  {}
+
+  double
+  share(std::size_t near) const
+  {
+    return size > 0 ? static_cast<double>(near) / static_cast<double>(size) : 0;
+  }
+
+  const Points& points;
+  std::size_t stride, size;
+};
+
+/** The share of a sample of points that have a partner.
+ * \param[in] is_decided of the least and the most that the share may still be: whether to
+ * look no further \return the share, or the least at that time */
+template <typename IsDecided>
 double
 sampledShare(const NetworkScan& scan,
              const NetworkScan& other,
              const Eigen::Isometry3d& T_other_scan,
-             double distance)
+             double distance,
+             IsDecided is_decided)
 {
-  const Points& points = scan.model().points();
+  const Sample sample(scan.model().points());
   const auto limit_sq = static_cast<float>(distance * distance);
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSample);
   std::size_t looked = 0, near = 0;
-  for (std::size_t i = 0; i < points.size(); i += stride, ++looked) {
-    const Eigen::Vector3f p = (T_other_scan * points[i].cast<double>()).cast<float>();
-    near += other.model().tree().nearest(p, limit_sq).index >= 0;
+  for (std::size_t i = 0; looked < sample.size; i += sample.stride) {
+    const Eigen::Vector3f p =
+        (T_other_scan * sample.points[i].cast<double>()).cast<float>();
+    near += other.model().tree().hasNeighbour(p, limit_sq) ? 1 : 0;
+    ++looked;
+    if (is_decided(sample.share(near), sample.share(near + sample.size - looked)))
+      break;
   }
-  return looked > 0 ? static_cast<double>(near) / static_cast<double>(looked) : 0;
+  return sample.share(near);
+}
+
+/** \return whether overlapOf() is at least so much; one way may be enough */
+bool
+overlapBy(double enough,
+          const NetworkScan& a,
+          const NetworkScan& b,
+          const Eigen::Isometry3d& T_a_b,
+          double distance)
+{
+  const auto isDecided = [enough](double least, double most) {
+    return least >= enough || !(most >= enough);
+  };
+  // In b first: its tree is in the near cache, as one scan after the other is a.
+  return sampledShare(a, b, T_a_b.inverse(), distance, isDecided) >= enough ||
+         sampledShare(b, a, T_a_b, distance, isDecided) >= enough;
 }
 
 /** \return the earlier scans whose bounding spheres meet that of b, in their order; of many
@@ -103,17 +144,20 @@ votesOf(const NetworkScan& scan,
         std::size_t stride)
 {
   PointVotes votes;
+  Points apart; // points of the scan that are not near
   const Points& points = scan.model().points();
   const auto limit_sq = static_cast<float>(distance * distance);
   const auto sigma = static_cast<float>(kPlaceSigma * distance);
   for (std::size_t i = 0; i < points.size(); i += stride) {
     const Eigen::Vector3f p = (T_other_scan * points[i].cast<double>()).cast<float>();
     ++votes.points;
-    if (other.model().tree().nearest(p, limit_sq).index >= 0)
+    if (other.model().tree().hasNeighbour(p, limit_sq))
       ++votes.near;
-    else if (other.rays().look(p, sigma).sight == Sight::kFree)
-      ++votes.empty;
+    else
+      apart.push_back(p);
   }
+  for (const SightOfPlace& seen : other.rays().look(apart, {sigma}))
+    votes.empty += seen.sight == Sight::kFree ? 1 : 0;
   return votes;
 }
 
@@ -123,8 +167,9 @@ overlapOf(const NetworkScan& a,
           const Eigen::Isometry3d& T_a_b,
           double distance)
 {
-  return std::max(sampledShare(b, a, T_a_b, distance),
-                  sampledShare(a, b, T_a_b.inverse(), distance));
+  const auto lookAtAll = [](double, double) { return false; };
+  return std::max(sampledShare(b, a, T_a_b, distance, lookAtAll),
+                  sampledShare(a, b, T_a_b.inverse(), distance, lookAtAll));
 }
 
 std::vector<ScanPair>
@@ -132,16 +177,20 @@ overlappingPairs(const std::vector<NetworkScan>& scans,
                  const Poses& poses,
                  double distance,
                  const std::function<double(const ScanPair&)>& min_overlap,
-                 unsigned int num_threads)
+                 unsigned int num_threads,
+                 WorkSharing* sharing)
 {
   std::vector<Eigen::Vector3d> centres;
   for (std::size_t i = 0; i < scans.size(); ++i)
     centres.emplace_back(poses[i] * scans[i].centre());
   std::vector<std::vector<ScanPair>> found(scans.size()); // of each second scan
-  parallelFor(scans.size(), num_threads, [&](std::size_t b) {
+  sharedFor(sharing, num_threads, found, [&](std::size_t b) {
     for (const std::size_t a : candidatesOf(b, scans, centres, distance))
-      if (overlapOf(scans[a], scans[b], poses[a].inverse() * poses[b], distance) >=
-          min_overlap({a, b}))
+      if (overlapBy(min_overlap({a, b}),
+                    scans[a],
+                    scans[b],
+                    poses[a].inverse() * poses[b],
+                    distance))
         found[b].emplace_back(a, b);
   });
   std::vector<ScanPair> pairs;

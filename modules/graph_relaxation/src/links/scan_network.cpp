@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/name_table.h>
-#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/work_sharing.h>
 #include <pcl6d/graph_relaxation/scan_network.h>
 #include <pcl6d/registration/plane_sums.h>
 
@@ -14,7 +14,6 @@
 namespace pcl6d {
 
 namespace {
-constexpr double kHysteresis = 0.1; ///< share by which a link may fall short
 /** Links are chosen anew when a pose has moved by so much of max_distance, or turned. */
 constexpr double kMoved = 0.2, kTurned = 0.01; // [rad]
 
@@ -149,6 +148,7 @@ ScanNetworkOptions::validate() const
   require(
       min_overlap >= 0 && min_overlap <= 1, "min_overlap", min_overlap, "in [0, 1]");
   require(link_distance > 0, "link_distance", link_distance, "> 0");
+  require(hysteresis >= 0 && hysteresis < 1, "hysteresis", hysteresis, "in [0, 1)");
   require(points_per_link > 0, "points_per_link", points_per_link, "> 0");
   require(
       gicp_epsilon > 0 && gicp_epsilon <= 1, "gicp_epsilon", gicp_epsilon, "in (0, 1]");
@@ -185,7 +185,7 @@ ScanNetwork::keep(std::size_t a, std::size_t b, LinkKind kind, bool trusted)
 double
 ScanNetwork::slack(const ScanPair& link) const
 {
-  return chosen_.count(link) > 0 ? kHysteresis : 0;
+  return chosen_.count(link) > 0 ? options_.hysteresis : 0;
 }
 
 std::set<ScanPair>
@@ -196,7 +196,8 @@ ScanNetwork::byOverlap(const Poses& poses) const
       poses,
       1.2 * options_.max_distance, // some still come nearer
       [&](const ScanPair& link) { return (1 - slack(link)) * options_.min_overlap; },
-      options_.num_threads);
+      options_.num_threads,
+      options_.sharing);
   return {found.begin(), found.end()};
 }
 
@@ -263,6 +264,8 @@ ScanNetwork::pairsOf(const ScanPair& link,
   pairs.to = b;
   const auto kept = kept_.find(link);
   pairs.trusted = kept != kept_.end() && kept->second.trusted;
+  if (options_.sharing && !options_.sharing->owns(b))
+    return pairs;
   const IcpModel &from = scans_[a].model(), &to = scans_[b].model();
   const PartnerSearch partnerOf(
       scans_[a], scans_[b], poses[a].inverse() * poses[b], options_.max_distance);
@@ -354,9 +357,11 @@ ScanNetwork::describe(const Poses& poses) const
     all.insert(link);
   const std::vector<ScanPair> links(all.begin(), all.end());
   std::vector<ScanLink> described(links.size());
-  parallelFor(links.size(), options_.num_threads, [&](std::size_t k) {
-    described[k] = describeLink(links[k], poses);
-  });
+  const auto later = [&](std::size_t k) { return links[k].second; };
+  sharedFor(
+      options_.sharing, options_.num_threads, described, later, [&](std::size_t k) {
+        described[k] = describeLink(links[k], poses);
+      });
   return described;
 }
 

@@ -14,7 +14,8 @@ using namespace graph_relaxation;
 
 namespace {
 constexpr Named<LinkWeights> kWeights[] = {{LinkWeights::kUnit, "unit"},
-                                           {LinkWeights::kVariance, "variance"}};
+                                           {LinkWeights::kPairs, "pairs"},
+                                           {LinkWeights::kCovariance, "covariance"}};
 
 void
 requireLink(std::size_t from, std::size_t to, std::size_t num_poses)
@@ -68,7 +69,7 @@ linkWeightsNames()
 LinkWeights
 linkWeightsFromName(const std::string& name)
 {
-  return fromName(kWeights, "weights", name);
+  return fromName(kWeights, "link-weights", name);
 }
 
 const char*

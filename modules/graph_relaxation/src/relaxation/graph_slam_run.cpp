@@ -52,9 +52,11 @@ GraphSlamRun::GraphSlamRun(const GraphSlamOptions& options,
 , measured_(measured)
 , observer_(observer)
 , step_(makeRelaxationStep(options.relaxation))
-, switch_(options.switch_scale, std::max(1, options.max_iterations / 2))
+, switch_(options.switch_scale,
+          options.least_deviation,
+          std::max(1, options.max_iterations / 2))
 {
-  round_.by_variance = options.weights == LinkWeights::kVariance;
+  round_.by_variance = options.weights == LinkWeights::kCovariance;
   round_.least_variance = options.least_deviation * options.least_deviation;
   round_.num_threads = options.num_threads;
 }
@@ -89,8 +91,8 @@ GraphSlamRun::run(const GraphSlam::Poses& start, const Pairs& pairs_at)
 void
 GraphSlamRun::measure(const std::vector<LinkPairs>& pairs)
 {
-  const std::vector<LinkSums> sums =
-      sumLinks(pairs, round_.poses, options_.robust, options_.num_threads);
+  const std::vector<LinkSums> sums = sumLinks(
+      pairs, round_.poses, options_.robust, options_.num_threads, options_.sharing);
   const std::vector<LinkReport> before = std::move(result_.links);
   result_.links.clear();
   round_.links.clear();
@@ -164,13 +166,14 @@ GraphSlamRun::setFactors()
   std::vector<double> strengths;
   for (std::size_t l = 0; l < num_pair_links; ++l)
     strengths.push_back(strengthOf(round_.links[l]));
-  const double typical = options_.switch_links ? upperMedian(strengths) : 0;
+  const bool alike = links_alike_ || options_.weights == LinkWeights::kUnit;
+  const double typical = alike || options_.switch_links ? upperMedian(strengths) : 0;
   damping_ = 0;
   for (std::size_t l = 0; l < num_pair_links; ++l) {
     RoundLink& link = round_.links[l];
     const double weight = result_.links[report_of_link_[l]].switch_weight;
     link.factor = weight;
-    if (links_alike_)
+    if (alike)
       link.factor *= typical / strengths[l];
     else if (weight < 1) // what is doubted is not stronger than others
       link.factor *= weight + (1 - weight) * std::min(1.0, typical / strengths[l]);
@@ -206,9 +209,12 @@ GraphSlamRun::commonVariance() const
 {
   double squares = 0, equations = 0;
   for (std::size_t l = 0; l < report_of_link_.size(); ++l) {
-    const double weight = result_.links[report_of_link_[l]].switch_weight;
-    squares += weight * round_.links[l].sums.residual_sq;
-    equations += weight * round_.links[l].sums.equations;
+    const RoundLink& link = round_.links[l];
+    const double weight = options_.weights == LinkWeights::kUnit
+                              ? link.factor
+                              : result_.links[report_of_link_[l]].switch_weight;
+    squares += weight * link.sums.residual_sq;
+    equations += weight * link.sums.equations;
   }
   const double freedom =
       equations - 6 * static_cast<double>(round_.layout.num_unknowns);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
+#include <pcl6d/common/work_sharing.h>
 #include <pcl6d/graph_relaxation/link_sums.h>
 
 #include <algorithm>
@@ -311,6 +311,15 @@ piecesOf(const std::vector<LinkPairs>& links)
 }
 } // namespace
 
+/** For other processes. */
+template <typename Archive>
+void
+packFields(Archive& archive, LinkSums& sums)
+{
+  archive(sums.count, sums.weight, sums.equations, sums.centre, sums.mean_z);
+  archive(sums.scatter, sums.cross, sums.spread, sums.A, sums.b, sums.residual_sq);
+}
+
 double
 LinkSums::rms() const
 {
@@ -321,7 +330,8 @@ std::vector<LinkSums>
 sumLinks(const std::vector<LinkPairs>& links,
          const std::vector<Eigen::Isometry3d>& poses,
          RobustKernel kernel,
-         unsigned int num_threads)
+         unsigned int num_threads,
+         WorkSharing* sharing)
 {
   std::vector<PlacedPairs> placed;
   placed.reserve(links.size());
@@ -352,6 +362,10 @@ sumLinks(const std::vector<LinkPairs>& links,
     sums[l] =
         mergeTree(std::move(of_link), &PairMoments::merge).about(placed[l].origin());
   }
+  const auto later = [&](std::size_t l) {
+    return std::max(links[l].from, links[l].to);
+  };
+  sharedFor(sharing, num_threads, sums, later, [](std::size_t) {}); // those of others
   return sums;
 }
 

@@ -9,8 +9,6 @@
 namespace pcl6d::graph_relaxation {
 
 namespace {
-constexpr double kLeastScale = 1e-3; // [m] links that agree better are all true
-
 // Three times the robust standard deviation (of normal residuals: 1.4826 medians).
 constexpr double kScale = 3 * 1.4826;
 
@@ -64,7 +62,7 @@ LinkSwitch::weights(const std::vector<double>& residuals,
     return weights;
   }
   const double scale =
-      scale_ > 0 ? scale_ : std::max(kScale * upperMedian(residuals), kLeastScale);
+      scale_ > 0 ? scale_ : std::max(kScale * upperMedian(residuals), least_scale_);
   if (width_sq_ == 0) {
     const double largest = *std::max_element(residuals.begin(), residuals.end());
     width_sq_ = 4 * largest * largest;

@@ -18,8 +18,11 @@ namespace pcl6d::graph_relaxation {
 class LinkSwitch {
 public:
   /** \param[in] scale [m]; 0: three times the robust standard deviation of the links
+   * \param[in] least [m] scale that links which agree better are held to; > 0
    * \param[in] rounds in which s comes down; > 0 */
-  LinkSwitch(double scale, int rounds) : scale_(scale), rounds_left_(rounds) {}
+  LinkSwitch(double scale, double least, int rounds)
+  : scale_(scale), least_scale_(least), rounds_left_(rounds)
+  {}
 
   /** \param[in] residuals r of each link [m] \param[in] trusted links keep weight 1
    * \return the weights of the next round; 1 for all in the first one, so that what the
@@ -47,6 +50,7 @@ private:
   narrow(double wanted);
 
   double scale_;
+  double least_scale_;
   std::vector<double> agreement_;
   int rounds_left_;
   bool started_ = false;

@@ -100,6 +100,15 @@ eulerCovariance(const Eigen::Isometry3d& pose,
 }
 
 Eigen::Matrix<double, 6, 6>
+twistCovariance(const Eigen::Isometry3d& pose,
+                const Eigen::Matrix<double, 6, 6>& covariance)
+{
+  Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Identity();
+  H.bottomRightCorner<3, 3>() = eulerRates(eulerFromRotation(pose.linear()));
+  return H * covariance * H.transpose();
+}
+
+Eigen::Matrix<double, 6, 6>
 covarianceAbout(const Eigen::Vector3d& origin,
                 const Eigen::Isometry3d& pose,
                 const Eigen::Matrix<double, 6, 6>& covariance)

@@ -13,13 +13,17 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+class WorkSharing;
+
 /** \brief How much the links count against each other. */
 enum class LinkWeights {
-  kUnit,    ///< all pairs alike: the plain sum of squares is minimised
-  kVariance ///< by the inverse variance s^2 of each link's pairs (Lu and Milios)
+  kUnit,      ///< all links alike, however many pairs they have
+  kPairs,     ///< all pairs alike: the plain sum of squares is minimised
+  kCovariance ///< by the covariance of each link: s^2 (M^T M)^-1 of its pairs, s^2 their
+              ///< variance (Lu and Milios; book 5.2.2)
 };
 
-/** \return unit, variance */
+/** \return unit, pairs, covariance */
 std::vector<std::string>
 linkWeightsNames();
 /** \throws BadArgument no such name; the message lists all */
@@ -31,7 +35,7 @@ toString(LinkWeights weights);
 /** \brief Knobs of GraphSlam. */
 struct GraphSlamOptions {
   Relaxation relaxation = Relaxation::kHelix;
-  LinkWeights weights = LinkWeights::kVariance;
+  LinkWeights weights = LinkWeights::kCovariance;
   RobustKernel robust = RobustKernel::kNone; ///< of the pairs within their link
   /** Links that contradict the others lose their weight (Geman-McClure, with graduated
    * non-convexity), so that a false one does not bend the map, however many pairs it has:
@@ -45,13 +49,17 @@ struct GraphSlamOptions {
          ///< the links themselves, three times their robust standard
          ///< deviation; >= 0
   std::size_t min_pairs = 20;        ///< links with fewer are dropped; >= 3
-  double least_deviation = 1e-3;     ///< [m] guard of s of a link; > 0
+  double least_deviation = 1e-3;     ///< [m] guard of s of a link, and of switch_scale:
+                                     ///< links that agree better are all true; > 0
   int max_iterations = 50;           ///< > 0
   double translation_epsilon = 1e-3; ///< [m] stop when no pose moved more ...
   double rotation_epsilon = 1e-4;    ///< [rad] ... nor turned more; >= 0
   double error_epsilon = 1e-6;  ///< stop, too, when the mean squared error of the pairs
                                 ///< changes by a smaller share; >= 0, 0: off
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  /** of the work between processes, null: none; each then has the pairs of the links whose
+   * later scan it owns, as ScanNetwork finds them */
+  WorkSharing* sharing = nullptr;
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -146,8 +154,8 @@ public:
   explicit GraphSlam(const GraphSlamOptions& options = {});
 
   /** \brief Relative poses measured otherwise, such as by odometry, which count beside the
-   * pairs (6.3). With LinkWeights::kUnit they are weighed against the common variance of
-   * all pairs. */
+   * pairs (6.3). Without LinkWeights::kCovariance they are weighed against the common
+   * variance of all pairs. */
   void
   setMeasuredLinks(const std::vector<PoseLink>& links)
   {

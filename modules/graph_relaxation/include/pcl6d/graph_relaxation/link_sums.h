@@ -10,6 +10,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+class WorkSharing;
+
 /** \brief Matched points of two scans: what GraphSLAM knows of a link.
  * \ingroup graph_relaxation */
 struct LinkPairs {
@@ -70,11 +72,14 @@ sumLink(const LinkPairs& pairs,
 
 /** \brief Sums of many links at once; link and block are summed by whichever thread is
  * free, with the bits of sumLink(). \param[in] poses T_world_scan of all scans
- * \param[in] num_threads 0: one per core */
+ * \param[in] num_threads 0: one per core
+ * \param[in] sharing null: this process has the pairs of all links; else of those whose
+ * later scan it owns, and the sums travel */
 std::vector<LinkSums>
 sumLinks(const std::vector<LinkPairs>& links,
          const std::vector<Eigen::Isometry3d>& poses,
          RobustKernel kernel = RobustKernel::kNone,
-         unsigned int num_threads = 0);
+         unsigned int num_threads = 0,
+         WorkSharing* sharing = nullptr);
 
 } // namespace pcl6d

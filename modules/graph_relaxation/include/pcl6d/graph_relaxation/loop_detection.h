@@ -8,22 +8,27 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+class WorkSharing;
+
 /** \brief Knobs of detectLoops(). */
 struct LoopDetectionOptions {
   double max_distance = 5; ///< [m] between the positions, horizontally; > 0
   double max_height = 10; ///< [m] between the positions, vertically: heights drift; > 0
   /** per scan, of its position [m^2]: a candidate's positions must be so near that the
-   * Mahalanobis distance of their difference is below 11.3 (99 % of a chi-square with three
-   * degrees of freedom; both count as independent); empty: no such gate */
+   * squared Mahalanobis distance of their difference is below max_mahalanobis (both count
+   * as independent); empty: no such gate */
   std::vector<Eigen::Matrix3d> position_covariances;
-  std::size_t min_gap = 20;    ///< scans between both ends; > 0
-  std::size_t min_pairs = 250; ///< of points; > 0
-  double min_overlap = 0.3;    ///< share of the points with a partner; in [0, 1]
-  double max_rms_share = 0.66; ///< of icp.max_distance; > 0
+  double max_mahalanobis = 11.3; ///< 99 % of a chi-square of 3 degrees (5.1.2); > 0
+  std::size_t first = 0;         ///< scan: loops of earlier ones are not looked for
+  std::size_t min_gap = 20;      ///< scans between both ends; > 0
+  std::size_t min_pairs = 250;   ///< of points; > 0
+  double min_overlap = 0.3;      ///< share of the points with a partner; in [0, 1]
+  double max_rms_share = 0.66;   ///< of icp.max_distance; > 0
   double min_consistency =
       0.8;        ///< near points, of those and of the ones where the other
                   ///< scan looked through; in [0, 1]
   IcpOptions icp; ///< how candidates are matched
+  WorkSharing* sharing = nullptr; ///< of the work between processes; null: none
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

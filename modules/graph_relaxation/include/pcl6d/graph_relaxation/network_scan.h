@@ -14,6 +14,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+class WorkSharing;
+
 /** \brief A scan as a member of a network: what finds its points, how far it reaches,
  * and its rays. \ingroup graph_relaxation */
 class NetworkScan {
@@ -92,12 +94,14 @@ overlapOf(const NetworkScan& a,
  * is compared with the 64 nearest, so that the pairs grow with the scans, not their square.
  * \param[in] distance [m] within which points are partners
  * \param[in] min_overlap of a pair; called from several threads
- * \param[in] num_threads 0: one per core; never changes the result */
+ * \param[in] num_threads 0: one per core; never changes the result
+ * \param[in] sharing of the work between processes; null: this one does all */
 std::vector<ScanPair>
 overlappingPairs(const std::vector<NetworkScan>& scans,
                  const Poses& poses,
                  double distance,
                  const std::function<double(const ScanPair&)>& min_overlap,
-                 unsigned int num_threads);
+                 unsigned int num_threads,
+                 WorkSharing* sharing = nullptr);
 
 } // namespace pcl6d

@@ -66,6 +66,12 @@ Eigen::Matrix<double, 6, 6>
 eulerCovariance(const Eigen::Isometry3d& pose,
                 const Eigen::Matrix<double, 6, 6>& covariance);
 
+/** \brief Covariance of X from that of (x, y, z, roll, pitch, yaw) [m, rad]: the inverse of
+ * eulerCovariance(), defined at every pitch. */
+Eigen::Matrix<double, 6, 6>
+twistCovariance(const Eigen::Isometry3d& pose,
+                const Eigen::Matrix<double, 6, 6>& covariance);
+
 /** \brief Covariance of the twist about another place, such as the world's origin, from
  * that of X. */
 Eigen::Matrix<double, 6, 6>

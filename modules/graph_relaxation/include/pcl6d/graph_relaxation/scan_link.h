@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/packing.h>
 #include <pcl6d/common/run_result.h>
 
 #include <Eigen/Geometry>
@@ -16,6 +17,17 @@ namespace PCL6D_EXPORTS pcl6d {
 struct ScanLink : RunLink {
   /** of a loop: the pose of `to` seen from `from`, as matched */
   std::optional<Eigen::Isometry3d> T_from_to;
+  /** of T_from_to, x y z roll pitch yaw [m, rad]; none if the pairs do not fix it */
+  std::optional<Eigen::Matrix<double, 6, 6>> covariance;
 };
+
+template <typename Archive>
+void
+packFields(Archive& archive, ScanLink& link)
+{
+  archive(link.from, link.to, link.kind, link.verdict, link.reason, link.distance);
+  archive(link.pairs, link.rms, link.overlap, link.condition, link.weight);
+  archive(link.T_from_to, link.covariance);
+}
 
 } // namespace pcl6d

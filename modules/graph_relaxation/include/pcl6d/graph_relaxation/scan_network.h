@@ -13,6 +13,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+class WorkSharing;
+
 /** \brief Which scans are linked. */
 enum class LinkRule {
   kOverlap, ///< those that see the same places
@@ -34,12 +36,16 @@ struct ScanNetworkOptions {
   double max_distance = 0.25; ///< [m] largest distance of paired points; > 0
   double min_overlap = 0.6; ///< of kOverlap: share of points with a partner; in [0, 1]
   double link_distance = 7.5; ///< [m] of kDistance: between the positions; > 0
+  double hysteresis =
+      0.1; ///< share by which a link may fall short of what made it before it
+           ///< is dropped; in [0, 1)
   /** so many points of a scan are paired; > 0. Of more than 32 links to a scan, on average,
    * fewer, down to 200, as all of them together say the same. */
   std::size_t points_per_link = 600;
   Metric metric = Metric::kPoint; ///< how the pairs are to be weighed
   double gicp_epsilon = 0.1;      ///< as IcpOptions::gicp_epsilon; in (0, 1]
   unsigned int num_threads = 0;   ///< 0: one per core; never changes the result
+  WorkSharing* sharing = nullptr; ///< of the work between processes; null: none
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -50,8 +56,8 @@ struct ScanNetworkOptions {
  * pairs of points that each of them has. They are chosen when a pose has moved by a fifth
  * of max_distance since, as otherwise they are the same.
  *
- * A link made at min_overlap (link_distance) is kept until it falls a tenth below (is a
- * tenth beyond), so that links do not come and go. \code
+ * A link made at min_overlap (link_distance) is kept until it falls below (is beyond) by
+ * more than the hysteresis, so that links do not come and go. \code
  * ScanNetwork network(scans, usable, options);
  * GraphSlam().relax(poses, [&](const Poses& now) { return network.pairs(now); });
  * \endcode \ingroup graph_relaxation */
@@ -71,7 +77,9 @@ public:
   void
   keep(std::size_t a, std::size_t b, LinkKind kind, bool trusted);
 
-  /** \return the links and their pairs at the poses; links in the order of their scans */
+  /** \return the links and their pairs at the poses; links in the order of their scans.
+   * Where processes share the work, each has the pairs of its own links: those whose later
+   * scan it owns */
   std::vector<LinkPairs>
   pairs(const Poses& poses);
 

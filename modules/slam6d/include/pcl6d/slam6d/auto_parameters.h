@@ -16,4 +16,13 @@ namespace PCL6D_EXPORTS pcl6d {
 Slam6DParameters
 deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans);
 
+/** \brief Fills in what is known when scans were matched: how far apart the ends of a loop and
+ * linked scans may be, how many scans are between the ends of a loop, and how many pairs of
+ * points it needs. \param[in] scans with their poses and reduced points
+ * \param[in,out] parameters with median_range and voxel */
+void
+deriveLoopParameters(const Slam6DOptions& options,
+                     const std::vector<ScanResult>& scans,
+                     Slam6DParameters& parameters);
+
 } // namespace pcl6d

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
+#include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <string>
@@ -23,12 +24,13 @@ gateScan(const Points& points,
          const std::string& name,
          const Slam6DParameters& parameters);
 
-/** \brief The reduction of a gated scan.
+/** \brief The reduction of a gated scan. \param[in] reduction how; its voxel does not count
  * \throws ComputeFailed the scan is too large for the grid */
 Points
 reduceScan(const Points& gated,
            const std::string& name,
-           const Slam6DParameters& parameters);
+           const Slam6DParameters& parameters,
+           ReductionOptions reduction = {});
 
 /** \brief Range gate and reduction of one scan. \param[in] name for messages
  * \throws ComputeFailed fewer than 3 points are left, or the scan is too large for the grid */

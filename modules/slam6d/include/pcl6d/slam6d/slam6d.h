@@ -15,6 +15,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+class WorkSharing;
+
 /** \brief 6D SLAM as a class (book, chapter 6.1): scans and rough poses in, a
  * consistent trajectory out.
  *
@@ -121,6 +123,16 @@ public:
    * told during optimize(); null: none. Kept by reference */
   void
   setMemory(TaskMemory* memory);
+
+  /** \brief Several processes do the work together: each makes the same calls with the same
+   * options, scans and poses, and comes to the same result. The points of a scan are needed by
+   * the first rank and by the one that owns its place; others may add it without points. The
+   * first rank alone matches scan after scan, is asked for cancel(), and has memory and
+   * observers. All but setters are collective then, see WorkSharing.
+   * \param[in] sharing null: this process does all; to be set before the first scan is added.
+   * Kept by reference \note addScan() and optimize() also throw RankFailed */
+  void
+  setSharing(WorkSharing* sharing);
 
 private:
   class Implementation;

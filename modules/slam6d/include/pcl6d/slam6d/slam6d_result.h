@@ -20,6 +20,11 @@ namespace PCL6D_EXPORTS pcl6d {
 struct Slam6DParameters : ScanParameters {
   Parameter max_distance;       ///< [m]
   Parameter max_distance_start; ///< [m]
+  // Known when loops are looked for:
+  Parameter loop_distance; ///< [m] between the ends of a loop
+  Parameter loop_gap;      ///< scans between the ends of a loop
+  Parameter loop_pairs;    ///< of points that a loop needs
+  Parameter link_distance; ///< [m] between linked scans, of LinkRule::kDistance
 };
 
 /** \brief The result of Slam6D. */

@@ -16,6 +16,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+class WorkSharing;
+
 /** \brief Knobs of MapVerifier. */
 struct MapVerifierOptions {
   /** so many links of each scan with earlier ones are judged, besides that with the scan
@@ -26,7 +28,8 @@ struct MapVerifierOptions {
   std::vector<bool> unsure;
   /** displaces the link of each scan that sees most, to find which errors it would notice */
   bool probe = true;
-  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  unsigned int num_threads = 0;   ///< 0: one per core; never changes the result
+  WorkSharing* sharing = nullptr; ///< of the work between processes; null: none
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -70,9 +73,11 @@ private:
   std::size_t
   speaking(const Pair& pair, const std::vector<Eigen::Isometry3d>& poses) const;
   void
-  findTwinsOf(std::size_t scan,
-              const std::vector<Eigen::Isometry3d>& poses,
-              MapVerification& map) const;
+  findTwins(const std::vector<Eigen::Isometry3d>& poses, MapVerification& map) const;
+  std::string
+  twinOf(std::size_t scan,
+         const std::vector<Eigen::Isometry3d>& poses,
+         const MapVerification& map) const;
   bool
   fitsElsewhere(std::size_t scan,
                 std::size_t beside,

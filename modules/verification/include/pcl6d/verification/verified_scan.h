@@ -25,6 +25,17 @@ public:
                double voxel,
                const Eigen::Vector3f& origin = Eigen::Vector3f::Zero());
 
+  /** \brief A scan that another process has made ready: all but its surfaces is to be
+   * unpacked (packing.h). \param[in] surfaces kept by reference */
+  explicit VerifiedScan(const IcpModel& surfaces) : surfaces_(&surfaces) {}
+
+  template <typename Archive>
+  friend void
+  packFields(Archive& archive, VerifiedScan& scan)
+  {
+    archive(scan.voxel_, scan.rays_, scan.self_contradiction_, scan.patches_);
+  }
+
   const IcpModel&
   surfaces() const
   {

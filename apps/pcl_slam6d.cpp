@@ -9,9 +9,9 @@
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "slam6d/live_window.h"
+#include "slam6d/ranks.h"
 #include "slam6d/run_output.h"
-#include "slam6d/run_scans.h"
-#include "slam6d/settings.h"
+#include "slam6d/shared_reading.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/version.h>
@@ -36,52 +36,27 @@ using app::Settings;
 
 constexpr const char* kName = "pcl_slam6d";
 
-/** A selection that holds no scan is a mistake of the command line. */
-ScanFolder
-openFolder(const Settings& settings, const std::optional<RunFolder>& earlier)
-{
-  std::optional<ScanFolder> folder;
-  app::checkOptions([&] { folder.emplace(settings.input, settings.folder); },
-                    {{"poses_file", "poses"}});
-  if (earlier)
-    folder->continueRun(earlier->path(), earlier->summary());
-  return *std::move(folder);
-}
-
-/** \return the finished run that goes on (--continue), if one does */
-std::optional<RunFolder>
-openEarlier(const Settings& settings)
-{
-  if (settings.continued.empty())
-    return {};
-  return RunFolder::finished(
-      settings.continued, "the run was interrupted; run it again, then go on with it");
-}
-
-app::RunScans
-openScans(const ScanFolder& folder, const Settings& settings)
-{
-  app::RunScans scans(folder);
-  if (settings.deskew)
-    scans.deskew(settings.interpolation);
-  return scans;
-}
-
 /** The main job: reading, matching, writing. */
 class Job {
 public:
-  explicit Job(const Settings& settings)
-  : earlier_(openEarlier(settings))
-  , folder_(openFolder(settings, earlier_))
-  , scans_(openScans(folder_, settings))
-  , settings_(resolved(settings, folder_))
+  /** \param[in] ranks the processes that share the work; null: this one does all */
+  Job(const Settings& settings, WorkSharing* ranks)
+  : ranks_(ranks)
+  , earlier_(app::openEarlier(settings))
+  , folder_(app::openFolder(settings, earlier_))
+  , scans_(app::openScans(folder_, settings))
+  , settings_(app::resolved(settings, folder_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings))
   , memory_(settings.memory, out_.staging())
   , clouds_(scans_, memory_.bytes() / 4)
   , window_(settings_.live_view, std::string(kName) + ' ' + settings_.input, bar_)
   , slam_(settings_.slam)
-  {}
+  {
+    slam_.setSharing(ranks_);
+    if (ranks_)
+      app::agreeOnInput(*ranks_, kName, settings_, folder_);
+  }
 
   int
   run()
@@ -91,9 +66,12 @@ public:
              (earlier_ ? ", " + std::to_string(folder_.numRegistered()) +
                              " of them registered in " + settings_.continued
                        : "") +
+             (ranks_
+                  ? ", shared by " + std::to_string(ranks_->numRanks()) + " processes"
+                  : "") +
              ", initial poses from " + folder_.poseSource());
-    if (!scans_.description().empty())
-      bar_.say(scans_.description());
+    for (const auto& description : scans_.descriptions())
+      bar_.say(description);
     if (!readScans()) {
       bar_.say("interrupted while reading; nothing is written");
       return app::kInterrupted;
@@ -119,6 +97,8 @@ public:
       printClosing(summary, written);
     else if (!summary.trusted)
       bar_.warn(summary.verdict); // not a word of it would be a lie
+    if (settings_.timing)
+      std::cout << app::timingOf(summary) << std::flush;
     if (!summary.complete)
       return app::kInterrupted;
     window_.linger(summary.verdict, [this] { return interrupt_.requested(); });
@@ -167,17 +147,6 @@ private:
     });
   }
 
-  static Settings
-  resolved(Settings settings, const ScanFolder& folder)
-  {
-    settings.resolveGuess(folder.hasPoses());
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < folder.size(); ++i)
-      indices.push_back(folder.index(i));
-    settings.readLinks(indices);
-    return settings;
-  }
-
   void
   show(const Progress& progress)
   {
@@ -190,31 +159,15 @@ private:
   readScans()
   {
     const app::StageTimer timer("reading", log_.stages);
-    for (std::size_t i = 0; i < folder_.size(); ++i) {
-      if (interrupt_.requested())
-        return false;
-      Scan scan = scans_.read(i);
-      const std::string file = folder_.file(i).string();
-      if (scan.points.size() < 3)
-        throw IoFailed(file + ": " + std::to_string(scan.points.size()) +
-                       " points with finite coordinates (" +
-                       std::to_string(scan.dropped) +
-                       " without), but at least 3 are needed");
-      memory_.require(scan.points.size(), file);
-      if (i < folder_.numRegistered()) {
-        const ScanResult& earlier = earlier_->summary().scans.at(i);
-        log_.dropped.push_back(earlier.dropped);
-        slam_.addRegistered(scan.points, earlier, file);
-      }
-      else {
-        log_.dropped.push_back(scan.dropped);
-        slam_.addScan(scan.points, folder_.initialPose(i), file);
-      }
+    app::SharedReading reading(scans_, earlier_, ranks_);
+    return reading.readAll([&](std::size_t i, Scan scan) {
+      memory_.require(scan.points.size(), folder_.file(i).string());
+      log_.dropped.push_back(reading.add(i, scan, slam_));
       window_.add(scan.points, folder_.initialPose(i));
       clouds_.add(std::move(scan.cloud));
       show({"reading", i + 1, folder_.size()});
-    }
-    return true;
+      return !interrupt_.requested();
+    });
   }
 
   /** \return false if interrupted */
@@ -270,6 +223,7 @@ private:
     bar_.say(line.str());
   }
 
+  WorkSharing* ranks_;
   const std::optional<RunFolder> earlier_;
   const ScanFolder folder_;
   app::RunScans scans_;
@@ -289,12 +243,30 @@ private:
 int
 main(int argc, char** argv)
 {
-  return app::runMain(kName, argc, argv, [](const std::vector<std::string>& arguments) {
+  std::unique_ptr<WorkSharing> ranks; // until all is printed
+  const auto run = [&](const std::vector<std::string>& arguments) {
     Settings settings;
     if (!app::parseSettings(arguments, settings))
       return static_cast<int>(app::kDone);
     if (settings.verbose)
       pcl::console::setVerbosityLevel(pcl::console::L_INFO);
-    return Job(settings).run();
-  });
+    if (!ranks || ranks->isFirst())
+      return Job(settings, ranks.get()).run();
+    app::help(*ranks, kName, settings);
+    return static_cast<int>(app::kDone);
+  };
+  return app::runMain(
+      kName, argc, argv, [&](const std::vector<std::string>& arguments) {
+        ranks = app::joinRanks();
+        try {
+          const int code = run(arguments);
+          if (ranks)
+            ranks->gather(""); // all have done their part
+          return code;
+        } catch (const std::exception& e) {
+          if (ranks)
+            ranks->fail(app::ofRank(*ranks, e.what()));
+          throw;
+        }
+      });
 }

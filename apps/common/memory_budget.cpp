@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
+#include <limits>
 #include <malloc.h>
 #include <new>
 #include <thread>
@@ -29,13 +30,13 @@ constexpr std::size_t kLargeBlock = 2 << 10;
 
 /** Of the budget: pages are let go above this share. The rest is for what is taken until the
  * watch looks again. */
-constexpr double kFull = 0.85;
+constexpr double kFull = 0.75;
 /** Of the budget: new large blocks go to the file while the heap is above this share. */
 constexpr double kHeap = 0.4;
 
 /** [bytes/s] The process does not grow faster: pages are cleared at about that speed. */
 constexpr double kFastest = 4e9;
-constexpr double kLongestPause = 0.1, kShortestPause = 0.002; // [s]
+constexpr double kLongestPause = 0.1, kShortestPause = 0.001; // [s]
 
 constexpr std::chrono::milliseconds kTrimPause(500);
 
@@ -46,8 +47,11 @@ constexpr std::size_t kProgram = 160 * kMega;
 
 /** What operator new looks at; never destroyed, as memory is freed until the very end. */
 ScratchArena* arena = nullptr;
-std::atomic<bool> use_scratch{false};
 std::size_t budget = 0;
+std::size_t most_heap = std::numeric_limits<std::size_t>::max(); ///< [bytes]
+bool is_strict = false; ///< the user gave the budget: no room in the file is an error
+/** [bytes] when the watch looked, and what large blocks were taken since */
+std::atomic<std::size_t> heap{0};
 
 /** \brief What the process holds. */
 struct Residence {
@@ -76,23 +80,27 @@ watch()
   if (statm < 0)
     return;
   const auto full = static_cast<std::size_t>(kFull * static_cast<double>(budget));
-  const auto heap = static_cast<std::size_t>(kHeap * static_cast<double>(budget));
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point trimmed{};
   while (true) {
     const Residence now = residence(statm);
-    const bool is_tight = now.heap > heap;
-    if (is_tight && Clock::now() - trimmed > kTrimPause) {
-      ::malloc_trim(0); // the heap keeps what was freed
-      trimmed = Clock::now();
-    }
-    use_scratch = is_tight;
+    heap = now.heap;
     if (now.all > full)
       arena->letGo();
     const double left =
-        std::max(0.0, static_cast<double>(heap) - static_cast<double>(now.all));
+        std::max(0.0, static_cast<double>(most_heap) - static_cast<double>(now.all));
     std::this_thread::sleep_for(std::chrono::duration<double>(
         std::clamp(left / kFastest, kShortestPause, kLongestPause)));
+  }
+}
+
+/** The heap keeps what was freed. To give it back takes long: nothing that the watch has time
+ * for. */
+void
+trim()
+{
+  while (true) {
+    std::this_thread::sleep_for(kTrimPause);
+    if (heap > most_heap)
+      ::malloc_trim(0);
   }
 }
 } // namespace
@@ -169,10 +177,13 @@ MemoryBudget::MemoryBudget(const MemoryOption& option,
   if (arena)
     return;
   budget = option.bytes > 0 ? option.bytes : machineMemory() / 2;
-  if (option.bytes > 0) // large blocks of the heap go back to the system at once
+  most_heap = static_cast<std::size_t>(kHeap * static_cast<double>(budget));
+  is_strict = option.bytes > 0;
+  if (is_strict) // large blocks of the heap go back to the system at once
     ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
   arena = new ScratchArena(nearestFolder(folder));
   std::thread(watch).detach();
+  std::thread(trim).detach();
 }
 
 std::size_t
@@ -212,10 +223,14 @@ public:
 void*
 takeBlock(std::size_t bytes, std::size_t alignment = 0)
 {
-  if (bytes >= kLargeBlock && use_scratch.load(std::memory_order_relaxed)) {
-    if (void* const block = arena->allocate(bytes))
-      return block;
-    throw NoScratch();
+  if (bytes >= kLargeBlock && arena) {
+    if (heap.load(std::memory_order_relaxed) + bytes > most_heap) {
+      if (void* const block = arena->allocate(bytes))
+        return block;
+      if (is_strict)
+        throw NoScratch();
+    }
+    heap.fetch_add(bytes, std::memory_order_relaxed);
   }
   bytes = std::max<std::size_t>(bytes, 1);
   void* block = nullptr;

@@ -29,11 +29,11 @@ machineMemory();
 
 /** \brief Bounds the resident size of the process, whatever it works on.
  *
- * While the heap takes less than two fifths of the budget, memory comes from the heap. From then on, every block of
- * 2 kB and more lies in a file without a name (ScratchArena), and when the process comes near
- * its budget, it lets go of the pages of all of them: those that are used come back at once,
- * mostly from the system's cache, which is no part of the process. Places of blocks do not
- * change, so that nothing but time depends on the budget.
+ * While the heap takes less than two fifths of the budget, memory comes from the heap. From
+ * then on, every block of 2 kB and more lies in a file without a name (ScratchArena), and when
+ * the process comes near its budget, it lets go of the pages of all of them: those that are
+ * used come back at once, mostly from the system's cache, which is no part of the process.
+ * Places of blocks do not change, so that nothing but time depends on the budget.
  *
  * Works by the operators new and delete of the programs; what libraries take by malloc, such
  * as pictures, is not moved, but counted. */

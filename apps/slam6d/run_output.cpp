@@ -14,6 +14,9 @@
 #include <pcl6d/visualization/top_view.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <sys/resource.h>
 #include <utility>
 
@@ -65,6 +68,36 @@ StageTimer::~StageTimer()
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   stages_.push_back({name_, spent.count(), usage.ru_maxrss / 1024.0});
+}
+
+std::string
+timingOf(const RunResult& run)
+{
+  std::ostringstream lines;
+  lines << std::fixed << std::setprecision(2);
+  const auto line = [&](const std::string& name, double seconds) -> std::ostream& {
+    return lines << "  " << std::left << std::setw(24) << name << std::right
+                 << std::setw(9) << seconds << " s";
+  };
+  double all = 0;
+  for (const RunResult::Stage& stage : run.stages) {
+    line(stage.name, stage.seconds)
+        << std::setw(8) << std::lround(stage.peak_memory_mb) << " MB at most so far\n";
+    all += stage.seconds;
+    if (stage.name != "matching")
+      continue;
+    double rest = stage.seconds;
+    for (const StageResult& part : run.graph_stages) {
+      const bool is_first = part.kind == StageKind::kMatching;
+      line(is_first ? "  scan after scan" : std::string("  ") + toString(part.kind),
+           part.seconds)
+          << (part.undone ? "  not taken: " + part.reason : "") << '\n';
+      rest -= part.seconds;
+    }
+    line("  loops, verdict", std::max(0.0, rest)) << '\n';
+  }
+  line("together", all) << '\n';
+  return lines.str();
 }
 
 OutputRules

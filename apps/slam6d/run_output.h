@@ -44,6 +44,11 @@ private:
   std::chrono::steady_clock::time_point start_;
 };
 
+/** \return where the time went, for people: a line for each part of the work, and for each
+ * stage that changes poses */
+std::string
+timingOf(const RunResult& run);
+
 /** \brief All that pcl_slam6d writes: the run folder, planes, picture, report. */
 class RunOutput {
 public:

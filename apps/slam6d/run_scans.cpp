@@ -2,6 +2,7 @@
 #include "slam6d/run_scans.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/text.h>
 
 #include <utility>
 
@@ -51,8 +52,32 @@ RunScans::deskew(MotionInterpolation interpolation)
   const FieldValues times = timesOf(*first_, first);
   format_ = withName(
       file, [&] { return correction_->timeFormat(times, folder_.stamps()[first]); });
-  description_ = "motion during a scan is corrected: field " + times.name + ", " +
-                 toString(format_);
+  descriptions_.push_back("motion during a scan is corrected: field " + times.name +
+                          ", " + toString(format_));
+}
+
+void
+RunScans::filterLines(LineFilter filter)
+{
+  filter_ = filter;
+  const bool median = filter == LineFilter::kMedian || filter == LineFilter::kBoth;
+  if (median)
+    descriptions_.push_back("mixed pixels are moved to the median range of " +
+                            std::to_string(ScanLineMedianOptions().window) +
+                            " values on their line");
+  if (filter != LineFilter::kNone && filter != LineFilter::kMedian)
+    descriptions_.push_back("points closer than " +
+                            text::shortest(ScanLineReductionOptions().max_distance) +
+                            " m on a line are merged");
+}
+
+void
+RunScans::requireLines(const Scan& scan, std::size_t i) const
+{
+  if (scan.row_length == 0)
+    throw IoFailed(folder_.file(i).string() + ": --filter " + toString(filter_) +
+                   " needs scan lines, but the points are one list; give organized "
+                   "PCD files (HEIGHT > 1, a scan line per row), or --filter none");
 }
 
 FieldValues
@@ -71,15 +96,29 @@ RunScans::read(std::size_t i)
 {
   Scan scan = first_ && i == folder_.numRegistered() ? *std::exchange(first_, {})
                                                      : folder_.read(i);
-  if (!correction_ || i < folder_.numRegistered())
+  if (i < folder_.numRegistered())
     return scan;
+  if (filter_ != LineFilter::kNone)
+    requireLines(scan, i);
   withName(folder_.file(i).string(), [&] {
-    const double stamp = folder_.stamps()[i];
-    correction_->correct(
-        scan.points, correction_->timesOf(timesOf(scan, i), format_, stamp), stamp);
-    storeCoordinates(scan.points, scan.cloud);
+    // The median compares ranges as measured; groups need the place of their points.
+    if (filter_ == LineFilter::kMedian || filter_ == LineFilter::kBoth)
+      filterByMedian(scan);
+    if (correction_)
+      undoMotion(scan, i);
+    if (filter_ == LineFilter::kReduction || filter_ == LineFilter::kBoth)
+      reduceLines(scan);
   });
   return scan;
+}
+
+void
+RunScans::undoMotion(Scan& scan, std::size_t i) const
+{
+  const double stamp = folder_.stamps()[i];
+  correction_->correct(
+      scan.points, correction_->timesOf(timesOf(scan, i), format_, stamp), stamp);
+  storeCoordinates(scan.points, scan.cloud);
 }
 
 } // namespace pcl6d::app

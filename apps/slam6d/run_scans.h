@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/filters/line_filter.h>
 #include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/scan_folder.h>
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pcl6d::app {
 
 /** \brief The scans of a folder as they are registered: as they were measured, or with
- * the motion of the scanner during each of them undone (--deskew). Those of a finished
+ * the motion of the scanner during each of them undone (--deskew), and filtered along
+ * their lines (--filter). Those of a finished
  * run that goes on are as that run wrote them. */
 class RunScans {
 public:
@@ -22,25 +25,33 @@ public:
   void
   deskew(MotionInterpolation interpolation);
 
+  /** \brief From now on scans go through filters along their lines (--filter). */
+  void
+  filterLines(LineFilter filter);
+
   const ScanFolder&
   folder() const
   {
     return folder_;
   }
 
-  /** \brief Reads the i-th selected scan. \throws IoFailed as ScanFolder::read(), or its
-   * times are missing or broken */
+  /** \brief Reads the i-th selected scan. \throws IoFailed as ScanFolder::read(), its
+   * times are missing or broken, or it has no lines to filter along */
   Scan
   read(std::size_t i);
 
-  /** \return what is done about motion, for people; empty if nothing */
-  const std::string&
-  description() const
+  /** \return what is done to the scans, for people; a line each */
+  const std::vector<std::string>&
+  descriptions() const
   {
-    return description_;
+    return descriptions_;
   }
 
 private:
+  void
+  undoMotion(Scan& scan, std::size_t i) const;
+  void
+  requireLines(const Scan& scan, std::size_t i) const;
   FieldValues
   timesOf(const Scan& scan, std::size_t i) const;
 
@@ -48,7 +59,8 @@ private:
   std::optional<MotionCorrection> correction_;
   std::optional<Scan> first_; ///< to be registered, if it was read already
   TimeFormat format_;
-  std::string description_;
+  LineFilter filter_ = LineFilter::kNone;
+  std::vector<std::string> descriptions_;
 };
 
 } // namespace pcl6d::app

@@ -4,6 +4,7 @@
 #include "common/memory_budget.h"
 #include "common/option_table.h"
 
+#include <pcl6d/filters/line_filter.h>
 #include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -27,16 +28,18 @@ struct Settings {
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
   bool deskew = false;    ///< undo the motion of the scanner during each scan
   MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
-  bool planes = false;          ///< find and label the planes of the map
-  bool live_view = false;       ///< show the map in a window while it grows
-  bool report = false;          ///< write report.html
-  bool no_picture = false;      ///< do not draw the map from above
-  bool no_verification = false; ///< do not judge the map in the end
-  bool resume = false;          ///< say so if there is nothing to go on with
-  bool fresh = false;           ///< drop what an interrupted run has done
+  LineFilter filter = LineFilter::kNone; ///< along the lines of each scan
+  bool planes = false;                   ///< find and label the planes of the map
+  bool live_view = false;                ///< show the map in a window while it grows
+  bool report = false;                   ///< write report.html
+  bool no_picture = false;               ///< do not draw the map from above
+  bool no_verification = false;          ///< do not judge the map in the end
+  bool resume = false;                   ///< say so if there is nothing to go on with
+  bool fresh = false;                    ///< drop what an interrupted run has done
   bool force = false;
   bool quiet = false;
   bool verbose = false;
+  bool timing = false;                ///< print where the time went
   std::vector<OptionWord> words;      ///< those of the summary
   std::vector<OptionWord> conditions; ///< those that poses follow from
   std::string without_effect;         ///< words that were given for nothing; else empty

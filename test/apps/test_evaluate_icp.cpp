@@ -38,11 +38,11 @@ TEST(EvaluateIcp, PrintsATableAndWritesItsFiles)
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word << outcome.out;
 
   const auto rows = readCsv(out / "icp.csv");
-  ASSERT_EQ(rows.size(), 10u); // point: 3 searches, 3 minimisers; plane and gicp: 2
+  ASSERT_EQ(rows.size(), 11u); // point: 4 searches, 3 minimisers; plane and gicp: 2
   for (const Row& row : rows)
     EXPECT_EQ(row.at("runs"), "27");
   const auto runs = readCsv(out / "icp_runs.csv");
-  ASSERT_EQ(runs.size(), 270u);
+  ASSERT_EQ(runs.size(), 297u);
   EXPECT_DOUBLE_EQ(std::stod(runs[0].at("yaw")), -3 * M_PI / 180) << "radians in files";
   for (const char* const metric : {"point", "plane", "gicp"})
     for (const char* const kind : {"", "_yaw"}) {
@@ -74,7 +74,8 @@ TEST(EvaluateIcp, ShowsThatExactSearchesGiveTheSame)
                                  "--steps-yaw=3",
                                  "--metric=point",
                                  "--minimiser=quaternion",
-                                 "--search=cached",
+                                 "--search=remembered",
+                                 "--search=cached-tree",
                                  "--search=kdtree",
                                  "--search=octree",
                                  "--search=brute-force"})
@@ -83,7 +84,7 @@ TEST(EvaluateIcp, ShowsThatExactSearchesGiveTheSame)
   const auto searched = evaluateIcp(arguments);
   ASSERT_EQ(searched.exit_code, 0) << searched.err;
   const auto rows = readCsv(pair / "out/icp.csv");
-  ASSERT_EQ(rows.size(), 4u);
+  ASSERT_EQ(rows.size(), 5u);
   EXPECT_EQ(without(rows, {"search", "seconds"}).size(), 1u);
   EXPECT_LT(std::stod(rows[0].at("success")), 1) << "or it would tell little";
   EXPECT_GT(std::stod(rows[0].at("success")), 0);
@@ -130,12 +131,12 @@ TEST(EvaluateIcp, RunsAllCombinationsIfTold)
     EXPECT_NE(table, std::string::npos) << outcome.out;
     return std::count(outcome.out.begin() + table, outcome.out.end(), '\n') - 1;
   };
-  EXPECT_EQ(count({"--metric=point", "--minimiser=all", "--search=all"}), 13);
+  EXPECT_EQ(count({"--metric=point", "--minimiser=all", "--search=all"}), 14);
   EXPECT_EQ(
       count(
           {"--metric=point", "--minimiser=all", "--search=all", "--all-combinations"}),
-      45);
-  EXPECT_EQ(count({"--metric=plane", "--metric=plane"}), 4);
+      54);
+  EXPECT_EQ(count({"--metric=plane", "--metric=plane"}), 5);
 }
 
 TEST(EvaluateIcp, TakesAGuessInDegreesAndNoPosesThen)
@@ -157,8 +158,8 @@ TEST(EvaluateIcp, PrintsTheTableAloneWhenQuiet)
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(outcome.out.rfind("metric ", 0), 0u) << outcome.out;
-  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 5)
-      << "names of columns, and four methods: " << outcome.out;
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 6)
+      << "names of columns, and five methods: " << outcome.out;
   EXPECT_TRUE(fs::exists(pair / "out/icp.json"));
 }
 

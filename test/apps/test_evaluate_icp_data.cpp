@@ -23,7 +23,7 @@ TEST(EvaluateIcpData, MeasuresTheRecordedCorridor)
                                                 "--steps-yaw=1",
                                                 "--offset-xy=0.2",
                                                 "--voxel=0.1",
-                                                "--search=cached",
+                                                "--search=remembered",
                                                 "--search=kdtree",
                                                 "-o",
                                                 folder / "out"});

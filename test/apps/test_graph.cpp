@@ -150,6 +150,27 @@ TEST(Graph, TellsWhatAGraphHolds)
             "length 5.00 m\n");
 }
 
+TEST(Graph, WritesToroAndReadsItAgain)
+{
+  const Files files;
+  const std::string in = files.name("in.g2o"), toro = files.name("a.graph");
+  const std::string back = files.name("back.g2o"), again = files.name("again.txt");
+  const auto outcome = graphProgram({"convert", in, "-o", toro});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "poses 30 edges 38 to toro\n");
+  EXPECT_EQ(readText(toro).rfind("VERTEX3 0 ", 0), 0u);
+  EXPECT_NE(readText(toro).find("\nEDGE3 "), std::string::npos);
+  EXPECT_EQ(graphProgram({"convert", toro, "-o", back}).exit_code, 0);
+  EXPECT_EQ(graphProgram({"convert", back, "-o", again, "--format", "toro"}).exit_code,
+            0);
+  const double chi2 = chi2Of(files.graph);
+  for (const auto& file : {toro, back, again})
+    EXPECT_NEAR(chi2Of(pcl6d::readPoseGraph(file)), chi2, 1e-9 * chi2) << file;
+  EXPECT_EQ(graphProgram({"optimize", in, "-o", toro}).exit_code, 0);
+  EXPECT_EQ(readText(toro).rfind("VERTEX3 0 ", 0), 0u);
+  EXPECT_LT(chi2Of(pcl6d::readPoseGraph(toro)), 0.1 * chi2);
+}
+
 TEST(Graph, RefusesAWrongCommandLine)
 {
   const Files files;
@@ -172,6 +193,10 @@ TEST(Graph, RefusesAWrongCommandLine)
   expectError(graphProgram({"optimize", in, "-o", out, "--robust-width", "-1"}),
               2,
               {"--robust-width = -1"});
+  expectError(graphProgram({"convert", in, "-o", out, "--format", "dot"}),
+              2,
+              {"--format = dot", "auto|g2o|toro"});
+  expectError(graphProgram({"convert", in, "-o", in}), 2, {"is the input"});
   EXPECT_EQ(readText(in), before) << "inputs are never modified";
   EXPECT_FALSE(std::filesystem::exists(out));
 }

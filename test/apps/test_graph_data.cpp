@@ -32,3 +32,22 @@ TEST(GraphData, TheSphereStartsAndEndsAtItsChi2)
             std::string::npos)
       << outcome.out;
 }
+
+TEST(GraphData, TheSphereKeepsItsChi2AsToroAndAsG2o)
+{
+  PCL6D_DATA_OR_SKIP(folder, "graphs");
+  const pcl6d::test::TempFolder out;
+  const auto run = [](const std::vector<std::string>& words) {
+    const auto outcome = pcl6d::test::runProgram("pcl_slam6d_graph", words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.out;
+  };
+  run({"convert", folder / "sphere2500.txt", "-o", out / "a.graph"});
+  run({"convert", out / "a.graph", "-o", out / "b.g2o"});
+  run({"convert", out / "b.g2o", "-o", out / "c.txt", "--format", "toro"});
+  for (const char* const name : {"a.graph", "b.g2o", "c.txt"}) {
+    const std::string info = run({"info", out / name});
+    EXPECT_NE(info.find("poses 2500 edges 4949"), std::string::npos) << info;
+    EXPECT_NE(info.find("chi2 2547812.218"), std::string::npos) << name << info;
+  }
+}

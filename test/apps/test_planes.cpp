@@ -113,7 +113,15 @@ TEST(Planes, OfOneScanAreFoundLabelledAndWritten)
 
 TEST(Planes, EachMethodFindsThem)
 {
-  for (const char* const method : {"region-growing", "ransac", "hough"}) {
+  for (const char* const method : {"region-growing",
+                                   "ransac",
+                                   "hough",
+                                   "hough-standard",
+                                   "hough-probabilistic",
+                                   "hough-randomized",
+                                   "hough-adaptive",
+                                   "hough-progressive"}) {
+    SCOPED_TRACE(method);
     const TempFolder folder;
     const std::string out = folder / "out";
     const auto outcome =
@@ -195,6 +203,9 @@ TEST(Planes, TellsWhatIsWrongBeforeItWrites)
   expectError({"-o", out}, 2, {"INPUT"});
   expectError({folder / "none.pcd", "-o", out}, 1, {"none.pcd"});
   expectError({scan, "-o", out, "--method", "magic"}, 2, {"magic", "region-growing"});
+  expectError({scan, "-o", out, "--method", "hough-magic"},
+              2,
+              {"hough-magic", "hough-progressive"});
   expectError({scan, "-o", out, "--min-area", "-1"}, 2, {"--min-area = -1"});
   expectError({scan, "-o", out, "--poses", "x"}, 2, {"--poses", "needs a folder"});
   expectError({scan, "-o", out, "--no-labels", "--refine"}, 2, {"--refine"});

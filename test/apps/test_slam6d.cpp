@@ -11,7 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <sstream>
 
 namespace {
 namespace fs = std::filesystem;
@@ -70,6 +72,29 @@ TEST(PclSlam6d, DrawsNoPictureIfToldSo)
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_FALSE(fs::exists(folder / "out" / "top_view.png"));
   EXPECT_TRUE(fs::exists(folder / "out" / "map.pcd"));
+}
+
+TEST(PclSlam6d, TellsWhereTheTimeWentIfAsked)
+{
+  const TempFolder folder;
+  const Outcome outcome =
+      slam(scans(), folder / "out", {"--last", "2", "--no-picture", "--timing"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::map<std::string, double> seconds; // by the first word of a line
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);)
+    if (const auto at = line.find(" s"); line.rfind("  ", 0) == 0 && at != line.npos) {
+      std::istringstream words(line);
+      std::string name;
+      words >> name;
+      seconds[name] = std::stod(line.substr(std::min<std::size_t>(26, line.size())));
+    }
+  ASSERT_EQ(seconds.count("reading"), 1u) << outcome.out;
+  ASSERT_EQ(seconds.count("scan"), 1u) << outcome.out;
+  EXPECT_NEAR(seconds["together"],
+              seconds["reading"] + seconds["matching"] + seconds["writing"],
+              0.02);
+  EXPECT_GE(seconds["matching"] + 0.01, seconds["scan"] + seconds["relaxation"]);
 }
 
 TEST(PclSlam6d, WritesTheSamePosesEverywhere)

@@ -156,10 +156,10 @@ TEST_F(BadInput, UnknownWordsOfMethods)
   const std::vector<std::pair<std::string, std::string>> lists = {
       {"metric", "point|plane|gicp"},
       {"minimiser",
-       "svd|quaternion|orthonormal|dual-quaternion|scale-quaternion|helix|small-angle|"
-       "euler|quaternion-linear"},
+       "svd|quaternion|orthonormal|dual-quaternion|helix|small-angle|euler|"
+       "quaternion-linear"},
       {"plane-minimiser", "linear|helix"},
-      {"search", "kdtree|cached|approximate|octree|brute-force"},
+      {"search", "kdtree|cached-tree|remembered|approximate|octree|brute-force"},
       {"robust", "none|huber|cauchy|geman-mcclure"},
       {"initial-guess", "odometry|overlap|features"}};
   for (const auto& [option, list] : lists)
@@ -168,6 +168,23 @@ TEST_F(BadInput, UnknownWordsOfMethods)
       expectUsageError({in.string(), "-o", out.string(), "--" + option + "=" + word},
                        {"--" + option, list});
     }
+}
+
+TEST_F(BadInput, AScale)
+{
+  const std::string config = folder / "run.cfg";
+  writeText(config, "minimiser = scale-quaternion\n");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--minimiser", "scale-quaternion"},
+        {"--minimiser=scale-quaternion"},
+        {"--config", config},
+        {"--scale"},
+        {"--scale=1"}}) {
+    SCOPED_TRACE(words.back());
+    std::vector<std::string> arguments = {in.string(), "-o", out.string()};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    expectUsageError(arguments, {"one scale", "pcl_slam6d_evaluate icp"});
+  }
 }
 
 TEST_F(BadInput, UnknownWordsOfMethodsInTheConfig)

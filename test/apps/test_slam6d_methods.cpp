@@ -252,7 +252,7 @@ TEST_F(Methods, TheConfigTakesTheSameWords)
                                           "--initial-guess=overlap"};
   run(0, words); // searched otherwise, and with another minimiser of points
   EXPECT_EQ(readText(out_ / "trajectory.kitti"), of_config);
-  expectOption("search", "cached", "default");
+  expectOption("search", "remembered", "default");
   run(0);
   EXPECT_NE(readText(out_ / "trajectory.kitti"), of_config) << "the words do count";
   expectOption("metric", "gicp", "default");
@@ -261,12 +261,13 @@ TEST_F(Methods, TheConfigTakesTheSameWords)
 TEST(MethodsHelp, ListsTheWords)
 {
   const Outcome outcome = pcl6d::test::runProgram("pcl_slam6d", {"--help"});
-  for (const char* words : {"point|plane|gicp",
-                            "kdtree|cached|approximate|octree|brute-force",
-                            "none|huber|cauchy|geman-mcclure",
-                            "auto|odometry|overlap|features",
-                            "linear|helix",
-                            "(=gicp)",
-                            "(=cached)"})
+  for (const char* words :
+       {"point|plane|gicp",
+        "kdtree|cached-tree|remembered|approximate|octree|brute-force",
+        "none|huber|cauchy|geman-mcclure",
+        "auto|odometry|overlap|features",
+        "linear|helix",
+        "(=gicp)",
+        "(=remembered)"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << words;
 }

@@ -184,7 +184,9 @@ ourPlaneMethods()
       ours("ransac", PlaneMethod::kRansac),
       ours("hough-randomized", PlaneMethod::kHough, HoughVariant::kRandomized),
       ours("hough-probabilistic", PlaneMethod::kHough, HoughVariant::kProbabilistic),
-      ours("hough-standard", PlaneMethod::kHough, HoughVariant::kStandard)};
+      ours("hough-standard", PlaneMethod::kHough, HoughVariant::kStandard),
+      ours("hough-adaptive", PlaneMethod::kHough, HoughVariant::kAdaptive),
+      ours("hough-progressive", PlaneMethod::kHough, HoughVariant::kProgressive)};
 }
 
 std::vector<PlaneMethodCase>

@@ -23,7 +23,7 @@ struct PlaneMethodCase {
   std::function<FoundPlanes(const Points&, unsigned int threads)> find;
 };
 
-/** \return region growing, RANSAC and the three Hough transforms */
+/** \return region growing, RANSAC and the five Hough transforms */
 std::vector<PlaneMethodCase>
 ourPlaneMethods();
 

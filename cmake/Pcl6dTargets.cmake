@@ -132,11 +132,12 @@ function(pcl6d_add_app name)
 endfunction()
 
 # pcl6d_add_test(NAME SOURCES ... [DEPENDS module ...] [LINK_PRIVATE targets ...]
-#                [PROGRAMS app ...] [LABELS data|slow ...])
+#                [PROGRAMS app ...] [LABELS data|slow ...] [LOCK name])
 # makes a GoogleTest program, each of whose tests is one test of ctest. The compile
 # definition PCL6D_BIN_DIR names the folder of the PROGRAMS, which are built before it.
+# Tests with the same LOCK never run at the same time.
 function(pcl6d_add_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK_PRIVATE;PROGRAMS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "LOCK" "SOURCES;DEPENDS;LINK_PRIVATE;PROGRAMS;LABELS" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_test(${name})")
   add_executable(${name} ${ARG_SOURCES})
   _pcl6d_compile_rules(${name})
@@ -160,6 +161,9 @@ function(pcl6d_add_test name)
   set(labels "")
   if(ARG_LABELS)
     set(labels LABELS "${ARG_LABELS}")
+  endif()
+  if(ARG_LOCK)
+    list(APPEND labels RESOURCE_LOCK ${ARG_LOCK})
   endif()
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120
     PROPERTIES TIMEOUT 900 ${labels})

@@ -112,7 +112,7 @@ addMethods(OptionTable& table, Settings& s)
 void
 addMatching(OptionTable& table, Settings& s)
 {
-  table.group("Filters, range gate and reduction");
+  table.group("Filters and reduction");
   table.add("filter", &s.filter, lineFilterFromName)
       .help(joined(lineFilterNames()) +
             ": along the lines of organized scans; the median moves mixed pixels at "

@@ -218,7 +218,7 @@ TEST(ManPages, SayWhatTheHelpSays)
 TEST(Completion, GivesJobsOptionsAndTheWordsOfAnOption)
 {
   EXPECT_EQ(completed({"pcl_slam6d_graph", ""}),
-            (Words{"optimize", "info", "--help", "--version"}));
+            (Words{"convert", "optimize", "info", "--help", "--version"}));
   EXPECT_EQ(completed({"pcl_slam6d", "--relaxation-"}), Words{"--relaxation-rounds"});
   EXPECT_EQ(completed({"pcl_slam6d", "--metric", ""}),
             (Words{"point", "plane", "gicp"}));

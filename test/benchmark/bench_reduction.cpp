@@ -8,6 +8,8 @@
 #include <pcl/search/kdtree.h>
 
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace pcl6d::benchmarks {
 
@@ -30,6 +32,17 @@ reduceOurs(Data& data, double voxel)
 {
   pcl6d::OctreeReduction<Point> reduction;
   reduction.options().voxel = voxel;
+  reduction.setInputCloud(data.cloud);
+  reduction.filter(*data.ours);
+}
+
+/** The same voxels as PCL, point by point. */
+void
+reduceByLeaf(Data& data, double voxel)
+{
+  pcl6d::OctreeReduction<Point> reduction;
+  const auto leaf = static_cast<float>(voxel);
+  reduction.setLeafSize(leaf, leaf, leaf);
   reduction.setInputCloud(data.cloud);
   reduction.filter(*data.ours);
 }
@@ -66,10 +79,10 @@ checkSamePoints(benchmark::State& state, const Data& data)
 }
 
 PeerJob
-reduceJob(double voxel)
+reduceJob(void (*ours)(Data&, double), double voxel)
 {
   const auto data = std::make_shared<Data>();
-  return {[=] { reduceOurs(*data, voxel); },
+  return {[=] { ours(*data, voxel); },
           [=] { reduceTheirs(*data, voxel); },
           [=](benchmark::State& state) { checkSamePoints(state, *data); }};
 }
@@ -82,7 +95,14 @@ main(int argc, char** argv)
 {
   using namespace pcl6d::benchmarks;
   const std::string size = "/" + std::to_string(kPoints);
-  addPeerCase({"reduction_10cm" + size, kPeer, 1, 21, [] { return reduceJob(0.10); }});
-  addPeerCase({"reduction_2cm" + size, kPeer, 1, 21, [] { return reduceJob(0.02); }});
+  for (const auto& [name, voxel] : {std::pair("10cm", 0.10), std::pair("2cm", 0.02)}) {
+    const double side = voxel;
+    addPeerCase({std::string("reduction_") + name + size, kPeer, 1, 21, [=] {
+                   return reduceJob(reduceOurs, side);
+                 }});
+    addPeerCase({std::string("leaves_") + name + size, kPeer, 1, 21, [=] {
+                   return reduceJob(reduceByLeaf, side);
+                 }});
+  }
   return runPeerCases(argc, argv);
 }

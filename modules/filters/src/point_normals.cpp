@@ -82,6 +82,19 @@ requireNeighbours(std::size_t neighbours)
           neighbours,
           "in [3, 64]");
 }
+
+Eigen::Vector3f
+normalOfPatch(const Eigen::Vector3f& place,
+              const Patch& patch,
+              std::size_t size,
+              const Points& points)
+{
+  if (size < 3)
+    return Eigen::Vector3f::Zero();
+  const Eigen::Vector3f normal =
+      leastSpread(scatterOf(patch, size, points, place)).cast<float>();
+  return normal.dot(place) > 0 ? Eigen::Vector3f(-normal) : normal;
+}
 } // namespace
 
 Eigen::Vector3f
@@ -93,11 +106,18 @@ normalAt(const Eigen::Vector3f& place,
   requireNeighbours(neighbours);
   Patch patch;
   const std::size_t size = tree.nearestK(place, neighbours, patch.data());
-  if (size < 3)
-    return Eigen::Vector3f::Zero();
-  const Eigen::Vector3f normal =
-      leastSpread(scatterOf(patch, size, points, place)).cast<float>();
-  return normal.dot(place) > 0 ? Eigen::Vector3f(-normal) : normal;
+  return normalOfPatch(place, patch, size, points);
+}
+
+Eigen::Vector3f
+normalOf(const Eigen::Vector3f& place,
+         const std::vector<Neighbour>& nearest,
+         const Points& points)
+{
+  Patch patch;
+  const std::size_t size = std::min(nearest.size(), patch.size());
+  std::copy_n(nearest.begin(), size, patch.begin());
+  return normalOfPatch(place, patch, size, points);
 }
 
 Normals

@@ -6,10 +6,20 @@
 
 #include <pcl/types.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
 namespace PCL6D_EXPORTS pcl6d {
+
+/** \return whether every index is that of one of num_points points */
+inline bool
+areIndices(const pcl::Indices& indices, std::size_t num_points)
+{
+  return std::all_of(indices.begin(), indices.end(), [num_points](auto index) {
+    return index >= 0 && static_cast<std::size_t>(index) < num_points;
+  });
+}
 
 /** \throws BadArgument unless every index is that of one of num_points points */
 inline void

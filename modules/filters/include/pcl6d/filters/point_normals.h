@@ -26,6 +26,13 @@ normalAt(const Eigen::Vector3f& place,
          const Points& points,
          std::size_t neighbours);
 
+/** \brief The same of given points near the place, zero if there are fewer than 3.
+ * \param[in] nearest places among the points; at most 64 of them count */
+Eigen::Vector3f
+normalOf(const Eigen::Vector3f& place,
+         const std::vector<Neighbour>& nearest,
+         const Points& points);
+
 /** \brief normalAt() each of some places. In parallel, the same bits for any number of
  * threads.
  * \param[in] places [m] usually the points themselves

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/instantiate.h>
+#include <pcl6d/filters/pcl/leaf_grid.h>
 #include <pcl6d/filters/voxel_reduction.h>
 
 #include <pcl/filters/filter.h>
@@ -11,19 +12,22 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Octree reduction (book 4.1.5) as a pcl::Filter: one point per occupied voxel.
  *
- * Unlike pcl::VoxelGrid it does not overflow on large extents (64-bit keys; what does
- * not fit is an error), and can keep measured points. Fields other than x, y, z are
+ * Where setLeafSize() is called it is pcl::VoxelGrid, with the same voxels, points and their
+ * order, and all of its setters (LeafGrid). Else options() give the voxel, a cube. Unlike
+ * pcl::VoxelGrid it does not overflow on large extents (what does not fit is an error),
+ * sums in double, and can keep measured points. Fields other than x, y, z are
  * averaged with kMean and taken from the voxel's first point with kCentre. \code
  * pcl6d::OctreeReduction<pcl::PointXYZI> reduction;
- * reduction.options().voxel = 0.1;
+ * reduction.setLeafSize(0.1f, 0.1f, 0.1f);
  * reduction.setInputCloud(cloud);
  * reduction.filter(reduced);
  * \endcode \ingroup filters */
 template <typename PointT>
-class OctreeReduction : public pcl::Filter<PointT> {
+class OctreeReduction : public pcl::Filter<PointT>, public LeafGrid {
 public:
   using typename pcl::Filter<PointT>::PointCloud;
   using Ptr = pcl::shared_ptr<OctreeReduction<PointT>>;
+  using ConstPtr = pcl::shared_ptr<const OctreeReduction<PointT>>;
 
   OctreeReduction();
 
@@ -34,10 +38,48 @@ public:
   }
 
 protected:
-  /** \throws BadArgument an option breaks its rule, an index is not that of a point, or
-   * a point lies outside the grid */
+  /** \throws BadArgument an option breaks its rule, an index is not that of a point, the
+   * point type has no field to filter by, or a point lies outside the grid */
   void
   applyFilter(PointCloud& output) override;
+
+private:
+  Points
+  chosenPoints() const;
+  void
+  reduceByVoxel(const Points& points, PointCloud& output) const;
+  void
+  reduceByLeaf(const Points& points, PointCloud& output);
+  void
+  takeRandom(const VoxelGroups& groups,
+             const std::vector<std::size_t>& kept,
+             PointCloud& output) const;
+
+  ReductionOptions options_;
+};
+
+/** \brief The same for clouds whose fields are known when the program runs: all of them
+ * are averaged in double, each by its type, colours by channel.
+ * \ingroup filters */
+template <>
+class OctreeReduction<pcl::PCLPointCloud2> : public pcl::Filter<pcl::PCLPointCloud2>,
+                                             public LeafGrid {
+public:
+  using Ptr = pcl::shared_ptr<OctreeReduction<pcl::PCLPointCloud2>>;
+  using ConstPtr = pcl::shared_ptr<const OctreeReduction<pcl::PCLPointCloud2>>;
+
+  OctreeReduction() { this->filter_name_ = "OctreeReduction"; }
+
+  ReductionOptions&
+  options()
+  {
+    return options_;
+  }
+
+protected:
+  /** \throws BadArgument as above, or x, y, z are no fields of type float or double */
+  void
+  applyFilter(pcl::PCLPointCloud2& output) override;
 
 private:
   ReductionOptions options_;

@@ -6,6 +6,13 @@
 #include <pcl6d/filters/pcl/impl/average_fields.hpp>
 #include <pcl6d/filters/pcl/octree_reduction.h>
 
+#include <pcl/common/io.h>
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 template <typename PointT>
@@ -14,37 +21,70 @@ OctreeReduction<PointT>::OctreeReduction()
   this->filter_name_ = "OctreeReduction";
 }
 
+/** \return the chosen points; NaN are those whose field is beyond its limits */
 template <typename PointT>
-void
-OctreeReduction<PointT>::applyFilter(PointCloud& output)
+Points
+OctreeReduction<PointT>::chosenPoints() const
 {
-  options_.validate();
   const auto& input = *this->input_;
   const pcl::Indices& chosen = *this->indices_;
   requireIndices(chosen, input.size());
-  const auto pointOf = [&](pcl::index_t i) -> const PointT& {
-    return input[chosen[i]];
-  };
   Points points(chosen.size()); // where toPoints() would ask for room at each point
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PointT& p = input[chosen[i]];
     points[i] = {p.x, p.y, p.z};
   }
-  const auto begin = [&] {
-    output.clear();
-    output.header = input.header;
-    output.is_dense = true;
+  if (field_.empty())
+    return points;
+  std::vector<pcl::PCLPointField> fields;
+  const int field = pcl::getFieldIndex<PointT>(field_, fields);
+  require(field >= 0, "filter field", field_, "a field of the points");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    float value = 0; // as PCL has it, whatever the field's type
+    std::memcpy(&value,
+                reinterpret_cast<const char*>(&input[chosen[i]]) + fields[field].offset,
+                sizeof(value));
+    if (!isWithinLimits(value))
+      points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+  }
+  return points;
+}
+
+template <typename PointT>
+void
+OctreeReduction<PointT>::applyFilter(PointCloud& output)
+{
+  options_.validate();
+  const Points points = chosenPoints();
+  PointCloud reduced; // the output may be the input
+  reduced.header = this->input_->header;
+  reduced.sensor_origin_ = this->input_->sensor_origin_;
+  reduced.sensor_orientation_ = this->input_->sensor_orientation_;
+  reduced.is_dense = true;
+  if (hasLeaf())
+    reduceByLeaf(points, reduced);
+  else
+    reduceByVoxel(points, reduced);
+  reduced.width = static_cast<std::uint32_t>(reduced.size());
+  reduced.height = 1;
+  output.swap(reduced);
+}
+
+template <typename PointT>
+void
+OctreeReduction<PointT>::reduceByVoxel(const Points& points, PointCloud& output) const
+{
+  const auto pointOf = [&](pcl::index_t i) -> const PointT& {
+    return (*this->input_)[(*this->indices_)[i]];
   };
   if (options_.method == ReductionMethod::kMean && hasOnlyCoordinates<PointT>()) {
     const Points means = reducePoints(points, options_);
-    begin();
     output.resize(means.size());
     for (std::size_t i = 0; i < means.size(); ++i)
       output[i].getVector3fMap() = means[i];
     return;
   }
   const VoxelGroups groups(points, options_.voxel);
-  begin();
   if (options_.method == ReductionMethod::kRandom) {
     for (const auto i : groups.chooseRandom(options_.points_per_voxel, options_.seed))
       output.push_back(pointOf(i));
@@ -59,6 +99,57 @@ OctreeReduction<PointT>::applyFilter(PointCloud& output)
     else
       point.getVector3fMap() = voxelCentre(groups.key(g), options_.voxel);
   }
+}
+
+/** What pcl::VoxelGrid does. */
+template <typename PointT>
+void
+OctreeReduction<PointT>::reduceByLeaf(const Points& points, PointCloud& output)
+{
+  const Points places = placesOf(points);
+  if (options_.method == ReductionMethod::kMean && least_points_ < 2 &&
+      !getSaveLeafLayout() && (hasOnlyCoordinates<PointT>() || !downsample_all_)) {
+    const Points means = meansByCell(places, points);
+    output.resize(means.size());
+    for (std::size_t i = 0; i < means.size(); ++i)
+      output[i].getVector3fMap() = means[i];
+    return;
+  }
+  const auto pointOf = [&](pcl::index_t i) -> const PointT& {
+    return (*this->input_)[(*this->indices_)[i]];
+  };
+  const VoxelGroups groups(places, 1);
+  const std::vector<std::size_t> kept = keptGroups(groups, places);
+  if (options_.method == ReductionMethod::kRandom)
+    return takeRandom(groups, kept, output);
+  output.resize(kept.size());
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const IndexRange members = groups.indices(kept[k]);
+    PointT& point = output[k];
+    if (downsample_all_)
+      point = pointOf(*members.begin());
+    if (options_.method == ReductionMethod::kCentre)
+      point.getVector3fMap() = centreOf(places[*members.begin()]);
+    else if (downsample_all_)
+      averageMembers(points, members, pointOf, point);
+    else
+      point.getVector3fMap() = meanOf(points, members);
+  }
+}
+
+template <typename PointT>
+void
+OctreeReduction<PointT>::takeRandom(const VoxelGroups& groups,
+                                    const std::vector<std::size_t>& kept,
+                                    PointCloud& output) const
+{
+  std::vector<bool> is_kept(this->indices_->size());
+  for (const std::size_t g : kept)
+    for (const auto i : groups.indices(g))
+      is_kept[i] = true;
+  for (const auto i : groups.chooseRandom(options_.points_per_voxel, options_.seed))
+    if (is_kept[i])
+      output.push_back((*this->input_)[(*this->indices_)[i]]);
 }
 
 } // namespace pcl6d

@@ -144,11 +144,11 @@ addPcl(const RecordedPair& pair)
          return PeerJob{
              [=] {
                *ours = alignByPcl(
-                   pair, target, source, pcl::make_shared<CachedKdTree<Point>>(1));
+                   pair, target, source, pcl::make_shared<CachedKdTree<Point>>());
              },
              [=] {
                *plain =
-                   alignByPcl(pair, target, source, pcl::make_shared<KdTree<Point>>(1));
+                   alignByPcl(pair, target, source, pcl::make_shared<KdTree<Point>>());
              },
              [=](benchmark::State& state) {
                if (*ours != *plain)

@@ -15,10 +15,13 @@ class BruteForceSearch
 public:
   using Ptr = pcl::shared_ptr<BruteForceSearch<PointT>>;
 
-  BruteForceSearch()
+  /** \brief PCL's constructor. \param[in] sorted has no effect: results always are */
+  explicit BruteForceSearch(bool sorted = true)
   : CoreSearch<PointT, PointList, pcl::search::Search<PointT>>(
         "pcl6d::BruteForceSearch")
-  {}
+  {
+    static_cast<void>(sorted);
+  }
 
 protected:
   std::shared_ptr<const PointList>

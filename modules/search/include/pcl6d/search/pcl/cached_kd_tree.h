@@ -40,10 +40,13 @@ public:
   using KdTree<PointT>::nearestKSearch;
   using Ptr = pcl::shared_ptr<CachedKdTree<PointT>>;
 
-  /** \param[in] num_threads for building; 0: one per core */
-  explicit CachedKdTree(unsigned int num_threads = 0)
-  : KdTree<PointT>("pcl6d::CachedKdTree", num_threads, PointTree::Cells::kKeep)
+  /** \brief PCL's constructor. \param[in] sorted has no effect: results always are */
+  explicit CachedKdTree(bool sorted = true)
+  : KdTree<PointT>("pcl6d::CachedKdTree", sorted, PointTree::Cells::kKeep)
   {}
+  /** A number is no bool: threads are set by setNumberOfThreads(). */
+  template <typename Number, typename = OnlyNumbers<Number>>
+  explicit CachedKdTree(Number) = delete;
 
   /** \brief Makes so many slots, all of them empty; at first there are none. A new
    * input cloud empties them too. */
@@ -73,7 +76,7 @@ public:
                  pcl::Indices& k_indices,
                  std::vector<float>& k_sqr_distances) const override
   {
-    if (k != 1)
+    if (k != 1 || this->by_flann_)
       return KdTree<PointT>::nearestKSearch(point, k, k_indices, k_sqr_distances);
     int leaf = leaf_of_point_->leafOf(&point, sizeof(PointT));
     const Neighbour found = this->core_->nearestFrom(
@@ -98,7 +101,8 @@ public:
                  pcl::Indices& k_indices,
                  std::vector<float>& k_sqr_distances) const override
   {
-    if (k != 1 || static_cast<std::size_t>(index) >= leaf_of_slot_.size())
+    if (k != 1 || this->by_flann_ ||
+        static_cast<std::size_t>(index) >= leaf_of_slot_.size())
       return KdTree<PointT>::nearestKSearch(
           cloud, index, k, k_indices, k_sqr_distances);
     const Neighbour found =

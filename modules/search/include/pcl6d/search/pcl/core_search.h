@@ -12,6 +12,8 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
@@ -22,6 +24,16 @@ namespace PCL6D_EXPORTS pcl6d {
  * distances to points in UTM coordinates keep the digits that a query of double has. */
 Eigen::Vector3f
 localOrigin(const Points& points);
+
+/** \brief What PCL's setInputCloud() returns: nothing up to 1.13, bool since 1.14. */
+template <typename Base>
+using SetInputCloudResult =
+    decltype(std::declval<Base&>().setInputCloud(nullptr, nullptr));
+
+/** \brief For constructors that take no number where PCL's take a bool. */
+template <typename Number>
+using OnlyNumbers = std::enable_if_t<std::is_arithmetic<Number>::value &&
+                                     !std::is_same<Number, bool>::value>;
 
 /** \brief The seam between PCL's interface of searches and our cores.
  *
@@ -41,8 +53,9 @@ public:
   using PointCloudConstPtr = typename pcl::PointCloud<PointT>::ConstPtr;
 
   /** \brief Builds the structure. \param[in] indices the points to search; null: all
+   * \return true, where PCL's class returns anything
    * \throws BadArgument the cloud is null, or an index is not that of a point */
-  void
+  SetInputCloudResult<Base>
   setInputCloud(const PointCloudConstPtr& cloud,
                 const pcl::IndicesConstPtr& indices = nullptr) override;
 

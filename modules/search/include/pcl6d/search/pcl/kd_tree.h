@@ -9,7 +9,8 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Our k-d tree (book 4.1.4) as a pcl::search::KdTree, hence accepted by
- * pcl::Registration. Exact: the epsilon of the base class is not used.
+ * pcl::Registration. Exact: the epsilon of the base class is not used. With a point
+ * representation that is not of x, y, z, FLANN searches in our place.
  * \code
  * pcl6d::KdTree<pcl::PointXYZ> tree;
  * tree.setInputCloud(cloud);
@@ -19,11 +20,62 @@ template <typename PointT>
 class KdTree : public CoreSearch<PointT, PointTree, pcl::search::KdTree<PointT>> {
 public:
   using Ptr = pcl::shared_ptr<KdTree<PointT>>;
+  using Core = CoreSearch<PointT, PointTree, pcl::search::KdTree<PointT>>;
+  using Flann = pcl::search::KdTree<PointT>;
+  using Core::nearestKSearch;
+  using Core::radiusSearch;
+  using typename Core::PointCloudConstPtr;
 
-  /** \param[in] num_threads for building; 0: one per core */
-  explicit KdTree(unsigned int num_threads = 0)
-  : KdTree("pcl6d::KdTree", num_threads, PointTree::Cells::kNone)
+  /** \brief PCL's constructor. \param[in] sorted has no effect: results always are */
+  explicit KdTree(bool sorted = true)
+  : KdTree("pcl6d::KdTree", sorted, PointTree::Cells::kNone)
   {}
+  /** A number is no bool: threads are set by setNumberOfThreads(). */
+  template <typename Number, typename = OnlyNumbers<Number>>
+  explicit KdTree(Number) = delete;
+
+  /** \brief PCL's setter: neighbours are then those of FLANN, over these coordinates.
+   * Through a pointer to the base class it counts from the next setInputCloud() on. */
+  void
+  setPointRepresentation(const typename Flann::PointRepresentationConstPtr& how)
+  {
+    Flann::setPointRepresentation(how);
+    if (this->input_)
+      setInputCloud(this->input_, this->indices_);
+  }
+
+  SetInputCloudResult<Flann>
+  setInputCloud(const PointCloudConstPtr& cloud,
+                const pcl::IndicesConstPtr& indices = nullptr) override
+  {
+    const auto how = this->getPointRepresentation();
+    by_flann_ = how && (!how->isTrivial() || how->getNumberOfDimensions() != 3);
+    if (by_flann_ && cloud && !cloud->empty())
+      Flann::setInputCloud(cloud, indices);
+    return Core::setInputCloud(cloud, indices);
+  }
+
+  int
+  nearestKSearch(const PointT& point,
+                 int k,
+                 pcl::Indices& k_indices,
+                 std::vector<float>& k_sqr_distances) const override
+  {
+    return by_flann_ ? Flann::nearestKSearch(point, k, k_indices, k_sqr_distances)
+                     : Core::nearestKSearch(point, k, k_indices, k_sqr_distances);
+  }
+
+  int
+  radiusSearch(const PointT& point,
+               double radius,
+               pcl::Indices& k_indices,
+               std::vector<float>& k_sqr_distances,
+               unsigned int max_nn = 0) const override
+  {
+    return by_flann_
+               ? Flann::radiusSearch(point, radius, k_indices, k_sqr_distances, max_nn)
+               : Core::radiusSearch(point, radius, k_indices, k_sqr_distances, max_nn);
+  }
 
   /** \param[in] num_threads for the next setInputCloud(); 0: one per core */
   void
@@ -41,11 +93,11 @@ public:
   }
 
 protected:
-  KdTree(const std::string& name, unsigned int num_threads, PointTree::Cells cells)
-  : CoreSearch<PointT, PointTree, pcl::search::KdTree<PointT>>(name)
-  , num_threads_(num_threads)
-  , cells_(cells)
+  KdTree(const std::string& name, bool /*sorted*/, PointTree::Cells cells)
+  : Core(name), cells_(cells)
   {}
+
+  bool by_flann_ = false; ///< the coordinates are others than x, y, z
 
   std::shared_ptr<const PointTree>
   build(const Points& points) override
@@ -54,7 +106,7 @@ protected:
   }
 
 private:
-  unsigned int num_threads_;
+  unsigned int num_threads_ = 0;
   PointTree::Cells cells_;
 };
 

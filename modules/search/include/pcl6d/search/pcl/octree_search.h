@@ -15,11 +15,20 @@ class OctreeSearch
 public:
   using Ptr = pcl::shared_ptr<OctreeSearch<PointT>>;
 
-  /** \param[in] num_threads for building; 0: one per core */
-  explicit OctreeSearch(unsigned int num_threads = 0)
+  /** \brief PCL's constructor. \param[in] resolution [m] has no effect: there is none to
+   * choose, leaves hold so many points */
+  explicit OctreeSearch(double resolution = 0)
   : CoreSearch<PointT, PointOctree, pcl::search::Search<PointT>>("pcl6d::OctreeSearch")
-  , num_threads_(num_threads)
-  {}
+  {
+    static_cast<void>(resolution);
+  }
+
+  /** \param[in] num_threads for the next setInputCloud(); 0: one per core */
+  void
+  setNumberOfThreads(unsigned int num_threads)
+  {
+    num_threads_ = num_threads;
+  }
 
 protected:
   std::shared_ptr<const PointOctree>
@@ -29,7 +38,7 @@ protected:
   }
 
 private:
-  unsigned int num_threads_;
+  unsigned int num_threads_ = 0;
 };
 
 PCL6D_DECLARE_INSTANCES(OctreeSearch)

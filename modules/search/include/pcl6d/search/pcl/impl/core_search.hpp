@@ -8,7 +8,7 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 template <typename PointT, typename Core, typename Base>
-void
+SetInputCloudResult<Base>
 CoreSearch<PointT, Core, Base>::setInputCloud(const PointCloudConstPtr& cloud,
                                               const pcl::IndicesConstPtr& indices)
 {
@@ -23,6 +23,7 @@ CoreSearch<PointT, Core, Base>::setInputCloud(const PointCloudConstPtr& cloud,
   core_ = build(points);
   this->input_ = cloud;
   this->indices_ = indices;
+  return static_cast<SetInputCloudResult<Base>>(true);
 }
 
 template <typename PointT, typename Core, typename Base>

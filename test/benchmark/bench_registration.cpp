@@ -4,9 +4,11 @@
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/registration/pcl/icp6d.h>
+#include <pcl6d/registration/pcl/ndt6d.h>
 
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>
+#include <pcl/registration/ndt.h>
 
 #include <memory>
 
@@ -16,6 +18,7 @@ namespace {
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
 constexpr char kIcp[] = "pcl::IterativeClosestPoint";
+constexpr char kNdt[] = "pcl::NormalDistributionsTransform";
 constexpr char kGicp[] = "pcl::GeneralizedIterativeClosestPoint";
 constexpr int kMaxIterations = 500;
 // Both stop at a step of 20 micrometres: ICP's steps shrink by a few per cent each, so that
@@ -179,6 +182,41 @@ gicpJob(const RecordedPair& pair, unsigned int threads)
           state.SkipWithError("ours started from the peer's pose ends elsewhere");
       }};
 }
+
+/** Cells, and steps until both rest within a millimetre, which PCL is told by its square. */
+template <typename Ndt>
+Eigen::Matrix4f
+alignByCells(const Work& work, Ndt& ndt, double epsilon)
+{
+  ndt.setResolution(1);
+  ndt.setTransformationEpsilon(epsilon);
+  ndt.setMaximumIterations(100);
+  ndt.setInputTarget(work.target);
+  ndt.setInputSource(work.source);
+  Cloud aligned;
+  ndt.align(aligned, work.guess);
+  return ndt.getFinalTransformation();
+}
+
+PeerJob
+ndtJob(const RecordedPair& pair, unsigned int threads)
+{
+  const auto work = std::make_shared<Work>(pair);
+  return {[=] {
+            pcl6d::NDT6D<Point, Point> ndt;
+            ndt.setNumberOfThreads(threads);
+            work->ours = alignByCells(*work, ndt, 1e-3);
+            work->our_iterations = ndt.getFinalNumIteration();
+            work->our_rest = true;
+          },
+          [=] {
+            pcl::NormalDistributionsTransform<Point, Point> ndt;
+            work->theirs = alignByCells(*work, ndt, 1e-6);
+            work->their_iterations = ndt.getFinalNumIteration();
+            work->their_rest = true;
+          },
+          [=](benchmark::State& state) { checkEqual(state, *work, false); }};
+}
 } // namespace
 
 } // namespace pcl6d::benchmarks
@@ -192,6 +230,9 @@ main(int argc, char** argv)
     for (const unsigned int threads : thread_counts) {
       addPeerCase({"icp/" + pair.name, kIcp, threads, 7, [=] {
                      return icpJob(pair, threads);
+                   }});
+      addPeerCase({"ndt/" + pair.name, kNdt, threads, 3, [=] {
+                     return ndtJob(pair, threads);
                    }});
       addPeerCase({"gicp/" + pair.name, kGicp, threads, 3, [=] {
                      return gicpJob(pair, threads);

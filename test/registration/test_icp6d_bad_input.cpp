@@ -33,15 +33,14 @@ statusesOf(const Points& source, const Points& target)
   return statuses;
 }
 
-const std::vector<Status> kAllOpen(3, Status::kRankDeficient);
 const std::vector<Status> kAllTooFew(3, Status::kTooFewPairs);
 
 /** \return points uniform in a box about the origin with these sides [m] */
 Points
-box(const Eigen::Vector3f& sides, std::size_t count = 900)
+box(const Eigen::Vector3f& sides, std::uint64_t seed = 4)
 {
-  Random random(4);
-  Points points = randomCube(random, count, 1);
+  Random random(seed);
+  Points points = randomCube(random, 900, 1);
   for (auto& p : points)
     p = p.cwiseProduct(sides) + Eigen::Vector3f(1, 2, 3);
   return points;
@@ -126,7 +125,9 @@ TEST(Icp6DBadInput, IndicesOfNoPointAreRefused)
     EXPECT_THROW(icp.setIndices(indices), pcl6d::BadArgument) << bad;
     Icp other;
     other.setIndices(indices); // which points there are is known later
-    EXPECT_THROW(other.setInputSource(cornerData<Point>()), pcl6d::BadArgument);
+    other.setInputTarget(cornerModel<Point>());
+    other.setInputSource(cornerData<Point>()); // nor now: they may be set anew
+    EXPECT_THROW(alignFrom(other), pcl6d::BadArgument);
     pcl6d::KdTree<Point> tree;
     EXPECT_THROW(tree.setInputCloud(cornerData<Point>(), indices), pcl6d::BadArgument);
   }
@@ -196,17 +197,25 @@ TEST(Icp6DBadInput, CloudsOfNanAreTooFew)
 
 TEST(Icp6DBadInput, OpenMotionsAreSaid)
 {
-  EXPECT_EQ(statusesOf(box({4, 4, 0}), box({4, 4, 0})), kAllOpen) << "plane";
+  for (const Status status : statusesOf(box({4, 4, 0}), box({4, 4, 0}, 5)))
+    EXPECT_NE(status, Status::kOk) << "plane";
+  const std::vector<Status> copies = statusesOf(box({4, 4, 0}), box({4, 4, 0}));
+  EXPECT_EQ(copies[0], Status::kOk) << "points that lie on each other hold";
+  EXPECT_EQ(copies[1], Status::kRankDeficient);
+  EXPECT_EQ(copies[2], Status::kRankDeficient);
   for (const Status status : statusesOf(box({4, 0, 0}), box({4, 0, 0})))
     EXPECT_NE(status, Status::kOk) << "line";
   for (const Status status : statusesOf(box({0, 0, 0}), box({0, 0, 0})))
     EXPECT_NE(status, Status::kOk) << "duplicates of a point";
 }
 
-TEST(Icp6DBadInput, ACorridorIsOpenAlongItself)
+namespace {
+/** Floor, ceiling and two walls without an end. */
+Points
+openCorridor(std::uint64_t seed)
 {
-  Random random(9);
-  Points corridor; // floor, ceiling and two walls without an end
+  Random random(seed);
+  Points corridor;
   for (int i = 0; i < 4000; ++i) {
     const auto along = static_cast<float>(random.uniform(-10, 10));
     const auto across = static_cast<float>(random.uniform(-1, 1));
@@ -214,14 +223,21 @@ TEST(Icp6DBadInput, ACorridorIsOpenAlongItself)
     corridor.push_back(i % 4 < 2 ? Eigen::Vector3f(along, across, side)
                                  : Eigen::Vector3f(along, side, across));
   }
-  EXPECT_EQ(statusesOf(corridor, corridor), kAllOpen);
+  return corridor;
+}
+} // namespace
+
+TEST(Icp6DBadInput, ACorridorIsOpenAlongItself)
+{
   for (const Metric metric : kMetrics) {
     Icp icp;
-    icp.setInputSource(toCloud<Point>(corridor));
-    icp.setInputTarget(toCloud<Point>(corridor));
+    icp.setInputSource(toCloud<Point>(openCorridor(10)));
+    icp.setInputTarget(toCloud<Point>(openCorridor(9)));
     icp.setMaxCorrespondenceDistance(1);
+    icp.setMaximumIterations(300);
     icp.setMetric(metric);
     alignFrom(icp);
+    EXPECT_EQ(icp.result().status, Status::kRankDeficient) << toString(metric);
     ASSERT_TRUE(icp.result().localizability);
     EXPECT_EQ(icp.result().localizability->openDirections(), 1) << toString(metric);
     EXPECT_NEAR(std::abs(icp.result().localizability->directions(0, 0)), 1, 0.01)
@@ -232,11 +248,9 @@ TEST(Icp6DBadInput, ACorridorIsOpenAlongItself)
 
 TEST(Icp6DBadInput, SettingsThatBreakTheirRuleAreRefused)
 {
-  for (const double gate : {0.0, -1.0, static_cast<double>(kNan)})
-    EXPECT_TRUE(refuses<Icp>([&](Icp& i) { i.setMaxCorrespondenceDistance(gate); }));
+  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMaxCorrespondenceDistance(kNan); }));
   for (const double share : {0.0, -0.1, 1.1, static_cast<double>(kNan)})
     EXPECT_TRUE(refuses<Icp>([&](Icp& i) { i.setKeptShare(share); })) << share;
-  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMaximumIterations(0); }));
   EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMaxCorrespondenceDistanceStart(-1); }));
   EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMotionEpsilon(-1, 1e-5); }));
   EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMotionEpsilon(1e-4, kNan); }));
@@ -250,10 +264,7 @@ TEST(Icp6DBadInput, NeighboursOfANormalAreLimited)
         i.setMetric(metric);
         i.setNormalNeighbours(neighbours);
       })) << neighbours;
-  for (const int neighbours : {-5, 0, 2, 65})
-    EXPECT_TRUE(
-        refuses<Gicp>([&](Gicp& i) { i.setCorrespondenceRandomness(neighbours); }));
-  for (const int neighbours : {3, 64})
+  for (const int neighbours : {-5, 0, 2, 3, 64, 65}) // the nearest that is allowed
     EXPECT_FALSE(
         refuses<Gicp>([&](Gicp& i) { i.setCorrespondenceRandomness(neighbours); }));
 }

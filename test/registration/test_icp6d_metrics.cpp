@@ -70,6 +70,8 @@ TEST(Icp6DMetrics, GicpIsTheMetricOfGicp6D)
   setUpSamples(icp);
   setUpSamples(gicp);
   icp.setMetric(Metric::kGicp);
+  icp.setMotionEpsilon(gicp.getTransformationEpsilon(), gicp.getRotationEpsilon());
+  icp.setMaximumIterations(gicp.getMaximumIterations());
   alignFrom(icp);
   alignFrom(gicp);
   EXPECT_TRUE(sameBits(Eigen::Matrix4d(gicp.getFinalTransformation()),
@@ -217,4 +219,26 @@ TEST(Icp6DMetrics, ReciprocalPairsAreEachOthersClosest)
     EXPECT_EQ(icp.result().pairs, mutual) << toString(metric);
     EXPECT_LT(mutual, 1700u);
   }
+}
+
+TEST(Icp6DMetrics, TheSymmetricObjectiveIsThatOfIcpWithNormals)
+{
+  pcl6d::ICP6DWithNormals<Point, Point, double> plain, symmetric;
+  setUpSamples(plain);
+  setUpSamples(symmetric);
+  symmetric.setUseSymmetricObjective(true);
+  EXPECT_TRUE(symmetric.getUseSymmetricObjective());
+  EXPECT_TRUE(symmetric.getEnforceSameDirectionNormals());
+  alignFrom(plain);
+  alignFrom(symmetric);
+  EXPECT_TRUE(plain.hasConverged());
+  EXPECT_TRUE(symmetric.hasConverged());
+  EXPECT_LE(symmetric.result().iterations, plain.result().iterations);
+  EXPECT_LT(errorOf(symmetric).translation, 2 * errorOf(plain).translation + 1e-4);
+  Icp by_metric;
+  setUpSamples(by_metric);
+  by_metric.setMetric(Metric::kPlane);
+  alignFrom(by_metric);
+  EXPECT_TRUE(sameBits(Eigen::Matrix4d(plain.getFinalTransformation()),
+                       Eigen::Matrix4d(by_metric.getFinalTransformation())));
 }

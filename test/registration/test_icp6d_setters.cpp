@@ -69,8 +69,6 @@ TEST(Icp6DSetters, RefuseValuesThatBreakTheirRule)
     change(icp);
     EXPECT_THROW(align(icp), pcl6d::BadArgument);
   };
-  refused([](Icp& icp) { icp.setMaximumIterations(0); });
-  refused([](Icp& icp) { icp.setMaxCorrespondenceDistance(-1); });
   refused([](Icp& icp) { icp.setMaxCorrespondenceDistance(kNan); });
   refused([](Icp& icp) { icp.setMaxCorrespondenceDistanceStart(-1); });
   refused([](Icp& icp) { icp.setMotionEpsilon(-1, 1e-5); });

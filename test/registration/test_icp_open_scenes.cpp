@@ -155,13 +155,14 @@ TEST(IcpLocalizability, IsReportedWhateverTheMetric)
 {
   Random random(12);
   const Surface box = corner(random, 3000, 4, 0.002);
-  const Surface tube = corridorOf(random, 3000, 0.002, kTilted);
+  const Surface tube = corridorOf(random, 3000, 0.002, kTilted),
+                again = corridorOf(random, 3000, 0.002, kTilted);
   for (const Metric metric : kAllMetrics) {
     SCOPED_TRACE(toString(metric));
     const IcpResult fixed = run(box, box, optionsOf(metric));
     ASSERT_TRUE(fixed.localizability);
     EXPECT_EQ(fixed.localizability->openDirections(), 0);
-    const IcpResult open = run(tube, tube, optionsOf(metric));
+    const IcpResult open = run(tube, again, optionsOf(metric));
     ASSERT_TRUE(open.localizability);
     EXPECT_EQ(open.localizability->openDirections(), 1);
     const Eigen::Vector3d along = kTilted.linear().col(0);

@@ -34,6 +34,18 @@ reciprocal(const Points& source, const Points& target, unsigned int num_threads)
   };
 }
 
+void
+requireMotion(const Eigen::Matrix4d& matrix)
+{
+  const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
+  const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
+  constexpr double kTolerance = 1e-3; // some thousand roundings of float
+  if (off > kTolerance || R.determinant() < 0)
+    throw BadArgument("ICP6D: the transformation estimation made a matrix that is no "
+                      "motion, but scales, shears or mirrors; a scale is estimated by "
+                      "setEstimateScale(true)");
+}
+
 std::vector<int>
 placesIn(const pcl::IndicesConstPtr& searched, std::size_t cloud_size)
 {

@@ -42,7 +42,8 @@ CorrespondenceSearch::CorrespondenceSearch(const IcpTarget& target,
                                            const IcpOptions& options)
 : target_(target)
 , source_(*source.points)
-, source_normals_(options.metric == Metric::kGicp ? source.normals : nullptr)
+, source_normals_(options.metric == Metric::kGicp || options.symmetric ? source.normals
+                                                                       : nullptr)
 , options_(options)
 , remembers_(options.remember_neighbours &&
              std::all_of(target.begin(),

@@ -44,6 +44,10 @@ extentOf(const Points& points)
   return largest;
 }
 
+constexpr double kFloatRounding = 1e-7; ///< of a coordinate, as a share of it
+constexpr double kLowerShare = 1e-3;    ///< of an error: less is no progress
+constexpr int kStillSteps = 3, kIdleSteps = 20;
+
 class IcpRun {
 public:
   IcpRun(const IcpTarget& target,
@@ -57,6 +61,7 @@ public:
   , finder_(target, source, options)
   , problem_(source, options)
   , extent_(extentOf(*source.points))
+  , has_foreign_steps_(hooks.find || hooks.reject || hooks.minimise)
   {}
 
   IcpResult
@@ -174,13 +179,36 @@ private:
     seen.T_target_source = result_.T_target_source;
     seen.scale = result_.scale;
     next_motion_ = likelyMotion(seen);
+    if (hooks_.pairs_observer)
+      hooks_.pairs_observer(seen, finder_.pairs());
     if (hooks_.observer && !hooks_.observer(seen))
       return IcpStop::kObserver;
+    if (limit <= o_.max_distance && isErrorAtRest(step.rms, seen.translation))
+      return IcpStop::kAtRest;
     if (limit <= o_.max_distance && seen.translation <= o_.translation_epsilon &&
         seen.rotation <= o_.rotation_epsilon &&
         std::abs(step.scale - 1) <= o_.rotation_epsilon)
       return IcpStop::kAtRest;
     return std::nullopt;
+  }
+
+  /** Whether the error no longer changes: by the share that was asked for; or, if others'
+   * classes choose pairs or steps in float, by no more than its rounding, or not downwards
+   * in many steps shorter than it: their pairs may come and go for ever. */
+  bool
+  isErrorAtRest(double rms, double way)
+  {
+    const double change = std::abs(rms * rms - last_rms_ * last_rms_);
+    const bool is_small =
+        last_rms_ >= 0 && change < o_.error_epsilon * last_rms_ * last_rms_;
+    const bool is_rounding = std::abs(rms - last_rms_) <= kFloatRounding * extent_;
+    last_rms_ = rms;
+    still_ = is_rounding ? still_ + 1 : 0;
+    const bool is_lower = rms < (1 - kLowerShare) * lowest_rms_;
+    idle_ = is_lower || way > rms ? 0 : idle_ + 1;
+    lowest_rms_ = is_lower ? rms : lowest_rms_;
+    return is_small ||
+           (has_foreign_steps_ && (still_ >= kStillSteps || idle_ >= kIdleSteps));
   }
 
   /** \return how far points will move before they are at rest, [m]; 0 while that is so far
@@ -218,8 +246,8 @@ private:
     const std::size_t finite = countFinite(source_);
     result_.overlap = finite > 0 ? static_cast<double>(pairs_found_) / finite : 0;
     problem_.rate(finder_.partners(), result_);
-    result_.localizability =
-        sampledLocalizability(target_, source_, placement(), finder_.partners());
+    result_.localizability = sampledLocalizability(
+        target_, source_, placement(), finder_.partners(), o_.metric);
     if (result_.status == Status::kOk && result_.localizability &&
         result_.localizability->openDirections() > 0)
       result_.status = Status::kRankDeficient;
@@ -234,12 +262,17 @@ private:
   CorrespondenceSearch finder_;
   IcpMetric problem_;
   double extent_;
+  bool has_foreign_steps_;
   IcpResult result_;
   bool is_unique_ = true; ///< of the last step: the pairs fixed it
   double next_motion_ = 0;
   std::size_t pairs_found_ = 0; ///< before trimming
   double least_residual_ = std::numeric_limits<double>::infinity();
   std::size_t pairs_at_least_ = 0;
+  double last_rms_ = -1; ///< [m] of the iteration before; -1: none
+  double lowest_rms_ = std::numeric_limits<double>::infinity();
+  int still_ = 0; ///< iterations without a change of it
+  int idle_ = 0;  ///< iterations without progress
 };
 
 void
@@ -259,7 +292,7 @@ requireUsable(const IcpTarget& target,
 {
   options.validate();
   require(source.points != nullptr, "source points", "null", "given");
-  if (options.metric == Metric::kGicp)
+  if (options.metric == Metric::kGicp || options.symmetric)
     requireNormals(source.normals, *source.points, "source normals");
   for (const auto& part : target) {
     require(part.points && (part.tree || part.search || hooks.find),

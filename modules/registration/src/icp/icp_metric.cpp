@@ -41,6 +41,10 @@ stepOf(const Sums& sums, double distance_sq, double residual_sq)
   return step;
 }
 
+/** Cosine of 60 degrees: points whose normals stand farther apart lie on two surfaces, such as
+ * floor and wall near their edge, and the sum of their normals is that of neither. */
+constexpr double kSameSurface = 0.5;
+
 double
 squared(double x)
 {
@@ -127,9 +131,27 @@ IcpMetric::planeSums(const Eigen::Isometry3d& T,
         const Eigen::Vector3d m = partner.point.cast<double>();
         if (planes)
           sums.addNorm(p, m, normOf(T, partner, i), partner.weight);
+        else if (options_.symmetric)
+          sums.add((p + m) / 2,
+                   (p + m) / 2 + (m - p),
+                   sumOfNormals(T, partner, i),
+                   partner.weight);
         else
           sums.add(p, m, partner.normal.cast<double>(), partner.weight);
       });
+}
+
+Eigen::Vector3d
+IcpMetric::sumOfNormals(const Eigen::Isometry3d& T,
+                        const Partner& partner,
+                        std::size_t i) const
+{
+  const Eigen::Vector3d n = partner.normal.cast<double>();
+  const Eigen::Vector3d own =
+      T.linear() * (*source_.normals)[i].cast<double>().stableNormalized();
+  if (std::abs(n.dot(own)) < kSameSurface)
+    return Eigen::Vector3d::Zero();
+  return options_.align_normals && n.dot(own) < 0 ? Eigen::Vector3d(n - own) : n + own;
 }
 
 Eigen::Matrix3d

@@ -41,6 +41,10 @@ private:
   PlaneSums
   planeSums(const Eigen::Isometry3d& T, const std::vector<Partner>& partners) const;
 
+  /** The normal of a pair of a symmetric objective. */
+  Eigen::Vector3d
+  sumOfNormals(const Eigen::Isometry3d& T, const Partner& partner, std::size_t i) const;
+
   /** N of a pair, for kGicp. */
   Eigen::Matrix3d
   normOf(const Eigen::Isometry3d& T, const Partner& partner, std::size_t i) const;

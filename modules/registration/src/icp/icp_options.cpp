@@ -90,10 +90,18 @@ IcpOptions::validate() const
           "estimate_scale",
           "true",
           "false for the metrics with planes, whose minimisers have no scale");
+  require(!symmetric || metric == Metric::kPlane,
+          "symmetric",
+          "true",
+          "false but for the metric plane");
   require(max_scale > 1, "max_scale", max_scale, "> 1");
   require(kept_share > 0 && kept_share <= 1, "kept_share", kept_share, "in (0, 1]");
   require(translation_epsilon >= 0, "translation_epsilon", translation_epsilon, ">= 0");
   require(rotation_epsilon >= 0, "rotation_epsilon", rotation_epsilon, ">= 0");
+  require(error_epsilon >= 0 && error_epsilon < 1,
+          "error_epsilon",
+          error_epsilon,
+          "in [0, 1)");
   require(minimiser != nullptr, "minimiser", "none", "a function");
   require(plane_minimiser != nullptr, "plane_minimiser", "none", "a function");
 }

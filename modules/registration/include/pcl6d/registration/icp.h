@@ -43,6 +43,9 @@ struct IcpTargetPart {
   std::function<Neighbour(const Eigen::Vector3f&, float)> search = {};
   /** kNeighbours only if it is so for all parts of a target */
   SearchMemory memory = SearchMemory::kNeighbours;
+  /** with another search, the k nearest points: places and squared distances, sorted */
+  std::function<std::vector<Neighbour>(const Eigen::Vector3f&, std::size_t)> search_k =
+      {};
 };
 
 /** \brief The model of ICP: the union of its parts, each with a tree of its own, so
@@ -73,9 +76,14 @@ struct IcpIteration {
 /** \brief Called after each iteration. \return false to stop (status kMaxIterations) */
 using IcpObserver = std::function<bool(const IcpIteration&)>;
 
+/** \brief Called after each iteration with the pairs that counted in it. */
+using IcpPairsObserver =
+    std::function<void(const IcpIteration&, const std::vector<IcpPair>&)>;
+
 /** \brief Places where a caller may take part. Those of pairs need a target of one part. */
 struct IcpHooks {
   IcpObserver observer;
+  IcpPairsObserver pairs_observer;
   /** finds the pairs at a pose within a distance [m], in place of the tree; of several
    * pairs of one source point the closest counts */
   std::function<std::vector<IcpPair>(const Eigen::Isometry3d&, double)> find;
@@ -89,7 +97,7 @@ struct IcpHooks {
 
 /** \brief Why ICP stopped. */
 enum class IcpStop {
-  kAtRest,         ///< the step was within both thresholds
+  kAtRest,         ///< the step was within both thresholds, or the error did not change
   kIterationLimit, ///< max_iterations
   kObserver,       ///< the observer said so
   kTooFewPairs,    ///< fewer than 3 pairs
@@ -121,8 +129,9 @@ struct IcpResult {
    * direction open; none without 3 pairs or near a pitch of a right angle */
   std::optional<PoseInformation> information;
   std::optional<PoseCovariance> covariance; ///< its inverse, if the pairs fix the pose
-  /** which motions the surfaces fix, and how well; none if the target has neither
-   * tree nor normals */
+  /** which motions the pairs fix, and how well: of planes and surfaces by their normals, of
+   * points that lie on their partners by the points; none if the target has neither tree,
+   * search of several points nor normals */
   std::optional<Localizability> localizability;
 };
 

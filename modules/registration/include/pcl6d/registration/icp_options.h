@@ -60,6 +60,12 @@ struct IcpOptions {
   /** of kGicp: pairs whose normals point apart do not count, such as those of the two
    * faces of a wall; for normals that point to the scanner, as estimateNormals() makes */
   bool facing_normals = false;
+  /** of kPlane: the normal of a pair is the sum of both of its points', and its lever their
+   * middle, so that curved surfaces glide into place (Rusinkiewicz, "A symmetric objective
+   * function for ICP", SIGGRAPH 2019); needs source normals */
+  bool symmetric = false;
+  /** then, whether a normal of the source is turned towards that of its partner */
+  bool align_normals = true;
   int max_iterations = 100;      ///< > 0
   double max_distance = 0.25;    ///< [m] farther pairs are dropped; > 0
   double max_distance_start = 0; ///< [m] the limit at the start, which then shrinks to
@@ -80,6 +86,9 @@ struct IcpOptions {
   double translation_epsilon = 1e-4; ///< [m] stop at a step no longer ...
   double rotation_epsilon = 1e-5;    ///< [rad] ... that also turns no more (and scales
                                      ///< by no larger a share); >= 0
+  /** stop also when the mean squared distance of the pairs changes by a smaller share; 0:
+   * never, the motion decides. In [0, 1) */
+  double error_epsilon = 0;
   bool remember_neighbours = true; ///< false: SearchMemory::kNeighbours counts as kNone
   unsigned int num_threads = 0;    ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */

@@ -8,6 +8,8 @@
 
 #include <pcl/registration/registration.h>
 
+#include <algorithm>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief ICP with six degrees of freedom as a drop-in pcl::Registration, which says
@@ -24,18 +26,21 @@ namespace PCL6D_EXPORTS pcl6d {
  * Normals are those of the point type if it has them and they are filled in, else they
  * are estimated, towards the origin.
  *
- * PCL's setters are honoured: setMaximumIterations (100 unless set),
- * setMaxCorrespondenceDistance (no limit unless set), setTransformationEpsilon (squared
- * [m^2], as in PCL), setTransformationRotationEpsilon (cosine, as in PCL), setIndices,
+ * PCL's setters are honoured: setMaximumIterations (100 unless set; 0 is one, as in PCL),
+ * setMaxCorrespondenceDistance (no limit unless set; none is within 0),
+ * setTransformationEpsilon (squared [m^2], and, unless the next one is set, 1 minus the
+ * cosine of the turn, as in PCL), setTransformationRotationEpsilon (cosine, as in PCL),
+ * setEuclideanFitnessEpsilon (relative change of the mean squared distance), setIndices,
  * setTransformationEstimation (ours, points to points or to planes, which sets the metric;
- * also PCL's), setCorrespondenceEstimation, addCorrespondenceRejector,
+ * also PCL's; one with a scale estimates it, see setEstimateScale()),
+ * setCorrespondenceEstimation, addCorrespondenceRejector, setPointRepresentation (then
+ * neighbours are searched by FLANN), registerVisualizationCallback,
  * setSearchMethodTarget (a CachedKdTree: each source point starts at the leaf of its last
  * neighbour; else it is searched only when it may have a new one, see SearchMethod). The
- * target's tree is built once; FLANN never, unless it is given as search method. Without
- * effect: setEuclideanFitnessEpsilon, the RANSAC settings,
- * visualisation callbacks (see setObserver()). align() never throws on data, be they empty or
- * NaN; not converged, getFinalTransformation() is the last good estimate or the guess. What a
- * plugged class throws passes through.
+ * target's tree is built once; FLANN never, unless it is asked for. Without
+ * effect, as with PCL's own class: the RANSAC settings. align() never throws on data, be
+ * they empty or NaN; not converged, getFinalTransformation() is the last good estimate or the
+ * guess. What a plugged class throws passes through. Not copied, as PCL's class.
  * \code
  * pcl6d::ICP6D<pcl::PointXYZ, pcl::PointXYZ> icp;
  * icp.setInputSource(data);
@@ -58,9 +63,13 @@ public:
   using ConstPtr = pcl::shared_ptr<const ICP6D<PointSource, PointTarget, Scalar>>;
 
   ICP6D();
+  ICP6D(const ICP6D&) = delete;
+  ICP6D&
+  operator=(const ICP6D&) = delete;
 
-  /** \brief Unlike PCL, takes an empty cloud, too: align() then says kTooFewPairs.
-   * \throws BadArgument the cloud is null, or has no point of a given index */
+  /** \brief Unlike PCL, takes an empty cloud, too: align() then says kTooFewPairs. Indices
+   * that it has no point of must be set anew before align().
+   * \throws BadArgument the cloud is null */
   void
   setInputSource(const typename Base::PointCloudSourceConstPtr& cloud) override;
 
@@ -104,6 +113,14 @@ public:
     normal_neighbours_ = neighbours;
   }
 
+  /** \brief Whether hasConverged() is true at the iteration limit, too, as in PCL; false
+   * unless set. result() says in any case which it was. */
+  void
+  setIterationLimitConverges(bool converges)
+  {
+    iteration_limit_converges_ = converges;
+  }
+
   /** \brief Less weight for pairs that are far apart; none unless set. */
   void
   setRobustKernel(RobustKernel kernel)
@@ -113,7 +130,8 @@ public:
 
   /** \brief Whether the source is scaled, too: by Horn's unit quaternion with scale, in
    * place of the transformation estimation; false unless set. getFinalTransformation() then
-   * is s R and t as with PCL's TransformationEstimationSVDScale, result() has both apart. A
+   * is s R and t as with PCL's TransformationEstimationSVDScale, result() has both apart; that
+   * class and TransformationEstimationScaleQuaternion, given as estimation, set it. A
    * guess is a rigid motion. Points to points only, and without correspondence estimations,
    * rejectors, estimations of PCL's and reciprocal pairs. \throws BadArgument by align(), if
    * any of them is set */
@@ -135,6 +153,11 @@ public:
   setUseReciprocalCorrespondences(bool reciprocal)
   {
     reciprocal_ = reciprocal;
+  }
+  bool
+  getUseReciprocalCorrespondences() const
+  {
+    return reciprocal_;
   }
 
   /** \brief Limit of the pair distance at the start [m], which shrinks by a tenth per
@@ -166,13 +189,16 @@ public:
   }
 
 protected:
-  /** \throws BadArgument a setting breaks its rule, or the search method was built from
-   * another cloud than the target */
+  /** \throws BadArgument a setting breaks its rule, the source has no point of an index, the
+   * search method was built from another cloud than the target, or a given estimation makes
+   * what is no motion */
   void
   computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
 
   IcpOptions options_; ///< what PCL's base class has no member for
   std::size_t normal_neighbours_ = 20;
+  /** whether setTransformationEpsilon() is the square of a length, and a turn */
+  bool epsilon_is_squared_ = true;
 
 private:
   struct Target;
@@ -181,7 +207,7 @@ private:
   IcpOptions
   effectiveOptions() const;
   void
-  makeTarget(const IcpOptions& options);
+  makeTarget();
   void
   makeNormals(const IcpOptions& options);
   Sides
@@ -194,16 +220,26 @@ private:
         PointCloudSource& output);
   void
   moveOutput(PointCloudSource& output) const;
+  void
+  addObservers(IcpHooks& hooks, const Eigen::Vector3d& origin);
+  void
+  showPairs(const IcpIteration& seen, const std::vector<IcpPair>& pairs);
 
   bool reciprocal_ = false;
+  bool iteration_limit_converges_ = false;
+  bool has_stale_indices_ = false; ///< they are not of the source
   IcpObserver observer_;
+  Eigen::Affine3d last_pose_ = Eigen::Affine3d::Identity(); ///< in the target's frame
+  Eigen::Affine3d last_step_ = Eigen::Affine3d::Identity();
   std::shared_ptr<Target> made_; ///< of the target; null: to be made
   IcpResult result_;
 };
 
 /** \brief Generalized-ICP as a drop-in for pcl::GeneralizedIterativeClosestPoint: ICP6D
  * with Metric::kGicp. Takes one Gauss-Newton step between two searches, so that PCL's
- * settings of the inner optimizer have no counterpart.
+ * settings of the inner optimizer have no counterpart. Its defaults are PCL's: 5 m, 200
+ * iterations, at rest below 5e-4 m (setTransformationEpsilon(), here not squared) and 2e-3 rad
+ * in a step.
  * \note Source: A. Segal, D. Haehnel, S. Thrun, "Generalized-ICP", RSS 2009.
  * \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
@@ -216,13 +252,116 @@ public:
   {
     this->reg_name_ = "GICP6D";
     this->setMetric(Metric::kGicp);
+    this->max_iterations_ = 200; // all as in PCL
+    this->corr_dist_threshold_ = 5;
+    this->transformation_epsilon_ = 5e-4;
+    this->options_.rotation_epsilon = 2e-3;
+    this->epsilon_is_squared_ = false;
   }
 
-  /** \brief PCL's name for setNormalNeighbours(). */
+  /** \brief Stop when a step also turns less [rad]; 2e-3 unless set. */
+  void
+  setRotationEpsilon(double epsilon)
+  {
+    this->options_.rotation_epsilon = epsilon;
+  }
+  double
+  getRotationEpsilon() const
+  {
+    return this->options_.rotation_epsilon;
+  }
+
+  /** \brief PCL's name for setNormalNeighbours(); less than 3 count as 3, more than 64 as
+   * 64. */
   void
   setCorrespondenceRandomness(int neighbours)
   {
-    this->setNormalNeighbours(neighbours > 0 ? neighbours : 0);
+    this->setNormalNeighbours(std::clamp(neighbours, 3, 64));
+  }
+  int
+  getCorrespondenceRandomness() const
+  {
+    return static_cast<int>(this->normal_neighbours_);
+  }
+
+  /** \brief PCL's settings of the optimizer between two searches, kept for their getters. The
+   * one step that stands in its place is exact for the linear problem, and ICP repeats it. */
+  void
+  setMaximumOptimizerIterations(int count)
+  {
+    optimizer_iterations_ = count;
+  }
+  int
+  getMaximumOptimizerIterations() const
+  {
+    return optimizer_iterations_;
+  }
+  void
+  setTranslationGradientTolerance(double tolerance)
+  {
+    translation_gradient_ = tolerance;
+  }
+  double
+  getTranslationGradientTolerance() const
+  {
+    return translation_gradient_;
+  }
+  void
+  setRotationGradientTolerance(double tolerance)
+  {
+    rotation_gradient_ = tolerance;
+  }
+  double
+  getRotationGradientTolerance() const
+  {
+    return rotation_gradient_;
+  }
+
+private:
+  int optimizer_iterations_ = 20;
+  double translation_gradient_ = 1e-2;
+  double rotation_gradient_ = 1e-2;
+};
+
+/** \brief ICP by points and planes as a drop-in for pcl::IterativeClosestPointWithNormals:
+ * ICP6D with Metric::kPlane, and its symmetric objective. Normals that the points do not have
+ * are estimated. \ingroup registration */
+template <typename PointSource, typename PointTarget, typename Scalar = float>
+class ICP6DWithNormals : public ICP6D<PointSource, PointTarget, Scalar> {
+public:
+  using Ptr = pcl::shared_ptr<ICP6DWithNormals<PointSource, PointTarget, Scalar>>;
+  using ConstPtr =
+      pcl::shared_ptr<const ICP6DWithNormals<PointSource, PointTarget, Scalar>>;
+
+  ICP6DWithNormals()
+  {
+    this->reg_name_ = "ICP6DWithNormals";
+    this->setMetric(Metric::kPlane);
+  }
+
+  /** \brief Whether the normals of both sides count (IcpOptions::symmetric); false unless
+   * set. */
+  void
+  setUseSymmetricObjective(bool symmetric)
+  {
+    this->options_.symmetric = symmetric;
+  }
+  bool
+  getUseSymmetricObjective() const
+  {
+    return this->options_.symmetric;
+  }
+
+  /** \brief Whether then a normal is turned towards its partner's; true unless set. */
+  void
+  setEnforceSameDirectionNormals(bool enforce)
+  {
+    this->options_.align_normals = enforce;
+  }
+  bool
+  getEnforceSameDirectionNormals() const
+  {
+    return this->options_.align_normals;
   }
 };
 
@@ -231,4 +370,5 @@ public:
 namespace PCL6D_EXPORTS pcl6d {
 PCL6D_DECLARE_PAIR_INSTANCES(ICP6D)
 PCL6D_DECLARE_PAIR_INSTANCES(GICP6D)
+PCL6D_DECLARE_PAIR_INSTANCES(ICP6DWithNormals)
 } // namespace pcl6d

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace PCL6D_EXPORTS pcl6d {
@@ -30,6 +31,7 @@ struct ICP6D<PointSource, PointTarget, Scalar>::Target {
   std::shared_ptr<const PointTree> tree;
   SearchMemory memory = SearchMemory::kNeighbours;
   std::function<Neighbour(const Eigen::Vector3f&, float)> search;
+  std::function<std::vector<Neighbour>(const Eigen::Vector3f&, std::size_t)> search_k;
   Normals normals; ///< if a metric needed them
   std::size_t normal_neighbours = 0;
 };
@@ -52,128 +54,29 @@ ICP6D<PointSource, PointTarget, Scalar>::ICP6D()
       new TransformationEstimationQuaternion<PointSource, PointTarget, Scalar>);
 }
 
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setInputSource(
-    const typename Base::PointCloudSourceConstPtr& cloud)
-{
-  registration::requireGiven(cloud, "the input source");
-  if (this->use_indices_ && this->indices_)
-    requireIndices(*this->indices_, cloud->size());
-  this->source_cloud_updated_ = true;
-  pcl::PCLBase<PointSource>::setInputCloud(cloud);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setInputTarget(
-    const typename Base::PointCloudTargetConstPtr& cloud)
-{
-  registration::requireGiven(cloud, "the input target");
-  this->target_ = cloud;
-  this->target_cloud_updated_ = true;
-  made_.reset();
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setIndices(const pcl::IndicesPtr& indices)
-{
-  registration::requireGiven(indices, "the indices");
-  if (this->input_)
-    requireIndices(*indices, this->input_->size());
-  Base::setIndices(indices);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setIndices(const pcl::IndicesConstPtr& indices)
-{
-  registration::requireGiven(indices, "the indices");
-  if (this->input_)
-    requireIndices(*indices, this->input_->size());
-  Base::setIndices(indices);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setIndices(
-    const typename Base::PointIndicesConstPtr& indices)
-{
-  registration::requireGiven(indices, "the indices");
-  if (this->input_)
-    requireIndices(indices->indices, this->input_->size());
-  Base::setIndices(indices);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setSearchMethodTarget(
-    const typename Base::KdTreePtr& tree,
-    bool force_no_recompute)
-{
-  registration::requireGiven(tree, "the search method");
-  Base::setSearchMethodTarget(tree, force_no_recompute);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setTransformationEstimation(
-    const typename Base::TransformationEstimationPtr& estimation)
-{
-  registration::requireGiven(estimation, "the transformation estimation");
-  Base::setTransformationEstimation(estimation);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::addCorrespondenceRejector(
-    const typename Base::CorrespondenceRejectorPtr& rejector)
-{
-  registration::requireGiven(rejector, "the correspondence rejector");
-  Base::addCorrespondenceRejector(rejector);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setMotionEpsilon(double translation,
-                                                          double rotation)
-{
-  options_.translation_epsilon = translation;
-  options_.rotation_epsilon = rotation;
-  this->transformation_epsilon_ = 0; // the last setter wins
-  this->transformation_rotation_epsilon_ = 0;
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setNumberOfThreads(unsigned int num_threads)
-{
-  options_.num_threads = num_threads;
-  if (const auto tree = std::dynamic_pointer_cast<KdTree<PointTarget>>(this->tree_))
-    tree->setNumberOfThreads(num_threads);
-}
-
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::setObserver(IcpObserver observer)
-{
-  observer_ = std::move(observer);
-}
-
 /** PCL's setters are not virtual and write members of the base; they are read here. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 IcpOptions
 ICP6D<PointSource, PointTarget, Scalar>::effectiveOptions() const
 {
   IcpOptions options = options_;
-  options.max_iterations = this->max_iterations_;
-  options.max_distance = this->corr_dist_threshold_;
-  if (this->transformation_epsilon_ > 0)
-    options.translation_epsilon = std::sqrt(this->transformation_epsilon_);
+  options.max_iterations = std::max(1, this->max_iterations_); // PCL tries at least one
+  options.max_distance =
+      std::max(this->corr_dist_threshold_, std::numeric_limits<double>::min());
+  const double epsilon = this->transformation_epsilon_;
+  if (epsilon > 0) {
+    options.translation_epsilon = epsilon_is_squared_ ? std::sqrt(epsilon) : epsilon;
+    if (epsilon_is_squared_)
+      options.rotation_epsilon = portableAcos(std::max(-1.0, 1 - epsilon));
+  }
   if (this->transformation_rotation_epsilon_ > 0)
     options.rotation_epsilon =
         portableAcos(std::min(1.0, this->transformation_rotation_epsilon_));
+  if (this->euclidean_fitness_epsilon_ > 0)
+    options.error_epsilon = std::min(this->euclidean_fitness_epsilon_, 0.999);
+  if (registration::hasScale<PointSource, PointTarget, Scalar>(
+          *this->transformation_estimation_))
+    options.estimate_scale = true;
   using ToPoints = SumsEstimation<PointSource, PointTarget, Scalar>;
   if (const auto estimation =
           std::dynamic_pointer_cast<const ToPoints>(this->transformation_estimation_))
@@ -196,8 +99,10 @@ ICP6D<PointSource, PointTarget, Scalar>::effectiveOptions() const
 /** Makes the target for the core, unless it is made. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
-ICP6D<PointSource, PointTarget, Scalar>::makeTarget(const IcpOptions& options)
+ICP6D<PointSource, PointTarget, Scalar>::makeTarget()
 {
+  if (registration::isOfOtherCoordinates<PointTarget>(*this->tree_)) // set by align()
+    this->tree_->setInputCloud(this->tree_->getInputCloud(), this->tree_->getIndices());
   if (!this->tree_->getInputCloud()) // given by setSearchMethodTarget() without a cloud
     this->tree_->setInputCloud(this->target_);
   if (this->tree_->getInputCloud() != this->target_)
@@ -222,9 +127,9 @@ ICP6D<PointSource, PointTarget, Scalar>::makeTarget(const IcpOptions& options)
     if (std::dynamic_pointer_cast<CachedKdTree<PointTarget>>(this->tree_))
       made_->memory = SearchMemory::kLeaves;
   }
-  else { // a tree of ours all the same, which judges how well the surfaces fix the pose
+  else {
     made_->search = registration::searchOf<PointTarget>(this->tree_);
-    made_->tree = std::make_shared<PointTree>(made_->points, options.num_threads);
+    made_->search_k = registration::searchOfSeveral<PointTarget>(this->tree_);
   }
 }
 
@@ -248,13 +153,13 @@ template <typename PointSource, typename PointTarget, typename Scalar>
 typename ICP6D<PointSource, PointTarget, Scalar>::Sides
 ICP6D<PointSource, PointTarget, Scalar>::sides(const IcpOptions& options)
 {
-  makeTarget(options);
+  makeTarget();
   if (options.metric != Metric::kPoint)
     makeNormals(options);
   Sides sides;
   sides.target = made_;
   sides.source = toPoints(*this->input_, *this->indices_);
-  if (options.metric == Metric::kGicp)
+  if (options.metric == Metric::kGicp || options.symmetric)
     sides.source_normals = registration::normalsOf(*this->input_,
                                                    *this->indices_,
                                                    sides.source,
@@ -264,6 +169,51 @@ ICP6D<PointSource, PointTarget, Scalar>::sides(const IcpOptions& options)
   return sides;
 }
 
+/** Observers of each iteration: what PCL keeps of it, and the caller's. */
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::addObservers(IcpHooks& hooks,
+                                                      const Eigen::Vector3d& origin)
+{
+  const auto in_target = [origin](const IcpIteration& centred) {
+    IcpIteration seen = centred;
+    seen.T_target_source.pretranslate(origin);
+    return seen;
+  };
+  hooks.observer = [this, in_target](const IcpIteration& centred) {
+    const IcpIteration seen = in_target(centred);
+    Eigen::Affine3d now = seen.T_target_source;
+    now.linear() *= seen.scale;
+    last_step_ = now * last_pose_.inverse();
+    last_pose_ = now;
+    return !observer_ || observer_(seen);
+  };
+  if (this->update_visualizer_)
+    hooks.pairs_observer = [this, in_target](const IcpIteration& centred,
+                                             const std::vector<IcpPair>& pairs) {
+      showPairs(in_target(centred), pairs);
+    };
+}
+
+/** Calls PCL's visualisation callback as pcl::IterativeClosestPoint does: all chosen points
+ * after the step, and the indices of both sides of the pairs. */
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::showPairs(const IcpIteration& seen,
+                                                   const std::vector<IcpPair>& pairs)
+{
+  Eigen::Affine3d pose = seen.T_target_source;
+  pose.linear() *= seen.scale;
+  PointCloudSource moved;
+  pcl::transformPointCloud(*this->input_, *this->indices_, moved, pose.matrix());
+  pcl::Indices of_source, of_target;
+  for (const auto& pair : pairs) {
+    of_source.push_back(pair.source);
+    of_target.push_back(made_->indices[pair.target]);
+  }
+  this->update_visualizer_(moved, of_source, *this->target_, of_target);
+}
+
 template <typename PointSource, typename PointTarget, typename Scalar>
 IcpHooks
 ICP6D<PointSource, PointTarget, Scalar>::hooks(const Sides& sides,
@@ -271,25 +221,27 @@ ICP6D<PointSource, PointTarget, Scalar>::hooks(const Sides& sides,
 {
   using Adapter = registration::PclAdapter<PointSource, PointTarget, Scalar>;
   IcpHooks hooks;
-  if (observer_)
-    hooks.observer = [this, &sides](const IcpIteration& centred) {
-      IcpIteration seen = centred;
-      seen.T_target_source.pretranslate(sides.target->origin);
-      return observer_(seen);
-    };
+  addObservers(hooks, sides.target->origin);
   const auto adapter = std::make_shared<Adapter>(
       this->input_, this->indices_, this->target_, this->tree_, sides.target->origin);
   if (this->correspondence_estimation_)
     hooks.find = adapter->finder(this->correspondence_estimation_, reciprocal_);
+  else if (registration::isOfOtherCoordinates<PointTarget>(*this->tree_))
+    hooks.find = adapter->finder(
+        pcl::make_shared<pcl::registration::CorrespondenceEstimation<PointSource,
+                                                                     PointTarget,
+                                                                     Scalar>>(),
+        reciprocal_);
   std::vector<registration::Rejector> rejectors;
-  if (reciprocal_ && !this->correspondence_estimation_)
+  if (reciprocal_ && !hooks.find)
     rejectors.push_back(registration::reciprocal(
         sides.source, sides.target->points, options.num_threads));
   for (const auto& rejector : this->correspondence_rejectors_)
     rejectors.push_back(adapter->rejector(rejector));
   if (!rejectors.empty())
     hooks.reject = registration::inTurn(std::move(rejectors));
-  if (!registration::isOurs<PointSource, PointTarget, Scalar>(
+  if (!options.estimate_scale &&
+      !registration::isOurs<PointSource, PointTarget, Scalar>(
           *this->transformation_estimation_))
     hooks.minimise = adapter->minimiser(this->transformation_estimation_);
   return hooks;
@@ -301,6 +253,10 @@ ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource&
                                                                const Matrix4& guess)
 {
   result_ = IcpResult();
+  if (has_stale_indices_)
+    throw BadArgument(
+        "ICP6D: the indices are those of an earlier source; the one that is "
+        "set has fewer points");
   registration::requireGiven(this->transformation_estimation_,
                              "the transformation estimation");
   for (const auto& rejector : this->correspondence_rejectors_)
@@ -309,6 +265,8 @@ ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource&
   options.validate();
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   start.matrix() = guess.template cast<double>();
+  last_pose_ = start;
+  last_step_ = Eigen::Affine3d::Identity();
   if (this->input_->empty() || this->target_->empty()) {
     IcpResult nothing;
     nothing.T_target_source = start;
@@ -321,9 +279,10 @@ ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource&
   part.points = &target.points;
   part.normals = options.metric == Metric::kPoint ? nullptr : &target.normals;
   part.search = target.search;
+  part.search_k = target.search_k;
   part.memory = target.memory;
   IcpSource source{&sides.source, nullptr};
-  if (options.metric == Metric::kGicp)
+  if (options.metric == Metric::kGicp || options.symmetric)
     source.normals = &sides.source_normals;
   start.pretranslate(-target.origin);
   store(icp({part}, source, start, options, hooks(sides, options)),
@@ -341,12 +300,14 @@ ICP6D<PointSource, PointTarget, Scalar>::store(const IcpResult& found,
   result_.T_target_source.pretranslate(origin);
   if (result_.localizability)
     result_.localizability->centroid += origin;
-  this->converged_ = result_.status == Status::kOk;
+  this->converged_ =
+      result_.status == Status::kOk ||
+      (iteration_limit_converges_ && result_.stop == IcpStop::kIterationLimit);
   this->nr_iterations_ = result_.iterations;
   Eigen::Affine3d scaled = result_.T_target_source;
   scaled.linear() *= result_.scale;
   this->final_transformation_ = scaled.matrix().template cast<Scalar>();
-  this->transformation_ = this->final_transformation_;
+  this->transformation_ = last_step_.matrix().template cast<Scalar>();
   moveOutput(output);
 }
 
@@ -369,3 +330,4 @@ ICP6D<PointSource, PointTarget, Scalar>::moveOutput(PointCloudSource& output) co
 }
 
 } // namespace pcl6d
+#include <pcl6d/registration/pcl/impl/icp6d_setters.hpp>

@@ -5,6 +5,7 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/registration/icp.h>
 #include <pcl6d/registration/pcl/sums_estimation.h>
+#include <pcl6d/registration/pcl/transformation_estimation_scale_quaternion.h>
 #include <pcl6d/search/pcl/core_search.h>
 
 #include <pcl/common/transforms.h>
@@ -12,7 +13,9 @@
 #include <pcl/registration/correspondence_estimation.h>
 #include <pcl/registration/correspondence_rejection.h>
 #include <pcl/registration/registration.h>
+#include <pcl/registration/transformation_estimation_svd_scale.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -121,6 +124,58 @@ searchOf(const typename pcl::search::KdTree<PointT>::Ptr& tree)
       };
 }
 
+/** \return the same for several points, nearest first */
+template <typename PointT>
+std::function<std::vector<Neighbour>(const Eigen::Vector3f&, std::size_t)>
+searchOfSeveral(const typename pcl::search::KdTree<PointT>::Ptr& tree)
+{
+  const auto place = placesIn(tree->getIndices(), tree->getInputCloud()->size());
+  return [tree, place](const Eigen::Vector3f& query, std::size_t k) {
+    std::vector<Neighbour> found;
+    if (!query.allFinite() || tree->getInputCloud()->empty())
+      return found;
+    PointT point;
+    point.getVector3fMap() = query;
+    pcl::Indices index;
+    std::vector<float> distance_sq;
+    const int count =
+        tree->nearestKSearch(point, static_cast<int>(k), index, distance_sq);
+    for (int i = 0; i < count; ++i)
+      found.push_back({place.empty() ? index[i] : place.at(index[i]), distance_sq[i]});
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+}
+
+/** \return whether distances are not those of x, y, z (setPointRepresentation()) */
+template <typename PointT>
+bool
+isOfOtherCoordinates(const pcl::search::KdTree<PointT>& tree)
+{
+  const auto representation = tree.getPointRepresentation();
+  return representation &&
+         (!representation->isTrivial() || representation->getNumberOfDimensions() != 3);
+}
+
+/** \return whether an estimation is one of those that scale, PCL's or ours */
+template <typename PointSource, typename PointTarget, typename Scalar>
+bool
+hasScale(
+    const pcl::registration::TransformationEstimation<PointSource, PointTarget, Scalar>&
+        estimation)
+{
+  using Pcl = pcl::registration::
+      TransformationEstimationSVDScale<PointSource, PointTarget, Scalar>;
+  using Ours =
+      TransformationEstimationScaleQuaternion<PointSource, PointTarget, Scalar>;
+  return dynamic_cast<const Pcl*>(&estimation) ||
+         dynamic_cast<const Ours*>(&estimation);
+}
+
+/** \throws BadArgument a matrix that an estimation made is finite and no motion */
+void
+requireMotion(const Eigen::Matrix4d& matrix);
+
 /** \return whether icp() itself can do what an estimation does */
 template <typename PointSource,
           typename PointTarget,
@@ -224,6 +279,7 @@ public:
           *self->moved_, *self->target_, self->toPcl(pairs), motion);
       RigidEstimate step{Status::kOk, Eigen::Isometry3d::Identity()};
       step.transform.matrix() = motion.template cast<double>();
+      requireMotion(step.transform.matrix());
       step.transform.translate(self->origin_);
       step.transform.pretranslate(-self->origin_);
       return step;

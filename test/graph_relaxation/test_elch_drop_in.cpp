@@ -135,6 +135,27 @@ TEST(ElchDropIn, RegistersTheLoopAndSpreadsItsError)
       2 * kTol); // PCL moves by the product of two motions, rounded to float
 }
 
+TEST(ElchDropIn, ClosesTheLoopAtTheIterationLimitAndSaysSo)
+{
+  Elch elch;
+  Random random(10);
+  std::vector<pcl::PointCloud<Point>::Ptr> clouds;
+  for (int i = 0; i < 4; ++i) {
+    clouds.push_back(toCloud<Point>(transformed(
+        roomCorner(random, 1500, 4, 0.003),
+        poseFromEuler({0.03 * i, -0.02 * i, 0.01 * i}, {0, 0, 0.004 * i}))));
+    elch.addPointCloud(clouds.back());
+  }
+  const Eigen::Vector3f before = clouds[3]->front().getVector3fMap();
+  elch.setLoopEnd(3);
+  elch.getReg()->setMaximumIterations(3);
+  elch.compute();
+#ifndef PCL6D_TEST_PEER
+  EXPECT_EQ(elch.status(), Status::kMaxIterations);
+#endif
+  EXPECT_GT((clouds[3]->front().getVector3fMap() - before).norm(), 0.01f);
+}
+
 TEST(ElchDropIn, GivesBackWhatWasSet)
 {
   Elch elch = makeRow();

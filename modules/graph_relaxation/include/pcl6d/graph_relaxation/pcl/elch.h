@@ -18,19 +18,19 @@ namespace PCL6D_EXPORTS pcl6d {
  * the first has seen.
  *
  * compute() registers the end of the loop with its start, both with their neighbours, and
- * spreads the motion over the graph. Then each vertex holds a new, moved cloud and the
- * motion that moved it.
+ * spreads the motion over the graph. Then the clouds are moved, as in PCL, and each vertex
+ * holds the motion that moved its own.
  *
  * Differences:
- * - the caller's clouds stay as they are, unless setModifyInputClouds(true) (PCL moves
- *   their points);
+ * - setModifyInputClouds(false) leaves the caller's clouds as they are: vertices then hold
+ *   new ones;
  * - clouds turn about the place of their scanner, by default their centroid, so that the
  *   result does not depend on the origin of the world (PCL: about the origin);
  * - edges cost what setEdgeCovariance() says of some of them or, if it has said nothing of
  *   any, their length (PCL: 1 each); edges without a covariance among others with one
  *   count as the mean of those;
  * - a registration that fails closes nothing, see status() (PCL: closes the loop by
- *   whatever came out);
+ *   whatever came out); one of ours that ended at its iteration limit does close it;
  * - calls without a meaning throw BadArgument (PCL: PCL_ERROR, or undefined), and the end
  *   of the loop must be set;
  * - LoopGraph has edges with a property, and so is another type than PCL's;
@@ -166,7 +166,8 @@ public:
   void
   setLoopTransform(const Eigen::Matrix4f& loop_transform);
 
-  /** \brief As PCL does: moves the points in the caller's clouds; false unless set. */
+  /** \brief Whether the points in the caller's clouds are moved, as PCL does; true unless
+   * set. Else the moved clouds are new ones, in the graph. */
   void
   setModifyInputClouds(bool modify)
   {
@@ -180,7 +181,8 @@ public:
   compute();
 
   /** \return of the last compute(): kOk, the loop is closed; kRankDeficient, so it is, but
-   * no edges join start and end, and weights are by index; kDiverged, nothing has changed:
+   * no edges join start and end, and weights are by index; kMaxIterations, so it is, but by an
+   * ICP6D that ended at its iteration limit; kDiverged, nothing has changed:
    * the registration did not converge, or it turns the scan by half a turn. kTooFewPairs
    * before the first compute(). ICP6D says more in its result() */
   Status
@@ -217,7 +219,8 @@ private:
   RegistrationPtr reg_;
   Eigen::Matrix4f loop_transform_ = Eigen::Matrix4f::Identity();
   bool register_loop_ = true;
-  bool modify_input_clouds_ = false;
+  bool modify_input_clouds_ = true;
+  bool is_at_rest_ = true; ///< the registration that gave the motion
   ErrorDiffusionOptions options_;
   Status status_ = Status::kTooFewPairs;
   std::vector<Eigen::Isometry3d> corrections_;

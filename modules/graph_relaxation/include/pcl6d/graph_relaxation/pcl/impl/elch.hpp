@@ -107,11 +107,13 @@ ELCH<PointT>::withNeighbours(VertexId vertex) const
   return all;
 }
 
-/** \return the motion that closes the loop; none if the registration did not converge */
+/** \return the motion that closes the loop; none if the registration did not converge, nor
+ * ended at the iteration limit, where it says so */
 template <typename PointT>
 std::optional<Eigen::Matrix4f>
 ELCH<PointT>::loopMotion()
 {
+  is_at_rest_ = true;
   if (!register_loop_)
     return loop_transform_;
   reg_->setInputTarget(withNeighbours(loop_start_));
@@ -119,7 +121,11 @@ ELCH<PointT>::loopMotion()
   PointCloud aligned;
   reg_->align(aligned);
   const Eigen::Matrix4f found = reg_->getFinalTransformation();
-  if (!reg_->hasConverged() || !isRigid(Eigen::Isometry3d(found.cast<double>())))
+  using Ours = ICP6D<PointT, PointT>;
+  const auto ours = std::dynamic_pointer_cast<const Ours>(reg_);
+  is_at_rest_ = !ours || ours->result().stop != IcpStop::kIterationLimit;
+  if ((is_at_rest_ && !reg_->hasConverged()) ||
+      !isRigid(Eigen::Isometry3d(found.cast<double>())))
     return std::nullopt;
   return found;
 }
@@ -217,6 +223,8 @@ ELCH<PointT>::compute()
   status_ = diffused.status;
   if (status_ == Status::kDiverged)
     return;
+  if (status_ == Status::kOk && !is_at_rest_)
+    status_ = Status::kMaxIterations;
   loop_transform_ = *motion;
   for (VertexId v = 0; v < poses.size(); ++v) {
     corrections_.push_back(diffused.poses[v] * poses[v].inverse());

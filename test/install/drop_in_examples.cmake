@@ -9,6 +9,7 @@ run(COMMAND ${work}/examples_build/planes_drop_in PRINTS "points +ok" "plane +ok
 run(COMMAND ${work}/examples_build/minimisers_drop_in PRINTS "all minimisers found the motion")
 run(COMMAND ${work}/examples_build/search_classes PRINTS "all of them agree")
 run(COMMAND ${work}/examples_build/filters_drop_in PRINTS "the mixed pixel at .* went to")
+run(COMMAND ${work}/examples_build/cells_drop_in PRINTS "m with pcl6d::NDT6D")
 run(COMMAND ${work}/examples_build/coarse_start PRINTS "features: ok" "overlap: ok" "ICP: ok")
 run(COMMAND ${work}/examples_build/verify_drop_in PRINTS "near +PCL: converged.*PCL6D: good" "told from the right one")
 run(COMMAND ${work}/examples_build/slam_in_memory PRINTS "7 of 7 scans matched")

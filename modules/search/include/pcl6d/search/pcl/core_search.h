@@ -149,7 +149,7 @@ protected:
 inline float
 squaredLimit(double distance)
 {
-  constexpr float kMost = std::numeric_limits<float>::max();
+  constexpr double kMost = std::numeric_limits<float>::max();
   const double sq = distance > 0 ? distance * distance : 0;
   return sq > kMost ? std::numeric_limits<float>::infinity() : static_cast<float>(sq);
 }

@@ -28,6 +28,7 @@
 #include <future>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <sstream>
 
 namespace {
@@ -176,6 +177,8 @@ private:
   {
     const app::StageTimer timer("matching", log_.stages);
     slam_.setProgressCallback([&](const Progress& progress) {
+      if (progress.stage != "matching")
+        printParameters();
       show(progress);
       if (interrupt_.requested())
         slam_.cancel();
@@ -190,6 +193,7 @@ private:
         slam_.cancel();
     });
     const bool complete = slam_.optimize();
+    printParameters();
     window_.update(slam_.result());
     return complete;
   }
@@ -204,11 +208,17 @@ private:
     std::cout << std::flush;
   }
 
+  /** Prints what is known by now and was not before: those of loops follow from matching. */
   void
   printParameters()
   {
     for (const auto& [name, parameter] : app::named(slam_.result().parameters))
-      bar_.say(app::parameterLine(name, parameter));
+      if (printed_.insert(name).second)
+        bar_.say(app::parameterLine(name,
+                                    parameter,
+                                    name == "loop-gap"     ? "scans"
+                                    : name == "loop-pairs" ? "pairs"
+                                                           : "m"));
   }
 
   void
@@ -230,6 +240,7 @@ private:
   const Settings settings_;
   const app::Interrupt interrupt_;
   app::ProgressBar bar_;
+  std::set<std::string> printed_; ///< parameters
   app::OutputFolder out_;
   const app::MemoryBudget memory_;
   app::KeptClouds clouds_; ///< a quarter of the budget; the rest is for the work

@@ -38,10 +38,12 @@ openScans(const std::filesystem::path& path,
 
 /** \return "  voxel = 0.1 m (auto: 2 x spacing)" */
 inline std::string
-parameterLine(const std::string& name, const Parameter& parameter)
+parameterLine(const std::string& name,
+              const Parameter& parameter,
+              const std::string& unit = "m")
 {
   std::ostringstream line;
-  line << "  " << name << " = " << parameter.value << " m ("
+  line << "  " << name << " = " << parameter.value << ' ' << unit << " ("
        << (parameter.given ? "given" : "auto: " + parameter.why) << ")";
   return line.str();
 }

@@ -195,15 +195,23 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
 std::vector<std::pair<std::string, Parameter>>
 named(const Slam6DParameters& parameters)
 {
-  return {{"min-range", parameters.min_range},
-          {"max-range", parameters.max_range},
-          {"voxel", parameters.voxel},
-          {"max-distance", parameters.max_distance},
-          {"max-distance-start", parameters.max_distance_start},
-          {"loop-distance", parameters.loop_distance},
-          {"loop-gap", parameters.loop_gap},
-          {"loop-pairs", parameters.loop_pairs},
-          {"link-distance", parameters.link_distance}};
+  std::vector<std::pair<std::string, Parameter>> known = {
+      {"min-range", parameters.min_range},
+      {"max-range", parameters.max_range},
+      {"voxel", parameters.voxel},
+      {"max-distance", parameters.max_distance},
+      {"max-distance-start", parameters.max_distance_start},
+      {"loop-distance", parameters.loop_distance},
+      {"loop-gap", parameters.loop_gap},
+      {"loop-pairs", parameters.loop_pairs},
+      {"link-distance", parameters.link_distance}};
+  known.erase(std::remove_if(known.begin(),
+                             known.end(),
+                             [](const auto& one) {
+                               return !one.second.given && one.second.why.empty();
+                             }),
+              known.end());
+  return known;
 }
 
 } // namespace pcl6d::app

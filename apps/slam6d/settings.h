@@ -60,7 +60,8 @@ struct Settings {
 bool
 parseSettings(const std::vector<std::string>& arguments, Settings& settings);
 
-/** \return the parameters under the names of their options */
+/** \return the parameters that are known by now, under the names of their options; those of
+ * loops and links are known after matching, and only if there is such a stage */
 std::vector<std::pair<std::string, Parameter>>
 named(const Slam6DParameters& parameters);
 

@@ -46,9 +46,9 @@ main()
   const auto error = [&](const Eigen::Isometry3d& found) {
     return pcl6d::distanceBetween(found, moved).translation;
   };
-  const double of_pcl =
-      error(registered<pcl::VoxelGrid<Point>,
-                       pcl::NormalDistributionsTransform<Point, Point>>(source, target));
+  const double of_pcl = error(
+      registered<pcl::VoxelGrid<Point>,
+                 pcl::NormalDistributionsTransform<Point, Point>>(source, target));
   const double ours =
       error(registered<pcl6d::OctreeReduction<Point>, pcl6d::NDT6D<Point, Point>>(
           source, target));

@@ -150,3 +150,26 @@ TEST_F(GraphWords, LinksByDistanceAreOtherLinks)
   }
   EXPECT_EQ(links.size(), 2u);
 }
+
+TEST_F(GraphWords, ParametersOfLoopsAreToldWithTheirReasonWhereThereIsAStage)
+{
+  const auto told = [](const Words& more) {
+    Words words = {*folder_ / "scans", "-o", *folder_ / "told", "--last", "5"};
+    words.insert(words.end(), {"--no-picture", "--no-verification", "--force"});
+    words.insert(words.end(), more.begin(), more.end());
+    const auto outcome = runProgram("pcl_slam6d", words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.err;
+  };
+  const std::string with = told({"--loop-gap", "30"});
+  for (const char* line :
+       {"  loop-distance = ",
+        " m (auto: larger of half the median range and 4 median steps)",
+        "  loop-gap = 30 scans (given)",
+        "  link-distance = "})
+    EXPECT_NE(with.find(line), std::string::npos) << line << '\n' << with;
+  EXPECT_EQ(with.find("(auto: )"), std::string::npos) << with;
+  const std::string without = told({"--loop-closing", "none", "--relaxation", "none"});
+  EXPECT_NE(without.find("  voxel = "), std::string::npos);
+  EXPECT_EQ(without.find("loop-"), std::string::npos) << without;
+}

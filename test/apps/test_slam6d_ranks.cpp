@@ -259,6 +259,8 @@ TEST_F(Ranks, OneThatIsKilledEndsTheRunWhichGoesOn)
 
 TEST_F(Ranks, WhatRanksHaveDoneOneProcessGoesOnWith)
 {
+  std::signal(SIGINT,
+              SIG_DFL); // a shell's background ignores it, and so do its children
   bp::child ranks = start(words(2));
   waitForJournal(ranks);
   ::kill(ranks.id(), SIGINT); // mpirun, as by Ctrl-C

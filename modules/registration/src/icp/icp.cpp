@@ -61,7 +61,8 @@ public:
   , finder_(target, source, options)
   , problem_(source, options)
   , extent_(extentOf(*source.points))
-  , has_foreign_steps_(hooks.find || hooks.reject || hooks.minimise)
+  , has_foreign_steps_((hooks.find || hooks.reject || hooks.minimise) &&
+                       options.translation_epsilon > 0)
   {}
 
   IcpResult
@@ -194,7 +195,8 @@ private:
 
   /** Whether the error no longer changes: by the share that was asked for; or, if others'
    * classes choose pairs or steps in float, by no more than its rounding, or not downwards
-   * in many steps shorter than it: their pairs may come and go for ever. */
+   * in many steps shorter than it: their pairs may come and go for ever. Not where the
+   * epsilon is 0, which asks for every step. */
   bool
   isErrorAtRest(double rms, double way)
   {

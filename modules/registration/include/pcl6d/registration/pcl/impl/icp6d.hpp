@@ -253,7 +253,7 @@ ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource&
                                                                const Matrix4& guess)
 {
   result_ = IcpResult();
-  if (has_stale_indices_)
+  if (has_stale_indices_ && this->indices_->empty())
     throw BadArgument(
         "ICP6D: the indices are those of an earlier source; the one that is "
         "set has fewer points");

@@ -19,6 +19,7 @@ using pcl6d::test::readText;
 using pcl6d::test::scans;
 using pcl6d::test::slam;
 using pcl6d::test::TempFolder;
+using pcl6d::test::withoutTimes;
 
 const std::string kProgram = PCL6D_BIN_DIR "/pcl_slam6d";
 const std::vector<std::string> kOptions = {"--last",
@@ -45,26 +46,11 @@ environmentOfRanks()
   return all;
 }
 
-/** \return the files of a run, without the times and memory in its summary */
-std::map<std::string, std::string>
-filesOf(const fs::path& run)
-{
-  static const std::regex times("\"(seconds|peak_memory_mb)\": [^,\n]*");
-  auto files = contentOf(run);
-  if (files.count("summary.json") > 0)
-    files["summary.json"] = std::regex_replace(files["summary.json"], times, "");
-  return files;
-}
-
-/** \return those of a run by one process alone */
 const std::map<std::string, std::string>&
 alone()
 {
-  static const std::map<std::string, std::string> files = [] {
-    const TempFolder folder;
-    EXPECT_EQ(slam(scans(), folder / "out", kOptions).exit_code, 0);
-    return filesOf(folder / "out");
-  }();
+  static const std::map<std::string, std::string> files =
+      pcl6d::test::filesAlone(kOptions);
   return files;
 }
 
@@ -180,7 +166,7 @@ TEST_F(Ranks, AnyNumberOfThemGivesTheBytesOfOneProcess)
     fs::remove_all(out);
     const Outcome outcome = run(words(ranks));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(filesOf(out), alone()) << ranks;
+    EXPECT_EQ(withoutTimes(out), alone()) << ranks;
     EXPECT_EQ(outcome.err.find("15 scans, shared by") != std::string::npos, ranks > 1)
         << outcome.err;
     const auto verdict = outcome.out.find("registered");
@@ -204,7 +190,7 @@ TEST_F(Ranks, OtherMethodsGiveTheSameBytes)
     options.insert(options.begin(),
                    {"-n", "3", kProgram, scans().string(), "-o", out.string()});
     EXPECT_EQ(run(options).exit_code, exit_code) << more.back();
-    EXPECT_EQ(filesOf(out), filesOf(one)) << more.back();
+    EXPECT_EQ(withoutTimes(out), withoutTimes(one)) << more.back();
   }
 }
 
@@ -227,7 +213,7 @@ TEST_F(Ranks, ARunGoesOnWithFurtherScans)
   auto arguments = further(folder / "two");
   arguments.insert(arguments.begin(), {"-n", "2", kProgram});
   EXPECT_EQ(run(arguments).exit_code, 0);
-  auto one = filesOf(folder / "one"), two = filesOf(folder / "two");
+  auto one = withoutTimes(folder / "one"), two = withoutTimes(folder / "two");
   const std::regex name("/(one|two)");
   for (auto* files : {&one, &two})
     (*files)["summary.json"] = std::regex_replace((*files)["summary.json"], name, "");
@@ -253,7 +239,7 @@ TEST_F(Ranks, OneThatIsKilledEndsTheRunWhichGoesOn)
     EXPECT_EQ(again.exit_code, 0) << again.err;
     EXPECT_NE(again.err.find("going on with an interrupted run"), std::string::npos)
         << again.err;
-    EXPECT_EQ(filesOf(out), alone());
+    EXPECT_EQ(withoutTimes(out), alone());
   }
 }
 
@@ -275,12 +261,7 @@ TEST_F(Ranks, WhatRanksHaveDoneOneProcessGoesOnWith)
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.err.find("going on with an interrupted run"), std::string::npos)
       << again.err;
-  EXPECT_EQ(slam(scans(), folder / "undisturbed", options).exit_code, 0);
-  auto expected = filesOf(folder / "undisturbed"), found = filesOf(out);
-  const std::regex name("/(undisturbed|out)\"");
-  for (auto* files : {&expected, &found})
-    (*files)["summary.json"] = std::regex_replace((*files)["summary.json"], name, "");
-  EXPECT_EQ(found, expected);
+  EXPECT_EQ(withoutTimes(out), pcl6d::test::filesAlone(options));
 }
 
 TEST_F(Ranks, OtherBinariesAreRefused)
@@ -347,7 +328,7 @@ TEST_F(Ranks, AFolderThatCannotBeWrittenInTheEndIsToldOnce)
   fs::remove_all(out / "map.pcd");
   EXPECT_TRUE(fs::exists(journal));
   EXPECT_EQ(run(words(2, kProgram, scans(), {"--force"})).exit_code, 0);
-  EXPECT_EQ(filesOf(out), alone());
+  EXPECT_EQ(withoutTimes(out), alone());
 }
 
 TEST_F(Ranks, HelpIsGivenOnce)
@@ -408,5 +389,5 @@ TEST_F(Ranks, BetweenTwoAddressesTheBytesAreTheSame)
   const Outcome outcome = run(arguments, "ip");
   clean();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(filesOf(out), alone());
+  EXPECT_EQ(withoutTimes(out), alone());
 }

@@ -18,29 +18,15 @@ using pcl6d::test::readText;
 using pcl6d::test::scans;
 using pcl6d::test::slam;
 using pcl6d::test::TempFolder;
+using pcl6d::test::withoutTimes;
 
 const std::vector<std::string> kOptions = {"--last", "14", "--no-picture"};
-
-/** \return the files of a run, without the times and memory in its summary */
-std::map<std::string, std::string>
-withoutTimes(const fs::path& run)
-{
-  static const std::regex times("\"(seconds|peak_memory_mb)\": [^,\n]*");
-  std::map<std::string, std::string> files;
-  for (const auto& [name, content] : contentOf(run))
-    files[name] =
-        name == "summary.json" ? std::regex_replace(content, times, "") : content;
-  return files;
-}
 
 const std::map<std::string, std::string>&
 undisturbed()
 {
-  static const std::map<std::string, std::string> files = [] {
-    const TempFolder folder;
-    EXPECT_EQ(slam(scans(), folder / "out", kOptions).exit_code, 0);
-    return withoutTimes(folder / "out");
-  }();
+  static const std::map<std::string, std::string> files =
+      pcl6d::test::filesAlone(kOptions);
   return files;
 }
 

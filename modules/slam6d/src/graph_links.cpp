@@ -83,6 +83,19 @@ whyNotTaken(const GraphSlamResult& relaxed)
   return "";
 }
 
+ScanLink
+odometryLink(const Poses& poses, std::size_t scan)
+{
+  ScanLink link;
+  link.from = scan - 1;
+  link.to = scan;
+  link.kind = LinkKind::kSequence;
+  link.verdict = LinkVerdict::kOdometry;
+  link.reason = "too few points join the scans";
+  link.distance = (poses[scan].translation() - poses[scan - 1].translation()).norm();
+  return link;
+}
+
 std::vector<PoseLink>
 measuredLinks(const std::vector<ScanLink>& odometry,
               const std::vector<ScanResult>& scans,
@@ -129,6 +142,25 @@ driftOf(const std::vector<ScanResult>& scans, std::size_t count, double voxel)
   for (std::size_t i = 1; i < count; ++i)
     drift[i] = drift[i - 1] + chain[i - 1].cost.head<3>().asDiagonal().toDenseMatrix();
   return drift;
+}
+
+std::vector<LoopEdge>
+edgesOf(const std::vector<ScanResult>& scans,
+        std::size_t count,
+        const std::vector<ScanLink>& links,
+        const std::vector<Loop>& open,
+        double voxel)
+{
+  std::vector<LoopEdge> edges = chainOf(scans, count, voxel);
+  for (const ScanLink& link : links) {
+    const bool is_open = std::any_of(open.begin(), open.end(), [&](const Loop& loop) {
+      return loop.first == link.from && loop.last == link.to;
+    });
+    const auto cost = costOf(link);
+    if (link.verdict == LinkVerdict::kUsed && !is_open && cost)
+      edges.push_back({link.from, link.to, *cost});
+  }
+  return edges;
 }
 
 void

@@ -21,6 +21,10 @@ namespace pcl6d::slam6d {
 std::string
 whyNotTaken(const GraphSlamResult& relaxed);
 
+/** \return the link of a scan and the one before it, which no points join */
+ScanLink
+odometryLink(const Poses& poses, std::size_t scan);
+
 /** \return the odometry of each link as a measured one, which joins scans that no points do
  * (6.3) \param[in] scans with their initial poses
  * \param[in] voxel [m] of the reduction, which tells the scale of the scans */
@@ -43,6 +47,15 @@ driftOf(const std::vector<ScanResult>& scans, std::size_t count, double voxel);
 /** \return what a loop costs, by the covariance of its match; none if it is not known */
 PCL6D_EXPORTS std::optional<PerDimension> // shown to its test
 costOf(const ScanLink& loop);
+
+/** \return the chain of the scans, and the loops among the links that are closed already
+ * \param[in] open the others */
+std::vector<LoopEdge>
+edgesOf(const std::vector<ScanResult>& scans,
+        std::size_t count,
+        const std::vector<ScanLink>& links,
+        const std::vector<Loop>& open,
+        double voxel);
 
 /** \brief A closed loop is one link: candidates that the network knows are taken over into its
  * links, with their matched pose, and are candidates no more.

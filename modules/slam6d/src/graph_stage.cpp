@@ -64,6 +64,28 @@ setPoses(const Poses& poses, Slam6DResult& result)
     result.scans[i].T_world_scan = poses[i];
 }
 
+/** Ends a stage: its poses are taken unless there is a reason not to.
+ * \param[in] stage with its history, unless that is the poses alone
+ * \return whether they were taken */
+bool
+conclude(StageResult stage,
+         Clock::time_point start,
+         const Poses& poses,
+         Slam6DResult& result)
+{
+  stage.undone = !stage.reason.empty();
+  stage.seconds = secondsSince(start);
+  if (stage.undone)
+    stage.history.clear();
+  else {
+    setPoses(poses, result);
+    if (stage.history.empty())
+      stage.history = {poses};
+  }
+  result.stages.push_back(stage);
+  return !stage.undone;
+}
+
 /** Pairs weighed by planes are no more voxels apart than those of matching by planes. */
 constexpr double kPlaneVoxels = 1.7;
 } // namespace
@@ -102,7 +124,6 @@ GraphStage::judged(StageKind kind,
   stage.agreement_before = agreement.total.before;
   stage.agreement_after = agreement.total.after;
   stage.reason = agreement.worse(counted);
-  stage.undone = !stage.reason.empty();
   return stage;
 }
 
@@ -114,8 +135,8 @@ GraphStage::judgeMatching(Slam6DResult& result) const
     odometry.push_back(scan.initial_pose);
   StageResult stage =
       judged(StageKind::kMatching, odometry, posesOf(result), believedOf(result));
-  stage.seconds = result.matching_seconds;
-  stage.undone = false; // each scan was judged when it was matched
+  stage.seconds =
+      result.matching_seconds; // not undone: each scan was judged for itself
   stage.history = {posesOf(result)};
   result.stages.push_back(stage);
 }
@@ -139,23 +160,6 @@ GraphStage::detectionOptions(const Slam6DResult& result, std::size_t first) cons
   return detection;
 }
 
-/** The chain of the scans, and the loops that are closed already. */
-std::vector<LoopEdge>
-GraphStage::edgesOf(const Slam6DResult& result, const std::vector<Loop>& open) const
-{
-  std::vector<LoopEdge> edges =
-      chainOf(result.scans, scans_.size(), parameters_.voxel.value);
-  for (const ScanLink& link : result.links) {
-    const bool is_open = std::any_of(open.begin(), open.end(), [&](const Loop& loop) {
-      return loop.first == link.from && loop.last == link.to;
-    });
-    const auto cost = costOf(link);
-    if (link.verdict == LinkVerdict::kUsed && !is_open && cost)
-      edges.push_back({link.from, link.to, *cost});
-  }
-  return edges;
-}
-
 /** \param[in] first of the scans whose loops are looked for
  * \return whether poses have changed */
 bool
@@ -173,18 +177,15 @@ GraphStage::closeLoops(Slam6DResult& result, std::size_t first)
   if (loops.empty())
     return false;
   const ErrorDiffusionResult closed = pcl6d::closeLoops(
-      before, edgesOf(result, loops), loops, {options_.loop_closing, false});
+      before,
+      edgesOf(
+          result.scans, scans_.size(), result.links, loops, parameters_.voxel.value),
+      loops,
+      {options_.loop_closing, false});
   StageResult stage = judged(StageKind::kLoopClosing, before, closed.poses, believed);
   if (closed.status != Status::kOk && stage.reason.empty())
     stage.reason = std::string("loop closing: ") + toString(closed.status);
-  stage.undone = !stage.reason.empty();
-  stage.seconds = secondsSince(start);
-  if (!stage.undone) {
-    setPoses(closed.poses, result);
-    stage.history = {closed.poses};
-  }
-  result.stages.push_back(stage);
-  return !stage.undone;
+  return conclude(stage, start, closed.poses, result);
 }
 
 bool
@@ -268,18 +269,9 @@ GraphStage::odometryLinks(ScanNetwork& network, const Slam6DResult& result) cons
     if (found[k].to == found[k].from + 1 && counts[k] >= graphOptions().min_pairs)
       joined[found[k].to] = true;
   std::vector<ScanLink> links;
-  for (std::size_t i = 1; i < result.scans.size(); ++i) {
-    if (joined[i])
-      continue;
-    ScanLink link;
-    link.from = i - 1;
-    link.to = i;
-    link.kind = LinkKind::kSequence;
-    link.verdict = LinkVerdict::kOdometry;
-    link.reason = "too few points join the scans";
-    link.distance = (poses[i].translation() - poses[i - 1].translation()).norm();
-    links.push_back(link);
-  }
+  for (std::size_t i = 1; i < result.scans.size(); ++i)
+    if (!joined[i])
+      links.push_back(odometryLink(poses, i));
   return links;
 }
 
@@ -335,15 +327,11 @@ GraphStage::relax(Slam6DResult& result, const Observer& observer)
   stage.rounds = relaxed.iterations;
   if (stage.reason.empty())
     stage.reason = whyNotTaken(relaxed);
-  stage.undone = !stage.reason.empty();
-  if (!stage.undone) {
-    setPoses(relaxed.poses, result);
-    history.push_back(relaxed.poses);
-    stage.history.assign(history.begin() + 1, history.end());
-  }
-  take(relaxed, stage.undone, network.describe(posesOf(result)), odometry, result);
-  stage.seconds = secondsSince(start);
-  result.stages.push_back(stage);
+  history.push_back(relaxed.poses);
+  stage.history.assign(history.begin() + 1, history.end()); // the first is before
+  const bool taken = conclude(stage, start, relaxed.poses, result);
+  take(relaxed, !taken, network.describe(posesOf(result)), odometry, result);
+  result.stages.back().seconds = secondsSince(start);
   return true;
 }
 
@@ -377,13 +365,7 @@ GraphStage::matchSimultaneously(Slam6DResult& result, const Observer& observer)
   if (stage.reason.empty() && matched.status == Status::kTooFewPairs)
     stage.reason = "no scan has a neighbour";
   stage.rounds = static_cast<int>((matched.pops + scans_.size() - 1) / scans_.size());
-  stage.undone = !stage.reason.empty();
-  stage.seconds = secondsSince(start);
-  if (!stage.undone) {
-    setPoses(matched.poses, result);
-    stage.history = {matched.poses};
-  }
-  result.stages.push_back(stage);
+  conclude(stage, start, matched.poses, result);
   return true;
 }
 

@@ -77,8 +77,6 @@ private:
   closeLoops(Slam6DResult& result, std::size_t first);
   LoopDetectionOptions
   detectionOptions(const Slam6DResult& result, std::size_t first) const;
-  std::vector<LoopEdge>
-  edgesOf(const Slam6DResult& result, const std::vector<Loop>& open) const;
   bool
   relax(Slam6DResult& result, const Observer& observer);
   bool

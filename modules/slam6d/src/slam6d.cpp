@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_stage.h"
 #include "kept_scans.h"
+#include "online_loops.h"
 #include "packing.h"
 #include "run_verification.h"
 #include "scan_matcher.h"
+#include "task_names.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/fingerprint.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/slam6d/auto_parameters.h>
@@ -46,7 +47,9 @@ public:
     if (scan.state == ScanState::kPending)
       predict(place);
     scans_.add(points, name);
-    inputs_.push_back(scans_.isFirst() ? inputsOf(points, result_.scans.back()) : 0);
+    const std::uint64_t before = place > 0 ? inputs_.back() : 0;
+    inputs_.push_back(
+        scans_.isFirst() ? inputsOf(before, place, points, result_.scans.back()) : 0);
     try {
       if (scans_.isFull(matcher_.has_value()))
         prepareScans();
@@ -159,41 +162,6 @@ private:
     return given.empty() ? "scan " + std::to_string(result_.scans.size()) : given;
   }
 
-  /** \return what a scan and all before it are */
-  std::uint64_t
-  inputsOf(const Points& points, const ScanResult& scan) const
-  {
-    Fingerprint sum;
-    if (!inputs_.empty())
-      sum.add(inputs_.back());
-    sum.add(points);
-    sum.add(scan.initial_pose);
-    if (scan.state != ScanState::kPending) { // by an earlier run
-      sum.add(scan.T_world_scan);
-      sum.add(static_cast<std::uint32_t>(scan.state));
-    }
-    return sum.value();
-  }
-
-  /** \return the name of the task that ends with a scan */
-  std::uint64_t
-  taskOf(std::size_t scan, const std::vector<ScanPair>& links = {}) const
-  {
-    Fingerprint sum;
-    sum.add(inputs_[scan]);
-    const Slam6DParameters& p = result_.parameters;
-    for (const Parameter& one :
-         {p.min_range, p.max_range, p.voxel, p.max_distance, p.max_distance_start})
-      sum.add(one.value);
-    for (std::size_t i = 0; i < improved_; ++i) // an earlier optimize() moved them
-      sum.add(result_.scans[i].T_world_scan);
-    for (const auto& [from, to] : links) {
-      sum.add(static_cast<std::uint64_t>(from));
-      sum.add(static_cast<std::uint64_t>(to));
-    }
-    return sum.value();
-  }
-
   void
   takeInRegistered()
   {
@@ -234,7 +202,7 @@ private:
   registerScan(std::size_t i)
   {
     ScanResult& scan = result_.scans[i];
-    const std::uint64_t task = taskOf(i);
+    const std::uint64_t task = taskOf(inputs_[i], result_, improved_);
     auto known = memory ? memory->matched(i, task) : std::nullopt;
     if (known) {
       scan = *known;
@@ -266,12 +234,13 @@ private:
   bool
   improve()
   {
-    online_.reset();
+    online_loops_.end();
     if (options_.loop_closing == LoopClosing::kNone && !options_.relaxation &&
         !options_.simultaneous)
       return true;
     deriveLoopParameters(options_, result_.scans, result_.parameters);
-    const std::uint64_t task = taskOf(result_.scans.size() - 1, options_.given_links);
+    const std::uint64_t task =
+        taskOf(inputs_.back(), result_, improved_, options_.given_links);
     auto known = memory ? memory->relaxed(task) : std::nullopt;
     const bool is_known = sharing ? sharing->fromFirst(known.has_value()) : !!known;
     if (known) {
@@ -304,27 +273,10 @@ private:
   void
   closeLoopsOnline(std::size_t scan)
   {
-    if (!online_)
-      online_.emplace(makeGraphStage(nullptr));
-    while (online_->size() <= scan)
-      online_->add(scans_.reduced()[online_->size()]);
-    std::vector<ScanResult> matched(result_.scans.begin(),
-                                    result_.scans.begin() +
-                                        static_cast<std::ptrdiff_t>(scan + 1));
-    deriveLoopParameters(options_, matched, result_.parameters);
-    if (scan <
-        last_closed_ + static_cast<std::size_t>(result_.parameters.loop_gap.value))
-      return; // what comes next sees the same loop
-    result_.links = closed_.links;
-    result_.stages.clear();
-    const bool has_moved = online_->closeLoopsOfLast(result_);
-    closed_.links = std::exchange(result_.links, {});
-    for (StageResult& stage : result_.stages)
-      closed_.stages.push_back(std::move(stage));
-    result_.stages.clear();
-    if (!has_moved)
+    if (!online_loops_.isBegun())
+      online_loops_.begin(makeGraphStage(nullptr));
+    if (!online_loops_.close(scans_.reduced(), scan, options_, result_))
       return;
-    last_closed_ = scan;
     matcher_.emplace(options_, result_.parameters);
     takeIn(scan + 1);
   }
@@ -345,7 +297,7 @@ private:
     for (const IcpModel& model : scans_.reduced())
       stage.add(model);
     Slam6DResult improved = result_; // taken as a whole or not at all
-    const bool done = stage.run(improved, closed_, [&](int round) {
+    const bool done = stage.run(improved, online_loops_.closed(), [&](int round) {
       if (progress)
         progress({"relaxing",
                   static_cast<std::size_t>(round),
@@ -364,9 +316,7 @@ private:
   KeptScans scans_;
   RunVerification verification_;
   std::optional<ScanMatcher> matcher_;
-  std::optional<GraphStage> online_; ///< closes loops while scans are matched
-  ClosedLoops closed_;               ///< by online_
-  std::size_t last_closed_ = 0;      ///< scan that online_ has closed a loop with
+  OnlineLoops online_loops_;
   std::size_t num_registered_ =
       0;                     ///< so many first scans an earlier run has registered
   std::size_t next_ = 0;     ///< first scan that is not registered

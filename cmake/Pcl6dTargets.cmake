@@ -28,6 +28,7 @@ function(_pcl6d_library_rules target module)
   set_target_properties(pcl6d_${target} PROPERTIES
     EXPORT_NAME ${target}
     DEFINE_SYMBOL ""
+    POSITION_INDEPENDENT_CODE ON # static ones may become part of a user's shared one
     CXX_VISIBILITY_PRESET hidden # shown: what public headers declare (export.h)
     VISIBILITY_INLINES_HIDDEN ON
     UNITY_BUILD ${PCL6D_UNITY_BUILD}
@@ -37,20 +38,21 @@ function(_pcl6d_library_rules target module)
   target_compile_features(pcl6d_${target} PUBLIC cxx_std_17)
   _pcl6d_compile_rules(pcl6d_${target})
   install(TARGETS pcl6d_${target} EXPORT pcl6d_${module}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${module})
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${module}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${module})
 endfunction()
 
 # pcl6d_add_module(NAME BOOK chapters HOLDS text FLOOR n SOURCES ... [ALONE sources ...]
 #                  [DEPENDS module ...] [PCL_COMPONENTS ...] [LINK public targets ...]
 #                  [LINK_PRIVATE targets ...])
-# makes the shared library pcl6d::NAME. A module may depend only on lower floors. BOOK and
+# makes the library pcl6d::NAME. A module may depend only on lower floors. BOOK and
 # HOLDS are for the map of the rooms (CONTRIBUTING.md).
 function(pcl6d_add_module name)
   cmake_parse_arguments(ARG "" "BOOK;HOLDS;FLOOR"
     "SOURCES;ALONE;DEPENDS;PCL_COMPONENTS;LINK;LINK_PRIVATE" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_module(${name})")
   set(target pcl6d_${name})
-  add_library(${target} SHARED ${ARG_SOURCES})
+  add_library(${target} ${ARG_SOURCES}) # BUILD_SHARED_LIBS says which kind
   # Sources whose own names (of unnamed namespaces) are also names of others beside them.
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   _pcl6d_library_rules(${name} ${name})
@@ -84,6 +86,7 @@ function(pcl6d_add_module name)
     "| ${ARG_FLOOR} | [${name}](modules/${name}) | ${ARG_BOOK} | ${ARG_HOLDS} | ${below} |\n")
   set_property(GLOBAL PROPERTY PCL6D_${name}_DEPENDS ${ARG_DEPENDS})
   set_property(GLOBAL PROPERTY PCL6D_${name}_PCL_COMPONENTS ${ARG_PCL_COMPONENTS})
+  set_property(GLOBAL PROPERTY PCL6D_${name}_PRIVATE ${ARG_LINK_PRIVATE})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
   install(EXPORT pcl6d_${name} NAMESPACE pcl6d:: FILE module_${name}.cmake
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl6d COMPONENT ${name})
@@ -96,7 +99,7 @@ function(pcl6d_add_pcl_classes name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PCL_COMPONENTS" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_pcl_classes(${name})")
   set(target pcl6d_${name}_pcl)
-  add_library(${target} SHARED ${ARG_SOURCES})
+  add_library(${target} ${ARG_SOURCES}) # BUILD_SHARED_LIBS says which kind
   _pcl6d_library_rules(${name}_pcl ${name})
   # Instances are as visible as their arguments: PCL's point types, which PCL does not
   # mark. So nothing is hidden here; there are no internals, and few, heavy sources.
@@ -212,9 +215,13 @@ function(pcl6d_install_package)
   foreach(module IN LISTS PCL6D_MODULES)
     get_property(depends GLOBAL PROPERTY PCL6D_${module}_DEPENDS)
     get_property(components GLOBAL PROPERTY PCL6D_${module}_PCL_COMPONENTS)
+    if(NOT BUILD_SHARED_LIBS) # who links a static library links what it hides, too
+      get_property(hidden GLOBAL PROPERTY PCL6D_${module}_PRIVATE)
+    endif()
     string(APPEND PCL6D_MODULE_TABLE
       "set(_pcl6d_${module}_depends ${depends})\n"
-      "set(_pcl6d_${module}_pcl ${components})\n")
+      "set(_pcl6d_${module}_pcl ${components})\n"
+      "set(_pcl6d_${module}_private ${hidden})\n")
   endforeach()
   set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/pcl6d)
   configure_package_config_file(

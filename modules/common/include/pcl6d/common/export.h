@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#if __cplusplus < 201703L
+#error "PCL6D needs C++17: compile with -std=c++17 or later (CMake: CMAKE_CXX_STANDARD 17)"
+#endif
+
 /** \file
  * What the libraries of the suite show. They are built with hidden visibility; a public
  * header opens its namespace as `namespace PCL6D_EXPORTS pcl6d {`, so that what it

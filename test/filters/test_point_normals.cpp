@@ -253,6 +253,27 @@ TEST(PointNormals, HaveTheSameBitsForEveryNumberOfThreads)
   }
 }
 
+TEST(PointNormals, OfManyPlacesAreThoseOfEachAlone)
+{
+  // Several are made at once; places without a normal among them must not touch the others.
+  Random random(9);
+  Points points;
+  for (int i = 0; i < 600; ++i)
+    points.push_back(10 *
+                     Eigen::Vector3f(random.normal(), random.normal(), random.normal())
+                         .normalized());
+  Points places = points;
+  for (std::size_t i = 5; i < places.size(); i += 37)
+    places[i].y() = kNan;
+  const PointTree tree(points);
+  for (const std::size_t k : {3, 7, 20, 33}) {
+    const Normals together = estimateNormals(places, points, tree, k, 2);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      ASSERT_TRUE(sameBits(together[i], normalAt(places[i], tree, points, k)))
+          << k << ", " << i;
+  }
+}
+
 TEST(PointNormals, NeedThreeToSixtyFourNeighbours)
 {
   Random random(9);

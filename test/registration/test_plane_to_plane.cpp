@@ -157,6 +157,30 @@ TEST(PlaneSumsWithNorms, EqualThoseOfNormalsForADyad)
   expectNear(norms.sums(), normals.sums());
 }
 
+TEST(PlaneSumsWithNorms, OfTwoNormalsAreThoseOfTheirNorm)
+{
+  Random random(7);
+  const NormPairs pairs(random);
+  for (std::size_t count = 1; count < 20;
+       ++count) { // whole eights, and what is left over
+    PlaneAccumulator norms, planes;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vector n = direction(random), m = direction(random);
+      norms.addNorm(
+          pairs.source[i], pairs.target[i], planeToPlane(n, m, 1e-2), pairs.weight[i]);
+      planes.addPlanes(pairs.source[i], pairs.target[i], n, m, 1e-2, pairs.weight[i]);
+    }
+    expectNear(planes.sums(), norms.sums());
+  }
+  PlaneAccumulator none;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  none.addPlanes(
+      Vector::Zero(), Vector::Zero(), Vector(0, nan, 0), Vector::UnitZ(), 1e-2);
+  none.addPlanes(
+      Vector(nan, 0, 0), Vector::Zero(), Vector::UnitX(), Vector::UnitZ(), 1e-2);
+  EXPECT_EQ(none.sums().count, 0U);
+}
+
 TEST(PlaneSumsWithNorms, AreTheDerivativesOfTheCost)
 {
   // cost(u) = residual_sq - 2 b u + u A u: exact for a quadratic, by differences too.

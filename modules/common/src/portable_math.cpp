@@ -2,6 +2,8 @@
 #include <pcl6d/common/portable_math.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -220,6 +222,27 @@ portableLog(double x)
   return exponent * kLog2.high + (f - (half_sq - low));
 }
 
+namespace {
+/** std::floor() is a call where the CPU may lack the instruction. */
+int
+floorOf(double x)
+{
+  const int truncated = static_cast<int>(x);
+  return truncated > x ? truncated - 1 : truncated;
+}
+
+constexpr int kLeastPower = -1020; ///< of two: normal, with twice and half of it
+
+double
+powerOfTwo(int power)
+{
+  const std::uint64_t bits = static_cast<std::uint64_t>(power + 1023) << 52;
+  double value;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+} // namespace
+
 double
 portableExp(double x)
 {
@@ -230,7 +253,8 @@ portableExp(double x)
   if (x < -746)
     return 0;
   // e^x = 2^k e^r with r = x - k log 2, |r| < 0.35
-  const double k = std::floor(x * M_LOG2E + 0.5);
+  const int power = floorOf(x * M_LOG2E + 0.5);
+  const double k = power;
   const double high = x - k * kLog2.high; // exact
   const double low = k * kLog2.low;
   const double r = high - low;
@@ -248,7 +272,9 @@ portableExp(double x)
                                      1.0 / 479001600,
                                      1.0 / 6227020800};
   const double tail = r_low + r * r * polynomial(kExponential, r);
-  return std::ldexp(1 + (r + tail), static_cast<int>(k));
+  const double fraction = 1 + (r + tail);
+  return power > kLeastPower && power < -kLeastPower ? fraction * powerOfTwo(power)
+                                                     : std::ldexp(fraction, power);
 }
 
 } // namespace pcl6d

@@ -2,6 +2,7 @@
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/simd_clones.h>
 #include <pcl6d/filters/point_normals.h>
 
 #include <algorithm>
@@ -18,51 +19,155 @@ constexpr double kLineTolerance = 1e-8;
 
 using Patch = std::array<Neighbour, kMostNeighbours>;
 
-/** \return sum of (p - place) (p - place)^T about the mean of the patch */
-Eigen::Matrix3d
-scatterOf(const Patch& patch,
-          std::size_t size,
-          const Points& points,
-          const Eigen::Vector3f& place)
-{
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < size; ++i) {
-    const Eigen::Vector3d d = (points[patch[i].index] - place).cast<double>();
-    sum += d;
-    squares += d * d.transpose();
+/** The upper half of a symmetric matrix, of one patch or of a patch in each lane. */
+template <typename Real>
+struct Symmetric {
+  Real xx, xy, xz, yy, yz, zz;
+};
+
+/** Several patches at once: the same operations as for one, lane by lane. */
+constexpr std::size_t kLanes = 8;
+using Lanes = double __attribute__((vector_size(8 * kLanes)));
+using FloatLanes = float __attribute__((vector_size(4 * kLanes)));
+
+/** Offsets of the points from the place of a patch, one after another. */
+struct PatchOffsets {
+  using Real = double;
+  const Patch& patch;
+  const Points& points;
+  const Eigen::Vector3f& place;
+
+  PCL6D_INLINE void
+  at(std::size_t k, Real* d) const
+  {
+    const Eigen::Vector3f& p = points[patch[k].index];
+    for (int axis = 0; axis < 3; ++axis)
+      d[axis] = static_cast<double>(p[axis] - place[axis]);
   }
-  return squares - sum * sum.transpose() / static_cast<double>(size);
+};
+
+/** The same of kLanes patches. */
+struct LanesOffsets {
+  using Real = Lanes;
+  const Patch* patches;
+  const Points& points;
+  const Eigen::Vector3f* places;
+
+  PCL6D_INLINE void
+  at(std::size_t k, Real* d) const
+  {
+    FloatLanes offset[3];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const Eigen::Vector3f& p = points[patches[lane][k].index];
+      for (int axis = 0; axis < 3; ++axis)
+        offset[axis][lane] = p[axis] - places[lane][axis];
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      d[axis] = __builtin_convertvector(offset[axis], Lanes);
+  }
+};
+
+/** \return sum of (p - place) (p - place)^T about the mean of the patch */
+template <typename Offsets>
+PCL6D_INLINE Symmetric<typename Offsets::Real>
+scatterOf(const Offsets& offsets, std::size_t size)
+{
+  using Real = typename Offsets::Real;
+  Real x{}, y{}, z{};
+  Symmetric<Real> s{};
+  for (std::size_t k = 0; k < size; ++k) {
+    Real d[3];
+    offsets.at(k, d);
+    x += d[0];
+    y += d[1];
+    z += d[2];
+    s.xx += d[0] * d[0];
+    s.xy += d[0] * d[1];
+    s.xz += d[0] * d[2];
+    s.yy += d[1] * d[1];
+    s.yz += d[1] * d[2];
+    s.zz += d[2] * d[2];
+  }
+  const auto count = static_cast<double>(size);
+  return {s.xx - x * x / count,
+          s.xy - x * y / count,
+          s.xz - x * z / count,
+          s.yy - y * y / count,
+          s.yz - y * z / count,
+          s.zz - z * z / count};
 }
 
-/** The direction of least spread; zero for points on a line. The smallest root of the
- * characteristic polynomial is found by Newton's method from zero, where it is increasing
- * and concave, so that no step goes too far; the direction is orthogonal to two rows of S -
- * root. Several times as fast as a general solver, which is left what this cannot decide:
- * patches that are nearly as thick as they are wide in some direction. */
-Eigen::Vector3d
-leastSpread(const Eigen::Matrix3d& scatter)
+/** Whether any lane is above a limit. */
+PCL6D_INLINE bool
+anyAbove(double value, double limit)
 {
-  const double trace = scatter.trace();
-  if (!(trace > 0))
-    return Eigen::Vector3d::Zero();
-  const Eigen::Matrix3d S = scatter / trace;
-  const double c1 = S(0, 0) * S(1, 1) - S(0, 1) * S(0, 1) + S(0, 0) * S(2, 2) -
-                    S(0, 2) * S(0, 2) + S(1, 1) * S(2, 2) - S(1, 2) * S(1, 2);
-  const double c0 = S.determinant();
-  double root = 0, step = 1;
-  for (int i = 0; i < 40 && step > 1e-15; ++i) {
-    const double value = ((root - 1) * root + c1) * root - c0;
-    const double slope = (3 * root - 2) * root + c1;
-    step = slope > 0 ? std::max(0.0, -value / slope) : 0;
+  return value > limit;
+}
+PCL6D_INLINE bool
+anyAbove(const Lanes& values, double limit)
+{
+  bool any = false;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    any |= values[lane] > limit;
+  return any;
+}
+
+/** A scatter whose trace is 1, with the least of its eigenvalues. */
+template <typename Real>
+struct Spread {
+  Symmetric<Real> S;
+  Real trace; ///< before it was 1; if it is not above 0, all else is without meaning
+  Real c1;    ///< of the characteristic polynomial
+  Real root;
+};
+
+/** The smallest root of the characteristic polynomial is found by Newton's method from zero,
+ * where it is increasing and concave, so that no step goes too far. */
+template <typename Real>
+PCL6D_INLINE Spread<Real>
+spreadOf(const Symmetric<Real>& scatter)
+{
+  const Real trace = scatter.xx + (scatter.yy + scatter.zz);
+  const Symmetric<Real> S = {scatter.xx / trace,
+                             scatter.xy / trace,
+                             scatter.xz / trace,
+                             scatter.yy / trace,
+                             scatter.yz / trace,
+                             scatter.zz / trace};
+  const Real c1 =
+      S.xx * S.yy - S.xy * S.xy + S.xx * S.zz - S.xz * S.xz + S.yy * S.zz - S.yz * S.yz;
+  const Real c0 = S.xx * (S.yy * S.zz - S.yz * S.yz) -
+                  S.xy * (S.xy * S.zz - S.yz * S.xz) +
+                  S.xz * (S.xy * S.yz - S.yy * S.xz);
+  const Real none{};
+  Real root{}, step = none + 1;
+  for (int i = 0; i < 40 && anyAbove(step, 1e-15); ++i) {
+    const Real value = ((root - 1) * root + c1) * root - c0;
+    const Real slope = (3 * root - 2) * root + c1;
+    const Real newton = -value / slope;
+    const Real forward = slope > none ? (newton > none ? newton : none) : none;
+    step = step > none + 1e-15 ? forward : none;
     root += step;
   }
-  const double others = 1 - root, product = c1 - root * others;
+  return {S, trace, c1, root};
+}
+
+/** The direction of least spread; zero for points on a line. It is orthogonal to two rows of
+ * S - root. Several times as fast as a general solver, which is left what this cannot
+ * decide: patches that are nearly as thick as they are wide in some direction. */
+Eigen::Vector3d
+leastSpread(const Spread<double>& of)
+{
+  if (!(of.trace > 0))
+    return Eigen::Vector3d::Zero();
+  const double others = 1 - of.root, product = of.c1 - of.root * others;
   const double largest =
       (others + std::sqrt(std::max(0.0, others * others - 4 * product))) / 2;
   if (!(product > kLineTolerance * largest * largest))
     return Eigen::Vector3d::Zero();
-  const Eigen::Matrix3d rest = S - root * Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d S;
+  S << of.S.xx, of.S.xy, of.S.xz, of.S.xy, of.S.yy, of.S.yz, of.S.xz, of.S.yz, of.S.zz;
+  const Eigen::Matrix3d rest = S - of.root * Eigen::Matrix3d::Identity();
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d direction = rest.row(i).cross(rest.row((i + 1) % 3));
@@ -72,6 +177,30 @@ leastSpread(const Eigen::Matrix3d& scatter)
   if (best.squaredNorm() > 1e-8)
     return best.normalized();
   return symmetricEigen(S).vectors.col(0);
+}
+
+/** \return towards the origin */
+Eigen::Vector3f
+normalFrom(const Spread<double>& spread, const Eigen::Vector3f& place)
+{
+  const Eigen::Vector3f normal = leastSpread(spread).cast<float>();
+  return normal.dot(place) > 0 ? Eigen::Vector3f(-normal) : normal;
+}
+
+PCL6D_SIMD_CLONES void
+spreadOfLanes(const LanesOffsets& offsets, std::size_t size, Spread<Lanes>& spread)
+{
+  spread = spreadOf(scatterOf(offsets, size));
+}
+
+Spread<double>
+laneOf(const Spread<Lanes>& all, std::size_t lane)
+{
+  const auto& S = all.S;
+  return {{S.xx[lane], S.xy[lane], S.xz[lane], S.yy[lane], S.yz[lane], S.zz[lane]},
+          all.trace[lane],
+          all.c1[lane],
+          all.root[lane]};
 }
 
 void
@@ -91,9 +220,33 @@ normalOfPatch(const Eigen::Vector3f& place,
 {
   if (size < 3)
     return Eigen::Vector3f::Zero();
-  const Eigen::Vector3f normal =
-      leastSpread(scatterOf(patch, size, points, place)).cast<float>();
-  return normal.dot(place) > 0 ? Eigen::Vector3f(-normal) : normal;
+  return normalFrom(spreadOf(scatterOf(PatchOffsets{patch, points, place}, size)),
+                    place);
+}
+
+/** kLanes normals. \return whether all patches had the same size, of 3 or more; if not,
+ * nothing was written */
+bool
+normalsOfLanes(const Eigen::Vector3f* places,
+               const PointTree& tree,
+               const Points& points,
+               std::size_t neighbours,
+               Eigen::Vector3f* normals)
+{
+  std::array<Patch, kLanes> patches;
+  std::size_t size = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const std::size_t found =
+        tree.nearestK(places[lane], neighbours, patches[lane].data());
+    if (found < 3 || (lane > 0 && found != size))
+      return false;
+    size = found;
+  }
+  Spread<Lanes> spread;
+  spreadOfLanes({patches.data(), points, places}, size, spread);
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    normals[lane] = normalFrom(laneOf(spread, lane), places[lane]);
+  return true;
 }
 } // namespace
 
@@ -130,8 +283,15 @@ estimateNormals(const Points& places,
   requireNeighbours(neighbours);
   Normals normals(places.size());
   parallelBlocks(places.size(), kBlockSize, num_threads, [&](const Block& block) {
-    for (std::size_t i = block.begin; i < block.end; ++i)
-      normals[i] = normalAt(places[i], tree, points, neighbours);
+    std::size_t i = block.begin;
+    while (i < block.end) {
+      const std::size_t lanes_end = std::min(i + kLanes, block.end);
+      if (lanes_end - i == kLanes &&
+          normalsOfLanes(&places[i], tree, points, neighbours, &normals[i]))
+        i = lanes_end;
+      for (; i < lanes_end; ++i)
+        normals[i] = normalAt(places[i], tree, points, neighbours);
+    }
   });
   return normals;
 }

@@ -130,7 +130,12 @@ IcpMetric::planeSums(const Eigen::Isometry3d& T,
         const Eigen::Vector3d p = T * (*source_.points)[i].cast<double>();
         const Eigen::Vector3d m = partner.point.cast<double>();
         if (planes)
-          sums.addNorm(p, m, normOf(T, partner, i), partner.weight);
+          sums.addPlanes(p,
+                         m,
+                         partner.normal.cast<double>(),
+                         T.linear() * (*source_.normals)[i].cast<double>(),
+                         options_.gicp_epsilon,
+                         partner.weight);
         else if (options_.symmetric)
           sums.add((p + m) / 2,
                    (p + m) / 2 + (m - p),

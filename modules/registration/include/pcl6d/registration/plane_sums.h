@@ -49,8 +49,8 @@ struct PlaneSums {
 Eigen::Matrix3d
 planeToPlane(const Eigen::Vector3d& n, const Eigen::Vector3d& m, double epsilon = 1e-3);
 
-/** \brief Adds up pairs one by one, about the first source point, so that points far
- * from the origin lose no digits. */
+/** \brief Adds up pairs, eight at a time, about the first source point, so that points far
+ * from the origin lose no digits. The order of the pairs makes the bits. */
 class PlaneAccumulator {
 public:
   /** What pairs must have to fix a motion, for error messages. */
@@ -72,12 +72,43 @@ public:
           const Eigen::Matrix3d& N,
           double weight = 1);
 
+  /** \brief Adds a pair with planeToPlane() of two unit normals; skipped if a value is not
+   * finite. */
+  void
+  addPlanes(const Eigen::Vector3d& source,
+            const Eigen::Vector3d& target,
+            const Eigen::Vector3d& n,
+            const Eigen::Vector3d& m,
+            double epsilon,
+            double weight = 1);
+
   PlaneSums
   sums() const;
 
 private:
+  static constexpr std::size_t kLanes = 8;
+  static constexpr std::size_t kSums = 39;
+
+  /** Values of the pairs that wait to be added, one in each lane. */
+  struct Waiting {
+    std::size_t count = 0;
+    double weight[kLanes] = {};
+    double source[3][kLanes] = {}; ///< from the origin [m]
+    double error[3][kLanes] = {};  ///< from source to target [m]
+    double norm[6][kLanes] = {};   ///< N: xx, xy, xz, yy, yz, zz
+  };
+
+  bool
+  begin(const Eigen::Vector3d& source, const Eigen::Vector3d& target, double weight);
+  void
+  end();
+  static void
+  addLanes(const Waiting& waiting, double (*sums)[kLanes]);
+
+  std::size_t count_ = 0;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  PlaneSums sums_; ///< about origin_, with the mean relative to it and not yet divided
+  Waiting waiting_;
+  double sums_[kSums][kLanes] = {}; ///< about origin_, see plane_sums.cpp
 };
 
 } // namespace pcl6d

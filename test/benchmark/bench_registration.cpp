@@ -183,6 +183,71 @@ gicpJob(const RecordedPair& pair, unsigned int threads)
       }};
 }
 
+constexpr char kPlanes[] = "pcl::IterativeClosestPointWithNormals";
+
+pcl::PointCloud<pcl::PointNormal>::Ptr
+withNormals(const Cloud& cloud)
+{
+  Points points;
+  for (const auto& p : cloud)
+    points.push_back(p.getVector3fMap());
+  const Normals normals = estimateNormals(points, PointTree(points));
+  const pcl::PointCloud<pcl::PointNormal>::Ptr with(
+      new pcl::PointCloud<pcl::PointNormal>);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    pcl::PointNormal point;
+    point.getVector3fMap() = points[i];
+    point.getNormalVector3fMap() = normals[i];
+    with->push_back(point);
+  }
+  return with;
+}
+
+/** Lets the check see how many iterations the peer took. */
+class PeerPlanes
+: public pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> {
+public:
+  int
+  iterations() const
+  {
+    return nr_iterations_;
+  }
+};
+
+/** Points to planes; both are given the same normals. */
+PeerJob
+planesJob(const RecordedPair& pair, unsigned int threads)
+{
+  const auto work = std::make_shared<Work>(pair);
+  const auto target = withNormals(*work->target), source = withNormals(*work->source);
+  const auto align = [=](auto& icp) {
+    icp.setInputTarget(target);
+    icp.setInputSource(source);
+    icp.setMaximumIterations(kMaxIterations);
+    icp.setMaxCorrespondenceDistance(work->gate);
+    icp.setTransformationEpsilon(kTranslationEpsilon * kTranslationEpsilon);
+    pcl::PointCloud<pcl::PointNormal> aligned;
+    icp.align(aligned, work->guess);
+    return icp.getFinalTransformation();
+  };
+  return {[=] {
+            pcl6d::ICP6DWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
+            icp.setNumberOfThreads(threads);
+            work->ours = align(icp);
+            work->our_iterations = icp.result().iterations;
+            work->our_rest = icp.result().stop == IcpStop::kAtRest;
+          },
+          [=] {
+            PeerPlanes icp;
+            icp.getConvergeCriteria()->setAbsoluteMSE(0);
+            icp.getConvergeCriteria()->setRelativeMSE(0);
+            work->theirs = align(icp);
+            work->their_iterations = icp.iterations();
+            work->their_rest = icp.iterations() < kMaxIterations;
+          },
+          [=](benchmark::State& state) { checkEqual(state, *work, false); }};
+}
+
 /** Cells, and steps until both rest within a millimetre, which PCL is told by its square. */
 template <typename Ndt>
 Eigen::Matrix4f
@@ -230,6 +295,9 @@ main(int argc, char** argv)
     for (const unsigned int threads : thread_counts) {
       addPeerCase({"icp/" + pair.name, kIcp, threads, 7, [=] {
                      return icpJob(pair, threads);
+                   }});
+      addPeerCase({"planes/" + pair.name, kPlanes, threads, 7, [=] {
+                     return planesJob(pair, threads);
                    }});
       addPeerCase({"ndt/" + pair.name, kNdt, threads, 3, [=] {
                      return ndtJob(pair, threads);

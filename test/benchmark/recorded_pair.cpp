@@ -6,6 +6,7 @@
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/io/scan_reader.h>
 
 #include <filesystem>
 #include <iostream>
@@ -32,6 +33,38 @@ reduced(const ScanFolder& folder, std::size_t scan, const Recipe& recipe)
   reduction.voxel = recipe.voxel;
   return reducePoints(gateByRange(folder.read(scan).points, 0.2, recipe.max_range),
                       reduction);
+}
+
+/** The registration pair of PCL's tests, as it is. */
+std::optional<RecordedPair>
+bunnies()
+{
+  const std::filesystem::path folder = test::dataFolder("pcl");
+  if (!std::filesystem::exists(folder / "bun0.pcd"))
+    return std::nullopt;
+  return RecordedPair{"bun0-bun4",
+                      readScan(folder / "bun4.pcd").points,
+                      readScan(folder / "bun0.pcd").points,
+                      Eigen::Isometry3d::Identity(),
+                      0.05};
+}
+
+/** PCL's scene of a milk carton on a table, thinned, against the whole, from a start that is
+ * off by 5 degrees and 3 cm. */
+std::optional<RecordedPair>
+milkScene()
+{
+  const std::filesystem::path file = test::dataFolder("pcl") / "milk_color.pcd";
+  if (!std::filesystem::exists(file))
+    return std::nullopt;
+  const Points points = readScan(file).points;
+  ReductionOptions reduction;
+  reduction.voxel = 0.01;
+  return RecordedPair{"milk",
+                      points,
+                      reducePoints(points, reduction),
+                      poseFromEuler({0.02, -0.01, 0.02}, {0.03, 0.06, -0.05}),
+                      0.1};
 }
 } // namespace
 
@@ -65,6 +98,9 @@ recordedPairs()
          recipe.guess.value_or(folder.initialPose(a).inverse() * folder.initialPose(b)),
          recipe.gate});
   }
+  for (const auto& pair : {bunnies(), milkScene()})
+    if (pair)
+      pairs.push_back(*pair);
   return pairs;
 }
 

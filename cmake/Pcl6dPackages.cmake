@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The packages of the whole suite, each found once.
-find_package(PCL 1.12 REQUIRED COMPONENTS common io kdtree search filters registration)
+find_package(PCL 1.12 REQUIRED COMPONENTS
+  common features filters io kdtree registration sample_consensus search segmentation)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(Boost 1.71 REQUIRED COMPONENTS program_options filesystem)
 find_package(Threads REQUIRED)

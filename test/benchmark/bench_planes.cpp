@@ -2,6 +2,7 @@
 // Plane segmentation: our methods beside PCL's, in seconds and in what they find.
 #include "peer_ratio.h"
 #include "plane_methods.h"
+#include "plane_sac_cases.h"
 #include "plane_scans.h"
 
 #include <pcl6d/benchmarking/plane_score.h>
@@ -129,5 +130,6 @@ main(int argc, char** argv)
   for (const auto min_points : kMinPoints)
     printScores(methods, rooms, min_points, threads.back());
   addRatios(threads);
+  addPlaneSacCases(threads);
   return runPeerCases(argc, argv);
 }

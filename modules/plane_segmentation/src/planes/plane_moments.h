@@ -38,6 +38,18 @@ public:
   : about_(about)
   {}
 
+  /** \brief Sums that are known, of points of weight 1 about the origin.
+   * \param[in] sum of p [m] \param[in] squares sum of p p^T [m^2] */
+  PlaneMoments(std::size_t count,
+               const Eigen::Vector3d& sum,
+               const Eigen::Matrix3d& squares)
+  : about_(Eigen::Vector3d::Zero())
+  , count_(count)
+  , weight_(static_cast<double>(count))
+  , sum_(sum)
+  , squares_(squares)
+  {}
+
   void
   add(const Eigen::Vector3d& point, double weight = 1)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planes/plane_parts.h"
+#include "planes/sort_unique.h"
 
 #include <pcl6d/common/components.h>
 #include <pcl6d/common/parallel.h>
@@ -173,7 +174,7 @@ shareCarrier(const PlanePart& a, const PlanePart& b)
 } // namespace
 
 PlaneParts::PlaneParts(const PlaneCloud& cloud, const PlaneOptions& options)
-: cloud_(cloud), options_(options)
+: cloud_(cloud), options_(options), least_cosine_(portableSinCos(options.max_angle).cos)
 {}
 
 void
@@ -185,7 +186,7 @@ PlaneParts::start(const PlaneCandidates& candidates)
       continue; // would not get through split() either
     parts_.emplace_back();
     parts_.back().points = points;
-    std::sort(parts_.back().points.begin(), parts_.back().points.end());
+    sortUnique(parts_.back().points, cloud_.points().size());
   }
   fitAll();
 }
@@ -196,8 +197,8 @@ PlaneParts::supports(const PlanePart& part, std::uint32_t point) const
 {
   const std::uint32_t surfel = cloud_.surfels().of_point[point];
   const Eigen::Vector3d normal = cloud_.normals()[point].cast<double>();
-  return cloud_.surfels().smooth[surfel] && std::abs(part.plane.normal.dot(normal)) >
-                                                portableSinCos(options_.max_angle).cos;
+  return cloud_.surfels().smooth[surfel] &&
+         std::abs(part.plane.normal.dot(normal)) > least_cosine_;
 }
 
 bool
@@ -206,18 +207,21 @@ PlaneParts::fit(PlanePart& part) const
   if (part.points.size() < 3)
     return false;
   const Eigen::Vector3d about = cloud_.points()[part.points.front()].cast<double>();
-  PlaneMoments all(about), firm(about);
+  PlaneMoments firm(about);
   double squares = 0;
   const bool known = part.sums.count() > 0;
   for (const auto i : part.points) {
-    const Eigen::Vector3d point = cloud_.points()[i].cast<double>();
     const double sigma = cloud_.surfels().noise[cloud_.surfels().of_point[i]];
     squares += sigma * sigma;
-    all.add(point);
     if (known && supports(part, i))
-      firm.add(point);
+      firm.add(cloud_.points()[i].cast<double>());
   }
-  part.sums = 2 * firm.count() > part.points.size() ? firm : all;
+  part.sums = firm;
+  if (2 * firm.count() <= part.points.size()) {
+    part.sums = PlaneMoments(about);
+    for (const auto i : part.points)
+      part.sums.add(cloud_.points()[i].cast<double>());
+  }
   const auto plane = part.sums.fit();
   if (!plane)
     return false;
@@ -259,8 +263,7 @@ PlaneParts::surfelsOf(const PlanePart& part) const
   std::vector<std::uint32_t> surfels;
   for (const auto i : part.points)
     surfels.push_back(cloud_.surfels().of_point[i]);
-  std::sort(surfels.begin(), surfels.end());
-  surfels.erase(std::unique(surfels.begin(), surfels.end()), surfels.end());
+  sortUnique(surfels, cloud_.surfels().size());
   return surfels;
 }
 

@@ -69,6 +69,7 @@ private:
 
   const PlaneCloud& cloud_;
   const PlaneOptions options_;
+  const double least_cosine_; // of options_.max_angle
   std::vector<PlanePart> parts_;
 };
 

@@ -34,10 +34,10 @@ surfelsOfCells(const Surfels& surfels, const PointGrid& grid)
   return cells;
 }
 
-Adjacency
-adjacencyOf(const Surfels& surfels, const PointGrid& grid)
+/** \return pairs of surfels with points next to each other, both ways, some often */
+std::vector<std::pair<std::uint32_t, std::uint32_t>>
+adjacentPairs(const std::vector<std::uint32_t>& cells, std::size_t width)
 {
-  const auto cells = surfelsOfCells(surfels, grid);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   const auto join = [&](std::size_t cell, std::size_t other) {
     if (other >= cells.size() || cells[other] == kNone || cells[other] == cells[cell])
@@ -48,25 +48,46 @@ adjacencyOf(const Surfels& surfels, const PointGrid& grid)
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     if (cells[cell] == kNone)
       continue;
-    const std::size_t column = cell % grid.width;
-    if (column + 1 < grid.width) {
+    const std::size_t column = cell % width;
+    if (column + 1 < width) {
       join(cell, cell + 1);
-      join(cell, cell + grid.width + 1);
+      join(cell, cell + width + 1);
     }
-    join(cell, cell + grid.width);
+    join(cell, cell + width);
     if (column > 0)
-      join(cell, cell + grid.width - 1);
+      join(cell, cell + width - 1);
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+Adjacency
+adjacencyOf(const Surfels& surfels, const PointGrid& grid)
+{
+  const auto pairs = adjacentPairs(surfelsOfCells(surfels, grid), grid.width);
   Adjacency adjacency;
   adjacency.begin.assign(surfels.size() + 1, 0);
-  for (const auto& [from, to] : pairs) {
-    ++adjacency.begin[from + 1];
-    adjacency.others.push_back(to);
-  }
+  for (const auto& pair : pairs)
+    ++adjacency.begin[pair.first + 1];
   for (std::size_t i = 0; i < surfels.size(); ++i)
     adjacency.begin[i + 1] += adjacency.begin[i];
+  adjacency.others.resize(pairs.size());
+  auto next = adjacency.begin;
+  for (const auto& [from, to] : pairs)
+    adjacency.others[next[from]++] = to;
+  // Each list in order, and each other surfel once.
+  const auto others = adjacency.others.begin();
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < surfels.size(); ++i) {
+    const auto begin = others + adjacency.begin[i];
+    const auto end = others + next[i];
+    std::sort(begin, end);
+    const auto unique_end = std::unique(begin, end);
+    adjacency.begin[i] = kept;
+    kept += static_cast<std::uint32_t>(std::copy(begin, unique_end, others + kept) -
+                                       (others + kept));
+  }
+  adjacency.begin[surfels.size()] = kept;
+  adjacency.others.resize(kept);
   return adjacency;
 }
 
@@ -90,8 +111,9 @@ public:
         add(start, adjacency_.others[k]);
     }
     const std::size_t kept = std::min(near_.size(), Surfels::kNeighbours);
-    std::partial_sort(
-        near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(kept), near_.end());
+    const auto end = near_.begin() + static_cast<std::ptrdiff_t>(kept);
+    std::nth_element(near_.begin(), end - 1, near_.end());
+    std::sort(near_.begin(), end);
     near_.resize(kept);
     return near_;
   }
@@ -126,6 +148,7 @@ linkByGrid(Surfels& surfels, const PointGrid& grid, unsigned int num_threads)
     for (std::size_t i = block.begin; i < block.end; ++i) {
       const auto& near = walk.around(static_cast<std::uint32_t>(i));
       surfels.radii[i] = std::sqrt(near.back().first);
+      links[i].reserve(near.size());
       for (const auto& [distance_sq, surfel] : near)
         links[i].push_back(surfel);
     }

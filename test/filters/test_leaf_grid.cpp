@@ -236,7 +236,7 @@ TEST(LeafGrid, RefusesLeavesAndFieldsThatAreNone)
     EXPECT_NE(words([&](auto& f) { f.setLeafSize(1, side, 1); }).find("leaf size"),
               std::string::npos)
         << side;
-  EXPECT_NE(words([](auto& f) { f.setLeafSize(1e-6f, 1, 1); }).find("larger leaves"),
+  EXPECT_NE(words([](auto& f) { f.setLeafSize(1e-9f, 1, 1); }).find("larger leaves"),
             std::string::npos);
   EXPECT_NE(words([](auto& f) { f.setFilterFieldName("curvature"); }).find("curvature"),
             std::string::npos);

@@ -185,9 +185,10 @@ OctreeReduction<Blob>::applyFilter(Blob& output)
     if (limited && !isWithinLimits(read(*limited, data + limited->offset)))
       points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
   }
-  const Points places = placesOf(points);
-  const VoxelGroups groups(places, 1);
-  const std::vector<std::size_t> kept = keptGroups(groups, places);
+  const CoordinateView view = viewOf(points);
+  findCells(view);
+  const LeafGroups groups(LeafOrder(view, cells()));
+  const std::vector<std::size_t> kept = keptGroups(groups, view);
   Blob reduced;
   reduced.header = input.header;
   reduced.is_bigendian = input.is_bigendian;

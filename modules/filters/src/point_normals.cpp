@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/decompositions.h>
+#include "least_spread.h"
+
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/simd_clones.h>
@@ -7,27 +8,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace pcl6d {
 
 namespace {
 constexpr std::size_t kMostNeighbours = 64;
 constexpr std::size_t kBlockSize = 256; // points
-/** Ratio of squared spreads below which points count as lying on a line. */
-constexpr double kLineTolerance = 1e-8;
-
+constexpr std::size_t kLanes = filters::kSpreadLanes;
+using Lanes = filters::SpreadLanes;
+using filters::leastSpread;
+using filters::Spread;
+using filters::spreadOf;
+using filters::Symmetric;
 using Patch = std::array<Neighbour, kMostNeighbours>;
 
-/** The upper half of a symmetric matrix, of one patch or of a patch in each lane. */
-template <typename Real>
-struct Symmetric {
-  Real xx, xy, xz, yy, yz, zz;
-};
-
-/** Several patches at once: the same operations as for one, lane by lane. */
-constexpr std::size_t kLanes = 8;
-using Lanes = double __attribute__((vector_size(8 * kLanes)));
 using FloatLanes = float __attribute__((vector_size(4 * kLanes)));
 
 /** Offsets of the points from the place of a patch, one after another. */
@@ -95,88 +89,6 @@ scatterOf(const Offsets& offsets, std::size_t size)
           s.yy - y * y / count,
           s.yz - y * z / count,
           s.zz - z * z / count};
-}
-
-/** Whether any lane is above a limit. */
-PCL6D_INLINE bool
-anyAbove(double value, double limit)
-{
-  return value > limit;
-}
-PCL6D_INLINE bool
-anyAbove(const Lanes& values, double limit)
-{
-  bool any = false;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    any |= values[lane] > limit;
-  return any;
-}
-
-/** A scatter whose trace is 1, with the least of its eigenvalues. */
-template <typename Real>
-struct Spread {
-  Symmetric<Real> S;
-  Real trace; ///< before it was 1; if it is not above 0, all else is without meaning
-  Real c1;    ///< of the characteristic polynomial
-  Real root;
-};
-
-/** The smallest root of the characteristic polynomial is found by Newton's method from zero,
- * where it is increasing and concave, so that no step goes too far. */
-template <typename Real>
-PCL6D_INLINE Spread<Real>
-spreadOf(const Symmetric<Real>& scatter)
-{
-  const Real trace = scatter.xx + (scatter.yy + scatter.zz);
-  const Symmetric<Real> S = {scatter.xx / trace,
-                             scatter.xy / trace,
-                             scatter.xz / trace,
-                             scatter.yy / trace,
-                             scatter.yz / trace,
-                             scatter.zz / trace};
-  const Real c1 =
-      S.xx * S.yy - S.xy * S.xy + S.xx * S.zz - S.xz * S.xz + S.yy * S.zz - S.yz * S.yz;
-  const Real c0 = S.xx * (S.yy * S.zz - S.yz * S.yz) -
-                  S.xy * (S.xy * S.zz - S.yz * S.xz) +
-                  S.xz * (S.xy * S.yz - S.yy * S.xz);
-  const Real none{};
-  Real root{}, step = none + 1;
-  for (int i = 0; i < 40 && anyAbove(step, 1e-15); ++i) {
-    const Real value = ((root - 1) * root + c1) * root - c0;
-    const Real slope = (3 * root - 2) * root + c1;
-    const Real newton = -value / slope;
-    const Real forward = slope > none ? (newton > none ? newton : none) : none;
-    step = step > none + 1e-15 ? forward : none;
-    root += step;
-  }
-  return {S, trace, c1, root};
-}
-
-/** The direction of least spread; zero for points on a line. It is orthogonal to two rows of
- * S - root. Several times as fast as a general solver, which is left what this cannot
- * decide: patches that are nearly as thick as they are wide in some direction. */
-Eigen::Vector3d
-leastSpread(const Spread<double>& of)
-{
-  if (!(of.trace > 0))
-    return Eigen::Vector3d::Zero();
-  const double others = 1 - of.root, product = of.c1 - of.root * others;
-  const double largest =
-      (others + std::sqrt(std::max(0.0, others * others - 4 * product))) / 2;
-  if (!(product > kLineTolerance * largest * largest))
-    return Eigen::Vector3d::Zero();
-  Eigen::Matrix3d S;
-  S << of.S.xx, of.S.xy, of.S.xz, of.S.xy, of.S.yy, of.S.yz, of.S.xz, of.S.yz, of.S.zz;
-  const Eigen::Matrix3d rest = S - of.root * Eigen::Matrix3d::Identity();
-  Eigen::Vector3d best = Eigen::Vector3d::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d direction = rest.row(i).cross(rest.row((i + 1) % 3));
-    if (direction.squaredNorm() > best.squaredNorm())
-      best = direction;
-  }
-  if (best.squaredNorm() > 1e-8)
-    return best.normalized();
-  return symmetricEigen(S).vectors.col(0);
 }
 
 /** \return towards the origin */

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "random_members.h"
 #include "voxel_sort.h"
 
 #include <pcl6d/common/name_table.h>
@@ -55,21 +56,12 @@ VoxelGroups::VoxelGroups(const Points& points, double voxel)
 pcl::Indices
 VoxelGroups::chooseRandom(int count, std::uint64_t seed) const
 {
-  const auto wanted = static_cast<std::size_t>(count);
-  pcl::Indices chosen, members;
-  for (std::size_t g = 0; g < size(); ++g) {
-    members.assign(indices(g).begin(), indices(g).end());
-    if (members.size() > wanted) {
-      std::uint64_t bits = mixBits(key(g) ^ mixBits(seed));
-      for (std::size_t i = 0; i < wanted; ++i) { // partial shuffle of Fisher and Yates
-        bits = mixBits(bits);
-        std::swap(members[i], members[i + bits % (members.size() - i)]);
-      }
-      members.resize(wanted);
-      std::sort(members.begin(), members.end());
-    }
-    chosen.insert(chosen.end(), members.begin(), members.end());
-  }
+  pcl::Indices chosen;
+  for (std::size_t g = 0; g < size(); ++g)
+    filters::appendRandom(indices(g),
+                          static_cast<std::size_t>(count),
+                          mixBits(key(g) ^ mixBits(seed)),
+                          chosen);
   return chosen;
 }
 

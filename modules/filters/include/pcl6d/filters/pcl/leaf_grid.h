@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
-#include <pcl6d/filters/voxel_reduction.h>
+#include <pcl6d/filters/leaf_cells.h>
 
 #include <limits>
 #include <optional>
@@ -11,10 +11,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The grid of pcl::VoxelGrid, with its setters and getters: leaves of any three
- * sides, the cell of a coordinate being floor(x * (1 / side)) in float, so that both have the
- * same voxels. Unlike there, the number of cells of a side is limited (to 2^21), not their
- * product. \ingroup filters */
+/** \brief The grid of pcl::VoxelGrid (LeafCells), with its setters and getters.
+ * \ingroup filters */
 class LeafGrid {
 public:
   /** \brief Sides of a leaf [m]. */
@@ -112,17 +110,17 @@ public:
   Eigen::Vector3i
   getMinBoxCoordinates() const
   {
-    return low_;
+    return cells_.low();
   }
   Eigen::Vector3i
   getMaxBoxCoordinates() const
   {
-    return high_;
+    return cells_.high();
   }
   Eigen::Vector3i
   getNrDivisions() const
   {
-    return high_ - low_ + Eigen::Vector3i::Ones();
+    return cells_.counts();
   }
   Eigen::Vector3i
   getDivisionMultiplier() const
@@ -186,19 +184,20 @@ protected:
   }
 
   /** \brief Finds the cells of points; those that are not finite have none.
-   * \return their places in a grid of cells of 1, z first, so that voxels come in PCL's
-   * order: x runs fastest
-   * \throws BadArgument a side is not finite and > 0, or the points need more than 2^21 cells
-   * along an axis, or, with a layout to be kept, more than 2^31 in all */
-  Points
-  placesOf(const Points& points);
+   * \throws BadArgument as LeafCells(), or, with a layout to be kept, there are more than
+   * 2^31 cells */
+  void
+  findCells(const CoordinateView& points);
+  const LeafCells&
+  cells() const
+  {
+    return cells_;
+  }
 
-  /** \return the groups that have points enough, if the layout is to be kept with it */
+  /** \return the groups that have points enough, the places in the output of which are
+   * kept, if the layout is to be */
   std::vector<std::size_t>
-  keptGroups(const VoxelGroups& groups, const Points& places);
-
-  Eigen::Vector3f
-  centreOf(const Eigen::Vector3f& place) const;
+  keptGroups(const LeafGroups& groups, const CoordinateView& points);
 
   bool downsample_all_ = true;
   unsigned int least_points_ = 0;
@@ -209,13 +208,12 @@ private:
   neighborIndices(const Eigen::Vector3i& cell, const Eigen::MatrixXi& relative) const;
 
   std::optional<Eigen::Vector3f> leaf_; ///< [m]
-  Eigen::Array3f inverse_ = Eigen::Array3f::Zero();
+  LeafCells cells_;
   double least_ = std::numeric_limits<float>::lowest();
   double most_ = std::numeric_limits<float>::max();
   bool negative_ = false;
   bool save_layout_ = false;
   std::vector<int> layout_;
-  Eigen::Vector3i low_ = Eigen::Vector3i::Zero(), high_ = -Eigen::Vector3i::Ones();
 };
 
 } // namespace pcl6d

@@ -49,11 +49,7 @@ private:
   void
   reduceByVoxel(const Points& points, PointCloud& output) const;
   void
-  reduceByLeaf(const Points& points, PointCloud& output);
-  void
-  takeRandom(const VoxelGroups& groups,
-             const std::vector<std::size_t>& kept,
-             PointCloud& output) const;
+  reduceByLeaf(const CoordinateView& points, PointCloud& output);
 
   ReductionOptions options_;
 };

@@ -4,6 +4,7 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/require_indices.h>
 #include <pcl6d/filters/pcl/impl/average_fields.hpp>
+#include <pcl6d/filters/pcl/impl/chosen_points.hpp>
 #include <pcl6d/filters/pcl/octree_reduction.h>
 
 #include <pcl/common/io.h>
@@ -55,16 +56,17 @@ void
 OctreeReduction<PointT>::applyFilter(PointCloud& output)
 {
   options_.validate();
-  const Points points = chosenPoints();
   PointCloud reduced; // the output may be the input
   reduced.header = this->input_->header;
   reduced.sensor_origin_ = this->input_->sensor_origin_;
   reduced.sensor_orientation_ = this->input_->sensor_orientation_;
   reduced.is_dense = true;
-  if (hasLeaf())
-    reduceByLeaf(points, reduced);
+  if (!hasLeaf())
+    reduceByVoxel(chosenPoints(), reduced);
+  else if (field_.empty())
+    reduceByLeaf(ChosenPoints<PointT>(*this->input_, *this->indices_).view(), reduced);
   else
-    reduceByVoxel(points, reduced);
+    reduceByLeaf(viewOf(chosenPoints()), reduced);
   reduced.width = static_cast<std::uint32_t>(reduced.size());
   reduced.height = 1;
   output.swap(reduced);
@@ -104,52 +106,42 @@ OctreeReduction<PointT>::reduceByVoxel(const Points& points, PointCloud& output)
 /** What pcl::VoxelGrid does. */
 template <typename PointT>
 void
-OctreeReduction<PointT>::reduceByLeaf(const Points& points, PointCloud& output)
+OctreeReduction<PointT>::reduceByLeaf(const CoordinateView& points, PointCloud& output)
 {
-  const Points places = placesOf(points);
-  if (options_.method == ReductionMethod::kMean && least_points_ < 2 &&
-      !getSaveLeafLayout() && (hasOnlyCoordinates<PointT>() || !downsample_all_)) {
-    const Points means = meansByCell(places, points);
-    output.resize(means.size());
-    for (std::size_t i = 0; i < means.size(); ++i)
-      output[i].getVector3fMap() = means[i];
-    return;
-  }
+  this->findCells(points);
+  const LeafOrder order(points, this->cells());
+  const bool takes_means = options_.method == ReductionMethod::kMean;
+  if (takes_means && least_points_ < 2 && !getSaveLeafLayout())
+    return averageCells(
+        *this->input_, *this->indices_, points, order, downsample_all_, output);
   const auto pointOf = [&](pcl::index_t i) -> const PointT& {
     return (*this->input_)[(*this->indices_)[i]];
   };
-  const VoxelGroups groups(places, 1);
-  const std::vector<std::size_t> kept = keptGroups(groups, places);
-  if (options_.method == ReductionMethod::kRandom)
-    return takeRandom(groups, kept, output);
+  const LeafGroups groups(order);
+  const std::vector<std::size_t> kept = this->keptGroups(groups, points);
+  if (options_.method == ReductionMethod::kRandom) {
+    for (const auto i : groups.chooseRandom(
+             kept, points, this->cells(), options_.points_per_voxel, options_.seed))
+      output.push_back(pointOf(i));
+    return;
+  }
   output.resize(kept.size());
   for (std::size_t k = 0; k < kept.size(); ++k) {
     const IndexRange members = groups.indices(kept[k]);
+    const PointT& first = pointOf(*members.begin());
     PointT& point = output[k];
     if (downsample_all_)
-      point = pointOf(*members.begin());
-    if (options_.method == ReductionMethod::kCentre)
-      point.getVector3fMap() = centreOf(places[*members.begin()]);
+      point = first;
+    if (!takes_means)
+      point.getVector3fMap() =
+          this->cells()
+              .centreOf(this->cells().cellOf(first.getVector3fMap()))
+              .template cast<float>();
     else if (downsample_all_)
       averageMembers(points, members, pointOf, point);
     else
       point.getVector3fMap() = meanOf(points, members);
   }
-}
-
-template <typename PointT>
-void
-OctreeReduction<PointT>::takeRandom(const VoxelGroups& groups,
-                                    const std::vector<std::size_t>& kept,
-                                    PointCloud& output) const
-{
-  std::vector<bool> is_kept(this->indices_->size());
-  for (const std::size_t g : kept)
-    for (const auto i : groups.indices(g))
-      is_kept[i] = true;
-  for (const auto i : groups.chooseRandom(options_.points_per_voxel, options_.seed))
-    if (is_kept[i])
-      output.push_back((*this->input_)[(*this->indices_)[i]]);
 }
 
 } // namespace pcl6d

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/require_indices.h>
+#include <pcl6d/filters/leaf_cells.h>
+
+#include <pcl/point_cloud.h>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \return whether the indices are 0, 1, 2, ... of all points */
+inline bool
+areAllInOrder(const pcl::Indices& indices, std::size_t num_points)
+{
+  if (indices.size() != num_points)
+    return false;
+  pcl::index_t differs = 0; // without a branch, many at a time
+  for (std::size_t i = 0; i < num_points; ++i)
+    differs |= indices[i] ^ static_cast<pcl::index_t>(i);
+  return differs == 0;
+}
+
+/** \return the points of a cloud in their place; valid as long as it is */
+template <typename PointT>
+CoordinateView
+viewOf(const pcl::PointCloud<PointT>& cloud)
+{
+  static_assert(sizeof(PointT) % sizeof(float) == 0, "points are rows of floats");
+  return {cloud.empty() ? nullptr : cloud.front().getVector3fMap().data(),
+          sizeof(PointT) / sizeof(float),
+          cloud.size()};
+}
+
+/** \brief The chosen points of a cloud as the core sees them: in their place if they are all,
+ * else copied. Valid as long as the cloud. */
+template <typename PointT>
+class ChosenPoints {
+public:
+  /** \throws BadArgument an index is not that of a point */
+  ChosenPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
+  {
+    if (areAllInOrder(indices, cloud.size())) {
+      view_ = viewOf(cloud);
+      return;
+    }
+    requireIndices(indices, cloud.size());
+    copied_ = toPoints(cloud, indices);
+    view_ = viewOf(copied_);
+  }
+  ChosenPoints(const ChosenPoints&) = delete;
+  ChosenPoints&
+  operator=(const ChosenPoints&) = delete;
+
+  const CoordinateView&
+  view() const
+  {
+    return view_;
+  }
+
+private:
+  Points copied_;
+  CoordinateView view_;
+};
+
+} // namespace pcl6d

@@ -71,6 +71,9 @@ public:
                   ? ", shared by " + std::to_string(ranks_->numRanks()) + " processes"
                   : "") +
              ", initial poses from " + folder_.poseSource());
+    for (const auto& plugin : settings_.plugins.loaded())
+      bar_.say("plug-in " + plugin.name + " (" + plugin.file.string() +
+               "): " + plugin.adds);
     for (const auto& description : scans_.descriptions())
       bar_.say(description);
     if (!readScans()) {

@@ -3,12 +3,10 @@
 #include "common/option_table.h"
 #include "common/reduction_options.h"
 #include "slam6d/option_groups.h"
+#include "slam6d/plugin_words.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/require.h>
-#include <pcl6d/registration/minimisers.h>
 
-#include <algorithm>
 #include <sstream>
 
 namespace pcl6d::app {
@@ -26,37 +24,30 @@ metascanFromText(const std::string& text)
   return count;
 }
 
-constexpr char kScaleMinimiser[] = "scale-quaternion";
-constexpr char kOneScale[] =
-    "scans of a run have one scale, that of their scanner; pcl_slam6d_evaluate icp "
-    "--scale estimates that of one scan to another";
+/** What takes the word of an option that plug-ins may add words to. */
+using TakeWord = void (*)(Settings&, const std::string&);
 
-std::vector<std::string>
-minimisersOfMotion()
+Option&
+addOpen(OptionTable& table,
+        Settings& s,
+        const std::string& name,
+        const std::string& usual,
+        TakeWord take)
 {
-  std::vector<std::string> names = minimiserNames();
-  names.erase(std::remove(names.begin(), names.end(), kScaleMinimiser), names.end());
-  return names;
-}
-
-/** \throws BadArgument no such name, or one that estimates a scale as well */
-RigidMinimiser
-minimiserOfMotion(const std::string& name)
-{
-  if (name == kScaleMinimiser)
-    throw UsageError("--minimiser = " + name + ": " + kOneScale);
-  const std::vector<std::string> names = minimisersOfMotion();
-  require(std::find(names.begin(), names.end(), name) != names.end(),
-          "minimiser",
-          name,
-          joined(names));
-  return minimiserFromName(name);
+  return table.addWord(
+      name, usual, [&s, take](const std::string& word) { take(s, word); });
 }
 
 void
 addInput(OptionTable& table, Settings& s)
 {
   table.group("Input");
+  table.add("plugin FILE", &s.plugin_files)
+      .composing()
+      .otherwise("none")
+      .help("a shared library that adds words to --format, --filter, --minimiser, "
+            "--plane-minimiser and --search (share/doc/plugins.md); its code runs with "
+            "your rights; once for each file");
   table.add("first", &s.folder.first)
       .help("index of the first scan to take, in the order of the folder");
   table.add("last", &s.folder.last)
@@ -68,8 +59,8 @@ addInput(OptionTable& table, Settings& s)
           "initial poses, KITTI or TUM rows, one per scan of the folder (default: "
           "*.pose, odometry.txt, poses.txt, PCD VIEWPOINT or identity, the first that "
           "is there)");
-  table.add("format", &s.folder.format, scanFormatFromName)
-      .help("auto|pcd|ply|uos|kitti|xyz");
+  addOpen(table, s, "format", toString(s.folder.format), takeFormat)
+      .help("auto|pcd|ply|uos|kitti|xyz, or one of a plug-in");
   table.add("deskew", &s.deskew)
       .help("scans were taken while moving: correct each point by its time (field t or "
             "time) along the initial poses; needs their time stamps (times.txt, or TUM "
@@ -90,13 +81,14 @@ addMethods(OptionTable& table, Settings& s)
   table.add("metric", &s.slam.metric, metricFromName)
       .help(joined(metricNames()) +
             ": distance between points, of points to planes, of planes");
-  table.add("minimiser", &s.slam.minimiser, minimiserOfMotion, "quaternion")
+  addOpen(table, s, "minimiser", "quaternion", takeMinimiser)
       .help(joined(minimisersOfMotion()) + ", of the metric point");
-  table.add("plane-minimiser", &s.slam.plane_minimiser, planeMinimiserFromName, "helix")
+  addOpen(table, s, "plane-minimiser", "helix", takePlaneMinimiser)
       .help(joined(planeMinimiserNames()) + ", of the metrics plane and gicp");
-  table.add("search", &s.slam.search, searchMethodFromName)
+  addOpen(table, s, "search", toString(s.slam.search), takeSearch)
       .help(joined(searchMethodNames()) +
-            ": how closest points are found; all but approximate give the same result");
+            ": how closest points are found; all but approximate give the same result, "
+            "flann up to which of equally near points it takes");
   table.add("robust", &s.slam.robust, robustKernelFromName)
       .help(joined(robustKernelNames()) + ": less weight for pairs that are far apart");
   const auto takeGuess = [&s](const std::string& word) {
@@ -113,7 +105,7 @@ void
 addMatching(OptionTable& table, Settings& s)
 {
   table.group("Filters and reduction");
-  table.add("filter", &s.filter, lineFilterFromName)
+  addOpen(table, s, "filter", toString(s.filter), takeFilter)
       .help(joined(lineFilterNames()) +
             ": along the lines of organized scans; the median moves mixed pixels at "
             "edges, the reduction merges points closer than 0.1 m on a line");

@@ -34,6 +34,7 @@ openScans(const ScanFolder& folder, const Settings& settings)
   if (settings.deskew)
     scans.deskew(settings.interpolation);
   scans.filterLines(settings.filter);
+  scans.filterBy(settings.other_filter);
   return scans;
 }
 

@@ -72,6 +72,29 @@ RunScans::filterLines(LineFilter filter)
 }
 
 void
+RunScans::filterBy(const OtherFilter& filter)
+{
+  other_filter_ = filter;
+  if (filter.filter)
+    descriptions_.push_back("scans go through the filter " + filter.name);
+}
+
+/** Counts the points that it made not finite, and those of the file. */
+void
+RunScans::filterByOther(Scan& scan, std::size_t i) const
+{
+  const std::size_t dropped = scan.dropped;
+  const std::string file = folder_.file(i).string();
+  try {
+    static_cast<ScanCloud&>(scan) = finiteScan(other_filter_.filter(scan.cloud), file);
+  } catch (const ComputeFailed& e) {
+    throw IoFailed(file + ": " + e.what());
+  }
+  scan.dropped += dropped;
+  scan.points = coordinatesOf(scan.cloud);
+}
+
+void
 RunScans::requireLines(const Scan& scan, std::size_t i) const
 {
   if (scan.row_length == 0)
@@ -109,6 +132,8 @@ RunScans::read(std::size_t i)
     if (filter_ == LineFilter::kReduction || filter_ == LineFilter::kBoth)
       reduceLines(scan);
   });
+  if (other_filter_.filter)
+    filterByOther(scan, i);
   return scan;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slam6d/other_filter.h"
+
 #include <pcl6d/filters/line_filter.h>
 #include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/scan_folder.h>
@@ -29,6 +31,11 @@ public:
   void
   filterLines(LineFilter filter);
 
+  /** \brief From now on scans go through a filter of a plug-in, in the end. Its result is a
+   * scan of its own. */
+  void
+  filterBy(const OtherFilter& filter);
+
   const ScanFolder&
   folder() const
   {
@@ -36,7 +43,8 @@ public:
   }
 
   /** \brief Reads the i-th selected scan. \throws IoFailed as ScanFolder::read(), its
-   * times are missing or broken, or it has no lines to filter along */
+   * times are missing or broken, it has no lines to filter along, or a filter of a plug-in
+   * makes no scan of it */
   Scan
   read(std::size_t i);
 
@@ -51,6 +59,8 @@ private:
   void
   undoMotion(Scan& scan, std::size_t i) const;
   void
+  filterByOther(Scan& scan, std::size_t i) const;
+  void
   requireLines(const Scan& scan, std::size_t i) const;
   FieldValues
   timesOf(const Scan& scan, std::size_t i) const;
@@ -60,6 +70,7 @@ private:
   std::optional<Scan> first_; ///< to be registered, if it was read already
   TimeFormat format_;
   LineFilter filter_ = LineFilter::kNone;
+  OtherFilter other_filter_;
   std::vector<std::string> descriptions_;
 };
 

@@ -2,6 +2,7 @@
 #include "common/app.h"
 #include "common/option_table.h"
 #include "slam6d/option_groups.h"
+#include "slam6d/plugin_words.h"
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/error.h>
@@ -34,13 +35,17 @@ optionsOfRun(const std::string& run)
       "first", "last", "every", "poses", "format", "graph-in", "continue", "threads"};
   std::string lines;
   for (const auto& option : readRunSummary(fs::path(run) / "summary.json").options)
-    if (option.source == "given" && of_input.count(option.name) == 0)
+    if (option.source == "given" && option.name == "plugin")
+      for (const std::string& file : pluginFiles(option.value))
+        lines += "plugin = " + file + '\n';
+    else if (option.source == "given" && of_input.count(option.name) == 0)
       lines += option.name + " = " + option.value + '\n';
   return lines;
 }
 
 /** The options that go into the summary; lengths go there as parameters. */
-constexpr const char* kWords[] = {"first",
+constexpr const char* kWords[] = {"plugin",
+                                  "first",
                                   "last",
                                   "every",
                                   "poses",
@@ -104,6 +109,13 @@ conditionsOf(const std::vector<OptionWord>& words, const OptionTable& table)
       conditions.push_back(word);
   return conditions;
 }
+
+OptionWord&
+wordOf(const std::string& name, std::vector<OptionWord>& words)
+{
+  return *std::find_if(
+      words.begin(), words.end(), [&](const auto& one) { return one.name == name; });
+}
 } // namespace
 
 void
@@ -157,8 +169,11 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
   settings.slam.verify = !settings.no_verification;
   if (settings.resume && settings.fresh)
     throw UsageError("--resume and --fresh contradict each other");
+  loadPlugins(settings);
   settings.words = table.words({std::begin(kWords), std::end(kWords)});
+  wordOf("plugin", settings.words).value = pluginWord(settings);
   settings.conditions = conditionsOf(settings.words, table);
+  wordOf("plugin", settings.conditions).value = pluginCondition(settings);
   // Words have six digits; lengths are compared to the last bit by the tasks' names.
   for (const auto& [name, value] :
        {std::pair("min-overlap", settings.slam.min_overlap),

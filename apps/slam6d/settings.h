@@ -3,10 +3,12 @@
 
 #include "common/memory_budget.h"
 #include "common/option_table.h"
+#include "slam6d/other_filter.h"
 
 #include <pcl6d/filters/line_filter.h>
 #include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/slam6d/plugins.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
@@ -23,12 +25,15 @@ struct Settings {
   ScanFolderOptions folder;
   Slam6DOptions slam;
   MemoryOption memory;
-  std::string continued;  ///< folder of a run that goes on; empty: none
-  std::string graph_in;   ///< file of given links; empty: none
+  std::vector<std::string> plugin_files; ///< as given
+  Plugins plugins;                       ///< of these files, when they are loaded
+  std::string continued;                 ///< folder of a run that goes on; empty: none
+  std::string graph_in;                  ///< file of given links; empty: none
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
   bool deskew = false;    ///< undo the motion of the scanner during each scan
   MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
   LineFilter filter = LineFilter::kNone; ///< along the lines of each scan
+  OtherFilter other_filter;              ///< in its place, that of a plug-in
   bool planes = false;                   ///< find and label the planes of the map
   bool live_view = false;                ///< show the map in a window while it grows
   bool report = false;                   ///< write report.html

@@ -159,7 +159,7 @@ TEST_F(BadInput, UnknownWordsOfMethods)
        "svd|quaternion|orthonormal|dual-quaternion|helix|small-angle|euler|"
        "quaternion-linear"},
       {"plane-minimiser", "linear|helix"},
-      {"search", "kdtree|cached-tree|remembered|approximate|octree|brute-force"},
+      {"search", "kdtree|cached-tree|remembered|approximate|octree|brute-force|flann"},
       {"robust", "none|huber|cauchy|geman-mcclure"},
       {"initial-guess", "odometry|overlap|features"}};
   for (const auto& [option, list] : lists)

@@ -263,7 +263,8 @@ TEST(MethodsHelp, ListsTheWords)
   const Outcome outcome = pcl6d::test::runProgram("pcl_slam6d", {"--help"});
   for (const char* words :
        {"point|plane|gicp",
-        "kdtree|cached-tree|remembered|approximate|octree|brute-force",
+        "kdtree|cached-tree|remembered|approximate|octree|brute-force|", // a line ends
+        "flann: how closest points",
         "none|huber|cauchy|geman-mcclure",
         "auto|odometry|overlap|features",
         "linear|helix",

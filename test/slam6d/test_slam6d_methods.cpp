@@ -91,7 +91,8 @@ TEST_P(EveryMethod, FollowsThePathWithTheSameBitsForEveryExactSearch)
   for (const auto search : {SearchMethod::kKdTree,
                             SearchMethod::kCachedTree,
                             SearchMethod::kOctree,
-                            SearchMethod::kBruteForce}) {
+                            SearchMethod::kBruteForce,
+                            SearchMethod::kFlann}) { // no two are equally near
     options_.search = search;
     EXPECT_EQ(differenceOf(registered(run_, options_), remembered), "")
         << toString(search);

@@ -69,6 +69,7 @@ ScanMatcher::modelOptions(bool normals) const
 {
   IcpModel::Options model;
   model.search = options_.search;
+  model.make_search = options_.make_search;
   model.normals = normals;
   model.neighbours = 10;
   model.normal_voxel = kNormalVoxels * parameters_.voxel.value;

@@ -5,12 +5,14 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/natural_order.h>
+#include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 namespace pcl6d {
@@ -27,19 +29,37 @@ struct FoundScans {
   ScanFormat format = ScanFormat::kAuto;
 };
 
+using IsOfFormat = std::function<bool(const fs::path&)>;
+
+/** \return what tells the files of a format by their names */
+IsOfFormat
+isOfFormat(const ScanFolderOptions& options)
+{
+  if (options.other_format)
+    return [&](const fs::path& file) {
+      return hasExtensionOf(*options.other_format, file);
+    };
+  if (options.format == ScanFormat::kAuto)
+    return [](const fs::path& file) {
+      return scanFormatOfExtension(file) != ScanFormat::kAuto;
+    };
+  return [extension = extensionOf(options.format)](const fs::path& file) {
+    return extensionOf(scanFormatOfExtension(file)) == extension;
+  };
+}
+
 bool
-isScan(const fs::directory_entry& entry)
+isScan(const fs::directory_entry& entry, const IsOfFormat& is_of_format)
 {
   // The name decides. What then proves to be a folder or a link to nowhere is an error when
   // it is read: left out in silence it would shift all poses.
   return entry.path().filename().string().front() != '.' &&
-         !isGroundtruth(entry.path()) &&
-         scanFormatOfExtension(entry.path()) != ScanFormat::kAuto;
+         !isGroundtruth(entry.path()) && is_of_format(entry.path());
 }
 
-/** \return the files with the extension of any format, in natural order */
+/** \return the scans of a format, in natural order */
 std::vector<fs::path>
-scanFiles(const fs::path& folder)
+scanFiles(const fs::path& folder, const IsOfFormat& is_of_format)
 {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
@@ -50,7 +70,7 @@ scanFiles(const fs::path& folder)
   std::vector<fs::path> files;
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (isScan(*entry))
+    if (isScan(*entry, is_of_format))
       files.push_back(entry->path());
   if (error)
     text::fail(folder, error.message());
@@ -77,26 +97,21 @@ commonFormat(const fs::path& folder, const std::vector<fs::path>& files)
 }
 
 FoundScans
-findScans(const fs::path& folder, ScanFormat format)
+findScans(const fs::path& folder, const ScanFolderOptions& options)
 {
-  FoundScans scans{scanFiles(folder), format};
-  auto& files = scans.files;
-  if (format != ScanFormat::kAuto)
-    files.erase(std::remove_if(files.begin(),
-                               files.end(),
-                               [format](const fs::path& file) {
-                                 return extensionOf(scanFormatOfExtension(file)) !=
-                                        extensionOf(format);
-                               }),
-                files.end());
-  if (files.empty())
-    text::fail(
-        folder,
-        "no scans found (looked for " +
-            (format == ScanFormat::kAuto ? allExtensions() : extensionOf(format)) +
-            ")");
-  if (format == ScanFormat::kAuto)
-    scans.format = commonFormat(folder, files);
+  FoundScans scans{scanFiles(folder, isOfFormat(options)), options.format};
+  const bool is_auto = options.format == ScanFormat::kAuto;
+  if (scans.files.empty())
+    text::fail(folder,
+               "no scans found (looked for " +
+                   (options.other_format ? options.other_format->extension
+                    : is_auto            ? allExtensions()
+                                         : extensionOf(options.format)) +
+                   ")");
+  if (options.other_format)
+    scans.format = ScanFormat::kAuto;
+  else if (is_auto)
+    scans.format = commonFormat(folder, scans.files);
   return scans;
 }
 
@@ -130,9 +145,10 @@ ScanFolderOptions::validate() const
 }
 
 ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
+: other_format_(options.other_format)
 {
   options.validate();
-  const FoundScans scans = findScans(folder, options.format);
+  const FoundScans scans = findScans(folder, options);
   const std::size_t count = scans.files.size();
   const auto first = static_cast<std::size_t>(options.first);
   if (first >= count)
@@ -249,13 +265,19 @@ ScanFolder::hasPoses() const
 Scan
 ScanFolder::read(std::size_t i) const
 {
-  return readScan(file(i), entries_[i].format);
+  Scan scan;
+  static_cast<ScanCloud&>(scan) = readCloud(i);
+  scan.points = coordinatesOf(scan.cloud);
+  return scan;
 }
 
 ScanCloud
 ScanFolder::readCloud(std::size_t i) const
 {
-  return readScanCloud(file(i), entries_[i].format);
+  const Entry& entry = entries_.at(i);
+  return other_format_ && entry.format == ScanFormat::kAuto
+             ? readScanCloud(entry.file, *other_format_)
+             : readScanCloud(entry.file, entry.format);
 }
 
 ScanFormat

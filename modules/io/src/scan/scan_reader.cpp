@@ -3,6 +3,8 @@
 #include "scan/scan_formats.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/io/other_scan_format.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/text.h>
@@ -138,14 +140,54 @@ dropInvalid(const std::filesystem::path& path, ScanCloud& scan)
   scan.cloud.is_dense = true;
 }
 
+std::string
+inLowerCase(std::string text)
+{
+  for (char& c : text)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/** \throws BadArgument fields and data of a cloud do not fit together */
+void
+requireFitting(const pcl::PCLPointCloud2& cloud)
+{
+  const std::size_t count = std::size_t{cloud.width} * cloud.height;
+  const std::size_t step = std::max<std::size_t>(cloud.point_step, 1);
+  require(cloud.data.size() % step == 0 && cloud.data.size() / step == count,
+          "bytes of the cloud",
+          cloud.data.size(),
+          "those of " + text::counted(count, "point") + " of " +
+              text::counted(cloud.point_step, "byte"));
+  require(!cloud.is_bigendian, "is_bigendian", "true", "false");
+  for (const auto& field : cloud.fields) {
+    const std::size_t size =
+        withTypeOf(field.datatype, [](auto value) { return sizeof value; });
+    const std::size_t end =
+        field.offset + size * std::max<pcl::uindex_t>(field.count, 1);
+    require(end <= cloud.point_step,
+            ("end of field " + field.name).c_str(),
+            end,
+            "within a point of " + std::to_string(cloud.point_step) + " bytes");
+  }
+}
+
+/** The points that readScanCloud() leaves, of what a reader has read. */
+ScanCloud
+finitePart(const std::filesystem::path& path, ScanCloud scan)
+{
+  if (scan.cloud.height > 1)
+    scan.row_length = scan.cloud.width;
+  dropInvalid(path, scan);
+  return scan;
+}
+
 } // namespace
 
 ScanFormat
 scanFormatOfExtension(const std::filesystem::path& path)
 {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = inLowerCase(path.extension().string());
   for (const auto& known : kFormats)
     if (extension == known.extension)
       return known.format;
@@ -195,11 +237,42 @@ scanFormatFromName(const std::string& name)
 ScanCloud
 readScanCloud(const std::filesystem::path& path, ScanFormat format)
 {
-  ScanCloud scan = readAllPoints(path, format);
-  if (scan.cloud.height > 1)
-    scan.row_length = scan.cloud.width;
-  dropInvalid(path, scan);
-  return scan;
+  return finitePart(path, readAllPoints(path, format));
+}
+
+bool
+hasExtensionOf(const OtherScanFormat& format, const std::filesystem::path& path)
+{
+  return inLowerCase(path.extension().string()) == inLowerCase(format.extension);
+}
+
+ScanCloud
+finiteScan(pcl::PCLPointCloud2 cloud, const std::filesystem::path& file)
+{
+  try {
+    requireFitting(cloud);
+  } catch (const BadArgument& e) {
+    text::fail(file, e.what());
+  }
+  ScanCloud scan;
+  scan.cloud = std::move(cloud);
+  scan.cloud.is_dense = false; // as far as is known
+  return finitePart(file, std::move(scan));
+}
+
+ScanCloud
+readScanCloud(const std::filesystem::path& path, const OtherScanFormat& format)
+{
+  require(format.read != nullptr, "read", "none", "a function");
+  pcl::PCLPointCloud2 cloud;
+  try {
+    cloud = format.read(path);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    text::fail(path, "format " + format.name + ": " + e.what());
+  }
+  return finiteScan(std::move(cloud), path);
 }
 
 Scan

@@ -4,9 +4,11 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/common/trajectory.h>
+#include <pcl6d/io/other_scan_format.h>
 #include <pcl6d/io/scan_reader.h>
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,8 +18,9 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief Which scans of a folder to take, and where their initial poses come from. */
 struct ScanFolderOptions {
   ScanFormat format = ScanFormat::kAuto; ///< auto: the one format found in the folder
-  std::filesystem::path poses_file;      ///< KITTI or TUM; empty: search the folder
-  int first = 0;                         ///< index of the first scan, >= 0
+  std::shared_ptr<const OtherScanFormat> other_format = {}; ///< in place of `format`
+  std::filesystem::path poses_file; ///< KITTI or TUM; empty: search the folder
+  int first = 0;                    ///< index of the first scan, >= 0
   std::optional<int>
       last;      ///< index of the last scan, >= first; none or beyond: the end
   int every = 1; ///< take each n-th scan, >= 1
@@ -104,7 +107,8 @@ public:
   ScanCloud
   readCloud(std::size_t i) const;
 
-  /** \return the format of the first scan, not kAuto */
+  /** \return the format of the first scan; kAuto if it is another one than those of the
+   * suite (ScanFolderOptions::other_format) */
   ScanFormat
   format() const;
 
@@ -114,9 +118,10 @@ private:
     std::string name;
     int index = 0;
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    ScanFormat format = ScanFormat::kAuto;
+    ScanFormat format = ScanFormat::kAuto; ///< auto: the other one
   };
   std::vector<Entry> entries_;
+  std::shared_ptr<const OtherScanFormat> other_format_;
   std::vector<double> stamps_;
   Trajectory odometry_;
   std::string pose_source_;

@@ -32,6 +32,7 @@ struct Slam6DOptions {
   RigidMinimiser minimiser = minimiseByQuaternion;   ///< of the metric kPoint
   PlaneMinimiser plane_minimiser = planeStepByHelix; ///< of the metrics with normals
   SearchMethod search = SearchMethod::kRemembered;
+  SearchMaker make_search = {}; ///< a search of the caller's, in place of `search`
   RobustKernel robust = RobustKernel::kNone;
   InitialGuess initial_guess = InitialGuess::kOdometry;
   std::uint64_t seed = 1; ///< of the random choices of kFeatures and kRandom

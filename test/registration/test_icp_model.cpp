@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "icp_cases.h"
 
+#include <pcl6d/search/point_list.h>
+
+#include <atomic>
 #include <memory>
 
 using namespace pcl6d; // NOLINT: the whole API of ICP
@@ -12,7 +15,8 @@ namespace {
 constexpr SearchMethod kExact[] = {SearchMethod::kKdTree,
                                    SearchMethod::kCachedTree,
                                    SearchMethod::kOctree,
-                                   SearchMethod::kBruteForce};
+                                   SearchMethod::kBruteForce,
+                                   SearchMethod::kFlann};
 const Eigen::Isometry3d kStart =
     poseFromEuler({0.08, -0.06, 0.05}, {0.02, -0.01, 0.03});
 } // namespace
@@ -82,6 +86,59 @@ TEST(IcpModel, OutlivesCopiesAndMoves)
   }
 }
 
+TEST(IcpModel, TakesASearchOfTheCaller)
+{
+  Random random(11);
+  const Surface scene = corner(random, 900, 2, 0.01);
+  const IcpModel data = scene.moved(kStart.inverse()).model();
+  std::size_t made = 0;
+  std::atomic<std::size_t> asked = 0; // by several threads
+  IcpModel::Options options;
+  options.make_search = [&](const Points& points) -> NearestSearch {
+    ++made;
+    return [&asked, list = PointList(points)](const Eigen::Vector3f& p, float limit) {
+      ++asked;
+      return list.nearest(p, limit);
+    };
+  };
+  const IcpModel model(scene.points, options);
+  const IcpResult found =
+      icp({model.part()}, data.source(), Eigen::Isometry3d::Identity(), {});
+  const IcpModel brute = scene.model(SearchMethod::kBruteForce);
+  const IcpResult expected =
+      icp({brute.part()}, data.source(), Eigen::Isometry3d::Identity(), {});
+  EXPECT_TRUE(test::sameBits(found.T_target_source, expected.T_target_source));
+  EXPECT_EQ(made, 1u);
+  EXPECT_GE(asked, scene.points.size());
+  options.make_search = [](const Points&) { return NearestSearch(); };
+  EXPECT_THROW(IcpModel(scene.points, options), BadArgument);
+}
+
+/** Two sheets of a grid with the source half-way between them: each point has two or more
+ * nearest ones at the same distance. Any of them is right; the distances are the same. */
+TEST(SearchMethod, FlannFindsPointsAsNearWhereSeveralAreNearest)
+{
+  Points grid, between;
+  for (int x = 0; x < 12; ++x)
+    for (int y = 0; y < 12; ++y) {
+      for (const float z : {0.0f, 0.5f})
+        grid.push_back({static_cast<float>(x) / 4, static_cast<float>(y) / 4, z});
+      between.push_back({static_cast<float>(x) / 4, static_cast<float>(y) / 4, 0.25f});
+    }
+  IcpModel::Options options;
+  options.search = SearchMethod::kFlann;
+  const IcpModel flann(grid, options);
+  options.search = SearchMethod::kBruteForce;
+  const IcpModel brute(grid, options);
+  for (const Eigen::Vector3f& p : between) {
+    const Neighbour found = flann.part().search(p, 1);
+    ASSERT_GE(found.index, 0);
+    EXPECT_EQ(found.distance_sq, brute.part().search(p, 1).distance_sq);
+    EXPECT_EQ(found.distance_sq,
+              distanceSq(p, grid[static_cast<std::size_t>(found.index)]));
+  }
+}
+
 TEST(SearchMethod, HasNames)
 {
   EXPECT_EQ(searchMethodNames(),
@@ -90,10 +147,11 @@ TEST(SearchMethod, HasNames)
                                       "remembered",
                                       "approximate",
                                       "octree",
-                                      "brute-force"}));
+                                      "brute-force",
+                                      "flann"}));
   for (const auto& name : searchMethodNames())
     EXPECT_EQ(toString(searchMethodFromName(name)), name);
-  const std::string message = badArgumentOf([] { searchMethodFromName("flann"); });
+  const std::string message = badArgumentOf([] { searchMethodFromName("annoy"); });
   for (const auto& name : searchMethodNames())
     EXPECT_NE(message.find(name), std::string::npos) << message;
   EXPECT_EQ(searchMethodFromName("cached"), SearchMethod::kRemembered) << "as it was";

@@ -16,7 +16,8 @@ namespace {
 constexpr SearchMethod kExact[] = {SearchMethod::kKdTree,
                                    SearchMethod::kCachedTree,
                                    SearchMethod::kOctree,
-                                   SearchMethod::kBruteForce};
+                                   SearchMethod::kBruteForce,
+                                   SearchMethod::kFlann};
 
 /** Expects the same way to the same pose from every exact search, and without memory.
  * \return the number of iterations */

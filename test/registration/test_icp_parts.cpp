@@ -119,7 +119,8 @@ TEST(IcpParts, MayBeSearchedInDifferentWays)
     for (const SearchMethod search : {SearchMethod::kKdTree,
                                       SearchMethod::kCachedTree,
                                       SearchMethod::kOctree,
-                                      SearchMethod::kBruteForce}) {
+                                      SearchMethod::kBruteForce,
+                                      SearchMethod::kFlann}) {
       SCOPED_TRACE(testing::Message() << toString(search) << " of part " << special);
       IcpTarget mixed = puzzle.target();
       IcpModel::Options of_model;

@@ -2,6 +2,7 @@
 #include <pcl6d/common/name_table.h>
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/registration/icp_model.h>
+#include <pcl6d/search/flann_tree.h>
 #include <pcl6d/search/point_list.h>
 #include <pcl6d/search/point_octree.h>
 
@@ -17,12 +18,13 @@ constexpr Named<SearchMethod> kMethods[] = {{SearchMethod::kKdTree, "kdtree"},
                                             {SearchMethod::kRemembered, "remembered"},
                                             {SearchMethod::kApproximate, "approximate"},
                                             {SearchMethod::kOctree, "octree"},
-                                            {SearchMethod::kBruteForce, "brute-force"}};
+                                            {SearchMethod::kBruteForce, "brute-force"},
+                                            {SearchMethod::kFlann, "flann"}};
 constexpr char kFormerWord[] = "cached"; ///< of kRemembered, in older command lines
 
 /** \return the plain search of a structure that is made here */
 template <typename Structure>
-std::function<Neighbour(const Eigen::Vector3f&, float)>
+NearestSearch
 searchOf(const Points& points)
 {
   return [structure = std::make_shared<const Structure>(points)](
@@ -85,11 +87,17 @@ IcpModel::makeNormals(const Options& options) const
 void
 IcpModel::build(const Options& options)
 {
-  const bool starts_at_leaves = options.search == SearchMethod::kCachedTree;
+  const bool starts_at_leaves =
+      !options.make_search && options.search == SearchMethod::kCachedTree;
   tree_ = std::make_shared<const PointTree>(points_,
                                             options.num_threads,
                                             starts_at_leaves ? PointTree::Cells::kKeep
                                                              : PointTree::Cells::kNone);
+  if (options.make_search) {
+    search_ = options.make_search(points_);
+    require(search_ != nullptr, "search made", "none", "a function");
+    return;
+  }
   switch (options.search) {
   case SearchMethod::kRemembered:
     memory_ = SearchMemory::kNeighbours;
@@ -112,6 +120,9 @@ IcpModel::build(const Options& options)
     break;
   case SearchMethod::kBruteForce:
     search_ = searchOf<PointList>(points_);
+    break;
+  case SearchMethod::kFlann:
+    search_ = searchOf<FlannTree>(points_);
     break;
   }
 }

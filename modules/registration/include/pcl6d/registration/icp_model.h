@@ -9,7 +9,7 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How ICP looks for closest points (book 4.1.4). All but kApproximate are exact and
- * give the same result. */
+ * give the same result; kFlann up to which of several equally near points it takes. */
 enum class SearchMethod {
   kKdTree, ///< the k-d tree, searched from its root for each point in each iteration
   /** the cached k-d tree (A. Nüchter, K. Lingemann, J. Hertzberg, "Cached k-d tree search for
@@ -24,11 +24,12 @@ enum class SearchMethod {
   kApproximate, ///< the k-d tree; a neighbour may be farther by a tenth than the nearest
   kOctree,
   kBruteForce, ///< every point: the oracle of tests
+  kFlann,      ///< FLANN's k-d tree, the engine of pcl::search::KdTree; see FlannTree
   kCached [[deprecated("it is kRemembered; the published one is kCachedTree")]] =
       kRemembered
 };
 
-/** \return kdtree, cached-tree, remembered, approximate, octree, brute-force */
+/** \return kdtree, cached-tree, remembered, approximate, octree, brute-force, flann */
 std::vector<std::string>
 searchMethodNames();
 /** \brief Also takes "cached", the former word for remembered.
@@ -38,14 +39,24 @@ searchMethodFromName(const std::string& name);
 const char*
 toString(SearchMethod method);
 
+/** \brief Finds the nearest point within the root of a squared distance [m^2], exclusive:
+ * its place among the points and its squared distance; index -1 if there is none. Several
+ * threads may ask at once. */
+using NearestSearch = std::function<Neighbour(const Eigen::Vector3f&, float)>;
+
+/** \brief Makes the search over some points [m], which may hold NaN. The points are gone
+ * afterwards: what the search needs of them it copies. */
+using SearchMaker = std::function<NearestSearch(const Points&)>;
+
 /** \brief A scan made ready for ICP, as source or as part of a target: points, what finds
  * the closest of them, and normals if a metric needs them. Made once, matched often. */
 class IcpModel {
 public:
   struct Options {
     SearchMethod search = SearchMethod::kRemembered;
-    bool normals = false;        ///< estimate them; towards the origin of the points
-    std::size_t neighbours = 20; ///< of a normal; in [3, 64]
+    SearchMaker make_search = {}; ///< a search of the caller's, in place of `search`
+    bool normals = false;         ///< estimate them; towards the origin of the points
+    std::size_t neighbours = 20;  ///< of a normal; in [3, 64]
     double normal_voxel = 0; ///< [m] normals are those of the points reduced by this
                              ///< voxel: from a wider patch, whose noise is averaged,
                              ///< in less time; 0: of the points themselves
@@ -93,7 +104,7 @@ private:
   bool has_normals_;
   std::shared_ptr<const PointTree> tree_;
   SearchMemory memory_ = SearchMemory::kNone;
-  std::function<Neighbour(const Eigen::Vector3f&, float)> search_;
+  NearestSearch search_;
 };
 
 } // namespace pcl6d

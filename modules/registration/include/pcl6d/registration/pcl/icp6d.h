@@ -4,13 +4,20 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/instantiate.h>
 #include <pcl6d/registration/icp.h>
+#include <pcl6d/registration/pcl/convergence_criteria.h>
 #include <pcl6d/search/pcl/kd_tree.h>
 
 #include <pcl/registration/registration.h>
 
-#include <algorithm>
+#include <memory>
+#include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
+
+namespace registration {
+template <typename PointSource, typename PointTarget, typename Scalar>
+class PclAdapter;
+} // namespace registration
 
 /** \brief ICP with six degrees of freedom as a drop-in pcl::Registration, which says
  * honestly whether it converged.
@@ -118,8 +125,13 @@ public:
   void
   setIterationLimitConverges(bool converges)
   {
-    iteration_limit_converges_ = converges;
+    criteria_->setFailureAfterMaximumIterations(!converges);
   }
+
+  /** \brief PCL's object that tells why the iteration ended and takes more settings of its
+   * end, see ConvergenceCriteria. It lives as long as this object. */
+  typename pcl::registration::DefaultConvergenceCriteria<Scalar>::Ptr
+  getConvergeCriteria();
 
   /** \brief Less weight for pairs that are far apart; none unless set. */
   void
@@ -195,15 +207,66 @@ protected:
   void
   computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
 
+  struct Target; ///< what is made of the target
+  struct Sides;  ///< what one run takes of both clouds
+
+  /** The clouds and indices that a visualisation callback sees. */
+  struct Shown {
+    const PointCloudSource* source;
+    const pcl::Indices* chosen;
+    const PointCloudTarget* target;
+    const pcl::Indices* searched;
+  };
+  using Adapter = registration::PclAdapter<PointSource, PointTarget, Scalar>;
+  using Rejectors = std::vector<decltype(IcpHooks::reject)>;
+
+  /** Options of a run from all setters, checked. */
+  IcpOptions
+  startRun();
+  /** \return the guess, from where the motion is counted */
+  Eigen::Isometry3d
+  startPose(const Matrix4& guess);
+  void
+  addObservers(IcpHooks& hooks, const Eigen::Vector3d& origin, const Shown& shown);
+  /** Adds the rejectors after some others, and the estimation, if it is not ours. */
+  void
+  plugIn(const std::shared_ptr<Adapter>& adapter,
+         Rejectors rejectors,
+         const IcpOptions& options,
+         IcpHooks& hooks);
+  /** Keeps the outcome of a run, but for the output. */
+  void
+  keep(const IcpResult& found, const Eigen::Vector3d& origin);
+  void
+  moveOutput(PointCloudSource& output) const;
+  /** For settings that change the normals of the target. */
+  void
+  forgetTargetNormals();
+
+  /** The normals of chosen points, as given or estimated.
+   * \param[in] tree over the points; null: to be made */
+  virtual Normals
+  sourceNormals(const Points& points, const IcpOptions& options) const;
+  virtual Normals
+  targetNormals(const pcl::Indices& indices,
+                const Points& points,
+                const PointTree* tree,
+                const IcpOptions& options) const;
+  /** Lets a metric of its own take its step. */
+  virtual void
+  addStep(const Sides& /*sides*/, const IcpOptions& /*options*/, IcpHooks& /*hooks*/)
+  {}
+
   IcpOptions options_; ///< what PCL's base class has no member for
   std::size_t normal_neighbours_ = 20;
   /** whether setTransformationEpsilon() is the square of a length, and a turn */
   bool epsilon_is_squared_ = true;
+  bool reciprocal_ = false;
+  IcpResult result_;
 
 private:
-  struct Target;
-  struct Sides;
-
+  void
+  takeCriteria();
   IcpOptions
   effectiveOptions() const;
   void
@@ -215,160 +278,24 @@ private:
   IcpHooks
   hooks(const Sides& sides, const IcpOptions& options);
   void
-  store(const IcpResult& found,
-        const Eigen::Vector3d& origin,
-        PointCloudSource& output);
-  void
-  moveOutput(PointCloudSource& output) const;
-  void
-  addObservers(IcpHooks& hooks, const Eigen::Vector3d& origin);
-  void
-  showPairs(const IcpIteration& seen, const std::vector<IcpPair>& pairs);
+  showPairs(const IcpIteration& seen,
+            const std::vector<IcpPair>& pairs,
+            const Shown& shown);
 
-  bool reciprocal_ = false;
-  bool iteration_limit_converges_ = false;
+  typename ConvergenceCriteria<Scalar>::Ptr criteria_;
+  bool ended_by_criteria_ = false;
   bool has_stale_indices_ = false; ///< they are not of the source
   IcpObserver observer_;
   Eigen::Affine3d last_pose_ = Eigen::Affine3d::Identity(); ///< in the target's frame
   Eigen::Affine3d last_step_ = Eigen::Affine3d::Identity();
   std::shared_ptr<Target> made_; ///< of the target; null: to be made
-  IcpResult result_;
-};
-
-/** \brief Generalized-ICP as a drop-in for pcl::GeneralizedIterativeClosestPoint: ICP6D
- * with Metric::kGicp. Takes one Gauss-Newton step between two searches, so that PCL's
- * settings of the inner optimizer have no counterpart. Its defaults are PCL's: 5 m, 200
- * iterations, at rest below 5e-4 m (setTransformationEpsilon(), here not squared) and 2e-3 rad
- * in a step.
- * \note Source: A. Segal, D. Haehnel, S. Thrun, "Generalized-ICP", RSS 2009.
- * \ingroup registration */
-template <typename PointSource, typename PointTarget, typename Scalar = float>
-class GICP6D : public ICP6D<PointSource, PointTarget, Scalar> {
-public:
-  using Ptr = pcl::shared_ptr<GICP6D<PointSource, PointTarget, Scalar>>;
-  using ConstPtr = pcl::shared_ptr<const GICP6D<PointSource, PointTarget, Scalar>>;
-
-  GICP6D()
-  {
-    this->reg_name_ = "GICP6D";
-    this->setMetric(Metric::kGicp);
-    this->max_iterations_ = 200; // all as in PCL
-    this->corr_dist_threshold_ = 5;
-    this->transformation_epsilon_ = 5e-4;
-    this->options_.rotation_epsilon = 2e-3;
-    this->epsilon_is_squared_ = false;
-  }
-
-  /** \brief Stop when a step also turns less [rad]; 2e-3 unless set. */
-  void
-  setRotationEpsilon(double epsilon)
-  {
-    this->options_.rotation_epsilon = epsilon;
-  }
-  double
-  getRotationEpsilon() const
-  {
-    return this->options_.rotation_epsilon;
-  }
-
-  /** \brief PCL's name for setNormalNeighbours(); less than 3 count as 3, more than 64 as
-   * 64. */
-  void
-  setCorrespondenceRandomness(int neighbours)
-  {
-    this->setNormalNeighbours(std::clamp(neighbours, 3, 64));
-  }
-  int
-  getCorrespondenceRandomness() const
-  {
-    return static_cast<int>(this->normal_neighbours_);
-  }
-
-  /** \brief PCL's settings of the optimizer between two searches, kept for their getters. The
-   * one step that stands in its place is exact for the linear problem, and ICP repeats it. */
-  void
-  setMaximumOptimizerIterations(int count)
-  {
-    optimizer_iterations_ = count;
-  }
-  int
-  getMaximumOptimizerIterations() const
-  {
-    return optimizer_iterations_;
-  }
-  void
-  setTranslationGradientTolerance(double tolerance)
-  {
-    translation_gradient_ = tolerance;
-  }
-  double
-  getTranslationGradientTolerance() const
-  {
-    return translation_gradient_;
-  }
-  void
-  setRotationGradientTolerance(double tolerance)
-  {
-    rotation_gradient_ = tolerance;
-  }
-  double
-  getRotationGradientTolerance() const
-  {
-    return rotation_gradient_;
-  }
-
-private:
-  int optimizer_iterations_ = 20;
-  double translation_gradient_ = 1e-2;
-  double rotation_gradient_ = 1e-2;
-};
-
-/** \brief ICP by points and planes as a drop-in for pcl::IterativeClosestPointWithNormals:
- * ICP6D with Metric::kPlane, and its symmetric objective. Normals that the points do not have
- * are estimated. \ingroup registration */
-template <typename PointSource, typename PointTarget, typename Scalar = float>
-class ICP6DWithNormals : public ICP6D<PointSource, PointTarget, Scalar> {
-public:
-  using Ptr = pcl::shared_ptr<ICP6DWithNormals<PointSource, PointTarget, Scalar>>;
-  using ConstPtr =
-      pcl::shared_ptr<const ICP6DWithNormals<PointSource, PointTarget, Scalar>>;
-
-  ICP6DWithNormals()
-  {
-    this->reg_name_ = "ICP6DWithNormals";
-    this->setMetric(Metric::kPlane);
-  }
-
-  /** \brief Whether the normals of both sides count (IcpOptions::symmetric); false unless
-   * set. */
-  void
-  setUseSymmetricObjective(bool symmetric)
-  {
-    this->options_.symmetric = symmetric;
-  }
-  bool
-  getUseSymmetricObjective() const
-  {
-    return this->options_.symmetric;
-  }
-
-  /** \brief Whether then a normal is turned towards its partner's; true unless set. */
-  void
-  setEnforceSameDirectionNormals(bool enforce)
-  {
-    this->options_.align_normals = enforce;
-  }
-  bool
-  getEnforceSameDirectionNormals() const
-  {
-    return this->options_.align_normals;
-  }
 };
 
 } // namespace pcl6d
 #include <pcl6d/registration/pcl/impl/icp6d.hpp>
 namespace PCL6D_EXPORTS pcl6d {
 PCL6D_DECLARE_PAIR_INSTANCES(ICP6D)
-PCL6D_DECLARE_PAIR_INSTANCES(GICP6D)
-PCL6D_DECLARE_PAIR_INSTANCES(ICP6DWithNormals)
 } // namespace pcl6d
+// The classes that are ICP6D with other settings have always come with it.
+#include <pcl6d/registration/pcl/gicp6d.h>
+#include <pcl6d/registration/pcl/icp6d_with_normals.h>

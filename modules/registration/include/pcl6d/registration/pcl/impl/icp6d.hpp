@@ -5,6 +5,7 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require_indices.h>
+#include <pcl6d/registration/pcl/correspondence_estimation.h>
 #include <pcl6d/registration/pcl/icp6d.h>
 #include <pcl6d/registration/pcl/impl/icp6d_adapters.hpp>
 #include <pcl6d/registration/pcl/transformation_estimation_quaternion.h>
@@ -52,6 +53,45 @@ ICP6D<PointSource, PointTarget, Scalar>::ICP6D()
   this->tree_.reset(new KdTree<PointTarget>);
   this->transformation_estimation_.reset(
       new TransformationEstimationQuaternion<PointSource, PointTarget, Scalar>);
+  criteria_ = pcl::make_shared<ConvergenceCriteria<Scalar>>(
+      this->nr_iterations_, this->transformation_, *this->correspondences_);
+}
+
+/** What was set by the convergence criteria counts as if it had been set here. */
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::takeCriteria()
+{
+  if (criteria_->takeChanges(this->max_iterations_, this->euclidean_fitness_epsilon_))
+    setMotionEpsilon(criteria_->translationEpsilon(), criteria_->rotationEpsilon());
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+IcpOptions
+ICP6D<PointSource, PointTarget, Scalar>::startRun()
+{
+  result_ = IcpResult();
+  registration::requireGiven(this->transformation_estimation_,
+                             "the transformation estimation");
+  for (const auto& rejector : this->correspondence_rejectors_)
+    registration::requireGiven(rejector, "a correspondence rejector");
+  takeCriteria();
+  IcpOptions options = effectiveOptions();
+  criteria_->start(options);
+  ended_by_criteria_ = false;
+  options.validate();
+  return options;
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+Eigen::Isometry3d
+ICP6D<PointSource, PointTarget, Scalar>::startPose(const Matrix4& guess)
+{
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  start.matrix() = guess.template cast<double>();
+  last_pose_ = start;
+  last_step_ = Eigen::Affine3d::Identity();
+  return start;
 }
 
 /** PCL's setters are not virtual and write members of the base; they are read here. */
@@ -140,12 +180,8 @@ ICP6D<PointSource, PointTarget, Scalar>::makeNormals(const IcpOptions& options)
 {
   if (made_->normal_neighbours == normal_neighbours_)
     return;
-  made_->normals = registration::normalsOf(*this->target_,
-                                           made_->indices,
-                                           made_->points,
-                                           made_->tree.get(),
-                                           normal_neighbours_,
-                                           options);
+  made_->normals =
+      targetNormals(made_->indices, made_->points, made_->tree.get(), options);
   made_->normal_neighbours = normal_neighbours_;
 }
 
@@ -160,91 +196,36 @@ ICP6D<PointSource, PointTarget, Scalar>::sides(const IcpOptions& options)
   sides.target = made_;
   sides.source = toPoints(*this->input_, *this->indices_);
   if (options.metric == Metric::kGicp || options.symmetric)
-    sides.source_normals = registration::normalsOf(*this->input_,
-                                                   *this->indices_,
-                                                   sides.source,
-                                                   nullptr,
-                                                   normal_neighbours_,
-                                                   options);
+    sides.source_normals = sourceNormals(sides.source, options);
   return sides;
 }
 
-/** Observers of each iteration: what PCL keeps of it, and the caller's. */
 template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::addObservers(IcpHooks& hooks,
-                                                      const Eigen::Vector3d& origin)
+Normals
+ICP6D<PointSource, PointTarget, Scalar>::sourceNormals(const Points& points,
+                                                       const IcpOptions& options) const
 {
-  const auto in_target = [origin](const IcpIteration& centred) {
-    IcpIteration seen = centred;
-    seen.T_target_source.pretranslate(origin);
-    return seen;
-  };
-  hooks.observer = [this, in_target](const IcpIteration& centred) {
-    const IcpIteration seen = in_target(centred);
-    Eigen::Affine3d now = seen.T_target_source;
-    now.linear() *= seen.scale;
-    last_step_ = now * last_pose_.inverse();
-    last_pose_ = now;
-    return !observer_ || observer_(seen);
-  };
-  if (this->update_visualizer_)
-    hooks.pairs_observer = [this, in_target](const IcpIteration& centred,
-                                             const std::vector<IcpPair>& pairs) {
-      showPairs(in_target(centred), pairs);
-    };
-}
-
-/** Calls PCL's visualisation callback as pcl::IterativeClosestPoint does: all chosen points
- * after the step, and the indices of both sides of the pairs. */
-template <typename PointSource, typename PointTarget, typename Scalar>
-void
-ICP6D<PointSource, PointTarget, Scalar>::showPairs(const IcpIteration& seen,
-                                                   const std::vector<IcpPair>& pairs)
-{
-  Eigen::Affine3d pose = seen.T_target_source;
-  pose.linear() *= seen.scale;
-  PointCloudSource moved;
-  pcl::transformPointCloud(*this->input_, *this->indices_, moved, pose.matrix());
-  pcl::Indices of_source, of_target;
-  for (const auto& pair : pairs) {
-    of_source.push_back(pair.source);
-    of_target.push_back(made_->indices[pair.target]);
-  }
-  this->update_visualizer_(moved, of_source, *this->target_, of_target);
+  return registration::normalsOf(
+      *this->input_, *this->indices_, points, nullptr, normal_neighbours_, options);
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
-IcpHooks
-ICP6D<PointSource, PointTarget, Scalar>::hooks(const Sides& sides,
-                                               const IcpOptions& options)
+Normals
+ICP6D<PointSource, PointTarget, Scalar>::targetNormals(const pcl::Indices& indices,
+                                                       const Points& points,
+                                                       const PointTree* tree,
+                                                       const IcpOptions& options) const
 {
-  using Adapter = registration::PclAdapter<PointSource, PointTarget, Scalar>;
-  IcpHooks hooks;
-  addObservers(hooks, sides.target->origin);
-  const auto adapter = std::make_shared<Adapter>(
-      this->input_, this->indices_, this->target_, this->tree_, sides.target->origin);
-  if (this->correspondence_estimation_)
-    hooks.find = adapter->finder(this->correspondence_estimation_, reciprocal_);
-  else if (registration::isOfOtherCoordinates<PointTarget>(*this->tree_))
-    hooks.find = adapter->finder(
-        pcl::make_shared<pcl::registration::CorrespondenceEstimation<PointSource,
-                                                                     PointTarget,
-                                                                     Scalar>>(),
-        reciprocal_);
-  std::vector<registration::Rejector> rejectors;
-  if (reciprocal_ && !hooks.find)
-    rejectors.push_back(registration::reciprocal(
-        sides.source, sides.target->points, options.num_threads));
-  for (const auto& rejector : this->correspondence_rejectors_)
-    rejectors.push_back(adapter->rejector(rejector));
-  if (!rejectors.empty())
-    hooks.reject = registration::inTurn(std::move(rejectors));
-  if (!options.estimate_scale &&
-      !registration::isOurs<PointSource, PointTarget, Scalar>(
-          *this->transformation_estimation_))
-    hooks.minimise = adapter->minimiser(this->transformation_estimation_);
-  return hooks;
+  return registration::normalsOf(
+      *this->target_, indices, points, tree, normal_neighbours_, options);
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+ICP6D<PointSource, PointTarget, Scalar>::forgetTargetNormals()
+{
+  if (made_)
+    made_->normal_neighbours = 0;
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -252,25 +233,17 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource& output,
                                                                const Matrix4& guess)
 {
-  result_ = IcpResult();
   if (has_stale_indices_ && this->indices_->empty())
     throw BadArgument(
         "ICP6D: the indices are those of an earlier source; the one that is "
         "set has fewer points");
-  registration::requireGiven(this->transformation_estimation_,
-                             "the transformation estimation");
-  for (const auto& rejector : this->correspondence_rejectors_)
-    registration::requireGiven(rejector, "a correspondence rejector");
-  const IcpOptions options = effectiveOptions();
-  options.validate();
-  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
-  start.matrix() = guess.template cast<double>();
-  last_pose_ = start;
-  last_step_ = Eigen::Affine3d::Identity();
+  const IcpOptions options = startRun();
+  Eigen::Isometry3d start = startPose(guess);
   if (this->input_->empty() || this->target_->empty()) {
     IcpResult nothing;
     nothing.T_target_source = start;
-    return store(nothing, Eigen::Vector3d::Zero(), output);
+    keep(nothing, Eigen::Vector3d::Zero());
+    return moveOutput(output);
   }
   const Sides sides = this->sides(options);
   const Target& target = *sides.target;
@@ -285,30 +258,28 @@ ICP6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource&
   if (options.metric == Metric::kGicp || options.symmetric)
     source.normals = &sides.source_normals;
   start.pretranslate(-target.origin);
-  store(icp({part}, source, start, options, hooks(sides, options)),
-        target.origin,
-        output);
+  keep(icp({part}, source, start, options, hooks(sides, options)), target.origin);
+  moveOutput(output);
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
-ICP6D<PointSource, PointTarget, Scalar>::store(const IcpResult& found,
-                                               const Eigen::Vector3d& origin,
-                                               PointCloudSource& output)
+ICP6D<PointSource, PointTarget, Scalar>::keep(const IcpResult& found,
+                                              const Eigen::Vector3d& origin)
 {
   result_ = found;
+  criteria_->finish(result_, ended_by_criteria_);
   result_.T_target_source.pretranslate(origin);
   if (result_.localizability)
     result_.localizability->centroid += origin;
-  this->converged_ =
-      result_.status == Status::kOk ||
-      (iteration_limit_converges_ && result_.stop == IcpStop::kIterationLimit);
+  this->converged_ = result_.status == Status::kOk ||
+                     (!criteria_->getFailureAfterMaximumIterations() &&
+                      result_.stop == IcpStop::kIterationLimit);
   this->nr_iterations_ = result_.iterations;
   Eigen::Affine3d scaled = result_.T_target_source;
   scaled.linear() *= result_.scale;
   this->final_transformation_ = scaled.matrix().template cast<Scalar>();
   this->transformation_ = last_step_.matrix().template cast<Scalar>();
-  moveOutput(output);
 }
 
 /** Moves the chosen points; their normals are turned alone. */
@@ -330,4 +301,5 @@ ICP6D<PointSource, PointTarget, Scalar>::moveOutput(PointCloudSource& output) co
 }
 
 } // namespace pcl6d
+#include <pcl6d/registration/pcl/impl/icp6d_hooks.hpp>
 #include <pcl6d/registration/pcl/impl/icp6d_setters.hpp>

@@ -4,13 +4,13 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/export.h>
 #include <pcl6d/registration/icp.h>
+#include <pcl6d/registration/pcl/correspondence_estimation.h>
 #include <pcl6d/registration/pcl/sums_estimation.h>
 #include <pcl6d/registration/pcl/transformation_estimation_scale_quaternion.h>
 #include <pcl6d/search/pcl/core_search.h>
 
 #include <pcl/common/transforms.h>
 #include <pcl/conversions.h>
-#include <pcl/registration/correspondence_estimation.h>
 #include <pcl/registration/correspondence_rejection.h>
 #include <pcl/registration/registration.h>
 #include <pcl/registration/transformation_estimation_svd_scale.h>
@@ -147,16 +147,6 @@ searchOfSeveral(const typename pcl::search::KdTree<PointT>::Ptr& tree)
   };
 }
 
-/** \return whether distances are not those of x, y, z (setPointRepresentation()) */
-template <typename PointT>
-bool
-isOfOtherCoordinates(const pcl::search::KdTree<PointT>& tree)
-{
-  const auto representation = tree.getPointRepresentation();
-  return representation &&
-         (!representation->isTrivial() || representation->getNumberOfDimensions() != 3);
-}
-
 /** \return whether an estimation is one of those that scale, PCL's or ours */
 template <typename PointSource, typename PointTarget, typename Scalar>
 bool
@@ -219,6 +209,9 @@ public:
   finder(const typename Registration::CorrespondenceEstimationPtr& estimation,
          bool reciprocal)
   {
+    if constexpr (pcl::traits::has_normal<PointTarget>::value)
+      if (estimation->requiresTargetNormals())
+        estimation->setTargetNormals(blob(*target_));
     return [self = this->shared_from_this(), estimation, reciprocal](
                const Eigen::Isometry3d& T, double limit) {
       self->moveTo(T);
@@ -230,9 +223,6 @@ public:
       if constexpr (pcl::traits::has_normal<PointSource>::value)
         if (estimation->requiresSourceNormals())
           estimation->setSourceNormals(self->blob(*self->moved_));
-      if constexpr (pcl::traits::has_normal<PointTarget>::value)
-        if (estimation->requiresTargetNormals())
-          estimation->setTargetNormals(self->blob(*self->target_));
       pcl::Correspondences found;
       if (reciprocal)
         estimation->determineReciprocalCorrespondences(found, limit);
@@ -245,19 +235,19 @@ public:
   Rejector
   rejector(const typename Registration::CorrespondenceRejectorPtr& rejector)
   {
+    if (rejector->requiresTargetPoints())
+      rejector->setTargetPoints(blob(*target_));
+    if constexpr (pcl::traits::has_normal<PointTarget>::value)
+      if (rejector->requiresTargetNormals())
+        rejector->setTargetNormals(blob(*target_));
     return [self = this->shared_from_this(),
             rejector](const Eigen::Isometry3d& T, const std::vector<IcpPair>& pairs) {
       self->moveTo(T);
       if (rejector->requiresSourcePoints())
         rejector->setSourcePoints(self->blob(*self->moved_));
-      if (rejector->requiresTargetPoints())
-        rejector->setTargetPoints(self->blob(*self->target_));
       if constexpr (pcl::traits::has_normal<PointSource>::value)
         if (rejector->requiresSourceNormals())
           rejector->setSourceNormals(self->blob(*self->moved_));
-      if constexpr (pcl::traits::has_normal<PointTarget>::value)
-        if (rejector->requiresTargetNormals())
-          rejector->setTargetNormals(self->blob(*self->target_));
       rejector->setInputCorrespondences(
           pcl::make_shared<const pcl::Correspondences>(self->toPcl(pairs)));
       pcl::Correspondences kept;

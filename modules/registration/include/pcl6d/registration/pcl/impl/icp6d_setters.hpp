@@ -103,6 +103,16 @@ ICP6D<PointSource, PointTarget, Scalar>::addCorrespondenceRejector(
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
+typename pcl::registration::DefaultConvergenceCriteria<Scalar>::Ptr
+ICP6D<PointSource, PointTarget, Scalar>::getConvergeCriteria()
+{
+  takeCriteria();
+  if (this->transformation_estimation_) // null through PCL's base class: align() says so
+    criteria_->show(effectiveOptions());
+  return criteria_;
+}
+
+template <typename PointSource, typename PointTarget, typename Scalar>
 void
 ICP6D<PointSource, PointTarget, Scalar>::setMotionEpsilon(double translation,
                                                           double rotation)

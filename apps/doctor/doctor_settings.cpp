@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/option_table.h"
+#include "doctor/doctor_settings.h"
+#include "evaluate/result_file.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace pcl6d::app {
+
+namespace {
+std::string
+usage()
+{
+  return std::string("usage: ") + kDoctor +
+         R"( SOURCE TARGET [options]
+What PCL's registration classes and ours make of these two clouds: what PCL does
+in silence, what each result is worth, what to set. Everything it says was measured
+on the clouds, by runs with a time limit that cannot take the program down.
+Distances in metres, angles in degrees. What the words mean: share/doc/doctor.md.
+Exit code 0: done, and our result is verified; 3: it is not to be trusted.
+)";
+}
+
+/** \throws UsageError the text is no place */
+Eigen::Vector3d
+placeOfText(const std::string& option, const std::string& text)
+{
+  std::istringstream stream(text);
+  Eigen::Vector3d place;
+  for (double& value : place)
+    if (!(stream >> value) || !std::isfinite(value))
+      throw UsageError(option + " \"" + text +
+                       "\": expected three finite numbers, x y z [m]");
+  if (!(stream >> std::ws).eof())
+    throw UsageError(option + " \"" + text + "\": more than three numbers");
+  return place;
+}
+
+void
+addOptions(OptionTable& table, DoctorSettings& s)
+{
+  table.positional("SOURCE", &s.source);
+  table.positional("TARGET", &s.target);
+  table.group("Input");
+  table.add("guess \"X Y Z R P Y\"|FILE", &s.guess)
+      .help("start: pose of SOURCE in the frame of TARGET, [m] and roll pitch yaw "
+            "[deg]; a file may hold a matrix (12 or 16 numbers, row by row) instead; "
+            "by default the identity, as align() takes");
+  table.add("indices FILE", &s.indices)
+      .help("numbers of the points of SOURCE that count, from 0, for setIndices()");
+  table.add("format", &s.format, scanFormatFromName)
+      .help("auto|pcd|ply|uos|uosr|kitti|xyz");
+  const auto addOrigin = [&](const std::string& name,
+                             std::optional<Eigen::Vector3d>* place,
+                             const std::string& cloud) {
+    table
+        .addWord(
+            name + " \"X Y Z\"",
+            "",
+            [=](const std::string& text) { *place = placeOfText("--" + name, text); })
+        .help("[m] where the scanner stood in " + cloud +
+              ", for the verdict by its rays; by default 0 of its coordinates, its "
+              "VIEWPOINT or its middle, the first that can be");
+  };
+  addOrigin("source-origin", &s.source_origin, "SOURCE");
+  addOrigin("target-origin", &s.target_origin, "TARGET");
+  table.group("Runs");
+  table.add("max-distance", &s.max_distance)
+      .above(0, "finite and > 0", kFinite)
+      .help("[m] limit of the pair distance; by default derived from the clouds");
+  table.add("time-limit", &s.time_limit)
+      .above(0, "finite and > 0", kFinite)
+      .help("[s] a run is ended after it");
+  table.group("Output");
+  table.add("output,o FILE", &s.html).help("report to write, one HTML file (.html)");
+  table.add("json FILE", &s.json).help("the same as data (.json)");
+  table.add("quiet", &s.quiet).help("print the report, warnings and errors only");
+}
+} // namespace
+
+bool
+parseDoctorSettings(const std::vector<std::string>& arguments, DoctorSettings& s)
+{
+  OptionTable table(usage());
+  addOptions(table, s);
+  if (!table.parse(arguments))
+    return false;
+  requireExtension("--output", s.html, {".html", ".htm"});
+  requireExtension("--json", s.json, {".json"});
+  for (const auto& [file, option] :
+       {std::pair(s.html, "--output"), std::pair(s.json, "--json")})
+    refuseInputs(file, {s.source, s.target, s.guess, s.indices}, "an input", option);
+  if (!s.html.empty() && s.html == s.json)
+    throw UsageError("--output and --json are the same file");
+  return true;
+}
+
+} // namespace pcl6d::app

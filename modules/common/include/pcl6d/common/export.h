@@ -2,7 +2,7 @@
 #pragma once
 
 #if __cplusplus < 201703L
-#error "PCL6D needs C++17: compile with -std=c++17 or later (CMake: CMAKE_CXX_STANDARD 17)"
+#error "PCL6D needs C++17: compile with -std=c++17 or later"
 #endif
 
 /** \file

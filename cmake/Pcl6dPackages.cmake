@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The packages of the whole suite, each found once.
+# In the order in which they build on each other: PCL links no component that comes later.
 find_package(PCL 1.12 REQUIRED COMPONENTS
-  common features filters io kdtree registration sample_consensus search segmentation)
+  common io kdtree search sample_consensus filters features registration segmentation)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(Boost 1.71 REQUIRED COMPONENTS program_options filesystem)
 find_package(Threads REQUIRED)

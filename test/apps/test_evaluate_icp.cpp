@@ -131,11 +131,11 @@ TEST(EvaluateIcp, RunsAllCombinationsIfTold)
     EXPECT_NE(table, std::string::npos) << outcome.out;
     return std::count(outcome.out.begin() + table, outcome.out.end(), '\n') - 1;
   };
-  EXPECT_EQ(count({"--metric=point", "--minimiser=all", "--search=all"}), 14);
+  EXPECT_EQ(count({"--metric=point", "--minimiser=all", "--search=all"}), 15);
   EXPECT_EQ(
       count(
           {"--metric=point", "--minimiser=all", "--search=all", "--all-combinations"}),
-      54);
+      63);
   EXPECT_EQ(count({"--metric=plane", "--metric=plane"}), 5);
 }
 

@@ -75,23 +75,11 @@ meanOf(const Points& points, const IndexRange& indices)
 }
 
 Points
-meansByCell(const Points& places, const Points& values)
-{
-  if (auto means = filters::meansByVoxel(places, 1, values))
-    return std::move(*means);
-  const VoxelGroups groups(places, 1);
-  Points means;
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    means.push_back(meanOf(values, groups.indices(g)));
-  return means;
-}
-
-Points
 reducePoints(const Points& points, const ReductionOptions& options)
 {
   options.validate();
   if (options.method == ReductionMethod::kMean)
-    if (auto means = filters::meansByVoxel(points, options.voxel, points))
+    if (auto means = filters::meansByVoxel(points, options.voxel))
       return std::move(*means);
   const VoxelGroups groups(points, options.voxel);
   Points reduced;

@@ -200,7 +200,7 @@ sortByVoxel(const Points& points, double voxel)
 }
 
 std::optional<Points>
-meansByVoxel(const Points& points, double voxel, const Points& values)
+meansByVoxel(const Points& points, double voxel)
 {
   const auto sorted = sortedEntries(points, voxel);
   if (!sorted)
@@ -220,8 +220,8 @@ meansByVoxel(const Points& points, double voxel, const Points& values)
     const auto pointOf = [&](std::size_t k) -> const Eigen::Vector3f& {
       constexpr std::size_t kAhead = 16; // entries whose points are on their way
       __builtin_prefetch(
-          &values[sorted->indexOf(entries[std::min(k + kAhead, size - 1)])]);
-      return values[sorted->indexOf(entries[k])];
+          &points[sorted->indexOf(entries[std::min(k + kAhead, size - 1)])]);
+      return points[sorted->indexOf(entries[k])];
     };
     const Eigen::Vector3f& first = pointOf(i);
     if (endsVoxel(i)) {

@@ -24,9 +24,9 @@ struct VoxelOrder {
 VoxelOrder
 sortByVoxel(const Points& points, double voxel);
 
-/** \return the means of the values of the points of the voxels in that order, without the
- * lists in between \param[in] values one per point, usually the points; nothing if the points are too many, or the voxels too small, for short keys */
+/** \return the means of the points of the voxels in that order, without the lists in between;
+ * nothing if the points are too many, or the voxels too small, for short keys */
 std::optional<Points>
-meansByVoxel(const Points& points, double voxel, const Points& values);
+meansByVoxel(const Points& points, double voxel);
 
 } // namespace pcl6d::filters

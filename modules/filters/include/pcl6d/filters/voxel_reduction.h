@@ -119,13 +119,6 @@ private:
 Eigen::Vector3f
 meanOf(const Points& points, const IndexRange& indices);
 
-/** \return the means [m] of the values whose places lie in the same cell of a grid of cells of
- * 1, in the order of the cells' keys; those without a finite place are left out
- * \param[in] places, values of equal number, or no places
- * \throws BadArgument a place lies outside the grid */
-Points
-meansByCell(const Points& places, const Points& values);
-
 /** \brief Reduces points to one (kRandom: a few) per occupied voxel.
  * \throws BadArgument an option breaks its rule, or a point lies outside the grid
  * \note Source: book 4.1.5; the grid is the leaf level of an octree. */

@@ -18,6 +18,7 @@ namespace {
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
 constexpr char kIcp[] = "pcl::IterativeClosestPoint";
+constexpr char kPlanes[] = "pcl::IterativeClosestPointWithNormals";
 constexpr char kNdt[] = "pcl::NormalDistributionsTransform";
 constexpr char kGicp[] = "pcl::GeneralizedIterativeClosestPoint";
 constexpr int kMaxIterations = 500;
@@ -38,13 +39,14 @@ cloudOf(const Points& points)
   return cloud;
 }
 
-/** Lets the check see how many iterations the peer took. */
-class PeerIcp : public pcl::IterativeClosestPoint<Point, Point> {
+/** Lets the check see how many iterations a class of PCL took. */
+template <typename Icp>
+class Counted : public Icp {
 public:
   int
   iterations() const
   {
-    return nr_iterations_;
+    return this->nr_iterations_;
   }
 };
 
@@ -88,7 +90,7 @@ alignOurs(Work& work, unsigned int threads)
 void
 alignTheirs(Work& work)
 {
-  PeerIcp icp;
+  Counted<pcl::IterativeClosestPoint<Point, Point>> icp;
   icp.setInputTarget(work.target);
   icp.setInputSource(work.source);
   icp.setMaximumIterations(kMaxIterations);
@@ -183,8 +185,6 @@ gicpJob(const RecordedPair& pair, unsigned int threads)
       }};
 }
 
-constexpr char kPlanes[] = "pcl::IterativeClosestPointWithNormals";
-
 pcl::PointCloud<pcl::PointNormal>::Ptr
 withNormals(const Cloud& cloud)
 {
@@ -203,17 +203,6 @@ withNormals(const Cloud& cloud)
   return with;
 }
 
-/** Lets the check see how many iterations the peer took. */
-class PeerPlanes
-: public pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> {
-public:
-  int
-  iterations() const
-  {
-    return nr_iterations_;
-  }
-};
-
 /** Points to planes; both are given the same normals. */
 PeerJob
 planesJob(const RecordedPair& pair, unsigned int threads)
@@ -230,22 +219,25 @@ planesJob(const RecordedPair& pair, unsigned int threads)
     icp.align(aligned, work->guess);
     return icp.getFinalTransformation();
   };
-  return {[=] {
-            pcl6d::ICP6DWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
-            icp.setNumberOfThreads(threads);
-            work->ours = align(icp);
-            work->our_iterations = icp.result().iterations;
-            work->our_rest = icp.result().stop == IcpStop::kAtRest;
-          },
-          [=] {
-            PeerPlanes icp;
-            icp.getConvergeCriteria()->setAbsoluteMSE(0);
-            icp.getConvergeCriteria()->setRelativeMSE(0);
-            work->theirs = align(icp);
-            work->their_iterations = icp.iterations();
-            work->their_rest = icp.iterations() < kMaxIterations;
-          },
-          [=](benchmark::State& state) { checkEqual(state, *work, false); }};
+  return {
+      [=] {
+        pcl6d::ICP6DWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
+        icp.setNumberOfThreads(threads);
+        work->ours = align(icp);
+        work->our_iterations = icp.result().iterations;
+        work->our_rest = icp.result().stop == IcpStop::kAtRest;
+      },
+      [=] {
+        Counted<
+            pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal>>
+            icp;
+        icp.getConvergeCriteria()->setAbsoluteMSE(0);
+        icp.getConvergeCriteria()->setRelativeMSE(0);
+        work->theirs = align(icp);
+        work->their_iterations = icp.iterations();
+        work->their_rest = icp.iterations() < kMaxIterations;
+      },
+      [=](benchmark::State& state) { checkEqual(state, *work, false); }};
 }
 
 /** Cells, and steps until both rest within a millimetre, which PCL is told by its square. */

@@ -3,9 +3,14 @@
 
 #include <pcl6d/io/atomic_file.h>
 
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <ostream>
+#include <set>
 #include <stdexcept>
+#include <sys/resource.h>
 
 namespace fs = std::filesystem;
 using pcl6d::writeFileAtomically;
@@ -31,10 +36,8 @@ TEST(AtomicFile, KeepsTheOldContentUntilTheNewOneIsComplete)
   writeFileAtomically(folder / "file.txt", [&](std::ostream& s) {
     s << "new" << std::flush;
     EXPECT_EQ(readText(folder / "file.txt"), "old");
-    const auto names = namesIn(folder.path());
-    ASSERT_EQ(names.size(), 2u);
-    const std::string temporary = names[names[0] == "file.txt" ? 1 : 0];
-    EXPECT_EQ(temporary.front(), '.'); // hidden, so no reader takes it for a scan
+    for (const auto& name : namesIn(folder.path())) // none, or one that no reader takes
+      EXPECT_TRUE(name == "file.txt" || name.front() == '.') << name;
   });
   EXPECT_EQ(readText(folder / "file.txt"), "new");
 }
@@ -115,13 +118,20 @@ TEST(AtomicFile, ALinkStaysALink)
   EXPECT_EQ(readText(folder / "real.txt"), "new");
 }
 
-TEST(AtomicFile, ByNameGivesAnotherNameWithTheSameExtensionInTheSameFolder)
+TEST(AtomicFile, ByNameGivesANameWithTheSameExtensionThatNobodyElseCanTake)
 {
   const pcl6d::test::TempFolder folder;
+  std::set<fs::path> names;
+  for (int i = 0; i < 3; ++i)
+    writeFileAtomicallyBy(folder / "map.ply", [&](const fs::path& temporary) {
+      EXPECT_EQ(temporary.extension(), ".ply");
+      EXPECT_EQ(temporary.parent_path().parent_path(), folder.path());
+      EXPECT_EQ(fs::status(temporary.parent_path()).permissions(),
+                fs::perms::owner_all);
+      EXPECT_TRUE(names.insert(temporary).second) << "it could be foreseen";
+      writeText(temporary, "content");
+    });
   writeFileAtomicallyBy(folder / "map.ply", [&](const fs::path& temporary) {
-    EXPECT_EQ(temporary.extension(), ".ply");
-    EXPECT_EQ(temporary.parent_path(), folder.path());
-    EXPECT_NE(temporary, folder / "map.ply");
     writeText(temporary, "content");
   });
   EXPECT_EQ(readText(folder / "map.ply"), "content");
@@ -133,6 +143,39 @@ TEST(AtomicFile, ByNameGivesAnotherNameWithTheSameExtensionInTheSameFolder)
                std::runtime_error);
   EXPECT_EQ(readText(folder / "map.ply"), "content");
   EXPECT_EQ(namesIn(folder.path()).size(), 1u);
+}
+
+TEST(AtomicFile, KeepsThePermissionsOfTheFileThatIsReplaced)
+{
+  const pcl6d::test::TempFolder folder;
+  writeText(folder / "file.txt", "old");
+  fs::permissions(folder / "file.txt", fs::perms(0604));
+  writeFileAtomically(folder / "file.txt", [](std::ostream& s) { s << "new"; });
+  EXPECT_EQ(fs::status(folder / "file.txt").permissions(), fs::perms(0604));
+  const mode_t mask = ::umask(027);
+  writeFileAtomically(folder / "fresh.txt", [](std::ostream& s) { s << "new"; });
+  ::umask(mask);
+  EXPECT_EQ(fs::status(folder / "fresh.txt").permissions(), fs::perms(0640));
+}
+
+TEST(AtomicFile, AFileThatMayNotGrowIsAnErrorAndLeavesNothing)
+{
+  const pcl6d::test::TempFolder folder;
+  const auto writeMuch = [&] {
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN); // as in all programs
+    try {
+      writeFileAtomically(folder / "file.txt",
+                          [](std::ostream& s) { s << std::string(100000, 'x'); });
+    } catch (const pcl6d::IoFailed& e) {
+      std::fprintf(stderr, "%s\n", e.what());
+      std::_Exit(1);
+    }
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(writeMuch(), testing::ExitedWithCode(1), "file.txt: File too large");
+  EXPECT_TRUE(namesIn(folder.path()).empty());
 }
 
 TEST(AtomicFile, AWriterThatWritesNothingIsAnError)

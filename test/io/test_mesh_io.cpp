@@ -70,6 +70,38 @@ stlBinary(const TriangleMesh& mesh)
   }
   return bytes;
 }
+/** A camera, five vertices with colours and lists, and two faces, in binary. */
+std::string
+roofBytes(bool big)
+{
+  std::string bytes;
+  const auto append = [&](auto value) {
+    const std::string raw(reinterpret_cast<const char*>(&value), sizeof value);
+    bytes += big ? std::string(raw.rbegin(), raw.rend()) : raw;
+  };
+  const auto appendVertex = [&](double x, double y, std::int16_t z, int tags) {
+    append(std::uint8_t{9});
+    append(x);
+    append(y);
+    append(static_cast<std::uint8_t>(tags));
+    for (int i = 0; i < tags; ++i)
+      append(std::int16_t{7});
+    append(z);
+  };
+  append(7.f);
+  appendVertex(0, 0, 0, 0);
+  appendVertex(2, 0, 0, 2);
+  appendVertex(3, 1.25, 0, 0);
+  appendVertex(2, 2, 0, 0);
+  appendVertex(0, 2, -4, 1);
+  for (const auto& corners : {std::vector<std::uint32_t>{0, 1, 2, 3, 4}, {0, 4, 1}}) {
+    append(std::int32_t{5});
+    append(static_cast<std::uint16_t>(corners.size()));
+    for (const auto corner : corners)
+      append(corner);
+  }
+  return bytes;
+}
 } // namespace
 
 TEST(ReadMesh, ReadsTheSameBodyFromEveryFormat)
@@ -96,6 +128,49 @@ TEST(ReadMesh, CutsPolygons)
   writeText(folder / "house.obj",
             "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 3 0\nv 0 2 0\nf 1 2 3 4 5\n");
   EXPECT_EQ(readMesh(folder / "house.obj").triangles.size(), 3u);
+}
+
+TEST(ReadMesh, ReadsPlyInEveryEncodingAndSkipsWhatItDoesNotKnow)
+{
+  const std::string elements = "element camera 1\nproperty float f\nelement vertex 5\n"
+                               "property uchar red\nproperty double x\n"
+                               "property double y\nproperty list uchar short tags\n"
+                               "property short z\nelement face 2\n"
+                               "property int id\n"
+                               "property list ushort uint vertex_index\nend_header\n";
+  const std::string text = "7\n1 0 0 0 0\n2 2 0 2 5 6 0\n3 3 1.25 0 0\n4 2 2 0 0\n"
+                           "5 0 2 1 9 -4\n0 5 0 1 2 3 4\n1 3 0 4 1\n";
+  const TempFolder folder;
+  writeText(folder / "a.ply", "ply\nformat ascii 1.0\n" + elements + text);
+  for (const bool big : {false, true})
+    writeText(folder / (big ? "big.ply" : "little.ply"),
+              std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                  "_endian 1.0\n" + elements + roofBytes(big));
+  const TriangleMesh mesh = readMesh(folder / "a.ply");
+  ASSERT_EQ(mesh.vertices.size(), 5u);
+  EXPECT_EQ(mesh.vertices[2], Eigen::Vector3d(3, 1.25, 0));
+  EXPECT_EQ(mesh.vertices[4], Eigen::Vector3d(0, 2, -4));
+  const decltype(mesh.triangles) expected = {
+      {0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  EXPECT_EQ(mesh.triangles, expected);
+  for (const char* const other : {"little.ply", "big.ply"}) {
+    const TriangleMesh same = readMesh(folder / other);
+    EXPECT_EQ(same.vertices, mesh.vertices) << other;
+    EXPECT_EQ(same.triangles, mesh.triangles) << other;
+  }
+}
+
+TEST(ReadMesh, RefusesFacesOfAPlyFileThatAreNone)
+{
+  const TempFolder folder;
+  const auto refuse = [&](const std::string& face, const std::string& words) {
+    std::string text = kTetrahedronPly;
+    text.replace(text.find("3 0 1 3"), 7, face);
+    writeText(folder / "a.ply", text);
+    expectIoFailed(folder / "a.ply", words, [&] { readMesh(folder / "a.ply"); });
+  };
+  refuse("2 0 1", "face 2 of 4 has fewer than 3 corners");
+  refuse("3 0 -1 3", "face 2 of 4: vertex -1, but must be >= 0");
 }
 
 TEST(ReadMesh, ScalesAndTurns)
@@ -143,7 +218,7 @@ TEST(ReadMesh, NamesWhatIsWrong)
                 "",
                 "extension '.dae' is no format of meshes, must be .ply, "
                 ".obj or .stl");
-  expectRefused("k.ply", "plx\n", "not a PLY file that can be read");
+  expectRefused("k.ply", "plx\n", "line 1: expected 'ply', got 'plx'");
   std::string cut(84, '\0');
   cut[80] = 2; // triangles
   expectRefused(

@@ -38,7 +38,8 @@ cloudOf(std::size_t count, pcl::uindex_t height = 1)
   for (std::size_t i = 0; i < count; ++i)
     values.insert(values.end(), {static_cast<float>(i), 2, 3});
   cloud.data.resize(4 * values.size());
-  std::memcpy(cloud.data.data(), values.data(), cloud.data.size());
+  if (count > 0)
+    std::memcpy(cloud.data.data(), values.data(), cloud.data.size());
   return cloud;
 }
 

@@ -100,13 +100,15 @@ TEST(PoseGraphErrors, NameInformationThatIsNone)
                 "line 3: the information matrix is not finite");
 }
 
-TEST(PoseGraphErrors, NameChainsThatOverflow)
+TEST(PoseGraphErrors, NameChainsThatLeaveAllPlaces)
 {
-  const std::string far = " 1e308 0 0 0 0 0" + kUnit;
+  const std::string far = " 9e8 0 0 0 0 0" + kUnit;
   expectMessage("EDGE3 0 1" + far + "EDGE3 1 2" + far,
-                "the links to vertex 2 add up to a position that is not finite");
+                "the links to vertex 2 add up to a position 1e9 m or farther from the "
+                "origin");
   expectMessage("EDGE3 10 20" + far + "EDGE3 20 30" + far,
-                "the links to vertex 30 add up to a position that is not finite");
+                "the links to vertex 30 add up to a position 1e9 m or farther from the "
+                "origin");
 }
 
 TEST(PoseGraphErrors, DigitsLostInInformationAreRepaired)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan_samples.h"
 
+#include <array>
 #include <thread>
 
 using pcl6d::readScanCloud;
@@ -75,14 +76,26 @@ TEST(ScanRoundTrip, PipesAreReadLikeFiles)
 {
   const TempFolder folder;
   const auto cloud = randomCloud(30000, false); // more than a pipe holds at once
-  const auto file = folder / "file", pipe = folder / "pipe";
-  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto file = folder / "file";
   for (const Way& way : kWays) {
     SCOPED_TRACE(way.name);
     writeScan(file, cloud, Eigen::Isometry3d::Identity(), {way.format, way.encoding});
-    std::thread writer(
-        [&] { pcl6d::test::writeText(pipe, pcl6d::test::readText(file)); });
-    const auto read = readScanCloud(pipe, way.format);
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    std::thread writer([&] {
+      const std::string content = pcl6d::test::readText(file);
+      for (std::size_t done = 0; done < content.size();) {
+        const auto count =
+            ::write(ends[1], content.data() + done, content.size() - done);
+        if (count <= 0)
+          break;
+        done += static_cast<std::size_t>(count);
+      }
+      ::close(ends[1]);
+    });
+    // As a shell hands over `<(...)`.
+    const auto read = readScanCloud("/dev/fd/" + std::to_string(ends[0]), way.format);
+    ::close(ends[0]);
     writer.join();
     EXPECT_EQ(read.cloud.data, readScanCloud(file, way.format).cloud.data);
     EXPECT_EQ(read.cloud.width, cloud.width);

@@ -156,7 +156,7 @@ TEST_F(SegmentFiles, GeoJsonRefusesDegrees)
 
 TEST_F(SegmentFiles, GeoJsonNamesWhatIsBroken)
 {
-  expectRefused("a.geojson", "{\"type\": ", {"parse error"});
+  expectRefused("a.geojson", "{\"type\": ", {"line 1: not the syntax of JSON"});
   expectRefused("a.geojson", "{}", {"type"});
   expectRefused("a.geojson", geometry("Circle", "[]"), {"'Circle'"});
   expectRefused("a.geojson",
@@ -165,8 +165,9 @@ TEST_F(SegmentFiles, GeoJsonNamesWhatIsBroken)
                     geometry("LineString", R"([[0, "north"]])") + "}]}",
                 {"feature 2", "number"});
   expectRefused("a.geojson", geometry("LineString", "[[0]]"), {"1"});
-  expectRefused(
-      "a.geojson", geometry("LineString", "[[0,NaN],[1,1]]"), {"parse error"});
+  expectRefused("a.geojson",
+                geometry("LineString", "[[0,NaN],[1,1]]"),
+                {"line 1: not the syntax of JSON"});
 }
 
 TEST_F(SegmentFiles, SvgReadsPathsAndTurnsYUp)

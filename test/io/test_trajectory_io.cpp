@@ -134,6 +134,14 @@ TEST(TrajectoryIo, BrokenFilesAreNamedWithLineValueAndRule)
                 "have 1)");
   expectMessage("0 inf 0 0 0 0 0 1\n",
                 "line 1: not a rigid motion (a number is not finite)");
+  for (const char* far : {"1e9", "-1e100"}) {
+    const std::string error = "its position is 1e9 m or farther from the origin";
+    expectMessage("1 0 0 0 0 1 0 0 0 0 1 " + std::string(far) + "\n",
+                  "line 1: " + error);
+    expectMessage(kIdentityRow + "1 0 0 " + far + " 0 1 0 0 0 0 1 0\n",
+                  "line 2: " + error);
+    expectMessage(std::string("0 ") + far + " 0 0 0 0 0 1\n", "line 1: " + error);
+  }
   expectMessage("2 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n",
                 "line 2: the stamp 2 does not follow 2; stamps must increase");
   expectMessage("nan 0 0 0 0 0 0 1\n", "line 1: the stamp nan is not finite");

@@ -84,6 +84,22 @@ TEST_F(CascadeFile, RefusesWhatIsNoFile)
   EXPECT_THROW(readCascade(file), IoFailed);
 }
 
+TEST_F(CascadeFile, IsNotReadDeeperThanAnybodyWritesIt)
+{
+  for (const int depth : {20000, 500000}) {
+    std::string deep = "<opencv_storage>";
+    for (int i = 0; i < depth; ++i)
+      deep += "<a>";
+    test::writeText(file, deep);
+    try {
+      readCascade(file);
+      ADD_FAILURE() << "it was read";
+    } catch (const IoFailed& e) {
+      EXPECT_EQ(std::string(e.what()), file + ": line 1: nested more than 200 deep");
+    }
+  }
+}
+
 TEST_F(CascadeFile, RefusesToWriteABrokenCascade)
 {
   HaarCascade broken = cascade;

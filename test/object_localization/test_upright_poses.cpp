@@ -69,6 +69,14 @@ TEST(DistanceField, RefusesBadArguments)
   EXPECT_THROW(DistanceField(one, 0, 0.3), BadArgument);
   EXPECT_THROW(DistanceField(one, 0.1, 0.1), BadArgument);
   EXPECT_THROW(DistanceField(one, 0.1, INFINITY), BadArgument);
+  EXPECT_THROW(DistanceField({{0, 0, 0}, {1e9F, 1e9F, 1e9F}}, 0.1, 0.3), BadArgument);
+}
+
+TEST(DistanceField, IsFarFromWhatIsNoPlace)
+{
+  const DistanceField field({{0, 0, 0}}, 0.1, 0.3);
+  for (const double far : {1e12, 1e300, double{INFINITY}, std::nan("")})
+    EXPECT_EQ(field.at({far, 0, 0}), 0.3) << far;
 }
 
 TEST(UprightPoses, FindAPlacedModelAgain)

@@ -149,6 +149,25 @@ TEST(CalibrateStereo, SaysWhenThereIsNoAnswerAndRefusesWhatAreNoPairs)
                 "points of right view = 0");
 }
 
+TEST(CameraFile, IsNotReadDeeperThanAnybodyWritesIt)
+{
+  const TempFolder folder;
+  for (const auto& [name, start, level] :
+       {std::tuple("a.yaml", "%YAML:1.0\n---\na: ", "["),
+        std::tuple("b.yaml", "%YAML:1.0\n---\na: ", "{a: "),
+        std::tuple("c.xml", "<?xml version=\"1.0\"?>\n<opencv_storage>\n", "<a>"),
+        std::tuple("d.json", "{\n\"a\":\n", "[")})
+    for (const int depth : {20000, 500000}) {
+      SCOPED_TRACE(name);
+      std::string deep = start;
+      for (int i = 0; i < depth; ++i)
+        deep += level;
+      writeText(folder / name, deep);
+      expectRefused<IoFailed>([&] { pcl6d::readCamera(folder / name); },
+                              "line 3: nested more than 200 deep");
+    }
+}
+
 TEST(ImagesOf, AreThePicturesOfAFolderInNaturalOrder)
 {
   const TempFolder folder;

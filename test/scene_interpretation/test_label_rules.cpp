@@ -158,6 +158,17 @@ TEST(LabelRules, ThatContradictEachOtherAreRefused)
     EXPECT_EQ(messageOf(json), prefix + message) << json;
 }
 
+TEST(LabelRules, AreNotReadDeeperThanAnybodyWritesThem)
+{
+  for (const int depth : {20000, 500000}) {
+    std::string deep = R"({"labels": [{"name": "a"}], "constraints": [{"between": )"
+                       R"(["a", "a"], "holds": )";
+    for (int i = 0; i < depth; ++i)
+      deep += R"({"not": )";
+    EXPECT_EQ(messageOf(deep), "my.json: line 1: nested more than 200 deep");
+  }
+}
+
 TEST(LabelRules, OfAFileThatIsNotThereAreAnError)
 {
   const pcl6d::test::TempFolder folder;

@@ -3,10 +3,9 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/name_table.h>
+#include <pcl6d/io/text.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace pcl6d {
 using namespace scene_interpretation;
@@ -62,10 +61,10 @@ labelNumber(const LabelRules& rules, const std::string& label)
 LabelRules
 readLabelRules(const std::filesystem::path& path)
 {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || stream.peek() == std::char_traits<char>::eof())
-    throw IoFailed(path.string() + ": cannot be read or is empty");
-  return parseLabelRules({std::istreambuf_iterator<char>(stream), {}}, path.string());
+  const std::string content = text::readFile(path);
+  if (content.empty())
+    text::fail(path, "is empty");
+  return parseLabelRules(content, path.string());
 }
 
 LabelRules

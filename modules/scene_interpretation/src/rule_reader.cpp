@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/angle.h>
 #include <pcl6d/common/name_table.h>
+#include <pcl6d/io/text.h>
 
 namespace pcl6d::scene_interpretation {
 namespace {
@@ -48,7 +49,7 @@ readOrientation(const JsonValue& json)
                                            {Orientation::kVertical, "vertical"}};
   if (const auto orientation = findNamed(kNames, name))
     return *orientation;
-  json.fail("unknown orientation '" + name + "', but must be " +
+  json.fail("unknown orientation " + text::quoted(name) + ", but must be " +
             listed(kNames, WordList::kOr));
 }
 
@@ -60,7 +61,7 @@ readSeenFrom(const JsonValue& json)
                                         {SeenFrom::kBelow, "below"}};
   if (const auto side = findNamed(kNames, name))
     return *side;
-  json.fail("unknown side '" + name + "', but must be " +
+  json.fail("unknown side " + text::quoted(name) + ", but must be " +
             listed(kNames, WordList::kOr));
 }
 
@@ -71,9 +72,9 @@ readLabel(const JsonValue& json, const LabelRules& rules)
   LabelRule label;
   label.name = word(name);
   if (label.name == "none" || label.name == "*")
-    name.fail("'" + label.name + "' is not free to be a label");
+    name.fail(text::quoted(label.name) + " is not free to be a label");
   if (rules.find(label.name) < rules.labels.size())
-    name.fail("label '" + label.name + "' is there already");
+    name.fail("label " + text::quoted(label.name) + " is there already");
   for (const auto& key : json.keys()) {
     if (const auto measure = measureFromName(key))
       label.conditions.push_back(readCondition(*measure, json / key));
@@ -82,7 +83,7 @@ readLabel(const JsonValue& json, const LabelRules& rules)
     else if (key == "seen_from")
       label.seen_from = readSeenFrom(json / key);
     else if (key != "name")
-      json.fail("unknown condition '" + key + "'");
+      json.fail("unknown condition " + text::quoted(key));
   }
   return label;
 }
@@ -94,8 +95,8 @@ readRelationRule(const JsonValue& json)
   if (json.isText()) {
     const auto relation = relationFromName(json.text());
     if (!relation)
-      json.fail("unknown predicate '" + json.text() + "', but must be one of " +
-                relationNames());
+      json.fail("unknown predicate " + text::quoted(json.text()) +
+                ", but must be one of " + relationNames());
     rule.relation = *relation;
     return rule;
   }
@@ -109,7 +110,7 @@ readRelationRule(const JsonValue& json)
     return rule;
   }
   if (key != "all" && key != "any")
-    json.fail("unknown key '" + key + "', but must be all, any or not");
+    json.fail("unknown key " + text::quoted(key) + ", but must be all, any or not");
   rule.kind = key == "all" ? RelationRule::Kind::kAll : RelationRule::Kind::kAny;
   for (const auto& part : json.elements(key))
     rule.parts.push_back(readRelationRule(part));
@@ -124,7 +125,7 @@ readLabelName(const JsonValue& json, const LabelRules& rules)
   const std::string name = word(json);
   const std::size_t label = rules.find(name);
   if (label == rules.labels.size())
-    json.fail("unknown label '" + name + "'");
+    json.fail("unknown label " + text::quoted(name));
   return label;
 }
 

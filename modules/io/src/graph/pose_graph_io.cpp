@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/information.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pose_graph_io.h>
@@ -274,10 +275,10 @@ readPoseGraph(const fs::path& path)
   if (graph.poses.empty())
     graph.poses = posesAlongTrees(rows.ids.size(), graph.links);
   for (std::size_t i = 0; i < graph.poses.size(); ++i)
-    if (!graph.poses[i].matrix().allFinite())
+    if (!graph.poses[i].matrix().allFinite() || !isPlace(graph.poses[i].translation()))
       text::fail(path,
                  "the links to vertex " + std::to_string(rows.ids[i]) +
-                     " add up to a position that is not finite");
+                     " add up to a position 1e9 m or farther from the origin");
   if (!areDefaultIds(rows.ids))
     graph.ids = std::move(rows.ids);
   return graph;

@@ -3,12 +3,12 @@
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/json_object.h>
+#include <pcl6d/io/nesting.h>
+#include <pcl6d/io/text.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace pcl6d {
 namespace {
@@ -18,6 +18,7 @@ using Json = JsonValue::Json;
 JsonValue
 parseJson(const std::string& text, const std::string& name)
 {
+  checkJsonNesting(text, name);
   try {
     return {name, Json::parse(text, nullptr, true, true)}; // comments are allowed
   } catch (const Json::parse_error& e) {
@@ -26,18 +27,18 @@ parseJson(const std::string& text, const std::string& name)
     const auto line = 1 + std::count(text.begin(), end, '\n');
     throw IoFailed(name + ": line " + std::to_string(line) +
                    ": not the syntax of JSON");
-  } catch (const Json::exception& e) {
-    throw IoFailed(name + ": " + e.what());
+  } catch (const Json::out_of_range&) {
+    throw IoFailed(name + ": a number is too large for a double");
   }
 }
 
 JsonValue
 readJson(const std::filesystem::path& file)
 {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || stream.peek() == std::char_traits<char>::eof())
-    throw IoFailed(file.string() + ": cannot be read or is empty");
-  return parseJson({std::istreambuf_iterator<char>(stream), {}}, file.string());
+  const std::string content = text::readFile(file);
+  if (content.empty())
+    text::fail(file, "is empty");
+  return parseJson(content, file.string());
 }
 
 std::string

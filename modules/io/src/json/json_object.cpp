@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/io/json_object.h>
+#include <pcl6d/io/text.h>
 
 #include <nlohmann/json.hpp>
 
@@ -56,6 +58,8 @@ JsonObject::read(const std::string& key, Eigen::Vector2d& value)
   if (list.size() != 2)
     fail(key, "expected 2 numbers, got " + std::to_string(list.size()));
   value = {list[0], list[1]};
+  if (!isPlace(value))
+    fail(key, "the numbers must be below 1e9");
 }
 
 void
@@ -67,6 +71,8 @@ JsonObject::read(const std::string& key, Eigen::Vector3d& value)
   if (list.size() != 3)
     fail(key, "expected 3 numbers, got " + std::to_string(list.size()));
   value = {list[0], list[1], list[2]};
+  if (!isPlace(value))
+    fail(key, "the numbers must be below 1e9");
 }
 
 std::vector<double>
@@ -112,7 +118,7 @@ JsonObject::finish() const
 {
   for (const auto& key : keys())
     if (read_.count(key) == 0)
-      value_.fail("unknown key '" + key + "'");
+      value_.fail("unknown key " + text::quoted(key));
 }
 
 void

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/json_object.h>
+#include <pcl6d/io/text.h>
 
 #include <nlohmann/json.hpp>
 
@@ -12,10 +14,35 @@ namespace pcl6d {
 namespace {
 using Json = JsonValue::Json;
 
+constexpr std::size_t kLongestShown = 40; // [byte] of a key or a value in a message
+
 bool
 isFinite(const Json& json)
 {
   return json.is_number() && std::isfinite(json.get<double>());
+}
+
+/** \return the text, shortened between two characters of UTF-8 */
+std::string
+shortened(const std::string& text)
+{
+  if (text.size() <= kLongestShown)
+    return text;
+  std::size_t end = kLongestShown;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+    --end; // inside a character
+  return text.substr(0, end) + "...";
+}
+
+/** \return a key as the pointers in messages show it: on one line, and not too long */
+std::string
+pointerName(const std::string& key)
+{
+  std::string text = shortened(key);
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
+      c = '?';
+  return text;
 }
 } // namespace
 
@@ -33,7 +60,7 @@ JsonValue::JsonValue(std::shared_ptr<const std::string> file,
 JsonValue
 JsonValue::part(const Json& json, const std::string& name) const
 {
-  return {file_, {json_, &json}, pointer_ + '/' + name};
+  return {file_, {json_, &json}, pointer_ + '/' + pointerName(name)};
 }
 
 std::string
@@ -58,9 +85,7 @@ JsonValue::require(bool kept, const std::string& rule) const
 std::string
 JsonValue::excerpt() const
 {
-  constexpr std::size_t kLongest = 40;
-  const std::string text = json_->dump(-1, ' ', false, Json::error_handler_t::replace);
-  return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
+  return shortened(json_->dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string
@@ -147,7 +172,7 @@ JsonValue::allow(std::initializer_list<const char*> known) const
 {
   for (const auto& key : keys())
     if (std::find(known.begin(), known.end(), key) == known.end())
-      fail("unknown key '" + key + "'");
+      fail("unknown key " + text::quoted(key));
 }
 
 std::vector<JsonValue>
@@ -264,6 +289,7 @@ JsonValue::vector3() const
 {
   Eigen::Vector3d vector;
   fill(vector);
+  require(isPlace(vector), "three numbers below 1e9");
   return vector;
 }
 
@@ -283,6 +309,7 @@ JsonValue::pose() const
   fill(pose.matrix());
   require(isRigid(pose) && pose.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1),
           "a rigid motion");
+  require(isPlace(pose.translation()), "a position within 1e9 m");
   return pose;
 }
 

@@ -14,10 +14,11 @@ objectOf(const JsonValue& json)
 {
   ObjectPose object;
   object.object_class = (json / "class").text();
-  (json / "T_world_object").fill(object.T_world_object.matrix());
-  const Eigen::Vector3d extent = (json / "extent").vector3();
-  const Eigen::Vector3d centre = (json / "centre").vector3();
-  object.box = Eigen::AlignedBox3d(centre - 0.5 * extent, centre + 0.5 * extent);
+  object.T_world_object = (json / "T_world_object").pose();
+  const auto box = boxOf(json);
+  if (!box)
+    json.fail("has no box: box_min and box_max, or extent and centre");
+  object.box = *box;
   if (const auto moves = json.find("moves"))
     object.moves = moves->boolean();
   if (const auto points = json.find("points"))
@@ -25,6 +26,27 @@ objectOf(const JsonValue& json)
   return object;
 }
 } // namespace
+
+std::optional<Eigen::AlignedBox3d>
+boxOf(const JsonValue& object)
+{
+  if (object.find("box_min")) {
+    const Eigen::AlignedBox3d box((object / "box_min").vector3(),
+                                  (object / "box_max").vector3());
+    (object / "box_max")
+        .require((box.min().array() <= box.max().array()).all(), ">= box_min");
+    return box;
+  }
+  const auto sides = object.find("extent");
+  if (!sides)
+    return {};
+  const Eigen::Vector3d half = 0.5 * sides->vector3();
+  sides->require((half.array() >= 0).all(), ">= 0");
+  const auto middle = object.find("centre");
+  const Eigen::Vector3d centre =
+      middle ? middle->vector3() : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return Eigen::AlignedBox3d(centre - half, centre + half);
+}
 
 void
 writeObjects(const std::filesystem::path& path, const std::vector<ObjectPose>& objects)

@@ -5,14 +5,11 @@
 #include <pcl6d/io/mesh_io.h>
 #include <pcl6d/io/text.h>
 
-#include <pcl/io/ply_io.h>
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstring>
 
 namespace pcl6d {
 
@@ -67,52 +64,7 @@ checkMesh(const std::filesystem::path& path, const TriangleMesh& mesh)
   }
 }
 
-// Where a coordinate stands in a point and what it is.
-double
-coordinate(const std::uint8_t* point, const pcl::PCLPointField& field)
-{
-  if (field.datatype == pcl::PCLPointField::FLOAT64) {
-    double value;
-    std::memcpy(&value, point + field.offset, sizeof value);
-    return value;
-  }
-  float value;
-  std::memcpy(&value, point + field.offset, sizeof value);
-  return value;
-}
 } // namespace
-
-TriangleMesh
-io::readPlyMesh(const std::filesystem::path& path)
-{
-  text::open(path); // says why if it cannot
-  pcl::PolygonMesh polygons;
-  pcl::PLYReader reader;
-  if (reader.read(path.string(), polygons) < 0)
-    text::fail(path, "not a PLY file that can be read");
-  const pcl::PCLPointCloud2& cloud = polygons.cloud;
-  std::array<const pcl::PCLPointField*, 3> fields{};
-  for (const auto& field : cloud.fields)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (field.name == std::string(1, "xyz"[axis]) &&
-          (field.datatype == pcl::PCLPointField::FLOAT32 ||
-           field.datatype == pcl::PCLPointField::FLOAT64))
-        fields[axis] = &field;
-  if (!fields[0] || !fields[1] || !fields[2])
-    text::fail(path, "vertices without x, y and z");
-  TriangleMesh mesh;
-  const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
-  mesh.vertices.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint8_t* const point = &cloud.data[i * cloud.point_step];
-    mesh.vertices.emplace_back(coordinate(point, *fields[0]),
-                               coordinate(point, *fields[1]),
-                               coordinate(point, *fields[2]));
-  }
-  for (const auto& polygon : polygons.polygons)
-    addPolygon(polygon.vertices, mesh);
-  return mesh;
-}
 
 TriangleMesh
 readMesh(const std::filesystem::path& path, const MeshOptions& options)

@@ -48,7 +48,7 @@ readScanPoses(const Paths& scans)
   Trajectory trajectory;
   for (const auto& scan : scans) {
     const fs::path file = posePath(scan);
-    if (!fs::exists(file))
+    if (!text::isThere(file))
       text::fail(file,
                  "missing, but other scans have a .pose file: no pose for " +
                      scan.filename().string());
@@ -90,7 +90,7 @@ io::isGroundtruth(const fs::path& path)
 std::optional<Eigen::Isometry3d>
 findScanPose(const fs::path& scan, ScanFormat format)
 {
-  if (fs::exists(posePath(scan)))
+  if (text::isThere(posePath(scan)))
     return readUosPose(posePath(scan));
   if ((format == ScanFormat::kAuto ? scanFormatOfExtension(scan) : format) !=
       ScanFormat::kPcd)
@@ -112,11 +112,11 @@ findPoses(const fs::path& folder,
   if (!poses_file.empty())
     return {readPoses(poses_file, scans), poses_file.string()};
   if (std::any_of(scans.begin(), scans.end(), [](const fs::path& scan) {
-        return fs::exists(posePath(scan));
+        return text::isThere(posePath(scan));
       }))
     return {readScanPoses(scans), "scan poses (*.pose)"};
   for (const char* const name : {"odometry.txt", "poses.txt"})
-    if (fs::exists(folder / name))
+    if (text::isThere(folder / name))
       return {readPoses(folder / name, scans), name};
   if (format == ScanFormat::kPcd) {
     Trajectory viewpoints = readViewpoints(scans);
@@ -148,7 +148,7 @@ io::findInitialPoses(const fs::path& folder,
                      const fs::path& poses_file)
 {
   InitialPoses poses = findPoses(folder, scans, format, poses_file);
-  if (poses.trajectory.stamps.empty() && fs::exists(folder / kStampsFile))
+  if (poses.trajectory.stamps.empty() && text::isThere(folder / kStampsFile))
     poses.trajectory.stamps = readScanStamps(folder / kStampsFile, scans);
   return poses;
 }

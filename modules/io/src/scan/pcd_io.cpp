@@ -139,8 +139,10 @@ decompress(FileInput& input, std::size_t size)
   Bytes values;
   if (size / kMaxExpansion <= sizes[0]) // else do not even ask for the memory
     values.resize(size);
-  if (values.size() != size ||
-      pcl::lzfDecompress(compressed.data(), sizes[0], values.data(), sizes[1]) != size)
+  std::size_t unpacked = 0;
+  if (values.size() == size && sizes[0] > 0) // PCL reads a byte in any case
+    unpacked = pcl::lzfDecompress(compressed.data(), sizes[0], values.data(), sizes[1]);
+  if (values.size() != size || unpacked != size)
     text::fail(input.path(), "the compressed points are corrupt");
   return values;
 }

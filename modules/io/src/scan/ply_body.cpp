@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 namespace pcl6d::io {
 
@@ -164,9 +165,12 @@ private:
 } // namespace
 
 void
-PlyBody::start(const PlyElement& element, const std::vector<std::size_t>& offsets)
+PlyBody::start(const PlyElement& element,
+               const std::vector<std::size_t>& offsets,
+               std::optional<std::size_t> kept)
 {
   element_ = &element;
+  kept_ = kept;
   offsets_ = offsets;
   count_ = 0;
   has_list_ = false;
@@ -190,25 +194,52 @@ PlyBody::next(std::uint8_t* target)
     return;
   for (std::size_t i = 0; i < offsets_.size(); ++i) {
     const auto& property = element_->properties[i];
-    property.is_list ? skipList(property)
+    property.is_list ? readList(i)
                      : read(property.datatype, property, target + offsets_[i]);
   }
 }
 
-void
-PlyBody::skipList(const PlyProperty& property)
+std::int64_t
+PlyBody::readWhole(std::uint8_t datatype, const PlyProperty& property)
 {
   std::uint8_t bytes[sizeof(double)];
-  read(property.length_datatype, property, bytes);
-  const auto length = withTypeOf(property.length_datatype, [&](auto number) {
-    std::memcpy(&number, bytes, sizeof number);
-    return static_cast<std::int64_t>(number);
+  read(datatype, property, bytes);
+  return withTypeOf(datatype, [&](auto number) -> std::int64_t {
+    if constexpr (std::is_floating_point_v<decltype(number)>)
+      text::fail(input_.path(),
+                 "list " + text::quoted(property.name) + " has no integer type");
+    else {
+      std::memcpy(&number, bytes, sizeof number);
+      return static_cast<std::int64_t>(number);
+    }
   });
+}
+
+/** A list is read number by number, so that its length is believed only as far as the file
+ * goes. */
+void
+PlyBody::readList(std::size_t i)
+{
+  const PlyProperty& property = element_->properties[i];
+  const std::int64_t length = readWhole(property.length_datatype, property);
   if (length < 0)
     text::fail(input_.path(),
                place() + ": list " + text::quoted(property.name) + " has length " +
                    std::to_string(length));
-  skip(property, static_cast<std::size_t>(length));
+  if (i != kept_)
+    return skip(property, static_cast<std::size_t>(length));
+  list_.clear();
+  for (std::int64_t k = 0; k < length; ++k)
+    list_.push_back(readWhole(property.datatype, property));
+}
+
+void
+PlyBody::skipAll(const PlyElement& element)
+{
+  std::uint8_t ignored[sizeof(double)];
+  start(element, std::vector<std::size_t>(element.properties.size(), 0));
+  for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i)
+    next(ignored);
 }
 
 std::string

@@ -5,6 +5,7 @@
 #include "text/text_row.h"
 
 #include <memory>
+#include <optional>
 
 /** \file The elements of a PLY file. */
 namespace pcl6d::io {
@@ -15,25 +16,40 @@ public:
   virtual ~PlyBody() = default;
 
   /** \brief Goes to the next kind of element. \param[in] element is kept by reference
-   * \param[in] offsets [byte] where each property goes; lists are skipped */
+   * \param[in] offsets [byte] where each property goes; not used for lists
+   * \param[in] kept the number of the property whose list is kept; others are skipped */
   void
-  start(const PlyElement& element, const std::vector<std::size_t>& offsets);
+  start(const PlyElement& element,
+        const std::vector<std::size_t>& offsets,
+        std::optional<std::size_t> kept = {});
 
   /** \brief Reads an element, numbers in the machine's byte order.
    * \throws IoFailed naming file, place, value and rule */
   void
   next(std::uint8_t* target);
 
+  /** \return the kept list of the last element, which must be one of whole numbers */
+  const std::vector<std::int64_t>&
+  list() const
+  {
+    return list_;
+  }
+
+  /** \brief Reads all elements of a kind and keeps nothing of them. Those without
+   * properties have no place in the file. */
+  void
+  skipAll(const PlyElement& element);
+
   /** \throws IoFailed something follows that the header does not tell of */
   virtual void
   finish() = 0;
 
-protected:
-  explicit PlyBody(FileInput& input) : input_(input) {}
-
-  /** \return "vertex 3 of 8" */
+  /** \return "vertex 3 of 8", for messages */
   std::string
   place() const;
+
+protected:
+  explicit PlyBody(FileInput& input) : input_(input) {}
 
   FileInput& input_;
   std::vector<Column> columns_; ///< of the element, if it has no list
@@ -50,10 +66,15 @@ private:
    * by property */
   virtual bool
   takeRow(std::uint8_t* target) = 0;
+  /** \return a number of an integer type */
+  std::int64_t
+  readWhole(std::uint8_t datatype, const PlyProperty& property);
   void
-  skipList(const PlyProperty& property);
+  readList(std::size_t property);
 
   const PlyElement* element_ = nullptr;
+  std::optional<std::size_t> kept_;
+  std::vector<std::int64_t> list_;
   std::vector<std::size_t> offsets_;
   bool has_list_ = false;
   std::size_t count_ = 0; ///< elements read, with the one at hand

@@ -34,6 +34,9 @@ const std::map<std::string, PlyEncoding, std::less<>> kPlyEncodings = {
     {"binary_little_endian", PlyEncoding::kLittleEndian},
     {"binary_big_endian", PlyEncoding::kBigEndian}};
 
+/** No program writes longer names; the usual ones have a word or two. */
+constexpr std::size_t kLongestName = 255;
+
 /** \brief Takes a header line by line. */
 class Parser {
 public:
@@ -93,7 +96,7 @@ private:
   takeElement(text::Tokens& tokens)
   {
     PlyElement element;
-    element.name = tokens.next();
+    element.name = name(tokens.next());
     const auto count = tokens.next();
     if (!text::parseNumber(count, element.count))
       fail(text::quoted(count) + " is not a number of elements");
@@ -119,10 +122,20 @@ private:
       type = tokens.next();
     }
     property.datatype = datatype(type);
-    property.name = tokens.next();
+    property.name = name(tokens.next());
     if (property.name.empty())
       fail("a property without a name");
     header_.elements.back().properties.push_back(property);
+  }
+
+  /** Names stand in messages and become those of fields. */
+  std::string
+  name(std::string_view token) const
+  {
+    if (token.size() > kLongestName)
+      fail(text::quoted(token) + " is a name of " + std::to_string(token.size()) +
+           " characters, must be at most " + std::to_string(kLongestName));
+    return std::string(token);
   }
 
   std::uint8_t

@@ -84,16 +84,6 @@ layoutOf(const PlyElement& vertex)
   return layout;
 }
 
-/** Elements without properties have no place in the file. */
-void
-skipElement(PlyBody& body, const PlyElement& element)
-{
-  std::uint8_t ignored[sizeof(double)];
-  body.start(element, std::vector<std::size_t>(element.properties.size(), 0));
-  for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i)
-    body.next(ignored);
-}
-
 pcl::PCLPointCloud2
 readVertices(FileInput& input, PlyBody& body, const PlyElement& vertex)
 {
@@ -122,12 +112,12 @@ leftOut(const PlyHeader& header)
   std::vector<std::string> things;
   for (const auto& element : header.elements)
     if (element.name != "vertex")
-      things.push_back(text::counted(element.count, "element") + " '" + element.name +
-                       "'");
+      things.push_back(text::counted(element.count, "element") + ' ' +
+                       text::quoted(element.name));
     else
       for (const auto& property : element.properties)
         if (property.is_list)
-          things.push_back("list '" + property.name + "'");
+          things.push_back("list " + text::quoted(property.name));
   return things;
 }
 
@@ -156,7 +146,7 @@ readPly(const std::filesystem::path& path)
     if (element.name == "vertex")
       scan.cloud = readVertices(input, *body, element);
     else
-      skipElement(*body, element);
+      body->skipAll(element);
   body->finish();
   scan.left_out = leftOut(header);
   return scan;

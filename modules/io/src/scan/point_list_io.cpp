@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/io/point_list_io.h>
 #include <pcl6d/io/text.h>
 
@@ -22,8 +23,11 @@ readPointList(const std::filesystem::path& path)
                    lines.number(),
                    "expected 3 numbers, got " + std::to_string(row.size()));
     points.emplace_back(row[0], row[1], row[2]);
-    if (!points.back().allFinite())
-      text::failAt(path, lines.number(), "a coordinate that is not finite");
+    if (!isPlace(points.back()))
+      text::failAt(path,
+                   lines.number(),
+                   points.back().allFinite() ? "a coordinate of 1e9 m or more"
+                                             : "a coordinate that is not finite");
   }
   return points;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/angle.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/range_lines_io.h>
 #include <pcl6d/io/text.h>
@@ -87,8 +88,8 @@ public:
   {
     const double value = number(column);
     if (!std::isfinite(value))
-      fail(std::string("the ") + what + " is " + std::string(cells_[column]) +
-           ", but must be finite");
+      fail(std::string("the ") + what + " is " +
+           std::string(cells_[column].substr(0, 40)) + ", but must be finite");
     return value;
   }
 
@@ -175,8 +176,9 @@ rangeOf(const Table& table, std::size_t column, double unit)
   if (range < 0)
     table.fail("column " + std::to_string(column + 1) + ": the range is " +
                std::string(table.cells()[column]) + ", but must be >= 0");
-  return range > 0 && std::isfinite(range) ? range
-                                           : std::numeric_limits<double>::quiet_NaN();
+  return range > 0 && range < kFarthestCoordinate
+             ? range
+             : std::numeric_limits<double>::quiet_NaN();
 }
 
 void

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/point_field.h"
 
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/scan_fields.h>
 
@@ -13,6 +14,18 @@ namespace pcl6d {
 using namespace io;
 
 namespace {
+/** \return the value in the type of a field; the nearest that a type of whole numbers holds
+ */
+template <typename T>
+T
+valueAs(double value)
+{
+  if constexpr (std::is_integral_v<T>)
+    return clampedTo<T>(value);
+  else
+    return static_cast<T>(value);
+}
+
 std::size_t
 sizeOf(const pcl::PCLPointCloud2& cloud)
 {
@@ -88,7 +101,7 @@ addField(pcl::PCLPointCloud2& cloud,
     const std::size_t step = before + sizeof value;
     std::vector<std::uint8_t> data(values.size() * step);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      value = static_cast<decltype(value)>(values[i]);
+      value = valueAs<decltype(value)>(values[i]);
       std::memcpy(&data[i * step], cloud.data.data() + i * before, before);
       std::memcpy(&data[i * step + before], &value, sizeof value);
     }
@@ -145,7 +158,7 @@ storeCoordinates(const Points& points, pcl::PCLPointCloud2& cloud)
     withTypeOf(field.datatype, [&](auto value) {
       requireRoom(cloud, field, sizeof value);
       for (std::size_t i = 0; i < points.size(); ++i) {
-        value = static_cast<decltype(value)>(points[i][axis]);
+        value = valueAs<decltype(value)>(static_cast<double>(points[i][axis]));
         std::memcpy(
             &cloud.data[i * cloud.point_step + field.offset], &value, sizeof value);
       }

@@ -2,6 +2,7 @@
 #include "segment/segment_formats.h"
 
 #include <pcl6d/io/json_numbers.h>
+#include <pcl6d/io/json_object.h>
 #include <pcl6d/io/text.h>
 
 #include <nlohmann/json.hpp>
@@ -133,9 +134,9 @@ segmentsOfGeoJson(const std::string& content, const std::filesystem::path& path)
   GeoJsonReader reader;
   std::string system;
   try {
-    const Json json = Json::parse(content);
-    system = systemOf(json);
-    reader.read(json);
+    const JsonValue document = parseJson(content, path.string());
+    system = systemOf(document.json());
+    reader.read(document.json());
   } catch (const Json::exception& error) {
     text::fail(path, reader.place + reasonOf(error));
   } catch (const std::invalid_argument& error) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "segment/segment_formats.h"
 
+#include <pcl6d/io/nesting.h>
 #include <pcl6d/io/text.h>
 
 #include <boost/property_tree/ptree.hpp>
@@ -16,6 +17,8 @@ namespace pcl6d::io {
 namespace {
 using Tree = boost::property_tree::ptree;
 using Line = std::vector<Eigen::Vector2d>;
+
+constexpr std::size_t kLongestName = 40; // of an element that is shown as it is
 
 /** \return the name without the prefix of its namespace */
 std::string
@@ -232,7 +235,7 @@ readChildren(const Tree& parent, Segments& segments, std::string& place)
     const std::string name = localName(full_name);
     if (!isDrawn(name))
       continue;
-    place = "element " + name;
+    place = "element " + (name.size() > kLongestName ? text::quoted(name) : name);
     const std::string id = element.get("<xmlattr>.id", "");
     if (!id.empty())
       place += " with id " + text::quoted(id);
@@ -249,6 +252,7 @@ readChildren(const Tree& parent, Segments& segments, std::string& place)
 Segments
 segmentsOfSvg(const std::string& content, const std::filesystem::path& path)
 {
+  checkXmlNesting(content, path.string());
   Segments segments;
   std::string place;
   try {

@@ -5,17 +5,66 @@
 #include <cerrno>
 #include <cstring>
 #include <istream>
+#include <sys/stat.h>
 
 namespace pcl6d::text {
 
 namespace {
 constexpr std::size_t kBlock = 1 << 20; // bytes read at once
 constexpr std::size_t kLongestQuote = 40;
+
+namespace fs = std::filesystem;
+
+/** \return whether the path names a descriptor of a process, which is open already */
+bool
+namesDescriptor(const fs::path& path)
+{
+  const std::string name = path.lexically_normal().string();
+  if (name == "/dev/stdin")
+    return true;
+  const auto numbered = [&name](const std::string& folder) {
+    return name.rfind(folder, 0) == 0 && name.size() > folder.size() &&
+           name.find_first_not_of("0123456789", folder.size()) == std::string::npos;
+  };
+  return numbered("/dev/fd/") || numbered("/proc/self/fd/");
+}
+
+/** \return what is no file with content, in words; null if it is one */
+const char*
+kindOf(mode_t mode)
+{
+  if (S_ISFIFO(mode))
+    return "a pipe";
+  if (S_ISSOCK(mode))
+    return "a socket";
+  return S_ISCHR(mode) || S_ISBLK(mode) ? "a device" : nullptr;
+}
+
+/** Fails if nothing can be read under this name, or only by waiting for somebody else. */
+void
+requireFile(const fs::path& path)
+{
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) {
+    const std::string reason =
+        errno == ENOENT ? "which is not there" : systemReason("cannot be opened");
+    const std::string plain = systemReason("cannot be opened");
+    std::error_code error;
+    const fs::path target = fs::read_symlink(path, error);
+    if (error)
+      fail(path, plain);
+    fail(path, "is a link to '" + target.string() + "', " + reason);
+  }
+  const char* const kind = kindOf(found.st_mode);
+  if (kind && !namesDescriptor(path))
+    fail(path, std::string("is ") + kind + ", but must be a file");
+}
 } // namespace
 
 std::ifstream
 open(const std::filesystem::path& path)
 {
+  requireFile(path);
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (stream)
@@ -24,6 +73,13 @@ open(const std::filesystem::path& path)
     fail(path, systemReason("cannot be opened"));
   stream.clear();
   return stream;
+}
+
+bool
+isThere(const std::filesystem::path& path)
+{
+  struct stat found {};
+  return ::lstat(path.c_str(), &found) == 0 || (errno != ENOENT && errno != ENOTDIR);
 }
 
 std::string

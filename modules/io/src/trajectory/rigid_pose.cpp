@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory/rigid_pose.h"
 
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 
 #include <cmath>
@@ -10,6 +11,16 @@ namespace pcl6d::io {
 namespace {
 
 constexpr double kNormTolerance = 1e-2; // of a quaternion; forgives 3 digits
+
+/** \throws IoFailed the position is none, see isPlace() */
+void
+requirePlace(const std::filesystem::path& path,
+             std::size_t line,
+             const Eigen::Vector3d& t)
+{
+  if (!isPlace(t))
+    text::failAt(path, line, "its position is 1e9 m or farther from the origin");
+}
 
 std::string
 number(double value)
@@ -46,6 +57,7 @@ rigidPose(const std::filesystem::path& path,
   pose.translation() = t;
   if (!isRigid(pose))
     text::failAt(path, line, "not a rigid motion (" + whyNotRigid(pose) + ")");
+  requirePlace(path, line, t);
   pose.linear() = nearestRotation(R);
   return pose;
 }
@@ -63,6 +75,7 @@ rigidPose(const std::filesystem::path& path,
                  line,
                  "not a rigid motion (the quaternion has norm " + number(q.norm()) +
                      ", but must have 1)");
+  requirePlace(path, line, t);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = q.normalized().toRotationMatrix();
   pose.translation() = t;

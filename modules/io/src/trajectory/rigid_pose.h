@@ -9,7 +9,8 @@
 namespace pcl6d::io {
 
 /** \return the pose with the rotation closest to R \throws IoFailed naming file and
- * line: a number is not finite, or R is no rotation within 1e-3 */
+ * line: a number is not finite, R is no rotation within 1e-3, or the position is 1e9 m or
+ * farther from the origin */
 Eigen::Isometry3d
 rigidPose(const std::filesystem::path& path,
           std::size_t line,
@@ -17,7 +18,8 @@ rigidPose(const std::filesystem::path& path,
           const Eigen::Vector3d& t);
 
 /** \return the pose with the normalised quaternion q \throws IoFailed naming file and
- * line: a number is not finite, or |q| differs from 1 by more than 1e-2 */
+ * line: a number is not finite, |q| differs from 1 by more than 1e-2, or the position is
+ * 1e9 m or farther from the origin */
 Eigen::Isometry3d
 rigidPose(const std::filesystem::path& path,
           std::size_t line,

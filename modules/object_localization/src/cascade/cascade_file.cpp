@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/nesting.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/object_localization/cascade_file.h>
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <locale>
 #include <sstream>
 
@@ -149,10 +150,10 @@ cascadeOf(const pt::ptree& file)
 HaarCascade
 readCascade(const std::filesystem::path& path)
 {
-  std::ifstream stream(path);
-  if (!stream || std::filesystem::is_directory(path))
-    throw IoFailed(path.string() + ": cannot be read");
+  const std::string content = text::readFile(path);
+  checkXmlNesting(content, path.string());
   try {
+    std::istringstream stream(content);
     pt::ptree file;
     pt::read_xml(stream, file, pt::xml_parser::trim_whitespace);
     return cascadeOf(file);

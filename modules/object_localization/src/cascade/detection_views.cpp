@@ -57,6 +57,12 @@ DetectionViewOptions::validate() const
           max_range,
           "> min_range and finite");
   require(slice_depth >= 0.01, "slice_depth", slice_depth, ">= 0.01");
+  // Each slice is a picture of each view; more would fill memory before they are found empty.
+  constexpr double kMostDepths = 5000;
+  require(max_range <= kMostDepths * slice_depth,
+          "max_range",
+          max_range,
+          "at most 5000 times slice_depth");
   require(max_gap > 0 && max_gap <= 1, "max_gap", max_gap, "in (0, 1] rad");
 }
 

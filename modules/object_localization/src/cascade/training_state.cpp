@@ -5,6 +5,7 @@
 #include <pcl6d/common/random.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_object.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/object_localization/cascade_file.h>
 
 #include <nlohmann/json.hpp>
@@ -113,7 +114,7 @@ void
 TrainingState::load(CascadeTraining& training) const
 {
   const std::filesystem::path file = folder_ / "training.json";
-  if (folder_.empty() || !std::filesystem::exists(file))
+  if (folder_.empty() || !text::isThere(file))
     return;
   const JsonValue json = readJson(file);
   if ((json / "fingerprint").text() != fingerprint_)

@@ -96,7 +96,10 @@ DistanceField::DistanceField(const Points& points, double cell, double reach)
   for (const auto& p : points)
     box.extend(p.cast<double>());
   origin_ = box.min() - Eigen::Vector3d::Constant(reach);
-  size_ = ((box.sizes().array() + 2 * reach) / cell).ceil().cast<int>();
+  const Eigen::Array3d cells = ((box.sizes().array() + 2 * reach) / cell).ceil();
+  constexpr double kMostCells = 1 << 26; // 256 MB of distances
+  require(cells.prod() <= kMostCells, "number of cells", cells.prod(), "<= 2^26");
+  size_ = cells.cast<int>();
   const PointTree tree(points);
   const auto reach_sq = static_cast<float>(reach * reach);
   for (int z = 0; z < size_.z(); ++z)
@@ -114,9 +117,10 @@ double
 DistanceField::at(const Eigen::Vector3d& point) const
 {
   const Eigen::Vector3d place = (point - origin_) / cell_;
-  const Eigen::Vector3i i = place.array().floor().cast<int>();
-  if ((i.array() < 0).any() || (i.array() >= size_.array()).any())
+  if (!((place.array() >= 0).all() &&
+        (place.array() < size_.cast<double>().array()).all()))
     return reach_;
+  const Eigen::Vector3i i = place.cast<int>();
   const auto index =
       (static_cast<std::size_t>(i.z()) * static_cast<std::size_t>(size_.y()) +
        static_cast<std::size_t>(i.y())) *

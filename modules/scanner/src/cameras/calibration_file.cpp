@@ -2,19 +2,52 @@
 #include "cameras/calibration_file.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/nesting.h>
+#include <pcl6d/io/text.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <string_view>
 
 namespace pcl6d::scanner {
 
+namespace {
+/** Fails where the text would be too deep for OpenCV's parsers, which go by its first
+ * characters. */
+void
+checkNesting(std::string_view text, const std::string& name)
+{
+  constexpr std::string_view kMark = "\xEF\xBB\xBF"; // of UTF-8
+  if (text.substr(0, kMark.size()) == kMark)
+    text.remove_prefix(kMark.size());
+  // A line ends for OpenCV where it does not for others.
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\0' || (text[i] == '\r' && text.substr(i + 1, 1) != "\n"))
+      throw IoFailed(name + ": holds a character that belongs in no text");
+  if (text.substr(0, 1) == "<")
+    checkXmlNesting(text, name);
+  else if (text.substr(0, 1) == "{")
+    checkJsonNesting(text, name, JsonKeys::kPlain);
+  else
+    checkYamlNesting(text, name);
+}
+
+/** OpenCV takes memory for rows x cols before it looks how many numbers there are: as many,
+ * or more if there are several channels. \throws cv::Exception the node is of another kind */
+bool
+hasAllNumbers(const cv::FileNode& matrix)
+{
+  const int rows = matrix["rows"], cols = matrix["cols"];
+  if (rows <= 0 || cols <= 0)
+    return false;
+  return matrix["data"].size() / static_cast<std::size_t>(rows) >=
+         static_cast<std::size_t>(cols);
+}
+} // namespace
+
 CalibrationFile::CalibrationFile(const std::filesystem::path& path) : path_(path)
 {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    fail("cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string text = text::readFile(path);
+  checkNesting(text, path.string());
   try {
     storage_.open(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
   } catch (const std::exception&) { // not only OpenCV's: some texts trip its parser
@@ -46,7 +79,8 @@ CalibrationFile::values(const std::string& name) const
 {
   cv::Mat matrix;
   try {
-    storage_[name] >> matrix;
+    if (hasAllNumbers(storage_[name]))
+      storage_[name] >> matrix;
     matrix.convertTo(matrix, CV_64F);
   } catch (const cv::Exception&) {
     matrix.release();
@@ -82,7 +116,7 @@ CalibrationFile::requireSize(const std::string& name, int expected) const
 {
   const cv::FileNode node = storage_[name];
   if (!node.empty() && static_cast<double>(node) != expected)
-    fail("entry " + name + " is " + std::to_string(static_cast<int>(node)) +
+    fail("entry " + name + " is " + text::shortest(static_cast<double>(node)) +
          ", but the images have " + std::to_string(expected));
 }
 

@@ -2,14 +2,15 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/natural_order.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/scanner/image_files.h>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
+#include <iostream>
+#include <mutex>
 #include <vector>
 
 namespace pcl6d {
@@ -20,17 +21,42 @@ fail(const std::filesystem::path& path, const std::string& message)
   throw IoFailed(path.string() + ": " + message);
 }
 
+/** \brief Keeps OpenCV from std::cerr: its decoders tell there in their own words what is
+ * said by an exception here as well. One at a time, as std::cerr is everyone's. */
+class QuietErrors {
+public:
+  QuietErrors() : alone_(mutex()), before_(std::cerr.rdbuf(nullptr)) {}
+  ~QuietErrors()
+  {
+    std::cerr.rdbuf(before_);
+    std::cerr.clear(); // writing to no buffer has set its bad bit
+  }
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors&
+  operator=(const QuietErrors&) = delete;
+
+private:
+  static std::mutex&
+  mutex()
+  {
+    static std::mutex one;
+    return one;
+  }
+
+  const std::lock_guard<std::mutex> alone_;
+  std::streambuf* const before_;
+};
+
 /** \brief Reads by bytes, as imread() tells no reason and prints warnings. */
 cv::Mat
 readImage(const std::filesystem::path& path, int flags)
 {
   constexpr std::size_t kMostPixels = 100000000;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    fail(path, "cannot be read");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string content = text::readFile(path);
+  const std::vector<char> bytes(content.begin(), content.end());
   cv::Mat image;
   try {
+    const QuietErrors quiet;
     if (!bytes.empty())
       image = cv::imdecode(bytes, flags);
   } catch (const cv::Exception& e) {
@@ -100,9 +126,14 @@ imagesOf(const std::filesystem::path& folder)
   std::vector<std::filesystem::path> images;
   std::error_code error;
   for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
-       it.increment(error))
-    if (it->is_regular_file() && isImageName(it->path()))
-      images.push_back(it->path());
+       it.increment(error)) {
+    std::error_code none; // a link to nothing
+    if (!isImageName(it->path()) || it->is_directory(none))
+      continue;
+    if (!it->is_regular_file(none))
+      fail(it->path(), "is no file, or a link to none");
+    images.push_back(it->path());
+  }
   if (error)
     fail(folder, "cannot be read: " + error.message());
   if (images.empty())

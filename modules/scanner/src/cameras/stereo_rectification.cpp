@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cameras/image_map.h"
 
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/stereo_rectification.h>
@@ -127,7 +128,7 @@ StereoRectification::rectifyRight(const cv::Mat& image) const
 bool
 StereoRectification::isSeen(int row, int col, double disparity) const
 {
-  const int other = static_cast<int>(std::round(col - disparity));
+  const int other = clampedTo<int>(std::round(col - disparity));
   return maps_->to_left.isSeen(row, col) && other >= 0 && other < intrinsics_.width &&
          maps_->to_right.isSeen(row, other);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/gray_image.h>
 
@@ -49,7 +50,7 @@ toGray8(const RangeImage& image, ImageChannel channel, const GrayScale& scale)
   const double width = bright == dark ? 1 : bright - dark; // one value only: dark
   return picture<std::uint8_t>(image, channel, [&](double value) {
     const double share = std::clamp((value - dark) / width, 0.0, 1.0);
-    return static_cast<std::uint8_t>(1 + std::round(254 * share));
+    return clampedTo<std::uint8_t>(1 + std::round(254 * share));
   });
 }
 

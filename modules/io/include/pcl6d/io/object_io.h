@@ -4,10 +4,15 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/object_pose.h>
 
+#include <Eigen/Geometry>
+
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
+
+class JsonValue;
 
 /** \brief Writes objects as JSON (fields: share/doc/run_folder.md), atomically; the id
  * of an object is its place plus one. \throws IoFailed the file cannot be written
@@ -15,9 +20,17 @@ namespace PCL6D_EXPORTS pcl6d {
 void
 writeObjects(const std::filesystem::path& path, const std::vector<ObjectPose>& objects);
 
-/** \brief Reads what writeObjects() wrote, or a list of found objects: `moves` and `points`
- * may be missing, further fields are left out. \throws IoFailed the file cannot be read or
- * is no such JSON; the message names the object and the field \ingroup io */
+/** \brief The box of an object in its own frame [m], by its corners `box_min` and `box_max`,
+ * which keep all bits, or by `extent` and `centre`, which is 0 if it is missing.
+ * \return nothing: it has neither. \throws IoFailed a corner or a side is no three numbers,
+ * or the box is inside out; the message names the field \ingroup io */
+std::optional<Eigen::AlignedBox3d>
+boxOf(const JsonValue& object);
+
+/** \brief Reads what writeObjects() wrote, or a list of found objects: boxes as boxOf()
+ * takes them, `moves` and `points` may be missing, further fields are left out.
+ * \throws IoFailed the file cannot be read or is no such JSON, a pose is not rigid or a box
+ * is missing; the message names the object and the field \ingroup io */
 std::vector<ObjectPose>
 readObjects(const std::filesystem::path& path);
 

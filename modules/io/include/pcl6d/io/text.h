@@ -18,16 +18,24 @@
 namespace PCL6D_EXPORTS pcl6d {
 namespace text {
 
-/** \return the opened file, which can be read \throws IoFailed with the system's reason
- */
+/** \brief Opens a file for reading: the one way to do so, as it neither waits nor guesses.
+ * A folder, a pipe, a socket or a device is refused without being opened, as it could keep
+ * the program waiting for ever; but for a path that names a descriptor which is open
+ * already, such as /dev/stdin or the /dev/fd/63 of a shell's <(...).
+ * \return the opened file, which can be read \throws IoFailed with the reason */
 std::ifstream
 open(const std::filesystem::path& path);
+
+/** \return whether something has this name; a link to nowhere has one too, which open()
+ * then refuses in words, so that a file is never taken for missing in silence */
+bool
+isThere(const std::filesystem::path& path);
 
 /** \return the rest of a stream \param[in] path only for the message */
 std::string
 readRest(std::istream& stream, const std::filesystem::path& path);
 
-/** \return the content of a file \throws IoFailed with the system's reason */
+/** \return the content of a file \throws IoFailed as open() */
 std::string
 readFile(const std::filesystem::path& path);
 

@@ -19,7 +19,7 @@ struct DetectionViewOptions {
   double bottom = -0.7854; ///< [rad] of its lower border (-45 deg), in (-1.2, top)
   double pixel = 0.00873;  ///< [rad] at the middle of a view (0.5 deg), in [1e-4, 0.1]
   double min_range = 0.5;  ///< [m] > 0
-  double max_range = 12;   ///< [m] > min_range
+  double max_range = 12;   ///< [m] > min_range, at most 5000 times slice_depth
   double slice_depth = 3;  ///< [m] > 0; the next slice starts at the middle of this one
   double max_gap = 0.0262; ///< [rad] holes between the samples of a scan (1.5 deg), > 0
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result

@@ -106,6 +106,10 @@ TEST(SegmentMap, RefusesWhatIsNoMap)
               SegmentMap({{{0, 0}, {1, 0}}, {{0, kInfinity}, {1, 0}}});
             }).find("segment 1"),
             std::string::npos);
+  EXPECT_NE(badArgumentOf([] {
+              SegmentMap({{{0, 0}, {4.3e9, 0}}});
+            }).find("segment 0"),
+            std::string::npos);
   for (const auto& spoil :
        std::vector<void (*)(SegmentMapOptions&)>{[](auto& o) { o.max_distance = 0; },
                                                  [](auto& o) { o.cell = -1; },

@@ -2,6 +2,7 @@
 // Votes that come and go are those of all that voted and did not take them back.
 #include "detectors/hough_votes.h"
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/common/random.h>
 
 #include <Eigen/Geometry>
@@ -88,5 +89,16 @@ TEST(HoughVotes, OfNoneAreNone)
   votes.add({});
   EXPECT_TRUE(votes.cells(1).empty());
   EXPECT_EQ(votes.votesFor(0), 0u);
+}
+
+TEST(HoughVotes, OfFarPointsNeedLargeCells)
+{
+  const AccumulatorBall ball(20);
+  SurfelColumns surfels = randomSurfels(10, 3);
+  surfels.append({9e8F, 0, 0}, {1, 0, 0}, 0.01F);
+  HoughVoteOptions options;
+  EXPECT_THROW(voteForAll(surfels, ball, options), pcl6d::BadArgument);
+  options.offset_cell = 1e4;
+  EXPECT_FALSE(voteForAll(surfels, ball, options).empty());
 }
 } // namespace

@@ -219,3 +219,19 @@ TEST(RayCaster, RefusesBrokenScenes)
   scene.surfaces[0].reflectance = 1.5;
   EXPECT_THROW(RayCaster{scene}, pcl6d::BadArgument);
 }
+
+TEST(RayCaster, KnowsNumbersThatAreNoPlace)
+{
+  TriangleScene scene;
+  pcl6d::addRamp(scene, {{-20, 0}, {20, 0}, 40, -10, -3.9, 4.1}, {});
+  const RayCaster caster(scene);
+  const Eigen::Vector3d down(0, 0, -1);
+  for (const double far :
+       {1e9, 1e20, 1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    EXPECT_FALSE(caster.cast({{far, 0, 5}, down}, 1e300)) << far;
+    EXPECT_FALSE(caster.cast({{0, 0, far}, down}, 1e300)) << far;
+  }
+  EXPECT_FALSE(caster.cast({{0, 0, 5}, {0, 0, -std::nan("")}}, 10));
+  scene.vertices[0].x() = 1e20;
+  EXPECT_THROW(RayCaster{scene}, pcl6d::BadArgument);
+}

@@ -108,3 +108,16 @@ TEST(RobotPath, RefusesBrokenInput)
     EXPECT_THROW(RobotPath(square(), options), pcl6d::BadArgument);
   }
 }
+
+TEST(RobotPath, RefusesWaypointsThatAreNoPlace)
+{
+  for (const double far : {1e9, 1e20, 1e300})
+    for (const int axis : {0, 1, 2}) {
+      auto corners = square();
+      corners[2][axis] = far;
+      EXPECT_THROW(RobotPath(corners, RobotOptions()), pcl6d::BadArgument) << far;
+    }
+  auto corners = square();
+  corners[2].x() = 9e8; // a place, but too long a drive
+  EXPECT_THROW(RobotPath(corners, RobotOptions()), pcl6d::BadArgument);
+}

@@ -80,3 +80,15 @@ TEST(Slam6D, IsAsBeforeWhenAScanIsRefusedOnTheWay)
   EXPECT_TRUE(slam.optimize());
   EXPECT_EQ(slam.result().scans.size(), 2u);
 }
+
+TEST(Slam6D, RefusesAPoseThatIsNoPlace)
+{
+  DriftingRun run = makeDriftingRun(1);
+  for (const double far : {1e9, -1e100}) {
+    Slam6D slam{Slam6DOptions()};
+    run.odometry[0].translation().x() = far;
+    EXPECT_THROW(slam.addScan(run.scans[0], run.odometry[0], "a.pcd"),
+                 pcl6d::BadArgument);
+    EXPECT_TRUE(slam.result().scans.empty());
+  }
+}

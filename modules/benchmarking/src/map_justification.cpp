@@ -105,6 +105,24 @@ JustificationOptions::validate() const
   icp.validate();
 }
 
+namespace {
+/** \throws BadArgument the walls would be more points than a scan is matched with */
+void
+requireFewPoints(const SegmentMap& map, const JustificationOptions& options)
+{
+  constexpr double kMost = 2e7; // 240 MB
+  double length = 0;
+  for (const auto& wall : map.segments())
+    length += (wall.b - wall.a).norm();
+  const double area =
+      (length + options.spacing) * (options.high - options.low + options.spacing);
+  require(area <= kMost * options.spacing * options.spacing,
+          "spacing",
+          options.spacing,
+          "larger: the plan has " + std::to_string(length) + " m of walls");
+}
+} // namespace
+
 Points
 extruded(const SegmentMap& map, const JustificationOptions& options)
 {
@@ -113,6 +131,7 @@ extruded(const SegmentMap& map, const JustificationOptions& options)
     return std::max(1L, std::lround(length / options.spacing));
   };
   const long levels = steps(options.high - options.low);
+  requireFewPoints(map, options);
   Points points;
   for (const auto& wall : map.segments()) {
     const long places = steps((wall.b - wall.a).norm());

@@ -9,6 +9,8 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,7 +30,7 @@ public:
   ~ThreadPool();
 
   /** \brief Calls body(0) .. body(count - 1) from at most num_threads threads, this one
-   * included. An exception of the body is thrown again; the one of the lowest index wins */
+   * included; from fewer, if the system has none left. An exception of the body is thrown again; the one of the lowest index wins */
   void
   run(std::size_t count,
       std::size_t num_threads,
@@ -137,12 +139,17 @@ ThreadPool::run(std::size_t count,
 void
 ThreadPool::offer(const std::shared_ptr<Loop>& loop, std::size_t helpers)
 {
-  {
+  // Helpers are welcome, not needed: where the system has no more threads or no memory for
+  // them, those that there are do the work, in the end the caller's alone.
+  try {
     const std::lock_guard<std::mutex> lock(mutex_);
-    while (threads_.size() < helpers)
-      threads_.emplace_back([this] { work(); });
+    try {
+      while (threads_.size() < helpers)
+        threads_.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {}
+    helpers = std::min(helpers, threads_.size());
     offers_.insert(offers_.end(), helpers, loop);
-  }
+  } catch (const std::bad_alloc&) {}
   if (helpers == 1)
     wake_.notify_one();
   else

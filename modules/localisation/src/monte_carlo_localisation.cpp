@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/name_table.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
@@ -163,9 +164,9 @@ MonteCarloLocalisation::wantedParticles() const
   constexpr double kEpsilon = 0.05, kQuantile = 2.326;
   std::vector<std::array<int, 3>> bins;
   for (const auto& particle : particles_)
-    bins.push_back({static_cast<int>(std::floor(particle.pose.x() / kBinSize)),
-                    static_cast<int>(std::floor(particle.pose.y() / kBinSize)),
-                    static_cast<int>(std::floor(particle.pose.z() / kBinYaw))});
+    bins.push_back({clampedTo<int>(std::floor(particle.pose.x() / kBinSize)),
+                    clampedTo<int>(std::floor(particle.pose.y() / kBinSize)),
+                    clampedTo<int>(std::floor(particle.pose.z() / kBinYaw))});
   std::sort(bins.begin(), bins.end());
   const auto k =
       static_cast<double>(std::unique(bins.begin(), bins.end()) - bins.begin());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/localisation/levelling.h>
 #include <pcl6d/localisation/segment_cut.h>
@@ -137,8 +138,10 @@ private:
   add(const Eigen::Vector3d& p, std::map<Key, Cell>& cells) const
   {
     const auto index = [&](double v) {
-      return static_cast<std::int64_t>(std::floor(v / options_.cell));
+      return clampedTo<std::int64_t>(std::floor(v / options_.cell));
     };
+    if (!isPlace(p))
+      return; // nor can its neighbours be counted
     Cell& cell = cells[{index(p.x()), index(p.y())}];
     cell.low = cell.count == 0 ? p.z() : std::min(cell.low, p.z());
     cell.high = cell.count == 0 ? p.z() : std::max(cell.high, p.z());

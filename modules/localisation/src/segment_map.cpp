@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/localisation/segment_map.h>
@@ -14,9 +15,10 @@ void
 requireFinite(const Segments& segments)
 {
   for (std::size_t i = 0; i < segments.size(); ++i)
-    if (!segments[i].a.allFinite() || !segments[i].b.allFinite())
+    if (!isPlace(segments[i].a) || !isPlace(segments[i].b))
       throw BadArgument("segment " + std::to_string(i) +
-                        " of the map has a coordinate that is not finite");
+                        " of the map has a coordinate that is not finite, or 1e9 m or "
+                        "farther from the origin");
 }
 
 Eigen::Vector2d

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "blob_points.h"
 
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/require_indices.h>
@@ -117,7 +118,7 @@ CorrespondenceRejectorTrimmed::select(const pcl::Correspondences& original)
       0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
   const double share = static_cast<double>(overlap_ratio_) * (1 + kHalfUlp);
   const auto count =
-      static_cast<std::size_t>(share * static_cast<double>(original.size()));
+      clampedTo<std::size_t>(share * static_cast<double>(original.size()));
   return closestPairs(usablePairs(original),
                       std::max<std::size_t>(count, min_correspondences_));
 }
@@ -194,8 +195,8 @@ CorrespondenceRejectorVarTrimmed::select(const pcl::Correspondences& original)
     distances_sq.push_back(pair.distance);
   std::sort(distances_sq.begin(), distances_sq.end());
   const double n = static_cast<double>(pairs.size());
-  const auto least = std::max<std::size_t>(1, static_cast<std::size_t>(min_ratio_ * n));
-  const auto most = std::max(least, static_cast<std::size_t>(max_ratio_ * n));
+  const auto least = std::max<std::size_t>(1, clampedTo<std::size_t>(min_ratio_ * n));
+  const auto most = std::max(least, clampedTo<std::size_t>(max_ratio_ * n));
   const std::size_t count = countByFractionalRmsd(distances_sq, least, most);
   factor_ = static_cast<double>(count) / n;
   trimmed_distance_ = static_cast<double>(distances_sq[count - 1]);

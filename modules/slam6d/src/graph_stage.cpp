@@ -2,6 +2,7 @@
 #include "graph_links.h"
 #include "graph_stage.h"
 
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
@@ -148,8 +149,8 @@ GraphStage::detectionOptions(const Slam6DResult& result, std::size_t first) cons
   detection.first = first;
   detection.max_distance = parameters_.loop_distance.value;
   detection.max_height = 2 * parameters_.loop_distance.value; // heights drift
-  detection.min_gap = static_cast<std::size_t>(parameters_.loop_gap.value);
-  detection.min_pairs = static_cast<std::size_t>(parameters_.loop_pairs.value);
+  detection.min_gap = clampedTo<std::size_t>(parameters_.loop_gap.value);
+  detection.min_pairs = clampedTo<std::size_t>(parameters_.loop_pairs.value);
   detection.icp = icp_;
   detection.sharing = sharing_;
   if (std::isfinite(options_.loop_gate)) {
@@ -343,7 +344,7 @@ GraphStage::matchSimultaneously(Slam6DResult& result, const Observer& observer)
   const Poses before = posesOf(result);
   SimultaneousMatchingOptions matching;
   matching.icp = icp_;
-  matching.min_pairs = static_cast<std::size_t>(parameters_.loop_pairs.value);
+  matching.min_pairs = clampedTo<std::size_t>(parameters_.loop_pairs.value);
   matching.min_translation = kWakingShare * parameters_.voxel.value;
   SimultaneousMatching::Scans scans;
   for (const NetworkScan& scan : scans_) // kept by others

@@ -3,6 +3,7 @@
 
 #include <pcl6d/slam6d/auto_parameters.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,8 @@ OnlineLoops::close(const std::deque<IcpModel>& models,
                                         result.scans.begin() +
                                             static_cast<std::ptrdiff_t>(scan + 1));
   deriveLoopParameters(options, matched, result.parameters);
-  if (scan < last_closed_ + static_cast<std::size_t>(result.parameters.loop_gap.value))
+  if (static_cast<double>(scan) <
+      static_cast<double>(last_closed_) + std::floor(result.parameters.loop_gap.value))
     return false; // what comes next sees the same loop
   result.links = closed_.links;
   result.stages.clear();

@@ -8,6 +8,7 @@
 #include "task_names.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/slam6d/auto_parameters.h>
@@ -42,6 +43,8 @@ public:
       throw BadArgument(tooFewPoints(name, finite, "with finite coordinates"));
     if (!isRigid(scan.initial_pose) || !isRigid(scan.T_world_scan))
       throw BadArgument(name + ": the initial pose is not a rigid motion");
+    if (!isPlace(scan.T_world_scan.translation())) // near the initial one
+      throw BadArgument(name + ": the pose lies 1e9 m or farther from the origin");
     scan.points = finite;
     result_.scans.push_back(scan);
     if (scan.state == ScanState::kPending)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/registration/icp.h>
@@ -51,8 +52,8 @@ planOf(const VerifiedScan& scan, const Eigen::Matrix3d& R_level_scan, double cel
     if (normals[i].isZero(0) || std::abs(n.z()) > kLevelNormal)
       continue;
     const Eigen::Vector3d p = R_level_scan * points[i].cast<double>() / cell;
-    cells.emplace_back(static_cast<int>(std::floor(p.x())),
-                       static_cast<int>(std::floor(p.y())));
+    cells.emplace_back(clampedTo<int>(std::floor(p.x())),
+                       clampedTo<int>(std::floor(p.y())));
   }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());

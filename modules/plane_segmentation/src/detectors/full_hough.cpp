@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "detectors/hough_searches.h"
 
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/random.h>
 
 #include <algorithm>
@@ -148,7 +149,7 @@ private:
   fewest(double share) const
   {
     const double votes = share * static_cast<double>(options_.min_surfels);
-    return static_cast<std::uint32_t>(std::max(1.0, votes));
+    return clampedTo<std::uint32_t>(std::max(1.0, votes));
   }
 
   std::uint64_t

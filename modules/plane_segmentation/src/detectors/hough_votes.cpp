@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
+#include <pcl6d/common/require.h>
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +126,15 @@ reachOf(const SurfelColumns& surfels, double cell)
   float farthest = 0;
   for (std::size_t i = 0; i < surfels.size(); ++i)
     farthest = std::max(farthest, surfels.point(i).squaredNorm());
-  return static_cast<std::int32_t>(std::sqrt(static_cast<double>(farthest)) / cell) + 2;
+  // Cells on either side of the origin: so many that float tells them apart.
+  constexpr double kMost = 1 << 22;
+  const double reach = std::sqrt(static_cast<double>(farthest));
+  require(reach <= kMost * cell,
+          "offset_cell",
+          cell,
+          "larger where points lie " + std::to_string(reach) +
+              " m from the origin: at least this / 2^22");
+  return static_cast<std::int32_t>(reach / cell) + 2;
 }
 
 std::vector<HoughCell>

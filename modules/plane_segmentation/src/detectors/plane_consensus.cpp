@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "detectors/consensus_judge.h"
 
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/random.h>
@@ -91,7 +92,7 @@ private:
     const auto effort = static_cast<double>(options_.max_iterations) *
                         static_cast<double>(options_.neighbours ? 1 : runs);
     if (finalists_.empty())
-      return static_cast<std::size_t>(effort);
+      return clampedTo<std::size_t>(effort);
     if (judge_.isPerfect(finalists_.front().score))
       return draws_;
     const double share = best_share_;
@@ -99,9 +100,9 @@ private:
     const double chance = good * share * share * share;
     const double missed = 1 - options_.probability;
     if (!(missed > 0 && chance > 0))
-      return static_cast<std::size_t>(effort);
+      return clampedTo<std::size_t>(effort);
     const double needed = portableLog(missed) / portableLog(1 - chance);
-    return static_cast<std::size_t>(std::max(1.0, std::min(needed + 1, effort)));
+    return clampedTo<std::size_t>(std::max(1.0, std::min(needed + 1, effort)));
   }
 
   /** \return a number below a size */

@@ -3,6 +3,7 @@
 #include "detectors/local_triple.h"
 
 #include <pcl6d/common/name_table.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
@@ -87,8 +88,9 @@ private:
     const auto direction =
         static_cast<std::int64_t>(ball_.cellOf(plane.normal.cast<double>()));
     const auto offset =
-        static_cast<std::int64_t>(std::floor(plane.offset / options_.offset_cell));
-    return static_cast<std::uint64_t>(offset << 24 ^ direction);
+        clampedTo<std::int64_t>(std::floor(plane.offset / options_.offset_cell));
+    return static_cast<std::uint64_t>(offset) << 24 ^
+           static_cast<std::uint64_t>(direction);
   }
 
   std::vector<TriplePlane>

@@ -2,6 +2,7 @@
 #include "json/map_objects_json.h"
 
 #include <pcl6d/common/information.h>
+#include <pcl6d/io/object_io.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
@@ -48,29 +49,6 @@ semantic_map::toJson(const MapObject& object, std::size_t id)
           {"scans", object.scans}};
 }
 
-namespace {
-/** By its corners, which keep all bits, or by extent and centre. */
-Eigen::AlignedBox3d
-boxFrom(const JsonValue& place)
-{
-  Eigen::AlignedBox3d box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
-  if (place.find("box_min")) {
-    box = {(place / "box_min").vector3(), (place / "box_max").vector3()};
-    (place / "box_max")
-        .require((box.min().array() <= box.max().array()).all(), ">= box_min");
-  }
-  else if (const auto sides = place.find("extent")) {
-    const Eigen::Vector3d half = sides->vector3() / 2;
-    sides->require((half.array() >= 0).all(), ">= 0");
-    const auto middle = place.find("centre");
-    const Eigen::Vector3d centre =
-        middle ? middle->vector3() : Eigen::Vector3d(Eigen::Vector3d::Zero());
-    box = {centre - half, centre + half};
-  }
-  return box;
-}
-} // namespace
-
 MapObject
 semantic_map::objectFrom(const JsonValue& place)
 {
@@ -78,7 +56,8 @@ semantic_map::objectFrom(const JsonValue& place)
   object.pose.object_class = (place / "class").text();
   (place / "class").require(!object.pose.object_class.empty(), "a name");
   object.pose.T_world_object = (place / "T_world_object").pose();
-  object.pose.box = boxFrom(place);
+  object.pose.box = boxOf(place).value_or(
+      Eigen::AlignedBox3d(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()));
   object.covariance = matrix6From(place, "covariance");
   if (const auto covariance = place.find("covariance")) {
     const std::string fault = informationFault(*object.covariance);

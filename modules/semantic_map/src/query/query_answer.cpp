@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "query/query_words.h"
 
+#include <pcl6d/common/number_range.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl6d {
 using namespace semantic_map;
@@ -97,7 +100,9 @@ private:
   entityOf(const Property& property, const QueryValue& value)
   {
     if (value.number && !value.quoted)
-      return Entity{property.kind, static_cast<std::size_t>(*value.number)};
+      return Entity{property.kind, // there is none below 0
+                    *value.number < 0 ? std::numeric_limits<std::size_t>::max()
+                                      : clampedTo<std::size_t>(*value.number)};
     return value.quoted ? std::nullopt : value.entity;
   }
 

@@ -34,9 +34,11 @@ class FloorSides {
 public:
   /** \param[in] walls whose other faces end what counts as behind the line */
   FloorSides(const PlanLine& line, const std::vector<PlanLine>& walls)
-  : line_(line), along_((line.to - line.from).normalized())
+  : line_(line)
+  , along_((line.to - line.from).normalized())
+  , step_(std::max(kStep, line.length() / kMostSteps))
   {
-    const auto steps = static_cast<std::size_t>(line.length() / kStep);
+    const auto steps = static_cast<std::size_t>(line.length() / step_);
     for (Side& side : sides_)
       side.seen.assign(steps, false);
     for (const auto& wall : walls)
@@ -47,7 +49,7 @@ public:
   add(const Eigen::Vector2d& point)
   {
     const Eigen::Vector2d way = point - line_.from;
-    const double aside = cross(along_, way), place = along_.dot(way) / kStep;
+    const double aside = cross(along_, way), place = along_.dot(way) / step_;
     Side& side = sides_[aside > 0 ? 1 : 0];
     if (std::abs(aside) >= kNear && std::abs(aside) <= side.depth && place >= 0 &&
         place < static_cast<double>(side.seen.size()))
@@ -66,7 +68,7 @@ public:
           return other.begin() + static_cast<std::ptrdiff_t>(step);
         };
         const auto common = std::count(at(begin), at(end), true);
-        const double length = static_cast<double>(end - begin) * kStep;
+        const double length = static_cast<double>(end - begin) * step_;
         if (length >= kNarrowest && length <= max_door &&
             kShare * common >= static_cast<std::ptrdiff_t>(end - begin))
           found.push_back({placeOf(begin), placeOf(end)});
@@ -75,11 +77,12 @@ public:
   }
 
 private:
-  static constexpr double kStep = 0.1;      // [m]
-  static constexpr double kNear = 0.04;     // [m] to a wall its floor may be off
-  static constexpr double kDeepest = 0.16;  // [m] of what counts
-  static constexpr double kNarrowest = 0.5; // [m] of a door
-  static constexpr std::size_t kUnseen = 2; // steps between two points of a floor
+  static constexpr double kStep = 0.1;          // [m]
+  static constexpr double kMostSteps = 1 << 22; // which no wall of a building has
+  static constexpr double kNear = 0.04;         // [m] to a wall its floor may be off
+  static constexpr double kDeepest = 0.16;      // [m] of what counts
+  static constexpr double kNarrowest = 0.5;     // [m] of a door
+  static constexpr std::size_t kUnseen = 2;     // steps between two points of a floor
   static constexpr std::ptrdiff_t kShare =
       3; // one step of so many is seen on both sides
 
@@ -122,11 +125,12 @@ private:
   Eigen::Vector2d
   placeOf(std::size_t step) const
   {
-    return line_.from + static_cast<double>(step) * kStep * along_;
+    return line_.from + static_cast<double>(step) * step_ * along_;
   }
 
   PlanLine line_;
   Eigen::Vector2d along_;
+  double step_;   // [m]
   Side sides_[2]; // right, left
 };
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/simulation/robot_path.h>
 
@@ -10,6 +11,7 @@ namespace pcl6d {
 namespace {
 constexpr std::size_t kStepsPerSpan = 64;
 constexpr double kProbeHeight = 0.5; // [m] above the waypoints
+constexpr double kLongest = 1e6;     // [m] a drive is checked every few centimetres
 
 struct SplinePoint {
   Eigen::Vector3d position;
@@ -63,6 +65,8 @@ RobotPath::RobotPath(const std::vector<Eigen::Vector3d>& waypoints,
   const std::size_t count = waypoints.size();
   require(count >= 3, "number of waypoints", count, ">= 3");
   for (std::size_t i = 0; i < count; ++i)
+    require(isPlace(waypoints[i]), "waypoint", i, "within 1e9 m");
+  for (std::size_t i = 0; i < count; ++i)
     require((waypoints[(i + 1) % count] - waypoints[i]).head<2>().norm() > 0,
             "waypoint",
             i,
@@ -74,6 +78,7 @@ RobotPath::RobotPath(const std::vector<Eigen::Vector3d>& waypoints,
     };
     way_.push_back(way_.back() + (at(i) - at(i - 1)).head<2>().norm());
   }
+  require(length() <= kLongest, "length of the path [m]", length(), "<= 1e6");
 }
 
 double

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/simulation/moving_body.h>
 
@@ -36,7 +37,7 @@ MovingBody::validate() const
   require(way.size() >= 2, ("corners of the way" + of).c_str(), way.size(), ">= 2");
   for (std::size_t i = 0; i < way.size(); ++i) {
     const Eigen::Vector3d& next = way[(i + 1) % way.size()];
-    require(way[i].allFinite(), ("way" + of).c_str(), way[i].transpose(), "finite");
+    require(isPlace(way[i]), ("way" + of).c_str(), way[i].transpose(), "within 1e9 m");
     const bool is_leg = i + 1 < way.size() || end == WayEnd::kClosed;
     require(!is_leg || (next - way[i]).head<2>().norm() > 0,
             ("corner" + of).c_str(),

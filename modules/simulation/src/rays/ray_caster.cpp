@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/simulation/ray_caster.h>
 
 #include <Eigen/Geometry>
@@ -185,6 +186,8 @@ std::optional<RayHit>
 RayCaster::cast(const Ray& ray, double max_range) const
 {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!isPlace(ray.origin) || !ray.direction.allFinite())
+    return {}; // Embree ends the process at some of them
   const Boxes& boxes = impl_->boxes;
   const RayTest test(ray);
   // From afar Embree starts nearer, where float is fine enough; our own test does not.

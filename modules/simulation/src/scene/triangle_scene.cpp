@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/simulation/triangle_scene.h>
 
 #include <Eigen/Geometry>
@@ -64,8 +65,11 @@ void
 TriangleScene::validate() const
 {
   for (std::size_t i = 0; i < vertices.size(); ++i)
-    if (!vertices[i].allFinite())
-      throw BadArgument("vertex " + std::to_string(i) + " is not finite");
+    if (!isPlace(vertices[i]))
+      throw BadArgument("vertex " + std::to_string(i) +
+                        (vertices[i].allFinite()
+                             ? " is 1e9 m or farther from the origin"
+                             : " is not finite"));
   for (const auto& surface : surfaces) {
     validateShare(surface, "reflectance", surface.reflectance);
     validateShare(surface, "transmittance", surface.transmittance);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/value_noise.h"
 
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/random.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl6d::simulation {
@@ -28,9 +30,13 @@ valueNoise(const Eigen::Vector3d& p, std::uint64_t seed)
 {
   const Eigen::Vector3d cell(std::floor(p.x()), std::floor(p.y()), std::floor(p.z()));
   const Eigen::Vector3d t = p - cell;
-  const auto x = static_cast<std::int64_t>(cell.x());
-  const auto y = static_cast<std::int64_t>(cell.y());
-  const auto z = static_cast<std::int64_t>(cell.z());
+  const auto place = [](double c) {
+    constexpr double kFarthest = 1e18; // the next cell is still a number
+    return clampedTo<std::int64_t>(std::clamp(c, -kFarthest, kFarthest));
+  };
+  const auto x = place(cell.x());
+  const auto y = place(cell.y());
+  const auto z = place(cell.z());
   const auto along_x = [&](std::int64_t j, std::int64_t k) {
     return blend(latticeValue(x, y + j, z + k, seed),
                  latticeValue(x + 1, y + j, z + k, seed),

@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -154,6 +156,19 @@ struct RunLink {
   }
 };
 
+/** \brief A file of a run as it was written. \ingroup common */
+struct WrittenFile {
+  std::uint64_t bytes = 0;
+  std::uint32_t crc32 = 0; ///< of its content, as zlib and gzip compute it
+};
+
+/** \return whether both tell of the same content */
+inline bool
+operator==(const WrittenFile& a, const WrittenFile& b)
+{
+  return a.bytes == b.bytes && a.crc32 == b.crc32;
+}
+
 /** \brief What is known of a run. \ingroup common */
 struct RunResult {
   static constexpr int kSchemaVersion = 1;
@@ -192,6 +207,9 @@ struct RunResult {
   std::optional<MapVerification> verification;
   std::vector<std::string> warnings; ///< what went wrong without touching the poses
   std::string verdict; ///< the same in words, naming what is not to be trusted
+  /** the files of the run as they were written, by their path in its folder ("map.pcd");
+   * empty in runs of older versions */
+  std::map<std::string, WrittenFile> files;
 };
 
 } // namespace pcl6d

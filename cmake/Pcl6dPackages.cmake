@@ -6,6 +6,7 @@ find_package(PCL 1.12 REQUIRED COMPONENTS
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(Boost 1.71 REQUIRED COMPONENTS program_options filesystem)
 find_package(Threads REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(nlohmann_json 3.9 REQUIRED)
 find_package(embree 3 REQUIRED)
 if(PCL6D_MPI)

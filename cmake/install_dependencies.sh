@@ -3,7 +3,8 @@
 # where everything is there. On another system it lists the packages and exits with 1.
 # usage: cmake/install_dependencies.sh [--tests] [--checks]
 #   --tests: also what only some tests need, which skip without it: a browser and npm
-#   --checks: also the checkers of sources, in the version that the sources follow
+#   --checks: also the checkers of sources, in the version that the sources follow, and the
+#     compiler of the fuzzers
 set -euo pipefail
 
 # Per line: the Debian package, then a file or program that it gives. A package is only
@@ -26,6 +27,7 @@ needs=(
   "libpcl-dev /usr/include/pcl-*/pcl/point_cloud.h"
   "libvtk9-dev /usr/include/vtk-9*/vtkVersion.h"
   "libx11-dev /usr/include/X11/Xlib.h"
+  "zlib1g-dev /usr/include/zlib.h"
   "openmpi-bin mpirun"
   "nlohmann-json3-dev /usr/include/nlohmann/json.hpp"
 )
@@ -40,6 +42,8 @@ needs_of_tests=(
 needs_of_checks=(
   "clang-format-14 clang-format-14"
   "clang-tidy-14 clang-tidy-14"
+  "clang clang++"
+  "libclang-rt-14-dev /usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-x86_64.a"
 )
 for option in "$@"; do
   case $option in

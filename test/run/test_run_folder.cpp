@@ -7,7 +7,9 @@
 #include <pcl6d/io/plane_io.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/run/registered_scans.h>
 #include <pcl6d/run/run_folder.h>
+#include <pcl6d/run/written_files.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
@@ -132,6 +134,55 @@ TEST(RunFolder, GivesWhatARunLeft)
   EXPECT_TRUE(run.readPlanes().empty());
   EXPECT_TRUE(run.readPlanePoints().points.empty());
   EXPECT_TRUE(run.readObjects().empty());
+}
+
+TEST(RunFolder, DoesNotTakeLinksToNowhereForMissingFiles)
+{
+  const RunFiles files;
+  for (const char* const target : {"nowhere", "planes.json"}) { // the other to itself
+    std::filesystem::create_symlink(target, files.path() / "planes.json");
+    EXPECT_THROW(RunFolder(files.path()).readPlanes(), IoFailed) << target;
+    std::filesystem::remove(files.path() / "planes.json");
+    std::filesystem::create_symlink(target, files.path() / "objects.json");
+    EXPECT_THROW(RunFolder(files.path()).readObjects(), IoFailed) << target;
+    std::filesystem::remove(files.path() / "objects.json");
+  }
+}
+
+TEST(RunFolder, NoticesFilesThatAreNotThoseOfItsRun)
+{
+  const RunFiles files;
+  auto summary = pcl6d::readRunSummary(files / "summary.json");
+  summary.files = pcl6d::writtenFiles(files.path());
+  EXPECT_EQ(summary.files.count("scans/scan003.pcd"), 1u);
+  EXPECT_EQ(summary.files.count("summary.json"), 0u);
+  pcl6d::writeRunSummary(files / "summary.json", summary);
+  EXPECT_NO_THROW(RunFolder::finished(files.path(), "unfinished").requireWhole());
+  const auto messageOf = [](const auto& call) {
+    try {
+      call();
+    } catch (const IoFailed& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  std::string scan = pcl6d::test::readText(files / "scans/scan003.pcd");
+  scan.back() ^= 1;
+  writeText(files / "scans/scan003.pcd", scan); // of the same size
+  const RunFolder run = RunFolder::finished(files.path(), "unfinished");
+  EXPECT_NO_THROW(run.readMap());
+  const std::string changed = "scan003.pcd: does not hold what its run wrote";
+  EXPECT_NE(messageOf([&] { run.readScan(1); }).find(changed), std::string::npos);
+  EXPECT_NE(messageOf([&] { run.requireWhole(); }).find(changed), std::string::npos);
+  EXPECT_NE(
+      messageOf([&] { pcl6d::RegisteredScans scans(files.path()); }).find(changed),
+      std::string::npos);
+  writeText(files / "map.pcd", "of another run");
+  const std::string resized = "map.pcd: has 14 bytes, but its run wrote ";
+  EXPECT_NE(messageOf([&] { run.readMap(); }).find(resized), std::string::npos);
+  EXPECT_NE(messageOf([&] { RunFolder::finished(files.path(), ""); }).find(resized),
+            std::string::npos);
+  EXPECT_NO_THROW(RunFolder(files.path())); // what is whole can still be read
 }
 
 TEST(RunFolder, GivesTheCloudOfAScan)
@@ -264,8 +315,11 @@ TEST(RunLinks, NameThePlaceOfAnError)
             std::string::npos);
   EXPECT_NE(messageOf(header + "0,x,loop,used,,1,2,3,4,5,6\n").find("line 2: to = 'x'"),
             std::string::npos);
-  EXPECT_NE(messageOf("from,kind\n0,loop\n").find("line 1: has no column 'to'"),
-            std::string::npos);
+  for (const char* rows : {"", "0,loop\n"}) // without links, too
+    EXPECT_NE(
+        messageOf(std::string("from,kind\n") + rows).find("line 1: has no column 'to'"),
+        std::string::npos);
+  EXPECT_NE(messageOf("").find("links.csv: is empty"), std::string::npos);
 }
 
 TEST(ObjectIo, NamesTheObjectAndTheField)

@@ -49,8 +49,10 @@ summaryOf(std::size_t scans)
     scan.index = static_cast<int>(2 * i);
     scan.initial_pose = at(static_cast<double>(i));
     scan.T_world_scan = at(1.5 * static_cast<double>(i));
-    if (i > 0)
-      scan.covariance = Eigen::Matrix<double, 6, 6>::Random();
+    if (i > 0) {
+      const Eigen::Matrix<double, 6, 6> factor = Eigen::Matrix<double, 6, 6>::Random();
+      scan.covariance = factor.transpose() * factor;
+    }
     scan.state = i == 0 ? pcl6d::ScanState::kFixed : pcl6d::ScanState::kMatched;
     scan.status = pcl6d::Status::kOk;
     scan.start = pcl6d::InitialGuess::kOverlap;
@@ -163,13 +165,14 @@ TEST(RunResult, BrokenFilesAreNamedWithWhatIsWrong)
     EXPECT_NE(error.find(part), std::string::npos) << error;
   };
   expect(errorOf("\"schema_version\": 1", "\"schema_version\": 2"),
-         "schema_version = 2, but must be 1");
-  expect(errorOf("{", "["), "no summary of a run");
-  expect(errorOf("\"T_world_scan\"", "\"pose\""), "'T_world_scan' not found");
-  expect(errorOf("\"version\":", "\"version\""), "line 4, column");
+         "/schema_version: 2, but must be 1");
+  expect(errorOf("{", "["), "line 2: not the syntax of JSON");
+  expect(errorOf("\"T_world_scan\"", "\"pose\""), "key 'T_world_scan' is missing");
+  expect(errorOf("\"version\":", "\"version\""), "line 4: not the syntax of JSON");
   expect(errorOf("\"T_world_scan\": [", "\"T_world_scan\": [1,"),
-         "T_world_scan: expected 16 numbers, got 17");
-  expect(errorOf("\"points\": 100", "\"points\": \"x\""), "type must be number");
+         "/scans/0/T_world_scan: expected 16 numbers, got 17");
+  expect(errorOf("\"points\": 100", "\"points\": \"x\""),
+         "/scans/0/points: \"x\" is not a whole number >= 0");
   expect(messageOf<IoFailed>([&] { readRunSummary(folder / "none.json"); }), "No such");
 }
 

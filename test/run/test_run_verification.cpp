@@ -161,6 +161,7 @@ TEST(RunVerification, EveryTrustComesBack)
                                MapTrust::kUnverified}) {
     RunResult run = runOfThree();
     run.verification.emplace().trust = trust;
+    run.verification->scans.resize(run.scans.size());
     writeRunSummary(folder / "a.json", run);
     const RunResult back = readRunSummary(folder / "a.json");
     EXPECT_EQ(back.verification->trust, trust);
@@ -211,12 +212,16 @@ TEST(RunVerification, BrokenOnesAreNamedWithWhatIsWrong)
     }
     return std::string("no error");
   };
-  EXPECT_EQ(errorOf("\"doubtful\"", "\"fine\""),
-            file.string() + ": trust of a map = fine, but must be one of good, "
-                            "doubtful, ambiguous, unverified");
-  EXPECT_TRUE(has(errorOf("\"background\"", "\"ground\""), "'background' not found"));
-  EXPECT_TRUE(has(errorOf("\"tied\": true", "\"tied\": 7"), "type must be boolean"));
-  EXPECT_TRUE(has(errorOf("\"bound\"", "\"bind\""), "'bound' not found"));
+  EXPECT_EQ(
+      errorOf("\"doubtful\"", "\"fine\""),
+      file.string() +
+          ": /verification/trust: trust of a map = fine, but must be one of good, "
+          "doubtful, ambiguous, unverified");
+  EXPECT_TRUE(
+      has(errorOf("\"background\"", "\"ground\""), "key 'background' is missing"));
+  EXPECT_TRUE(has(errorOf("\"tied\": true", "\"tied\": 7"),
+                  "/scans/0/tied: 7, but must be true or false"));
+  EXPECT_TRUE(has(errorOf("\"bound\"", "\"bind\""), "key 'bound' is missing"));
 }
 
 TEST(RunVerification, IsATableOfLinksByTheNumbersOfTheirScans)

@@ -3,14 +3,13 @@
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/record_file.h>
 
-#include <boost/crc.hpp>
-
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
+#include <zlib.h>
 
 namespace pcl6d {
 
@@ -27,10 +26,11 @@ struct Head {
 std::uint32_t
 checksumOf(std::uint64_t size, const char* record)
 {
-  boost::crc_32_type crc;
-  crc.process_bytes(&size, sizeof size);
-  crc.process_bytes(record, size);
-  return crc.checksum();
+  const auto bytes = [](const void* data) {
+    return static_cast<const unsigned char*>(data);
+  };
+  const auto crc = ::crc32_z(0, bytes(&size), sizeof size);
+  return static_cast<std::uint32_t>(::crc32_z(crc, bytes(record), size));
 }
 
 [[noreturn]] void

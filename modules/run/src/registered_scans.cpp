@@ -2,7 +2,9 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/scan_name.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/run/registered_scans.h>
+#include <pcl6d/run/run_folder.h>
 
 #include <charconv>
 
@@ -16,9 +18,11 @@ constexpr const char* kRunSummary = "summary.json";
 std::optional<RunResult>
 summaryOf(const fs::path& folder)
 {
-  if (!fs::exists(folder / kRunSummary))
+  if (!text::isThere(folder / kRunSummary))
     return {};
-  return readRunSummary(folder / kRunSummary);
+  const RunFolder run(folder);
+  run.requireWhole("scans/"); // they are read as files
+  return run.summary();
 }
 
 /** \return the folder that holds the scans: that of a run has them in a folder of its own

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/object_io.h>
 #include <pcl6d/io/plane_io.h>
@@ -9,6 +10,7 @@
 #include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/run/run_folder.h>
+#include <pcl6d/run/written_files.h>
 
 namespace pcl6d {
 
@@ -30,7 +32,10 @@ valuesOf(const pcl::PCLPointCloud2& cloud, const std::string& name)
   std::vector<T> values;
   values.reserve(field->values.size());
   for (const double value : field->values)
-    values.push_back(static_cast<T>(value));
+    if constexpr (std::is_integral_v<T>)
+      values.push_back(clampedTo<T>(value));
+    else
+      values.push_back(static_cast<T>(value));
   return values;
 }
 
@@ -72,9 +77,35 @@ RunFolder
 RunFolder::finished(const fs::path& path, const std::string& unfinished)
 {
   const RunFolder run(path, readRunSummary(path / kSummary));
+  run.requireSizes();
   if (!run.summary().complete)
     text::fail(path / kSummary, unfinished);
   return run;
+}
+
+void
+RunFolder::requireSizes() const
+{
+  for (const auto& [name, written] : summary_.files)
+    requireAsWritten(path_ / name, written, false);
+}
+
+void
+RunFolder::requireWhole(const std::string& start) const
+{
+  for (const auto& [name, written] : summary_.files)
+    if (name.rfind(start, 0) == 0)
+      requireAsWritten(path_ / name, written, true);
+}
+
+/** \return the file \throws IoFailed it does not hold what the run wrote */
+fs::path
+RunFolder::asWritten(const fs::path& file) const
+{
+  const auto known = summary_.files.find(file.lexically_relative(path_).string());
+  if (known != summary_.files.end())
+    requireAsWritten(file, known->second, true);
+  return file;
 }
 
 void
@@ -89,7 +120,7 @@ RunFolder::takeScansFromPoses()
     scan.file = scanName(scan.index);
     scan.state = ScanState::kUnknown;
     scan.initial_pose = scan.T_world_scan = trajectory.poses[i];
-    if (!fs::exists(framesFile(i)))
+    if (!text::isThere(framesFile(i)))
       continue;
     const auto frames = readFrames(framesFile(i));
     if (!frames.empty())
@@ -100,16 +131,16 @@ RunFolder::takeScansFromPoses()
 bool
 RunFolder::has(const std::string& name) const
 {
-  std::error_code error;
-  return fs::exists(path_ / name, error);
+  return text::isThere(path_ / name);
 }
 
 std::vector<std::string>
 RunFolder::missing() const
 {
   const bool interrupted = has_summary_ && !summary_.complete;
-  const bool no_graph = interrupted || (valueOf(summary_, "loop-closing") == "none" &&
-                                        valueOf(summary_, "relaxation") == "none");
+  const bool no_graph = interrupted || summary_.scans.size() == 1 ||
+                        (valueOf(summary_, "loop-closing") == "none" &&
+                         valueOf(summary_, "relaxation") == "none");
   std::vector<std::string> missing;
   for (const std::string name : {kSummary, kTrajectory, "frames", "scans", kMap}) {
     const bool left_out = interrupted && (name == "scans" || name == kMap);
@@ -120,24 +151,30 @@ RunFolder::missing() const
     if (!has(name) && !no_graph)
       missing.push_back(name);
   for (std::size_t i = 0; i < summary_.scans.size(); ++i) {
-    if (has("scans") && !fs::exists(scanFile(i)))
-      missing.push_back("scans/" + scanFile(i).filename().string());
-    if (has("frames") && !fs::exists(framesFile(i)))
+    if (has("scans") && !text::isThere(scanPath(i)))
+      missing.push_back("scans/" + scanPath(i).filename().string());
+    if (has("frames") && !text::isThere(framesFile(i)))
       missing.push_back("frames/" + framesFile(i).filename().string());
   }
   return missing;
 }
 
 fs::path
-RunFolder::scanFile(std::size_t place) const
+RunFolder::scanPath(std::size_t place) const
 {
   return path_ / "scans" / (scanName(summary_.scans.at(place).index) + ".pcd");
 }
 
 fs::path
+RunFolder::scanFile(std::size_t place) const
+{
+  return asWritten(scanPath(place));
+}
+
+fs::path
 RunFolder::mapFile() const
 {
-  return path_ / kMap;
+  return asWritten(path_ / kMap);
 }
 
 fs::path
@@ -176,9 +213,9 @@ RunFolder::readHistory() const
 {
   std::vector<std::vector<Frame>> history(summary_.scans.size());
   for (std::size_t i = 0; i < history.size(); ++i) {
-    if (!fs::exists(framesFile(i)))
+    if (!text::isThere(framesFile(i)))
       continue;
-    history[i] = readFrames(framesFile(i));
+    history[i] = readFrames(asWritten(framesFile(i)));
     for (Frame& frame : history[i])
       frame.T_world_scan = relative(frame.T_world_scan);
   }
@@ -203,7 +240,7 @@ RunFolder::readScanCloud(std::size_t place) const
 {
   RunMap map;
   const fs::path file = scanFile(place);
-  if (!fs::exists(file))
+  if (!text::isThere(file))
     return map;
   Scan scan = pcl6d::readScan(file);
   map.points = std::move(scan.points);
@@ -217,26 +254,26 @@ Points
 RunFolder::readScan(std::size_t place) const
 {
   const fs::path file = scanFile(place);
-  return fs::exists(file) ? pcl6d::readScan(file).points : Points();
+  return text::isThere(file) ? pcl6d::readScan(file).points : Points();
 }
 
 std::vector<RunLink>
 RunFolder::readLinks(const std::function<std::string(const RunLink&)>& fault) const
 {
-  return has("links.csv") ? readRunLinks(path_ / "links.csv", fault)
+  return has("links.csv") ? readRunLinks(asWritten(path_ / "links.csv"), fault)
                           : std::vector<RunLink>();
 }
 
 PoseGraph
 RunFolder::readGraph() const
 {
-  return has("graph.g2o") ? readPoseGraph(path_ / "graph.g2o") : PoseGraph();
+  return has("graph.g2o") ? readPoseGraph(asWritten(path_ / "graph.g2o")) : PoseGraph();
 }
 
 std::vector<Plane>
 RunFolder::readPlanes() const
 {
-  return has("planes.json") ? pcl6d::readPlanes(path_ / "planes.json")
+  return has("planes.json") ? pcl6d::readPlanes(asWritten(path_ / "planes.json"))
                             : std::vector<Plane>();
 }
 
@@ -244,7 +281,7 @@ RunPlanePoints
 RunFolder::readPlanePoints() const
 {
   RunPlanePoints result;
-  const fs::path file = path_ / "planes.pcd";
+  const fs::path file = asWritten(path_ / "planes.pcd");
   if (!has("planes.pcd"))
     return result;
   Scan scan = pcl6d::readScan(file);

@@ -54,8 +54,12 @@ public:
   Table(const std::filesystem::path& path, std::string_view content)
   : path_(path), lines_(content)
   {
-    lines_.next();
+    if (!lines_.next())
+      text::fail(path, "is empty, but must have a line with the names of its columns");
     columns_ = cellsOf(lines_.line());
+    for (const std::string_view name : kNeeded)
+      if (std::find(columns_.begin(), columns_.end(), name) == columns_.end())
+        text::failAt(path, 1, "has no column " + text::quoted(name));
   }
 
   bool
@@ -80,11 +84,8 @@ public:
   operator()(const char* name, Value& value) const
   {
     const auto column = std::find(columns_.begin(), columns_.end(), name);
-    if (column == columns_.end()) {
-      if (std::find(kNeeded.begin(), kNeeded.end(), name) != kNeeded.end())
-        text::failAt(path_, 1, "has no column '" + std::string(name) + "'");
-      return;
-    }
+    if (column == columns_.end())
+      return; // not needed
     const std::string& cell =
         cells_[static_cast<std::size_t>(column - columns_.begin())];
     if constexpr (std::is_same_v<Value, std::string>)

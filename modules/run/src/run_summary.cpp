@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "summary_reader.h"
 #include "verification_json.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_numbers.h>
+#include <pcl6d/io/json_object.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/run_fields.h>
 #include <pcl6d/run/run_summary.h>
@@ -11,16 +12,15 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <limits>
+#include <iomanip>
 #include <ostream>
+#include <sstream>
 
 namespace pcl6d {
 
 namespace {
 using Json = nlohmann::ordered_json;
 using Covariance = std::optional<Eigen::Matrix<double, 6, 6>>;
-
-constexpr const char* kProgram = "pcl_slam6d";
 
 template <typename Value>
 Json
@@ -58,45 +58,6 @@ struct Writer {
   operator()(const char* name, const Value& value) const
   {
     json[name] = jsonOf(value);
-  }
-};
-
-/** Reads the fields that it visits. */
-struct Reader {
-  const Json& json;
-
-  template <typename Value>
-  void
-  operator()(const char* name, Value& value) const
-  {
-    const Json& field = json.at(name);
-    if constexpr (std::is_enum_v<Value>)
-      takeWord(field.get<std::string>(), value);
-    else
-      field.get_to(value);
-  }
-  void
-  operator()(const char* name, double& value) const // one that is not finite is null
-  {
-    const Json& field = json.at(name);
-    value = field.is_null() ? std::numeric_limits<double>::quiet_NaN()
-                            : field.get<double>();
-  }
-  void
-  operator()(const char* name, Eigen::Isometry3d& pose) const
-  {
-    fill(json.at(name), name, pose.matrix());
-  }
-  void
-  operator()(const char* name, Covariance& covariance) const
-  {
-    const Json& rows = json.at(name);
-    if (rows.is_null())
-      return;
-    Json numbers = Json::array();
-    for (const Json& row : rows)
-      numbers.insert(numbers.end(), row.begin(), row.end());
-    fill(numbers, name, covariance.emplace());
   }
 };
 
@@ -139,59 +100,27 @@ totalsOf(const RunResult& run)
           {"peak_memory_mb", memory}};
 }
 
-void
-readScans(const Json& json, std::vector<ScanResult>& scans)
+/** The name of the scan's file comes with its bytes if JSON does not hold it as it is. */
+Json
+toJson(const ScanResult& scan)
 {
-  for (const Json& entry : json) {
-    ScanResult& scan = scans.emplace_back();
-    try {
-      visitScanFields(scan, Reader{entry});
-    } catch (const BadArgument& error) {
-      throw BadArgument(scan.file + ": " + error.what());
-    }
+  Json json;
+  visitScanFields(scan, Writer{json});
+  if (!run_files::isPlainName(scan.file))
+    json[run_files::kFileBytes] = run_files::hexOf(scan.file);
+  return json;
+}
+
+Json
+toJson(const std::map<std::string, WrittenFile>& files)
+{
+  Json json = Json::object();
+  for (const auto& [name, file] : files) {
+    std::ostringstream sum;
+    sum << std::hex << std::setw(8) << std::setfill('0') << file.crc32;
+    json[name] = {{"bytes", file.bytes}, {"crc32", sum.str()}};
   }
-}
-
-void
-readGraph(const Json& json, RunResult& run)
-{
-  for (const Json& stage : json.at("stages"))
-    visitStageFields(run.graph_stages.emplace_back(), Reader{stage});
-  json.at("links_used").get_to(run.links_used);
-  json.at("links_refused").get_to(run.links_refused);
-  json.at("floating").get_to(run.floating);
-}
-
-RunResult
-runOf(const Json& json)
-{
-  RunResult run;
-  if (const int schema = json.at("schema_version"); schema != RunResult::kSchemaVersion)
-    throw BadArgument("schema_version = " + std::to_string(schema) + ", but must be " +
-                      std::to_string(RunResult::kSchemaVersion));
-  json.at("generator").get_to(run.generator);
-  json.at("version").get_to(run.version);
-  fill(json.at("world_offset"), "world_offset", run.world_offset);
-  json.at("pose_source").get_to(run.pose_source);
-  const Json& verdict = json.at("verdict");
-  verdict.at("trusted").get_to(run.trusted);
-  verdict.at("complete").get_to(run.complete);
-  verdict.at("text").get_to(run.verdict);
-  json.at("warnings").get_to(run.warnings);
-  json.at("totals").at("map_points").get_to(run.map_points);
-  for (const auto& [name, option] : json.at("options").items())
-    run.options.push_back(
-        {name, option.at("value"), option.at("source"), option.value("why", "")});
-  for (const Json& stage : json.at("stages"))
-    run.stages.push_back(
-        {stage.at("name"), stage.at("seconds"), stage.at("peak_memory_mb")});
-  if (run.generator != kProgram)
-    throw BadArgument("is of '" + run.generator + "', not of " + kProgram);
-  readGraph(json.at("graph"), run);
-  if (json.contains("verification")) // older runs have none
-    run.verification = run_files::verificationFrom(json["verification"]);
-  readScans(json.at("scans"), run.scans);
-  return run;
+  return json;
 }
 } // namespace
 
@@ -221,7 +150,9 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
     json["verification"] = run_files::jsonOfVerification(*run.verification);
   json["scans"] = Json::array();
   for (const ScanResult& scan : run.scans)
-    visitScanFields(scan, Writer{json["scans"].emplace_back()});
+    json["scans"].push_back(toJson(scan));
+  if (!run.files.empty())
+    json["files"] = toJson(run.files);
   writeFileAtomically(path, [&](std::ostream& stream) {
     stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
   });
@@ -230,16 +161,7 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
 RunResult
 readRunSummary(const std::filesystem::path& path)
 {
-  const std::string content = text::readFile(path);
-  try {
-    return runOf(Json::parse(content));
-  } catch (const Json::exception& error) {
-    text::fail(path, "is no summary of a run: " + reasonOf(error));
-  } catch (const std::invalid_argument& error) {
-    text::fail(path, error.what());
-  } catch (const BadArgument& error) {
-    text::fail(path, error.what());
-  }
+  return run_files::runFrom(parseJson(text::readFile(path), path.string()));
 }
 
 } // namespace pcl6d

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "verification_json.h"
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/io/json_numbers.h>
 #include <pcl6d/run/verification_io.h>
 
@@ -21,10 +22,15 @@ numberOrNull(double value)
                               : nlohmann::ordered_json();
 }
 
+/** Lengths, angles and bounds, which are not negative; null is infinite. */
 double
-numberOrInfinity(const nlohmann::ordered_json& json)
+sizeOrInfinity(const JsonValue& json)
 {
-  return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
+  if (json.isNull())
+    return std::numeric_limits<double>::infinity();
+  const double size = json.number();
+  json.require(size >= 0, ">= 0");
+  return size;
 }
 
 nlohmann::ordered_json
@@ -38,17 +44,29 @@ jsonOfNoticed(const std::optional<NoticedError>& noticed)
           {"weakest", rowByRow(noticed->weakest.transpose())}};
 }
 
-std::optional<NoticedError>
-noticedFrom(const nlohmann::ordered_json& json)
+NoticedError
+noticedFrom(const JsonValue& json)
 {
-  if (json.is_null())
-    return std::nullopt;
   NoticedError noticed;
-  noticed.least = numberOrInfinity(json.at("least"));
-  noticed.most = numberOrInfinity(json.at("most"));
-  noticed.turn = numberOrInfinity(json.at("turn"));
-  fill(json.at("weakest"), "weakest", noticed.weakest);
+  noticed.least = sizeOrInfinity(json / "least");
+  noticed.most = sizeOrInfinity(json / "most");
+  noticed.turn = sizeOrInfinity(json / "turn");
+  noticed.weakest = (json / "weakest").vector3();
   return noticed;
+}
+
+ScanCheck
+scanCheckFrom(const JsonValue& json)
+{
+  ScanCheck scan;
+  scan.tied = (json / "tied").boolean();
+  scan.abstains = (json / "abstains").boolean();
+  if (const JsonValue bound = json / "bound"; !bound.isNull())
+    scan.bound = sizeOrInfinity(bound);
+  if (const auto noticed = json.find("noticed")) // runs of earlier versions have none
+    scan.noticed = noticedFrom(*noticed);
+  scan.doubt = (json / "doubt").text();
+  return scan;
 }
 } // namespace
 
@@ -76,22 +94,21 @@ jsonOfVerification(const MapVerification& map)
 }
 
 MapVerification
-verificationFrom(const nlohmann::ordered_json& json)
+verificationFrom(const JsonValue& json)
 {
   MapVerification map;
-  map.trust = mapTrustFromName(json.at("trust").get<std::string>());
-  json.at("background").get_to(map.background);
-  json.at("doubts").get_to(map.doubts);
-  for (const auto& entry : json.at("scans")) {
-    ScanCheck& scan = map.scans.emplace_back();
-    entry.at("tied").get_to(scan.tied);
-    entry.at("abstains").get_to(scan.abstains);
-    if (!entry.at("bound").is_null())
-      scan.bound = entry.at("bound").get<double>();
-    if (entry.contains("noticed")) // runs of earlier versions have none
-      scan.noticed = noticedFrom(entry["noticed"]);
-    entry.at("doubt").get_to(scan.doubt);
+  const JsonValue trust = json / "trust", background = json / "background";
+  try {
+    map.trust = mapTrustFromName(trust.text());
+  } catch (const BadArgument& error) {
+    trust.fail(error.what());
   }
+  map.background = background.number();
+  background.require(map.background >= 0 && map.background <= 1, "in [0, 1]");
+  for (const JsonValue& doubt : (json / "doubts").elements())
+    map.doubts.push_back(doubt.text());
+  for (const JsonValue& scan : (json / "scans").elements())
+    map.scans.push_back(scanCheckFrom(scan));
   return map;
 }
 } // namespace run_files

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/map_verification.h>
+#include <pcl6d/io/json_object.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,9 +13,10 @@ namespace pcl6d::run_files {
 nlohmann::ordered_json
 jsonOfVerification(const MapVerification& map);
 
-/** \brief Inverse of jsonOfVerification(). \throws the JSON library's, or BadArgument:
- * what is missing or no such word */
+/** \brief Inverse of jsonOfVerification().
+ * \throws IoFailed naming file and place: what is missing, of another type or out of its
+ * range, no such word */
 MapVerification
-verificationFrom(const nlohmann::ordered_json& json);
+verificationFrom(const JsonValue& json);
 
 } // namespace pcl6d::run_files

@@ -38,7 +38,8 @@ struct RunPlanePoints {
  * there: also of an interrupted run, or of one of which files are gone.
  *
  * The summary is read at once, all else when it is asked for. What is not there is empty,
- * and named by missing(); what is there but broken is an error.
+ * and named by missing(); what is there but broken is an error when it is read. So is a file
+ * whose size or checksum is not that of the summary, as it is of another run.
  * \code
  * const pcl6d::RunFolder run("out");
  * const pcl6d::RunMap map = run.readMap();
@@ -53,10 +54,16 @@ public:
   /** \brief The folder of a run whose result is known; nothing is read. */
   RunFolder(const std::filesystem::path& path, RunResult result);
 
+  /** \brief Looks at the content of the files that the summary tells of.
+   * \param[in] start of their paths in the folder, such as "scans/"; all by default
+   * \throws IoFailed one differs from what the run wrote */
+  void
+  requireWhole(const std::string& start = {}) const;
+
   /** \return the folder of a finished run \param[in] unfinished what is wrong with one that
    * was interrupted: "the run was interrupted; run it again"
-   * \throws IoFailed it has no summary, a broken one, or that of another program, or was
-   * interrupted */
+   * \throws IoFailed it has no summary, a broken one, or that of another program, was
+   * interrupted, or a file has not the size that the summary tells */
   static RunFolder
   finished(const std::filesystem::path& path, const std::string& unfinished);
 
@@ -90,7 +97,7 @@ public:
   has(const std::string& name) const;
 
   /** \return the file of a scan, in its own frame, and that of the map: for those that need
-   * all fields of the points */
+   * all fields of the points \throws IoFailed it does not hold what the run wrote */
   std::filesystem::path
   scanFile(std::size_t place) const;
   std::filesystem::path
@@ -148,6 +155,12 @@ private:
   takeScansFromPoses();
   std::filesystem::path
   framesFile(std::size_t place) const;
+  std::filesystem::path
+  scanPath(std::size_t place) const;
+  std::filesystem::path
+  asWritten(const std::filesystem::path& file) const;
+  void
+  requireSizes() const;
   Eigen::Isometry3d
   relative(Eigen::Isometry3d pose) const;
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// draw_and_wait FILE end|wait|kill-server
+// draw_and_wait FILE end|wait|kill-server|go-on
 // Draws a picture, prints the process id and the name of its X server, then ends, waits
-// for a signal, or kills the server and tries once more. Errors go to stdout, too.
+// for a signal, kills the server and tries once more, or draws until something is wrong.
+// Errors go to stdout, too.
 #include <pcl6d/visualization/private_display.h>
 #include <pcl6d/visualization/top_view.h>
 
@@ -23,6 +24,8 @@ try {
   std::cout << display.serverPid() << ' ' << display.name() << std::endl;
   if (then == "wait")
     ::pause();
+  while (then == "go-on")
+    pcl6d::TopView().write(file, scene);
   if (then == "kill-server") {
     ::kill(display.serverPid(), SIGKILL);
     siginfo_t ended; // wait, but leave it to the library to notice

@@ -78,6 +78,22 @@ difference(const Colour& a, const Colour& b)
 }
 } // namespace
 
+TEST(PlaneView, LeavesOutPointsThatAreTooFarForAnyMap)
+{
+  const PlaneView view(fromPositiveX());
+  PlaneViewScene scene = room();
+  Image plain, spoilt;
+  view.draw(scene, plain);
+  // Up to the largest float: their depths would leave none to tell the others apart.
+  for (const float far : {1e8F, 1e30F, -3e38F})
+    for (int i = 0; i < 100; ++i) {
+      scene.points.push_back({far, 0, -far});
+      scene.plane_of.push_back(0);
+    }
+  view.draw(scene, spoilt);
+  EXPECT_EQ(spoilt.rgb, plain.rgb);
+}
+
 TEST(PlaneView, LooksIntoARoomAsIntoADollsHouse)
 {
   Image image;

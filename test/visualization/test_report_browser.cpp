@@ -28,11 +28,17 @@ protected:
       GTEST_SKIP() << "no browser: apt-get install chromium";
   }
 
+  fs::path
+  write(const ReportData& data) const
+  {
+    pcl6d::writeReport(folder_ / "report.html", data);
+    return folder_ / "report.html";
+  }
+
   nlohmann::json
   open(const ReportData& data, int width, int height) const
   {
-    pcl6d::writeReport(folder_ / "report.html", data);
-    return selfTestOf(folder_ / "report.html", width, height);
+    return selfTestOf(write(data), width, height);
   }
 
 private:
@@ -95,6 +101,23 @@ TEST_F(ReportInABrowser, ShowsARunWithoutMap)
   const auto outcome = open(data, 800, 600);
   expectPassed(outcome);
   EXPECT_FALSE(isChecked(outcome, "layer map can be switched"));
+}
+
+TEST_F(ReportInABrowser, RunsNoScriptButItsOwn) // whatever got into the page
+{
+  const fs::path file = write(makeReportData());
+  std::string page = readText(file);
+  page.insert(page.find("<div id=\"report\">"),
+              "<script>window.pageErrors.push('a stranger ran');</script>"
+              "<b onclick=\"x\" onfocus=\"pageErrors.push('so did this')\" "
+              "autofocus tabindex=\"0\">b</b>");
+  pcl6d::test::writeText(file, page);
+  expectPassed(selfTestOf(file, 800, 600));
+  const std::string rule = "http-equiv=\"Content-Security-Policy\"";
+  page.erase(page.find(rule), rule.size()); // without the policy the test would notice
+  pcl6d::test::writeText(file, page);
+  EXPECT_NE(selfTestOf(file, 800, 600).dump().find("a stranger ran"),
+            std::string::npos);
 }
 
 TEST(ReportPage, IsWhatNpmMakesOfItsSources)

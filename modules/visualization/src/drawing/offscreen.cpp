@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drawing/offscreen.h"
+#include "drawing/x_connection.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/visualization/private_display.h>
@@ -63,6 +64,34 @@ readPixels(vtkRenderWindow* window, int width, int height)
     std::copy_n(source + begin, row_bytes, &layer.rgba[size - row_bytes - begin]);
   return layer;
 }
+
+PixelLayer
+render(vtkRenderer* renderer, vtkXOpenGLRenderWindow* window, int width, int height)
+try {
+  const PrivateDisplay& display = PrivateDisplay::instance();
+  window->SetDisplayId(display.connection());
+  window->SetShowWindow(false);
+  window->SetUseOffScreenBuffers(true);
+  window->SetMultiSamples(4);
+  window->SetAlphaBitPlanes(1);
+  window->SetSize(width, height);
+  window->AddRenderer(renderer);
+  const EndIsThrown scope;
+  // VTK ends the process if it finds no OpenGL, which a server that is gone has not.
+  waitForAnswer(static_cast<_XDisplay*>(display.connection()));
+  display.requireAlive();
+  window->Render();
+  PixelLayer layer = readPixels(window, width, height);
+  window->RemoveRenderer(renderer);
+  window->Finalize();
+  waitForAnswer(static_cast<_XDisplay*>(display.connection()));
+  display.requireAlive();
+  return layer;
+} catch (...) {
+  window->Register(nullptr); // never destroyed: that would talk to the server
+  renderer->Register(nullptr);
+  throw;
+}
 } // namespace
 
 PixelLayer
@@ -72,16 +101,7 @@ drawOffscreen(vtkRenderer* renderer, int width, int height)
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   CaughtMessages messages;
   vtkNew<vtkXOpenGLRenderWindow> window;
-  window->SetDisplayId(PrivateDisplay::instance().connection());
-  window->SetShowWindow(false);
-  window->SetUseOffScreenBuffers(true);
-  window->SetMultiSamples(4);
-  window->SetAlphaBitPlanes(1);
-  window->SetSize(width, height);
-  window->AddRenderer(renderer);
-  window->Render();
-  PixelLayer layer = readPixels(window, width, height);
-  window->RemoveRenderer(renderer);
+  PixelLayer layer = render(renderer, window, width, height);
   const std::string error = messages.firstError();
   if (!error.empty())
     throw IoFailed("cannot draw pictures: VTK says: " + error);

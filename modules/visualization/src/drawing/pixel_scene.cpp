@@ -3,7 +3,9 @@
 #include "drawing/pixel_scene.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/io/json_object.h>
 
+#include <nlohmann/json.hpp>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -20,6 +22,13 @@
 namespace pcl6d::visualization {
 
 namespace {
+/** \return the text; what is no UTF-8 is replaced */
+std::string
+utf8From(const std::string& text)
+{
+  return nlohmann::json::parse(jsonText(text)).get<std::string>();
+}
+
 void
 setColour(const Colour& from, double* to)
 {
@@ -149,7 +158,7 @@ PixelScene::addText(const Eigen::Vector2d& place,
                     Turn turn)
 {
   vtkNew<vtkTextActor> actor;
-  actor->SetInput(text.c_str());
+  actor->SetInput(utf8From(text).c_str()); // of other bytes VTK draws nothing at all
   vtkTextProperty* style = actor->GetTextProperty();
   double rgb[3];
   setColour(pen.colour, rgb);
@@ -172,7 +181,8 @@ PixelScene::textWidth(const std::string& text, double size)
   style->SetFontSize(static_cast<int>(std::lround(size)));
   int box[4] = {0, 0, 0, 0};
   constexpr int kDotsPerInch = 72; // a point of text is a pixel
-  vtkTextRenderer::GetInstance()->GetBoundingBox(style, text, box, kDotsPerInch);
+  vtkTextRenderer::GetInstance()->GetBoundingBox(
+      style, utf8From(text), box, kDotsPerInch);
   return box[1] - box[0];
 }
 

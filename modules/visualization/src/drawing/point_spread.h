@@ -8,6 +8,14 @@
 
 namespace pcl6d::visualization {
 
+/** \return whether a point has a place on a picture: its coordinates are finite and up to
+ * 1e7 m, as no map is larger; then all sums and squares of them are finite in float, too */
+inline bool
+canBeDrawn(const Eigen::Vector3f& p)
+{
+  return (p.array().abs() <= 1e7F).all(); // not so NaN
+}
+
 /** \return the indices that stay when a random choice, fixed by the index, thins them to
  * a budget */
 std::vector<std::size_t>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "drawing/x_connection.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/visualization/private_display.h>
 
@@ -13,8 +15,10 @@
 #include <future>
 #include <poll.h>
 #include <signal.h>
+#include <sstream>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -42,6 +46,9 @@ openFiles()
 /** In the child before exec: no Ctrl-C from our terminal, none of our files, and an end
  * with the thread that started it, which may be killed before it is connected. */
 struct Detach : bp::extend::handler {
+  explicit Detach(int kept_file) : kept(kept_file) {}
+
+  int kept; ///< but for this one
   std::vector<int> files = openFiles();
   pid_t parent = ::getpid();
 
@@ -55,7 +62,7 @@ struct Detach : bp::extend::handler {
       ::_exit(EXIT_FAILURE);
     for (const int file : files)
       if (file > STDERR_FILENO)
-        ::fcntl(file, F_SETFD, FD_CLOEXEC);
+        ::fcntl(file, F_SETFD, file == kept ? 0 : FD_CLOEXEC);
   }
 };
 
@@ -82,10 +89,27 @@ readLine(int file, Clock::time_point deadline)
   }
 }
 
-bp::child
-launch(bp::pipe& answer)
+/** \return the path of a program; empty if there is none. Not by Boost, which asks for the
+ * user's locale on the way and fails where that is not installed. */
+std::string
+onThePath(const std::string& program)
 {
-  const auto program = bp::search_path("Xvfb");
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "/usr/local/bin:/usr/bin:/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::string file = folder + '/' + program;
+    struct stat status {};
+    if (folder.rfind('/', 0) == 0 && ::stat(file.c_str(), &status) == 0 &&
+        S_ISREG(status.st_mode) && ::access(file.c_str(), X_OK) == 0)
+      return file;
+  }
+  return {};
+}
+
+bp::child
+launch(bp::pipe& answer, const visualization::DisplayCookie& cookie)
+{
+  const std::string program = onThePath("Xvfb");
   if (program.empty())
     throw IoFailed("cannot draw pictures: the program Xvfb is not on the PATH; install "
                    "the package xvfb");
@@ -96,16 +120,19 @@ launch(bp::pipe& answer)
                                "-terminate",
                                "-nolisten",
                                "tcp",
+                               "-auth",
+                               cookie.path().c_str(),
                                "-screen",
                                "0",
                                "640x480x24"}),
                      bp::std_in<bp::null, bp::std_out> answer,
                      bp::std_err > bp::null,
-                     Detach());
+                     Detach(cookie.file()));
   } catch (const bp::process_error& e) {
-    throw IoFailed("cannot start " + program.string() + ": " + e.what());
+    throw IoFailed("cannot start " + program + ": " + e.code().message());
   }
 }
+
 /** Runs the launch of a child on a thread that then lives until it is let go: the kernel
  * ends the child when the thread that started it ends. */
 class LaunchThread {
@@ -116,14 +143,14 @@ public:
   operator=(const LaunchThread&) = delete;
 
   bp::child
-  run(bp::pipe& answer)
+  run(bp::pipe& answer, const visualization::DisplayCookie& cookie)
   {
     std::promise<bp::child> launched;
     auto child = launched.get_future();
     thread_ = std::thread(
-        [&answer, launched = std::move(launched), over = over_.get_future()]() mutable {
+        [&, launched = std::move(launched), over = over_.get_future()]() mutable {
           try {
-            launched.set_value(launch(answer));
+            launched.set_value(launch(answer, cookie));
           } catch (...) {
             launched.set_exception(std::current_exception());
           }
@@ -155,6 +182,7 @@ private:
 } // namespace
 
 struct PrivateDisplay::Server {
+  visualization::DisplayCookie cookie;
   LaunchThread launcher;
   bp::child process;
   std::string name;
@@ -172,7 +200,7 @@ PrivateDisplay::Server::Server()
   const auto deadline = Clock::now() + kStartLimit;
   bp::pipe answer;
   try {
-    process = launcher.run(answer);
+    process = launcher.run(answer, cookie);
   } catch (...) {
     launcher.finish();
     throw;
@@ -180,15 +208,21 @@ PrivateDisplay::Server::Server()
   const std::string number = readLine(answer.native_source(), deadline);
   if (!number.empty()) {
     name = ":" + number;
-    connection = ::XOpenDisplay(name.c_str());
+    connection = cookie.connect(name);
   }
-  if (!connection) {
+  if (!connection || !visualization::isOurs(connection)) {
+    const bool late = Clock::now() >= deadline;
     process.terminate();
     launcher.finish();
-    throw IoFailed("cannot draw pictures: Xvfb did not start within " +
-                   std::to_string(kStartLimit.count()) +
-                   " s; try it by hand: Xvfb :99");
+    const std::string why =
+        connection ? "the display " + name + " is that of another user"
+        : late ? "Xvfb did not start within " + std::to_string(kStartLimit.count()) +
+                     " s; try it by hand: Xvfb :99"
+               : "Xvfb did not start, or cannot be reached (too few file "
+                 "descriptors?); try it by hand: Xvfb :99";
+    throw IoFailed("cannot draw pictures: " + why);
   }
+  visualization::keepErrorsOf(connection);
 }
 
 PrivateDisplay::Server::~Server()
@@ -227,12 +261,20 @@ PrivateDisplay&
 PrivateDisplay::instance()
 {
   static PrivateDisplay display;
-  // Xlib would end the process at the first word to a server that is gone.
-  std::error_code ignored;
-  if (!display.server_->process.running(ignored))
-    throw IoFailed("cannot draw pictures: the private X server " + display.name() +
-                   " has ended");
+  display.requireAlive();
   return display;
+}
+
+void
+PrivateDisplay::requireAlive() const
+{
+  std::error_code ignored;
+  const std::string error = visualization::takeError();
+  if (!error.empty())
+    throw IoFailed("cannot draw pictures: " + error);
+  if (!server_->process.running(ignored))
+    throw IoFailed("cannot draw pictures: the private X server " + name() +
+                   " has ended");
 }
 
 void*

@@ -57,7 +57,7 @@ chosenPoints(const Points& points, std::size_t max_points, Eigen::AlignedBox3d& 
 {
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i].allFinite())
+    if (canBeDrawn(points[i]))
       chosen.push_back(i);
   if (chosen.empty())
     return chosen;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "drawing/point_spread.h"
+
 #include <pcl6d/common/require.h>
 #include <pcl6d/visualization/height_cut.h>
 
@@ -113,11 +115,10 @@ std::vector<std::size_t>
 finitePoints(const Points& points, double max_height)
 {
   const auto highest = static_cast<float>(max_height);
-  constexpr float kFarthest = 1e7F; // [m] no map is larger; finite in all sums
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f& p = points[i];
-    if (p.z() <= highest && p.cwiseAbs().maxCoeff() <= kFarthest && p.allFinite())
+    if (p.z() <= highest && canBeDrawn(p))
       indices.push_back(i);
   }
   return indices;

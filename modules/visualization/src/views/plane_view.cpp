@@ -209,7 +209,7 @@ PlaneView::draw(const PlaneViewScene& scene, Image& image) const
   checkScene(scene);
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < scene.points.size(); ++i)
-    if (scene.points[i].allFinite())
+    if (canBeDrawn(scene.points[i]))
       shown.push_back(i);
   require(!shown.empty(), "number of finite points", 0, "> 0");
   PlaneViewLayout layout;

@@ -13,7 +13,8 @@ namespace PCL6D_EXPORTS pcl6d {
  *
  * Debian's VTK draws only into X, and a server has no X: so Xvfb is started at first
  * use, on a free display number (any number of processes at once), in a session of its
- * own, reachable only from this machine. The one connection that this class holds open
+ * own, reachable only from this machine and with a key that no other user can read. The one
+ * connection that this class holds open
  * keeps it alive: when the process ends in whatever way, SIGKILL included, the
  * connection is gone and the server ends by itself. The user's DISPLAY is neither read
  * nor set. \ingroup visualization */
@@ -30,6 +31,11 @@ public:
   PrivateDisplay(const PrivateDisplay&) = delete;
   PrivateDisplay&
   operator=(const PrivateDisplay&) = delete;
+
+  /** \brief Whoever drew something asks this before believing it: Xlib says nothing.
+   * \throws IoFailed the server has ended, or refused something */
+  void
+  requireAlive() const;
 
   /** \return the connection, an X11 `Display*` */
   void*

@@ -7,9 +7,11 @@
 #include "common/memory_budget.h"
 #include "common/open_scans.h"
 #include "common/output_folder.h"
+#include "common/printable.h"
 #include "common/progress_bar.h"
 #include "slam6d/live_window.h"
 #include "slam6d/ranks.h"
+#include "slam6d/run_drawing.h"
 #include "slam6d/run_output.h"
 #include "slam6d/shared_reading.h"
 
@@ -20,12 +22,11 @@
 #include <pcl6d/run/run_folder.h>
 #include <pcl6d/slam6d/run_journal.h>
 #include <pcl6d/slam6d/slam6d.h>
-#include <pcl6d/visualization/private_display.h>
 
 #include <pcl/console/print.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <future>
 #include <iostream>
 #include <optional>
 #include <set>
@@ -62,7 +63,6 @@ public:
   int
   run()
   {
-    const auto display = startDisplay();
     bar_.say(std::to_string(folder_.size()) + " scans" +
              (earlier_ ? ", " + std::to_string(folder_.numRegistered()) +
                              " of them registered in " + settings_.continued
@@ -84,32 +84,48 @@ public:
     const bool complete = match();
     app::RunOutput output(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
     const RunResult& summary = output.write(complete, log_, clouds_);
-    // What goes on in its own folder is not replaced by a part of it.
-    const bool replaces = summary.complete || !earlier_ || !out_.holdsEarlierRun();
-    const auto written =
-        replaces ? out_.publish() : std::vector<std::filesystem::path>();
-    if (summary.complete)
-      journal_->remove();
-    else
-      bar_.say("what was done is kept: the same command goes on with it, --fresh drops "
-               "it");
-    if (!replaces)
-      bar_.say(settings_.out + ": the run that was to go on is as it was");
+    auto written = publish(summary);
+    const app::Drawing drawing =
+        app::drawApart(published_, summary, memory_.bytes(), interrupt_);
+    written.insert(written.end(), drawing.drawn.begin(), drawing.drawn.end());
+    std::sort(written.begin(), written.end());
     for (const auto& warning : summary.warnings)
       bar_.warn(warning);
     if (!settings_.quiet)
       printClosing(summary, written);
     else if (!summary.trusted)
       bar_.warn(summary.verdict); // not a word of it would be a lie
+    for (const auto& warning : drawing.warnings)
+      bar_.warn(warning);
     if (settings_.timing)
-      std::cout << app::timingOf(summary) << std::flush;
-    if (!summary.complete)
+      std::cout << app::timingOf(summary, drawing.seconds) << std::flush;
+    if (!summary.complete || (drawing.is_missing && interrupt_.requested()))
       return app::kInterrupted;
     window_.linger(summary.verdict, [this] { return interrupt_.requested(); });
-    return summary.trusted ? app::kDone : app::kDoubtful;
+    return summary.trusted && !drawing.is_missing ? app::kDone : app::kDoubtful;
   }
 
 private:
+  /** A part of a run never takes the place of a whole one. \return what was written */
+  std::vector<std::filesystem::path>
+  publish(const RunResult& summary)
+  {
+    published_ = out_.folder();
+    if (summary.complete) {
+      auto written = out_.publish(app::Journal::kDrop);
+      journal_->remove();
+      return written;
+    }
+    bar_.say(
+        "what was done is kept: the same command goes on with it, --fresh drops it");
+    if (!app::holdsCompleteRun(out_))
+      return out_.publish(app::Journal::kKeep);
+    published_ += ".partial";
+    bar_.say(settings_.out + ": holds a complete run, which stays; this part is in " +
+             published_.string());
+    return out_.publishBeside(".partial");
+  }
+
   /** \throws IoFailed an interrupted run with other options is in the folder */
   void
   openJournal()
@@ -135,20 +151,6 @@ private:
     else if (settings_.resume)
       bar_.warn(settings_.out + ": there is no interrupted run to go on with");
     slam_.setMemory(&*journal_);
-  }
-
-  /** Starts what the picture needs while there is other work to do. Failing, it is tried
-   * again when the picture is drawn, where its error is told. */
-  std::future<void>
-  startDisplay() const
-  {
-    if (settings_.no_picture && !settings_.planes && !settings_.report)
-      return {};
-    return std::async(std::launch::async, [] {
-      try {
-        PrivateDisplay::instance();
-      } catch (const pcl::PCLException&) {}
-    });
   }
 
   void
@@ -205,7 +207,7 @@ private:
   printClosing(const RunResult& summary,
                const std::vector<std::filesystem::path>& written)
   {
-    std::cout << summary.verdict << '\n';
+    std::cout << app::printableLines(summary.verdict + '\n');
     for (const auto& path : written)
       std::cout << "  " << path.string() << '\n';
     std::cout << std::flush;
@@ -251,6 +253,7 @@ private:
   Slam6D slam_;
   std::optional<RunJournal> journal_;
   app::RunLog log_;
+  std::filesystem::path published_; ///< where the files are in the end
 };
 } // namespace
 
@@ -271,6 +274,8 @@ main(int argc, char** argv)
   };
   return app::runMain(
       kName, argc, argv, [&](const std::vector<std::string>& arguments) {
+        if (arguments.size() == 2 && arguments[0] == app::kDrawWord)
+          return app::drawRun(arguments[1]);
         ranks = app::joinRanks();
         try {
           const int code = run(arguments);

@@ -153,15 +153,16 @@ run(const std::vector<std::string>& arguments)
     const SceneCloud cloud = readInput(s, job);
     const PlaneFinder finder(s.step);
     const FoundPlanes found = finder.find(cloud);
-    for (const auto& warning :
-         app::writePlaneFiles(*job.out, finder, cloud, found, app::kPlanes))
-      job.bar.warn(warning);
+    finder.write(job.out->staging(), cloud, found, app::kPlanes);
     job.publish([&] {
       if (s.verbose && s.step.labels)
         explain(found);
       printTable(found);
     });
-    return app::kDone;
+    const bool is_drawn = job.draw("planes.png", [&](const auto& picture) {
+      app::drawPlanes(picture, cloud, found);
+    });
+    return is_drawn ? app::kDone : app::kDoubtful;
   } catch (const app::Interrupted&) {
     job.bar.say("interrupted while reading; nothing is written");
     return app::kInterrupted;

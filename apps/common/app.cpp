@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/printable.h"
 
 #include <pcl6d/common/error.h>
 
@@ -8,23 +9,125 @@
 #include <boost/program_options/errors.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <cxxabi.h>
+#include <exception>
+#include <fcntl.h>
+#include <filesystem>
 #include <iostream>
-#include <regex>
+#include <locale>
+#include <new>
+#include <poll.h>
+#include <string_view>
+#include <typeinfo>
+#include <unistd.h>
 
 namespace pcl6d::app {
 
 namespace {
+/** \return the message without what says nothing */
+std::string
+sensible(std::string message)
+{
+  constexpr std::string_view kNoReason = ": Success"; // errno was 0
+  for (auto at = message.find(kNoReason); at != std::string::npos;
+       at = message.find(kNoReason))
+    message.erase(at, kNoReason.size());
+  return message;
+}
+
+/** \return a file system's error as the suite writes its own: the file, then the reason */
+std::string
+wordsOf(const std::filesystem::filesystem_error& error)
+{
+  std::string files = error.path1().string();
+  if (!error.path2().empty())
+    files += " or " + error.path2().string();
+  return files.empty() ? std::string(error.what())
+                       : files + ": " + error.code().message();
+}
+
+std::string
+wordsOf(const std::bad_alloc& error)
+{
+  const std::string said = error.what();
+  return said == "std::bad_alloc" || said == "std::bad_array_new_length"
+             ? "not enough memory"
+             : said;
+}
+
 int
 report(const std::string& name, const std::string& message, ExitCode code)
 {
-  std::string line; // a file's name may hold a line break
-  for (const char c : message)
-    line += c == '\n' ? std::string("\\n") : std::string(1, c);
-  std::cerr << name << ": error: " << line
+  std::cerr << name << ": error: " << printable(sensible(message))
             << (code == kUsage ? " (see --help)\n" : "\n");
   return code;
+}
+
+/** \return the words for what is being handled */
+std::string
+wordsOfCurrent()
+try {
+  throw;
+} catch (const std::bad_alloc& e) {
+  return wordsOf(e);
+} catch (const std::length_error& e) { // a container of more than there can be
+  return std::string("not enough memory: more was asked for than there can be (") +
+         e.what() + ")";
+} catch (const std::filesystem::filesystem_error& e) {
+  return wordsOf(e);
+} catch (const std::exception& e) {
+  return *e.what() ? e.what() : typeid(e).name();
+} catch (...) {
+  const std::type_info* const type = abi::__cxa_current_exception_type();
+  return std::string("an exception of an unknown kind was thrown: ") +
+         (type ? type->name() : "no C++ exception");
+}
+
+/** A name of a locale that is not installed makes std::locale("") throw, which libraries
+ * call deep in their work: then this process and its children have the plain one. */
+void
+makeLocaleValid()
+{
+  try {
+    std::locale("");
+  } catch (const std::runtime_error&) {
+    ::setenv("LC_ALL", "C", 1);
+  }
+}
+
+const std::terminate_handler usual_end = std::get_terminate();
+
+/** Memory may be over where runMain() does not catch it: while main() makes its arguments,
+ * or in a thread of a library. Nothing here asks for any. */
+void
+endInWords()
+try {
+  if (const auto error = std::current_exception())
+    std::rethrow_exception(error);
+  usual_end();
+} catch (const std::bad_alloc&) {
+  ::dprintf(
+      STDERR_FILENO, "%s: error: not enough memory\n", program_invocation_short_name);
+  ::_exit(kFailed);
+} catch (...) {
+  usual_end();
+}
+
+[[maybe_unused]] const std::terminate_handler replaced = std::set_terminate(endInWords);
+
+/** A file must not be opened under the number of a standard stream that is closed: what is
+ * printed would go into it. What is written to such a stream fails, as before. */
+void
+occupyStandardStreams()
+{
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY); // takes it
 }
 } // namespace
 
@@ -34,18 +137,21 @@ runMain(const std::string& name,
         char** argv,
         const std::function<int(const std::vector<std::string>&)>& body)
 try {
+  occupyStandardStreams();
+  makeLocaleValid();
   std::signal(SIGPIPE, SIG_IGN); // `... | head` must not leave half a run
+  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error with words
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  return body(std::vector<std::string>(argv + 1, argv + argc));
+  const int code = body(std::vector<std::string>(argv + 1, argv + argc));
+  if (code == kDone || code == kDoubtful)
+    flushOutput();
+  return code;
 } catch (const UsageError& e) {
   return report(name, e.what(), kUsage);
 } catch (const boost::program_options::error& e) {
   return report(name, e.what(), kUsage);
-} catch (const std::bad_alloc& e) {
-  const std::string said = e.what();
-  return report(name, said == "std::bad_alloc" ? "not enough memory" : said, kFailed);
-} catch (const std::exception& e) {
-  return report(name, e.what(), kFailed);
+} catch (...) {
+  return report(name, wordsOfCurrent(), kFailed);
 }
 
 namespace {
@@ -58,11 +164,14 @@ try {
   check();
 } catch (const BadArgument& e) {
   const std::string message = e.what();
-  static const std::regex kRule("([a-z_ ]+)( = .*)");
-  std::smatch match;
-  if (!std::regex_match(message, match, kRule))
+  // "field = value, but ..."; the value may be long, so no regular expression, whose
+  // depth of calls grows with it.
+  const std::size_t end = message.find(" = ");
+  const std::string field = message.substr(0, end);
+  if (end == std::string::npos || field.empty() ||
+      field.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ ") != std::string::npos)
     throw UsageError(message);
-  throw UsageError("--" + optionOf(match[1]) + match[2].str());
+  throw UsageError("--" + optionOf(field) + message.substr(end));
 }
 } // namespace
 
@@ -84,11 +193,27 @@ checkOption(const std::string& option, const std::function<void()>& check)
   checkRenamed(check, [&](const std::string&) { return option; });
 }
 
+namespace {
+/** \return whether standard output is a pipe whose reader has seen enough, as of `| head` */
+bool
+hasReaderLeft()
+{
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+} // namespace
+
 void
 flushOutput()
 {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout))
-    throw IoFailed("cannot write to the standard output");
+  if (!std::cout.rdbuf()) // a process that helps another one, and tells nothing
+    return;
+  errno = 0;
+  std::cout.flush();
+  const bool arrived = std::fflush(stdout) == 0;
+  const std::string reason = errno ? std::string(": ") + std::strerror(errno) : "";
+  if ((!arrived || std::ferror(stdout) || !std::cout) && !hasReaderLeft())
+    throw IoFailed("cannot write to the standard output" + reason);
 }
 
 } // namespace pcl6d::app

@@ -25,9 +25,10 @@ public:
 };
 
 /** \brief Runs a program: silences PCL's chatter, calls body with the arguments after
- * the program's name, and turns exceptions into `name: error: ...` and an exit code.
- * Errors of the command line (UsageError, boost's) give kUsage, all others
- * kFailed. */
+ * the program's name, and turns exceptions of whatever kind into `name: error: ...`, one
+ * printable() line, and an exit code. Errors of the command line (UsageError, boost's) give
+ * kUsage, all others kFailed; so does standard output that did not arrive. A locale that is
+ * not installed becomes that of C, for the process and its children. */
 int
 runMain(const std::string& name,
         int argc,
@@ -45,7 +46,8 @@ checkOptions(const std::function<void()>& check,
 void
 checkOption(const std::string& option, const std::function<void()>& check);
 
-/** \brief Makes sure that what was printed has arrived. \throws IoFailed it has not */
+/** \brief Makes sure that what was printed has arrived; runMain() does in the end.
+ * \throws IoFailed it has not */
 void
 flushOutput();
 

@@ -5,6 +5,10 @@
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 
+#include <pcl6d/common/error.h>
+
+#include <exception>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <optional>
@@ -40,6 +44,28 @@ struct FolderJob {
     for (const auto& path : written)
       std::cout << "  " << path.string() << '\n';
     std::cout << std::flush;
+  }
+
+  /** \brief Draws into the folder when all else is in its place: what draws may end the
+   * process. Prints the name, unless quiet.
+   * \return false: there should be a picture, and is none; the reason was told */
+  bool
+  draw(const std::string& name,
+       const std::function<void(const std::filesystem::path&)>& drawing)
+  {
+    const auto picture = out->folder() / name;
+    try {
+      drawing(picture);
+    } catch (const BadArgument& e) { // there is nothing that could be seen
+      bar.warn("no " + name + ": " + e.what());
+      return true;
+    } catch (const std::exception& e) {
+      bar.warn("no " + name + ": " + e.what());
+      return false;
+    }
+    if (!quiet)
+      std::cout << "  " << picture.string() << std::endl;
+    return true;
   }
 
   bool quiet;

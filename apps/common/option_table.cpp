@@ -5,9 +5,9 @@
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/version.h>
+#include <pcl6d/io/text.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 
 namespace po = boost::program_options;
@@ -159,10 +159,10 @@ OptionTable::positionals(const std::string& name, std::vector<std::string>* valu
 
 void
 OptionTable::bringOptions(const std::string& option,
-                          std::function<std::string(const std::string&)> lines)
+                          std::function<BroughtOptions(const std::string&)> options)
 {
   bringing_option_ = option;
-  brought_lines_ = std::move(lines);
+  brought_options_ = std::move(options);
 }
 
 po::options_description
@@ -174,26 +174,13 @@ OptionTable::describe(const Group& group)
   return rows;
 }
 
-void
-OptionTable::readConfig(const std::string& file)
-{
-  std::ifstream stream(file);
-  if (!stream || fs::is_directory(file))
-    throw UsageError(file + ": cannot read config file");
-  readLines(stream, file);
-}
-
-void
-OptionTable::readLines(std::istream& lines, const std::string& source)
+po::options_description
+OptionTable::describeAll() const
 {
   po::options_description all;
   for (const auto& group : groups_)
     all.add(describe(group));
-  try {
-    po::store(po::parse_config_file(lines, all), values_);
-  } catch (const po::error& e) {
-    throw UsageError(source + ": " + e.what());
-  }
+  return all;
 }
 
 namespace {
@@ -216,9 +203,7 @@ void
 OptionTable::readArguments(const std::vector<std::string>& arguments)
 {
   using Style = po::command_line_style::style_t;
-  po::options_description all;
-  for (const auto& group : groups_)
-    all.add(describe(group));
+  po::options_description all = describeAll();
   all.add(generalOptions()).add(hidden_);
   try {
     po::store(po::command_line_parser(arguments)
@@ -261,11 +246,8 @@ OptionTable::parse(const std::vector<std::string>& arguments)
     return false;
   if (values_.count("config"))
     readConfig(values_["config"].as<std::string>());
-  if (!bringing_option_.empty() && values_.count(bringing_option_)) {
-    const auto value = values_[bringing_option_].as<std::string>();
-    std::istringstream lines(brought_lines_(value));
-    readLines(lines, "--" + bringing_option_ + " " + value);
-  }
+  if (!bringing_option_.empty() && values_.count(bringing_option_))
+    readBrought(brought_options_(values_[bringing_option_].as<std::string>()));
   for (const auto& name : positional_names_)
     if (!values_.count(name))
       throw UsageError(name + " is missing");
@@ -284,11 +266,15 @@ OptionTable::takeValues() const
         continue;
       const boost::any& value = values_[name].value();
       const std::string text = row.text_(value);
-      checkOption(name, [&] {
-        const bool has_rule = row.obeys_ && text != "auto";
-        require(!has_rule || row.obeys_(row.number_(value)), "it", text, row.rule_);
-        row.take_(value);
-      });
+      try {
+        checkOption(name, [&] {
+          const bool has_rule = row.obeys_ && text != "auto";
+          require(!has_rule || row.obeys_(row.number_(value)), "it", text, row.rule_);
+          row.take_(value);
+        });
+      } catch (const UsageError& e) {
+        blame(name, e.what());
+      }
     }
 }
 
@@ -352,13 +338,7 @@ operator>>(std::istream& stream, AutoNumber& value)
   value.number.reset();
   if (word == "auto")
     return stream;
-  std::size_t used = 0;
-  try {
-    value.number = std::stod(word, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != word.size())
+  if (!text::parseNumber(word, value.number.emplace())) // whatever the locale
     stream.setstate(std::ios::failbit);
   return stream;
 }

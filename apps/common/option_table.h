@@ -8,6 +8,7 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -69,6 +70,12 @@ struct OptionWord {
   std::string name;
   std::string value; ///< as given, or as it is by default
   bool given;
+};
+
+/** \brief Options that do not come from the command line, with their values as text. */
+struct BroughtOptions {
+  std::string source;                                       ///< file, for messages
+  std::vector<std::pair<std::string, std::string>> options; ///< names without dashes
 };
 
 /** \brief An option that counts only in some runs. */
@@ -203,19 +210,27 @@ public:
   positionals(const std::string& name, std::vector<std::string>* values);
 
   /** \brief Lets the value of an option bring others, which count where neither the
-   * command line nor the config file gives them.
-   * \param[in] lines `name = value` lines for a value of the option; what they throw goes
-   * through parse() */
+   * command line nor the config file gives them. Each value is read as one, whatever its
+   * text holds, and obeys the rules of its option.
+   * \param[in] options for a value of the option; what this throws goes through parse() */
   void
   bringOptions(const std::string& option,
-               std::function<std::string(const std::string& value)> lines);
+               std::function<BroughtOptions(const std::string& value)> options);
 
   /** \brief Parses, checks the rules and sets the variables, in the order of the rows; on
    * --help or --version prints it to stdout.
    * \return false when the program has nothing more to do
-   * \throws UsageError, boost::program_options::error the arguments break a rule */
+   * \throws UsageError, boost::program_options::error the arguments break a rule; what came
+   * from a config file is told with file and line
+   * \throws IoFailed an option that was brought breaks its rule */
   bool
   parse(const std::vector<std::string>& arguments);
+
+  /** \brief As app::checkOptions(), and the message names the file that the option came
+   * from, if it was not the command line. */
+  void
+  check(const std::function<void()>& check,
+        const std::map<std::string, std::string>& words = {}) const;
 
   /** \return whether the user gave the option (so it is no default) */
   bool
@@ -305,10 +320,24 @@ private:
   row(const std::string& option) const;
   void
   readArguments(const std::vector<std::string>& arguments);
+  boost::program_options::options_description
+  describeAll() const;
   void
   readConfig(const std::string& file);
   void
-  readLines(std::istream& lines, const std::string& source);
+  readBrought(const BroughtOptions& brought);
+
+  /** Where an option that is not of the command line stands. */
+  struct Place {
+    std::string text; ///< "run.cfg: line 3"
+    bool is_data;     ///< the user did not write it
+  };
+  /** Takes options that are not given yet. */
+  void
+  store(const boost::program_options::parsed_options& options, const Place& place);
+  /** \throws UsageError, or IoFailed about data: the message, with the option's place */
+  [[noreturn]] void
+  blame(const std::string& option, const std::string& message) const;
   bool
   answerQuestions() const;
   void
@@ -320,7 +349,8 @@ private:
   boost::program_options::positional_options_description positions_;
   std::vector<std::string> positional_names_;
   std::string bringing_option_; ///< see bringOptions()
-  std::function<std::string(const std::string&)> brought_lines_;
+  std::function<BroughtOptions(const std::string&)> brought_options_;
+  std::map<std::string, Place> places_; ///< of options that are not of the command line
   boost::program_options::variables_map values_;
 };
 

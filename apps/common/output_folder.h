@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/folder_lock.h"
+#include "common/publication.h"
+
 #include <filesystem>
 #include <regex>
 #include <string>
@@ -24,25 +27,30 @@ struct OutputRules {
   std::string journal = {};
 };
 
+/** \brief What becomes of the journal of a run when its files are published. */
+enum class Journal { kKeep, kDrop };
+
 /** \brief The folder that a program writes: whole or not at all.
  *
- * Files are written to a hidden folder inside it and moved to their places by publish(),
- * together, the marker last. What an earlier run of the program left is then removed, and
- * nothing else: a
- * folder that holds other things is refused without `force`, and with it only files of the
- * same name are replaced. Inputs are never touched. If publish() is not reached, all is as
- * it was before, but for the journal. */
+ * Files are written to a hidden folder beside it, which only this user can open, and put in
+ * its place by publish(), together. What an earlier run of the program left is then gone, and
+ * nothing else: a folder that holds other things is refused without `force`, and with it only
+ * files of the same name are replaced. Inputs are never touched. If publish() is not reached,
+ * all is as it was before, but for the journal; if the process is killed in it, it is all as
+ * before or all new (publication.h). The folder is locked for as long as this lives. */
 class OutputFolder {
 public:
   /** \throws IoFailed the path leads through a file, is or holds an input, holds foreign
-   * files or a link in place of a folder of ours, or cannot be made */
+   * files or a link in place of a folder of ours, is written by another run, or cannot be
+   * made */
   explicit OutputFolder(OutputRules rules);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder&
   operator=(const OutputFolder&) = delete;
 
-  /** \return where to write a file, such as "scans/scan000.pcd"; its folder is made */
+  /** \return where to write a file, such as "scans/scan000.pcd"; its folder is made
+   * \throws IoFailed somebody has removed the hidden folder */
   std::filesystem::path
   operator/(const std::string& name) const;
 
@@ -64,11 +72,24 @@ public:
     return staging_;
   }
 
-  /** \brief Moves everything to its place. \return the names at the top of the folder that
+  /** \return the folder itself: what is written there after publish() is no part of it */
+  const std::filesystem::path&
+  folder() const
+  {
+    return folder_;
+  }
+
+  /** \brief Puts everything in its place. \return the names at the top of the folder that
    * were written, as full paths, sorted
-   * \throws IoFailed something else stands in the place of a file; nothing is moved */
+   * \throws IoFailed something else stands in the place of a file, or the hidden folder was
+   * removed: nothing has changed */
   std::vector<std::filesystem::path>
-  publish();
+  publish(Journal journal = Journal::kDrop);
+
+  /** \brief The same into a folder beside this one, which stays as it is.
+   * \param[in] suffix of its name \throws IoFailed as OutputFolder of that folder */
+  std::vector<std::filesystem::path>
+  publishBeside(const std::string& suffix);
 
   /** \return whether an earlier run of the program is in the folder */
   bool
@@ -79,15 +100,20 @@ public:
 
 private:
   void
-  removeOldRun(const std::vector<std::filesystem::path>& files) const;
-  bool
-  holdsJournal() const;
+  claim();
+  void
+  removeMade();
+  void
+  requireStaging() const;
 
   OutputRules rules_;
-  std::filesystem::path folder_;
+  std::filesystem::path folder_; ///< as the user called it
+  OutputPlace place_;            ///< the same without links
+  std::filesystem::path made_;   ///< topmost folder that was made here; empty if none
+  FolderLock lock_;
   std::filesystem::path staging_;
-  std::filesystem::path made_; ///< topmost folder that was made here; empty if none
-  int lock_ = -1;              ///< file that locks the hidden folder; -1: none
+  FolderLock
+      staging_lock_; ///< that of the folder when the two have changed their names
   bool holds_earlier_run_ = false;
 };
 

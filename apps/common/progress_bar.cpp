@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/printable.h"
 #include "common/progress_bar.h"
 
 #include <algorithm>
@@ -120,7 +121,7 @@ ProgressBar::print(const std::string& line)
 {
   if (!bar_.empty())
     std::cerr << kEraseLine;
-  std::cerr << line << '\n' << bar_ << std::flush;
+  std::cerr << printableLines(line) << '\n' << bar_ << std::flush;
 }
 
 void

@@ -78,7 +78,7 @@ is to be turned to many sides and to reach the borders of the image.
     return false;
   s.board.cols = s.size.cols;
   s.board.rows = s.size.rows;
-  checkOptions([&] { s.board.validate(); }, {{"rows", "board"}, {"cols", "board"}});
+  table.check([&] { s.board.validate(); }, {{"rows", "board"}, {"cols", "board"}});
   refuseInputs(s.output, {s.input, s.right});
   return true;
 }

@@ -53,7 +53,11 @@ public:
                                         settings_.writer,
                                         [&](const ScanSink& sink) { handOver(sink); });
     describe(losses);
-    return kDone;
+    const int code = losses_.judge(bar_);
+    if (code != kDone || points_ > 0)
+      return code;
+    bar_.warn("no point is within the ranges of the run");
+    return kDoubtful;
   } catch (const Stopped&) {
     return kInterrupted;
   }
@@ -92,7 +96,7 @@ private:
       points_ += count;
       out_of_range_ += kept.size() - count;
       layout_.addScan(scan.cloud.fields);
-      losses_.addScan(scan, {});
+      losses_.addScan(source_.folder().name(i), scan, {});
       advance("counting", i);
     }
     layout_.finish();

@@ -135,7 +135,7 @@ becomes a point of NaN.
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;
-  checkOptions([&] { applyWords(s); });
+  table.check([&] { applyWords(s); });
   refuseInputs(s.output, {s.input, s.angles});
   return true;
 }

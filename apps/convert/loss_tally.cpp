@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/printable.h"
 #include "convert/loss_tally.h"
 
 #include <pcl6d/io/text.h>
@@ -9,9 +11,13 @@
 namespace pcl6d::app {
 
 void
-LossTally::addScan(const ScanCloud& scan, const std::vector<std::string>& losses)
+LossTally::addScan(const std::string& name,
+                   const ScanCloud& scan,
+                   const std::vector<std::string>& losses)
 {
   ++scans_;
+  if (scan.cloud.data.empty())
+    empty_scans_.push_back(name);
   dropped_points_ += scan.dropped;
   for (const auto& thing : scan.left_out)
     count("did not read " + thing);
@@ -44,13 +50,26 @@ LossTally::print() const
     std::cout << "dropped " << text::counted(dropped_points_, "point")
               << " whose x, y or z is not finite\n";
   for (const auto& [loss, count] : of_scans_) {
-    std::cout << loss;
+    std::cout << printable(loss); // it holds names of fields
     if (scans_ > 1)
       std::cout << " (" << count << " of " << text::counted(scans_, "scan") << ')';
     std::cout << '\n';
   }
   for (const auto& loss : others_)
-    std::cout << loss << '\n';
+    std::cout << printable(loss) << '\n';
+}
+
+int
+LossTally::judge(ProgressBar& bar) const
+{
+  if (empty_scans_.empty())
+    return kDone;
+  const std::size_t others = empty_scans_.size() - 1;
+  bar.warn(empty_scans_.front() +
+           (others == 0
+                ? " has no points"
+                : " and " + text::counted(others, "other scan") + " have no points"));
+  return kDoubtful;
 }
 
 } // namespace pcl6d::app

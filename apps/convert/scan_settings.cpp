@@ -93,7 +93,7 @@ parseScanSettings(const std::vector<std::string>& arguments, ScanSettings& s)
   table.needFolder(s.input, {"full", "poses", "first", "last", "every"});
   s.writer.format = outputFormat(s, !folder || s.full);
   s.writer.encoding = outputEncoding(s);
-  checkOptions([&] { s.folder.validate(); });
+  table.check([&] { s.folder.validate(); });
   const bool encodes =
       s.writer.format == ScanFormat::kPcd || s.writer.format == ScanFormat::kPly;
   s.without_effect = table.withoutEffect({{"encoding", encodes, "of pcd and ply"}});

@@ -71,7 +71,7 @@ public:
               << toString(settings_.writer.format) << '\n';
     describePoses();
     losses_.print();
-    return kDone;
+    return losses_.judge(bar_);
   }
 
 private:
@@ -96,7 +96,8 @@ private:
                      ": another scan has the same name but for the extension");
     const ScanCloud scan = folder.readCloud(i);
     points_ += std::size_t{scan.cloud.width} * scan.cloud.height;
-    losses_.addScan(scan,
+    losses_.addScan(folder.name(i),
+                    scan,
                     writeScan(out_ / name,
                               scan.cloud,
                               pcd_ ? source_.pose(i) : Eigen::Isometry3d::Identity(),
@@ -158,7 +159,8 @@ convertFile(const ScanSettings& settings)
                         : std::nullopt;
   const ScanFormat format = settings.writer.format;
   LossTally losses;
-  losses.addScan(scan,
+  losses.addScan(settings.input,
+                 scan,
                  writeScan(settings.output,
                            scan.cloud,
                            format == ScanFormat::kPcd && pose
@@ -169,12 +171,13 @@ convertFile(const ScanSettings& settings)
     writePoseBeside(settings.output, *pose, settings.input);
   else if (pose && format != ScanFormat::kPcd)
     losses.add("dropped the pose");
+  ProgressBar bar(settings.quiet);
   if (!settings.without_effect.empty())
-    ProgressBar(settings.quiet).warn(settings.without_effect);
+    bar.warn(settings.without_effect);
   std::cout << text::counted(std::size_t{scan.cloud.width} * scan.cloud.height, "point")
             << " to " << toString(format) << '\n';
   losses.print();
-  return kDone;
+  return losses.judge(bar);
 }
 
 int

@@ -72,7 +72,7 @@ up; fields x y z, intensity (0 to 1), depth_error (its standard deviation [m]).
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;
-  checkOptions(
+  table.check(
       [&] {
         s.matching.validate();
         s.cloud.validate();

@@ -118,13 +118,14 @@ runIcp(const std::vector<std::string>& arguments)
   FolderJob job(s.quiet, s.without_effect, icpFolderRules(s));
   const IcpEvaluation e = evaluate(s, job.bar, job.interrupt);
   printIcpTable(s, e);
+  bool is_drawn = true;
   if (job.out) {
     writeIcpFiles(*job.out, s, e);
-    drawIcpBasins(*job.out, s, e, job.bar);
     job.publish();
+    is_drawn = drawIcpBasins(job, s, e);
   }
   flushOutput();
-  const bool trusted = warnOfDoubts(s, e, job.bar);
+  const bool trusted = warnOfDoubts(s, e, job.bar) && is_drawn;
   if (!e.basin.complete) {
     job.bar.warn("interrupted; the table holds the methods that were finished");
     return kInterrupted;

@@ -363,25 +363,24 @@ writeIcpFiles(const OutputFolder& out,
   writeJson(out / "icp.json", toJson(settings, e), 2);
 }
 
-void
-drawIcpBasins(const OutputFolder& out,
-              const IcpSettings& settings,
-              const IcpEvaluation& e,
-              ProgressBar& bar)
+bool
+drawIcpBasins(FolderJob& job, const IcpSettings& settings, const IcpEvaluation& e)
 {
-  try {
-    for (const IcpBestPose& best : e.basin.best) {
-      const Rows rows = rowsOf(best.metric, e.basin);
-      if (rows.empty())
-        continue;
-      const std::string name = std::string("icp_basin_") + toString(best.metric);
-      const ConvergenceMap map;
-      map.write(out / (name + ".png"), sceneOfMethods(settings, e, best.metric, rows));
-      map.write(out / (name + "_yaw.png"), sceneOfYaws(settings, e, best.metric, rows));
-    }
-  } catch (const pcl::PCLException& error) { // no display, or too many panels
-    bar.warn("no picture: " + std::string(error.what()));
+  bool is_drawn = true;
+  const auto draw = [&](const std::string& name, const ConvergenceMapScene& scene) {
+    is_drawn &= job.draw(name, [&](const std::filesystem::path& picture) {
+      ConvergenceMap().write(picture, scene);
+    });
+  };
+  for (const IcpBestPose& best : e.basin.best) {
+    const Rows rows = rowsOf(best.metric, e.basin);
+    if (rows.empty())
+      continue;
+    const std::string name = std::string("icp_basin_") + toString(best.metric);
+    draw(name + ".png", sceneOfMethods(settings, e, best.metric, rows));
+    draw(name + "_yaw.png", sceneOfYaws(settings, e, best.metric, rows));
   }
+  return is_drawn;
 }
 
 } // namespace pcl6d::app

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/output_folder.h"
-#include "common/progress_bar.h"
+#include "common/folder_job.h"
 #include "evaluate/icp_settings.h"
 
 #include <pcl6d/slam6d/slam6d_result.h>
@@ -37,11 +36,11 @@ writeIcpFiles(const OutputFolder& out,
               const IcpSettings& settings,
               const IcpEvaluation& evaluation);
 
-/** \brief Draws icp_basin_*.png; without a display it says so and goes on. */
-void
-drawIcpBasins(const OutputFolder& out,
+/** \brief Draws icp_basin_*.png. \return whether all could be drawn; if not, it was told why
+ */
+bool
+drawIcpBasins(FolderJob& job,
               const IcpSettings& settings,
-              const IcpEvaluation& evaluation,
-              ProgressBar& bar);
+              const IcpEvaluation& evaluation);
 
 } // namespace pcl6d::app

@@ -223,7 +223,7 @@ parseIcpSettings(const std::vector<std::string>& arguments, IcpSettings& s)
     return false;
   takeScale(table, s, methods);
   s.basin.offset_xy = s.offset_xy.value_or(s.basin.offset_xy);
-  checkOptions(
+  table.check(
       [&] {
         interpretMethods(methods, s);
         s.slam.validate();

@@ -8,13 +8,12 @@
 #include <pcl6d/benchmarking/length_ratio.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/json_numbers.h>
+#include <pcl6d/io/text.h>
 
 #include <Eigen/Core>
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 
 namespace pcl6d::app {
 
@@ -22,16 +21,15 @@ namespace {
 
 /** \throws IoFailed unless the row holds 2 or 7 finite numbers, or 12 */
 LengthPair
-parseRow(const std::string& row, const std::string& place)
+parseRow(std::string_view row, const std::string& place)
 {
-  std::istringstream stream(row);
   std::vector<double> v;
-  std::string word;
-  while (stream >> word) {
-    char* end = nullptr;
-    v.push_back(std::strtod(word.c_str(), &end));
-    if (*end != '\0' || !std::isfinite(v.back()))
-      throw IoFailed(place + ": " + word + ": must be a finite number");
+  text::Tokens tokens(row);
+  for (auto token = tokens.next(); !token.empty(); token = tokens.next()) {
+    v.emplace_back();
+    if (!text::parseNumber(token, v.back()) || !std::isfinite(v.back()))
+      throw IoFailed(place + ": " + text::quoted(token) +
+                     ", but must be a finite number");
   }
   const auto distance = [&](std::size_t a) {
     return (Eigen::Vector3d(v[a], v[a + 1], v[a + 2]) -
@@ -58,18 +56,14 @@ parseRow(const std::string& row, const std::string& place)
 std::vector<LengthPair>
 readLengths(const std::string& file)
 {
-  std::ifstream stream(file);
-  if (!stream)
-    throw IoFailed(file + ": cannot be read");
+  const std::string content = text::readFile(file);
   std::vector<LengthPair> lengths;
-  std::string row;
-  for (int number = 1; std::getline(stream, row); ++number) {
-    const std::size_t start = row.find_first_not_of(" \t\r");
-    if (start != std::string::npos && row[start] != '#')
-      lengths.push_back(parseRow(row, file + ": line " + std::to_string(number)));
+  for (text::Lines lines(content); lines.next();) {
+    const auto first = text::Tokens(lines.line()).next();
+    if (!first.empty() && first.front() != '#')
+      lengths.push_back(
+          parseRow(lines.line(), file + ": line " + std::to_string(lines.number())));
   }
-  if (stream.bad())
-    throw IoFailed(file + ": cannot be read");
   if (lengths.size() < 2)
     throw IoFailed(file + ": " + std::to_string(lengths.size()) +
                    " lengths: a ratio needs two");

@@ -69,8 +69,8 @@ parse(const std::vector<std::string>& arguments, MapSettings& s)
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;
-  checkOptions([&] { s.options.validate(); });
-  checkOptions([&] { validateSource(s.source); });
+  table.check([&] { s.options.validate(); });
+  table.check([&] { validateSource(s.source); });
   requireExtension("--output", s.output, {".json", ".csv"});
   refuseInputs(s.output, {s.source.poses, s.source.reference});
   return true;

@@ -19,13 +19,14 @@ runMcl(const std::vector<std::string>& arguments)
     return kInterrupted;
   }
   printMcl(s, *e);
+  bool is_drawn = true;
   if (job.out) {
     writeMclFiles(*job.out, s, *e);
-    drawMcl(*job.out, *e, job.bar);
     job.publish();
+    is_drawn = drawMcl(job, *e);
   }
   flushOutput();
-  return e->drive.numTrusted() == e->scans.size() ? kDone : kDoubtful;
+  return is_drawn && e->drive.numTrusted() == e->scans.size() ? kDone : kDoubtful;
 }
 
 } // namespace pcl6d::app

@@ -12,6 +12,7 @@
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/visualization/top_view.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -171,10 +172,14 @@ toJson(const MclSettings& s, const MclEvaluation& e)
 Points
 drawnWalls(const SegmentMap& map)
 {
-  constexpr double kSpacing = 0.2; // [m]
+  constexpr double kSpacing = 0.2, kMostPoints = 1e6; // [m]; far more than pixels
+  double length = 0;
+  for (const Segment& wall : map.segments())
+    length += (wall.b - wall.a).norm();
+  const double spacing = std::max(kSpacing, length / kMostPoints);
   Points points;
   for (const Segment& wall : map.segments()) {
-    const long count = std::lround((wall.b - wall.a).norm() / kSpacing) + 1;
+    const long count = std::lround((wall.b - wall.a).norm() / spacing) + 1;
     for (long i = 0; i <= count; ++i) {
       const double s = static_cast<double>(i) / static_cast<double>(count);
       const Eigen::Vector2d place = wall.a + s * (wall.b - wall.a);
@@ -237,8 +242,8 @@ writeMclFiles(const OutputFolder& out, const MclSettings& s, const MclEvaluation
   writeJson(out / "mcl.json", toJson(s, e));
 }
 
-void
-drawMcl(const OutputFolder& out, const MclEvaluation& e, ProgressBar& bar)
+bool
+drawMcl(FolderJob& job, const MclEvaluation& e)
 {
   TopViewOptions options;
   options.title = "Monte Carlo localisation";
@@ -249,11 +254,9 @@ drawMcl(const OutputFolder& out, const MclEvaluation& e, ProgressBar& bar)
   scene.trajectory.poses = e.drive.T_map_scan;
   for (const DriveScan& scan : e.scans)
     scene.initial.poses.push_back(e.drive.T_map_world * scan.odometry);
-  try {
-    TopView(options).write(out / "mcl.png", scene);
-  } catch (const IoFailed& error) {
-    bar.warn(std::string("no mcl.png: ") + error.what());
-  }
+  return job.draw("mcl.png", [&](const std::filesystem::path& picture) {
+    TopView(options).write(picture, scene);
+  });
 }
 
 } // namespace pcl6d::app

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/output_folder.h"
+#include "common/folder_job.h"
 #include "evaluate/mcl_evaluation.h"
 
 namespace pcl6d::app {
@@ -20,8 +20,8 @@ writeMclFiles(const OutputFolder& out,
               const MclSettings& settings,
               const MclEvaluation& evaluation);
 
-/** \brief Draws mcl.png; without a display it says so and goes on. */
-void
-drawMcl(const OutputFolder& out, const MclEvaluation& evaluation, ProgressBar& bar);
+/** \brief Draws mcl.png. \return whether it could be drawn; if not, it was told why */
+bool
+drawMcl(FolderJob& job, const MclEvaluation& evaluation);
 
 } // namespace pcl6d::app

@@ -163,7 +163,7 @@ parseMclSettings(const std::vector<std::string>& arguments, MclSettings& setting
   addRun(table, settings);
   if (!table.parse(arguments))
     return false;
-  checkOptions(
+  table.check(
       [&] {
         require(settings.mcl.max_particles >= settings.mcl.num_particles,
                 "max_particles",

@@ -4,9 +4,9 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/text.h>
 
 #include <fstream>
-#include <iterator>
 #include <ostream>
 #include <set>
 #include <thread>
@@ -86,12 +86,7 @@ commandsOf(const Suite& suite)
 std::string
 contentOf(const fs::path& file)
 {
-  if (!fs::exists(file))
-    return "";
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || fs::is_directory(file))
-    throw IoFailed(file.string() + ": cannot read the document");
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return text::isThere(file) ? text::readFile(file) : "";
 }
 } // namespace
 

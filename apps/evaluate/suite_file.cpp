@@ -3,12 +3,13 @@
 #include "evaluate/suite_json.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/nesting.h>
+#include <pcl6d/io/text.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 
 namespace pcl6d::app {
@@ -35,7 +36,7 @@ public:
     else if (event == Event::key) {
       const auto name = value.get<std::string>();
       if (!open_.back().names.insert(name).second)
-        refuseSuite(file_, place(), "'" + name + "' is there twice");
+        refuseSuite(file_, place(), text::quoted(name) + " is there twice");
       open_.back().last = name;
     }
     return true;
@@ -179,20 +180,30 @@ readDamages(const JsonValue& root, Suite& suite)
   });
 }
 
+/** \throws UsageError it cannot be read, or is nested too deep to be a suite */
+std::string
+contentOfSuite(const fs::path& file)
+try {
+  std::string content = text::readFile(file);
+  checkJsonNesting(content, file.string());
+  return content;
+} catch (const IoFailed& e) {
+  throw UsageError(e.what());
+}
+
 Json
 parseFile(const fs::path& file)
 {
-  std::ifstream stream(file);
-  if (!stream || fs::is_directory(file))
-    throw UsageError(file.string() + ": cannot read the suite");
+  const std::string content = contentOfSuite(file);
   try {
-    return Json::parse(stream, NameCheck(file));
+    return Json::parse(content, NameCheck(file));
   } catch (const Json::parse_error& e) {
-    const std::string text =
-        e.what(); // "[json...] parse error at line 1, column 2: ..."
-    const auto place = text.find("line ");
-    throw UsageError(file.string() + ": no JSON: " +
-                     (place == std::string::npos ? text : text.substr(place)));
+    const auto end =
+        content.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, content.size()));
+    throw UsageError(file.string() + ": no JSON: line " +
+                     std::to_string(1 + std::count(content.begin(), end, '\n')));
+  } catch (const Json::out_of_range&) {
+    throw UsageError(file.string() + ": a number is too large for a double");
   }
 }
 

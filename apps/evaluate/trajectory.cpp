@@ -86,7 +86,7 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
       throw UsageError(std::string("--") + option +
                        " names poses of the reference, which --interpolate replaces: "
                        "give one of both");
-  checkOptions(
+  table.check(
       [&] {
         s.options.matching.validate();
         s.options.revisits.validate();

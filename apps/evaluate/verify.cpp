@@ -118,14 +118,11 @@ runVerify(const std::vector<std::string>& arguments)
   }
   const MapVerification map = s.isPair() ? verifyPair(*source) : verifyMap(s, *source);
   printVerification(s, *source, map);
-  if (job.out) {
-    writeVerifyFiles(*job.out, s, *source, map, job.bar);
-    job.publish();
-  }
+  const bool is_drawn = !job.out || publishVerification(job, s, *source, map);
   flushOutput();
   if (map.trust == MapTrust::kUnverified)
     job.bar.warn("nothing contradicts the poses, but nothing confirms them all either");
-  return map.trusted() ? kDone : kDoubtful;
+  return map.trusted() && is_drawn ? kDone : kDoubtful;
 }
 
 } // namespace pcl6d::app

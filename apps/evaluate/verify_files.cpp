@@ -131,13 +131,13 @@ verifyFolderRules(const VerifySettings& s)
   return rules;
 }
 
-void
-writeVerifyFiles(const OutputFolder& out,
-                 const VerifySettings& s,
-                 const VerifySource& source,
-                 const MapVerification& map,
-                 ProgressBar& bar)
+bool
+publishVerification(FolderJob& job,
+                    const VerifySettings& s,
+                    const VerifySource& source,
+                    const MapVerification& map)
 {
+  const OutputFolder& out = *job.out;
   std::vector<LinkCheck> links = map.links;
   for (LinkCheck& link : links) {
     link.from = source.indices[link.from];
@@ -154,11 +154,10 @@ writeVerifyFiles(const OutputFolder& out,
   writeVerification(out / "verification.json", map, of);
   const auto points = contradictionsOf(s, source, map);
   writeScan(out / "contradictions.ply", cloudOf(points, source));
-  try {
-    draw(out / "contradictions.png", source, points);
-  } catch (const IoFailed& e) {
-    bar.warn(std::string("no contradictions.png: ") + e.what());
-  }
+  job.publish();
+  return job.draw("contradictions.png", [&](const std::filesystem::path& picture) {
+    draw(picture, source, points);
+  });
 }
 
 } // namespace pcl6d::app

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/output_folder.h"
-#include "common/progress_bar.h"
+#include "common/folder_job.h"
 #include "evaluate/verify_source.h"
 
 #include <pcl6d/common/map_verification.h>
@@ -27,13 +26,13 @@ printVerification(const VerifySettings& settings,
 OutputRules
 verifyFolderRules(const VerifySettings& settings);
 
-/** \brief Writes verification.csv, verification.json, contradictions.ply, and
- * contradictions.png if there is a display. */
-void
-writeVerifyFiles(const OutputFolder& out,
-                 const VerifySettings& settings,
-                 const VerifySource& source,
-                 const MapVerification& map,
-                 ProgressBar& bar);
+/** \brief Writes verification.csv, verification.json and contradictions.ply, publishes them,
+ * and draws contradictions.png.
+ * \return whether that could be drawn; if not, it was told why */
+bool
+publishVerification(FolderJob& job,
+                    const VerifySettings& settings,
+                    const VerifySource& source,
+                    const MapVerification& map);
 
 } // namespace pcl6d::app

@@ -84,7 +84,7 @@ parseVerifySettings(const std::vector<std::string>& arguments, VerifySettings& s
                        " is for a folder of scans, not for two of them");
   if (!s.isPair() && table.given("pose"))
     throw UsageError("--pose is for two scans; poses of a folder: --poses FILE");
-  checkOptions([&] {
+  table.check([&] {
     s.scans.validate();
     s.parameters.validate();
   });

@@ -66,7 +66,7 @@ after.
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;
-  checkOptions([&] { s.options.validate(); }, {{"max_iterations", "iterations"}});
+  table.check([&] { s.options.validate(); }, {{"max_iterations", "iterations"}});
   refuseInputs(s.output, {s.input}, "the input");
   return true;
 }

@@ -133,7 +133,7 @@ parseLocate(const std::vector<std::string>& arguments, LocateSettings& settings)
   addSearch(table, settings);
   if (!table.parse(arguments))
     return false;
-  checkOptions([&] {
+  table.check([&] {
     settings.folder.validate();
     require(settings.max_range == 0 || settings.max_range > settings.min_range,
             "max_range",

@@ -137,7 +137,7 @@ parseTrain(const std::vector<std::string>& arguments, TrainSettings& s)
   addTraining(table, s);
   if (!table.parse(arguments))
     return false;
-  checkOptions([&] { apply(words, s); });
+  table.check([&] { apply(words, s); });
   refuseInputs(s.output, s.models);
   refuseInputs(s.output, s.backgrounds);
   if (s.state.empty())

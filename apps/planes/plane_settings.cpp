@@ -119,7 +119,7 @@ A scan is taken in its own frame, a folder in that of its poses.
   addOptions(table, settings, words);
   if (!table.parse(arguments))
     return false;
-  checkOptions([&] {
+  table.check([&] {
     settings.folder.validate();
     settings.step.segmentation.validate();
     settings.step.interpretation.validate();

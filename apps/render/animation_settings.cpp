@@ -107,7 +107,7 @@ parseAnimationSettings(const std::vector<std::string>& arguments, AnimationSetti
   s.width = size.width;
   s.height = size.height;
   s.fps = fps.value_or(s.kind == AnimationKind::kGrowth ? 8 : 25);
-  checkOptions([&] { checkSize(size); });
+  table.check([&] { checkSize(size); });
   return true;
 }
 

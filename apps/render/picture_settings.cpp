@@ -145,6 +145,8 @@ Views:)" + RunPictures::viewTable() +
   takeViews(views, settings);
   if (!(settings.slice_thickness > 0))
     throw UsageError("--thickness must be > 0");
+  if (settings.azimuth && !std::isfinite(*settings.azimuth))
+    throw UsageError("--azimuth must be a finite number");
   if (settings.elevation &&
       !(*settings.elevation > 0 && *settings.elevation < M_PI / 2))
     throw UsageError("--elevation must be between 0 and 90 degrees");

@@ -41,7 +41,7 @@ What the run lacks is named on it.
   table.add("quiet", &s.quiet).help("print warnings and errors only");
   if (!table.parse(arguments))
     return false;
-  checkOptions([&] { s.options.validate(); });
+  table.check([&] { s.options.validate(); });
   if (s.output.empty())
     s.output = (std::filesystem::path(s.run) / "report.html").string();
   return true;

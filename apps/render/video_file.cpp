@@ -7,8 +7,10 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include <cstdlib>
 #include <fstream>
 #include <map>
+#include <sys/resource.h>
 #include <vector>
 
 namespace pcl6d::app {
@@ -27,10 +29,40 @@ codecsFor(const std::string& extension)
       {".webm", {"VP80", "VP90"}}};
   return kCodecs.at(extension);
 }
+
+/** \return the frames that a film really holds. They are not decoded. */
+std::size_t
+framesIn(const fs::path& path)
+{
+  constexpr double kAsTheyAre = -1;
+  cv::VideoCapture film(path.string());
+  if (!film.isOpened())
+    return 0;
+  film.set(cv::CAP_PROP_FORMAT, kAsTheyAre);
+  std::size_t frames = 0;
+  while (film.grab())
+    ++frames;
+  return frames;
+}
+
+/** \return whether nothing more can be written to a file, for want of space or by a limit:
+ * then its end may be missing */
+bool
+isFull(const fs::path& path)
+{
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  rlimit limit{};
+  const bool has_limit =
+      ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return error || fs::space(path, error).available == 0 || error ||
+         (has_limit && size >= limit.rlim_cur);
+}
 } // namespace
 
 struct VideoFile::Writer {
   cv::VideoWriter video;
+  std::size_t frames = 0;
 };
 
 VideoFile::VideoFile(const fs::path& path,
@@ -42,6 +74,7 @@ VideoFile::VideoFile(const fs::path& path,
 {
   if (!std::ofstream(path))
     throw IoFailed(name + ": cannot be written");
+  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0); // quiet: what is wrong is told below
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   for (const auto& codec : codecsFor(path.extension()))
     if (writer_->video.open(
@@ -62,16 +95,21 @@ VideoFile::add(const Image& image)
       image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  writer_->video.write(bgr);
+  writer_->video.write(bgr); // says nothing of a full disk
+  ++writer_->frames;
 }
 
 void
 VideoFile::close()
 {
   writer_->video.release();
-  std::error_code error;
-  if (fs::file_size(path_, error) == 0 || error)
-    throw IoFailed(name_ + ": cannot be written");
+  const std::size_t written = framesIn(path_);
+  if (written < writer_->frames)
+    throw IoFailed(name_ + ": cannot be written: it holds " + std::to_string(written) +
+                   " of " + std::to_string(writer_->frames) +
+                   " frames; the disk may be full");
+  if (isFull(path_))
+    throw IoFailed(name_ + ": cannot be written: the disk is full");
 }
 
 } // namespace pcl6d::app

@@ -28,7 +28,8 @@ public:
   void
   add(const Image& image);
 
-  /** \brief Ends the file. \throws IoFailed it is empty: the disk may be full */
+  /** \brief Ends the file. \throws IoFailed it does not hold all frames: the disk may be
+   * full */
   void
   close();
 

@@ -10,6 +10,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/plane_io.h>
 #include <pcl6d/io/scan_writer.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/semantic_map/object_observations.h>
 #include <pcl6d/semantic_map/semantic_map_builder.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
@@ -120,7 +121,7 @@ with labels, objects, rooms, how they lie to each other, and what each point is.
 fs::path
 fileOf(const std::string& option, const fs::path& of_run)
 {
-  return option.empty() && fs::exists(of_run) ? of_run : fs::path(option);
+  return option.empty() && text::isThere(of_run) ? of_run : fs::path(option);
 }
 
 /** Objects of the given file, those of the models that are found in the scans, as

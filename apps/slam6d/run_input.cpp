@@ -12,8 +12,10 @@ openEarlier(const Settings& settings)
 {
   if (settings.continued.empty())
     return {};
-  return RunFolder::finished(
+  RunFolder run = RunFolder::finished(
       settings.continued, "the run was interrupted; run it again, then go on with it");
+  run.requireWhole("scans/");
+  return run;
 }
 
 ScanFolder

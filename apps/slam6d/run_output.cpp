@@ -10,8 +10,7 @@
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/run_folder.h>
 #include <pcl6d/run/run_writer.h>
-#include <pcl6d/visualization/report.h>
-#include <pcl6d/visualization/top_view.h>
+#include <pcl6d/run/written_files.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,13 +32,6 @@ intensitiesOf(const pcl::PCLPointCloud2& cloud)
   if (!field)
     return {};
   return {field->values.begin(), field->values.end()};
-}
-
-Eigen::Isometry3d
-relativeTo(const Eigen::Vector3d& offset, Eigen::Isometry3d pose)
-{
-  pose.translation() -= offset;
-  return pose;
 }
 
 std::vector<RunResult::Option>
@@ -71,7 +63,7 @@ StageTimer::~StageTimer()
 }
 
 std::string
-timingOf(const RunResult& run)
+timingOf(const RunResult& run, double drawing)
 {
   std::ostringstream lines;
   lines << std::fixed << std::setprecision(2);
@@ -96,7 +88,9 @@ timingOf(const RunResult& run)
     }
     line("  loops, verdict", std::max(0.0, rest)) << '\n';
   }
-  line("together", all) << '\n';
+  if (drawing > 0)
+    line("pictures", drawing) << '\n';
+  line("together", all + drawing) << '\n';
   return lines.str();
 }
 
@@ -118,6 +112,18 @@ runFolderRules(const Settings& settings)
   rules.force = settings.force;
   rules.journal = ".pcl6d-journal";
   return rules;
+}
+
+bool
+holdsCompleteRun(const OutputFolder& out)
+{
+  if (!out.holdsEarlierRun())
+    return false;
+  try {
+    return readRunSummary(out.folder() / "summary.json").complete;
+  } catch (const IoFailed&) {
+    return true;
+  }
 }
 
 RunOutput::RunOutput(const Settings& settings,
@@ -142,25 +148,34 @@ RunOutput::write(bool complete, const RunLog& log, KeptClouds& clouds)
   writer.writePoses(folder_.stamps());
   const double voxel = result_.parameters.voxel.value;
   MapBuilder map(voxel, run_.world_offset);
-  std::vector<Plane> planes;
   if (complete) {
     if (!result_.stages.empty())
       writer.writeGraph(result_.graph);
     writer.writeVerification();
     MapBuilder fine_map(planeVoxel(voxel), run_.world_offset);
     run_.complete = writeScans(clouds, map, settings_.planes ? &fine_map : nullptr);
-    if (run_.complete && !settings_.no_picture)
-      drawTopView(map);
     if (run_.complete && settings_.planes)
-      planes = writePlanesOf(fine_map);
+      writePlanesOf(fine_map);
     run_.map_points = run_.complete ? map.points().size() : 0;
   }
   run_.trusted = run_.complete && result_.trusted();
   run_.verdict = verdictOf(run_);
+  run_.files = writtenFiles(out_.staging());
   writer.writeSummary();
-  if (settings_.report)
-    writeReportOf(map, std::move(planes));
+  requireAllFiles();
   return run_;
+}
+
+/** Somebody may have removed them meanwhile, as one who clears away hidden folders. */
+void
+RunOutput::requireAllFiles() const
+{
+  if (!run_.complete)
+    return;
+  const auto missing = RunFolder(out_.staging(), run_).missing();
+  if (!missing.empty())
+    throw IoFailed((out_.staging() / missing.front()).string() +
+                   ": was removed while the run was written");
 }
 
 void
@@ -255,7 +270,7 @@ RunOutput::writeScans(KeptClouds& clouds, MapBuilder& map, MapBuilder* fine_map)
   return true;
 }
 
-std::vector<Plane>
+void
 RunOutput::writePlanesOf(const MapBuilder& map)
 {
   const StageTimer timer("planes", run_.stages);
@@ -266,46 +281,7 @@ RunOutput::writePlanesOf(const MapBuilder& map)
   PlaneFinderOptions options;
   options.num_threads = settings_.slam.num_threads;
   const PlaneFinder finder(options);
-  const FoundPlanes found = finder.find(cloud);
-  const auto warnings = writePlaneFiles(out_, finder, cloud, found, run_.generator);
-  run_.warnings.insert(run_.warnings.end(), warnings.begin(), warnings.end());
-  return worldPlanes(found.best(), run_.world_offset);
-}
-
-/** Without a display the run goes on and says so. */
-void
-RunOutput::drawTopView(const MapBuilder& map)
-{
-  const StageTimer timer("picture", run_.stages);
-  TopViewScene scene;
-  scene.points = map.points();
-  scene.scans = map.scans();
-  for (const ScanResult& scan : run_.scans) {
-    scene.trajectory.poses.push_back(relativeTo(run_.world_offset, scan.T_world_scan));
-    scene.initial.poses.push_back(relativeTo(run_.world_offset, scan.initial_pose));
-  }
-  try {
-    TopView().write(out_ / "top_view.png", scene);
-  } catch (const IoFailed& e) {
-    run_.warnings.push_back("no picture: " + std::string(e.what()));
-  }
-}
-
-void
-RunOutput::writeReportOf(const MapBuilder& map, std::vector<Plane> planes) const
-{
-  ReportData data;
-  data.title = std::filesystem::absolute(settings_.out / std::filesystem::path("."))
-                   .lexically_normal()
-                   .parent_path()
-                   .filename()
-                   .string();
-  data.summary = run_;
-  if (run_.complete)
-    data.map = {map.points(), map.scans(), map.intensities()};
-  data.planes = std::move(planes);
-  addFolder(RunFolder(out_.staging(), run_), data);
-  writeReport(out_ / "report.html", data);
+  finder.write(out_.staging(), cloud, finder.find(cloud), run_.generator);
 }
 
 } // namespace pcl6d::app

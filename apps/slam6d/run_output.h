@@ -7,7 +7,6 @@
 #include "slam6d/kept_clouds.h"
 #include "slam6d/settings.h"
 
-#include <pcl6d/common/plane.h>
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/filters/map_builder.h>
 #include <pcl6d/io/scan_folder.h>
@@ -22,6 +21,11 @@ namespace pcl6d::app {
 /** \return what pcl_slam6d may do to its output folder */
 OutputRules
 runFolderRules(const Settings& settings);
+
+/** \return whether a run that was not interrupted is in the folder, or one of which that
+ * cannot be told */
+bool
+holdsCompleteRun(const OutputFolder& out);
 
 /** \brief What a run gathers on its way. */
 struct RunLog {
@@ -45,11 +49,12 @@ private:
 };
 
 /** \return where the time went, for people: a line for each part of the work, and for each
- * stage that changes poses */
+ * stage that changes poses \param[in] drawing [s] what came after the run */
 std::string
-timingOf(const RunResult& run);
+timingOf(const RunResult& run, double drawing);
 
-/** \brief All that pcl_slam6d writes: the run folder, planes, picture, report. */
+/** \brief All that pcl_slam6d computes, as files: the run folder and planes. Pictures and
+ * report are drawn when these are in their place (run_drawing.h). */
 class RunOutput {
 public:
   /** Keeps references to all of them. */
@@ -63,7 +68,8 @@ public:
   /** \brief Of an interrupted run, be it before (not complete) or now, only poses, history
    * and summary are written.
    * \param[in] clouds the scans as they were registered; given up as they are written
-   * \return the run, as its summary tells */
+   * \return the run, as its summary tells
+   * \throws IoFailed a file cannot be written, or is gone when all are */
   const RunResult&
   write(bool complete, const RunLog& log, KeptClouds& clouds);
 
@@ -74,12 +80,10 @@ private:
   warnOfOdometry();
   bool
   writeScans(KeptClouds& clouds, MapBuilder& map, MapBuilder* fine_map);
-  std::vector<Plane>
+  void
   writePlanesOf(const MapBuilder& map);
   void
-  drawTopView(const MapBuilder& map);
-  void
-  writeReportOf(const MapBuilder& map, std::vector<Plane> planes) const;
+  requireAllFiles() const;
 
   const Settings& settings_;
   const ScanFolder& folder_;

@@ -3,20 +3,17 @@
 #include "common/option_table.h"
 #include "slam6d/option_groups.h"
 #include "slam6d/plugin_words.h"
+#include "slam6d/run_options.h"
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/link_list_io.h>
 #include <pcl6d/io/text.h>
-#include <pcl6d/run/run_summary.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 namespace pcl6d::app {
-
-namespace fs = std::filesystem;
 
 namespace {
 constexpr const char* kUsageText =
@@ -25,23 +22,6 @@ Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one
 and writes poses, map, picture and summary. Distances are in metres.
 Processes on one machine or many share the work: mpirun -n 4 pcl_slam6d SCAN_DIR -o OUT_DIR
 )";
-
-/** \return the options that were given to a run, but for those that say what it reads,
- * as lines of a config file */
-std::string
-optionsOfRun(const std::string& run)
-{
-  const std::set<std::string> of_input = {
-      "first", "last", "every", "poses", "format", "graph-in", "continue", "threads"};
-  std::string lines;
-  for (const auto& option : readRunSummary(fs::path(run) / "summary.json").options)
-    if (option.source == "given" && option.name == "plugin")
-      for (const std::string& file : pluginFiles(option.value))
-        lines += "plugin = " + file + '\n';
-    else if (option.source == "given" && of_input.count(option.name) == 0)
-      lines += option.name + " = " + option.value + '\n';
-  return lines;
-}
 
 /** The options that go into the summary; lengths go there as parameters. */
 constexpr const char* kWords[] = {"plugin",
@@ -153,14 +133,16 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
   OptionTable table(kUsageText);
   table.positional("SCAN_DIR", &settings.input);
   addOptions(table, settings);
-  table.bringOptions("continue", optionsOfRun);
+  table.bringOptions("continue", [&table](const std::string& run) {
+    return optionsOfRun(run, table.given("plugin"));
+  });
   if (!table.parse(arguments))
     return false;
   if (settings.out.empty())
     settings.out = settings.continued;
   if (settings.out.empty())
     throw UsageError("-o OUT_DIR is missing");
-  checkOptions(
+  table.check(
       [&] {
         settings.folder.validate();
         settings.slam.validate();

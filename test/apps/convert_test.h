@@ -32,6 +32,16 @@ converted(const std::vector<std::string>& arguments)
   return outcome.out;
 }
 
+/** The same of scans of which one has no points, which is said. */
+inline std::string
+convertedWithEmptyScan(const std::vector<std::string>& arguments)
+{
+  const Outcome outcome = convert(arguments);
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_NE(outcome.err.find(" has no points\n"), std::string::npos) << outcome.err;
+  return outcome.out;
+}
+
 inline void
 expectConvertError(const std::vector<std::string>& arguments,
                    int code,

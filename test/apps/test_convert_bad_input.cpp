@@ -96,6 +96,28 @@ TEST_F(BadInput, InputsAreNoOutputs)
   expectRefused({in, "-o", name("in/a.pcd"), "--full"}, 2, {"is an input"});
 }
 
+TEST_F(BadInput, ScansWithoutPointsAreTold)
+{
+  fs::create_directory(folder / "in2");
+  made("none.bin", "");
+  made("in2/a.xyz", "");
+  made("in2/b.xyz", "1 2 3\n");
+  made("in2/c.xyz", "# nothing\n");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{name("none.bin"), "-o", name("none.pcd")}, "none.bin has no points"},
+      {{name("in2"), "-o", out, "--format", "pcd"},
+       "a.xyz and 1 other scan have no points"},
+      {{name("in2"), "-o", name("all.pcd"), "--full"},
+       "a.xyz and 1 other scan have no points"}};
+  for (auto [arguments, words] : cases) {
+    arguments.insert(arguments.begin(), "scans");
+    const auto outcome = convert(arguments);
+    EXPECT_EQ(outcome.exit_code, 3) << words;
+    EXPECT_NE(outcome.err.find("warning: "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(BadInput, TargetsThatCannotBeWritten)
 {
   expectRefused({a, "-o", name("none/a.ply")}, 1, {"none/a.ply", "No such file"});

@@ -153,6 +153,28 @@ TEST_F(ConvertDepth, NamesWhatIsWrong)
   expectRefused(1, known, {"in: holds no picture"});
 }
 
+TEST_F(ConvertDepth, KeepsTheWordsOfOpenCvToItself)
+{
+  write("a.pgm", CV_16UC1, 2500);
+  fs::resize_file(in / "a.pgm", fs::file_size(in / "a.pgm") / 2);
+  const auto outcome = pcl6d::test::convert(words({"--intrinsics", kIntrinsics}));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.err.rfind("pcl_slam6d_convert: error: ", 0), 0u) << outcome.err;
+  EXPECT_NE(outcome.err.find("a.pgm: is no image"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("OpenCV("), std::string::npos) << outcome.err;
+}
+
+TEST_F(ConvertDepth, DoesNotPassOverPicturesThatAreNoFiles)
+{
+  write("a.png", CV_16UC1, 2500);
+  const Words known = {"--intrinsics", kIntrinsics};
+  for (const char* const target : {"nowhere", "b.png", "/dev/zero"}) {
+    fs::create_symlink(target, in / "b.png");
+    expectRefused(1, known, {"b.png: is no file"});
+    fs::remove(in / "b.png");
+  }
+}
+
 namespace {
 constexpr double kFocalTol = 2; // [px], as of the library's test on pictures
 

@@ -11,6 +11,7 @@ using pcl6d::ScanFolder;
 using pcl6d::ScanFolderOptions;
 using pcl6d::test::cloudOf;
 using pcl6d::test::converted;
+using pcl6d::test::convertedWithEmptyScan;
 using pcl6d::test::floatOf;
 using pcl6d::test::randomScan;
 using pcl6d::test::readText;
@@ -80,19 +81,19 @@ TEST(ConvertScans, EveryPairOfFormatsKeepsScansNamesAndPoses)
   const ScanFolder original(scans.in);
   for (const auto& first : kFormats) {
     const fs::path there = scans / ("über " + first);
-    converted({"scans", scans.in, "-o", there, "--format", first});
+    convertedWithEmptyScan({"scans", scans.in, "-o", there, "--format", first});
     for (const auto& second : kFormats) {
       SCOPED_TRACE(first + " to " + second);
       const fs::path back = scans / (first + " " + second);
-      converted({"scans",
-                 there,
-                 "-o",
-                 back,
-                 "--format",
-                 second,
-                 "--input-format",
-                 first,
-                 "--quiet"});
+      convertedWithEmptyScan({"scans",
+                              there,
+                              "-o",
+                              back,
+                              "--format",
+                              second,
+                              "--input-format",
+                              first,
+                              "--quiet"});
       const auto holds = [](const std::string& format) {
         return format != "uos" && format != "xyz";
       };
@@ -105,7 +106,8 @@ TEST(ConvertScans, EveryPairOfFormatsKeepsScansNamesAndPoses)
 TEST(ConvertScans, TellsWhatIsDropped)
 {
   const Scans scans;
-  EXPECT_EQ(converted({"scans", scans.in, "-o", scans.name("out"), "--format", "xyz"}),
+  EXPECT_EQ(convertedWithEmptyScan(
+                {"scans", scans.in, "-o", scans.name("out"), "--format", "xyz"}),
             "4 scans, 2746 points: pcd to xyz\n"
             "poses from PCD VIEWPOINT, now in poses.txt\n"
             "dropped 305 points whose x, y or z is not finite\n"
@@ -121,6 +123,17 @@ TEST(ConvertScans, TellsWhatIsDropped)
       "1 point to uosr\nwrote 0 for the missing field 'intensity'\n");
   EXPECT_EQ(converted({"scans", scans.name("b.3d"), "-o", scans.name("b.ply")}),
             "1 point to ply\ndid not read columns behind the first 3 (line 1)\n");
+}
+
+TEST(ConvertScans, ShowsFieldsWithoutTheirControlCharacters)
+{
+  const Scans scans;
+  writeText(
+      scans / "a.pcd",
+      "FIELDS x y z a\x1b[31m\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 1\n"
+      "HEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3 4\n");
+  EXPECT_EQ(converted({"scans", scans.name("a.pcd"), "-o", scans.name("a.xyz")}),
+            "1 point to xyz\ndropped field 'a\\x1b[31m'\n");
 }
 
 TEST(ConvertScans, ASinglePoseGoesAlong)

@@ -176,6 +176,11 @@ TEST(EvaluateMap, NamesWhatIsWrongWithTheScans)
                            "POINTS 4\nDATA ascii\n";
   writeText(copy / "run/scans/scan002.pcd",
             head + "nan nan nan\nnan nan nan\nnan nan nan\n1 2 3\n");
+  expectError(copy.measured(), 1, {"scan002.pcd", "but its run wrote"});
+  const fs::path summary = copy / "run/summary.json"; // one that does not tell
+  auto json = nlohmann::ordered_json::parse(readText(summary));
+  json.erase("files");
+  writeText(summary, json.dump());
   expectError(copy.measured(), 1, {"scan002.pcd", "1 points"});
   writeText(copy / "run/scans/scan002.pcd",
             "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"

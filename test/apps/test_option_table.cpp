@@ -2,7 +2,10 @@
 // The table that binds the options of a program to its variables.
 #include "common/app.h"
 #include "common/option_table.h"
+#include "common/printable.h"
 #include "support/temp_folder.h"
+
+#include <pcl6d/common/error.h>
 
 #include <gtest/gtest.h>
 
@@ -158,5 +161,133 @@ TEST(OptionTable, HelpShowsOperandsAndDefaults)
                            "\n  -m, --model MODEL ",
                            "\n\nGeneral options:\n  --config FILE "})
     EXPECT_NE(help.find(line), std::string::npos) << line << "\nin\n" << help;
+}
+
+TEST(OptionTable, ErrorsOfAConfigFileNameFileAndLine)
+{
+  const pcl6d::test::TempFolder folder;
+  const std::string file = (folder / "a.cfg").string();
+  const auto errorOf = [&](const std::string& content) {
+    std::ofstream(file, std::ios::binary) << content;
+    const std::string message = parsed({"a", "--config", file}).title;
+    EXPECT_EQ(message.rfind(file + ": ", 0), 0u) << message;
+    return message.substr(std::min(message.size(), file.size() + 2));
+  };
+  EXPECT_EQ(errorOf("# how many\n\ncount = 10\n"),
+            "line 3: --count = 10, but must be 1 to 9");
+  EXPECT_EQ(errorOf("colour = x"), "line 1: --colour = x, but must be red or blue");
+  EXPECT_EQ(errorOf("\r\ncuont = 3\r\n"), "line 2: unrecognised option 'cuont'");
+  EXPECT_EQ(errorOf("count = 2\ntitle = b\ncount = 3\n"),
+            "line 3: option 'count' is given in line 1 already");
+  EXPECT_NE(errorOf("count = 2\nnonsense\n").find("line 2: "), std::string::npos);
+  EXPECT_NE(errorOf("count = many\n").find("line 1: the argument ('many') for option"),
+            std::string::npos);
+  EXPECT_EQ(errorOf("[more]\ntitle = c\n").find("line "), 0u)
+      << "there are no sections";
+  EXPECT_EQ(parsed({"a", "--config", file + ".none"}).title,
+            file + ".none: No such file or directory (config file)");
+  EXPECT_EQ(parsed({"a", "--config", folder.path().string()}).title,
+            folder.path().string() + ": Is a directory (config file)");
+}
+
+TEST(OptionTable, TheCommandLineHidesWhatIsWrongInTheConfigFile)
+{
+  const pcl6d::test::TempFolder folder;
+  std::ofstream(folder / "a.cfg") << "count = 10\nmodel = chair\nmodel = table\n";
+  const Settings s =
+      parsed({"a", "--config", (folder / "a.cfg").string(), "--count", "6"});
+  EXPECT_EQ(s.count, 6);
+  EXPECT_EQ(s.models, (std::vector<std::string>{"chair", "table"}));
+}
+
+/** \return the settings after a run brought options, or the message as the title */
+Settings
+brought(const std::vector<std::pair<std::string, std::string>>& options,
+        const Arguments& more = {})
+{
+  Settings s;
+  std::string run;
+  OptionTable table = tableOf(s);
+  table.add("continue", &run);
+  table.bringOptions("continue", [&](const std::string& value) {
+    return BroughtOptions{value + "/summary.json", options};
+  });
+  Arguments arguments = {"a", "--continue", "run"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  try {
+    table.parse(arguments);
+  } catch (const pcl6d::IoFailed& e) {
+    s.title = e.what();
+  }
+  return s;
+}
+
+TEST(OptionTable, ABroughtValueIsOneWhateverItHolds)
+{
+  const Settings s =
+      brought({{"title", "a\ncount = 9\n[x]\n# y"}, {"no-labels", "yes"}});
+  EXPECT_EQ(s.title, "a\ncount = 9\n[x]\n# y");
+  EXPECT_EQ(s.count, 3);
+  EXPECT_FALSE(s.labels);
+  EXPECT_EQ(brought({{"count", "4"}}, {"--count", "5"}).count, 5);
+}
+
+TEST(OptionTable, BroughtValuesObeyTheRules)
+{
+  EXPECT_EQ(brought({{"count", "10"}}).title,
+            "run/summary.json: option 'count': --count = 10, but must be 1 to 9");
+  EXPECT_NE(brought({{"count", "4\ntitle = x"}})
+                .title.find("run/summary.json: option 'count': the argument"),
+            std::string::npos);
+  EXPECT_EQ(brought({{"config", "x"}}).title,
+            "run/summary.json: option 'config': there is no such option");
+}
+
+TEST(OptionTable, NumbersAreReadWhateverTheLocale)
+{
+  for (const char* text : {"2,5", "0x10", "1e999", "", "2 5", "2.5x"}) {
+    std::istringstream stream(text);
+    AutoNumber number;
+    std::string rest;
+    EXPECT_FALSE(stream >> number && !(stream >> rest)) << text;
+  }
+}
+
+TEST(CheckOption, RenamesFieldsWhateverTheLengthOfTheirValues)
+{
+  const std::string value(10'000'000, '7'); // a million took all of the stack once
+  try {
+    checkOption("robust", [&] {
+      throw pcl6d::BadArgument("kernel = " + value + ", but must be huber");
+    });
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, 15), "--robust = 7777");
+    EXPECT_NE(std::string(error.what()).find(", but must be huber"), std::string::npos);
+  }
+  try {
+    checkOption("robust", [] { throw pcl6d::BadArgument("2 = 3, but is not"); });
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(std::string(error.what()), "2 = 3, but is not");
+  }
+}
+
+TEST(Printable, ShowsControlCharactersAndWhatIsNoText)
+{
+  EXPECT_EQ(printable("s\xc3\xa4ule \xe2\x82\xac"), "s\xc3\xa4ule \xe2\x82\xac");
+  EXPECT_EQ(printable("a\nb\x1b[2J\x7f"), "a\\nb\\x1b[2J\\x7f");
+  EXPECT_EQ(printable("s\xe4ule"), "s\\xe4ule") << "Latin-1";
+  EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b") << "an escape of 8 bits";
+  EXPECT_EQ(printable("cut \xe2\x82"), "cut \\xe2\\x82");
+  EXPECT_EQ(printableLines("a\nb\r\n"), "a\nb\\x0d\n");
+  const std::string line = printable("begin" + std::string(100000, 'x') + "end");
+  EXPECT_LT(line.size(), 1020u);
+  EXPECT_EQ(line.substr(0, 6), "beginx");
+  EXPECT_EQ(line.substr(line.size() - 4), "xend");
+  std::string euros;
+  for (int i = 0; i < 1000; ++i)
+    euros += "\xe2\x82\xac";
+  EXPECT_EQ(printable(printable(euros)), printable(euros)) << "no half characters";
 }
 } // namespace

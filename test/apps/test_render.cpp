@@ -89,6 +89,24 @@ TEST(RenderPicture, TakesEveryColourSizeAndBackground)
   EXPECT_EQ(pcl6d::test::readText(file)[25], 6) << "PNG with alpha";
 }
 
+TEST(RenderPicture, TakesTitlesOfAnyBytesAndAnglesThatAreNumbers)
+{
+  const std::string file = room().out("title.png");
+  const std::vector<std::string> call = {
+      "-o", file, "--view", "perspective", "--size", "300x300"};
+  const auto with = [&](const std::string& option, const std::string& value) {
+    auto words = call;
+    words.insert(words.end(), {option, value});
+    return picture(room().run(), words);
+  };
+  // As in the name of a folder in Latin-1; VTK draws nothing of it but complains.
+  const Outcome outcome = with("--title", "B\xfcro \xff\xfe");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  for (const char* const angle : {"nan", "inf"})
+    expectError(with("--azimuth", angle), 2, {"--azimuth", "finite"});
+}
+
 TEST(RenderPicture, WritesIntoTheRunUnlessToldOtherwise)
 {
   EXPECT_EQ(picture(room().run(), {"--view", "graph,covariance", "--size", "300x300"})

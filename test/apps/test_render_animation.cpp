@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 using namespace pcl6d;
 using pcl6d::test::expectError;
 using pcl6d::test::Outcome;
+using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
 
 constexpr std::size_t kPlates = 3;
@@ -247,6 +248,36 @@ TEST_F(RenderAnimation, WritesVideosThatShowTheFrames)
   }
   for (const auto& entry : fs::directory_iterator(folder_.path()))
     EXPECT_NE(entry.path().filename().string()[0], '.') << "a file was left behind";
+}
+
+TEST_F(RenderAnimation, TellsOfAFilmThatIsCut)
+{
+  // A limit on the size of files stands for a full disk; films are large enough that the X
+  // server can start below it.
+  for (const char* const kind : {".avi", ".mp4"}) {
+    const fs::path whole = folder_ / (std::string("whole") + kind);
+    const fs::path cut = folder_ / (std::string("cut") + kind);
+    const Outcome usual = animate(run_, "turntable", whole, {"--frames", "20"});
+    if (usual.err.find("no codec") != std::string::npos)
+      continue;
+    ASSERT_EQ(usual.exit_code, 0) << usual.err;
+    const std::uintmax_t blocks = fs::file_size(whole) / 512;
+    for (const std::uintmax_t limit : {blocks / 2, blocks - 1}) {
+      const std::string error = folder_ / "error";
+      const int code = boost::process::system(
+          "/bin/sh",
+          "-c",
+          "ulimit -f " + std::to_string(limit) +
+              " && exec " PCL6D_BIN_DIR "/pcl_slam6d_render animation '" +
+              run_.string() +
+              "' --kind turntable --frames 20 --size 640x360 --quiet -o '" +
+              cut.string() + "' 2> '" + error + "'");
+      EXPECT_EQ(code, 1) << kind;
+      EXPECT_NE(readText(error).find("cannot be written"), std::string::npos)
+          << kind << ": " << readText(error);
+      EXPECT_FALSE(fs::exists(cut)) << kind;
+    }
+  }
 }
 
 TEST_F(RenderAnimation, SaysWhatTheRunLacks)

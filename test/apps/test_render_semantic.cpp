@@ -96,6 +96,28 @@ TEST(RenderObjects, TakesMeshesByClassAndStoresAlike)
             boxes);
 }
 
+TEST(RenderObjects, TakesWhatPclSlam6dObjectsWrites)
+{
+  const Copy copy;
+  const fs::path file = copy.run() / "objects.json";
+  const std::string by_extent = copy.drawn("objects");
+  pcl6d::MapObject chair;
+  chair.pose = pcl6d::readObjects(file).front();
+  pcl6d::writeMapObjects(file, {chair});
+  EXPECT_EQ(copy.drawn("objects"), by_extent);
+  for (const auto& [box, words] :
+       {std::pair("\"box_min\": [0, 0, 1], \"box_max\": [1, 1, 0]", "box_max"),
+        std::pair("\"extent\": [1, -1, 1]", "extent"),
+        std::pair("\"centre\": [0, 0, 0]", "has no box")}) {
+    writeText(file,
+              std::string(R"({"objects": [{"class": "chair", "T_world_object":
+              [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], )") +
+                  box + "}]}");
+    pcl6d::test::expectError(
+        copy.draw("objects", {}), kName, 1, {"objects.json", "/objects/0", words});
+  }
+}
+
 TEST(RenderObjects, RefusesModelsThatAreNone)
 {
   const Copy copy;

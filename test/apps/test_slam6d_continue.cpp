@@ -168,5 +168,5 @@ TEST_F(Continue, RefusesWhatIsNoFinishedRun)
   std::ofstream(file) << summary;
   names(errorOf(goOn(scans(), "broken")), "not of pcl_slam6d");
   std::ofstream(file) << "{";
-  names(errorOf(goOn(scans(), "broken")), "is no summary of a run");
+  names(errorOf(goOn(scans(), "broken")), "line 1: not the syntax of JSON");
 }

@@ -26,18 +26,77 @@ using pcl6d::test::writeText;
 TEST(PclSlam6d, WithoutXvfbTheRunIsWholeAndSaysThatThePictureIsMissing)
 {
   const TempFolder folder;
-  const std::string err = folder / "err";
-  const int code = bp::system(
-      PCL6D_BIN_DIR "/pcl_slam6d",
-      bp::args = {scans().string(), "-o", folder / "out", "--last", "1", "--quiet"},
-      bp::env["PATH"] = folder.path().string(),
-      bp::std_err > err);
-  EXPECT_EQ(code, 0);
-  EXPECT_NE(readText(err).find("xvfb"), std::string::npos) << readText(err);
+  const std::string err = folder / "err", out = folder / "out";
+  const int code =
+      bp::system(PCL6D_BIN_DIR "/pcl_slam6d",
+                 bp::args = {scans().string(), "-o", out, "--last", "1", "--quiet"},
+                 bp::env["PATH"] = folder.path().string(),
+                 bp::std_err > err);
+  EXPECT_EQ(code, 3);
+  for (const auto& word :
+       {std::string("not drawn: top_view.png"), std::string("xvfb"), "--draw " + out})
+    EXPECT_NE(readText(err).find(word), std::string::npos) << readText(err);
   const auto json = nlohmann::json::parse(readText(folder / "out" / "summary.json"));
-  ASSERT_EQ(json["warnings"].size(), 1u);
+  EXPECT_EQ(json["warnings"].size(), 0u);
+  EXPECT_TRUE(json["verdict"]["complete"]);
   EXPECT_FALSE(fs::exists(folder / "out" / "top_view.png"));
   EXPECT_TRUE(fs::exists(folder / "out" / "map.pcd"));
+  const Outcome again = pcl6d::test::runProgram("pcl_slam6d", {"--draw", out});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(fs::exists(folder / "out" / "top_view.png"));
+}
+
+TEST(PclSlam6d, AServerOfPicturesThatDiesCostsThePicturesAlone)
+{
+  const std::string real = bp::search_path("Xvfb").string();
+  if (real.empty())
+    GTEST_SKIP() << "no Xvfb";
+  for (const char* const delay : {"0.02", "0.2", "0.4", "0.6"}) {
+    SCOPED_TRACE(delay);
+    const TempFolder folder;
+    const fs::path out = folder / "out", server = folder / "Xvfb";
+    writeText(server,
+              "#!/bin/sh\n" + real + " \"$@\" &\nsleep " + delay + "\nkill -KILL $!\n");
+    fs::permissions(server, fs::perms::owner_all);
+    const int code = bp::system(
+        PCL6D_BIN_DIR "/pcl_slam6d",
+        bp::args = {scans().string(), "-o", out.string(), "--last", "1", "--quiet"},
+        bp::env["PATH"] = folder.path().string() + ":/usr/bin:/bin",
+        bp::std_err > (folder / "err").string());
+    const bool is_drawn = fs::exists(out / "top_view.png"); // it was quicker
+    const std::string said = readText(folder / "err");
+    EXPECT_EQ(code, is_drawn ? 0 : 3) << said;
+    EXPECT_EQ(said.find("not drawn: top_view.png") == std::string::npos, is_drawn);
+    EXPECT_TRUE(fs::exists(out / "map.pcd"));
+    EXPECT_EQ(pcl6d::readTrajectory(out / "trajectory.kitti").poses.size(), 2u);
+  }
+}
+
+TEST(PclSlam6d, InterruptedItGoesBesideACompleteRun)
+{
+  const TempFolder folder;
+  const fs::path out = folder / "out";
+  const Outcome first = slam(scans(), out, {"--last", "2", "--no-picture"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const auto before = contentOf(out);
+  const std::string err = folder / "err";
+  bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
+                    bp::args = {scans().string(), "-o", out.string(), "--last", "17"},
+                    bp::std_out > bp::null,
+                    bp::std_err > err);
+  while (program.running() && readText(err).find("matching") == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ::kill(program.id(), SIGINT);
+  program.wait();
+  EXPECT_EQ(program.exit_code(), 130) << readText(err);
+  auto after = contentOf(out);
+  after.erase(".pcl6d-journal");
+  EXPECT_EQ(after, before);
+  EXPECT_NE(readText(err).find("holds a complete run, which stays"), std::string::npos)
+      << readText(err);
+  const auto json =
+      nlohmann::json::parse(readText(folder / "out.partial" / "summary.json"));
+  EXPECT_FALSE(json["verdict"]["complete"]);
 }
 
 TEST(PclSlam6d, WarnsWhenThereAreNoInitialPoses)

@@ -185,7 +185,9 @@ TEST_F(Resume, TwoRunsIntoOneFolderAreOneTooMany)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   const Outcome outcome = again();
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.err.find("another run (process"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("another run is writing into this folder"),
+            std::string::npos)
+      << outcome.err;
   program.terminate();
   program.wait();
 }

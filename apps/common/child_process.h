@@ -24,8 +24,9 @@ struct ProcessEnd {
 struct ProcessStart {
   std::filesystem::path program;
   std::vector<std::string> arguments;
-  std::filesystem::path log; ///< gets stdout and stderr, in their order
-  double time_limit = 0;     ///< [s] 0: none
+  std::filesystem::path log;    ///< gets stdout and stderr, in their order
+  double time_limit = 0;        ///< [s] 0: none
+  std::size_t memory_limit = 0; ///< [bytes] of its data; 0: none
 };
 
 /** \brief A program in a process group of its own, which ends with this process, however

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluate/child_process.h"
+#include "common/child_process.h"
 
 #include <pcl6d/common/error.h>
 
@@ -38,7 +38,10 @@ struct CloseFile {
 /** In the child before exec: a process group of its own, an end with this process, and
  * the usual answers to signals. */
 struct OwnGroup : bp::extend::handler {
+  explicit OwnGroup(std::size_t memory) : memory_limit(memory) {}
+
   pid_t parent = ::getpid();
+  std::size_t memory_limit;
 
   template <typename Executor>
   void
@@ -50,6 +53,10 @@ struct OwnGroup : bp::extend::handler {
       ::_exit(127);
     for (const int number : {SIGPIPE, SIGINT, SIGTERM, SIGHUP})
       ::signal(number, SIG_DFL);
+    if (memory_limit > 0) {
+      const rlimit limit{memory_limit, memory_limit};
+      ::setrlimit(RLIMIT_DATA, &limit);
+    }
   }
 };
 } // namespace
@@ -65,7 +72,7 @@ ChildProcess::ChildProcess(const ProcessStart& start) : time_limit_(start.time_l
     bp::child child(start.program.string(),
                     bp::args(start.arguments),
                     bp::std_in<bp::null, (bp::std_out & bp::std_err)> log.get(),
-                    OwnGroup());
+                    OwnGroup(start.memory_limit));
     pid_ = child.id();
     child.detach(); // poll() waits for it, and asks what it has used
   } catch (const bp::process_error& error) {

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/child_process.h"
+#include "slam6d/run_drawing.h"
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/io/text.h>
+#include <pcl6d/run/run_folder.h>
+#include <pcl6d/visualization/report.h>
+#include <pcl6d/visualization/run_scenes.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <sys/mman.h>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+namespace pcl6d::app {
+
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "pcl_slam6d";
+/** [s] Far more than a picture takes: 2 s of 2 million points on an old core. A run that
+ * took longer may have larger pictures. */
+constexpr double kLeastTime = 120;
+/** [bytes] What VTK, Mesa and the largest picture take is a quarter of it. */
+constexpr std::size_t kLeastMemory = std::size_t{2} << 30;
+
+/** \return whether an option of a run was given, of those that are "yes" or "no" */
+bool
+isOn(const RunResult& run, const std::string& name)
+{
+  return std::any_of(run.options.begin(), run.options.end(), [&](const auto& option) {
+    return option.name == name && option.value == "yes";
+  });
+}
+
+/** \return the names of what is to be drawn */
+std::vector<std::string>
+wantedOf(const RunResult& run)
+{
+  std::vector<std::string> names;
+  const bool has_map = run.complete && run.map_points > 0;
+  if (has_map && !isOn(run, "no-picture"))
+    names.push_back("top_view.png");
+  if (has_map && isOn(run, "planes"))
+    names.push_back("planes.png");
+  if (isOn(run, "report"))
+    names.push_back("report.html");
+  return names;
+}
+
+void
+draw(const RunFolder& run, const std::string& name)
+{
+  const fs::path file = run.path() / name;
+  if (name == "top_view.png")
+    TopView().write(file, topSceneOf(run));
+  else if (name == "planes.png")
+    PlaneView().write(file, planeSceneOf(run));
+  else
+    writeReport(file, gatherReport(run));
+}
+
+/** \brief A file without a name, for what another process says. */
+class Listener {
+public:
+  Listener() : file_(::memfd_create("pcl6d", MFD_CLOEXEC)) {}
+  ~Listener()
+  {
+    if (file_ >= 0)
+      ::close(file_);
+  }
+  Listener(const Listener&) = delete;
+  Listener&
+  operator=(const Listener&) = delete;
+
+  fs::path
+  path() const
+  {
+    return file_ < 0 ? fs::path("/dev/null")
+                     : fs::path("/proc/self/fd/" + std::to_string(file_));
+  }
+
+  /** \return the last line that was said; empty: none */
+  std::string
+  lastLine() const
+  {
+    if (file_ < 0)
+      return {};
+    std::string text(4096, '\0');
+    const off_t size = ::lseek(file_, 0, SEEK_END);
+    const off_t begin = std::max<off_t>(0, size - static_cast<off_t>(text.size()));
+    const ssize_t count = ::pread(file_, text.data(), text.size(), begin);
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    text.erase(text.find_last_not_of('\n') + 1);
+    return text.substr(text.rfind('\n') + 1);
+  }
+
+private:
+  int file_;
+};
+
+/** \return how it ended; nothing if it was interrupted */
+std::optional<ProcessEnd>
+waitFor(ChildProcess& child, const Interrupt& interrupt)
+{
+  constexpr std::chrono::milliseconds kLook(5);
+  while (true) {
+    if (const auto end = child.poll())
+      return end;
+    if (interrupt.requested())
+      return {};
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+/** \return why something is missing, in words */
+std::string
+reasonOf(const std::optional<ProcessEnd>& end, const std::string& said)
+{
+  if (!end)
+    return "interrupted";
+  if (end->timed_out)
+    return "it took longer than " + std::to_string(std::lround(end->seconds)) + " s";
+  if (end->signal != 0)
+    return std::string("it was ended by a signal: ") + ::strsignal(end->signal);
+  return said.empty() ? "exit code " + std::to_string(end->exit_code) : said;
+}
+} // namespace
+
+int
+drawRun(const fs::path& folder)
+{
+  const RunFolder run(folder);
+  bool is_missing = false;
+  for (const std::string& name : wantedOf(run.summary())) {
+    try {
+      draw(run, name);
+    } catch (const std::exception& e) {
+      std::cerr << name << ": " << e.what() << std::endl;
+      is_missing = true;
+    }
+  }
+  return is_missing ? kDoubtful : kDone;
+}
+
+Drawing
+drawApart(const fs::path& folder,
+          const RunResult& run,
+          std::size_t memory,
+          const Interrupt& interrupt)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  Drawing drawing;
+  const auto wanted = wantedOf(run);
+  if (wanted.empty())
+    return drawing;
+  double seconds = 0;
+  for (const auto& stage : run.stages)
+    seconds += stage.seconds;
+  std::string reason;
+  try {
+    const Listener listener;
+    ProcessStart start;
+    start.program = "/proc/self/exe";
+    start.arguments = {kDrawWord, folder.string()};
+    start.log = listener.path();
+    start.time_limit = std::max(kLeastTime, seconds);
+    start.memory_limit = std::max(kLeastMemory, memory);
+    ChildProcess child(start);
+    const auto end = waitFor(child, interrupt);
+    reason = reasonOf(end, listener.lastLine());
+  } catch (const IoFailed& e) {
+    reason = e.what();
+  }
+  std::string missing;
+  for (const auto& name : wanted) {
+    std::error_code error;
+    if (fs::exists(folder / name, error))
+      drawing.drawn.push_back(folder / name);
+    else
+      missing += (missing.empty() ? "" : ", ") + name;
+  }
+  drawing.is_missing = !missing.empty();
+  if (drawing.is_missing)
+    drawing.warnings.push_back("not drawn: " + missing + " (" + reason +
+                               "); all else is written. To try again: " + kProgram +
+                               ' ' + kDrawWord + ' ' + folder.string());
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  drawing.seconds = spent.count();
+  return drawing;
+}
+
+} // namespace pcl6d::app

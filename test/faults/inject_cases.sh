@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# shellcheck shell=bash disable=SC2034,SC2154
+# For inject.sh: a small run of each program, in a folder of its own. `old_NAME` leaves the
+# result of an earlier run; `new_NAME` sets the `command` that is tried, which replaces it.
+# All files but those of `fixtures` are written as out*.
+
+cases=(slam6d simulate convert evaluate graph planes objects semantic_map render doctor)
+[ -x "$bin/pcl_slam6d_doctor" ] || cases=("${cases[@]/doctor/}")
+
+make_fixtures() { # FOLDER: what the programs read
+  "$bin/pcl_slam6d_simulate" rooms -o "$1/scans" --scans 3 --resolution 6 --quiet
+  "$bin/pcl_slam6d_simulate" rooms -o "$1/others" --scans 2 --resolution 8 --seed 2 --quiet
+  "$bin/pcl_slam6d" "$1/scans" -o "$1/run" --threads 1 --quiet 2>"$1/run.log" ||
+    [ $? = 3 ] || { cat "$1/run.log" >&2; return 1; }
+}
+
+old_slam6d() { "$bin/pcl_slam6d" "$fixtures/others" -o out --quiet 2>/dev/null || [ $? = 3 ]; }
+new_slam6d() { command=("$bin/pcl_slam6d" "$fixtures/scans" -o out --threads 1 --quiet); }
+
+old_simulate() { mkdir out; } # it does not write over scans
+new_simulate() {
+  command=("$bin/pcl_slam6d_simulate" rooms -o out --scans 2 --resolution 10 --threads 1 --quiet)
+}
+
+old_convert() { "$bin/pcl_slam6d_convert" scans "$fixtures/scans/scan001.pcd" -o out.ply --quiet 2>/dev/null; }
+new_convert() {
+  command=("$bin/pcl_slam6d_convert" scans "$fixtures/scans/scan000.pcd" -o out.ply --quiet)
+}
+
+old_evaluate() { echo old >out.json; }
+new_evaluate() {
+  command=("$bin/pcl_slam6d_evaluate" trajectory "$fixtures/run/trajectory.kitti"
+    "$fixtures/scans/groundtruth.txt" --json out.json)
+}
+
+old_graph() { "$bin/pcl_slam6d_graph" convert "$fixtures/run/graph.g2o" -o out.g2o >/dev/null; }
+new_graph() {
+  command=("$bin/pcl_slam6d_graph" optimize "$fixtures/run/graph.g2o" -o out.g2o --threads 1)
+}
+
+old_planes() { "$bin/pcl_slam6d_planes" "$fixtures/others" -o out --quiet >/dev/null; }
+new_planes() {
+  command=("$bin/pcl_slam6d_planes" "$fixtures/scans" -o out --threads 1 --quiet)
+}
+
+old_objects() { :; }
+new_objects() {
+  command=("$bin/pcl_slam6d_objects" locate "$fixtures/others" -o out --quiet
+    --model "$root/share/models/table" --proposals planes)
+}
+
+old_semantic_map() { :; }
+new_semantic_map() {
+  command=("$bin/pcl_slam6d_semantic_map" build "$fixtures/run" -o out.json --quiet)
+}
+
+old_render() { echo old >out.png; }
+new_render() {
+  command=("$bin/pcl_slam6d_render" picture "$fixtures/run" -o out.png --size 320x240)
+}
+
+old_doctor() { echo old >out.json; }
+new_doctor() {
+  command=("$bin/pcl_slam6d_doctor" "$fixtures/scans/scan000.pcd" "$fixtures/scans/scan001.pcd"
+    --json out.json --quiet --time-limit 5)
+}

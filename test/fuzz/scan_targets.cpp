@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fuzz/fuzz_target.h"
+#include "fuzz/targets.h"
+
+#include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/scan_reader.h>
+
+#include <cmath>
+
+namespace pcl6d::fuzz {
+
+namespace {
+/** Reads a scan in a format and looks whether what is promised of it holds. */
+int
+readScanOf(ScanFormat format, const std::uint8_t* data, std::size_t size)
+{
+  return readAsFile(extensionOf(format).c_str(), data, size, [&](const auto& file) {
+    const Scan scan = readScan(file, format);
+    const auto& cloud = scan.cloud;
+    const std::size_t count = std::size_t(cloud.width) * cloud.height;
+    expect(scan.points.size() == count, "as many points as the cloud has");
+    expect(cloud.data.size() == count * cloud.point_step, "the cloud has its bytes");
+    expect(scan.places.empty() || scan.places.size() == count, "a place per point");
+    for (std::size_t i = 0; i < count; ++i)
+      expect(scan.points[i].allFinite(), "points are finite");
+  });
+}
+} // namespace
+
+int
+pcd(const std::uint8_t* data, std::size_t size)
+{
+  readAsFile(".pcd", data, size, [](const auto& file) {
+    expect(readPcdViewpoint(file).matrix().allFinite(), "a viewpoint is finite");
+  });
+  return readScanOf(ScanFormat::kPcd, data, size);
+}
+
+int
+ply_scan(const std::uint8_t* data, std::size_t size)
+{
+  return readScanOf(ScanFormat::kPly, data, size);
+}
+
+int
+uos(const std::uint8_t* data, std::size_t size)
+{
+  return readScanOf(ScanFormat::kUos, data, size);
+}
+
+int
+uosr(const std::uint8_t* data, std::size_t size)
+{
+  return readScanOf(ScanFormat::kUosr, data, size);
+}
+
+int
+kitti(const std::uint8_t* data, std::size_t size)
+{
+  return readScanOf(ScanFormat::kKitti, data, size);
+}
+
+int
+xyz(const std::uint8_t* data, std::size_t size)
+{
+  return readScanOf(ScanFormat::kXyz, data, size);
+}
+
+} // namespace pcl6d::fuzz

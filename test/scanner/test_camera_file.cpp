@@ -96,7 +96,7 @@ TEST(CameraFile, SaysWhatIsWrong)
   const auto refused = [&](const std::string& name, const std::string& words) {
     expectRefused<IoFailed>([&] { pcl6d::readCamera(folder / name); }, words);
   };
-  refused("none.yml", "none.yml: cannot be read");
+  refused("none.yml", "none.yml: No such file or directory");
   writeText(folder / "bad.yml", "%YAML:1.0\n---\nM1: 3\n");
   refused("bad.yml", "has no entry D1");
   pcl6d::writeCamera(folder / "a.yml", unevenCamera());

@@ -111,7 +111,7 @@ TEST(StereoCalibrationFile, NamesWhatIsMissing)
       [&] {
         readStereoCalibration({folder / "none.yml", {}, 1}, 320, 240);
       },
-      "none.yml: cannot be read");
+      "none.yml: No such file or directory");
   writeText(file, intrinsicsText(realRig()));
   expectRefused<IoFailed>(
       [&] {

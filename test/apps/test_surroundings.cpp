@@ -231,7 +231,7 @@ TEST_F(Surroundings, AReaderThatHasSeenEnoughIsNone)
 {
   const std::string command =
       std::string("{ ") + PCL6D_BIN_DIR + "/pcl_slam6d --help; echo $? >&2; } | true";
-  const std::string err = (usual_->folder / "stderr").string();
+  const std::string err = (usual_->folder / "stderr of help").string();
   bp::system("/bin/sh", "-c", command, bp::std_err > err);
   EXPECT_EQ(readText(err), "0\n");
 }

@@ -159,18 +159,18 @@ TEST(ConvertScans, StampsStayWhereTheFormatHasAPlace)
   pcl6d::Trajectory trajectory{scans.poses, {1.5, 2.5, 3.25, 1e9}};
   writeTrajectoryTum(scans / "given.txt", trajectory);
   for (const std::string format : {"pcd", "ply", "uos"}) {
-    const std::string out = converted({"scans",
-                                       scans.in,
-                                       "-o",
-                                       scans.name(format),
-                                       "--format",
-                                       format,
-                                       "--poses",
-                                       scans.name("given.txt"),
-                                       "--last",
-                                       "2",
-                                       "--every",
-                                       "2"});
+    const std::string out = convertedWithEmptyScan({"scans",
+                                                    scans.in,
+                                                    "-o",
+                                                    scans.name(format),
+                                                    "--format",
+                                                    format,
+                                                    "--poses",
+                                                    scans.name("given.txt"),
+                                                    "--last",
+                                                    "2",
+                                                    "--every",
+                                                    "2"});
     const ScanFolder folder(scans / format);
     ASSERT_EQ(folder.size(), 2u);
     const bool stamped = format != "uos";

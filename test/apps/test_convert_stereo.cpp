@@ -166,7 +166,7 @@ TEST(ConvertStereo, NamesWhatIsWrongWithTheData)
   writeText(files / "calib.yml", intrinsicsText(realRig()));
   files.expectRefused(1, {}, {"calib.yml: has no entry R, T"});
   files.expectRefused(
-      1, {"--extrinsics", files.name("none")}, {"none: cannot be read"});
+      1, {"--extrinsics", files.name("none")}, {"none: No such file or directory"});
   writeText(files / "calib.yml", calibrationText(realRig()));
   files.expectRefused(1, {"--disparities", "320"}, {"320 x 240", "disparities (320)"});
   pcl6d::writePng(files / "right.png", cv::Mat(240, 319, CV_8UC1, cv::Scalar(0)));
@@ -178,5 +178,5 @@ TEST(ConvertStereo, NamesWhatIsWrongWithTheData)
   writeText(files / "right.png", "no picture");
   files.expectRefused(1, {}, {"right.png: is no image"});
   std::filesystem::remove(files / "right.png");
-  files.expectRefused(1, {}, {"right.png: cannot be read"});
+  files.expectRefused(1, {}, {"right.png: No such file or directory"});
 }

@@ -128,7 +128,7 @@ TEST_F(ModelStore, ReadsSingleMeshesAndClouds)
 TEST_F(ModelStore, TellsWhatIsWrongAndWhere)
 {
   const std::string json = (folder() / "model.json").string();
-  expectEnds(refusalOf(folder()), "cannot be read or is empty");
+  expectEnds(refusalOf(folder()), "model.json: No such file or directory");
   expectEnds(refusal("{"), "line 1: not the syntax of JSON");
   expectEnds(refusal("[]"), "model.json: /: [] is no object {...}");
   EXPECT_EQ(refusal(R"({"class": "a"})"), json + ": /: key 'file' is missing");

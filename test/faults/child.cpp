@@ -107,6 +107,25 @@ endOf(int status, double peak_kib)
   return end;
 }
 
+namespace {
+/** \return the environment of a process; empty of one that has ended. While a process
+ * begins another program it seems to have none, so that is looked at again. */
+std::string
+environmentIn(const std::string& process)
+{
+  for (int tries = 0; tries < 40; ++tries) {
+    const std::string environment = test::readText(process + "/environ");
+    const std::string state = test::readText(process + "/stat");
+    const std::size_t name_end = state.rfind(')'); // "pid (name) state ..."
+    if (!environment.empty() || name_end == std::string::npos ||
+        state.compare(name_end, 3, ") Z") == 0)
+      return environment;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return {};
+}
+} // namespace
+
 std::vector<pid_t>
 heirsOf(const std::string& mark)
 {
@@ -115,8 +134,7 @@ heirsOf(const std::string& mark)
   std::istringstream children(
       test::readText("/proc/" + self + "/task/" + self + "/children"));
   for (pid_t child = 0; children >> child;) {
-    const std::string environment =
-        test::readText("/proc/" + std::to_string(child) + "/environ");
+    const std::string environment = environmentIn("/proc/" + std::to_string(child));
     if (environment.find(kMarkName + mark + '\0') != std::string::npos)
       heirs.push_back(child);
   }

@@ -6,6 +6,7 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/run_folder.h>
+#include <pcl6d/visualization/private_display.h>
 #include <pcl6d/visualization/report.h>
 #include <pcl6d/visualization/run_scenes.h>
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <future>
 #include <iostream>
 #include <optional>
 #include <sys/mman.h>
@@ -134,14 +136,32 @@ reasonOf(const std::optional<ProcessEnd>& end, const std::string& said)
     return std::string("it was ended by a signal: ") + ::strsignal(end->signal);
   return said.empty() ? "exit code " + std::to_string(end->exit_code) : said;
 }
+
+/** Starts what pictures need while the files are read. Failing, it is tried again when a picture
+ * is drawn, where its error is told. */
+std::future<void>
+startDisplay()
+{
+  return std::async(std::launch::async, [] {
+    try {
+      PrivateDisplay::instance();
+    } catch (const pcl::PCLException&) {}
+  });
+}
 } // namespace
 
 int
 drawRun(const fs::path& folder)
 {
   const RunFolder run(folder);
+  const auto wanted = wantedOf(run.summary());
+  const bool has_pictures =
+      std::any_of(wanted.begin(), wanted.end(), [](const std::string& name) {
+        return fs::path(name).extension() == ".png";
+      });
+  const auto display = has_pictures ? startDisplay() : std::future<void>();
   bool is_missing = false;
-  for (const std::string& name : wantedOf(run.summary())) {
+  for (const std::string& name : wanted) {
     try {
       draw(run, name);
     } catch (const std::exception& e) {

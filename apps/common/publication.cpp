@@ -21,7 +21,7 @@ using Files = std::vector<fs::path>;
 
 constexpr const char* kInner = ".pcl6d-new-";        ///< staging within the folder
 constexpr const char* kRecord = ".pcl6d-publishing"; ///< of files that are moved there
-constexpr const char* kFormerInner = ".pcl6d-writing-"; ///< of versions up to 0.19
+constexpr const char* kFormerInner = ".pcl6d-writing-"; ///< that of former builds
 
 /** \return the start of the names of hidden folders beside the folder */
 std::string
@@ -128,7 +128,6 @@ writeRecord(const OutputPlace& place, const Move& move)
     for (const auto& file : move.files)
       stream << file.string() << '\0';
   });
-  syncToDisk(place.folder / kRecord);
   syncToDisk(place.folder);
 }
 

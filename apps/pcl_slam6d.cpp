@@ -74,6 +74,8 @@ public:
     for (const auto& plugin : settings_.plugins.loaded())
       bar_.say("plug-in " + plugin.name + " (" + plugin.file.string() +
                "): " + plugin.adds);
+    if (!folder_.coordinates().empty())
+      bar_.say(folder_.coordinates());
     for (const auto& description : scans_.descriptions())
       bar_.say(description);
     if (!readScans()) {

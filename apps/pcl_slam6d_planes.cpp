@@ -7,6 +7,7 @@
 #include "planes/plane_settings.h"
 
 #include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/io/far_points.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_reader.h>
@@ -38,9 +39,30 @@ readGrid(const PlaneSettings& s)
     return {};
   SceneCloud cloud;
   cloud.width = file.height > 1 ? file.width : 0;
-  for (std::size_t i = 0; i < x->values.size(); ++i)
-    cloud.points.push_back(
-        Eigen::Vector3d(x->values[i], y->values[i], z->values[i]).cast<float>());
+  cloud.world_offset = offsetOfFar(file);
+  for (std::size_t i = 0; i < x->values.size(); ++i) {
+    const Eigen::Vector3d p(x->values[i], y->values[i], z->values[i]);
+    cloud.points.push_back((p - cloud.world_offset).cast<float>());
+  }
+  return cloud;
+}
+
+/** A scan with all its points, near. */
+SceneCloud
+readAll(const PlaneSettings& s, app::ProgressBar& bar)
+{
+  SceneCloud cloud;
+  if (auto grid = readGrid(s)) {
+    cloud = *std::move(grid);
+  }
+  else {
+    NearScan scan = readNearScan(s.input, s.folder.format);
+    cloud.points = std::move(scan.points);
+    cloud.world_offset = scan.offset;
+  }
+  if (!cloud.world_offset.isZero(0))
+    bar.warn("points lie far from the origin of their coordinates" +
+             describeMove(cloud.world_offset));
   return cloud;
 }
 
@@ -57,11 +79,7 @@ readOne(const PlaneSettings& s,
         const ScanParameterOptions& given,
         app::ProgressBar& bar)
 {
-  SceneCloud cloud;
-  if (auto grid = readGrid(s))
-    cloud = *std::move(grid);
-  else
-    cloud.points = readScan(s.input, s.folder.format).points;
+  SceneCloud cloud = readAll(s, bar);
   const ScanParameters parameters = deriveScanParameters(given, {cloud.points});
   sayGate(parameters, bar);
   const double min_range = parameters.min_range.value;

@@ -33,6 +33,8 @@ openScans(const std::filesystem::path& path,
   RegisteredScans scans = openScans(path, options);
   bar.say(std::to_string(scans.folder().size()) + " scans, poses from " +
           scans.poseSource());
+  if (!scans.folder().coordinates().empty())
+    bar.warn(scans.folder().coordinates());
   return scans;
 }
 

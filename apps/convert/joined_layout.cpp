@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "convert/joined_layout.h"
-#include "convert/vector_field.h"
+
+#include <pcl6d/io/vector_field.h>
 
 #include <pcl/common/io.h>
 

@@ -7,11 +7,11 @@
 #include "convert/joined_layout.h"
 #include "convert/loss_tally.h"
 #include "convert/scan_jobs.h"
-#include "convert/vector_field.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/text.h>
+#include <pcl6d/io/vector_field.h>
 
 #include <algorithm>
 #include <iostream>

@@ -20,6 +20,14 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
+/** Points are written where they are, poses as they were given. */
+ScanFolderOptions
+asTheyAre(ScanFolderOptions options)
+{
+  options.keep_coordinates = true;
+  return options;
+}
+
 bool
 isUos(ScanFormat format)
 {
@@ -45,7 +53,7 @@ class FolderConversion {
 public:
   explicit FolderConversion(const ScanSettings& settings)
   : settings_(settings)
-  , source_(openScans(settings.input, settings.folder))
+  , source_(openScans(settings.input, asTheyAre(settings.folder)))
   , out_(rules(settings))
   , bar_(settings.quiet)
   , uos_(isUos(settings.writer.format))

@@ -80,7 +80,7 @@ thinned(const pcl::PCLPointCloud2& cloud, std::size_t points)
 class Damager {
 public:
   Damager(const SuiteDamage& damage, const DamageSource& source)
-  : damage_(damage), source_(source), folder_(source.scans)
+  : damage_(damage), source_(source), folder_(source.scans, asTheyAre())
   {
     for (std::size_t i = 0; i < folder_.size(); ++i)
       files_.push_back(fs::absolute(folder_.file(i)));
@@ -108,6 +108,14 @@ public:
   }
 
 private:
+  static ScanFolderOptions
+  asTheyAre()
+  {
+    ScanFolderOptions options;
+    options.keep_coordinates = true;
+    return options;
+  }
+
   void
   requireScan(std::size_t index, const char* field) const
   {
@@ -158,7 +166,7 @@ private:
         std::swap(truth_[a], truth_[b]);
     }
     if (damage_.foreign) {
-      const ScanFolder other(source_.foreign);
+      const ScanFolder other(source_.foreign, asTheyAre());
       const std::size_t index = std::min(*damage_.foreign, other.size() - 1);
       if (other.format() != folder_.format())
         throw BadArgument("the foreign scan is " + toString(other.format()) +

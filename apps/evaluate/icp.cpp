@@ -18,14 +18,16 @@
 namespace pcl6d::app {
 
 namespace {
-Points
-readPoints(const std::string& file, ScanFormat format)
+NearScan
+readNear(const std::string& file, ScanFormat format, ProgressBar& bar)
 {
-  const Scan scan = readScan(file, format);
+  NearScan scan = readNearScan(file, format);
   if (scan.points.size() < 3)
     throw IoFailed(tooFewPoints(file, scan.points.size(), "with finite coordinates") +
                    " (" + std::to_string(scan.dropped) + " without)");
-  return scan.points;
+  if (!scan.description.empty())
+    bar.warn(file + ": " + scan.description);
+  return scan;
 }
 
 /** The options of the runs, what is auto derived from the scans. */
@@ -53,28 +55,34 @@ basinOptions(const IcpSettings& s, const Slam6DParameters& p, const Points& poin
 IcpEvaluation
 evaluate(const IcpSettings& s, ProgressBar& bar, const Interrupt& interrupt)
 {
-  const Points a = readPoints(s.scan_a, s.format), b = readPoints(s.scan_b, s.format);
+  const NearScan a = readNear(s.scan_a, s.format, bar);
+  const NearScan b = readNear(s.scan_b, s.format, bar);
   const PairPose start = s.guess ? PairPose{*s.guess, "--guess", true}
                                  : poseOfPair(s.scan_a, s.scan_b, s.format, "--guess");
   IcpEvaluation e;
   e.pose_source = start.source;
   e.has_poses = start.found;
   e.guess = start.T_a_b;
-  e.parameters = deriveParameters(s.slam, {a, b});
-  const Points target = prepareScan(a, s.scan_a, e.parameters);
-  const Points source = prepareScan(b, s.scan_b, e.parameters);
+  e.parameters = deriveParameters(s.slam, {a.points, b.points});
+  const Points target = prepareScan(a.points, s.scan_a, e.parameters);
+  const Points source = prepareScan(b.points, s.scan_b, e.parameters);
   e.points_a = target.size();
   e.points_b = source.size();
   e.options = basinOptions(s, e.parameters, source);
   e.basin = evaluateIcpBasin(target,
                              source,
-                             e.guess,
+                             nearPose(e.guess, a, b),
                              icpVariants(s.methods, s.combination),
                              e.options,
                              [&](const Progress& progress) {
                                bar.show(progress);
                                return !interrupt.requested();
                              });
+  for (IcpBestPose& best : e.basin.best)
+    best.result.T_target_source = farPose(best.result.T_target_source, a, b);
+  for (IcpBasinRow& row : e.basin.rows)
+    for (IcpBasinRun& run : row.runs)
+      run.T_target_source = farPose(run.T_target_source, a, b);
   return e;
 }
 

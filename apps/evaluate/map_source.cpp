@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/pose.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/run/run_folder.h>
@@ -10,6 +11,8 @@
 #include <pcl6d/slam6d/scan_preparation.h>
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 
 namespace pcl6d::app {
 
@@ -19,8 +22,21 @@ namespace fs = std::filesystem;
 /** Files and poses of a map, before anything is read. */
 struct MapFiles {
   std::vector<fs::path> files;
-  LoadedMap map; ///< without points
+  LoadedMap map;                    ///< without points
+  Eigen::Vector3d world_offset;     ///< [m] that poses are relative to
+  std::optional<MovedPoints> moved; ///< what is read of the files
+  std::function<Points(std::size_t)> read =
+      {}; ///< of a scan, as its pose belongs to it
 };
+
+/** Makes poses relative, so that float keeps the digits of points in the world. */
+void
+takeOffset(MapFiles& files)
+{
+  files.world_offset = worldOffset(files.map.poses.front());
+  for (Eigen::Isometry3d& pose : files.map.poses)
+    pose.translation() -= files.world_offset;
+}
 
 MapFiles
 filesOfRun(const fs::path& path)
@@ -31,6 +47,7 @@ filesOfRun(const fs::path& path)
   MapFiles result;
   result.map.pose_source = summary.string();
   result.map.poses = run.trajectory().poses;
+  result.world_offset = run.summary().world_offset;
   for (std::size_t i = 0; i < run.summary().scans.size(); ++i) {
     result.files.push_back(run.scanFile(i));
     if (!fs::exists(result.files.back()))
@@ -38,13 +55,18 @@ filesOfRun(const fs::path& path)
                      summary.string() + " tells of it");
     result.map.names.push_back(run.summary().scans[i].file);
   }
+  result.moved = run.summary().moved;
+  result.read = [files = result.files](std::size_t i) {
+    return readScan(files[i]).points;
+  };
   return result;
 }
 
 MapFiles
 filesOfScans(const fs::path& path, bool needs_poses)
 {
-  const ScanFolder folder(path);
+  const auto opened = std::make_shared<ScanFolder>(path);
+  const ScanFolder& folder = *opened;
   if (needs_poses && !folder.hasPoses())
     throw IoFailed(path.string() +
                    ": holds neither a run (no summary.json) nor scans with poses; give "
@@ -56,6 +78,9 @@ filesOfScans(const fs::path& path, bool needs_poses)
     result.map.names.push_back(folder.name(i));
     result.map.poses.push_back(folder.initialPose(i));
   }
+  takeOffset(result);
+  result.moved = folder.moved();
+  result.read = [opened](std::size_t i) { return opened->read(i).points; };
   return result;
 }
 
@@ -68,18 +93,26 @@ replacePoses(MapFiles& files, const std::string& poses)
     throw IoFailed(poses + ": " + std::to_string(files.map.poses.size()) +
                    " poses, but must be one for each of the " +
                    std::to_string(files.files.size()) + " scans");
+  if (files.moved)
+    for (Eigen::Isometry3d& pose : files.map.poses)
+      pose = files.moved->ofNear(pose);
+  takeOffset(files);
 }
 
-/** A cloud in the world: a PCD may have a pose of its own. */
+/** A cloud in the world: a PCD may have a pose of its own. In full coordinates it is made
+ * relative as the poses are. */
 Points
-readReference(const std::string& file)
+readReference(const std::string& file, const Eigen::Vector3d& world_offset)
 {
-  const Scan cloud = readScan(file);
+  const NearScan cloud = readNearScan(file);
   if (cloud.points.size() < 3)
     throw IoFailed(file + ": " + std::to_string(cloud.points.size()) +
                    " points, but must be at least 3");
-  const auto pose = findScanPose(file);
-  return pose ? transformed(cloud.points, *pose) : cloud.points;
+  Eigen::Isometry3d pose = findScanPose(file).value_or(Eigen::Isometry3d::Identity()) *
+                           Eigen::Translation3d(cloud.offset);
+  if (!worldOffset(pose).isZero(0))
+    pose.translation() -= world_offset;
+  return transformed(cloud.points, pose);
 }
 
 Slam6DOptions
@@ -112,14 +145,14 @@ loadMap(const MapSource& source, unsigned int num_threads)
   LoadedMap map = std::move(files.map);
   map.scans.resize(files.files.size());
   parallelFor(files.files.size(), num_threads, [&](std::size_t i) {
-    map.scans[i] = readScan(files.files[i]).points;
+    map.scans[i] = files.read(i);
   });
   const Slam6DParameters parameters = deriveParameters(optionsOf(source), map.scans);
   map.voxel = parameters.voxel.value;
   for (std::size_t i = 0; i < map.scans.size(); ++i)
     map.scans[i] = gateScan(map.scans[i], files.files[i].string(), parameters);
   if (!source.reference.empty())
-    map.reference = readReference(source.reference);
+    map.reference = readReference(source.reference, files.world_offset);
   return map;
 }
 

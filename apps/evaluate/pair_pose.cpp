@@ -48,7 +48,7 @@ poseInFolder(const fs::path& file, const ScanFolder& folder, const std::string& 
 {
   for (std::size_t i = 0; i < folder.size(); ++i)
     if (fs::equivalent(folder.file(i), file))
-      return {folder.initialPose(i), folder.poseSource(), folder.hasPoses()};
+      return {folder.poseOfFile(i), folder.poseSource(), folder.hasPoses()};
   throw IoFailed(file.string() + ": no scan of its folder; give " + option);
 }
 } // namespace
@@ -109,6 +109,18 @@ poseOfPair(const std::string& scan_a,
     throw IoFailed("the poses of the scans are not of a kind: " + a.source + " for " +
                    scan_a + ", " + b.source + " for " + scan_b + "; give " + option);
   return {a.T_a_b.inverse() * b.T_a_b, a.source, a.found};
+}
+
+Eigen::Isometry3d
+nearPose(const Eigen::Isometry3d& T_a_b, const NearScan& a, const NearScan& b)
+{
+  return Eigen::Translation3d(-a.offset) * T_a_b * Eigen::Translation3d(b.offset);
+}
+
+Eigen::Isometry3d
+farPose(const Eigen::Isometry3d& T_a_b, const NearScan& a, const NearScan& b)
+{
+  return Eigen::Translation3d(a.offset) * T_a_b * Eigen::Translation3d(-b.offset);
 }
 
 } // namespace pcl6d::app

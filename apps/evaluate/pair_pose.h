@@ -26,7 +26,8 @@ poseFromText(const std::string& option, const std::string& text);
 Eigen::Isometry3d
 poseFromFile(const std::string& file);
 
-/** \brief The pose by the initial poses of the folders that the scans are in.
+/** \brief The pose by the initial poses of the folders that the scans are in, of the points
+ * as the files have them.
  * \param[in] option that messages advise to give
  * \throws IoFailed as ScanFolder, or the poses of the scans are not of a kind */
 PairPose
@@ -34,5 +35,14 @@ poseOfPair(const std::string& scan_a,
            const std::string& scan_b,
            ScanFormat format,
            const std::string& option);
+
+/** \return the pose of B's points as they were brought near, seen from A's, of a pose of
+ * those in the files */
+Eigen::Isometry3d
+nearPose(const Eigen::Isometry3d& T_a_b, const NearScan& a, const NearScan& b);
+
+/** \brief Inverse of nearPose(). */
+Eigen::Isometry3d
+farPose(const Eigen::Isometry3d& T_a_b, const NearScan& a, const NearScan& b);
 
 } // namespace pcl6d::app

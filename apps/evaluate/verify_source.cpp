@@ -10,7 +10,10 @@
 #include <pcl6d/io/trajectory_formats.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <utility>
 
 namespace pcl6d::app {
@@ -28,7 +31,17 @@ struct Listing {
   std::string pose_source;
   std::vector<bool> unsure;
   ScanParameterOptions parameters;
+  std::function<Points(std::size_t)> read; ///< of a scan, as its pose belongs to it
 };
+
+Points
+enough(Scan scan, const fs::path& file)
+{
+  if (scan.points.size() < 3)
+    throw IoFailed(file.string() + ": " + text::counted(scan.points.size(), "point") +
+                   " with finite coordinates, but at least 3 are needed");
+  return std::move(scan.points);
+}
 
 /** \return whether 3DTK left its result there, be it beside the poses it began with */
 bool
@@ -44,8 +57,9 @@ holdsFrames(const fs::path& path)
 
 /** Takes the poses of a trajectory in place of those of the folder. */
 void
-replacePoses(const std::string& file, const ScanFolder& folder, Listing& listing)
+replacePoses(const std::string& file, const RegisteredScans& scans, Listing& listing)
 {
+  const ScanFolder& folder = scans.folder();
   const TrajectoryFiles given = readTrajectoryFiles(
       file, holdsFrames(file) ? TrajectoryFormat::kFrames : TrajectoryFormat::kAuto);
   const auto& poses = given.trajectory.poses;
@@ -63,7 +77,8 @@ replacePoses(const std::string& file, const ScanFolder& folder, Listing& listing
         throw IoFailed(file + ": holds no pose of " + name);
       place = static_cast<std::size_t>(found - given.names.begin());
     }
-    listing.poses[i] = poses[place];
+    listing.poses[i] =
+        scans.moved() ? scans.moved()->ofNear(poses[place]) : poses[place];
   }
   listing.pose_source = file;
   listing.world_offset = worldOffset(listing.poses.front());
@@ -95,11 +110,14 @@ unsureOf(const RunResult& run, const std::vector<std::size_t>& indices)
 }
 
 Listing
-listFolder(const VerifySettings& s)
+listFolder(const VerifySettings& s, ProgressBar& bar)
 {
   const std::string& path = s.inputs.front();
-  const RegisteredScans scans = openScans(path, s.scans);
+  const auto opened = std::make_shared<RegisteredScans>(openScans(path, s.scans));
+  const RegisteredScans& scans = *opened;
   const ScanFolder& folder = scans.folder();
+  if (!folder.coordinates().empty())
+    bar.warn(folder.coordinates());
   if (s.poses.empty() && !folder.hasPoses() && folder.size() > 1)
     throw IoFailed(path +
                    ": holds neither a run (no summary.json) nor scans with poses; "
@@ -122,12 +140,37 @@ listFolder(const VerifySettings& s)
   if (scans.summary() && s.poses.empty())
     listing.unsure = unsureOf(*scans.summary(), listing.indices);
   if (!s.poses.empty())
-    replacePoses(s.poses, folder, listing);
+    replacePoses(s.poses, scans, listing);
+  listing.read = [opened](std::size_t i) {
+    return enough(opened->folder().read(i), opened->folder().file(i));
+  };
   return listing;
 }
 
+/** The scans of a pair, brought near; the world is A's frame. */
+void
+readPair(const Eigen::Isometry3d& T_a_b,
+         const VerifySettings& s,
+         Listing& listing,
+         ProgressBar& bar)
+{
+  const auto pair = std::make_shared<std::array<NearScan, 2>>();
+  for (std::size_t i = 0; i < 2; ++i) {
+    (*pair)[i] = readNearScan(listing.files[i], s.scans.format);
+    if (!(*pair)[i].description.empty())
+      bar.warn(listing.names[i] + ": " + (*pair)[i].description);
+  }
+  listing.world_offset = (*pair)[0].offset;
+  for (std::size_t i = 0; i < 2; ++i)
+    listing.poses.push_back((i == 0 ? Eigen::Isometry3d::Identity() : T_a_b) *
+                            Eigen::Translation3d((*pair)[i].offset));
+  listing.read = [pair, files = listing.files](std::size_t i) {
+    return enough(std::move((*pair)[i]), files[i]);
+  };
+}
+
 Listing
-listPair(const VerifySettings& s)
+listPair(const VerifySettings& s, ProgressBar& bar)
 {
   const std::string &a = s.inputs[0], &b = s.inputs[1];
   for (const std::string& file : s.inputs)
@@ -151,36 +194,24 @@ listPair(const VerifySettings& s)
   if (listing.names[0] == listing.names[1])
     listing.names = {a, b};
   listing.indices = {0, 1};
-  listing.poses = {Eigen::Isometry3d::Identity(), pose.T_a_b};
   listing.pose_source = pose.source;
   listing.parameters = s.parameters;
+  readPair(pose.T_a_b, s, listing, bar);
   return listing;
-}
-
-Points
-pointsOf(const fs::path& file, ScanFormat format)
-{
-  Scan scan = readScan(file, format);
-  if (scan.points.size() < 3)
-    throw IoFailed(file.string() + ": " + text::counted(scan.points.size(), "point") +
-                   " with finite coordinates, but at least 3 are needed");
-  return std::move(scan.points);
 }
 } // namespace
 
 std::optional<VerifySource>
 loadVerifySource(const VerifySettings& s, ProgressBar& bar, const Interrupt& interrupt)
 {
-  Listing listing = s.isPair() ? listPair(s) : listFolder(s);
+  Listing listing = s.isPair() ? listPair(s, bar) : listFolder(s, bar);
   const std::size_t count = listing.files.size();
   bar.say(text::counted(count, "scan") + ", poses from " + listing.pose_source);
   constexpr std::size_t kScansForParameters = 16; // as of a run
   std::vector<Points> points(std::min(count, kScansForParameters));
-  const auto read = [&](std::size_t i) {
-    return pointsOf(listing.files[i], s.scans.format);
-  };
-  parallelFor(
-      points.size(), s.num_threads, [&](std::size_t i) { points[i] = read(i); });
+  parallelFor(points.size(), s.num_threads, [&](std::size_t i) {
+    points[i] = listing.read(i);
+  });
   PreparedScans prepared(
       count, deriveScanParameters(listing.parameters, points), s.num_threads);
   const ScanParameters& p = prepared.parameters();
@@ -195,7 +226,7 @@ loadVerifySource(const VerifySettings& s, ProgressBar& bar, const Interrupt& int
     parallelFor(end - begin, s.num_threads, [&](std::size_t k) {
       const std::size_t i = begin + k;
       prepared.set(i,
-                   i < points.size() ? std::exchange(points[i], {}) : read(i),
+                   i < points.size() ? std::exchange(points[i], {}) : listing.read(i),
                    listing.files[i].string());
     });
     bar.show({"reading", end, count});

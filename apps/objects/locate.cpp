@@ -12,31 +12,41 @@
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
 #include <cstdio>
+#include <functional>
+#include <memory>
 
 namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
-/** \throws Interrupted */
+/** Reads the i-th scan that is looked at. */
+using ReadCloud = std::function<ScanCloud(std::size_t)>;
+
+/** \param[out] read the scans once more, as they were looked at \throws Interrupted */
 ObjectObservations
-observe(const LocateSettings& s, FolderJob& job)
+observe(const LocateSettings& s, FolderJob& job, ReadCloud& read)
 {
   const ObjectFinder finder(readModels(s.models, s.store, s.file), s.finder);
   const ObservationRange given{s.min_range, s.max_range};
-  if (fs::is_directory(s.input))
-    return observeObjects(finder,
-                          openScans(s.input, s.folder, job.bar),
-                          given,
-                          watched(job.bar, job.interrupt));
+  if (fs::is_directory(s.input)) {
+    const auto scans =
+        std::make_shared<RegisteredScans>(openScans(s.input, s.folder, job.bar));
+    read = [scans](std::size_t i) { return scans->folder().readCloud(i); };
+    return observeObjects(finder, *scans, given, watched(job.bar, job.interrupt));
+  }
+  const NearScan scan = readNearScan(s.input, s.folder.format);
+  if (!scan.description.empty())
+    job.bar.warn(scan.description);
+  read = [&s](std::size_t) { return readNearScan(s.input, s.folder.format); };
   ObservationRange range;
   range.min_range = given.min_range;
   if (given.max_range > 0)
     range.max_range = given.max_range;
   ObjectObservations found;
   observeObjects(finder,
-                 readScan(s.input, s.folder.format),
+                 scan,
                  s.input,
-                 Eigen::Isometry3d::Identity(),
+                 Eigen::Isometry3d(Eigen::Translation3d(scan.offset)),
                  0,
                  range,
                  found);
@@ -73,17 +83,18 @@ join(const ObjectObservations& located, bool fuse)
 void
 writeLabelledScans(const OutputFolder& out,
                    const LocateSettings& s,
+                   const ReadCloud& read,
                    const ObjectObservations& located,
                    const Joined& joined)
 {
   const bool is_folder = fs::is_directory(s.input);
-  for (const auto& here : located.scans) {
-    const Scan scan = readScan(here.file, s.folder.format);
-    std::vector<double> ids(scan.points.size(), 0);
+  for (std::size_t k = 0; k < located.scans.size(); ++k) {
+    const ScanObjects& here = located.scans[k];
+    pcl::PCLPointCloud2 cloud = read(k).cloud;
+    std::vector<double> ids(std::size_t{cloud.width} * cloud.height, 0);
     for (std::size_t i = 0; i < here.points.size(); ++i)
       for (const auto place : here.points[i])
         ids[place] = joined.id_of_observation[here.observations[i]];
-    pcl::PCLPointCloud2 cloud = scan.cloud;
     const std::string field =
         fieldValues(cloud, "object_id") ? "located_id" : "object_id";
     addField(cloud, field, pcl::PCLPointField::UINT32, ids);
@@ -142,11 +153,12 @@ runLocate(const std::vector<std::string>& arguments)
     return kDone;
   FolderJob job(s.quiet, s.without_effect, outputRules(s));
   try {
-    const ObjectObservations located = observe(s, job);
+    ReadCloud read;
+    const ObjectObservations located = observe(s, job, read);
     const Joined joined = join(located, s.fuse);
     writeMapObjects(
         *job.out / "objects.json", joined.objects, {located.seconds, kObjects});
-    writeLabelledScans(*job.out, s, located, joined);
+    writeLabelledScans(*job.out, s, read, located, joined);
     job.publish([&] { printTable(located, joined.objects); });
   } catch (const Interrupted&) {
     job.bar.say("interrupted; nothing is written");

@@ -191,6 +191,9 @@ RunOutput::describe(bool complete, const RunLog& log)
   run_.generator = kProgram;
   run_.version = PCL6D_VERSION;
   run_.pose_source = folder_.poseSource();
+  run_.moved = folder_.moved();
+  if (run_.moved)
+    run_.warnings.push_back(folder_.coordinates());
   run_.options = optionsOf(settings_, result_.parameters);
   run_.stages = log.stages;
   for (std::size_t i = 0; i < folder_.size(); ++i)

@@ -40,6 +40,7 @@ summaryOf(std::size_t scans)
   summary.version = "9.9";
   summary.world_offset = {1e5, -2e5, 3};
   summary.pose_source = "odometry.txt";
+  summary.moved = {pcl6d::PoseReading::kScanner, {512345, -7, 1}};
   summary.options = {{"voxel", "0.1", "derived", "because"},
                      {"seed", "7", "given", ""}};
   summary.stages = {{"reading", 0.1, 12.5}, {"matching", 1.0 / 7, 13}};

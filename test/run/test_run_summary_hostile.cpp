@@ -35,6 +35,7 @@ protected:
     }
     run_.options = {{"voxel", "0.1", "given", ""}};
     run_.verification.emplace().scans.resize(2);
+    run_.moved.emplace();
     run_.files["scans/scan000.pcd"] = {123, 0x0a1b2c3d};
   }
 
@@ -130,6 +131,8 @@ TEST_F(HostileSummary, PosesAreRigidAndNear)
             std::string::npos);
   expectRefused("/world_offset", Json::array({0, 0, 1e100}), "below 1e9");
   expectRefused("/world_offset", Json::array({0, 0}), "expected 3 numbers, got 2");
+  expectRefused("/moved_points/offset", Json::array({0, 0, 1e100}), "below 1e9");
+  expectRefused("/moved_points/poses", "sun", "file");
 }
 
 TEST_F(HostileSummary, CovariancesAreSymmetricAndPositive)

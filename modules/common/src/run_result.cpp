@@ -24,6 +24,9 @@ constexpr Named<LinkKind> kKinds[] = {{LinkKind::kSequence, "sequence"},
                                       {LinkKind::kNetwork, "network"},
                                       {LinkKind::kLoop, "loop"},
                                       {LinkKind::kGiven, "given"}};
+constexpr Named<PoseReading> kReadings[] = {{PoseReading::kFile, "file"},
+                                            {PoseReading::kScanner, "scanner"},
+                                            {PoseReading::kStation, "station"}};
 constexpr Named<LinkVerdict> kVerdicts[] = {{LinkVerdict::kUsed, "used"},
                                             {LinkVerdict::kOdometry, "odometry"},
                                             {LinkVerdict::kRefused, "refused"}};
@@ -68,6 +71,18 @@ countScans(const std::vector<ScanResult>& scans, ScanState state)
       std::count_if(scans.begin(), scans.end(), [&](const auto& scan) {
         return scan.state == state;
       }));
+}
+
+const char*
+toString(PoseReading reading)
+{
+  return nameOf(kReadings, reading);
+}
+
+PoseReading
+poseReadingFromName(const std::string& name)
+{
+  return fromName(kReadings, "reading of poses", name);
 }
 
 const char*

@@ -32,12 +32,14 @@ openFolder(const fs::path& path, const ScanFolderOptions& options, bool is_run)
 {
   if (!is_run)
     return ScanFolder(path, options);
+  ScanFolderOptions near = options; // the run has moved what was far
+  near.keep_coordinates = true;
   if (!options.poses_file.empty())
     throw BadArgument("poses_file = " + options.poses_file.string() +
                       ", but the run in " + path.string() + " has poses of its own");
   if (!fs::is_directory(path / "scans"))
     throw IoFailed(path.string() + ": the run was interrupted and holds no scans");
-  return ScanFolder(path / "scans", options);
+  return ScanFolder(path / "scans", near);
 }
 
 /** \return the option's value [m] \throws IoFailed it is none */
@@ -96,6 +98,12 @@ RegisteredScans::pose(std::size_t i) const
   if (summary_) // its VIEWPOINTs are relative
     pose.translation() += world_offset_;
   return pose;
+}
+
+const std::optional<MovedPoints>&
+RegisteredScans::moved() const
+{
+  return summary_ ? summary_->moved : folder_.moved();
 }
 
 std::string

@@ -33,6 +33,12 @@ jsonOf(const Value& value)
 }
 
 Json
+jsonOf(const Eigen::Vector3d& vector)
+{
+  return rowByRow(vector.transpose());
+}
+
+Json
 jsonOf(const Eigen::Isometry3d& pose)
 {
   return rowByRow(pose.matrix());
@@ -131,8 +137,10 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
   json["schema_version"] = RunResult::kSchemaVersion;
   json["generator"] = run.generator;
   json["version"] = run.version;
-  json["world_offset"] = rowByRow(run.world_offset.transpose());
+  json["world_offset"] = jsonOf(run.world_offset);
   json["pose_source"] = run.pose_source;
+  if (run.moved)
+    visitMovedFields(*run.moved, Writer{json["moved_points"]});
   json["verdict"] = {
       {"trusted", run.trusted}, {"complete", run.complete}, {"text", run.verdict}};
   json["warnings"] = run.warnings;

@@ -51,7 +51,8 @@ RunWriter::writePoses(const std::vector<double>& stamps) const
 {
   Trajectory trajectory;
   for (std::size_t i = 0; i < run_.scans.size(); ++i) {
-    trajectory.poses.push_back(run_.scans[i].T_world_scan);
+    const Eigen::Isometry3d& pose = run_.scans[i].T_world_scan;
+    trajectory.poses.push_back(run_.moved ? run_.moved->asGiven(pose) : pose);
     trajectory.stamps.push_back(stamps.empty() ? run_.scans[i].index : stamps.at(i));
   }
   std::filesystem::create_directories(folder_);

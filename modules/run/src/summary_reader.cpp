@@ -87,6 +87,8 @@ struct Reader {
       value = field.count();
     else if constexpr (std::is_same_v<Value, Covariance>)
       value = covarianceFrom(field);
+    else if constexpr (std::is_same_v<Value, Eigen::Vector3d>)
+      value = field.vector3();
     else
       value = poseFrom(field);
   }
@@ -248,6 +250,8 @@ readHead(const JsonValue& json, RunResult& run)
   run.version = (json / "version").text();
   run.world_offset = (json / "world_offset").vector3();
   run.pose_source = (json / "pose_source").text();
+  if (const auto moved = json.find("moved_points")) // only where points were far
+    visitMovedFields(run.moved.emplace(), Reader{*moved});
   const JsonValue verdict = json / "verdict";
   run.trusted = (verdict / "trusted").boolean();
   run.complete = (verdict / "complete").boolean();

@@ -15,18 +15,20 @@ constexpr std::size_t kKittiPoint = 4 * sizeof(float); // x y z intensity
 constexpr std::size_t kSample = 1000;                  // points that tell their length
 constexpr const char* kIntensity = "intensity";
 
-/** \brief Adds float32 fields to a cloud without points. */
+/** \brief Adds fields of a floating point type to a cloud without points. */
+template <typename T>
 void
-addFloatFields(const std::vector<std::string>& names, pcl::PCLPointCloud2& cloud)
+addFields(const std::vector<std::string>& names, pcl::PCLPointCloud2& cloud)
 {
   for (const auto& name : names) {
     pcl::PCLPointField field;
     field.name = name;
     field.offset = cloud.point_step;
-    field.datatype = pcl::PCLPointField::FLOAT32;
+    field.datatype = std::is_same_v<T, float> ? pcl::PCLPointField::FLOAT32
+                                              : pcl::PCLPointField::FLOAT64;
     field.count = 1;
     cloud.fields.push_back(field);
-    cloud.point_step += sizeof(float);
+    cloud.point_step += sizeof(T);
   }
 }
 
@@ -48,8 +50,11 @@ isHeading(text::Tokens tokens)
   return !token.empty() && !text::parseNumber(token, value);
 }
 
-/** \brief 3DTK's text: x right, y up, z forward [cm], then perhaps the reflectance. */
+/** \brief 3DTK's text: x right, y up, z forward [cm], then perhaps the reflectance.
+ * \tparam T of the values in the cloud */
+template <typename T>
 struct UosText {
+  using Value = T;
   static constexpr const char* kSeparators = "";
   /** [cm], divided in double: in float, some coordinates would have no text that gives
    * them back. */
@@ -66,19 +71,21 @@ struct UosText {
     // Some files start with their number of points and the like.
     return input.number() == 1 && isHeading(text::Tokens(input.line()));
   }
-  static std::array<float, 4>
+  static std::array<T, 4>
   pointOf(const std::array<double, 4>& row)
   {
-    const Eigen::Vector3f p =
-        fromUos(Eigen::Vector3d(row[0], row[1], row[2])).cast<float>();
-    return {p.x(), p.y(), p.z(), static_cast<float>(row[3])};
+    const Eigen::Matrix<T, 3, 1> p =
+        fromUos(Eigen::Vector3d(row[0], row[1], row[2])).template cast<T>();
+    return {p.x(), p.y(), p.z(), static_cast<T>(row[3])};
   }
 };
 
 /** \brief x, y, z [m]; commas and semicolons may stand between them. */
+template <typename T>
 struct XyzText {
+  using Value = T;
   static constexpr const char* kSeparators = ",;";
-  using Number = float;
+  using Number = T;
 
   bool
   operator()(char c) const
@@ -91,8 +98,8 @@ struct XyzText {
     const auto first = text::Tokens(input.line(), kSeparators).next();
     return !first.empty() && first.front() == '#';
   }
-  static std::array<float, 4>
-  pointOf(const std::array<float, 4>& row)
+  static std::array<T, 4>
+  pointOf(const std::array<T, 4>& row)
   {
     return row;
   }
@@ -105,7 +112,7 @@ public:
   TextReader(const std::filesystem::path& path, const std::vector<std::string>& names)
   : input_(path), columns_(names.size())
   {
-    addFloatFields(names, scan_.cloud);
+    addFields<typename Format::Value>(names, scan_.cloud);
   }
 
   ScanCloud
@@ -177,31 +184,42 @@ private:
   ScanCloud scan_;
 };
 
+/** Reads a text whose points lie far from the origin in double. */
+template <template <typename> class Format>
+ScanCloud
+readPoints(const std::filesystem::path& path, const std::vector<std::string>& names)
+{
+  ScanCloud scan = TextReader<Format<float>>(path, names).read();
+  if (needsDouble(path, scan.cloud))
+    scan = TextReader<Format<double>>(path, names).read();
+  return scan;
+}
+
 } // namespace
 
 ScanCloud
 readUos(const std::filesystem::path& path)
 {
-  return TextReader<UosText>(path, {"x", "y", "z"}).read();
+  return readPoints<UosText>(path, {"x", "y", "z"});
 }
 
 ScanCloud
 readUosr(const std::filesystem::path& path)
 {
-  return TextReader<UosText>(path, {"x", "y", "z", kIntensity}).read();
+  return readPoints<UosText>(path, {"x", "y", "z", kIntensity});
 }
 
 ScanCloud
 readXyz(const std::filesystem::path& path)
 {
-  return TextReader<XyzText>(path, {"x", "y", "z"}).read();
+  return readPoints<XyzText>(path, {"x", "y", "z"});
 }
 
 ScanCloud
 readKitti(const std::filesystem::path& path)
 {
   ScanCloud scan;
-  addFloatFields({"x", "y", "z", kIntensity}, scan.cloud);
+  addFields<float>({"x", "y", "z", kIntensity}, scan.cloud);
   FileInput(path).appendRest(scan.cloud.data);
   if (scan.cloud.data.size() % kKittiPoint != 0)
     text::fail(path,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/pcd_header.h"
 #include "scan/point_field.h"
+#include "scan/scan_formats.h"
 #include "text/file_input.h"
 #include "text/text_row.h"
 
@@ -203,6 +204,27 @@ isDense(const pcl::PCLPointCloud2& cloud)
   return true;
 }
 
+/** Makes room for x, y and z in double, which the header declares as float32. */
+void
+widenCoordinates(PcdHeader& header)
+{
+  const auto isNarrow = [](const PCLPointField& field) {
+    return (field.name == "x" || field.name == "y" || field.name == "z") &&
+           field.datatype == PCLPointField::FLOAT32 && field.count == 1;
+  };
+  constexpr pcl::uindex_t kMore = sizeof(double) - sizeof(float);
+  const std::vector<PCLPointField> declared = header.fields;
+  for (std::size_t i = 0; i < declared.size(); ++i)
+    for (const PCLPointField& other : declared)
+      if (isNarrow(other) && other.offset < declared[i].offset)
+        header.fields[i].offset += kMore;
+  for (PCLPointField& field : header.fields)
+    if (isNarrow(field)) {
+      field.datatype = PCLPointField::FLOAT64;
+      header.point_size += kMore;
+    }
+}
+
 /** \param[in] input stands behind the header
  * \return the points, laid out as in the header; padding is no field any more
  * \throws IoFailed naming place, value and rule: too short, text that is no number,
@@ -246,13 +268,27 @@ readPcdViewpoint(const std::filesystem::path& path)
   return readPcdHeader(stream, path).viewpoint;
 }
 
+namespace {
+pcl::PCLPointCloud2
+readPcd(const std::filesystem::path& path, Digits digits)
+{
+  std::ifstream stream = text::open(path);
+  PcdHeader header = readPcdHeader(stream, path);
+  FileInput input(std::move(stream), path, header.num_lines);
+  if (digits == Digits::kDouble)
+    widenCoordinates(header);
+  pcl::PCLPointCloud2 cloud = decodeBody(input, header);
+  return digits == Digits::kFloat && header.encoding == PcdEncoding::kAscii &&
+                 needsDouble(path, cloud)
+             ? readPcd(path, Digits::kDouble)
+             : cloud;
+}
+} // namespace
+
 pcl::PCLPointCloud2
 readPcd(const std::filesystem::path& path)
 {
-  std::ifstream stream = text::open(path);
-  const PcdHeader header = readPcdHeader(stream, path);
-  FileInput input(std::move(stream), path, header.num_lines);
-  return decodeBody(input, header);
+  return readPcd(path, Digits::kFloat);
 }
 
 } // namespace pcl6d

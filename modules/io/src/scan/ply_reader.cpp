@@ -121,15 +121,25 @@ leftOut(const PlyHeader& header)
   return things;
 }
 
-} // namespace
+/** Makes doubles of x, y and z, which the header declares as floats. */
+void
+widenCoordinates(PlyHeader& header)
+{
+  for (auto& element : header.elements)
+    for (auto& property : element.properties)
+      if (element.name == "vertex" && !property.is_list &&
+          property.datatype == PCLPointField::FLOAT32 &&
+          (property.name == "x" || property.name == "y" || property.name == "z"))
+        property.datatype = PCLPointField::FLOAT64;
+}
 
-// Not by pcl::PLYReader, which takes 'abc' for nan and, where the locale has a decimal
-// comma, every broken number too.
 ScanCloud
-readPly(const std::filesystem::path& path)
+readPly(const std::filesystem::path& path, Digits digits)
 {
   FileInput input(path);
-  const PlyHeader header = readPlyHeader(input);
+  PlyHeader header = readPlyHeader(input);
+  if (digits == Digits::kDouble)
+    widenCoordinates(header);
   const auto vertex =
       std::find_if(header.elements.begin(),
                    header.elements.end(),
@@ -149,7 +159,20 @@ readPly(const std::filesystem::path& path)
       body->skipAll(element);
   body->finish();
   scan.left_out = leftOut(header);
-  return scan;
+  return digits == Digits::kFloat && header.encoding == PlyEncoding::kAscii &&
+                 needsDouble(path, scan.cloud)
+             ? readPly(path, Digits::kDouble)
+             : scan;
+}
+
+} // namespace
+
+// Not by pcl::PLYReader, which takes 'abc' for nan and, where the locale has a decimal
+// comma, every broken number too.
+ScanCloud
+readPly(const std::filesystem::path& path)
+{
+  return readPly(path, Digits::kFloat);
 }
 
 } // namespace pcl6d::io

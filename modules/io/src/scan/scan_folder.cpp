@@ -12,6 +12,7 @@
 #include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -165,11 +166,80 @@ ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
                         scans.files[i].filename().string(),
                         static_cast<int>(i),
                         poses.trajectory.poses[i],
-                        scans.format});
+                        scans.format,
+                        false,
+                        poses.trajectory.poses[i]});
     if (!poses.trajectory.stamps.empty())
       stamps_.push_back(poses.trajectory.stamps[i]);
   }
   odometry_ = std::move(poses.trajectory);
+  if (!options.keep_coordinates)
+    lookAtFirst();
+}
+
+void
+ScanFolder::lookAtFirst()
+{
+  try {
+    first_ = std::make_shared<ScanCloud>(readEntry(entries_.front()));
+  } catch (const IoFailed&) {
+    return; // is told when it is read
+  }
+  const auto place = placeOf(first_->cloud);
+  if (!place || !place->isFarFrom(Eigen::Vector3d::Zero()))
+    return;
+  first_.reset();
+  bringNear(*place);
+}
+
+PoseReading
+ScanFolder::readingOf(const PointsPlace& place, const Eigen::Vector3d& offset) const
+{
+  const Eigen::Isometry3d& first = entries_.front().given;
+  double poses = 0, points = 0; // how far they spread
+  for (const Entry& entry : entries_) {
+    poses += (entry.given.translation() - first.translation()).norm();
+    points += (entry.given * offset - first * offset).norm();
+  }
+  constexpr double kRounding = 1e-6; // [m] a scan, of products of 1e9 m in double
+  const double rounding = kRounding * static_cast<double>(entries_.size());
+  if (!place.isFarFrom(first.translation()) && poses <= points + rounding)
+    return PoseReading::kStation;
+  return poses < points - rounding ? PoseReading::kScanner : PoseReading::kFile;
+}
+
+void
+ScanFolder::bringNear(const PointsPlace& place)
+{
+  const Eigen::Vector3d offset = place.middle.array().round();
+  moved_ = {readingOf(place, offset), offset};
+  coordinates_ = describeFar(place);
+  if (moved_->reading == PoseReading::kStation) {
+    moved_->offset.setZero();
+    coordinates_ += ", in the world of their poses (" + pose_source_ +
+                    "): taken back into the frames of the scanner";
+  }
+  else {
+    coordinates_ += describeMove(offset);
+    if (moved_->reading == PoseReading::kScanner)
+      coordinates_ += ", which the poses (" + pose_source_ + ") do not hold";
+    coordinates_ +=
+        "; where the scanner stood among them is not known: ranges and rays "
+        "begin in their middle";
+  }
+  for (Entry& entry : entries_)
+    entry.is_far = true;
+  placeNear();
+  for (Eigen::Isometry3d& pose : odometry_.poses)
+    pose = moved_->ofNear(pose);
+}
+
+void
+ScanFolder::placeNear()
+{
+  for (Entry& entry : entries_)
+    if (entry.is_far)
+      entry.pose = moved_->ofNear(entry.given);
 }
 
 void
@@ -184,8 +254,13 @@ ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
       text::fail(file,
                  "is missing, though " + (run / "summary.json").string() +
                      " tells of it");
-    entries.push_back(
-        {file, scan.file, scan.index, scan.initial_pose, ScanFormat::kPcd});
+    entries.push_back({file,
+                       scan.file,
+                       scan.index,
+                       scan.initial_pose,
+                       ScanFormat::kPcd,
+                       false,
+                       scan.initial_pose});
     known.insert(scan.file);
     next = std::max(next, scan.index + 1);
   }
@@ -206,6 +281,11 @@ ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
     stamps.clear();
   stamps_ = std::move(stamps);
   entries_ = std::move(entries);
+  first_.reset();
+  if (moved_ && summary.moved) { // the same trajectory goes on
+    moved_ = summary.moved;
+    placeNear();
+  }
 }
 
 std::size_t
@@ -236,6 +316,13 @@ const Eigen::Isometry3d&
 ScanFolder::initialPose(std::size_t i) const
 {
   return entries_.at(i).pose;
+}
+
+Eigen::Isometry3d
+ScanFolder::poseOfFile(std::size_t i) const
+{
+  const Entry& entry = entries_.at(i);
+  return entry.is_far ? entry.pose * moved_->toNear(entry.given) : entry.pose;
 }
 
 const std::vector<double>&
@@ -274,10 +361,21 @@ ScanFolder::read(std::size_t i) const
 ScanCloud
 ScanFolder::readCloud(std::size_t i) const
 {
-  const Entry& entry = entries_.at(i);
-  return other_format_ && entry.format == ScanFormat::kAuto
-             ? readScanCloud(entry.file, *other_format_)
-             : readScanCloud(entry.file, entry.format);
+  if (i == 0)
+    if (const auto first = std::atomic_exchange(&first_, {}))
+      return first.use_count() == 1 ? std::move(*first) : *first; // a copy may share it
+  return readEntry(entries_.at(i));
+}
+
+ScanCloud
+ScanFolder::readEntry(const Entry& entry) const
+{
+  const OtherScanFormat* const other =
+      entry.format == ScanFormat::kAuto ? other_format_.get() : nullptr;
+  if (entry.is_far)
+    return readMovedCloud(entry.file, entry.format, other, moved_->toNear(entry.given));
+  return other ? readScanCloud(entry.file, *other)
+               : readScanCloud(entry.file, entry.format);
 }
 
 ScanFormat

@@ -4,6 +4,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/io/far_points.h>
 #include <pcl6d/io/other_scan_format.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_fields.h>
@@ -172,6 +173,19 @@ requireFitting(const pcl::PCLPointCloud2& cloud)
   }
 }
 
+pcl::PCLPointCloud2
+readByOther(const std::filesystem::path& path, const OtherScanFormat& format)
+{
+  require(format.read != nullptr, "read", "none", "a function");
+  try {
+    return format.read(path);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    text::fail(path, "format " + format.name + ": " + e.what());
+  }
+}
+
 /** The points that readScanCloud() leaves, of what a reader has read. */
 ScanCloud
 finitePart(const std::filesystem::path& path, ScanCloud scan)
@@ -222,6 +236,18 @@ io::allExtensions()
   return extensions;
 }
 
+bool
+io::needsDouble(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud)
+{
+  const bool has_floats =
+      std::any_of(cloud.fields.begin(), cloud.fields.end(), [](const auto& field) {
+        return field.name == kAxes[0] && field.datatype == pcl::PCLPointField::FLOAT32;
+      });
+  std::error_code error;
+  return has_floats && !offsetOfFar(cloud).isZero(0) &&
+         std::filesystem::is_regular_file(path, error);
+}
+
 ScanFormat
 scanFormatFromName(const std::string& name)
 {
@@ -263,16 +289,45 @@ finiteScan(pcl::PCLPointCloud2 cloud, const std::filesystem::path& file)
 ScanCloud
 readScanCloud(const std::filesystem::path& path, const OtherScanFormat& format)
 {
-  require(format.read != nullptr, "read", "none", "a function");
-  pcl::PCLPointCloud2 cloud;
+  return finiteScan(readByOther(path, format), path);
+}
+
+ScanCloud
+io::readMovedCloud(const std::filesystem::path& path,
+                   ScanFormat format,
+                   const OtherScanFormat* other,
+                   const Eigen::Isometry3d& motion)
+{
+  ScanCloud scan;
+  if (other)
+    scan.cloud = readByOther(path, *other);
+  else
+    scan = readAllPoints(path, format);
   try {
-    cloud = format.read(path);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& e) {
-    text::fail(path, "format " + format.name + ": " + e.what());
+    requireFitting(scan.cloud);
+    moveCloud(motion, scan.cloud);
+  } catch (const BadArgument& e) {
+    text::fail(path, e.what());
   }
-  return finiteScan(std::move(cloud), path);
+  return finitePart(path, std::move(scan));
+}
+
+NearScan
+readNearScan(const std::filesystem::path& path, ScanFormat format)
+{
+  NearScan scan;
+  static_cast<ScanCloud&>(scan) = readScanCloud(path, format);
+  const auto place = placeOf(scan.cloud);
+  scan.offset = offsetOfFar(scan.cloud);
+  if (!scan.offset.isZero(0)) {
+    moveCloud(Eigen::Isometry3d(Eigen::Translation3d(-scan.offset)), scan.cloud);
+    const std::size_t dropped = scan.dropped;
+    static_cast<ScanCloud&>(scan) = finitePart(path, std::move(scan));
+    scan.dropped += dropped;
+    scan.description = describeFar(*place) + describeMove(scan.offset);
+  }
+  scan.points = coordinatesOf(scan.cloud);
+  return scan;
 }
 
 Scan

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/map_verification.h>
+#include <pcl6d/common/moved_points.h>
 #include <pcl6d/common/status.h>
 
 #include <Eigen/Geometry>
@@ -192,6 +193,8 @@ struct RunResult {
   std::string version;
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero(); ///< [m]
   std::string pose_source;
+  std::optional<MovedPoints>
+      moved; ///< how points far from their origin were brought near
   std::vector<Option> options;
   std::vector<Stage> stages;
   std::vector<ScanResult> scans;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/moved_points.h>
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/common/trajectory.h>
+#include <pcl6d/io/far_points.h>
 #include <pcl6d/io/other_scan_format.h>
 #include <pcl6d/io/scan_reader.h>
 
@@ -24,13 +26,24 @@ struct ScanFolderOptions {
   std::optional<int>
       last;      ///< index of the last scan, >= first; none or beyond: the end
   int every = 1; ///< take each n-th scan, >= 1
+  bool keep_coordinates = false; ///< leave far points where they are
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
 };
 
 /** \brief Scans of a folder in natural order (scan2 before scan10), opened lazily: only
- * headers and poses are read on construction.
+ * headers, poses and the first scan are read on construction.
+ *
+ * If the points of the first scan lie where no scanner that stands in the origin can have
+ * measured them (PointsPlace::isFarFrom()), as national coordinates do, all scans are read
+ * in double and brought near (moved()), and their poses accordingly: what is read are near
+ * points in the frames of initialPose(). Three kinds of folders are told apart by their
+ * poses. If the scanner of the first scan would stand amid its points, and poses are closer
+ * to each other than the places to which they bring the middle of the points, the points are
+ * in the world already (PoseReading::kStation). If only the latter holds, the points carry
+ * an offset (kScanner). Else poses belong to the points as they are (kFile), as without any
+ * poses.
  *
  * The initial poses come from the first of: the given file; one `scanNNN.pose` per scan
  * (3DTK); `odometry.txt`; `poses.txt` (KITTI rows T_world_scan, one per scan of the
@@ -78,9 +91,13 @@ public:
   int
   index(std::size_t i) const;
 
-  /** \return the initial pose of the i-th selected scan, exactly rigid */
+  /** \return the initial pose of the i-th selected scan as read() returns it, exactly rigid */
   const Eigen::Isometry3d&
   initialPose(std::size_t i) const;
+
+  /** \return the same of its points as the file has them: another one if they are moved */
+  Eigen::Isometry3d
+  poseOfFile(std::size_t i) const;
 
   /** \return time stamps [s] of the selected scans, or empty if the folder has none */
   const std::vector<double>&
@@ -98,6 +115,20 @@ public:
   /** \return false if no pose source was found, so that all poses are the identity */
   bool
   hasPoses() const;
+
+  /** \return how points that lie far from the origin are brought near; none: they do not */
+  const std::optional<MovedPoints>&
+  moved() const
+  {
+    return moved_;
+  }
+
+  /** \return the same for people, one line; empty if nothing is moved */
+  const std::string&
+  coordinates() const
+  {
+    return coordinates_;
+  }
 
   /** \brief Reads the i-th selected scan. \throws IoFailed as readScan() */
   Scan
@@ -117,15 +148,32 @@ private:
     std::filesystem::path file;
     std::string name;
     int index = 0;
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    Eigen::Isometry3d given = Eigen::Isometry3d::Identity();
     ScanFormat format = ScanFormat::kAuto; ///< auto: the other one
+    bool is_far = false;                   ///< it is moved when it is read
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity(); ///< of the points as read
   };
+
+  ScanCloud
+  readEntry(const Entry& entry) const;
+  void
+  lookAtFirst();
+  void
+  bringNear(const PointsPlace& place);
+  PoseReading
+  readingOf(const PointsPlace& place, const Eigen::Vector3d& offset) const;
+  void
+  placeNear();
+
   std::vector<Entry> entries_;
   std::shared_ptr<const OtherScanFormat> other_format_;
   std::vector<double> stamps_;
   Trajectory odometry_;
   std::string pose_source_;
   std::size_t num_registered_ = 0;
+  std::optional<MovedPoints> moved_;
+  std::string coordinates_;
+  mutable std::shared_ptr<ScanCloud> first_; ///< if it was read and not given away yet
 };
 
 /** \brief Looks for the pose of a scan that is not taken as part of a folder.

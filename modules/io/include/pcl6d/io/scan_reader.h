@@ -67,7 +67,17 @@ struct Scan : ScanCloud {
 Scan
 readScan(const std::filesystem::path& path, ScanFormat format = ScanFormat::kAuto);
 
-/** \brief The same without a second copy of x, y, z. */
+/** \brief A scan whose points were brought near, should they lie far from their origin. */
+struct NearScan : Scan {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< subtracted, whole metres
+  std::string description; ///< of that, one line for people; empty if it is zero
+};
+
+/** \brief readScan(), and subtracts offsetOfFar() in double. */
+NearScan
+readNearScan(const std::filesystem::path& path, ScanFormat format = ScanFormat::kAuto);
+
+/** \brief readScan() without a second copy of x, y, z. */
 ScanCloud
 readScanCloud(const std::filesystem::path& path, ScanFormat format = ScanFormat::kAuto);
 

@@ -50,6 +50,10 @@ public:
     return world_offset_;
   }
 
+  /** \return how points that lie far from the origin of their files were brought near */
+  const std::optional<MovedPoints>&
+  moved() const;
+
   /** \return the ranges [m] that the run took for surfaces; all if it is none */
   double
   minRange() const

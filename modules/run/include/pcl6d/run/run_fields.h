@@ -33,6 +33,15 @@ visitScanFields(Scan& scan, Visit&& visit)
   visit("reason", scan.reason);
 }
 
+/** \param[in] moved a MovedPoints, const or not */
+template <typename Moved, typename Visit>
+void
+visitMovedFields(Moved& moved, Visit&& visit)
+{
+  visit("poses", moved.reading);
+  visit("offset", moved.offset);
+}
+
 /** \param[in] stage a StageResult, const or not */
 template <typename Stage, typename Visit>
 void
@@ -102,6 +111,11 @@ inline void
 takeWord(const std::string& word, InitialGuess& guess)
 {
   guess = initialGuessFromName(word);
+}
+inline void
+takeWord(const std::string& word, PoseReading& reading)
+{
+  reading = poseReadingFromName(word);
 }
 inline void
 takeWord(const std::string& word, StageKind& kind)

@@ -33,7 +33,8 @@ public:
   /** Keeps a reference to the run. */
   RunWriter(std::filesystem::path folder, const RunResult& run);
 
-  /** \brief trajectory.kitti, trajectory.tum and frames/.
+  /** \brief trajectory.kitti and trajectory.tum, whose poses mean what the given ones meant
+   * (RunResult::moved), and frames/.
    * \param[in] stamps of the scans [s]; empty: their indices */
   void
   writePoses(const std::vector<double>& stamps = {}) const;

@@ -11,9 +11,10 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d::app {
+namespace pcl6d {
 
-/** \brief Three fields of floating point that are a vector. */
+/** \brief Three fields of floating point that are a vector, in the bytes of a point.
+ * \ingroup io */
 class VectorField {
 public:
   VectorField(const std::vector<pcl::PCLPointField>& fields,
@@ -68,4 +69,4 @@ private:
   std::vector<pcl::PCLPointField> parts_;
 };
 
-} // namespace pcl6d::app
+} // namespace pcl6d

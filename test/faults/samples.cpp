@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
@@ -87,6 +88,23 @@ writeTexts(const fs::path& folder)
   test::writeText(folder / "cube.stl", cubeStl());
 }
 
+/** The scans of folder_xyz in national coordinates, with the odometry that they had. */
+void
+makeFarScans(const fs::path& folder)
+{
+  fs::copy(folder / "folder_xyz", folder / "folder_far");
+  for (int i = 0; i < 4; ++i) {
+    const fs::path file =
+        folder / "folder_far" / ("scan00" + std::to_string(i) + ".xyz");
+    std::istringstream rows(test::readText(file));
+    std::ostringstream far;
+    far << std::fixed << std::setprecision(6);
+    for (double x = 0, y = 0, z = 0; rows >> x >> y >> z;)
+      far << x + 512345 << ' ' << y + 5403210 << ' ' << z + 317 << '\n';
+    test::writeText(file, far.str());
+  }
+}
+
 /** Four scans with odometry, and one of them in every format. */
 void
 makeScans(const Maker& run, const fs::path& folder)
@@ -120,6 +138,7 @@ makeScans(const Maker& run, const fs::path& folder)
   for (const char* const format : {"uos", "uosr", "kitti", "xyz", "ply", "pcd"})
     run("pcl_slam6d_convert",
         std::string("scans scans -o folder_") + format + " --format " + format);
+  makeFarScans(folder);
 }
 
 void

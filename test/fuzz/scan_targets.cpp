@@ -23,6 +23,11 @@ readScanOf(ScanFormat format, const std::uint8_t* data, std::size_t size)
     expect(scan.places.empty() || scan.places.size() == count, "a place per point");
     for (std::size_t i = 0; i < count; ++i)
       expect(scan.points[i].allFinite(), "points are finite");
+    const NearScan near = readNearScan(file, format);
+    expect(near.points.size() <= count, "no more points than were read");
+    expect(near.description.empty() == near.offset.isZero(0), "a move is told");
+    for (const auto& p : near.points)
+      expect(p.allFinite(), "near points are finite");
   });
 }
 } // namespace

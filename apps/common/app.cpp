@@ -68,7 +68,70 @@ report(const std::string& name, const std::string& message, ExitCode code)
   return code;
 }
 
-/** \return the words for what is being handled */
+/** A name of a locale that is not installed makes std::locale("") throw, which libraries
+ * call deep in their work: then this process and its children have the plain one. */
+void
+makeLocaleValid()
+{
+  try {
+    std::locale("");
+  } catch (const std::runtime_error&) {
+    ::setenv("LC_ALL", "C", 1);
+  }
+}
+
+const std::terminate_handler usual_end = std::get_terminate();
+
+/** Whether this thread asked for memory that there is not. */
+thread_local bool lacked_memory = false;
+
+void
+rememberLack()
+{
+  lacked_memory = true;
+  throw std::bad_alloc();
+}
+
+[[noreturn]] void
+endWithoutMemory()
+{
+  ::dprintf(
+      STDERR_FILENO, "%s: error: not enough memory\n", program_invocation_short_name);
+  ::_exit(kFailed);
+}
+
+/** Memory may be over where runMain() does not catch it: while main() makes its arguments,
+ * in a thread of a library, or below a function that lets no exception out, such as a
+ * destructor, where nothing tells which exception it was. Nothing here asks for any. */
+void
+endInWords()
+try {
+  if (const auto error = std::current_exception())
+    std::rethrow_exception(error);
+  if (lacked_memory && std::uncaught_exceptions() > 0)
+    endWithoutMemory();
+  usual_end();
+} catch (const std::bad_alloc&) {
+  endWithoutMemory();
+} catch (...) {
+  usual_end();
+}
+
+[[maybe_unused]] const std::terminate_handler replaced = std::set_terminate(endInWords);
+[[maybe_unused]] const std::new_handler replaced_too =
+    std::set_new_handler(rememberLack);
+
+/** A file must not be opened under the number of a standard stream that is closed: what is
+ * printed would go into it. What is written to such a stream fails, as before. */
+void
+occupyStandardStreams()
+{
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY); // takes it
+}
+} // namespace
+
 std::string
 wordsOfCurrent()
 try {
@@ -87,49 +150,6 @@ try {
   return std::string("an exception of an unknown kind was thrown: ") +
          (type ? type->name() : "no C++ exception");
 }
-
-/** A name of a locale that is not installed makes std::locale("") throw, which libraries
- * call deep in their work: then this process and its children have the plain one. */
-void
-makeLocaleValid()
-{
-  try {
-    std::locale("");
-  } catch (const std::runtime_error&) {
-    ::setenv("LC_ALL", "C", 1);
-  }
-}
-
-const std::terminate_handler usual_end = std::get_terminate();
-
-/** Memory may be over where runMain() does not catch it: while main() makes its arguments,
- * or in a thread of a library. Nothing here asks for any. */
-void
-endInWords()
-try {
-  if (const auto error = std::current_exception())
-    std::rethrow_exception(error);
-  usual_end();
-} catch (const std::bad_alloc&) {
-  ::dprintf(
-      STDERR_FILENO, "%s: error: not enough memory\n", program_invocation_short_name);
-  ::_exit(kFailed);
-} catch (...) {
-  usual_end();
-}
-
-[[maybe_unused]] const std::terminate_handler replaced = std::set_terminate(endInWords);
-
-/** A file must not be opened under the number of a standard stream that is closed: what is
- * printed would go into it. What is written to such a stream fails, as before. */
-void
-occupyStandardStreams()
-{
-  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
-    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
-      ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY); // takes it
-}
-} // namespace
 
 int
 runMain(const std::string& name,

@@ -35,6 +35,11 @@ runMain(const std::string& name,
         char** argv,
         const std::function<int(const std::vector<std::string>&)>& body);
 
+/** \return the words for the exception that is being handled: where the work goes on
+ * without what failed */
+std::string
+wordsOfCurrent();
+
 /** \brief Calls check and turns its BadArgument into a UsageError: for options that the
  * library validates. "max_range = -1, but ..." becomes "--max-range = -1, but ...".
  * \param[in] words options that are not called like the library's field */

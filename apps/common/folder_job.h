@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/app.h"
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 
 #include <pcl6d/common/error.h>
 
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -59,8 +59,8 @@ struct FolderJob {
     } catch (const BadArgument& e) { // there is nothing that could be seen
       bar.warn("no " + name + ": " + e.what());
       return true;
-    } catch (const std::exception& e) {
-      bar.warn("no " + name + ": " + e.what());
+    } catch (...) {
+      bar.warn("no " + name + ": " + wordsOfCurrent());
       return false;
     }
     if (!quiet)

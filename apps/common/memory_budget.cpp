@@ -17,6 +17,7 @@
 #include <limits>
 #include <malloc.h>
 #include <new>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -182,8 +183,10 @@ MemoryBudget::MemoryBudget(const MemoryOption& option,
   if (is_strict) // large blocks of the heap go back to the system at once
     ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
   arena = new ScratchArena(nearestFolder(folder));
-  std::thread(watch).detach();
-  std::thread(trim).detach();
+  try { // without them no large block counts as freed: more goes to the file
+    std::thread(watch).detach();
+    std::thread(trim).detach();
+  } catch (const std::system_error&) {}
 }
 
 std::size_t
@@ -238,9 +241,11 @@ takeBlock(std::size_t bytes, std::size_t alignment = 0)
     block = std::malloc(bytes);
   else if (::posix_memalign(&block, alignment, bytes) != 0)
     block = nullptr;
-  if (!block)
-    throw std::bad_alloc();
-  return block;
+  if (block)
+    return block;
+  if (const std::new_handler tell = std::get_new_handler())
+    tell(); // throws, or there is still nothing
+  throw std::bad_alloc();
 }
 
 void

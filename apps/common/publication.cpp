@@ -75,16 +75,6 @@ canBeExchanged(const fs::path& folder)
   return true;
 }
 
-/** Renames, and waits until that is on the disk. */
-void
-renameSafely(const fs::path& from, const fs::path& to)
-{
-  errno = 0;
-  if (::rename(from.c_str(), to.c_str()) != 0)
-    text::fail(to, text::systemReason("cannot be written"));
-  syncToDisk(to.parent_path());
-}
-
 void
 removeFile(const fs::path& path)
 {
@@ -193,15 +183,6 @@ publishWithin(const OutputPlace& place, Move move)
   moveWithin(place, move);
 }
 
-/** Where the file system knows no exchange: with giveNameBack() the same in the end. */
-void
-renamePair(const OutputPlace& place, const fs::path& files)
-{
-  renameSafely(files, readyPath(place));
-  renameSafely(place.folder, files);
-  renameSafely(readyPath(place), place.folder);
-}
-
 /** \return false: it has to be done within the folder, and nothing has changed */
 bool
 publishBeside(const OutputPlace& place, const fs::path& staging, const Files& foreign)
@@ -214,16 +195,17 @@ publishBeside(const OutputPlace& place, const fs::path& staging, const Files& fo
   fs::path old = staging;
   const std::string name = staging.filename().string();
   old.replace_filename(besidePrefix(place, "old-") + name.substr(name.size() - 6));
-  renameSafely(staging, old);
+  Renaming names;
+  names.change(staging, old);
   const Exchange done = exchangeNames(old, place.folder);
-  if (done == Exchange::kRefused) {
-    const int reason = errno;
-    renameSafely(old, staging);
-    errno = reason;
+  if (done == Exchange::kRefused)
     return false;
+  if (done == Exchange::kUnknown) { // with giveNameBack() the same in the end
+    names.change(old, readyPath(place));
+    names.change(place.folder, old);
+    names.change(readyPath(place), place.folder);
   }
-  if (done == Exchange::kUnknown)
-    renamePair(place, old);
+  names.keep();
   try {
     syncToDisk(place.folder.parent_path());
   } catch (const IoFailed&) { // the new run is there, but may not outlive a power cut

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -158,6 +159,35 @@ removeEmptyFolders(const fs::path& folder)
   std::sort(folders.rbegin(), folders.rend()); // those within before those around
   for (const auto& one : folders)
     ::rmdir(one.c_str());
+}
+
+void
+renameSafely(const fs::path& from, const fs::path& to)
+{
+  errno = 0;
+  if (::rename(from.c_str(), to.c_str()) != 0)
+    text::fail(to, text::systemReason("cannot be written"));
+  syncToDisk(to.parent_path());
+}
+
+Renaming::~Renaming()
+{
+  for (auto change = done_.rbegin(); change != done_.rend(); ++change)
+    ::rename(change->second.c_str(), change->first.c_str());
+}
+
+void
+Renaming::change(const fs::path& from, const fs::path& to)
+{
+  done_.emplace_back(from, to); // first: it may take memory
+  try {
+    renameSafely(from, to);
+  } catch (...) {
+    struct stat found {};
+    if (::lstat(from.c_str(), &found) == 0) // nothing has changed
+      done_.pop_back();
+    throw;
+  }
 }
 
 Exchange

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 /** \file What putting a folder of new files in the place of old ones is made of. */
@@ -47,6 +48,35 @@ takeRightsOf(const std::filesystem::path& model, const std::filesystem::path& fo
 /** \brief Removes folders without files, from the lowest up to the top, itself too. */
 void
 removeEmptyFolders(const std::filesystem::path& folder);
+
+/** \brief Changes a name, and waits until that is on the disk.
+ * \throws IoFailed it cannot be changed, or may not outlive a power cut */
+void
+renameSafely(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/** \brief Names that change together: without keep() all are as they were at the end of its
+ * scope. */
+class Renaming {
+public:
+  Renaming() = default;
+  ~Renaming();
+  Renaming(const Renaming&) = delete;
+  Renaming&
+  operator=(const Renaming&) = delete;
+
+  /** \brief As renameSafely(). */
+  void
+  change(const std::filesystem::path& from, const std::filesystem::path& to);
+
+  void
+  keep()
+  {
+    done_.clear();
+  }
+
+private:
+  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> done_;
+};
 
 /** \brief How two folders of one file system changed their names. */
 enum class Exchange {

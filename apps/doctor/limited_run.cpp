@@ -78,7 +78,7 @@ beChild(const std::function<nlohmann::json()>& work, int result, int said, pid_t
   ::dup2(said, STDOUT_FILENO);
   ::dup2(said, STDERR_FILENO);
   pcl::console::setVerbosityLevel(pcl::console::L_WARN);
-  nlohmann::json answer;
+  nlohmann::json answer = nlohmann::json::object();
   try {
     answer["result"] = work();
   } catch (const std::exception& e) {

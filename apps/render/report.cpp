@@ -29,7 +29,7 @@ parse(const std::vector<std::string>& arguments, ReportSettings& s)
                     R"( report RUN [options]
 Writes one page for a browser, which needs no network: whether the map is to be
 trusted, the map in three dimensions, plots, tables, pictures and options of the run.
-What the run lacks is named on it.
+What the run lacks is named on it; of a file that cannot be read the exit code is 3.
 )");
   table.positional("RUN", &s.run);
   table.group("Output");
@@ -63,7 +63,7 @@ runReport(const std::vector<std::string>& arguments)
     bar.warn(what);
   if (!settings.quiet)
     std::cout << "  " << settings.output << '\n';
-  return kDone;
+  return data.is_damaged ? kDoubtful : kDone;
 }
 
 } // namespace pcl6d::app

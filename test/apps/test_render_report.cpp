@@ -77,7 +77,7 @@ TEST(RenderReport, SaysWhatIsMissingOrBroken)
   writeText(run / "planes.json", "[");
   writeText(run / "top_view.png", "no picture");
   const Outcome outcome = runProgram(kRender, {"report", run.path().string()});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   for (const char* const what : {"missing: map.pcd",
                                  "missing: frames",
                                  "planes.json",
@@ -85,6 +85,28 @@ TEST(RenderReport, SaysWhatIsMissingOrBroken)
     EXPECT_NE(outcome.err.find(what), std::string::npos) << what << ": " << outcome.err;
     EXPECT_TRUE(holds(run / "report.html", what)) << what;
   }
+}
+
+TEST(RenderReport, OfEachBrokenFileTheExitCodeSaysSo)
+{
+  for (const std::string name : {"map.pcd", "links.csv", "planes.json", "planes.png"}) {
+    SCOPED_TRACE(name);
+    const Copy run;
+    writeText(run / name, "{");
+    const Outcome outcome = runProgram(kRender, {"report", run.path().string()});
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+    EXPECT_TRUE(fs::exists(run / "report.html"));
+  }
+}
+
+TEST(RenderReport, WhatIsMerelyMissingIsNoFault)
+{
+  const Copy run;
+  fs::remove(run / "map.pcd");
+  const Outcome outcome = runProgram(kRender, {"report", run.path().string()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("missing: map.pcd"), std::string::npos) << outcome.err;
 }
 
 TEST(RenderReport, OfPosesAloneDoesNotCallThemGood)

@@ -92,3 +92,33 @@ TEST(RunMain, HasAValidLocaleForItsLibrariesAndChildren)
     ::unsetenv(name);
   }
 }
+
+namespace {
+void* taken = nullptr;
+
+/** As a destructor that asks for memory on its way: what it throws cannot get out, and when it
+ * is stopped nothing tells any more what it was. */
+void
+askForMemory() noexcept
+{
+  const std::string name(100, 'x');
+  taken = ::operator new (std::size_t{1} << 60);
+  std::cerr << name;
+}
+} // namespace
+
+TEST(RunMain, TellsOfMemoryThatEndsWhereNothingCanBeThrown)
+{
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "its operator new ends the process itself";
+#endif
+  const auto body = [](const std::vector<std::string>&) {
+    askForMemory();
+    return 0;
+  };
+  std::string name = "prog";
+  char* argv[] = {name.data(), nullptr};
+  EXPECT_EXIT(std::exit(runMain("prog", 1, argv, body)),
+              testing::ExitedWithCode(1),
+              "error: not enough memory");
+}

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <initializer_list>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -46,6 +47,15 @@ showTrace(const char* kind)
   const int count = ::backtrace(frames, 40);
   ::dprintf(2, "[inject: %s]\n", kind);
   ::backtrace_symbols_fd(frames, count, 2);
+}
+
+/** Shows where a program ends, or was when it was asked for that, as what it hangs in. */
+void
+showEnd(int signal)
+{
+  showTrace("end");
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
 }
 
 /** Counts a call. \return whether it is to fail */
@@ -103,6 +113,9 @@ arm()
     failing_call = std::strtoull(number, nullptr, 10);
   mode = modeOf(std::getenv("PCL6D_INJECT_MODE"));
   shows_trace = std::getenv("PCL6D_INJECT_TRACE") != nullptr;
+  if (shows_trace)
+    for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGALRM})
+      ::signal(signal, showEnd);
   if (const char* const file = std::getenv("PCL6D_INJECT_COUNT"))
     openCounter(file);
   armed_process = ::getpid();

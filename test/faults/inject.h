@@ -7,13 +7,14 @@
 /** \file A library for LD_PRELOAD that makes one call of a program to the system fail, so that
  * a test can try each of them in turn (inject.sh). What it does stands in the environment:
  *
- * PCL6D_INJECT_KIND   which calls: write, read, open (to write), rename, unlink, mkdir,
- *                     truncate, sync, map, malloc, fork, thread; several with commas
+ * PCL6D_INJECT_KIND   which calls: write, read, open (to write), rename (also link), unlink,
+ *                     mkdir, truncate, sync, map, malloc, fork, thread; several with commas
  * PCL6D_INJECT_AT     the number of the call that fails, from 1; 0: none, they are counted
  * PCL6D_INJECT_MODE   fail (as on a full disk), from (this call and all after it), short (a
  *                     write takes half of the bytes), kill (SIGKILL in place of the call)
  * PCL6D_INJECT_COUNT  a file that then holds the number of calls, as 8 bytes
- * PCL6D_INJECT_TRACE  set: where the call came from goes to stderr
+ * PCL6D_INJECT_TRACE  set: where the call came from goes to stderr, and where the program is
+ *                     when a signal ends it (of a hanging one: SIGALRM)
  *
  * Only calls of the first process count, from main() on, and none of the dynamic loader. Of
  * write and read only those on regular files beyond stderr count: what a disk holds. What

@@ -73,9 +73,11 @@ prepare() { # the folder as the earlier run left it
   cp -a "$base/old" "$work"
 }
 
+ending=KILL # the signal for what hangs
 run() { # [VARIABLE=VALUE ...]: runs the command; its exit code
   # env starts the program itself: the library arms the first process that loads it
-  (cd "$work" && exec timeout -s KILL 20 env "$@" "${command[@]}" >"$base/out" 2>"$base/err")
+  (cd "$work" && exec timeout -s "$ending" -k 5 20 env "$@" "${command[@]}" \
+    >"$base/out" 2>"$base/err")
 }
 
 # Runs of the program without faults: what is old, what is new, and what varies.
@@ -126,13 +128,35 @@ found() { # WHAT: a finding of the current position
   tail -n 2 "$base/err" | cut -c 1-300 | sed 's/^/    /'
 }
 
-# Whether a program ended or hangs in a library that is not ours, with the reason:
+# Libraries that cannot go on without what fails here:
 #   libtbb: ends the process when it gets no thread, waits for ever when it gets no memory
+#   swrast_dri, libGLX_mesa (Mesa's drawing): use memory that they did not get, and wait for
+#     threads that they could not start
+#   libLLVM (Mesa's compiler): ends the process when it gets no memory
+#   libX11, libxcb: end the process after Mesa has not read an answer of the X server
+others='libtbb|swrast_dri|libGLX_mesa|libLLVM|libX11|libxcb'
+
+# Where a call came from, past the C and C++ libraries and the program's own operator new and
+# handler of std::terminate: a line for each trace
+callers() {
+  awk '
+    /^\[inject: / { if (open) print "?"; open = 1; held = ""; next }
+    !open || !/^\// { next }
+    /libpcl6d_inject|libc\.so|libm\.so|libgcc|ld-linux|_Znw|_Zna/ { next }
+    /libstdc\+\+/ { held = ""; next }
+    held != "" { print held; open = 0; next }
+    /\/bin\// { held = $0; next }
+    { print; open = 0 }
+    END { if (open) print (held == "" ? "?" : held) }' "$base/err"
+}
+
+# Whether a program ended or hangs in a library that is not ours: the call that failed and what
+# ended it, or what it waits in, are both of there.
 is_foreign() {
   prepare
-  run LD_PRELOAD="$library" PCL6D_INJECT_KIND="$kind" PCL6D_INJECT_MODE="$mode" \
-    PCL6D_INJECT_AT="$at" PCL6D_INJECT_TRACE=1 2>/dev/null
-  grep -A 8 '^\[inject: ' "$base/err" | grep -v inject | head -n 2 | grep -q '/libtbb'
+  ending=ALRM run LD_PRELOAD="$library" PCL6D_INJECT_KIND="$kind" \
+    PCL6D_INJECT_MODE="$mode" PCL6D_INJECT_AT="$at" PCL6D_INJECT_TRACE=1 2>/dev/null
+  [ "$(callers | wc -l)" -ge 2 ] && ! callers | grep -qvE "/($others)[^/]*\$"
 }
 
 judge() { # EXIT

@@ -209,6 +209,24 @@ renameat2(int from_folder,
 }
 
 int
+link(const char* from, const char* to) noexcept
+{
+  PCL6D_NEXT(link);
+  return fails("rename", EACCES) ? -1 : real(from, to);
+}
+
+int
+linkat(int from_folder,
+       const char* from,
+       int to_folder,
+       const char* to,
+       int flags) noexcept // also names what was opened without a name
+{
+  PCL6D_NEXT(linkat);
+  return fails("rename", EACCES) ? -1 : real(from_folder, from, to_folder, to, flags);
+}
+
+int
 unlink(const char* path) noexcept
 {
   PCL6D_NEXT(unlink);

@@ -5,11 +5,10 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/visualization/report.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <ostream>
 #include <string_view>
 #include <utility>
@@ -23,12 +22,13 @@ namespace fs = std::filesystem;
 /** What is broken is told in the report, which shows the rest. */
 template <typename Read>
 auto
-readOrTell(const Read& read, std::vector<std::string>& missing) -> decltype(read())
+readOrTell(const Read& read, ReportData& data) -> decltype(read())
 {
   try {
     return read();
   } catch (const IoFailed& error) {
-    missing.push_back(error.what());
+    data.missing.push_back(error.what());
+    data.is_damaged = true;
     return {};
   }
 }
@@ -63,10 +63,15 @@ pictureNames(const fs::path& run)
   return names;
 }
 
-bool
-isPng(const std::string& bytes)
+/** \return the bytes of a picture, never none \throws IoFailed it cannot be read or is none
+ */
+std::string
+readPng(const fs::path& folder, const std::string& name)
 {
-  return bytes.rfind("\x89PNG\r\n\x1a\n", 0) == 0;
+  std::string bytes = text::readFile(folder / name);
+  if (bytes.rfind("\x89PNG\r\n\x1a\n", 0) != 0)
+    throw IoFailed(name + " is no picture");
+  return bytes;
 }
 
 void
@@ -79,12 +84,9 @@ gatherPictures(const fs::path& folder, std::size_t budget, ReportData& data)
       data.missing.push_back(name + " is too large for this page");
       continue;
     }
-    std::ifstream stream(folder / name, std::ios::binary);
-    std::string png{std::istreambuf_iterator<char>(stream), {}};
-    if (!isPng(png)) {
-      data.missing.push_back(name + " is no picture");
+    std::string png = readOrTell([&] { return readPng(folder, name); }, data);
+    if (png.empty())
       continue;
-    }
     budget -= png.size();
     data.pictures.push_back({name, titleOf(name), std::move(png)});
   }
@@ -117,11 +119,10 @@ gatherReport(const RunFolder& run,
   data.title =
       title.empty() ? fs::canonical(run.path(), error).filename().string() : title;
   data.summary = run.summary();
-  auto& missing = data.missing;
-  data.summary.links = readOrTell([&] { return run.readLinks(); }, missing);
-  data.map = readOrTell([&] { return run.readMap(); }, missing);
-  data.planes = readOrTell([&] { return run.readPlanes(); }, missing);
-  data.objects = readOrTell([&] { return run.readObjects(); }, missing);
+  data.summary.links = readOrTell([&] { return run.readLinks(); }, data);
+  data.map = readOrTell([&] { return run.readMap(); }, data);
+  data.planes = readOrTell([&] { return run.readPlanes(); }, data);
+  data.objects = readOrTell([&] { return run.readObjects(); }, data);
   addFolder(run, data, options);
   return data;
 }

@@ -50,7 +50,7 @@ toJson(const ScanResult& scan, const Eigen::Vector3d& offset)
 {
   const Eigen::Vector3d position = scan.T_world_scan.translation() - offset;
   const Eigen::Vector3d initial = scan.initial_pose.translation() - offset;
-  Json json;
+  Json json = Json::object();
   visitScanFields(scan, [&](const char* name, const auto& value) {
     using Value = std::decay_t<decltype(value)>;
     if constexpr (std::is_same_v<Value, decltype(scan.covariance)>) {
@@ -82,7 +82,7 @@ rounded(double value)
 Json
 toJson(const RunLink& link)
 {
-  Json json;
+  Json json = Json::object();
   visitLinkFields(link, [&](const char* name, const auto& value) {
     if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
       json[name] = rounded(value);

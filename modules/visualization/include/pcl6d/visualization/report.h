@@ -24,6 +24,7 @@ struct ReportData {
   RunResult
       summary; ///< with its links; poses in full coordinates; NaN ones are left out
   std::vector<std::string> missing; ///< what is not there or broken, in words
+  bool is_damaged = false;          ///< some of that is there, but cannot be read
   RunMap map;                       ///< relative to the world offset; NaN is left out
   std::vector<Plane> planes;        ///< in full coordinates
   std::vector<ObjectPose> objects;  ///< in full coordinates
@@ -41,7 +42,8 @@ struct ReportOptions {
 };
 
 /** \brief Gathers what a run left: what is missing or broken is named, not an error, and
- * so is a picture (*.png in the folder or in pictures/) that is too large for the budget.
+ * so is a picture (*.png in the folder or in pictures/) that is too large for the budget;
+ * of what is broken, is_damaged is set.
  * \param[in] title by default the name of the folder */
 ReportData
 gatherReport(const RunFolder& run,

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <limits>
 #include <thread>
 
@@ -25,6 +26,22 @@ expectError(const std::vector<std::string>& arguments,
 {
   pcl6d::test::expectError(
       runProgram(kDoctorName, arguments), kDoctorName, code, words);
+}
+
+/** Waits until a process has started another one: the doctor's runs are such, and signals are
+ * watched before the first begins. */
+void
+waitForChildOf(int process)
+{
+  const std::string id = std::to_string(process);
+  for (int wait = 0; wait < 3000; ++wait) {
+    std::ifstream children("/proc/" + id + "/task/" + id + "/children");
+    int child = 0;
+    if (children >> child)
+      return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ADD_FAILURE() << "it starts no run";
 }
 
 /** Two scans, of which one is spoilt. */
@@ -94,7 +111,7 @@ TEST_F(DoctorBadInput, EndsWithItsRunsWhenItIsInterrupted)
                    bp::args = with({"-o", html}),
                    bp::std_out > bp::null,
                    bp::std_err > bp::null);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  waitForChildOf(doctor.id());
   ::kill(doctor.id(), SIGTERM);
   doctor.wait();
   EXPECT_EQ(doctor.exit_code(), 130);

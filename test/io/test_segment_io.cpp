@@ -218,6 +218,14 @@ TEST_F(SegmentFiles, SvgNamesWhatIsBroken)
                 {"element g", "transform"});
 }
 
+TEST_F(SegmentFiles, SumsThatNoNumberHoldsAreRefused)
+{
+  expectRefused(
+      "a.svg", svg("<rect x='0' y='1e308' width='1' height='1e308'/>"), {"too large"});
+  const auto path = write("a.csv", "0,0,1e300,1\n");
+  EXPECT_THROW(readSegments(path, {1e10}), pcl6d::IoFailed);
+}
+
 TEST_F(SegmentFiles, WhatIsWrittenReadsBackToTheSameBits)
 {
   const Segments segments{{{1.0 / 3, 5792541.123456789}, {-1e-17, 2}},

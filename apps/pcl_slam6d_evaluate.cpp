@@ -16,6 +16,7 @@ main(int argc, char** argv)
         {"icp", "SCAN_A SCAN_B", "from how far off ICP finds the pose of B", runIcp},
         {"lengths", "FILE", "ratios of lengths", runLengths},
         {"map", "RUN_DIR", "how good a map is, without a reference", runMap},
+        {"place", "SCAN_A SCAN_B", "where was B taken, without a guess", runPlace},
         {"verify", "RUN, or SCAN_A SCAN_B", "is a map, or a pose, right", runVerify},
         {"mcl", "SCAN_DIR --map FILE", "a reference path in a known plan", runMcl},
         {"suite", "SUITE.json", "several methods over several data sets", runSuite}}},

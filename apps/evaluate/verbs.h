@@ -19,6 +19,8 @@ runMap(const Arguments& arguments);
 int
 runMcl(const Arguments& arguments);
 int
+runPlace(const Arguments& arguments);
+int
 runSuite(const Arguments& arguments);
 int
 runVerify(const Arguments& arguments);

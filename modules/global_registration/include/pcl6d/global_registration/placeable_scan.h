@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/global_registration/vertical.h>
+#include <pcl6d/verification/verified_scan.h>
+
+#include <cstddef>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief A scan made ready to be placed on others, or others on it: which way is up in it,
+ * and few enough of its points, evenly, for many places to be tried. Made once, used for all
+ * of its pairs. \ingroup global_registration */
+class PlaceableScan {
+public:
+  /** Points with their normals, a part of the scan's. */
+  struct Sample {
+    Points points; ///< [m] in the scan's frame
+    Normals normals;
+  };
+
+  /** \param[in] scan kept by reference; its surfaces have normals
+   * \param[in] expected_up unit vector in the scan's frame: the sensor's own
+   * \throws BadArgument expected_up is no unit vector */
+  explicit PlaceableScan(const VerifiedScan& scan,
+                         const Eigen::Vector3d& expected_up = Eigen::Vector3d::UnitZ());
+
+  const VerifiedScan&
+  scan() const
+  {
+    return *scan_;
+  }
+  const VerticalEstimate&
+  vertical() const
+  {
+    return vertical_;
+  }
+  /** \return [m] edge of the cells of its plan */
+  double
+  cell() const
+  {
+    return cell_;
+  }
+  /** \return what places are judged by */
+  const Sample&
+  judged() const
+  {
+    return judged_;
+  }
+  /** \return what is matched */
+  const Sample&
+  matched() const
+  {
+    return matched_;
+  }
+
+private:
+  const VerifiedScan* scan_;
+  VerticalEstimate vertical_;
+  double cell_;
+  Sample judged_, matched_;
+};
+
+} // namespace pcl6d

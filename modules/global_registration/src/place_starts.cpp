@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
+#include "place_starts.h"
+#include "place_support.h"
+
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/portable_math.h>
+
+#include <algorithm>
+
+namespace pcl6d::global_registration {
+
+namespace {
+/** Cells in which level surfaces are looked for, in cells of the plan. */
+constexpr double kFloorCells = 2;
+} // namespace
+
+void
+sortByScore(std::vector<PlaceStart>& starts)
+{
+  std::stable_sort(starts.begin(), starts.end(), [](const auto& a, const auto& b) {
+    return a.score > b.score;
+  });
+}
+
+UprightScan::UprightScan(const PlaceableScan& placeable,
+                         const Eigen::Vector3d& up,
+                         double cell)
+: scan(&placeable)
+, R_level_scan(uprightRotation(up))
+, plan(drawPlan(placeable.scan().surfaces().points(),
+                placeable.scan().surfaces().normals(),
+                R_level_scan,
+                cell))
+, floors(placeable.scan().surfaces(), R_level_scan, kFloorCells * cell)
+{}
+
+std::vector<PlaceStart>
+placeStarts(const UprightScan& first,
+            const UprightScan& second,
+            const StartEffort& effort,
+            unsigned int num_threads)
+{
+  const double cell = first.plan.cell;
+  const double voxel =
+      std::max(first.scan->scan().voxel(), second.scan->scan().voxel());
+  std::vector<PlaceStart> starts;
+  for (const auto& placed :
+       placePlan(first.plan, second.plan, effort.placements, effort.steps)) {
+    const SinCos turn = portableSinCos(placed.yaw);
+    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    R.topLeftCorner<2, 2>() << turn.cos, -turn.sin, turn.sin, turn.cos;
+    std::vector<double> heights = first.floors.heightsAbove(
+        second.floors, R.topLeftCorner<2, 2>(), placed.shift, voxel);
+    if (heights.empty())
+      heights = {0};
+    for (const double height : heights) {
+      PlaceStart start;
+      start.T_first_second.linear() =
+          first.R_level_scan.transpose() * R * second.R_level_scan;
+      start.T_first_second.translation() =
+          first.R_level_scan.transpose() *
+          Eigen::Vector3d(placed.shift.x(), placed.shift.y(), height);
+      starts.push_back(start);
+    }
+  }
+  parallelFor(starts.size(), num_threads, [&](std::size_t i) {
+    const PlaceSupport support = supportOf(*first.scan,
+                                           *second.scan,
+                                           starts[i].T_first_second,
+                                           cell,
+                                           0.5 * cell,
+                                           effort.judged_stride);
+    starts[i].score = support.score(kContradictedStart);
+  });
+  sortByScore(starts);
+  return starts;
+}
+
+} // namespace pcl6d::global_registration

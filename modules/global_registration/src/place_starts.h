@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "floors.h"
+#include "plan.h"
+
+#include <pcl6d/global_registration/placeable_scan.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl6d::global_registration {
+
+/** \brief A place of a scan on another, before it is matched. */
+struct PlaceStart {
+  Eigen::Isometry3d T_first_second = Eigen::Isometry3d::Identity();
+  double score = 0; ///< in [0, 1], by which starts are ranked
+};
+
+/** \brief Sorts by score, the best first; equal ones stay in order. */
+void
+sortByScore(std::vector<PlaceStart>& starts);
+
+/** \brief A scan turned upright, and drawn. */
+struct UprightScan {
+  const PlaceableScan* scan;
+  Eigen::Matrix3d R_level_scan;
+  Plan plan;
+  Floors floors;
+
+  /** \param[in] up of the scan, unit vector \param[in] cell [m] of the plan */
+  UprightScan(const PlaceableScan& placeable, const Eigen::Vector3d& up, double cell);
+};
+
+/** \brief How many placements are looked at. */
+struct StartEffort {
+  std::size_t placements = 200;
+  PlanSteps steps;
+  std::size_t judged_stride = 1; ///< each so many points judge
+};
+
+/** \brief Lays the plans over each other, adds heights, and looks at what comes out.
+ * \return the best first */
+std::vector<PlaceStart>
+placeStarts(const UprightScan& first,
+            const UprightScan& second,
+            const StartEffort& effort,
+            unsigned int num_threads);
+
+} // namespace pcl6d::global_registration

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plan.h"
+
+#include <pcl6d/global_registration/placeable_scan.h>
+
+#include <algorithm>
+
+namespace pcl6d {
+using namespace global_registration;
+
+namespace {
+/** So many points judge a place: a share of them is known to 2 %. */
+constexpr std::size_t kJudged = 600;
+
+/** So many points are matched, which fix a pose within a fifth of a voxel. */
+constexpr std::size_t kMatched = 2500;
+
+PlaceableScan::Sample
+sampleOf(const IcpModel& surfaces, std::size_t most)
+{
+  PlaceableScan::Sample sample;
+  const std::size_t count = surfaces.points().size();
+  const std::size_t number = std::min(count, most);
+  for (std::size_t k = 0; k < number; ++k) {
+    const std::size_t i = k * count / number;
+    sample.points.push_back(surfaces.points()[i]);
+    sample.normals.push_back(surfaces.normals()[i]);
+  }
+  return sample;
+}
+} // namespace
+
+PlaceableScan::PlaceableScan(const VerifiedScan& scan,
+                             const Eigen::Vector3d& expected_up)
+: scan_(&scan)
+, vertical_(estimateVertical(scan.surfaces().normals(), expected_up))
+, cell_(planCell(scan.surfaces().points(),
+                 scan.surfaces().normals(),
+                 uprightRotation(vertical_.up),
+                 scan.voxel()))
+, judged_(sampleOf(scan.surfaces(), kJudged))
+, matched_(sampleOf(scan.surfaces(), kMatched))
+{}
+
+} // namespace pcl6d

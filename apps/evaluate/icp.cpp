@@ -18,18 +18,6 @@
 namespace pcl6d::app {
 
 namespace {
-NearScan
-readNear(const std::string& file, ScanFormat format, ProgressBar& bar)
-{
-  NearScan scan = readNearScan(file, format);
-  if (scan.points.size() < 3)
-    throw IoFailed(tooFewPoints(file, scan.points.size(), "with finite coordinates") +
-                   " (" + std::to_string(scan.dropped) + " without)");
-  if (!scan.description.empty())
-    bar.warn(file + ": " + scan.description);
-  return scan;
-}
-
 /** The options of the runs, what is auto derived from the scans. */
 IcpBasinOptions
 basinOptions(const IcpSettings& s, const Slam6DParameters& p, const Points& points)

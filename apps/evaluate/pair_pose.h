@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/progress_bar.h"
+
 #include <pcl6d/io/scan_reader.h>
 
 #include <Eigen/Geometry>
@@ -35,6 +37,11 @@ poseOfPair(const std::string& scan_a,
            const std::string& scan_b,
            ScanFormat format,
            const std::string& option);
+
+/** \brief A scan of a pair, its points brought near if they are far; says so.
+ * \throws IoFailed unreadable, or fewer than 3 finite points */
+NearScan
+readNear(const std::string& file, ScanFormat format, ProgressBar& bar);
 
 /** \return the pose of B's points as they were brought near, seen from A's, of a pose of
  * those in the files */

@@ -9,12 +9,10 @@
 #include "evaluate/verbs.h"
 
 #include <pcl6d/common/angle.h>
-#include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/global_registration/place_search.h>
 #include <pcl6d/io/json_numbers.h>
-#include <pcl6d/slam6d/scan_preparation.h>
 #include <pcl6d/verification/prepared_scans.h>
 
 #include <cstdio>
@@ -77,17 +75,6 @@ Exit code 0: one place, and no other nearly as good; 3: several, or none.
     s.search.validate();
   });
   return true;
-}
-
-NearScan
-readNear(const std::string& file, ScanFormat format, ProgressBar& bar)
-{
-  NearScan scan = readNearScan(file, format);
-  if (scan.points.size() < 3)
-    throw IoFailed(tooFewPoints(file, scan.points.size(), "with finite coordinates"));
-  if (!scan.description.empty())
-    bar.warn(file + ": " + scan.description);
-  return scan;
 }
 
 FoundPlaces

@@ -19,11 +19,9 @@ namespace pcl6d {
 using namespace global_registration;
 
 namespace {
-/** So many starts are matched. */
-constexpr std::size_t kMatchedPlaces = 30;
-
-/** With another direction up so many placements are looked at: it seldom is. */
-constexpr std::size_t kOtherPlacements = 60;
+/** So many placements of the plans are looked at, with another direction up fewer: it seldom
+ * is. So many starts are matched. */
+constexpr std::size_t kPlacements = 200, kOtherPlacements = 60, kMatchedPlaces = 30;
 
 /** Candidates are other places from so many cells, or so large a turn [rad], on. */
 constexpr double kOtherCells = 1.5, kOtherTurn = 0.15;
@@ -49,16 +47,15 @@ public:
   run() const
   {
     const UprightScan fixed(first_, first_.vertical().up, cell_);
-    std::vector<PlaceStart> starts = startsOn(fixed, second_.vertical().up, {});
+    std::vector<PlaceStart> starts =
+        startsOn(fixed, second_.vertical().up, kPlacements);
     PlaceResult result = judgedPlaces(starts);
     if (result.answer == PlaceAnswer::kUnique || !options_.any_axis ||
         second_.vertical().others.empty())
       return result;
-    StartEffort effort;
-    effort.placements = kOtherPlacements;
     for (const auto& other : second_.vertical().others)
       for (const double sign : {1.0, -1.0}) {
-        const auto more = startsOn(fixed, sign * other, effort);
+        const auto more = startsOn(fixed, sign * other, kOtherPlacements);
         starts.insert(starts.end(), more.begin(), more.end());
       }
     sortByScore(starts);
@@ -75,10 +72,10 @@ private:
   std::vector<PlaceStart>
   startsOn(const UprightScan& fixed,
            const Eigen::Vector3d& up,
-           const StartEffort& effort) const
+           std::size_t placements) const
   {
     return placeStarts(
-        fixed, UprightScan(second_, up, cell_), effort, options_.num_threads);
+        fixed, UprightScan(second_, up, cell_), placements, options_.num_threads);
   }
 
   /** \param[in] starts the best first */

@@ -38,15 +38,14 @@ UprightScan::UprightScan(const PlaceableScan& placeable,
 std::vector<PlaceStart>
 placeStarts(const UprightScan& first,
             const UprightScan& second,
-            const StartEffort& effort,
+            std::size_t placements,
             unsigned int num_threads)
 {
   const double cell = first.plan.cell;
   const double voxel =
       std::max(first.scan->scan().voxel(), second.scan->scan().voxel());
   std::vector<PlaceStart> starts;
-  for (const auto& placed :
-       placePlan(first.plan, second.plan, effort.placements, effort.steps)) {
+  for (const auto& placed : placePlan(first.plan, second.plan, placements)) {
     const SinCos turn = portableSinCos(placed.yaw);
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
     R.topLeftCorner<2, 2>() << turn.cos, -turn.sin, turn.sin, turn.cos;
@@ -65,12 +64,8 @@ placeStarts(const UprightScan& first,
     }
   }
   parallelFor(starts.size(), num_threads, [&](std::size_t i) {
-    const PlaceSupport support = supportOf(*first.scan,
-                                           *second.scan,
-                                           starts[i].T_first_second,
-                                           cell,
-                                           0.5 * cell,
-                                           effort.judged_stride);
+    const PlaceSupport support = supportOf(
+        *first.scan, *second.scan, starts[i].T_first_second, cell, 0.5 * cell);
     starts[i].score = support.score(kContradictedStart);
   });
   sortByScore(starts);

@@ -34,19 +34,13 @@ struct UprightScan {
   UprightScan(const PlaceableScan& placeable, const Eigen::Vector3d& up, double cell);
 };
 
-/** \brief How many placements are looked at. */
-struct StartEffort {
-  std::size_t placements = 200;
-  PlanSteps steps;
-  std::size_t judged_stride = 1; ///< each so many points judge
-};
-
 /** \brief Lays the plans over each other, adds heights, and looks at what comes out.
+ * \param[in] placements so many of the plans are looked at
  * \return the best first */
 std::vector<PlaceStart>
 placeStarts(const UprightScan& first,
             const UprightScan& second,
-            const StartEffort& effort,
+            std::size_t placements,
             unsigned int num_threads);
 
 } // namespace pcl6d::global_registration

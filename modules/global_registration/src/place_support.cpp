@@ -28,7 +28,6 @@ add(const PlaceableScan& at,
     const Eigen::Isometry3d& T_at_of,
     double distance,
     double sigma,
-    std::size_t stride,
     PlaceSupport& support)
 {
   const IcpModel& surfaces = at.scan().surfaces();
@@ -37,7 +36,7 @@ add(const PlaceableScan& at,
   const Eigen::Vector3f up = of.vertical().up.cast<float>();
   const bool looks = !at.scan().abstains();
   const auto& [points, normals] = of.judged();
-  for (std::size_t i = 0; i < points.size(); i += stride) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f p = T * points[i];
     const Eigen::Vector3f n = T.linear() * normals[i];
     auto& count = std::abs(normals[i].dot(up)) > kLevel ? support.level : support.other;
@@ -80,12 +79,11 @@ supportOf(const PlaceableScan& first,
           const PlaceableScan& second,
           const Eigen::Isometry3d& T_first_second,
           double distance,
-          double sigma,
-          std::size_t stride)
+          double sigma)
 {
   PlaceSupport support;
-  add(first, second, T_first_second, distance, sigma, stride, support);
-  add(second, first, T_first_second.inverse(), distance, sigma, stride, support);
+  add(first, second, T_first_second, distance, sigma, support);
+  add(second, first, T_first_second.inverse(), distance, sigma, support);
   return support;
 }
 

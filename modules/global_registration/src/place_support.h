@@ -32,14 +32,12 @@ struct PlaceSupport {
 };
 
 /** \param[in] distance [m] within which a point meets a surface
- * \param[in] sigma [m] standard deviation of the place
- * \param[in] stride each so many of the points are looked at */
+ * \param[in] sigma [m] standard deviation of the place */
 PlaceSupport
 supportOf(const PlaceableScan& first,
           const PlaceableScan& second,
           const Eigen::Isometry3d& T_first_second,
           double distance,
-          double sigma,
-          std::size_t stride = 1);
+          double sigma);
 
 } // namespace pcl6d::global_registration

@@ -45,12 +45,6 @@ struct PlanPlacement {
   double votes = 0; ///< pairs of cells, in standard deviations above what is around
 };
 
-/** \brief How finely plans are laid over each other. */
-struct PlanSteps {
-  int turns = 180; ///< of a whole one
-  int reach = 64;  ///< cells: what lies farther from the scanner takes no part
-};
-
 /** \brief Tries all turns, and lets each pair of cells that then face alike vote for a shift.
  * \param[in] fixed, moved with the same edge of cells
  * \param[in] most so many placements, each a few cells or turns from the others
@@ -58,9 +52,6 @@ struct PlanSteps {
  * \note Source: algorithms.md G.1 (correlation of images, here by sparse votes, which are
  * whole numbers and so the same everywhere) */
 std::vector<PlanPlacement>
-placePlan(const Plan& fixed,
-          const Plan& moved,
-          std::size_t most,
-          const PlanSteps& steps = {});
+placePlan(const Plan& fixed, const Plan& moved, std::size_t most);
 
 } // namespace pcl6d::global_registration

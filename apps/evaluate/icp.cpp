@@ -3,6 +3,7 @@
 #include "common/folder_job.h"
 #include "evaluate/icp_report.h"
 #include "evaluate/pair_pose.h"
+#include "evaluate/pair_scan.h"
 #include "evaluate/verbs.h"
 
 #include <pcl6d/common/angle.h>

@@ -8,7 +8,6 @@
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/text.h>
-#include <pcl6d/slam6d/scan_preparation.h>
 
 #include <cmath>
 #include <filesystem>
@@ -110,30 +109,6 @@ poseOfPair(const std::string& scan_a,
     throw IoFailed("the poses of the scans are not of a kind: " + a.source + " for " +
                    scan_a + ", " + b.source + " for " + scan_b + "; give " + option);
   return {a.T_a_b.inverse() * b.T_a_b, a.source, a.found};
-}
-
-NearScan
-readNear(const std::string& file, ScanFormat format, ProgressBar& bar)
-{
-  NearScan scan = readNearScan(file, format);
-  if (scan.points.size() < 3)
-    throw IoFailed(tooFewPoints(file, scan.points.size(), "with finite coordinates") +
-                   " (" + std::to_string(scan.dropped) + " without)");
-  if (!scan.description.empty())
-    bar.warn(file + ": " + scan.description);
-  return scan;
-}
-
-Eigen::Isometry3d
-nearPose(const Eigen::Isometry3d& T_a_b, const NearScan& a, const NearScan& b)
-{
-  return Eigen::Translation3d(-a.offset) * T_a_b * Eigen::Translation3d(b.offset);
-}
-
-Eigen::Isometry3d
-farPose(const Eigen::Isometry3d& T_a_b, const NearScan& a, const NearScan& b)
-{
-  return Eigen::Translation3d(a.offset) * T_a_b * Eigen::Translation3d(-b.offset);
 }
 
 } // namespace pcl6d::app

@@ -4,6 +4,7 @@
 #include "common/progress_bar.h"
 #include "common/reduction_options.h"
 #include "evaluate/pair_pose.h"
+#include "evaluate/pair_scan.h"
 #include "evaluate/result_file.h"
 #include "evaluate/result_json.h"
 #include "evaluate/verbs.h"

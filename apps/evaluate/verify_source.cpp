@@ -105,7 +105,7 @@ unsureOf(const RunResult& run, const std::vector<std::size_t>& indices)
   for (const ScanResult& scan : run.scans)
     for (std::size_t i = 0; i < indices.size(); ++i)
       if (static_cast<std::size_t>(scan.index) == indices[i])
-        unsure[i] = scan.start == InitialGuess::kFeatures;
+        unsure[i] = isWithoutPrior(scan.start);
   return unsure;
 }
 

@@ -98,7 +98,9 @@ addMethods(OptionTable& table, Settings& s)
   };
   table.addWord("initial-guess", "auto", takeGuess)
       .help("auto|" + joined(initialGuessNames()) +
-            ": where matching starts; auto: odometry, features if there are no poses");
+            ": where matching starts; auto: odometry, global if there are no poses: "
+            "scans in any "
+            "order, all looked at together");
 }
 
 void

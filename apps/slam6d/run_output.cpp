@@ -201,8 +201,8 @@ RunOutput::describe(bool complete, const RunLog& log)
   run_.complete = complete;
   if (!folder_.hasPoses() && folder_.size() > 1)
     run_.warnings.push_back(
-        settings_.slam.initial_guess == InitialGuess::kFeatures
-            ? "no initial poses were found: scans were placed by features alone"
+        isWithoutPrior(settings_.slam.initial_guess)
+            ? "no initial poses were found: scans were placed by what they see alone"
             : "no initial poses were found: each scan starts where the one before is, "
               "which only fits scans taken close together; give poses with --poses or "
               "odometry.txt");

@@ -103,7 +103,7 @@ Settings::resolveGuess(bool has_poses)
 {
   if (!auto_guess)
     return;
-  slam.initial_guess = has_poses ? InitialGuess::kOdometry : InitialGuess::kFeatures;
+  slam.initial_guess = has_poses ? InitialGuess::kOdometry : InitialGuess::kGlobal;
   for (auto* options : {&words, &conditions})
     for (auto& word : *options)
       if (word.name == "initial-guess")

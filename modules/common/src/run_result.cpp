@@ -16,7 +16,8 @@ constexpr Named<ScanState> kStates[] = {{ScanState::kPending, "pending"},
                                         {ScanState::kUnknown, ""}};
 constexpr Named<InitialGuess> kGuesses[] = {{InitialGuess::kOdometry, "odometry"},
                                             {InitialGuess::kOverlap, "overlap"},
-                                            {InitialGuess::kFeatures, "features"}};
+                                            {InitialGuess::kFeatures, "features"},
+                                            {InitialGuess::kGlobal, "global"}};
 constexpr Named<StageKind> kStages[] = {{StageKind::kMatching, "matching"},
                                         {StageKind::kLoopClosing, "loop closing"},
                                         {StageKind::kRelaxation, "relaxation"}};

@@ -14,4 +14,15 @@ constexpr double kLevel = 0.8;
 constexpr double kContradictedStart = 0.05, kContradictedMatch = 0.02,
                  kContradictedPlace = 0.01;
 
+/** [voxels] Points of matched scans meet a surface within it, as those that matching pairs;
+ * and the standard deviation of a matched place. */
+constexpr double kMetVoxels = 1.7, kPlaceVoxels = 0.5;
+
+/** Places are others from so many cells, or so large a turn [rad], on. */
+constexpr double kOtherCells = 1.5, kOtherTurn = 0.15;
+
+/** A place where fewer surfaces meet is no place: walls of any two rooms do so much by chance.
+ * Of bench_places' pairs the right ones accepted have 0.1 and more. */
+constexpr double kLeastOverlap = 0.1;
+
 } // namespace pcl6d::global_registration

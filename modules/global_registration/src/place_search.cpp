@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
+#include "place_matching.h"
 #include "place_starts.h"
 #include "place_support.h"
 
@@ -22,13 +23,6 @@ namespace {
 /** So many placements of the plans are looked at, with another direction up fewer: it seldom
  * is. So many starts are matched. */
 constexpr std::size_t kPlacements = 200, kOtherPlacements = 60, kMatchedPlaces = 30;
-
-/** Candidates are other places from so many cells, or so large a turn [rad], on. */
-constexpr double kOtherCells = 1.5, kOtherTurn = 0.15;
-
-/** A place where fewer surfaces meet is no place: walls of any two rooms do so much by chance.
- * Of bench_places' pairs the right ones accepted have 0.1 and more. */
-constexpr double kLeastOverlap = 0.1;
 
 /** The search for one pair. */
 class Search {
@@ -65,7 +59,7 @@ public:
   PlaceCandidate
   judged(const Eigen::Isometry3d& T_first_second) const
   {
-    return candidateAt(polished(T_first_second));
+    return candidateAt(polished(T_first_second, second_.matched()));
   }
 
 private:
@@ -112,10 +106,9 @@ private:
           }))
         chosen.push_back(start);
     }
-    parallelFor(chosen.size(), options_.num_threads, [&](std::size_t i) {
-      chosen[i] = polished(chosen[i].T_first_second);
-    });
-    sortByScore(chosen);
+    polish(chosen, second_.judged());
+    chosen.resize(std::min(chosen.size(), 2 * options_.candidates));
+    polish(chosen, second_.matched());
     std::vector<PlaceStart> distinct;
     for (const auto& one : chosen)
       if (distinct.size() < options_.candidates && one.score > 0 &&
@@ -126,29 +119,30 @@ private:
     return distinct;
   }
 
-  PlaceStart
-  polished(const Eigen::Isometry3d& T_first_second) const
+  /** Matches places by some of the points, and sorts them. */
+  void
+  polish(std::vector<PlaceStart>& places, const PlaceableScan::Sample& by) const
   {
-    IcpOptions icp_options; // as Slam6D matches
-    icp_options.metric = Metric::kGicp;
-    icp_options.gicp_epsilon = 0.01;
-    icp_options.facing_normals = true;
-    icp_options.max_distance = 1.7 * voxel_;
-    icp_options.max_distance_start = std::max(2 * cell_, icp_options.max_distance);
-    icp_options.distance_decay = 0.75;
-    icp_options.shrinking_stride = 2;
-    icp_options.max_iterations = 40;
-    icp_options.translation_epsilon = 0.01 * voxel_;
-    icp_options.rotation_epsilon = 1e-4;
-    icp_options.num_threads = 1;
-    const auto& sample = second_.matched();
+    parallelFor(places.size(), options_.num_threads, [&](std::size_t i) {
+      places[i] = polished(places[i].T_first_second, by);
+    });
+    sortByScore(places);
+  }
+
+  PlaceStart
+  polished(const Eigen::Isometry3d& T_first_second,
+           const PlaceableScan::Sample& sample) const
+  {
     const IcpResult found = icp({first_.scan().surfaces().part()},
                                 {&sample.points, &sample.normals},
                                 T_first_second,
-                                icp_options);
+                                matchingOptions(voxel_, 2 * cell_));
     PlaceStart place{found.T_target_source, 0};
-    const PlaceSupport support =
-        supportOf(first_, second_, place.T_first_second, 1.7 * voxel_, 0.5 * voxel_);
+    const PlaceSupport support = supportOf(first_,
+                                           second_,
+                                           place.T_first_second,
+                                           kMetVoxels * voxel_,
+                                           kPlaceVoxels * voxel_);
     place.score = support.score(kContradictedMatch);
     return place;
   }
@@ -158,8 +152,11 @@ private:
   {
     PlaceCandidate one;
     one.T_first_second = start.T_first_second;
-    const PlaceSupport support =
-        supportOf(first_, second_, one.T_first_second, 1.7 * voxel_, 0.5 * voxel_);
+    const PlaceSupport support = supportOf(first_,
+                                           second_,
+                                           one.T_first_second,
+                                           kMetVoxels * voxel_,
+                                           kPlaceVoxels * voxel_);
     one.overlap = support.overlap();
     one.evidence = linkEvidence(first_.scan(), second_.scan(), one.T_first_second);
     one.contradiction = one.evidence.sight.contradiction();

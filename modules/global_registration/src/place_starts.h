@@ -36,11 +36,14 @@ struct UprightScan {
 
 /** \brief Lays the plans over each other, adds heights, and looks at what comes out.
  * \param[in] placements so many of the plans are looked at
+ * \param[in] every they are judged by each n-th point
  * \return the best first */
 std::vector<PlaceStart>
 placeStarts(const UprightScan& first,
             const UprightScan& second,
             std::size_t placements,
-            unsigned int num_threads);
+            unsigned int num_threads,
+            const PlanSearch& search = {},
+            std::size_t every = 1);
 
 } // namespace pcl6d::global_registration

@@ -5,6 +5,9 @@
 
 #include <Eigen/Geometry>
 
+#include <cstdint>
+#include <vector>
+
 namespace pcl6d::global_registration {
 
 /** \brief What two scans say for and against a place, by few of their points: quick, for
@@ -22,6 +25,17 @@ struct PlaceSupport {
   double
   overlap() const;
 
+  /** \return points that met */
+  double
+  met() const
+  {
+    return level.met + other.met;
+  }
+
+  /** \brief Adds those of other scans. */
+  PlaceSupport&
+  operator+=(const PlaceSupport& more);
+
   /** \return free, as share of free and met, in [0, 1] */
   double
   contradiction() const;
@@ -31,13 +45,35 @@ struct PlaceSupport {
   score(double scale) const;
 };
 
+/** \brief What became of a point of one scan at another. */
+enum class PointSight : std::uint8_t { kNotAsked, kNothing, kMet, kFree };
+
+/** \brief Adds how points of a scan count, each as what became of it.
+ * \param[in] sights one per judged point of the scan */
+void
+count(const PlaceableScan& of,
+      const std::vector<PointSight>& sights,
+      PlaceSupport& support);
+
+/** \return what becomes of the judged points of a scan at the surfaces and in the rays of
+ * another. \param[in] distance, sigma, every as supportOf() */
+std::vector<PointSight>
+lookAt(const PlaceableScan& at,
+       const PlaceableScan& of,
+       const Eigen::Isometry3d& T_at_of,
+       double distance,
+       double sigma,
+       std::size_t every = 1);
+
 /** \param[in] distance [m] within which a point meets a surface
- * \param[in] sigma [m] standard deviation of the place */
+ * \param[in] sigma [m] standard deviation of the place
+ * \param[in] every only each n-th judged point is asked */
 PlaceSupport
 supportOf(const PlaceableScan& first,
           const PlaceableScan& second,
           const Eigen::Isometry3d& T_first_second,
           double distance,
-          double sigma);
+          double sigma,
+          std::size_t every = 1);
 
 } // namespace pcl6d::global_registration

@@ -28,6 +28,17 @@ sampleOf(const IcpModel& surfaces, std::size_t most)
   }
   return sample;
 }
+
+PlaceableScan::Ball
+ballOf(const Points& points)
+{
+  PlaceableScan::Ball ball;
+  for (const auto& p : points)
+    ball.centre += p.cast<double>() / static_cast<double>(points.size());
+  for (const auto& p : points)
+    ball.radius = std::max(ball.radius, (p.cast<double>() - ball.centre).norm());
+  return ball;
+}
 } // namespace
 
 PlaceableScan::PlaceableScan(const VerifiedScan& scan,
@@ -40,6 +51,7 @@ PlaceableScan::PlaceableScan(const VerifiedScan& scan,
                  scan.voxel()))
 , judged_(sampleOf(scan.surfaces(), kJudged))
 , matched_(sampleOf(scan.surfaces(), kMatched))
+, ball_(ballOf(judged_.points))
 {}
 
 } // namespace pcl6d

@@ -21,10 +21,8 @@ constexpr double kLevelNormal = 0.5;
 constexpr double kCellVoxels = 2;
 constexpr std::size_t kMostCells = 1000;
 
-/** Turns of a whole one that are tried, and the reach [cells]: what lies farther from the
- * scanner takes no part. 95 % of the points lie within it, so that a turn by a step moves none of them by
+/** 95 % of the points lie within the reach, so that a turn by a step moves none of them by
  * more than about two cells. */
-constexpr int kTurns = 180, kReach = 64;
 constexpr double kWithinReach = 0.95;
 
 /** Cells face alike if their directions lie in the same sector or in neighbouring ones. */
@@ -239,7 +237,7 @@ planCell(const Points& points,
         reach.begin() +
         static_cast<std::ptrdiff_t>(kWithinReach * static_cast<double>(reach.size()));
     std::nth_element(reach.begin(), most, reach.end());
-    cell = std::max(cell, *most / kReach);
+    cell = std::max(cell, *most / PlanSearch().reach);
   }
   constexpr int kWidenings = 8;
   for (int k = 0; k < kWidenings; ++k, cell *= 1.25)
@@ -276,14 +274,17 @@ drawPlan(const Points& points,
 }
 
 std::vector<PlanPlacement>
-placePlan(const Plan& fixed, const Plan& moved, std::size_t most)
+placePlan(const Plan& fixed,
+          const Plan& moved,
+          std::size_t most,
+          const PlanSearch& search)
 {
   std::vector<PlanPlacement> all;
-  VoteTable table(kReach);
-  const double step = 2 * kPi / kTurns;
-  const Sectors sectors = sectorsOf(fixed, 0, kReach);
-  for (int turn = 0; turn < kTurns; ++turn) {
-    table.vote(sectors, sectorsOf(moved, turn * step, kReach));
+  VoteTable table(search.reach);
+  const double step = 2 * kPi / search.turns;
+  const Sectors sectors = sectorsOf(fixed, 0, search.reach);
+  for (int turn = 0; turn < search.turns; ++turn) {
+    table.vote(sectors, sectorsOf(moved, turn * step, search.reach));
     table.addBest(turn * step, fixed.cell, all);
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {

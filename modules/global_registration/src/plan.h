@@ -45,6 +45,12 @@ struct PlanPlacement {
   double votes = 0; ///< pairs of cells, in standard deviations above what is around
 };
 
+/** \brief How finely plans are laid over each other. */
+struct PlanSearch {
+  int turns = 180; ///< of a whole one that are tried
+  int reach = 64;  ///< [cells] what lies farther from the scanner takes no part
+};
+
 /** \brief Tries all turns, and lets each pair of cells that then face alike vote for a shift.
  * \param[in] fixed, moved with the same edge of cells
  * \param[in] most so many placements, each a few cells or turns from the others
@@ -52,6 +58,9 @@ struct PlanPlacement {
  * \note Source: algorithms.md G.1 (correlation of images, here by sparse votes, which are
  * whole numbers and so the same everywhere) */
 std::vector<PlanPlacement>
-placePlan(const Plan& fixed, const Plan& moved, std::size_t most);
+placePlan(const Plan& fixed,
+          const Plan& moved,
+          std::size_t most,
+          const PlanSearch& search = {});
 
 } // namespace pcl6d::global_registration

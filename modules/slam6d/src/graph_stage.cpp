@@ -189,6 +189,13 @@ GraphStage::closeLoops(Slam6DResult& result, std::size_t first)
   return conclude(stage, start, closed.poses, result);
 }
 
+/** \return whether a scan and the next one were taken one after the other */
+bool
+GraphStage::isSequence() const
+{
+  return options_.initial_guess != InitialGuess::kGlobal;
+}
+
 bool
 GraphStage::closeLoopsOfLast(Slam6DResult& result)
 {
@@ -248,7 +255,7 @@ GraphStage::makeNetwork(const Slam6DResult& result) const
       links.keep(link.from, link.to, LinkKind::kLoop, false);
   for (const auto& [a, b] : options_.given_links)
     links.keep(a, b, LinkKind::kGiven, false);
-  for (std::size_t i = 1; i < result.scans.size(); ++i)
+  for (std::size_t i = 1; i < result.scans.size() && isSequence(); ++i)
     links.keep(i - 1, i, LinkKind::kSequence, false);
   return links;
 }
@@ -258,6 +265,8 @@ GraphStage::makeNetwork(const Slam6DResult& result) const
 std::vector<ScanLink>
 GraphStage::odometryLinks(ScanNetwork& network, const Slam6DResult& result) const
 {
+  if (!isSequence())
+    return {};
   const Poses poses = posesOf(result);
   std::vector<bool> joined(result.scans.size(), false); // with the scan before
   const std::vector<LinkPairs> found = network.pairs(poses);
@@ -385,7 +394,8 @@ GraphStage::run(Slam6DResult& result,
     return true;
   judgeMatching(result);
   result.stages.insert(result.stages.end(), online.stages.begin(), online.stages.end());
-  if (options_.loop_closing != LoopClosing::kNone && !options_.close_loops_online)
+  if (options_.loop_closing != LoopClosing::kNone && !options_.close_loops_online &&
+      isSequence())
     closeLoops(result, 0);
   if (options_.simultaneous)
     return matchSimultaneously(result, observer);

@@ -71,6 +71,8 @@ public:
   run(Slam6DResult& result, const ClosedLoops& online, const Observer& observer);
 
 private:
+  bool
+  isSequence() const;
   void
   judgeMatching(Slam6DResult& result) const;
   bool

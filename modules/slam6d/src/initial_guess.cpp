@@ -42,6 +42,8 @@ startingPose(const Slam6DOptions& options,
   StartingPose start{predicted, InitialGuess::kOdometry, ""};
   if (options.initial_guess == InitialGuess::kOdometry)
     return start;
+  if (options.initial_guess == InitialGuess::kGlobal) // which predicted it
+    return {predicted, InitialGuess::kGlobal, ""};
   const std::size_t count = std::min(kScansTried, placed.size());
   Status why = Status::kTooFewPairs;
   for (std::size_t i = 0; i < count; ++i) {

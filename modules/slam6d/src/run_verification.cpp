@@ -75,7 +75,7 @@ RunVerification::verify(const std::vector<std::string>& names,
   options.sharing = sharing_;
   for (const ScanResult& scan : result.scans) {
     poses.push_back(scan.T_world_scan);
-    options.unsure.push_back(scan.start == InitialGuess::kFeatures);
+    options.unsure.push_back(isWithoutPrior(scan.start));
   }
   std::vector<std::string> files; // names may be whole paths, which words do not need
   for (const std::string& name : names)
@@ -101,7 +101,8 @@ RunVerification::explainDoubts(const std::vector<ScanResult>& scans,
     return;
   std::vector<Eigen::Isometry3d> initial;
   for (const ScanResult& scan : scans) {
-    if (scan.start == InitialGuess::kFeatures && !is_loose)
+    if (scan.start == InitialGuess::kGlobal ||
+        (scan.start == InitialGuess::kFeatures && !is_loose))
       return; // which started from no pose
     initial.push_back(scan.initial_pose);
   }

@@ -39,6 +39,13 @@ public:
           const IcpModel::Options& normals,
           double voxel);
 
+  /** \return those that were taken in */
+  const std::deque<VerifiedScan>&
+  scans() const
+  {
+    return scans_;
+  }
+
   /** \param[in] names of the scans
    * \param[in,out] result gets its verification, and the covariances of its scans */
   void

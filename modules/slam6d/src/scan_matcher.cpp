@@ -138,10 +138,9 @@ ScanMatcher::matchFrom(const StartingPose& start,
                        const Eigen::Isometry3d& odometry,
                        ScanResult& scan)
 {
-  // Features need no predicted pose, so that it may be any: they are what is corrected.
+  // Without a prior the predicted pose may be any: what was found is what is corrected.
   Eigen::Isometry3d guess = start.T_world_scan;
-  Eigen::Isometry3d predicted =
-      start.from == InitialGuess::kFeatures ? guess : scan.T_world_scan;
+  Eigen::Isometry3d predicted = isWithoutPrior(start.from) ? guess : scan.T_world_scan;
   const Eigen::Vector3d origin =
       first_.array() + (guess.translation() - first_).array().round();
   guess.translation() -= origin;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "global_stage.h"
 #include "graph_stage.h"
 #include "kept_scans.h"
 #include "online_loops.h"
@@ -82,19 +83,14 @@ public:
     if (result_.scans.empty())
       throw BadArgument("no scan was added");
     prepareScans();
-    if (options_.verify)
+    if (options_.verify || isWithoutSequence())
       verification_.prepare(scans_.reduced(),
                             scans_.measured(),
                             matcher_->modelOptions(true),
                             result_.parameters.voxel.value);
     const std::size_t total = result_.scans.size();
-    if (scans_.isFirst())
-      registerAll();
-    if (sharing)
-      takeRegistered();
-    for (std::size_t i = next_; i < total; ++i)
-      predict(i);
-    if (next_ < total || (improved_ < total && !improve()))
+    if (isWithoutSequence() ? next_ < total && !optimizeWithoutPoses()
+                            : !optimizeInOrder())
       return false;
     if (options_.verify)
       verification_.verify(scans_.names(), result_);
@@ -117,6 +113,55 @@ public:
   Slam6DResult result_;
 
 private:
+  /** Scan after scan. \return false if cancelled */
+  bool
+  optimizeInOrder()
+  {
+    const std::size_t total = result_.scans.size();
+    if (scans_.isFirst())
+      registerAll();
+    if (sharing)
+      takeRegistered();
+    for (std::size_t i = next_; i < total; ++i)
+      predict(i);
+    return next_ == total && (improved_ == total || improve());
+  }
+
+  bool
+  isWithoutSequence() const
+  {
+    return options_.initial_guess == InitialGuess::kGlobal;
+  }
+
+  /** Scans in any order. \return false if cancelled: no scan is registered then */
+  bool
+  optimizeWithoutPoses()
+  {
+    struct Stopped {};
+    const auto report = [this](const Progress& now) {
+      if (progress)
+        progress(now);
+      const bool stop = cancelled_.exchange(false);
+      if (sharing ? sharing->fromFirst(stop) : stop)
+        throw Stopped();
+    };
+    Slam6DResult found = result_; // taken as a whole or not at all
+    try {
+      const GlobalStage stage(
+          options_, scans_, verification_.scans(), [&](const Slam6DParameters& now) {
+            return makeGraphStage(sharing, now);
+          });
+      stage.run(sharing, report, found);
+    } catch (const Stopped&) {
+      return false;
+    }
+    result_ = std::move(found);
+    next_ = improved_ = result_.scans.size();
+    for (std::size_t i = 0; observer && i < result_.scans.size(); ++i)
+      observer(i, result_.scans[i]);
+    return true;
+  }
+
   void
   registerAll()
   {
@@ -263,10 +308,10 @@ private:
   }
 
   GraphStage
-  makeGraphStage(WorkSharing* with) const
+  makeGraphStage(WorkSharing* with, const Slam6DParameters& parameters) const
   {
     return GraphStage(options_,
-                      result_.parameters,
+                      parameters,
                       matcher_->icpOptions(scans_.reduced().front().points().size()),
                       matcher_->modelOptions(true),
                       with);
@@ -277,7 +322,7 @@ private:
   closeLoopsOnline(std::size_t scan)
   {
     if (!online_loops_.isBegun())
-      online_loops_.begin(makeGraphStage(nullptr));
+      online_loops_.begin(makeGraphStage(nullptr, result_.parameters));
     if (!online_loops_.close(scans_.reduced(), scan, options_, result_))
       return;
     matcher_.emplace(options_, result_.parameters);
@@ -296,7 +341,7 @@ private:
   bool
   runGraphStage()
   {
-    GraphStage stage = makeGraphStage(sharing);
+    GraphStage stage = makeGraphStage(sharing, result_.parameters);
     for (const IcpModel& model : scans_.reduced())
       stage.add(model);
     Slam6DResult improved = result_; // taken as a whole or not at all

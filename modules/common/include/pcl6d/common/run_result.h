@@ -40,10 +40,11 @@ scanStateFromName(const std::string& name);
 enum class InitialGuess {
   kOdometry, ///< the initial poses, carried over from the scan before (book 5.1.1)
   kOverlap,  ///< the same, then the motion about it with the largest octree overlap
-  kFeatures  ///< nothing: descriptors of the scan and the one before are matched
+  kFeatures, ///< nothing: descriptors of the scan and the one before are matched
+  kGlobal    ///< nothing: all scans are looked at together, in any order
 };
 
-/** \return odometry, overlap, features */
+/** \return odometry, overlap, features, global */
 std::vector<std::string>
 initialGuessNames();
 /** \throws BadArgument no such name; the message lists all */
@@ -51,6 +52,13 @@ InitialGuess
 initialGuessFromName(const std::string& name);
 const char*
 toString(InitialGuess guess);
+
+/** \return whether it uses no initial poses */
+inline bool
+isWithoutPrior(InitialGuess guess)
+{
+  return guess == InitialGuess::kFeatures || guess == InitialGuess::kGlobal;
+}
 
 /** \brief A scan that was registered, or is to be. \ingroup common */
 struct ScanResult {
@@ -74,7 +82,7 @@ struct ScanResult {
   double overlap = 0;      ///< pairs / reduced points
   int iterations = 0;
   double correction = 0; ///< [m] from the predicted to the matched position; with
-                         ///< kFeatures, from the one by features
+                         ///< kFeatures and kGlobal, from the one they found
   std::string reason;    ///< why the match is not believed; else empty
 };
 

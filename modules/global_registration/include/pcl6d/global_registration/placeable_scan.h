@@ -20,6 +20,12 @@ public:
     Normals normals;
   };
 
+  /** A ball in which all that is judged lies. */
+  struct Ball {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [m] in the scan's frame
+    double radius = 0;                                ///< [m]
+  };
+
   /** \param[in] scan kept by reference; its surfaces have normals
    * \param[in] expected_up unit vector in the scan's frame: the sensor's own
    * \throws BadArgument expected_up is no unit vector */
@@ -48,6 +54,11 @@ public:
   {
     return judged_;
   }
+  const Ball&
+  ball() const
+  {
+    return ball_;
+  }
   /** \return what is matched */
   const Sample&
   matched() const
@@ -60,6 +71,7 @@ private:
   VerticalEstimate vertical_;
   double cell_;
   Sample judged_, matched_;
+  Ball ball_;
 };
 
 } // namespace pcl6d

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
+#include "pair_ranking.h"
+#include "place_starts.h"
+
+#include <pcl6d/common/parallel.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace pcl6d::global_registration {
+
+namespace {
+/** Cells of the quick look, in those of the thorough one, and as many fewer of them to each
+ * side, and turns. */
+constexpr int kCoarser = 2;
+
+/** So many placements of each pair are looked at, by each n-th of the points. */
+constexpr std::size_t kQuickPlacements = 10, kEvery = 4;
+
+/** So many pairs between two reports. */
+constexpr std::size_t kComparedAtATime = 64;
+
+double
+medianCell(const ScanList& scans)
+{
+  std::vector<double> cells;
+  for (const auto* scan : scans)
+    cells.push_back(scan->cell());
+  const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
+  std::nth_element(cells.begin(), middle, cells.end());
+  return *middle;
+}
+} // namespace
+
+std::vector<RankedPair>
+rankPairs(const ScanList& scans,
+          const std::vector<ScanPlaces>& pairs,
+          unsigned int num_threads,
+          const ProgressCallback& progress)
+{
+  const double cell = kCoarser * medianCell(scans);
+  std::vector<std::unique_ptr<UprightScan>> upright(scans.size());
+  parallelFor(scans.size(), num_threads, [&](std::size_t i) {
+    upright[i] =
+        std::make_unique<UprightScan>(*scans[i], scans[i]->vertical().up, cell);
+  });
+  PlanSearch search;
+  search.turns /= kCoarser;
+  search.reach /= kCoarser;
+  std::vector<RankedPair> ranked(pairs.size());
+  for (std::size_t begin = 0; begin < pairs.size(); begin += kComparedAtATime) {
+    const std::size_t count = std::min(kComparedAtATime, pairs.size() - begin);
+    parallelFor(count, num_threads, [&](std::size_t k) {
+      const ScanPlaces& pair = pairs[begin + k];
+      const auto starts = placeStarts(*upright[pair.first],
+                                      *upright[pair.second],
+                                      kQuickPlacements,
+                                      1,
+                                      search,
+                                      kEvery);
+      ranked[begin + k] = {pair, starts.empty() ? 0 : starts.front().score};
+    });
+    if (progress)
+      progress({"comparing", begin + count, pairs.size()});
+  }
+  return ranked;
+}
+
+std::vector<RankedPair>
+bestOfEach(std::vector<RankedPair> ranked, std::size_t num_scans, std::size_t per_scan)
+{
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
+    return a.score > b.score;
+  });
+  std::vector<std::size_t> taken(num_scans, 0);
+  std::vector<RankedPair> best;
+  for (const auto& one : ranked) {
+    const auto& [first, second] = one.scans;
+    if (one.score <= 0 || (taken[first] >= per_scan && taken[second] >= per_scan))
+      continue;
+    ++taken[first];
+    ++taken[second];
+    best.push_back(one);
+  }
+  return best;
+}
+
+} // namespace pcl6d::global_registration

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pair_ranking.h"
+
+#include <pcl6d/common/map_verification.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl6d::global_registration {
+
+/** \brief A place of a scan on another that may be the right one. */
+struct PlaceHypothesis {
+  std::size_t first = 0, second = 0;
+  Eigen::Isometry3d T_first_second = Eigen::Isometry3d::Identity();
+  double score = 0;    ///< of the pair alone, in [0, 1]
+  double strength = 0; ///< that, and how many others close triangles with it
+  bool can_begin =
+      false; ///< it is the pair's only good place: groups may begin with it
+};
+
+/** \brief All hypotheses, by scan. */
+class PlaceHypotheses {
+public:
+  /** \brief Places pairs; triangles that close make strong what they consist of.
+   * \param[in] progress is told of "placing" */
+  PlaceHypotheses(const ScanList& scans,
+                  const std::vector<RankedPair>& pairs,
+                  double max_ambiguity,
+                  unsigned int num_threads,
+                  const ProgressCallback& progress);
+
+  const std::vector<PlaceHypothesis>&
+  all() const
+  {
+    return all_;
+  }
+  /** \return places in all() of those that a scan takes part in */
+  const std::vector<std::size_t>&
+  of(std::size_t scan) const
+  {
+    return of_scan_[scan];
+  }
+
+private:
+  void
+  strengthen(const ScanList& scans, unsigned int num_threads);
+
+  std::vector<PlaceHypothesis> all_;
+  std::vector<std::vector<std::size_t>> of_scan_;
+};
+
+/** \return whether two places are the same one \param[in] cell [m] of the scans */
+bool
+areSamePlace(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double cell);
+
+} // namespace pcl6d::global_registration

@@ -161,7 +161,7 @@ TEST_F(BadInput, UnknownWordsOfMethods)
       {"plane-minimiser", "linear|helix"},
       {"search", "kdtree|cached-tree|remembered|approximate|octree|brute-force|flann"},
       {"robust", "none|huber|cauchy|geman-mcclure"},
-      {"initial-guess", "odometry|overlap|features"}};
+      {"initial-guess", "odometry|overlap|features|global"}};
   for (const auto& [option, list] : lists)
     for (const std::string word : {"gicpp", "Point", "none "}) {
       SCOPED_TRACE(option + " '" + word + "'");

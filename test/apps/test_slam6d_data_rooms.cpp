@@ -62,7 +62,7 @@ TEST(PclSlam6dDataRooms, FindsThePlaceWithoutPoses)
   const auto outcome =
       pcl6d::test::runProgram("pcl_slam6d", {data.string(), "-o", out.string()});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("placed by features alone"), std::string::npos)
+  EXPECT_NE(outcome.err.find("placed by what they see alone"), std::string::npos)
       << outcome.err;
   const auto poses = pcl6d::readTrajectory(out / "trajectory.kitti").poses;
   ASSERT_EQ(poses.size(), 2u);

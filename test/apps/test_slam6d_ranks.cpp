@@ -181,7 +181,8 @@ TEST_F(Ranks, OtherMethodsGiveTheSameBytes)
   using Words = std::vector<std::string>;
   for (const Words& more : {Words{"--last", "5", "--metric", "point"},
                             Words{"--last", "5", "--links", "distance"},
-                            Words{"--last", "1", "--initial-guess", "features"}}) {
+                            Words{"--last", "1", "--initial-guess", "features"},
+                            Words{"--last", "4", "--initial-guess", "global"}}) {
     fs::remove_all(out);
     Words options = {"--no-picture", "--threads", "1"};
     options.insert(options.end(), more.begin(), more.end());

@@ -90,6 +90,8 @@ ScanGroup::support(std::size_t scan,
   JointSupport joint;
   joint.overlap = own.overlap();
   joint.contradiction = both.contradiction();
+  joint.met_points = both.met();
+  joint.free_points = both.level.free + both.other.free;
   joint.score = joint.overlap * portableExp(-joint.contradiction / scale);
   std::sort(met.begin(), met.end());
   for (const auto& one : met)

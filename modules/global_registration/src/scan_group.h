@@ -24,6 +24,7 @@ struct PlacedScan {
 struct JointSupport {
   double overlap = 0;       ///< share of its points that meet any of them, in [0, 1]
   double contradiction = 0; ///< free, as share of free and met, over all of them
+  double met_points = 0, free_points = 0; ///< of all pairs of scans
   double score = 0;         ///< overlap exp(-contradiction / scale)
   std::vector<std::size_t>
       met; ///< places in the group of those it meets, the most first
@@ -43,6 +44,11 @@ public:
   members() const
   {
     return members_;
+  }
+  const PlaceableScan&
+  scan(std::size_t place) const
+  {
+    return *(*scans_)[place];
   }
   /** \return the place of a scan, if it is a member */
   std::optional<Eigen::Isometry3d>

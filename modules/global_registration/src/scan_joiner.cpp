@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 #include "place_hypotheses.h"
+#include "scan_blocks.h"
 #include "scan_group.h"
 
 #include <pcl6d/common/parallel.h>
@@ -90,7 +91,8 @@ public:
                         options_.num_threads,
                         options_.progress);
     while (const PlaceHypothesis* seed = nextSeed())
-      groups_.push_back(grown(*seed));
+      addGrown(*seed);
+    mergeGroups();
   }
 
   const std::vector<ScanGroup>&
@@ -123,11 +125,10 @@ private:
     return best;
   }
 
-  ScanGroup
-  grown(const PlaceHypothesis& seed)
+  void
+  addGrown(const PlaceHypothesis& seed)
   {
     ScanGroup group(scans_);
-    links_.clear();
     group.add(seed.first, Eigen::Isometry3d::Identity());
     group.add(seed.second, seed.T_first_second);
     tried_.insert({seed.first, seed.second});
@@ -135,7 +136,97 @@ private:
     grow(group);
     for (int k = 0; k < kRechecks && recheck(group); ++k)
       grow(group);
-    return group;
+    splitOff(group);
+    groups_.push_back(group);
+  }
+
+  /** Parts of a group that fit it elsewhere as well become groups of their own. */
+  void
+  splitOff(ScanGroup& group)
+  {
+    for (std::size_t k = group.members().size(); k-- > 1;) {
+      if (k >= group.members().size())
+        continue;
+      ScanGroup block(scans_), rest(scans_);
+      divide(group, group.members()[k].scan, block, rest);
+      if (block.members().size() < 2 || rest.members().size() < 2 ||
+          !fitsElsewhere(rest, block))
+        continue;
+      groups_.push_back(block);
+      group = rest;
+    }
+  }
+
+  /** Cuts a group into what was joined by way of a scan, with it, and the rest. */
+  void
+  divide(const ScanGroup& group,
+         std::size_t scan,
+         ScanGroup& block,
+         ScanGroup& rest) const
+  {
+    std::set<std::size_t> below = {scan};
+    for (const auto& one : group.members()) { // in the order in which they were joined
+      const auto by = joined_by_.find(one.scan);
+      if (by != joined_by_.end() && below.count(by->second) > 0)
+        below.insert(one.scan);
+      (below.count(one.scan) > 0 ? block : rest).add(one.scan, one.T_group_scan);
+    }
+  }
+
+  bool
+  fitsElsewhere(const ScanGroup& rest, const ScanGroup& block) const
+  {
+    BlockPlace here;
+    judgeBlock(rest, block, here);
+    for (const auto& other :
+         placesOfBlock(rest, block, *hypotheses_, options_.num_threads))
+      if (other.score > options_.max_ambiguity * here.score &&
+          !areSameBlockPlaces(block, other.T_group_block, here.T_group_block))
+        return true;
+    return false;
+  }
+
+  /** Joins groups that have one place on each other. */
+  void
+  mergeGroups()
+  {
+    std::stable_sort(groups_.begin(), groups_.end(), [](const auto& a, const auto& b) {
+      return a.members().size() > b.members().size();
+    });
+    for (std::size_t to = 0; to < groups_.size(); ++to)
+      for (std::size_t from = to + 1; from < groups_.size();)
+        if (merge(groups_[to], groups_[from])) {
+          groups_.erase(groups_.begin() + static_cast<std::ptrdiff_t>(from));
+          from = to + 1; // others may have a place on both together
+        }
+        else
+          ++from;
+  }
+
+  bool
+  merge(ScanGroup& to, const ScanGroup& from)
+  {
+    auto places = placesOfBlock(to, from, *hypotheses_, options_.num_threads);
+    if (places.empty() || places[0].score <= 0)
+      return false;
+    for (std::size_t k = 1; k < places.size(); ++k)
+      if (places[k].score > options_.max_ambiguity * places[0].score &&
+          !areSameBlockPlaces(from, places[k].T_group_block, places[0].T_group_block))
+        return false;
+    const PlacedScan& fixing = from.members()[places[0].fixing];
+    const std::size_t scan = fixing.scan;
+    Place at;
+    at.T_group_scan = places[0].T_group_block * fixing.T_group_scan;
+    at.support = places[0].support;
+    const Settled settled = settle(scan, {at}, to);
+    if (!settled.accepted)
+      return false;
+    const Eigen::Isometry3d T =
+        settled.best.T_group_scan * fixing.T_group_scan.inverse();
+    links_.insert(links_.end(), settled.links.begin(), settled.links.end());
+    for (const auto& one : from.members())
+      to.add(one.scan, T * one.T_group_scan);
+    return true;
   }
 
   /** Joins what can be joined. */
@@ -175,6 +266,7 @@ private:
   void
   join(std::size_t scan, const Settled& settled, ScanGroup& group)
   {
+    joined_by_[scan] = group.members()[settled.best.support.met.front()].scan;
     group.add(scan, settled.best.T_group_scan);
     joined_[scan] = true;
     reasons_[scan].clear();
@@ -345,7 +437,8 @@ private:
   std::vector<std::string> reasons_;
   std::map<std::size_t, Settled> settled_;
   std::set<ScanPlaces> tried_;
-  std::vector<LinkEvidence> links_; // of the group that grows
+  std::map<std::size_t, std::size_t> joined_by_; // scan to the one that it met most
+  std::vector<LinkEvidence> links_; // that hold joined scans
   std::vector<ScanGroup> groups_;
 };
 } // namespace

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places of scans on others without a guess: rooms with exact truth, rooms that a half turn
 // maps to themselves, other rooms, laws, and what is too little.
+#include "placeable.h"
 #include "support/bits.h"
 #include "support/points.h"
-#include "verification/verified_rooms.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/global_registration/place_search.h>
 
 #include <gtest/gtest.h>
 
-#include <deque>
 #include <string>
 
 using pcl6d::distanceBetween;
 using pcl6d::judgePlace;
 using pcl6d::MotionSize;
-using pcl6d::PlaceableScan;
 using pcl6d::PlaceAnswer;
 using pcl6d::PlaceResult;
 using pcl6d::placeScan;
@@ -27,35 +25,15 @@ using pcl6d::Random;
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::kVoxel;
 using pcl6d::test::PillarRoom;
+using pcl6d::test::Placeable;
 using pcl6d::test::sameBits;
 using pcl6d::test::ScannedPair;
-using pcl6d::test::VerifiedScans;
 using Vector = Eigen::Vector3d;
 
 namespace {
 // Surfaces of points with 5 mm of noise, a voxel apart: matching leaves a third of it.
 constexpr double kPlaceTol = kVoxel / 3; // [m]
 constexpr double kTurnTol = 0.01;        // [rad] the same at walls 5 m away
-
-/** Scans of one room, or of several, ready to be placed. */
-class Placeable {
-public:
-  void
-  add(const Points& measured, double voxel = kVoxel)
-  {
-    verified_.add(measured, voxel);
-    scans_.emplace_back(verified_.all().back());
-  }
-  const PlaceableScan&
-  operator[](std::size_t i) const
-  {
-    return scans_[i];
-  }
-
-private:
-  VerifiedScans verified_;
-  std::deque<PlaceableScan> scans_;
-};
 
 PlaceResult
 placed(const ScannedPair& pair, unsigned int num_threads = 2)

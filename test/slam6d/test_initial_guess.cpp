@@ -164,7 +164,8 @@ TEST(InitialGuessByOverlap, RepairsOdometryThatIsFarOff)
 TEST(InitialGuessNames, AreThoseOfTheGuesses)
 {
   const auto names = pcl6d::initialGuessNames();
-  EXPECT_EQ(names, (std::vector<std::string>{"odometry", "overlap", "features", "global"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"odometry", "overlap", "features", "global"}));
   for (const auto& name : names)
     EXPECT_EQ(toString(pcl6d::initialGuessFromName(name)), name);
   EXPECT_EQ(pcl6d::test::badArgumentOf([] { pcl6d::initialGuessFromName("gps"); }),

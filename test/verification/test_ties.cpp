@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which scans links hold together.
-#include "ties.h"
+
+#include <pcl6d/verification/ties.h>
 
 #include <gtest/gtest.h>
 

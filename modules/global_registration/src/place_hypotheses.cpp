@@ -37,25 +37,32 @@ areSamePlace(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double cell
 }
 
 PlaceHypotheses::PlaceHypotheses(const ScanList& scans,
-                                 const std::vector<RankedPair>& pairs,
                                  double max_ambiguity,
                                  unsigned int num_threads,
                                  const ProgressCallback& progress)
-: of_scan_(scans.size())
+: scans_(scans)
+, max_ambiguity_(max_ambiguity)
+, num_threads_(num_threads)
+, progress_(progress)
+, of_scan_(scans.size())
+{}
+
+void
+PlaceHypotheses::add(const std::vector<RankedPair>& pairs)
 {
   PlaceSearchOptions options;
-  options.max_ambiguity = max_ambiguity;
+  options.max_ambiguity = max_ambiguity_;
   options.any_axis = false;
   options.num_threads = 1;
   std::vector<PlaceResult> found(pairs.size());
   for (std::size_t begin = 0; begin < pairs.size(); begin += kPlacedAtATime) {
     const std::size_t count = std::min(kPlacedAtATime, pairs.size() - begin);
-    parallelFor(count, num_threads, [&](std::size_t k) {
+    parallelFor(count, num_threads_, [&](std::size_t k) {
       const auto& [first, second] = pairs[begin + k].scans;
-      found[begin + k] = placeScan(*scans[first], *scans[second], options);
+      found[begin + k] = placeScan(*scans_[first], *scans_[second], options);
     });
-    if (progress)
-      progress({"placing", begin + count, pairs.size()});
+    if (progress_)
+      progress_({"placing", begin + count, pairs.size()});
   }
   for (std::size_t i = 0; i < pairs.size(); ++i)
     for (std::size_t k = 0; k < found[i].candidates.size(); ++k) {
@@ -72,14 +79,14 @@ PlaceHypotheses::PlaceHypotheses(const ScanList& scans,
       of_scan_[one.second].push_back(all_.size());
       all_.push_back(one);
     }
-  strengthen(scans, num_threads);
+  strengthen();
 }
 
 void
-PlaceHypotheses::strengthen(const ScanList& scans, unsigned int num_threads)
+PlaceHypotheses::strengthen()
 {
   std::vector<double> strengths(all_.size());
-  parallelFor(all_.size(), num_threads, [&](std::size_t h) {
+  parallelFor(all_.size(), num_threads_, [&](std::size_t h) {
     const PlaceHypothesis& one = all_[h];
     std::map<std::size_t, std::vector<std::size_t>> by_third; // of the second scan
     for (const std::size_t k : of_scan_[one.second])
@@ -97,7 +104,7 @@ PlaceHypotheses::strengthen(const ScanList& scans, unsigned int num_threads)
         if (least > best &&
             areSamePlace(T_first_third,
                          one.T_first_second * between(all_[b], one.second),
-                         scans[third]->cell()))
+                         scans_[third]->cell()))
           best = least;
       }
     }

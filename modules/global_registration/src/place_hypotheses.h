@@ -25,13 +25,15 @@ struct PlaceHypothesis {
 /** \brief All hypotheses, by scan. */
 class PlaceHypotheses {
 public:
-  /** \brief Places pairs; triangles that close make strong what they consist of.
-   * \param[in] progress is told of "placing" */
   PlaceHypotheses(const ScanList& scans,
-                  const std::vector<RankedPair>& pairs,
                   double max_ambiguity,
                   unsigned int num_threads,
                   const ProgressCallback& progress);
+
+  /** \brief Places pairs; triangles that close make strong what they consist of. Tells
+   * progress of "placing". */
+  void
+  add(const std::vector<RankedPair>& pairs);
 
   const std::vector<PlaceHypothesis>&
   all() const
@@ -47,8 +49,12 @@ public:
 
 private:
   void
-  strengthen(const ScanList& scans, unsigned int num_threads);
+  strengthen();
 
+  const ScanList& scans_;
+  double max_ambiguity_;
+  unsigned int num_threads_;
+  ProgressCallback progress_;
   std::vector<PlaceHypothesis> all_;
   std::vector<std::vector<std::size_t>> of_scan_;
 };

@@ -69,8 +69,8 @@ placesOfBlock(const ScanGroup& group,
       if (!fixed)
         continue;
       const Eigen::Isometry3d T_group_scan =
-          *fixed * (is_second ? hypothesis.T_first_second
-                              : hypothesis.T_first_second.inverse());
+          *fixed *
+          (is_second ? hypothesis.T_first_second : hypothesis.T_first_second.inverse());
       const auto same =
           std::find_if(places.begin(), places.end(), [&](const BlockPlace& p) {
             return areSamePlace(p.T_group_block * one.T_group_scan,
@@ -78,11 +78,8 @@ placesOfBlock(const ScanGroup& group,
                                 2 * block.scan(one.scan).cell());
           });
       if (same == places.end())
-        places.push_back({T_group_scan * one.T_group_scan.inverse(),
-                          hypothesis.strength,
-                          0,
-                          0,
-                          {}});
+        places.push_back(
+            {T_group_scan * one.T_group_scan.inverse(), hypothesis.strength, 0, 0, {}});
       else
         same->strength += hypothesis.strength;
     }

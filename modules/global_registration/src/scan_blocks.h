@@ -14,8 +14,8 @@ namespace pcl6d::global_registration {
 /** \brief A place of a group on another one. */
 struct BlockPlace {
   Eigen::Isometry3d T_group_block = Eigen::Isometry3d::Identity();
-  double strength = 0; ///< of the hypotheses that say so
-  double score = 0;    ///< overlap of all its scans, less what contradicts them
+  double strength = 0;    ///< of the hypotheses that say so
+  double score = 0;       ///< overlap of all its scans, less what contradicts them
   std::size_t fixing = 0; ///< place in the block of the scan that meets most
   JointSupport support;   ///< of that scan
 };

@@ -25,7 +25,7 @@ struct JointSupport {
   double overlap = 0;       ///< share of its points that meet any of them, in [0, 1]
   double contradiction = 0; ///< free, as share of free and met, over all of them
   double met_points = 0, free_points = 0; ///< of all pairs of scans
-  double score = 0;         ///< overlap exp(-contradiction / scale)
+  double score = 0;                       ///< overlap exp(-contradiction / scale)
   std::vector<std::size_t>
       met; ///< places in the group of those it meets, the most first
 };

@@ -9,6 +9,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/global_registration/scan_joiner.h>
 #include <pcl6d/verification/link_evidence.h>
+#include <pcl6d/verification/ties.h>
 
 #include <algorithm>
 #include <cstring>
@@ -79,20 +80,19 @@ public:
     for (std::size_t j = 1; j < scans_.size(); ++j)
       for (std::size_t i = 0; i < j; ++i)
         pairs.emplace_back(i, j);
-    const auto ranked =
-        bestOfEach(rankPairs(scans_, pairs, options_.num_threads, options_.progress),
-                   scans_.size(),
-                   options_.pairs_per_scan);
+    ranked_ = rankPairs(scans_, pairs, options_.num_threads, options_.progress);
     result.pairs_compared = pairs.size();
-    result.pairs_placed = ranked.size();
-    hypotheses_.emplace(scans_,
-                        ranked,
-                        options_.max_ambiguity,
-                        options_.num_threads,
-                        options_.progress);
+    hypotheses_.emplace(
+        scans_, options_.max_ambiguity, options_.num_threads, options_.progress);
+    place(bestOfEach(ranked_, scans_.size(), options_.pairs_per_scan));
     while (const PlaceHypothesis* seed = nextSeed())
       addGrown(*seed);
     mergeGroups();
+    judgeAgain();
+    place(furtherPairs());
+    judgeAgain();
+    mergeGroups();
+    result.pairs_placed = placed_.size();
   }
 
   const std::vector<ScanGroup>&
@@ -112,6 +112,58 @@ public:
   }
 
 private:
+  void
+  place(const std::vector<RankedPair>& pairs)
+  {
+    for (const auto& one : pairs)
+      placed_.insert(one.scans);
+    if (!pairs.empty())
+      hypotheses_->add(pairs);
+  }
+
+  /** Of each scan outside the largest group the best pairs with scans of it that were not
+   * placed, as far as there may be more. */
+  std::vector<RankedPair>
+  furtherPairs() const
+  {
+    if (groups_.empty())
+      return {};
+    std::vector<RankedPair> further;
+    for (const auto& one : ranked_) {
+      const auto& [first, second] = one.scans;
+      const bool is_across = groups_[0].placeOf(first).has_value() !=
+                             groups_[0].placeOf(second).has_value();
+      if (is_across && placed_.count(one.scans) == 0)
+        further.push_back(one);
+    }
+    std::stable_sort(further.begin(), further.end(), [](const auto& a, const auto& b) {
+      return a.score > b.score;
+    });
+    const std::size_t most = options_.pairs_per_scan * scans_.size();
+    std::map<std::size_t, std::size_t> taken; // of scans outside
+    std::vector<RankedPair> best;
+    for (const auto& one : further) {
+      const std::size_t outside =
+          groups_[0].placeOf(one.scans.first) ? one.scans.second : one.scans.first;
+      if (placed_.size() + best.size() < most && one.score > 0 &&
+          taken[outside]++ < options_.pairs_per_scan)
+        best.push_back(one);
+    }
+    return best;
+  }
+
+  /** All groups once more, as scans that were placed later may know better. */
+  void
+  judgeAgain()
+  {
+    for (ScanGroup& group : groups_)
+      for (int k = 0; k < kRechecks; ++k) {
+        const bool is_changed = recheck(group);
+        if (grow(group) == 0 && !is_changed)
+          break;
+      }
+  }
+
   /** The strongest pair whose scans are in no group. */
   const PlaceHypothesis*
   nextSeed() const
@@ -136,8 +188,109 @@ private:
     grow(group);
     for (int k = 0; k < kRechecks && recheck(group); ++k)
       grow(group);
+    cutLoose(group);
     splitOff(group);
     groups_.push_back(group);
+  }
+
+  /** Members in an order in which all that was joined by way of a scan follows it, as
+   * tiesOf() looks at parts of what follows each other. */
+  std::vector<std::size_t>
+  asTree(const ScanGroup& group) const
+  {
+    std::map<std::size_t, std::vector<std::size_t>> joined; // places of members
+    for (std::size_t k = 1; k < group.members().size(); ++k) {
+      const auto by = joined_by_.find(group.members()[k].scan);
+      const auto parent = std::find_if(
+          group.members().begin(), group.members().end(), [&](const PlacedScan& one) {
+            return by != joined_by_.end() && one.scan == by->second;
+          });
+      joined[parent == group.members().end()
+                 ? 0
+                 : static_cast<std::size_t>(parent - group.members().begin())]
+          .push_back(k);
+    }
+    std::vector<std::size_t> order, open = {0};
+    while (!open.empty()) {
+      const std::size_t k = open.back();
+      open.pop_back();
+      order.push_back(k);
+      open.insert(open.end(), joined[k].rbegin(), joined[k].rend());
+    }
+    return order;
+  }
+
+  /** What each member and those that it meets most say of each other.
+   * \param[in] order of the members, by whose places links name their scans */
+  std::vector<LinkCheck>
+  linksOf(const ScanGroup& group,
+          const std::vector<std::size_t>& order,
+          double& background) const
+  {
+    const auto& members = group.members();
+    std::vector<std::vector<std::size_t>> met(members.size());
+    parallelFor(members.size(), options_.num_threads, [&](std::size_t k) {
+      const double voxel = scans_[members[k].scan]->scan().voxel();
+      met[k] = group
+                   .support(members[k].scan,
+                            members[k].T_group_scan,
+                            kMetVoxels * voxel,
+                            kPlaceVoxels * voxel,
+                            kContradictedMatch,
+                            kEvery)
+                   .met;
+    });
+    std::set<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t k = 0; k < members.size(); ++k)
+      for (std::size_t i = 0; i < std::min(met[k].size(), kJudgedLinks); ++i)
+        pairs.insert(std::minmax(k, met[k][i]));
+    const std::vector<std::pair<std::size_t, std::size_t>> list(pairs.begin(),
+                                                                pairs.end());
+    std::vector<LinkEvidence> evidence(list.size());
+    parallelFor(list.size(), options_.num_threads, [&](std::size_t i) {
+      const PlacedScan& a = members[list[i].first];
+      const PlacedScan& b = members[list[i].second];
+      evidence[i] = linkEvidence(scans_[a.scan]->scan(),
+                                 scans_[b.scan]->scan(),
+                                 a.T_group_scan.inverse() * b.T_group_scan);
+    });
+    background = contradictionBackground(evidence);
+    std::vector<std::size_t> place(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      place[order[i]] = i;
+    std::vector<LinkCheck> links;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      links.push_back(linkCheck(place[list[i].first],
+                                place[list[i].second],
+                                evidence[i],
+                                judgeLink(evidence[i], background)));
+    return links;
+  }
+
+  /** Members that links do not tie to the others leave the group.
+   * \return their number */
+  std::size_t
+  cutLoose(ScanGroup& group)
+  {
+    if (group.members().size() < 3)
+      return 0;
+    const auto order = asTree(group);
+    double background = 0;
+    const auto links = linksOf(group, order, background);
+    const auto ties = verification::tiesOf(order.size(), links, background);
+    const std::vector<PlacedScan> members = group.members();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (ties.tied[i])
+        continue;
+      const std::size_t scan = members[order[i]].scan;
+      group.remove(scan);
+      joined_[scan] = false;
+      reasons_[scan] = ties.cut_from[i].empty() ? "no scan holds it where it fits best"
+                                                : ties.cut_from[i];
+      ++count;
+    }
+    return count;
   }
 
   /** Parts of a group that fit it elsewhere as well become groups of their own. */
@@ -229,10 +382,11 @@ private:
     return true;
   }
 
-  /** Joins what can be joined. */
-  void
+  /** Joins what can be joined. \return the number of scans */
+  std::size_t
   grow(ScanGroup& group)
   {
+    const std::size_t before = group.members().size();
     std::vector<std::vector<Place>> places(scans_.size());
     std::vector<bool> is_known(scans_.size(), false), is_refused(scans_.size(), false);
     while (true) {
@@ -247,7 +401,7 @@ private:
         is_known[u] = true;
       const std::size_t next = clearest(places, is_refused);
       if (next == scans_.size())
-        return;
+        return group.members().size() - before;
       Settled settled = settle(next, places[next], group);
       if (!settled.accepted) {
         is_refused[next] = true;
@@ -436,9 +590,11 @@ private:
   std::vector<bool> joined_;
   std::vector<std::string> reasons_;
   std::map<std::size_t, Settled> settled_;
+  std::vector<RankedPair> ranked_;
+  std::set<ScanPlaces> placed_; // pairs
   std::set<ScanPlaces> tried_;
   std::map<std::size_t, std::size_t> joined_by_; // scan to the one that it met most
-  std::vector<LinkEvidence> links_; // that hold joined scans
+  std::vector<LinkEvidence> links_;              // that hold joined scans
   std::vector<ScanGroup> groups_;
 };
 } // namespace
@@ -466,6 +622,8 @@ joinScans(const std::deque<PlaceableScan>& scans, const JoinOptions& options)
     list.push_back(&scans[one.second]);
   JoinedScans result;
   result.scans.resize(scans.size());
+  if (scans.empty())
+    return result;
   Joiner joiner(list, options);
   joiner.run(result);
   std::vector<ScanGroup> groups = joiner.groups();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_doubts.h"
-#include "ties.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/verification/map_verifier.h>
+#include <pcl6d/verification/ties.h>
 #include <pcl6d/verification/twin_search.h>
 
 #include <algorithm>

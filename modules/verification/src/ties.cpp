@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 #include "evidence_parts.h"
-#include "ties.h"
 
 #include <pcl6d/common/components.h>
+#include <pcl6d/verification/ties.h>
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-namespace pcl6d::verification {
+namespace PCL6D_EXPORTS pcl6d {
+namespace verification {
 
 /** \brief Which scans good links join to the largest part of a map. */
 struct Ties {
@@ -24,7 +25,8 @@ struct Ties {
  * follow each other, as errors of the odometry displace all that follow, and what a single
  * link holds.
  * \param[in] background of the map */
-PCL6D_EXPORTS Ties // shown to its test
+Ties
 tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background);
 
-} // namespace pcl6d::verification
+} // namespace verification
+} // namespace pcl6d

@@ -206,6 +206,26 @@ TEST(ScanJoiner, OfOneScanOrNoneThereIsNothingToJoin)
   EXPECT_NE(found.scans[0].reason, "");
 }
 
+TEST(ScanJoiner, KnownPosesStandAndOthersJoinThem)
+{
+  const RoomScans room;
+  Placeable scans;
+  for (const auto& one : room.points)
+    scans.add(one);
+  const Eigen::Isometry3d T_map_world = poseFromEuler({40, -7, 2}, {0, 0, 2});
+  JoinOptions options;
+  options.known.resize(room.points.size());
+  for (const std::size_t i : {1, 3, 4})
+    options.known[i] = T_map_world * room.T_world_scan[i];
+  const JoinedScans found = joinScans(scans.all(), options);
+  ASSERT_EQ(found.groups.size(), 1u);
+  for (const std::size_t i : {1, 3, 4})
+    EXPECT_TRUE(sameBits(found.scans[i].T_group_scan, *options.known[i]));
+  expectTruth(found, found.groups[0], room.T_world_scan);
+  options.known.pop_back();
+  EXPECT_NE(badArgumentOf([&] { joinScans(scans.all(), options); }), "");
+}
+
 TEST(ScanJoiner, ReportsProgressAndStopsWhereThatThrows)
 {
   const RoomScans room({}, 3);

@@ -31,6 +31,14 @@ medianCell(const ScanList& scans)
   std::nth_element(cells.begin(), middle, cells.end());
   return *middle;
 }
+
+void
+sortBest(std::vector<RankedPair>& ranked)
+{
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
+    return a.score > b.score;
+  });
+}
 } // namespace
 
 std::vector<RankedPair>
@@ -68,11 +76,33 @@ rankPairs(const ScanList& scans,
 }
 
 std::vector<RankedPair>
+furtherPairs(const std::vector<RankedPair>& ranked,
+             const std::set<ScanPlaces>& placed,
+             std::size_t num_scans,
+             std::size_t per_scan,
+             const std::function<bool(std::size_t)>& is_inside)
+{
+  std::vector<RankedPair> across;
+  for (const auto& one : ranked)
+    if (is_inside(one.scans.first) != is_inside(one.scans.second) &&
+        placed.count(one.scans) == 0 && one.score > 0)
+      across.push_back(one);
+  sortBest(across);
+  std::vector<std::size_t> taken(num_scans, 0);
+  std::vector<RankedPair> best;
+  for (const auto& one : across) {
+    const auto& [first, second] = one.scans;
+    if (placed.size() + best.size() < per_scan * num_scans &&
+        taken[is_inside(first) ? second : first]++ < per_scan)
+      best.push_back(one);
+  }
+  return best;
+}
+
+std::vector<RankedPair>
 bestOfEach(std::vector<RankedPair> ranked, std::size_t num_scans, std::size_t per_scan)
 {
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
-    return a.score > b.score;
-  });
+  sortBest(ranked);
   std::vector<std::size_t> taken(num_scans, 0);
   std::vector<RankedPair> best;
   for (const auto& one : ranked) {

@@ -5,6 +5,8 @@
 #include <pcl6d/global_registration/placeable_scan.h>
 
 #include <cstddef>
+#include <functional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -34,5 +36,14 @@ rankPairs(const ScanList& scans,
  * \param[in] per_scan so many of each */
 std::vector<RankedPair>
 bestOfEach(std::vector<RankedPair> ranked, std::size_t num_scans, std::size_t per_scan);
+
+/** \return of each scan outside a group the best pairs with scans inside that were not placed
+ * yet, in all no more than are left of per_scan pairs a scan */
+std::vector<RankedPair>
+furtherPairs(const std::vector<RankedPair>& ranked,
+             const std::set<ScanPlaces>& placed,
+             std::size_t num_scans,
+             std::size_t per_scan,
+             const std::function<bool(std::size_t)>& is_inside);
 
 } // namespace pcl6d::global_registration

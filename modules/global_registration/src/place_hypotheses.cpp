@@ -82,6 +82,19 @@ PlaceHypotheses::add(const std::vector<RankedPair>& pairs)
   strengthen();
 }
 
+std::optional<PlaceHypothesis>
+PlaceHypotheses::strongestBeginning(const std::vector<bool>& joined,
+                                    const std::set<ScanPlaces>& tried) const
+{
+  std::optional<PlaceHypothesis> best;
+  for (const auto& one : all_)
+    if (one.can_begin && !joined[one.first] && !joined[one.second] &&
+        (!best || one.strength > best->strength) &&
+        tried.count({one.first, one.second}) == 0)
+      best = one;
+  return best;
+}
+
 void
 PlaceHypotheses::strengthen()
 {

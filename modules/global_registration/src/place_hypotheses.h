@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <optional>
+#include <set>
 #include <vector>
 
 namespace pcl6d::global_registration {
@@ -46,6 +48,12 @@ public:
   {
     return of_scan_[scan];
   }
+
+  /** \return the strongest hypothesis with which a group may begin
+   * \param[in] joined per scan whether a group has it \param[in] tried pairs that were */
+  std::optional<PlaceHypothesis>
+  strongestBeginning(const std::vector<bool>& joined,
+                     const std::set<ScanPlaces>& tried) const;
 
 private:
   void

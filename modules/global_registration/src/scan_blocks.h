@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace pcl6d::global_registration {
@@ -31,6 +32,23 @@ placesOfBlock(const ScanGroup& group,
               const ScanGroup& block,
               const PlaceHypotheses& hypotheses,
               unsigned int num_threads);
+
+/** \return whether a block that has a place on the rest fits it elsewhere as well
+ * \param[in] max_ambiguity score of the other place / that of the place it has, at most */
+bool
+fitsElsewhere(const ScanGroup& rest,
+              const ScanGroup& block,
+              const PlaceHypotheses& hypotheses,
+              double max_ambiguity,
+              unsigned int num_threads);
+
+/** \return the place of a group on another one, if no other is nearly as good */
+std::optional<BlockPlace>
+onlyPlaceOfBlock(const ScanGroup& group,
+                 const ScanGroup& block,
+                 const PlaceHypotheses& hypotheses,
+                 double max_ambiguity,
+                 unsigned int num_threads);
 
 /** \return whether two places bring the scans of a block to the same place */
 bool

@@ -45,6 +45,12 @@ public:
   {
     return members_;
   }
+  /** \return a group of the same scans without members */
+  ScanGroup
+  without() const
+  {
+    return ScanGroup(*scans_);
+  }
   const PlaceableScan&
   scan(std::size_t place) const
   {

@@ -17,6 +17,13 @@ namespace {
 /** Between groups that are laid side by side: a share of the wider one. */
 constexpr double kGap = 0.1;
 
+/** \return whether an earlier run has given a scan its place */
+bool
+isRegistered(const ScanResult& scan)
+{
+  return scan.state != ScanState::kPending && scan.state != ScanState::kPredicted;
+}
+
 void
 shift(const std::vector<std::size_t>& group, double x, Slam6DResult& result)
 {
@@ -103,7 +110,7 @@ GlobalStage::run(WorkSharing* sharing,
   result.links.clear();
   result.floating.clear();
   result.graph = PoseGraph();
-  const JoinedScans joined = join(report); // each process finds the same
+  const JoinedScans joined = join(result.scans, report); // each process finds the same
   if (scans_.isFirst())
     match(joined, result);
   if (sharing) {
@@ -125,7 +132,8 @@ GlobalStage::run(WorkSharing* sharing,
 }
 
 JoinedScans
-GlobalStage::join(const ProgressCallback& report) const
+GlobalStage::join(const std::vector<ScanResult>& scans,
+                  const ProgressCallback& report) const
 {
   std::deque<PlaceableScan> placeable;
   for (const auto& scan : verified_)
@@ -133,6 +141,11 @@ GlobalStage::join(const ProgressCallback& report) const
   JoinOptions join;
   join.num_threads = options_.num_threads;
   join.progress = report;
+  if (std::any_of(scans.begin(), scans.end(), isRegistered))
+    for (const ScanResult& scan : scans)
+      join.known.push_back(isRegistered(scan)
+                               ? std::optional<Eigen::Isometry3d>(scan.T_world_scan)
+                               : std::nullopt);
   return joinScans(placeable, join);
 }
 
@@ -144,6 +157,10 @@ GlobalStage::match(const JoinedScans& joined, Slam6DResult& result) const
     ScanMatcher matcher(options_, result.parameters);
     for (const std::size_t i : group) {
       ScanResult& scan = result.scans[i];
+      if (isRegistered(scan)) {
+        matcher.takeIn(scans_.reduced()[i], scans_.measured()[i], scan);
+        continue;
+      }
       scan.T_world_scan = joined.scans[i].T_group_scan;
       if (i == group.front())
         matcher.fix(scans_.reduced()[i], scans_.measured()[i], scan);

@@ -35,7 +35,8 @@ public:
               const StageMaker& make_stage);
 
   /** \brief Registers all scans. Groups lie side by side: those beyond the first are
-   * floating, scans that belong to none are predicted, with the reason.
+   * floating, scans that belong to none are predicted, with the reason. Those that an earlier
+   * run has registered keep their places and are the first group.
    * \param[in] report of progress; may throw, which ends it
    * \param[in,out] result not to be used if it ended so */
   void
@@ -43,7 +44,7 @@ public:
 
 private:
   JoinedScans
-  join(const ProgressCallback& report) const;
+  join(const std::vector<ScanResult>& scans, const ProgressCallback& report) const;
   void
   match(const JoinedScans& joined, Slam6DResult& result) const;
   void

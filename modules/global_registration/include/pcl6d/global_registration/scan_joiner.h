@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,14 +18,13 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief What became of a scan that was to be joined with others. */
 struct JoinedScan {
   std::size_t group = 0; ///< place of its group; a loose scan is alone in one
-  Eigen::Isometry3d T_group_scan =
-      Eigen::Isometry3d::Identity(); ///< in the frame of the group's first scan
+  Eigen::Isometry3d T_group_scan = Eigen::Isometry3d::
+      Identity(); ///< in the frame of the group's first scan, or of the known poses
   double overlap =
       0; ///< share of its surfaces that meet others of the group, in [0, 1]
   double contradiction =
-      0;                ///< of these and those that others looked through, the latter
-  double ambiguity = 0; ///< score of the second place / that of this one
-  std::string reason;   ///< why it is loose, in words; else empty
+      0;              ///< of these and those that others looked through, the latter
+  std::string reason; ///< why it is loose, in words; else empty
 };
 
 /** \brief What joinScans() found. */
@@ -42,8 +42,12 @@ struct JoinOptions {
       4; ///< so many times the scans pairs are placed, at most; > 0
   double max_ambiguity =
       0.6; ///< second score / score of a place that counts; in [0, 1]
+  /** of each scan its pose, if it is known: those with one are the first group, in a frame of
+   * their own, and keep their poses; empty: none is known */
+  std::vector<std::optional<Eigen::Isometry3d>> known = {};
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
-  ProgressCallback progress;
+  /** told of "comparing" and "placing"; may throw, which ends it */
+  ProgressCallback progress = {};
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -59,7 +63,7 @@ struct JoinOptions {
  * without itself. What is left forms further groups, or stays loose.
  * \param[in] scans with the same voxel; their order does not matter: ties are broken by their
  * content
- * \throws BadArgument an option breaks its rule
+ * \throws BadArgument an option breaks its rule, or known poses are not one per scan
  * \note Source: algorithms.md G.2, G.4 \ingroup global_registration */
 JoinedScans
 joinScans(const std::deque<PlaceableScan>& scans, const JoinOptions& options = {});

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
+#include "group_ties.h"
+#include "joint_placement.h"
+#include "scan_blocks.h"
+
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/verification/ties.h>
+
+#include <algorithm>
+#include <set>
+
+namespace pcl6d::global_registration {
+
+namespace {
+/** Half of the points are enough to tell which scans meet. */
+constexpr std::size_t kTiedEvery = 2;
+
+/** Members in an order in which all that was joined by way of a scan follows it, as
+ * tiesOf() looks at parts of what follows each other. */
+std::vector<std::size_t>
+asTree(const ScanGroup& group, const JoinedBy& joined_by)
+{
+  std::map<std::size_t, std::vector<std::size_t>> joined; // places of members
+  for (std::size_t k = 1; k < group.members().size(); ++k) {
+    const auto by = joined_by.find(group.members()[k].scan);
+    const auto parent = std::find_if(
+        group.members().begin(), group.members().end(), [&](const PlacedScan& one) {
+          return by != joined_by.end() && one.scan == by->second;
+        });
+    joined[parent == group.members().end()
+               ? 0
+               : static_cast<std::size_t>(parent - group.members().begin())]
+        .push_back(k);
+  }
+  std::vector<std::size_t> order, open = {0};
+  while (!open.empty()) {
+    const std::size_t k = open.back();
+    open.pop_back();
+    order.push_back(k);
+    open.insert(open.end(), joined[k].rbegin(), joined[k].rend());
+  }
+  return order;
+}
+
+/** What each member and those that it meets most say of each other.
+ * \param[in] order of the members, by whose places links name their scans */
+std::vector<LinkCheck>
+linksOf(const ScanGroup& group,
+        const std::vector<std::size_t>& order,
+        unsigned int num_threads,
+        double& background)
+{
+  const auto& members = group.members();
+  std::vector<std::vector<std::size_t>> met(members.size());
+  parallelFor(members.size(), num_threads, [&](std::size_t k) {
+    const double voxel = group.scan(members[k].scan).scan().voxel();
+    met[k] = group
+                 .support(members[k].scan,
+                          members[k].T_group_scan,
+                          kMetVoxels * voxel,
+                          kPlaceVoxels * voxel,
+                          kContradictedMatch,
+                          kTiedEvery)
+                 .met;
+  });
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t k = 0; k < members.size(); ++k)
+    for (std::size_t i = 0; i < std::min(met[k].size(), kJudgedLinks); ++i)
+      pairs.insert(std::minmax(k, met[k][i]));
+  const std::vector<std::pair<std::size_t, std::size_t>> list(pairs.begin(),
+                                                              pairs.end());
+  std::vector<LinkEvidence> evidence(list.size());
+  parallelFor(list.size(), num_threads, [&](std::size_t i) {
+    const PlacedScan& a = members[list[i].first];
+    const PlacedScan& b = members[list[i].second];
+    evidence[i] = linkEvidence(group.scan(a.scan).scan(),
+                               group.scan(b.scan).scan(),
+                               a.T_group_scan.inverse() * b.T_group_scan);
+  });
+  background = contradictionBackground(evidence);
+  std::vector<std::size_t> place(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    place[order[i]] = i;
+  std::vector<LinkCheck> links;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    links.push_back(linkCheck(place[list[i].first],
+                              place[list[i].second],
+                              evidence[i],
+                              judgeLink(evidence[i], background)));
+  return links;
+}
+} // namespace
+
+void
+divide(const ScanGroup& group,
+       const JoinedBy& joined_by,
+       std::size_t scan,
+       ScanGroup& block,
+       ScanGroup& rest)
+{
+  std::set<std::size_t> below = {scan};
+  for (const auto& one : group.members()) { // in the order in which they were joined
+    const auto by = joined_by.find(one.scan);
+    if (by != joined_by.end() && below.count(by->second) > 0)
+      below.insert(one.scan);
+    (below.count(one.scan) > 0 ? block : rest).add(one.scan, one.T_group_scan);
+  }
+}
+
+std::vector<std::pair<std::size_t, std::string>>
+untiedOf(const ScanGroup& group, const JoinedBy& joined_by, unsigned int num_threads)
+{
+  const auto order = asTree(group, joined_by);
+  double background = 0;
+  const auto links = linksOf(group, order, num_threads, background);
+  const auto ties = verification::tiesOf(order.size(), links, background);
+  std::vector<std::pair<std::size_t, std::string>> untied;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (!ties.tied[i])
+      untied.emplace_back(group.members()[order[i]].scan,
+                          ties.cut_from[i].empty()
+                              ? "no scan holds it where it fits best"
+                              : ties.cut_from[i]);
+  return untied;
+}
+
+std::vector<ScanGroup>
+splitOff(ScanGroup& group,
+         const JoinedBy& joined_by,
+         const PlaceHypotheses& hypotheses,
+         double max_ambiguity,
+         unsigned int num_threads)
+{
+  std::vector<ScanGroup> parts;
+  for (std::size_t k = group.members().size(); k-- > 1;) {
+    if (k >= group.members().size())
+      continue; // taken out with an earlier one
+    ScanGroup block = group.without(), rest = group.without();
+    divide(group, joined_by, group.members()[k].scan, block, rest);
+    if (block.members().size() < 2 || rest.members().size() < 2 ||
+        !fitsElsewhere(rest, block, hypotheses, max_ambiguity, num_threads))
+      continue;
+    parts.push_back(block);
+    group = rest;
+  }
+  return parts;
+}
+
+} // namespace pcl6d::global_registration

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
+#include "joint_placement.h"
+
+#include <pcl6d/common/parallel.h>
+
+#include <algorithm>
+
+namespace pcl6d::global_registration {
+
+namespace {
+/** So many places of a scan are looked at, and so many of these matched. */
+constexpr std::size_t kPlacesLookedAt = 8, kSettled = 3;
+
+/** Half of the points are enough for a look. */
+constexpr std::size_t kLookEvery = 2;
+
+/** A link with more than this is another place by its rays. */
+constexpr double kElsewhere = 0.5;
+
+void
+sortPlaces(std::vector<Place>& places)
+{
+  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.support.score > b.support.score;
+  });
+}
+} // namespace
+
+JointPlacement::JointPlacement(const ScanList& scans,
+                               const PlaceHypotheses& hypotheses,
+                               double max_ambiguity,
+                               unsigned int num_threads)
+: scans_(scans)
+, hypotheses_(hypotheses)
+, max_ambiguity_(max_ambiguity)
+, num_threads_(num_threads)
+{}
+
+std::vector<Place>
+JointPlacement::placesOf(std::size_t scan, const ScanGroup& group) const
+{
+  std::vector<Place> places;
+  for (const std::size_t h : hypotheses_.of(scan)) {
+    const PlaceHypothesis& one = hypotheses_.all()[h];
+    const bool is_second = one.second == scan;
+    const auto fixed = group.placeOf(is_second ? one.first : one.second);
+    if (!fixed)
+      continue;
+    const Eigen::Isometry3d T =
+        *fixed * (is_second ? one.T_first_second : one.T_first_second.inverse());
+    const auto same = std::find_if(places.begin(), places.end(), [&](const Place& p) {
+      return areSamePlace(p.T_group_scan, T, scans_[scan]->cell());
+    });
+    if (same == places.end())
+      places.push_back({T, one.strength, {}});
+    else
+      same->strength += one.strength;
+  }
+  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.strength > b.strength;
+  });
+  places.resize(std::min(places.size(), kPlacesLookedAt));
+  const double cell = scans_[scan]->cell();
+  for (Place& one : places)
+    one.support = group.support(
+        scan, one.T_group_scan, cell, 0.5 * cell, kContradictedStart, kLookEvery);
+  sortPlaces(places);
+  return places;
+}
+
+Settled
+JointPlacement::settle(std::size_t scan,
+                       const std::vector<Place>& places,
+                       const ScanGroup& group,
+                       const std::vector<LinkEvidence>& links) const
+{
+  std::vector<Place> best(
+      places.begin(),
+      places.begin() + static_cast<std::ptrdiff_t>(std::min(places.size(), kSettled)));
+  const double voxel = scans_[scan]->scan().voxel();
+  parallelFor(best.size(), num_threads_, [&](std::size_t k) {
+    Place& one = best[k];
+    one.T_group_scan = group.matched(
+        scan, one.T_group_scan, one.support.met, 2 * scans_[scan]->cell());
+    one.support = group.support(scan,
+                                one.T_group_scan,
+                                kMetVoxels * voxel,
+                                kPlaceVoxels * voxel,
+                                kContradictedMatch);
+  });
+  sortPlaces(best);
+  Settled settled;
+  settled.best = best.front();
+  for (std::size_t k = 1; k < best.size(); ++k)
+    if (!areSamePlace(
+            best[0].T_group_scan, best[k].T_group_scan, scans_[scan]->cell())) {
+      settled.ambiguity = best[k].support.score / best[0].support.score;
+      break;
+    }
+  decide(scan, group, links, settled);
+  return settled;
+}
+
+void
+JointPlacement::decide(std::size_t scan,
+                       const ScanGroup& group,
+                       const std::vector<LinkEvidence>& links,
+                       Settled& settled) const
+{
+  const JointSupport& support = settled.best.support;
+  if (support.overlap < kLeastOverlap)
+    settled.reason = "too few of its surfaces meet those of others";
+  else if (settled.ambiguity > max_ambiguity_)
+    settled.reason = "another place is nearly as good";
+  else
+    settled.reason = objection(scan, group, links, settled);
+  settled.accepted = settled.reason.empty();
+}
+
+/** What members have against a place, one by one. */
+std::string
+JointPlacement::objection(std::size_t scan,
+                          const ScanGroup& group,
+                          const std::vector<LinkEvidence>& links,
+                          Settled& settled) const
+{
+  const auto& met = settled.best.support.met;
+  settled.links.resize(std::min(met.size(), kJudgedLinks));
+  parallelFor(settled.links.size(), num_threads_, [&](std::size_t k) {
+    const PlacedScan& member = group.members()[met[k]];
+    settled.links[k] =
+        linkEvidence(scans_[member.scan]->scan(),
+                     scans_[scan]->scan(),
+                     member.T_group_scan.inverse() * settled.best.T_group_scan);
+  });
+  const double background = contradictionBackground(links);
+  bool is_held = false;
+  for (const auto& link : settled.links) {
+    const LinkOpinion opinion = judgeLink(link, background);
+    if (opinion.trust == LinkTrust::kWrong && opinion.elsewhere > kElsewhere)
+      return "a scan speaks against the best place: " + opinion.reason;
+    is_held = is_held || opinion.trust == LinkTrust::kGood ||
+              opinion.trust == LinkTrust::kUnverified;
+  }
+  return is_held ? "" : "no scan holds it where it fits best";
+}
+
+} // namespace pcl6d::global_registration

@@ -228,7 +228,7 @@ GlobalStage::layOut(const JoinedScans& joined, Slam6DResult& result) const
     end = high + by;
     for (const std::size_t i : group) {
       ScanResult& scan = result.scans[i];
-      if (group.size() == 1) {
+      if (group.size() == 1 && result.scans.size() > 1) {
         scan.state = ScanState::kPredicted;
         scan.start = InitialGuess::kGlobal;
         scan.reason = "loose: " + joined.scans[i].reason;

@@ -24,6 +24,9 @@ namespace {
  * is. So many starts are matched. */
 constexpr std::size_t kPlacements = 200, kOtherPlacements = 60, kMatchedPlaces = 30;
 
+/** All of them are matched by few points, at least so many of the best by more. */
+constexpr std::size_t kFinelyMatched = 10;
+
 /** The search for one pair. */
 class Search {
 public:
@@ -107,7 +110,8 @@ private:
         chosen.push_back(start);
     }
     polish(chosen, second_.judged());
-    chosen.resize(std::min(chosen.size(), 2 * options_.candidates));
+    chosen.resize(
+        std::min(chosen.size(), std::max(kFinelyMatched, 2 * options_.candidates)));
     polish(chosen, second_.matched());
     std::vector<PlaceStart> distinct;
     for (const auto& one : chosen)

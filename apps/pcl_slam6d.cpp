@@ -78,6 +78,9 @@ public:
       bar_.say(folder_.coordinates());
     for (const auto& description : scans_.descriptions())
       bar_.say(description);
+    const std::string foreseen = app::foreseenWork(settings_, folder_.size());
+    if (!foreseen.empty())
+      bar_.say(foreseen);
     if (!readScans()) {
       bar_.say("interrupted while reading; nothing is written");
       return app::kInterrupted;

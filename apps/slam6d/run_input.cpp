@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/progress_bar.h"
 #include "slam6d/run_input.h"
+
+#include <pcl6d/common/parallel.h>
 
 #include <utility>
 #include <vector>
@@ -49,6 +52,24 @@ resolved(Settings settings, const ScanFolder& folder)
     indices.push_back(folder.index(i));
   settings.readLinks(indices);
   return settings;
+}
+
+std::string
+foreseenWork(const Settings& settings, std::size_t num_scans)
+{
+  // Said where it is more than a few minutes. Seconds of one core for a pair that is compared
+  // and for one that is placed, four of each scan: those of bench_join, which differ by a
+  // factor of two between scenes.
+  constexpr std::size_t kMany = 100;
+  constexpr double kCompared = 0.015, kPlaced = 0.35, kPlacedOfEach = 4;
+  if (settings.slam.initial_guess != InitialGuess::kGlobal || num_scans < kMany)
+    return "";
+  const auto n = static_cast<double>(num_scans);
+  const double seconds = (kCompared * n * (n - 1) / 2 + kPlaced * kPlacedOfEach * n) /
+                         threadCount(settings.slam.num_threads);
+  return "without poses all pairs of " + std::to_string(num_scans) +
+         " scans are compared, which takes about " + durationText(seconds) +
+         "; with rough poses (--poses FILE) it takes a part of it";
 }
 
 } // namespace pcl6d::app

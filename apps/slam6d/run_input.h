@@ -6,7 +6,9 @@
 
 #include <pcl6d/run/run_folder.h>
 
+#include <cstddef>
 #include <optional>
+#include <string>
 
 namespace pcl6d::app {
 
@@ -27,5 +29,10 @@ openScans(const ScanFolder& folder, const Settings& settings);
 /** \return the settings with what follows from the folder */
 Settings
 resolved(Settings settings, const ScanFolder& folder);
+
+/** \return of many scans without poses, what is done with them and how long that takes, for
+ * people; else empty */
+std::string
+foreseenWork(const Settings& settings, std::size_t num_scans);
 
 } // namespace pcl6d::app

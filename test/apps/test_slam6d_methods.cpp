@@ -126,6 +126,17 @@ TEST_F(Methods, WithoutPosesScansAreJoinedByWhatTheySee)
   expectPath(turned().truth);
 }
 
+TEST_F(Methods, TheTimeOfManyScansWithoutPosesIsSaidBeforeItIsSpent)
+{
+  const Points corner = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  write(std::vector<Points>(100, corner));
+  run(3, {"--no-picture"});
+  const auto said = outcome_.err.find("all pairs of 100 scans are compared");
+  EXPECT_NE(said, std::string::npos) << outcome_.err;
+  EXPECT_LT(said, outcome_.err.find("comparing")) << outcome_.err;
+  expectPredicted(0, "loose: ");
+}
+
 TEST_F(Methods, WithPosesMatchingStartsAtTheOdometry)
 {
   write({turned().scans[0], turned().scans[1]});
@@ -176,9 +187,38 @@ TEST_F(Methods, UnrelatedScansWithoutPosesArePredicted)
   run(3);
   expectOption("initial-guess", "global", "default");
   expectPredicted(1, "loose: ");
+  EXPECT_NE(
+      outcome_.out.find("2 scans fit nowhere, or in several places, and lie beside "
+                        "the map: scan0.xyz, scan1.xyz"),
+      std::string::npos)
+      << outcome_.out;
   const auto found = poses();
   EXPECT_GT(pcl6d::distanceBetween(found[0], found[1]).translation, 1)
       << "beside the other, not in it";
+}
+
+TEST_F(Methods, TwoSitesInOneFolderAreBothDelivered)
+{
+  pcl6d::Random random(5);
+  pcl6d::test::PillarRoom other;
+  other.walls = {Eigen::Vector3d(-2.6, -9, -1), Eigen::Vector3d(2.5, 4, 1.4)};
+  other.pillars = {{Eigen::Vector3d(-1, 2.5, -1), Eigen::Vector3d(-0.2, 3.3, 1.4)},
+                   {Eigen::Vector3d(1.3, -6, -1), Eigen::Vector3d(1.9, -5, 0.7)}};
+  const std::vector<Eigen::Isometry3d> truth = {
+      kIdentity, pcl6d::poseFromEuler({0.7, -1.2, 0.05}, {0, 0, 2})};
+  std::vector<Points> scans = turned().scans;
+  for (const auto& pose : truth)
+    scans.push_back(other.scan(pose, random));
+  write(scans);
+  run(3, {"--no-picture"});
+  EXPECT_NE(outcome_.out.find("2 scans could not be joined to the others"),
+            std::string::npos)
+      << outcome_.out;
+  EXPECT_EQ(summary_["graph"]["floating"], json::array({"scan4.xyz", "scan5.xyz"}));
+  const auto found = poses();
+  const auto error = pcl6d::distanceBetween(truth[0].inverse() * truth[1],
+                                            found[4].inverse() * found[5]);
+  EXPECT_LT(error.translation, 0.05) << "right in itself";
 }
 
 TEST_F(Methods, OverlapRepairsOdometryThatIsFarOff)

@@ -105,14 +105,21 @@ public:
   , sums_(static_cast<std::size_t>((side_ + 1) * (side_ + 1)))
   {}
 
-  void
+  /** \return whether there are enough votes for any shift */
+  bool
   vote(const Sectors& fixed, const Sectors& moved)
   {
     std::fill(votes_.begin(), votes_.end(), std::uint16_t{0});
+    std::size_t most = 0;
     for (int s = 0; s < kSectors; ++s)
-      for (int beside = -1; beside <= 1; ++beside)
-        vote(fixed[static_cast<std::size_t>((s + beside + kSectors) % kSectors)],
-             moved[static_cast<std::size_t>(s)]);
+      for (int beside = -1; beside <= 1; ++beside) {
+        const auto& there =
+            fixed[static_cast<std::size_t>((s + beside + kSectors) % kSectors)];
+        const auto& here = moved[static_cast<std::size_t>(s)];
+        vote(there, here);
+        most += there.size() * here.size();
+      }
+    return most >= kLeastVotes;
   }
 
   /** Adds the shifts that stand out most, in the order of the table. */
@@ -284,8 +291,8 @@ placePlan(const Plan& fixed,
   const double step = 2 * kPi / search.turns;
   const Sectors sectors = sectorsOf(fixed, 0, search.reach);
   for (int turn = 0; turn < search.turns; ++turn) {
-    table.vote(sectors, sectorsOf(moved, turn * step, search.reach));
-    table.addBest(turn * step, fixed.cell, all);
+    if (table.vote(sectors, sectorsOf(moved, turn * step, search.reach)))
+      table.addBest(turn * step, fixed.cell, all);
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return a.votes > b.votes;

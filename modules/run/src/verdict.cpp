@@ -11,18 +11,54 @@
 namespace pcl6d {
 
 namespace {
-/** \return ": a.pcd, b.pcd and 3 more" for the scans in a state */
+/** \return ": a.pcd, b.pcd and 3 more" */
+std::string
+listed(const std::vector<std::string>& files)
+{
+  constexpr std::size_t kMost = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(files.size(), kMost); ++i)
+    text += (i == 0 ? ": " : ", ") + files[i];
+  return files.size() > kMost
+             ? text + " and " + std::to_string(files.size() - kMost) + " more"
+             : text;
+}
+
 std::string
 filesIn(ScanState state, const RunResult& run)
 {
-  constexpr int kMost = 8;
-  std::string text;
-  int count = 0;
+  std::vector<std::string> files;
   for (const auto& scan : run.scans)
-    if (scan.state == state && ++count <= kMost)
-      text += (count == 1 ? ": " : ", ") + scan.file;
-  return count > kMost ? text + " and " + std::to_string(count - kMost) + " more"
-                       : text;
+    if (scan.state == state)
+      files.push_back(scan.file);
+  return listed(files);
+}
+
+/** Scans that were not matched, and those that nothing joins to the first one. */
+void
+describeLoose(const RunResult& run, std::ostream& text)
+{
+  const bool is_global =
+      std::any_of(run.scans.begin(), run.scans.end(), [](const ScanResult& scan) {
+        return scan.start == InitialGuess::kGlobal;
+      });
+  if (const auto failed = countScans(run.scans, ScanState::kPredicted))
+    text << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
+         << (is_global ? " fit nowhere, or in several places, and lie beside the map"
+                       : " could not be matched, predicted pose kept")
+         << filesIn(ScanState::kPredicted, run);
+  if (run.floating.empty())
+    return;
+  const std::string count = text::counted(run.floating.size(), "scan");
+  if (is_global)
+    text << "\nNOT TO BE TRUSTED: " << count
+         << " could not be joined to the others (another site, or too little in "
+            "common), and lie beside the map"
+         << listed(run.floating);
+  else
+    text << "\nNOT TO BE TRUSTED: no link joins " << count
+         << " to the first one: " << run.floating.front()
+         << (run.floating.size() > 1 ? ", ..." : "");
 }
 
 /** The worst numbers of the matched scans, so that a bad match shows without --verbose. */
@@ -112,12 +148,10 @@ verdictOf(const RunResult& run)
                  ? "1 scan, nothing to match"
                  : "all " + all + " registered, every match converged");
   else
-    text << countScans(run.scans, ScanState::kMatched) + 1 << " of " << all
-         << " registered";
-  if (const auto failed = countScans(run.scans, ScanState::kPredicted))
-    text << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
-         << " could not be matched, predicted pose kept"
-         << filesIn(ScanState::kPredicted, run);
+    text << countScans(run.scans, ScanState::kFixed) +
+                countScans(run.scans, ScanState::kMatched)
+         << " of " << all << " registered";
+  describeLoose(run, text);
   if (const auto limit = countScans(run.scans, ScanState::kUnconverged)) {
     const bool is_confirmed =
         run.verification && run.verification->trust == MapTrust::kGood;
@@ -129,11 +163,6 @@ verdictOf(const RunResult& run)
                    "--metascan too small?)")
          << filesIn(ScanState::kUnconverged, run);
   }
-  if (!run.floating.empty())
-    text << "\nNOT TO BE TRUSTED: no link joins "
-         << text::counted(run.floating.size(), "scan")
-         << " to the first one: " << run.floating.front()
-         << (run.floating.size() > 1 ? ", ..." : "");
   describeVerification(run, text);
   describeQuality(run, text);
   describeStages(run, text);

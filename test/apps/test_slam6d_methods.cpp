@@ -187,10 +187,7 @@ TEST_F(Methods, UnrelatedScansWithoutPosesArePredicted)
   run(3);
   expectOption("initial-guess", "global", "default");
   expectPredicted(1, "loose: ");
-  EXPECT_NE(
-      outcome_.out.find("2 scans fit nowhere, or in several places, and lie beside "
-                        "the map: scan0.xyz, scan1.xyz"),
-      std::string::npos)
+  EXPECT_NE(outcome_.out.find("2 scans without a clear place"), std::string::npos)
       << outcome_.out;
   const auto found = poses();
   EXPECT_GT(pcl6d::distanceBetween(found[0], found[1]).translation, 1)
@@ -211,8 +208,7 @@ TEST_F(Methods, TwoSitesInOneFolderAreBothDelivered)
     scans.push_back(other.scan(pose, random));
   write(scans);
   run(3, {"--no-picture"});
-  EXPECT_NE(outcome_.out.find("2 scans could not be joined to the others"),
-            std::string::npos)
+  EXPECT_NE(outcome_.out.find("2 scans not joined to the others"), std::string::npos)
       << outcome_.out;
   EXPECT_EQ(summary_["graph"]["floating"], json::array({"scan4.xyz", "scan5.xyz"}));
   const auto found = poses();

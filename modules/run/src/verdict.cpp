@@ -43,17 +43,19 @@ describeLoose(const RunResult& run, std::ostream& text)
         return scan.start == InitialGuess::kGlobal;
       });
   if (const auto failed = countScans(run.scans, ScanState::kPredicted))
-    text << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
-         << (is_global ? " fit nowhere, or in several places, and lie beside the map"
-                       : " could not be matched, predicted pose kept")
-         << filesIn(ScanState::kPredicted, run);
+    text
+        << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
+        << (is_global
+                ? " without a clear place (fits nowhere, or in several), beside the map"
+                : " could not be matched, predicted pose kept")
+        << filesIn(ScanState::kPredicted, run);
   if (run.floating.empty())
     return;
   const std::string count = text::counted(run.floating.size(), "scan");
   if (is_global)
     text << "\nNOT TO BE TRUSTED: " << count
-         << " could not be joined to the others (another site, or too little in "
-            "common), and lie beside the map"
+         << " not joined to the others (another site, or too little in common), beside "
+            "them"
          << listed(run.floating);
   else
     text << "\nNOT TO BE TRUSTED: no link joins " << count

@@ -26,7 +26,10 @@ class WorkSharing;
  * that cannot be matched keeps its predicted pose, says so in its state, and is left
  * out of the metascan; so is one with little overlap or with pairs as far apart as
  * those of unrelated clouds (rms above 0.6 of max_distance). The first scan keeps its
- * pose. The same bits for any number of threads.
+ * pose. With InitialGuess::kGlobal initial poses and the order of the scans do not matter:
+ * all are joined by what they see, and the scan with which the largest group began is the
+ * origin; other groups lie beside it and are floating. The same bits for any number of
+ * threads.
  * \code
  * pcl6d::Slam6D slam;
  * for (...)
@@ -97,7 +100,8 @@ public:
   }
 
   /** \brief Registers all scans that were added and not yet registered.
-   * \return false if cancel() stopped it; calling it again goes on
+   * \return false if cancel() stopped it; calling it again goes on, with kGlobal from the
+   * start
    * \throws BadArgument no scan was added
    * \throws ComputeFailed the range gate leaves a scan with fewer than 3 points, or its
    * extent has more voxels than the grid can number */

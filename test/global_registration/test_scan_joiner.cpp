@@ -216,11 +216,11 @@ TEST(ScanJoiner, KnownPosesStandAndOthersJoinThem)
   JoinOptions options;
   options.known.resize(room.points.size());
   for (const std::size_t i : {1, 3, 4})
-    options.known[i] = T_map_world * room.T_world_scan[i];
+    options.known[i] = {0, T_map_world * room.T_world_scan[i]};
   const JoinedScans found = joinScans(scans.all(), options);
   ASSERT_EQ(found.groups.size(), 1u);
   for (const std::size_t i : {1, 3, 4})
-    EXPECT_TRUE(sameBits(found.scans[i].T_group_scan, *options.known[i]));
+    EXPECT_TRUE(sameBits(found.scans[i].T_group_scan, options.known[i]->T_group_scan));
   expectTruth(found, found.groups[0], room.T_world_scan);
   options.known.pop_back();
   EXPECT_NE(badArgumentOf([&] { joinScans(scans.all(), options); }), "");

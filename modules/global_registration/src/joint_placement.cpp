@@ -25,6 +25,35 @@ sortPlaces(std::vector<Place>& places)
     return a.support.score > b.support.score;
   });
 }
+
+/** \return what links of a place say against it \param[out] is_held one says it is right */
+std::string
+objectionOf(const std::vector<LinkEvidence>& of_place,
+            const std::vector<LinkEvidence>& links,
+            bool& is_held)
+{
+  const double background = contradictionBackground(links);
+  is_held = false;
+  for (const auto& link : of_place) {
+    const LinkOpinion opinion = judgeLink(link, background);
+    if (opinion.trust == LinkTrust::kWrong && opinion.elsewhere > kElsewhere)
+      return "a scan speaks against the best place: " + opinion.reason;
+    is_held = is_held || opinion.trust == LinkTrust::kGood ||
+              opinion.trust == LinkTrust::kUnverified;
+  }
+  return "";
+}
+
+/** \return the same, or that none says so */
+std::string
+objectionUnlessHeld(const std::vector<LinkEvidence>& of_place,
+                    const std::vector<LinkEvidence>& links)
+{
+  bool is_held = false;
+  const std::string objection = objectionOf(of_place, links, is_held);
+  return objection.empty() && !is_held ? "no scan holds it where it fits best"
+                                       : objection;
+}
 } // namespace
 
 JointPlacement::JointPlacement(const ScanList& scans,
@@ -113,37 +142,58 @@ JointPlacement::decide(std::size_t scan,
     settled.reason = "too few of its surfaces meet those of others";
   else if (settled.ambiguity > max_ambiguity_)
     settled.reason = "another place is nearly as good";
-  else
-    settled.reason = objection(scan, group, links, settled);
+  else {
+    settled.links = evidenceOf(scan, settled.best.T_group_scan, support.met, group);
+    settled.reason = objectionUnlessHeld(settled.links, links);
+  }
   settled.accepted = settled.reason.empty();
 }
 
-/** What members have against a place, one by one. */
-std::string
-JointPlacement::objection(std::size_t scan,
-                          const ScanGroup& group,
-                          const std::vector<LinkEvidence>& links,
-                          Settled& settled) const
+std::vector<LinkEvidence>
+JointPlacement::evidenceOf(std::size_t scan,
+                           const Eigen::Isometry3d& T_group_scan,
+                           const std::vector<std::size_t>& met,
+                           const ScanGroup& group) const
 {
-  const auto& met = settled.best.support.met;
-  settled.links.resize(std::min(met.size(), kJudgedLinks));
-  parallelFor(settled.links.size(), num_threads_, [&](std::size_t k) {
+  std::vector<LinkEvidence> links(std::min(met.size(), kJudgedLinks));
+  parallelFor(links.size(), num_threads_, [&](std::size_t k) {
     const PlacedScan& member = group.members()[met[k]];
-    settled.links[k] =
-        linkEvidence(scans_[member.scan]->scan(),
-                     scans_[scan]->scan(),
-                     member.T_group_scan.inverse() * settled.best.T_group_scan);
+    links[k] = linkEvidence(scans_[member.scan]->scan(),
+                            scans_[scan]->scan(),
+                            member.T_group_scan.inverse() * T_group_scan);
   });
-  const double background = contradictionBackground(links);
+  return links;
+}
+
+/** Of those that a scan meets most at a place, where it lies exactly. */
+std::vector<LinkEvidence>
+JointPlacement::evidenceAt(std::size_t scan,
+                           const Eigen::Isometry3d& T_group_scan,
+                           const ScanGroup& group) const
+{
+  const double voxel = scans_[scan]->scan().voxel();
+  const JointSupport support = group.support(
+      scan, T_group_scan, kMetVoxels * voxel, kPlaceVoxels * voxel, kContradictedMatch);
+  return evidenceOf(scan, T_group_scan, support.met, group);
+}
+
+std::string
+JointPlacement::objectionTo(std::size_t scan,
+                            const Eigen::Isometry3d& T_group_scan,
+                            const ScanGroup& group,
+                            const std::vector<LinkEvidence>& links) const
+{
   bool is_held = false;
-  for (const auto& link : settled.links) {
-    const LinkOpinion opinion = judgeLink(link, background);
-    if (opinion.trust == LinkTrust::kWrong && opinion.elsewhere > kElsewhere)
-      return "a scan speaks against the best place: " + opinion.reason;
-    is_held = is_held || opinion.trust == LinkTrust::kGood ||
-              opinion.trust == LinkTrust::kUnverified;
-  }
-  return is_held ? "" : "no scan holds it where it fits best";
+  return objectionOf(evidenceAt(scan, T_group_scan, group), links, is_held);
+}
+
+std::string
+JointPlacement::whyNotHeld(std::size_t scan,
+                           const Eigen::Isometry3d& T_group_scan,
+                           const ScanGroup& group,
+                           const std::vector<LinkEvidence>& links) const
+{
+  return objectionUnlessHeld(evidenceAt(scan, T_group_scan, group), links);
 }
 
 } // namespace pcl6d::global_registration

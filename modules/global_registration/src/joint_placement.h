@@ -56,17 +56,37 @@ public:
          const ScanGroup& group,
          const std::vector<LinkEvidence>& links) const;
 
+  /** \return why members do not hold a scan at a place: what they have against it, one by one,
+   * or that none holds it; else nothing */
+  std::string
+  whyNotHeld(std::size_t scan,
+             const Eigen::Isometry3d& T_group_scan,
+             const ScanGroup& group,
+             const std::vector<LinkEvidence>& links) const;
+
+  /** \return what members have against the place of a scan, one by one, in words; nothing
+   * also where none meets it */
+  std::string
+  objectionTo(std::size_t scan,
+              const Eigen::Isometry3d& T_group_scan,
+              const ScanGroup& group,
+              const std::vector<LinkEvidence>& links) const;
+
 private:
   void
   decide(std::size_t scan,
          const ScanGroup& group,
          const std::vector<LinkEvidence>& links,
          Settled& settled) const;
-  std::string
-  objection(std::size_t scan,
-            const ScanGroup& group,
-            const std::vector<LinkEvidence>& links,
-            Settled& settled) const;
+  std::vector<LinkEvidence>
+  evidenceAt(std::size_t scan,
+             const Eigen::Isometry3d& T_group_scan,
+             const ScanGroup& group) const;
+  std::vector<LinkEvidence>
+  evidenceOf(std::size_t scan,
+             const Eigen::Isometry3d& T_group_scan,
+             const std::vector<std::size_t>& met,
+             const ScanGroup& group) const;
 
   const ScanList& scans_;
   const PlaceHypotheses& hypotheses_;

@@ -117,15 +117,20 @@ onlyPlaceOfBlock(const ScanGroup& group,
                  const ScanGroup& block,
                  const PlaceHypotheses& hypotheses,
                  double max_ambiguity,
-                 unsigned int num_threads)
+                 unsigned int num_threads,
+                 std::string& why)
 {
   const auto places = placesOfBlock(group, block, hypotheses, num_threads);
-  if (places.empty() || places[0].score <= 0)
+  if (places.empty() || places[0].score <= 0) {
+    why = "no place where their surfaces meet";
     return std::nullopt;
+  }
   for (std::size_t k = 1; k < places.size(); ++k)
     if (places[k].score > max_ambiguity * places[0].score &&
-        !areSameBlockPlaces(block, places[k].T_group_block, places[0].T_group_block))
+        !areSameBlockPlaces(block, places[k].T_group_block, places[0].T_group_block)) {
+      why = "another place is nearly as good";
       return std::nullopt;
+    }
   return places[0];
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pcl6d::global_registration {
@@ -42,13 +43,15 @@ fitsElsewhere(const ScanGroup& rest,
               double max_ambiguity,
               unsigned int num_threads);
 
-/** \return the place of a group on another one, if no other is nearly as good */
+/** \return the place of a group on another one, if no other is nearly as good
+ * \param[out] why there is none, in words */
 std::optional<BlockPlace>
 onlyPlaceOfBlock(const ScanGroup& group,
                  const ScanGroup& block,
                  const PlaceHypotheses& hypotheses,
                  double max_ambiguity,
-                 unsigned int num_threads);
+                 unsigned int num_threads,
+                 std::string& why);
 
 /** \return whether two places bring the scans of a block to the same place */
 bool

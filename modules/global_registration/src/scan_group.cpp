@@ -103,7 +103,8 @@ Eigen::Isometry3d
 ScanGroup::matched(std::size_t scan,
                    const Eigen::Isometry3d& T_group_scan,
                    const std::vector<std::size_t>& met,
-                   double start) const
+                   double start,
+                   MatchedBy by) const
 {
   IcpTarget target;
   // Near the place, so that coordinates are small wherever the group's frame is.
@@ -115,7 +116,8 @@ ScanGroup::matched(std::size_t scan,
   }
   if (target.empty())
     return T_group_scan;
-  const auto& sample = (*scans_)[scan]->matched();
+  const auto& sample =
+      by == MatchedBy::kAll ? (*scans_)[scan]->matched() : (*scans_)[scan]->judged();
   const IcpResult found = icp(target,
                               {&sample.points, &sample.normals},
                               to.inverse() * T_group_scan,

@@ -30,6 +30,12 @@ struct JointSupport {
       met; ///< places in the group of those it meets, the most first
 };
 
+/** \brief Which points of a scan are matched. */
+enum class MatchedBy {
+  kFewPoints, ///< those that judge places: to come near
+  kAll        ///< those that are to be matched
+};
+
 /** \brief Scans whose places relative to each other are known. */
 class ScanGroup {
 public:
@@ -76,7 +82,8 @@ public:
   matched(std::size_t scan,
           const Eigen::Isometry3d& T_group_scan,
           const std::vector<std::size_t>& met,
-          double start) const;
+          double start,
+          MatchedBy by = MatchedBy::kAll) const;
 
 private:
   bool

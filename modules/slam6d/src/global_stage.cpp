@@ -144,7 +144,7 @@ GlobalStage::join(const std::vector<ScanResult>& scans,
   if (std::any_of(scans.begin(), scans.end(), isRegistered))
     for (const ScanResult& scan : scans)
       join.known.push_back(isRegistered(scan)
-                               ? std::optional<Eigen::Isometry3d>(scan.T_world_scan)
+                               ? std::optional<KnownPlace>({0, scan.T_world_scan})
                                : std::nullopt);
   return joinScans(placeable, join);
 }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/global_registration/placeable_scan.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief A scan whose pose is known, by which others are placed. */
+struct KnownScan {
+  const PlaceableScan* scan = nullptr;
+  Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
+};
+
+/** \brief The best place of a scan that was found from guesses. */
+struct GuessedPlace {
+  bool accepted = false;
+  Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
+  std::size_t guess = 0; ///< place of the guess that it was found from
+  double overlap = 0;    ///< share of its surfaces that meet others, in [0, 1]
+  double contradiction =
+      0;                ///< of these and those that others looked through, the latter
+  double ambiguity = 0; ///< score of the second place / that of the best
+  std::string reason;   ///< why it is not accepted, in words; else empty
+};
+
+/** \brief Knobs of placeByGuesses(). */
+struct GuessOptions {
+  double reach =
+      0; ///< [m] by which guesses may be off, besides two cells of plans; >= 0
+  double max_ambiguity =
+      0.6; ///< second score / score of a place that counts; in [0, 1]
+  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief Matches (GICP) a scan with others from each guess, and judges the best places by
+ * the points and rays of all others together: for a scan that is not where it was expected,
+ * but near it.
+ * \param[in] others with the same voxel; the most likely neighbours first
+ * \param[in] guesses of T_world_scan
+ * \return not accepted also without others or guesses
+ * \throws BadArgument an option breaks its rule, or a pose is not a rigid motion
+ * \note Source: algorithms.md G.3 \ingroup global_registration */
+GuessedPlace
+placeByGuesses(const PlaceableScan& scan,
+               const std::vector<KnownScan>& others,
+               const std::vector<Eigen::Isometry3d>& guesses,
+               const GuessOptions& options = {});
+
+/** \brief Asks others whether a scan is where it is said to be, by their points and rays.
+ * \param[in] others with the same voxel
+ * \return why not, in words: one contradicts it, or none holds it; empty if nothing is against
+ * it
+ * \throws BadArgument T_world_scan is not a rigid motion */
+std::string
+objectionToPlace(const PlaceableScan& scan,
+                 const std::vector<KnownScan>& others,
+                 const Eigen::Isometry3d& T_world_scan,
+                 unsigned int num_threads = 0);
+
+} // namespace pcl6d

@@ -42,9 +42,19 @@ openFolder(const fs::path& path, const ScanFolderOptions& options, bool is_run)
   return ScanFolder(path / "scans", near);
 }
 
-/** \return the option's value [m] \throws IoFailed it is none */
+/** \return the number of a scan that the run wrote */
+std::uint32_t
+indexOf(const fs::path& scan, const RunResult& summary)
+{
+  for (const auto& entry : summary.scans)
+    if (scanName(entry.index) == scan.stem().string())
+      return static_cast<std::uint32_t>(entry.index);
+  throw IoFailed(scan.string() + ": the summary of the run does not tell of this scan");
+}
+} // namespace
+
 double
-lengthOf(const RunResult& summary, const std::string& name, const fs::path& file)
+lengthOfRun(const RunResult& summary, const std::string& name, const fs::path& file)
 {
   for (const auto& option : summary.options) {
     if (option.name != name)
@@ -58,17 +68,6 @@ lengthOf(const RunResult& summary, const std::string& name, const fs::path& file
   }
   throw IoFailed(file.string() + ": the options have no " + name);
 }
-
-/** \return the number of a scan that the run wrote */
-std::uint32_t
-indexOf(const fs::path& scan, const RunResult& summary)
-{
-  for (const auto& entry : summary.scans)
-    if (scanName(entry.index) == scan.stem().string())
-      return static_cast<std::uint32_t>(entry.index);
-  throw IoFailed(scan.string() + ": the summary of the run does not tell of this scan");
-}
-} // namespace
 
 RegisteredScans::RegisteredScans(const fs::path& path, const ScanFolderOptions& options)
 : summary_(summaryOf(path))
@@ -85,8 +84,8 @@ void
 RegisteredScans::readRun(const fs::path& summary_file)
 {
   world_offset_ = summary_->world_offset;
-  min_range_ = lengthOf(*summary_, "min-range", summary_file);
-  max_range_ = lengthOf(*summary_, "max-range", summary_file);
+  min_range_ = lengthOfRun(*summary_, "min-range", summary_file);
+  max_range_ = lengthOfRun(*summary_, "max-range", summary_file);
   for (std::size_t i = 0; i < folder_.size(); ++i)
     indices_[i] = indexOf(folder_.file(i), *summary_);
 }

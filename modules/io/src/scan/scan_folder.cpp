@@ -116,22 +116,6 @@ findScans(const fs::path& folder, const ScanFolderOptions& options)
   return scans;
 }
 
-/** \return the stamps of a run's scans, or nothing where indices stand for them */
-std::vector<double>
-stampsOf(const fs::path& run, const RunResult& summary)
-{
-  const fs::path file = run / "trajectory.tum";
-  std::vector<double> stamps = readTrajectory(file).stamps;
-  if (stamps.size() != summary.scans.size())
-    text::fail(file,
-               "holds " + text::counted(stamps.size(), "pose") + " for " +
-                   text::counted(summary.scans.size(), "scan"));
-  for (std::size_t i = 0; i < stamps.size(); ++i)
-    if (stamps[i] != summary.scans[i].index)
-      return stamps;
-  return {};
-}
-
 } // namespace
 
 void
@@ -264,7 +248,7 @@ ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
     known.insert(scan.file);
     next = std::max(next, scan.index + 1);
   }
-  std::vector<double> stamps = stampsOf(run, summary);
+  std::vector<double> stamps = stampsOfRun(run, summary);
   for (std::size_t i = 0; i < entries_.size(); ++i)
     if (known.count(entries_[i].name) == 0) {
       entries.push_back(entries_[i]);

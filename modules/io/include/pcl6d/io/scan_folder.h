@@ -59,6 +59,25 @@ public:
   explicit ScanFolder(const std::filesystem::path& folder,
                       const ScanFolderOptions& options = {});
 
+  /** \brief A scan that a finished run has registered, in the file that it wrote. */
+  struct Registered {
+    std::filesystem::path file;
+    std::string name; ///< see name()
+    int index = 0;    ///< see index()
+    Eigen::Isometry3d initial_pose = Eigen::Isometry3d::Identity();
+  };
+
+  /** \brief Scans of finished runs in place of a folder's: all of them are registered.
+   * \param[in] scans one at least \param[in] stamps [s] one per scan, or none
+   * \param[in] moved how all the runs have brought points near
+   * \param[in] source see poseSource()
+   * \throws BadArgument no scan, or stamps for some */
+  static ScanFolder
+  ofRuns(const std::vector<Registered>& scans,
+         std::vector<double> stamps,
+         const std::optional<MovedPoints>& moved,
+         const std::string& source);
+
   /** \brief Puts the scans of a finished run before those of the folder, and leaves out
    * those of the folder that the run holds, which it knows by the name of their file.
    * Indices go on behind the run's last one. Time stamps stay only if both have them.
@@ -144,6 +163,8 @@ public:
   format() const;
 
 private:
+  ScanFolder() = default;
+
   struct Entry {
     std::filesystem::path file;
     std::string name;
@@ -175,6 +196,12 @@ private:
   std::string coordinates_;
   mutable std::shared_ptr<ScanCloud> first_; ///< if it was read and not given away yet
 };
+
+/** \return the time stamps [s] of a run's scans, or nothing where indices stand for them
+ * \throws IoFailed its trajectory.tum cannot be read, or has not one row per scan
+ * \ingroup io */
+std::vector<double>
+stampsOfRun(const std::filesystem::path& run, const RunResult& summary);
 
 /** \brief Looks for the pose of a scan that is not taken as part of a folder.
  * \return the pose in the `.pose` file beside it, or that of its PCD VIEWPOINT, unless it

@@ -14,6 +14,14 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+/** \return a length [m] that a run worked with, given or derived: "voxel", "max-range"
+ * \param[in] file its summary, for messages
+ * \throws IoFailed there is no such option, or it is no number \ingroup run */
+double
+lengthOfRun(const RunResult& summary,
+            const std::string& name,
+            const std::filesystem::path& file);
+
 /** \brief The scans of a folder and their poses: raw ones, or those of a finished run of
  * pcl_slam6d, which is known by its summary.json. \ingroup run */
 class RegisteredScans {

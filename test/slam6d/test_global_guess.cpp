@@ -5,6 +5,8 @@
 #include "support/bits.h"
 #include "support/points.h"
 
+#include <pcl6d/common/error.h>
+#include <pcl6d/slam6d/groups_apart.h>
 #include <pcl6d/slam6d/slam6d.h>
 
 #include <gtest/gtest.h>
@@ -192,4 +194,111 @@ TEST(GlobalGuess, ScansOfAnEarlierRunKeepTheirPlaces)
         << i;
   EXPECT_EQ(slam.result().scans[3].state, ScanState::kMatched);
   expectTruth(slam.result(), {0, 1, 2, 3});
+}
+
+namespace {
+/** Two runs of two scans each, whose worlds are far apart, in one object. */
+struct TwoRuns {
+  const Eigen::Isometry3d T_world_other =
+      pcl6d::poseFromEuler({50, -8, 3}, {0.2, 0, 2});
+  Slam6DResult first = registered(inOrder({0, 1}));
+  Slam6DResult second = registered(inOrder({2, 3}));
+
+  TwoRuns()
+  {
+    for (auto& scan : second.scans)
+      for (auto* pose : {&scan.T_world_scan, &scan.initial_pose, &scan.matched_pose})
+        *pose = T_world_other * *pose;
+  }
+
+  Slam6D
+  added(const Slam6DOptions& options, std::size_t group = 1) const
+  {
+    Slam6D slam(options);
+    for (std::size_t i = 0; i < 2; ++i)
+      slam.addRegistered(turned().scans[i], first.scans[i]);
+    for (std::size_t i = 0; i < 2; ++i)
+      slam.addRegistered(turned().scans[2 + i], second.scans[i], "", group);
+    return slam;
+  }
+};
+} // namespace
+
+TEST(GlobalGuess, RunsAreJoinedInOnePieceInTheWorldOfTheFirst)
+{
+  const TwoRuns runs;
+  Slam6DOptions options = globally();
+  options.relaxation.reset(); // which may move all
+  Slam6D slam = runs.added(options);
+  ASSERT_TRUE(slam.optimize());
+  const Slam6DResult& result = slam.result();
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_TRUE(
+        sameBits(result.scans[i].T_world_scan, runs.first.scans[i].T_world_scan));
+  // The scan that the second run began with is matched; the others move with the run.
+  const std::size_t moved =
+      runs.second.scans[0].state == ScanState::kFixed ? 3 : 2; // not the beginning
+  const Eigen::Isometry3d way = result.scans[moved].T_world_scan *
+                                runs.second.scans[moved - 2].T_world_scan.inverse();
+  EXPECT_LT(pcl6d::distanceBetween(way * runs.second.scans[moved - 2].initial_pose,
+                                   result.scans[moved].initial_pose)
+                .translation,
+            1e-9)
+      << "initial poses move with the run";
+  for (std::size_t k = 1; k < 4; ++k) {
+    const auto error = pcl6d::distanceBetween(
+        turned().truth[0].inverse() * turned().truth[k],
+        result.scans[0].T_world_scan.inverse() * result.scans[k].T_world_scan);
+    EXPECT_LT(error.translation, 0.25 * result.parameters.voxel.value) << k;
+    EXPECT_LT(error.rotation, 0.01) << k;
+  }
+  EXPECT_TRUE(result.floating.empty());
+}
+
+TEST(GlobalGuess, JoinedRunsAreRelaxedTogetherAndVerified)
+{
+  Slam6D slam = TwoRuns().added(globally());
+  ASSERT_TRUE(slam.optimize());
+  const Slam6DResult& result = slam.result();
+  EXPECT_TRUE(result.trusted());
+  EXPECT_EQ(result.count(ScanState::kMatched), 3u);
+  EXPECT_EQ(result.stages.back().kind, pcl6d::StageKind::kRelaxation);
+  ASSERT_TRUE(result.verification);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_TRUE(result.verification->scans[i].tied) << i;
+    EXPECT_TRUE(result.scans[i].covariance) << i;
+  }
+  bool is_linked = false; // across the runs
+  for (const auto& link : result.links)
+    is_linked = is_linked || (link.from < 2 && link.to >= 2);
+  EXPECT_TRUE(is_linked);
+}
+
+TEST(GlobalGuess, RunsThatDoNotMeetAreNotJoined)
+{
+  Random random(5);
+  const TwoRuns runs;
+  Slam6D slam(globally());
+  slam.addRegistered(turned().scans[0], runs.first.scans[0]);
+  slam.addRegistered(turned().scans[1], runs.first.scans[1]);
+  slam.addRegistered(pcl6d::test::heap(random), runs.second.scans[0], "", 7);
+  try {
+    slam.optimize();
+    FAIL() << "joined";
+  } catch (const pcl6d::GroupsApart& apart) {
+    EXPECT_EQ(apart.group(), 7u);
+    EXPECT_NE(apart.reason(), "");
+    EXPECT_NE(std::string(apart.what()).find(apart.reason()), std::string::npos);
+  }
+  EXPECT_TRUE(
+      sameBits(slam.result().scans[2].T_world_scan, runs.second.scans[0].T_world_scan))
+      << "all is as it was";
+}
+
+TEST(GlobalGuess, RunsAreJoinedWithoutASequenceAlone)
+{
+  Slam6DOptions options = globally();
+  options.initial_guess = InitialGuess::kOdometry;
+  EXPECT_THROW(TwoRuns().added(options), pcl6d::BadArgument);
+  EXPECT_NO_THROW(TwoRuns().added(options, 0)) << "further scans of one run";
 }

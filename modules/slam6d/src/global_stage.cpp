@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "global_stage.h"
+#include "joined_runs.h"
 #include "packing.h"
 
 #include <pcl6d/slam6d/auto_parameters.h>
@@ -16,13 +17,6 @@ namespace pcl6d::slam6d {
 namespace {
 /** Between groups that are laid side by side: a share of the wider one. */
 constexpr double kGap = 0.1;
-
-/** \return whether an earlier run has given a scan its place */
-bool
-isRegistered(const ScanResult& scan)
-{
-  return scan.state != ScanState::kPending && scan.state != ScanState::kPredicted;
-}
 
 void
 shift(const std::vector<std::size_t>& group, double x, Slam6DResult& result)
@@ -101,7 +95,8 @@ GlobalStage::GlobalStage(const Slam6DOptions& options,
 {}
 
 void
-GlobalStage::run(WorkSharing* sharing,
+GlobalStage::run(const std::vector<std::size_t>& runs,
+                 WorkSharing* sharing,
                  const ProgressCallback& report,
                  Slam6DResult& result) const
 {
@@ -110,9 +105,11 @@ GlobalStage::run(WorkSharing* sharing,
   result.links.clear();
   result.floating.clear();
   result.graph = PoseGraph();
-  const JoinedScans joined = join(result.scans, report); // each process finds the same
+  const JoinedScans joined =
+      join(runs, result.scans, report); // each process finds the same
+  moveRuns(runs, joined, result);
   if (scans_.isFirst())
-    match(joined, result);
+    match(runs, joined, result);
   if (sharing) {
     const std::string bytes =
         sharing->fromFirst(scans_.isFirst() ? packed(result) : std::string());
@@ -132,7 +129,8 @@ GlobalStage::run(WorkSharing* sharing,
 }
 
 JoinedScans
-GlobalStage::join(const std::vector<ScanResult>& scans,
+GlobalStage::join(const std::vector<std::size_t>& runs,
+                  const std::vector<ScanResult>& scans,
                   const ProgressCallback& report) const
 {
   std::deque<PlaceableScan> placeable;
@@ -141,23 +139,29 @@ GlobalStage::join(const std::vector<ScanResult>& scans,
   JoinOptions join;
   join.num_threads = options_.num_threads;
   join.progress = report;
-  if (std::any_of(scans.begin(), scans.end(), isRegistered))
-    for (const ScanResult& scan : scans)
-      join.known.push_back(isRegistered(scan)
-                               ? std::optional<KnownPlace>({0, scan.T_world_scan})
-                               : std::nullopt);
-  return joinScans(placeable, join);
+  join.known = knownPlaces(runs, scans);
+  JoinedScans joined = joinScans(placeable, join);
+  requireJoined(join.known, joined);
+  sortKnown(join.known, scans, joined);
+  return joined;
 }
 
 /** Matches the scans of each group with those that were joined before. */
 void
-GlobalStage::match(const JoinedScans& joined, Slam6DResult& result) const
+GlobalStage::match(const std::vector<std::size_t>& runs,
+                   const JoinedScans& joined,
+                   Slam6DResult& result) const
 {
   for (const auto& group : joined.groups) {
     ScanMatcher matcher(options_, result.parameters);
+    std::vector<std::size_t> beginnings; // of runs that were moved
     for (const std::size_t i : group) {
       ScanResult& scan = result.scans[i];
       if (isRegistered(scan)) {
+        if (scan.state == ScanState::kFixed && isOfFurtherRun(i, runs)) {
+          beginnings.push_back(i);
+          continue;
+        }
         matcher.takeIn(scans_.reduced()[i], scans_.measured()[i], scan);
         continue;
       }
@@ -172,7 +176,28 @@ GlobalStage::match(const JoinedScans& joined, Slam6DResult& result) const
       scan.start = InitialGuess::kGlobal;
       scan.matched_pose = scan.T_world_scan;
     }
+    for (const std::size_t i : beginnings)
+      matchBeginning(i, matcher, result);
   }
+}
+
+/** The scan that a run began with was matched with nothing: now there is something. Where
+ * that is not believed, its run holds it still. */
+void
+GlobalStage::matchBeginning(std::size_t i,
+                            ScanMatcher& matcher,
+                            Slam6DResult& result) const
+{
+  ScanResult& scan = result.scans[i];
+  const ScanResult kept = scan;
+  matcher.match(
+      scans_.reduced()[i], scans_.measured()[i], Eigen::Isometry3d::Identity(), scan);
+  if (scan.state == ScanState::kPredicted) {
+    scan = kept;
+    matcher.takeIn(scans_.reduced()[i], scans_.measured()[i], scan);
+  }
+  scan.start = InitialGuess::kGlobal;
+  scan.matched_pose = scan.T_world_scan;
 }
 
 void

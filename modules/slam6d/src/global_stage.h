@@ -3,6 +3,7 @@
 
 #include "graph_stage.h"
 #include "kept_scans.h"
+#include "scan_matcher.h"
 
 #include <pcl6d/common/progress.h>
 #include <pcl6d/global_registration/scan_joiner.h>
@@ -36,17 +37,29 @@ public:
 
   /** \brief Registers all scans. Groups lie side by side: those beyond the first are
    * floating, scans that belong to none are predicted, with the reason. Those that an earlier
-   * run has registered keep their places and are the first group.
+   * run has registered keep their places and are the first group; those of further runs are
+   * moved in one piece into the world of the first.
+   * \param[in] runs of each registered scan, which are the first ones, the number of its run
    * \param[in] report of progress; may throw, which ends it
-   * \param[in,out] result not to be used if it ended so */
+   * \param[in,out] result not to be used if it ended so
+   * \throws GroupsApart runs do not meet */
   void
-  run(WorkSharing* sharing, const ProgressCallback& report, Slam6DResult& result) const;
+  run(const std::vector<std::size_t>& runs,
+      WorkSharing* sharing,
+      const ProgressCallback& report,
+      Slam6DResult& result) const;
 
 private:
   JoinedScans
-  join(const std::vector<ScanResult>& scans, const ProgressCallback& report) const;
+  join(const std::vector<std::size_t>& runs,
+       const std::vector<ScanResult>& scans,
+       const ProgressCallback& report) const;
   void
-  match(const JoinedScans& joined, Slam6DResult& result) const;
+  match(const std::vector<std::size_t>& runs,
+        const JoinedScans& joined,
+        Slam6DResult& result) const;
+  void
+  matchBeginning(std::size_t scan, ScanMatcher& matcher, Slam6DResult& result) const;
   void
   relax(const JoinedScans& joined,
         const ProgressCallback& report,

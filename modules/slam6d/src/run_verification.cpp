@@ -23,8 +23,8 @@ takeCovariances(const MapVerification& map, std::vector<ScanResult>& scans)
 {
   for (std::size_t i = 0; i < map.scans.size(); ++i) {
     ScanResult& scan = scans[i];
-    if (!map.scans[i].covariance || !scan.covariance) // predicted poses have none
-      continue;
+    if (!map.scans[i].covariance || scan.state == ScanState::kPredicted)
+      continue; // predicted poses have none
     PoseCovariance turn = PoseCovariance::Zero();
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
         scan.T_world_scan.linear();

@@ -66,18 +66,25 @@ public:
   }
 
   void
-  addRegistered(const Points& points, ScanResult earlier, const std::string& name)
+  addRegistered(const Points& points,
+                ScanResult earlier,
+                const std::string& name,
+                std::size_t group)
   {
     if (earlier.state == ScanState::kPending)
       throw BadArgument(nameOf(name) + ": is not registered, but pending");
     if (result_.scans.size() > num_registered_)
       throw BadArgument(nameOf(name) + ": is registered, but one before it is not");
+    if (!groups_.empty() && group != groups_.front() && !isWithoutSequence())
+      throw BadArgument(nameOf(name) + ": is of another run than the first scan, but "
+                                       "runs are joined by the initial guess global");
     earlier.matched_pose = earlier.T_world_scan;
     addScan(points, earlier, name);
     ++num_registered_;
   }
 
   bool
+    groups_.push_back(group);
   optimize()
   {
     if (result_.scans.empty())
@@ -151,7 +158,7 @@ private:
           options_, scans_, verification_.scans(), [&](const Slam6DParameters& now) {
             return makeGraphStage(sharing, now);
           });
-      stage.run(sharing, report, found);
+      stage.run(groups_, sharing, report, found);
     } catch (const Stopped&) {
       return false;
     }
@@ -200,6 +207,7 @@ private:
     const std::string bytes =
         sharing->fromFirst(scans_.isFirst() ? packed(result_) : std::string());
     if (!scans_.isFirst())
+    groups_.assign(groups_.size(), groups_.empty() ? 0 : groups_.front()); // one world
       unpack(bytes, result_);
   }
 
@@ -394,9 +402,10 @@ Slam6D::addScan(const Points& points,
 void
 Slam6D::addRegistered(const Points& points,
                       const ScanResult& earlier,
-                      const std::string& name)
+                      const std::string& name,
+                      std::size_t group)
 {
-  implementation_->addRegistered(points, earlier, name);
+  implementation_->addRegistered(points, earlier, name, group);
 }
 
 bool
@@ -442,3 +451,4 @@ Slam6D::setObserver(Observer observer)
 }
 
 } // namespace pcl6d
+  std::vector<std::size_t> groups_; ///< of each registered scan: the number of its run

@@ -9,6 +9,7 @@
 #include <pcl6d/slam6d/slam6d_result.h>
 #include <pcl6d/slam6d/task_memory.h>
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -63,14 +64,19 @@ public:
           const std::string& name = "");
 
   /** \brief Adds a scan that an earlier run has registered: its result stands, and the
-   * scans that follow are matched against it. The relaxation may move it.
-   * \param[in] earlier its initial pose, T_world_scan and all else that was found
+   * scans that follow are matched against it. The relaxation may move it. Scans of several
+   * runs, which have no common world, are joined with InitialGuess::kGlobal: each run is moved
+   * in one piece into the world of the one with the smallest number; then all are relaxed.
+   * \param[in] earlier its initial pose, T_world_scan and all else that was found; of one
+   * that was predicted the place is looked for anew with kGlobal
+   * \param[in] group number of its run
    * \throws BadArgument as addScan(); it is pending, or a scan before it was not added
-   * so \throws ComputeFailed as optimize() */
+   * so; a second group without kGlobal \throws ComputeFailed as optimize() */
   void
   addRegistered(const Points& points,
                 const ScanResult& earlier,
-                const std::string& name = "");
+                const std::string& name = "",
+                std::size_t group = 0);
 
   /** \brief The same for a PCL cloud. Its sensor_origin_ and sensor_orientation_ are
    * ignored: the points are taken to be in the scan's frame, and initial_pose alone says
@@ -104,7 +110,8 @@ public:
    * start
    * \throws BadArgument no scan was added
    * \throws ComputeFailed the range gate leaves a scan with fewer than 3 points, or its
-   * extent has more voxels than the grid can number */
+   * extent has more voxels than the grid can number
+   * \throws GroupsApart runs that are to be joined do not meet, or in several ways */
   bool
   optimize();
 

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/export.h>
+
+#include <cstddef>
+#include <string>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Runs that were to be joined (Slam6D::addRegistered()) have no place on each other.
+ * \ingroup slam6d */
+class GroupsApart : public ComputeFailed {
+public:
+  /** \param[in] group its number \param[in] reason in words, for people */
+  GroupsApart(std::size_t group, const std::string& reason)
+  : ComputeFailed("registered group " + std::to_string(group) +
+                  " has no place on the first one: " + reason)
+  , group_(group)
+  , reason_(reason)
+  {}
+
+  /** \return the number of the group that is not joined to the first one */
+  std::size_t
+  group() const
+  {
+    return group_;
+  }
+  const std::string&
+  reason() const
+  {
+    return reason_;
+  }
+
+private:
+  std::size_t group_;
+  std::string reason_;
+};
+
+} // namespace pcl6d

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What Slam6D says of the map that it made, and the change of agreement.
 #include "agreement.h"
+#include "corridor_drive.h"
 #include "registered_run.h"
 #include "support/loose_scans.h"
 #include "support/points.h"
@@ -24,7 +25,9 @@ using pcl6d::slam6d::MeasuredScan;
 using pcl6d::test::DriftingRun;
 using pcl6d::test::kNan;
 using pcl6d::test::looseOf;
+using pcl6d::test::makeCorridorRun;
 using pcl6d::test::makeDriftingRun;
+using pcl6d::test::movedBy;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::registered;
 
@@ -32,42 +35,13 @@ namespace {
 const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 constexpr double kNear = 0.1; // [m]
 
-Eigen::Isometry3d
-movedBy(double x)
+/** Scans that are lost stay so. */
+pcl6d::Slam6DOptions
+notRecovering()
 {
-  return pcl6d::poseFromEuler({x, 0, 0}, {});
-}
-
-/** \return a drive of 1 m per scan along a corridor of 44 x 3 m with closets, seen up to
- * 7 m; from a scan on the odometry is farther by a jump [m] */
-DriftingRun
-makeCorridorRun(std::size_t count, std::size_t jumps_at, double jump)
-{
-  PillarRoom corridor;
-  corridor.walls = {Eigen::Vector3d(-12, -1.5, -1), Eigen::Vector3d(32, 1.5, 1.5)};
-  corridor.pillars.clear();
-  Random random(5);
-  for (double x = -11; x < 31; x += random.uniform(0.7, 2.5)) {
-    const double side = random.uniform() < 0.5 ? -1 : 1;
-    const double depth = random.uniform(0.2, 0.6), length = random.uniform(0.3, 1.2);
-    const double y = side * (1.5 - 0.5 * depth);
-    corridor.pillars.emplace_back(
-        Eigen::Vector3d(x, y - 0.5 * depth, -1),
-        Eigen::Vector3d(x + length, y + 0.5 * depth, random.uniform(-0.5, 1.5)));
-  }
-  DriftingRun run;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double s = static_cast<double>(i);
-    run.truth.push_back(
-        pcl6d::poseFromEuler({s, 0.2 * std::sin(s), 0}, {0, 0, 0.1 * std::cos(s)}));
-    run.odometry.push_back(movedBy(i >= jumps_at ? jump : 0) * run.truth.back());
-    Points near;
-    for (const auto& p : corridor.scan(run.truth.back(), random, 0.03))
-      if (p.norm() < 7)
-        near.push_back(p);
-    run.scans.push_back(near);
-  }
-  return run;
+  pcl6d::Slam6DOptions options;
+  options.recover = false;
+  return options;
 }
 
 /** \return the run in a world so many times as large */
@@ -273,7 +247,7 @@ TEST(Slam6DVerification, OfACorridorIsGood)
 
 TEST(Slam6DVerification, NamesAllScansBehindAJumpOfTheOdometry)
 {
-  const Slam6DResult result = registered(makeCorridorRun(14, 8, 10));
+  const Slam6DResult result = registered(makeCorridorRun(14, 8, 10), notRecovering());
   ASSERT_GT(
       (result.scans[8].T_world_scan.translation() - Eigen::Vector3d(8, 0, 0)).norm(), 5)
       << "it was recovered";
@@ -290,7 +264,7 @@ TEST(Slam6DVerification, NamesAllScansBehindAJumpOfTheOdometry)
 TEST(Slam6DVerification, NamesFilesWithoutTheirFolders)
 {
   const DriftingRun run = makeDriftingRun(2);
-  pcl6d::Slam6D slam;
+  pcl6d::Slam6D slam(notRecovering());
   slam.addScan(run.scans[0], run.odometry[0], "/some/where/a.pcd");
   slam.addScan(run.scans[1],
                Eigen::Translation3d(100, 0, 0) * run.odometry[1],
@@ -307,11 +281,11 @@ TEST(Slam6DVerification, SaysTheSameOfAWorldAHundredTimesAsLargeOrSmall)
   // Matching and verdict: what of them is a length scales with the world, the rest stays.
   for (const auto& [run, is_right] : {std::pair{makeDriftingRun(6), true},
                                       std::pair{makeCorridorRun(12, 6, 9), false}}) {
-    const Slam6DResult usual = registered(run);
+    const Slam6DResult usual = registered(run, notRecovering());
     ASSERT_EQ(usual.trusted(), is_right);
     for (const double scale : {100.0, 0.01}) {
       SCOPED_TRACE(scale);
-      const Slam6DResult other = registered(scaled(run, scale));
+      const Slam6DResult other = registered(scaled(run, scale), notRecovering());
       EXPECT_EQ(other.trusted(), is_right);
       EXPECT_EQ(other.verification->trust, usual.verification->trust);
       EXPECT_EQ(looseOf(*other.verification), looseOf(*usual.verification));

@@ -18,6 +18,11 @@ constexpr Named<InitialGuess> kGuesses[] = {{InitialGuess::kOdometry, "odometry"
                                             {InitialGuess::kOverlap, "overlap"},
                                             {InitialGuess::kFeatures, "features"},
                                             {InitialGuess::kGlobal, "global"}};
+constexpr Named<RecoveredBy> kRecoveries[] = {{RecoveredBy::kNone, ""},
+                                              {RecoveredBy::kMotion, "motion"},
+                                              {RecoveredBy::kSearch, "search"},
+                                              {RecoveredBy::kEverywhere, "everywhere"},
+                                              {RecoveredBy::kTogether, "together"}};
 constexpr Named<StageKind> kStages[] = {{StageKind::kMatching, "matching"},
                                         {StageKind::kLoopClosing, "loop closing"},
                                         {StageKind::kRelaxation, "relaxation"}};
@@ -63,6 +68,20 @@ const char*
 toString(InitialGuess guess)
 {
   return nameOf(kGuesses, guess);
+}
+
+const char*
+toString(RecoveredBy by)
+{
+  return nameOf(kRecoveries, by);
+}
+
+RecoveredBy
+recoveredByFromName(const std::string& name)
+{
+  if (const auto by = findNamed(kRecoveries, name))
+    return *by;
+  throw BadArgument("no way back of a scan is called '" + name + "'");
 }
 
 std::size_t

@@ -39,7 +39,10 @@ Joiner::run(JoinedScans& result)
   const auto pairs = comparedPairs();
   ranked_ = rankPairs(scans_, pairs, options_.num_threads, options_.progress);
   result.pairs_compared = pairs.size();
-  place(bestOfEach(ranked_, scans_.size(), options_.pairs_per_scan));
+  place(bestOfEach(
+      ranked_, scans_.size(), options_.pairs_per_scan, [this](std::size_t scan) {
+        return isKnown(scan);
+      }));
   growKnown();
   while (const auto seed = hypotheses_.strongestBeginning(joined_, tried_))
     addGrown(*seed);

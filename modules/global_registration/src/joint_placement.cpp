@@ -3,6 +3,7 @@
 #include "joint_placement.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/verification/ties.h>
 
 #include <algorithm>
 
@@ -44,15 +45,38 @@ objectionOf(const std::vector<LinkEvidence>& of_place,
   return "";
 }
 
-/** \return the same, or that none says so */
+/** What all links of a place say of it together, as of a map in which the others hold. */
+std::string
+doubtOfAll(const std::vector<LinkEvidence>& of_place, double background)
+{
+  const std::size_t scan = of_place.size(); // the others are before it
+  std::vector<LinkCheck> checks;
+  for (std::size_t k = 0; k < of_place.size(); ++k) {
+    checks.push_back(
+        linkCheck(k, scan, of_place[k], judgeLink(of_place[k], background)));
+    if (k == 0)
+      continue;
+    LinkCheck held; // the one before it
+    held.from = k - 1;
+    held.to = k;
+    held.trust = LinkTrust::kGood;
+    checks.push_back(held);
+  }
+  const auto ties = verification::tiesOf(scan + 1, checks, background);
+  return ties.cut_from[scan];
+}
+
+/** \return the same, or that none says so, or what all say together */
 std::string
 objectionUnlessHeld(const std::vector<LinkEvidence>& of_place,
                     const std::vector<LinkEvidence>& links)
 {
   bool is_held = false;
   const std::string objection = objectionOf(of_place, links, is_held);
-  return objection.empty() && !is_held ? "no scan holds it where it fits best"
-                                       : objection;
+  if (!objection.empty())
+    return objection;
+  return is_held ? doubtOfAll(of_place, contradictionBackground(links))
+                 : "no scan holds it where it fits best";
 }
 } // namespace
 

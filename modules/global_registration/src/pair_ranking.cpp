@@ -100,14 +100,22 @@ furtherPairs(const std::vector<RankedPair>& ranked,
 }
 
 std::vector<RankedPair>
-bestOfEach(std::vector<RankedPair> ranked, std::size_t num_scans, std::size_t per_scan)
+bestOfEach(std::vector<RankedPair> ranked,
+           std::size_t num_scans,
+           std::size_t per_scan,
+           const std::function<bool(std::size_t)>& is_known)
 {
   sortBest(ranked);
   std::vector<std::size_t> taken(num_scans, 0);
   std::vector<RankedPair> best;
   for (const auto& one : ranked) {
     const auto& [first, second] = one.scans;
-    if (one.score <= 0 || (taken[first] >= per_scan && taken[second] >= per_scan))
+    const bool one_is_known = is_known(first) != is_known(second);
+    const bool wants_first =
+        (!one_is_known || !is_known(first)) && taken[first] < per_scan;
+    const bool wants_second =
+        (!one_is_known || !is_known(second)) && taken[second] < per_scan;
+    if (one.score <= 0 || (!wants_first && !wants_second))
       continue;
     ++taken[first];
     ++taken[second];

@@ -33,9 +33,13 @@ rankPairs(const ScanList& scans,
           const ProgressCallback& progress);
 
 /** \return the pairs that are among the best of either scan, the best first
- * \param[in] per_scan so many of each */
+ * \param[in] per_scan so many of each
+ * \param[in] is_known of a scan with a known place and one without, only the latter is asked */
 std::vector<RankedPair>
-bestOfEach(std::vector<RankedPair> ranked, std::size_t num_scans, std::size_t per_scan);
+bestOfEach(std::vector<RankedPair> ranked,
+           std::size_t num_scans,
+           std::size_t per_scan,
+           const std::function<bool(std::size_t)>& is_known);
 
 /** \return of each scan outside a group the best pairs with scans inside that were not placed
  * yet, in all no more than are left of per_scan pairs a scan */

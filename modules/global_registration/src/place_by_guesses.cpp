@@ -151,6 +151,23 @@ placeByGuesses(const PlaceableScan& scan,
   return found;
 }
 
+double
+contradictionOfPlace(const PlaceableScan& scan,
+                     const std::vector<KnownScan>& others,
+                     const Eigen::Isometry3d& T_world_scan)
+{
+  requireRigid(T_world_scan, "T_world_scan");
+  const Surroundings all(scan, others);
+  const double voxel = scan.scan().voxel();
+  return all.group
+      .support(all.list.size() - 1,
+               T_world_scan,
+               kMetVoxels * voxel,
+               kPlaceVoxels * voxel,
+               kContradictedMatch)
+      .contradiction;
+}
+
 std::string
 objectionToPlace(const PlaceableScan& scan,
                  const std::vector<KnownScan>& others,

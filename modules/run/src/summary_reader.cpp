@@ -100,6 +100,12 @@ struct Reader {
     field.require(value >= 0, ">= 0");
   }
   void
+  operator()(const char* name, RecoveredBy& value) const // older runs have none
+  {
+    if (const auto field = json.find(name))
+      take(*field, value);
+  }
+  void
   operator()(const char* name, double& value) const // one that is not finite is null
   {
     const JsonValue field = json / name;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace pcl6d {
@@ -61,6 +62,26 @@ describeLoose(const RunResult& run, std::ostream& text)
     text << "\nNOT TO BE TRUSTED: no link joins " << count
          << " to the first one: " << run.floating.front()
          << (run.floating.size() > 1 ? ", ..." : "");
+}
+
+/** Scans that were lost and found again, and how. */
+void
+describeRecovered(const RunResult& run, std::ostream& text)
+{
+  const std::pair<RecoveredBy, const char*> ways[] = {
+      {RecoveredBy::kMotion, "by carrying the motion before on"},
+      {RecoveredBy::kSearch, "by a search around the predicted pose"},
+      {RecoveredBy::kEverywhere, "without a guess"},
+      {RecoveredBy::kTogether, "in one piece with the scans before and after"}};
+  for (const auto& [way, words] : ways) {
+    std::vector<std::string> files;
+    for (const auto& scan : run.scans)
+      if (scan.recovered == way)
+        files.push_back(scan.file);
+    if (!files.empty())
+      text << "\nlost where the odometry led, and found again " << words
+           << listed(files);
+  }
 }
 
 /** The worst numbers of the matched scans, so that a bad match shows without --verbose. */
@@ -154,6 +175,7 @@ verdictOf(const RunResult& run)
                 countScans(run.scans, ScanState::kMatched)
          << " of " << all << " registered";
   describeLoose(run, text);
+  describeRecovered(run, text);
   if (const auto limit = countScans(run.scans, ScanState::kUnconverged)) {
     const bool is_confirmed =
         run.verification && run.verification->trust == MapTrust::kGood;

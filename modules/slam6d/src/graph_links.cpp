@@ -96,6 +96,16 @@ odometryLink(const Poses& poses, std::size_t scan)
   return link;
 }
 
+bool
+isRefuted(const std::vector<ScanResult>& scans, std::size_t scan)
+{
+  const auto is_lost = [](const ScanResult& one) {
+    return one.state == ScanState::kPredicted || one.state == ScanState::kPending;
+  };
+  return !is_lost(scans[scan]) && !is_lost(scans[scan - 1]) &&
+         scans[scan].recovered != RecoveredBy::kNone;
+}
+
 std::vector<PoseLink>
 measuredLinks(const std::vector<ScanLink>& odometry,
               const std::vector<ScanResult>& scans,

@@ -76,4 +76,9 @@ judgeLinks(const GraphSlamResult& relaxed,
 void
 putIn(const std::vector<ScanLink>& odometry, std::vector<ScanLink>& links);
 
+/** \return whether a scan was found again where the odometry did not lead from the one before,
+ * which is believed too */
+bool
+isRefuted(const std::vector<ScanResult>& scans, std::size_t scan);
+
 } // namespace pcl6d::slam6d

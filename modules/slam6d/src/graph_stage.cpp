@@ -261,7 +261,7 @@ GraphStage::makeNetwork(const Slam6DResult& result) const
 }
 
 /** \return the neighbours in time that have too few pairs, or one of which could not be
- * matched: the odometry joins them (6.3) */
+ * matched: the odometry joins them (6.3), but where a scan was found elsewhere */
 std::vector<ScanLink>
 GraphStage::odometryLinks(ScanNetwork& network, const Slam6DResult& result) const
 {
@@ -280,7 +280,7 @@ GraphStage::odometryLinks(ScanNetwork& network, const Slam6DResult& result) cons
       joined[found[k].to] = true;
   std::vector<ScanLink> links;
   for (std::size_t i = 1; i < result.scans.size(); ++i)
-    if (!joined[i])
+    if (!joined[i] && !isRefuted(result.scans, i))
       links.push_back(odometryLink(poses, i));
   return links;
 }

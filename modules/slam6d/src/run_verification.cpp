@@ -75,7 +75,9 @@ RunVerification::verify(const std::vector<std::string>& names,
   options.sharing = sharing_;
   for (const ScanResult& scan : result.scans) {
     poses.push_back(scan.T_world_scan);
-    options.unsure.push_back(isWithoutPrior(scan.start));
+    options.unsure.push_back(isWithoutPrior(scan.start) ||
+                             scan.recovered == RecoveredBy::kEverywhere ||
+                             scan.recovered == RecoveredBy::kTogether);
   }
   std::vector<std::string> files; // names may be whole paths, which words do not need
   for (const std::string& name : names)

@@ -2,6 +2,7 @@
 #include "agreement.h"
 #include "scan_matcher.h"
 
+#include <pcl6d/common/pose.h>
 #include <pcl6d/graph_relaxation/map_agreement.h>
 
 #include <algorithm>
@@ -31,6 +32,10 @@ constexpr double kNoMotion = 0.25;
  * hku1 (pairwise, or of each third scan) move a scan by 0.57 m and more, by a third of the
  * step and more; right ones by at most 0.29 m and a fifth of the step. */
 constexpr double kSmallCorrection = 1.5;
+
+/** A larger turn is another place, as of those that are found without a guess [rad]: odometry
+ * is off by 4.5 deg a step on a car, by less on robots (algorithms.md G.3). */
+constexpr double kSmallTurn = 0.15;
 
 /** ICP is at rest when it moves the scan by less than this share of the voxel. */
 constexpr double kEpsilonShare = 1e-3;
@@ -117,7 +122,8 @@ void
 ScanMatcher::match(const IcpModel& points,
                    const MeasuredScan& measured,
                    const Eigen::Isometry3d& odometry,
-                   ScanResult& scan)
+                   ScanResult& scan,
+                   const Judge& judge)
 {
   const bool has_odometry = !odometry.isApprox(Eigen::Isometry3d::Identity(), 1e-12);
   const StartingPose start =
@@ -125,10 +131,35 @@ ScanMatcher::match(const IcpModel& points,
   scan.start = start.from;
   scan.reason = start.doubt;
   if (start.doubt.empty())
-    matchFrom(start, points, measured, odometry, scan);
+    matchFrom(start, points, measured, odometry, judge, scan);
   else
     scan.state = ScanState::kPredicted;
   before_ = {&measured, scan.T_world_scan};
+}
+
+void
+ScanMatcher::matchFound(const IcpModel& points,
+                        const MeasuredScan& measured,
+                        ScanResult& scan)
+{
+  const StartingPose start{scan.T_world_scan, InitialGuess::kOdometry, ""};
+  matchFrom(start, points, measured, Eigen::Isometry3d::Identity(), {}, scan);
+  before_ = {&measured, scan.T_world_scan};
+}
+
+void
+ScanMatcher::passOver(const MeasuredScan& measured,
+                      const Eigen::Isometry3d& T_world_scan)
+{
+  before_ = {&measured, T_world_scan};
+}
+
+bool
+ScanMatcher::isSmallCorrection(const ScanResult& scan,
+                               const Eigen::Isometry3d& predicted) const
+{
+  return scan.correction <= kSmallCorrection * parameters_.max_distance.value &&
+         distanceBetween(predicted, scan.T_world_scan).rotation <= kSmallTurn;
 }
 
 void
@@ -136,6 +167,7 @@ ScanMatcher::matchFrom(const StartingPose& start,
                        const IcpModel& points,
                        const MeasuredScan& measured,
                        const Eigen::Isometry3d& odometry,
+                       const Judge& judge,
                        ScanResult& scan)
 {
   // Without a prior the predicted pose may be any: what was found is what is corrected.
@@ -161,15 +193,19 @@ ScanMatcher::matchFrom(const StartingPose& start,
   if (scan.reason.empty())
     scan.reason = lossOfAgreement(
         target, points, measured, predicted, found.T_target_source, origin);
+  const Eigen::Isometry3d kept = scan.T_world_scan;
+  scan.T_world_scan = found.T_target_source;
+  scan.T_world_scan.translation() += origin;
+  if (scan.reason.empty() && judge)
+    scan.reason = judge(scan);
   if (!scan.reason.empty()) {
     scan.state = ScanState::kPredicted;
+    scan.T_world_scan = kept;
     return;
   }
   scan.state =
       found.status == Status::kOk ? ScanState::kMatched : ScanState::kUnconverged;
   scan.covariance = found.covariance;
-  scan.T_world_scan = found.T_target_source;
-  scan.T_world_scan.translation() += origin;
   place(points, scan.T_world_scan);
 }
 

@@ -8,6 +8,7 @@
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
+#include <functional>
 #include <string>
 
 namespace pcl6d::slam6d {
@@ -16,6 +17,10 @@ namespace pcl6d::slam6d {
  * against the union of those before, and whether the match is to be believed. */
 class ScanMatcher {
 public:
+  /** Asked for its opinion on a match that is otherwise believed, with the pose and the
+   * correction that was found. \return why it is not to be believed, or nothing */
+  using Judge = std::function<std::string(const ScanResult&)>;
+
   /** Both are kept by reference. */
   ScanMatcher(const Slam6DOptions& options, const Slam6DParameters& parameters);
 
@@ -32,12 +37,30 @@ public:
    * match is believed.
    * \param[in] points kept by reference: must outlive the matcher
    * \param[in] measured kept by reference until after the next scan
-   * \param[in] odometry the initial pose seen from that of the scan before */
+   * \param[in] odometry the initial pose seen from that of the scan before
+   * \param[in] judge none: no one is asked */
   void
   match(const IcpModel& points,
         const MeasuredScan& measured,
         const Eigen::Isometry3d& odometry,
-        ScanResult& scan);
+        ScanResult& scan,
+        const Judge& judge = {});
+
+  /** \brief Matches a scan that was found again, from where it was found: its T_world_scan. If
+   * that is not believed, it is as after passOver().
+   * \param[in] points, measured kept by reference, as by match() */
+  void
+  matchFound(const IcpModel& points, const MeasuredScan& measured, ScanResult& scan);
+
+  /** \brief Notes that the next scan follows this one, which is not taken in.
+   * \param[in] measured kept by reference, as by match() */
+  void
+  passOver(const MeasuredScan& measured, const Eigen::Isometry3d& T_world_scan);
+
+  /** \return whether a match moved a scan so little that odometry alone speaks for it
+   * \param[in] predicted T_world_scan */
+  bool
+  isSmallCorrection(const ScanResult& scan, const Eigen::Isometry3d& predicted) const;
 
   /** \brief Takes in a scan that is registered already, as it stands in its result.
    * \param[in] points, measured kept by reference, as by match() */
@@ -64,6 +87,7 @@ private:
             const IcpModel& points,
             const MeasuredScan& measured,
             const Eigen::Isometry3d& odometry,
+            const Judge& judge,
             ScanResult& scan);
   void
   place(const IcpModel& points, const Eigen::Isometry3d& T_world_scan);

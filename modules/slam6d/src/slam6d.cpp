@@ -4,6 +4,7 @@
 #include "kept_scans.h"
 #include "online_loops.h"
 #include "packing.h"
+#include "recovery_stage.h"
 #include "run_verification.h"
 #include "scan_matcher.h"
 #include "task_names.h"
@@ -28,7 +29,10 @@ using namespace slam6d;
 class Slam6D::Implementation {
 public:
   explicit Implementation(const Slam6DOptions& options)
-  : options_(options), scans_(options_), verification_(options.num_threads)
+  : options_(options)
+  , scans_(options_)
+  , verification_(options.num_threads)
+  , recovery_(options_, verification_.scans())
   {
     options_.validate();
   }
@@ -71,26 +75,26 @@ public:
                 const std::string& name,
                 std::size_t group)
   {
+    if (!groups_.empty() && group != groups_.front() && !isWithoutSequence())
+      throw BadArgument(nameOf(name) + ": is of another run than the first scan, but "
+                                       "runs are joined by the initial guess global");
     if (earlier.state == ScanState::kPending)
       throw BadArgument(nameOf(name) + ": is not registered, but pending");
     if (result_.scans.size() > num_registered_)
       throw BadArgument(nameOf(name) + ": is registered, but one before it is not");
-    if (!groups_.empty() && group != groups_.front() && !isWithoutSequence())
-      throw BadArgument(nameOf(name) + ": is of another run than the first scan, but "
-                                       "runs are joined by the initial guess global");
     earlier.matched_pose = earlier.T_world_scan;
     addScan(points, earlier, name);
+    groups_.push_back(group);
     ++num_registered_;
   }
 
   bool
-    groups_.push_back(group);
   optimize()
   {
     if (result_.scans.empty())
       throw BadArgument("no scan was added");
     prepareScans();
-    if (options_.verify || isWithoutSequence())
+    if (options_.verify || isWithoutSequence() || isRecovering())
       verification_.prepare(scans_.reduced(),
                             scans_.measured(),
                             matcher_->modelOptions(true),
@@ -125,13 +129,53 @@ private:
   optimizeInOrder()
   {
     const std::size_t total = result_.scans.size();
+    bool is_whole = true;
     if (scans_.isFirst())
-      registerAll();
-    if (sharing)
+      is_whole = registerAll() && recoverLost();
+    if (sharing) {
+      is_whole = sharing->fromFirst(is_whole);
       takeRegistered();
+    }
     for (std::size_t i = next_; i < total; ++i)
       predict(i);
-    return next_ == total && (improved_ == total || improve());
+    return is_whole && (improved_ == total || improve());
+  }
+
+  /** Scans that were lost are looked for once more, by all others. \return false if cancelled */
+  bool
+  recoverLost()
+  {
+    if (!isRecovering() || improved_ == result_.scans.size())
+      return true;
+    const auto start = std::chrono::steady_clock::now();
+    struct Stopped {};
+    Slam6DResult found = result_; // taken as a whole or not at all
+    try {
+      RecoveryStage(options_, scans_, recovery_, *matcher_)
+          .run(
+              [this](const Progress& now) {
+                if (progress)
+                  progress({"recovering", now.done, now.total});
+                if (cancelled_.exchange(false))
+                  throw Stopped();
+              },
+              found);
+    } catch (const Stopped&) {
+      return false;
+    }
+    result_ = std::move(found);
+    const std::chrono::duration<double> spent =
+        std::chrono::steady_clock::now() - start;
+    result_.matching_seconds += spent.count();
+    return true;
+  }
+
+  /** \return whether lost scans are looked for: where odometry tells how scans follow */
+  bool
+  isRecovering() const
+  {
+    return options_.recover && (options_.initial_guess == InitialGuess::kOdometry ||
+                                options_.initial_guess == InitialGuess::kOverlap);
   }
 
   bool
@@ -163,13 +207,15 @@ private:
       return false;
     }
     result_ = std::move(found);
+    groups_.assign(groups_.size(), groups_.empty() ? 0 : groups_.front()); // one world
     next_ = improved_ = result_.scans.size();
     for (std::size_t i = 0; observer && i < result_.scans.size(); ++i)
       observer(i, result_.scans[i]);
     return true;
   }
 
-  void
+  /** \return false if cancelled */
+  bool
   registerAll()
   {
     const auto start = std::chrono::steady_clock::now();
@@ -188,6 +234,7 @@ private:
     const std::chrono::duration<double> spent =
         std::chrono::steady_clock::now() - start;
     result_.matching_seconds += spent.count();
+    return next_ == total;
   }
 
   /** Takes over what the first process has registered. */
@@ -207,7 +254,6 @@ private:
     const std::string bytes =
         sharing->fromFirst(scans_.isFirst() ? packed(result_) : std::string());
     if (!scans_.isFirst())
-    groups_.assign(groups_.size(), groups_.empty() ? 0 : groups_.front()); // one world
       unpack(bytes, result_);
   }
 
@@ -233,12 +279,17 @@ private:
   void
   predict(std::size_t i)
   {
-    ScanResult& scan = result_.scans[i];
-    scan.T_world_scan = scan.initial_pose;
+    result_.scans[i].T_world_scan = predictedPose(i);
+  }
+
+  Eigen::Isometry3d
+  predictedPose(std::size_t i) const
+  {
+    const ScanResult& scan = result_.scans[i];
     if (i == 0)
-      return;
+      return scan.initial_pose;
     const ScanResult& before = result_.scans[i - 1];
-    scan.T_world_scan = extrapolateOdometry(
+    return extrapolateOdometry(
         before.T_world_scan, before.initial_pose, scan.initial_pose);
   }
 
@@ -283,7 +334,43 @@ private:
       return matcher_->fix(scans_.reduced()[i], scans_.measured()[i], scan);
     const Eigen::Isometry3d odometry =
         result_.scans[i - 1].initial_pose.inverse() * scan.initial_pose;
-    matcher_->match(scans_.reduced()[i], scans_.measured()[i], odometry, scan);
+    const auto judge = [&](const ScanResult& found) {
+      return isDoubtful(found, i)
+                 ? recovery_.objection(i, found.T_world_scan, result_.scans)
+                 : "";
+    };
+    matcher_->match(scans_.reduced()[i], scans_.measured()[i], odometry, scan, judge);
+    if (isRecovering() && !isBelieved(scan))
+      lookFor(i);
+  }
+
+  /** \return whether points and rays have to confirm a match: where the scan before was lost,
+   * the odometry was far off, or a look at it raises doubts */
+  bool
+  isDoubtful(const ScanResult& found, std::size_t i)
+  {
+    return isRecovering() &&
+           (!isBelieved(result_.scans[i - 1]) ||
+            !matcher_->isSmallCorrection(found, predictedPose(i)) ||
+            recovery_.seemsContradicted(i, found.T_world_scan, result_.scans));
+  }
+
+  /** A scan that could not be matched where it was predicted. */
+  void
+  lookFor(std::size_t i)
+  {
+    const auto found = recovery_.find(i, result_.scans);
+    if (!found)
+      return;
+    ScanResult scan = result_.scans[i];
+    const Eigen::Vector3d predicted = scan.T_world_scan.translation();
+    scan.T_world_scan = found->T_world_scan;
+    matcher_->matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
+    if (!isBelieved(scan))
+      return matcher_->passOver(scans_.measured()[i], result_.scans[i].T_world_scan);
+    scan.correction = (scan.T_world_scan.translation() - predicted).norm();
+    scan.recovered = found->by;
+    result_.scans[i] = scan;
   }
 
   /** Chapter 5, when all scans are matched. \return false if cancelled */
@@ -370,7 +457,9 @@ private:
   Slam6DOptions options_;
   std::vector<std::uint64_t> inputs_; ///< of each scan: what it and those before are
   KeptScans scans_;
+  std::vector<std::size_t> groups_; ///< of each registered scan: the number of its run
   RunVerification verification_;
+  Recovery recovery_;
   std::optional<ScanMatcher> matcher_;
   OnlineLoops online_loops_;
   std::size_t num_registered_ =
@@ -451,4 +540,3 @@ Slam6D::setObserver(Observer observer)
 }
 
 } // namespace pcl6d
-  std::vector<std::size_t> groups_; ///< of each registered scan: the number of its run

@@ -64,6 +64,8 @@ toJson(const ScanResult& scan, const Eigen::Vector3d& offset)
   });
   for (const char* const not_shown : {"status", "dropped", "reduced"})
     json.erase(not_shown);
+  if (scan.recovered == RecoveredBy::kNone)
+    json.erase("recovered");
   if (scan.state == ScanState::kUnknown)
     json["start"] = "";
   return json;

@@ -60,6 +60,22 @@ isWithoutPrior(InitialGuess guess)
   return guess == InitialGuess::kFeatures || guess == InitialGuess::kGlobal;
 }
 
+/** \brief How a scan was found again that could not be matched where it was expected. */
+enum class RecoveredBy {
+  kNone,       ///< it was not lost, or not found
+  kMotion,     ///< the motion of the scans before was carried on
+  kSearch,     ///< around where the odometry expected it
+  kEverywhere, ///< among all scans near by, without a guess
+  kTogether ///< in one piece with scans before and after it, matched among themselves
+};
+
+/** \return "", "motion", "search", "everywhere" or "together" */
+const char*
+toString(RecoveredBy by);
+/** \throws BadArgument no way back has that name */
+RecoveredBy
+recoveredByFromName(const std::string& name);
+
 /** \brief A scan that was registered, or is to be. \ingroup common */
 struct ScanResult {
   std::string file; ///< its name in the folder that it came from
@@ -84,6 +100,7 @@ struct ScanResult {
   double correction = 0; ///< [m] from the predicted to the matched position; with
                          ///< kFeatures and kGlobal, from the one they found
   std::string reason;    ///< why the match is not believed; else empty
+  RecoveredBy recovered = RecoveredBy::kNone;
 };
 
 /** \return the number of scans in a state */

@@ -31,6 +31,7 @@ visitScanFields(Scan& scan, Visit&& visit)
   visit("iterations", scan.iterations);
   visit("correction", scan.correction);
   visit("reason", scan.reason);
+  visit("recovered", scan.recovered);
 }
 
 /** \param[in] moved a MovedPoints, const or not */
@@ -111,6 +112,11 @@ inline void
 takeWord(const std::string& word, InitialGuess& guess)
 {
   guess = initialGuessFromName(word);
+}
+inline void
+takeWord(const std::string& word, RecoveredBy& by)
+{
+  by = recoveredByFromName(word);
 }
 inline void
 takeWord(const std::string& word, PoseReading& reading)

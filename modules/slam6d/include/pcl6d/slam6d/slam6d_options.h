@@ -74,6 +74,9 @@ struct Slam6DOptions {
   /** links that are always looked at, besides those found; each counts as far as the
    * others confirm it */
   std::vector<ScanPair> given_links;
+  /** with kOdometry and kOverlap, scans that cannot be matched where they are expected, and all
+   * after them, are looked for elsewhere; points and rays decide */
+  bool recover = true;
   bool verify = true; ///< judge the map by the points and rays of its scans, in the end
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */

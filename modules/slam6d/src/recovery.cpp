@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recovery.h"
+
+#include <pcl6d/common/pose.h>
+#include <pcl6d/global_registration/scan_joiner.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace pcl6d::slam6d {
+
+namespace {
+/** So many scans judge a place: the last ones, and the nearest of the others. */
+constexpr std::size_t kLatest = 8, kNearest = 8;
+
+/** So many of the last scans are asked by a look whether a match is worth asking all. Between
+ * what right and wrong places have (contradictionOfPlace()): a needless question costs time
+ * alone. */
+constexpr std::size_t kLookedAt = 2;
+constexpr double kSuspicious = 0.01;
+
+/** Of so many a scan is looked for everywhere, at about 10 ms for each. */
+constexpr std::size_t kLatestEverywhere = 24, kNearestEverywhere = 40;
+
+/** How far odometry is off is known from so many scans. */
+constexpr std::size_t kCorrections = 20;
+
+/** Deviations about the prediction within which a scan is looked for: 99.7 %. */
+constexpr double kDeviations = 3;
+
+/** Turns from the prediction that are tried, half the basin of ICP apart, which is 15 to 20 deg
+ * about any start (book, 4.2) [rad]. */
+constexpr double kTurns[] = {0, 0.35, -0.35, 0.7, -0.7};
+
+/** Matching starts with pairs so many voxels apart at most, as that of a run does. */
+constexpr double kReachVoxels = 12;
+
+/** What odometry says of the way since the last scan that was believed. */
+struct Way {
+  std::size_t last = 0;  ///< the last scan that is believed
+  std::size_t steps = 0; ///< from there
+  Eigen::Isometry3d T_world_last = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d odometry = Eigen::Isometry3d::Identity(); ///< predicted, from there
+  /** the motion before, carried on; the odometry's if there is none */
+  Eigen::Isometry3d carried = Eigen::Isometry3d::Identity();
+  double deviation = 0; ///< [m] of the odometry over these steps
+};
+
+/** \return [m] rms of the corrections of the last scans that odometry has placed */
+double
+deviationOfStep(const std::vector<ScanResult>& scans, std::size_t before, double least)
+{
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = before; i-- > 0 && count < kCorrections;)
+    if (isBelieved(scans[i]) && scans[i].state != ScanState::kFixed &&
+        scans[i].recovered == RecoveredBy::kNone) {
+      sum += scans[i].correction * scans[i].correction;
+      ++count;
+    }
+  return std::max(least, count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0);
+}
+
+std::optional<Way>
+wayTo(std::size_t scan, const std::vector<ScanResult>& scans, double voxel)
+{
+  Way way;
+  std::vector<std::size_t> believed; // the last two
+  for (std::size_t i = scan; i-- > 0 && believed.size() < 2;)
+    if (isBelieved(scans[i]))
+      believed.push_back(i);
+  if (believed.empty())
+    return std::nullopt;
+  way.last = believed[0];
+  way.steps = scan - way.last;
+  way.T_world_last = scans[way.last].T_world_scan;
+  way.odometry = way.T_world_last.inverse() * scans[scan].T_world_scan;
+  way.carried = way.odometry;
+  if (believed.size() == 2 && believed[0] == believed[1] + 1)
+    way.carried = repeated(scans[believed[1]].T_world_scan.inverse() * way.T_world_last,
+                           way.steps);
+  way.deviation =
+      deviationOfStep(scans, scan, voxel) * std::sqrt(static_cast<double>(way.steps));
+  return way;
+}
+
+/** Odometry and the motion before, whole and mixed; and where the last scan was. */
+std::vector<Eigen::Isometry3d>
+motionsOf(const Way& way)
+{
+  Eigen::Isometry3d turned = way.carried, moved = way.odometry;
+  turned.translation() = way.odometry.translation();
+  moved.translation() = way.carried.translation();
+  std::vector<Eigen::Isometry3d> guesses;
+  for (const auto& motion : {way.odometry,
+                             turned,
+                             way.carried,
+                             moved,
+                             Eigen::Isometry3d(Eigen::Isometry3d::Identity())})
+    guesses.push_back(way.T_world_last * motion);
+  return guesses;
+}
+
+/** Long searches are made for the first scans that are lost one after the other, then ever more
+ * seldom: where a place has nothing to be told by, so have most after it. */
+bool
+isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans)
+{
+  std::size_t lost = 0;
+  while (lost < scan && scans[scan - 1 - lost].state == ScanState::kPredicted)
+    ++lost;
+  return (lost & (lost + 1)) == 0; // 0, 1, 3, 7, ...
+}
+} // namespace
+
+bool
+isBelieved(const ScanResult& scan)
+{
+  return scan.state == ScanState::kFixed || scan.state == ScanState::kMatched ||
+         scan.state == ScanState::kUnconverged;
+}
+
+Eigen::Isometry3d
+repeated(const Eigen::Isometry3d& motion, std::size_t count)
+{
+  Eigen::Isometry3d all = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 0; i < count; ++i)
+    all = all * motion;
+  return all;
+}
+
+Recovery::Recovery(const Slam6DOptions& options,
+                   const std::deque<VerifiedScan>& verified)
+: options_(options), verified_(verified)
+{}
+
+const PlaceableScan&
+Recovery::placeable(std::size_t scan)
+{
+  if (placeable_.size() < verified_.size())
+    placeable_.resize(verified_.size());
+  if (!placeable_[scan])
+    placeable_[scan].emplace(verified_[scan]);
+  return *placeable_[scan];
+}
+
+/** \return believed scans other than this one: the last before it, then the nearest of all */
+std::vector<std::size_t>
+Recovery::around(std::size_t scan,
+                 const Eigen::Vector3d& position,
+                 const std::vector<ScanResult>& scans,
+                 std::size_t latest,
+                 std::size_t nearest) const
+{
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = scan; i-- > 0 && chosen.size() < latest;)
+    if (isBelieved(scans[i]))
+      chosen.push_back(i);
+  std::vector<std::pair<double, std::size_t>> others;
+  for (std::size_t i = 0; i < scans.size() && nearest > 0; ++i)
+    if (i != scan && isBelieved(scans[i]) &&
+        std::find(chosen.begin(), chosen.end(), i) == chosen.end())
+      others.emplace_back((scans[i].T_world_scan.translation() - position).norm(), i);
+  std::sort(others.begin(), others.end());
+  for (std::size_t k = 0; k < std::min(nearest, others.size()); ++k)
+    chosen.push_back(others[k].second);
+  return chosen;
+}
+
+std::vector<KnownScan>
+Recovery::knownAround(std::size_t scan,
+                      const Eigen::Vector3d& position,
+                      const std::vector<ScanResult>& scans)
+{
+  std::vector<KnownScan> known;
+  for (const std::size_t i : around(scan, position, scans, kLatest, kNearest))
+    known.push_back({&placeable(i), scans[i].T_world_scan});
+  return known;
+}
+
+std::string
+Recovery::objection(std::size_t scan,
+                    const Eigen::Isometry3d& T_world_scan,
+                    const std::vector<ScanResult>& scans)
+{
+  return objectionToPlace(placeable(scan),
+                          knownAround(scan, T_world_scan.translation(), scans),
+                          T_world_scan,
+                          options_.num_threads);
+}
+
+bool
+Recovery::seemsContradicted(std::size_t scan,
+                            const Eigen::Isometry3d& T_world_scan,
+                            const std::vector<ScanResult>& scans)
+{
+  std::vector<KnownScan> last;
+  for (const std::size_t i :
+       around(scan, T_world_scan.translation(), scans, kLookedAt, 0))
+    last.push_back({&placeable(i), scans[i].T_world_scan});
+  return contradictionOfPlace(placeable(scan), last, T_world_scan) > kSuspicious;
+}
+
+/** \return poses about one: turned about the vertical, and moved to all sides
+ * \param[in] up in the frame of the pose \param[in] by [m] */
+std::vector<Eigen::Isometry3d>
+Recovery::spread(const Eigen::Isometry3d& about,
+                 const Eigen::Vector3d& up,
+                 double by) const
+{
+  const Eigen::Matrix3d level = uprightRotation(up).transpose(); // its columns: axes
+  std::vector<Eigen::Isometry3d> poses;
+  for (const double turn : kTurns)
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      Eigen::Isometry3d pose = about;
+      pose.translation() += about.linear() * level * Eigen::Vector3d(x * by, y * by, 0);
+      pose.linear() = about.linear() * Eigen::AngleAxisd(turn, up).toRotationMatrix();
+      poses.push_back(pose);
+    }
+  return poses;
+}
+
+std::optional<Recovery::Found>
+Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
+{
+  const double voxel = verified_[scan].voxel();
+  const auto way = wayTo(scan, scans, voxel);
+  if (!way)
+    return std::nullopt;
+  const auto known = knownAround(scan, scans[scan].T_world_scan.translation(), scans);
+  GuessOptions options;
+  options.num_threads = options_.num_threads;
+  options.reach = std::min(kDeviations * way->deviation, kReachVoxels * voxel);
+  const auto motions = motionsOf(*way);
+  GuessedPlace place = placeByGuesses(placeable(scan), known, motions, options);
+  if (place.accepted)
+    return Found{place.T_world_scan,
+                 place.guess == 0 ? RecoveredBy::kSearch : RecoveredBy::kMotion};
+  if (!isSearchDue(scan, scans))
+    return std::nullopt;
+  const double by = std::max(kDeviations * way->deviation, options.reach);
+  const Eigen::Vector3d up = placeable(scan).vertical().up;
+  std::vector<Eigen::Isometry3d> guesses = spread(motions.front(), up, by);
+  const auto more = spread(way->T_world_last, up, by);
+  guesses.insert(guesses.end(), more.begin(), more.end());
+  place = placeByGuesses(placeable(scan), known, guesses, options);
+  if (place.accepted)
+    return Found{place.T_world_scan, RecoveredBy::kSearch};
+  return findEverywhere(scan, scans);
+}
+
+std::optional<Recovery::Found>
+Recovery::findEverywhere(std::size_t scan, const std::vector<ScanResult>& scans)
+{
+  const auto others = around(scan,
+                             scans[scan].T_world_scan.translation(),
+                             scans,
+                             kLatestEverywhere,
+                             kNearestEverywhere);
+  std::deque<PlaceableScan> list;
+  JoinOptions join;
+  for (const std::size_t i : others) {
+    list.push_back(placeable(i));
+    join.known.emplace_back(KnownPlace{0, scans[i].T_world_scan});
+  }
+  list.push_back(placeable(scan));
+  join.known.emplace_back(std::nullopt);
+  join.num_threads = options_.num_threads;
+  const JoinedScans joined = joinScans(list, join);
+  const JoinedScan& placed = joined.scans.back();
+  if (placed.group != joined.scans.front().group)
+    return std::nullopt;
+  return Found{placed.T_group_scan, RecoveredBy::kEverywhere};
+}
+
+} // namespace pcl6d::slam6d

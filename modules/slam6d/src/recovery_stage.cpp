@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recovery_stage.h"
+
+#include <pcl6d/common/pose.h>
+#include <pcl6d/io/text.h>
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace pcl6d::slam6d {
+
+namespace {
+/** Of so many scans all pairs with lost ones are compared, at 10 ms for each; of more, those
+ * with so many scans before and after them, and with so many near their predicted place. */
+constexpr std::size_t kAllCompared = 150, kCompared = 50;
+} // namespace
+
+RecoveryStage::RecoveryStage(const Slam6DOptions& options,
+                             const KeptScans& scans,
+                             Recovery& recovery,
+                             ScanMatcher& matcher)
+: options_(options), scans_(scans), recovery_(recovery), matcher_(matcher)
+{}
+
+void
+RecoveryStage::run(const ProgressCallback& report, Slam6DResult& result)
+{
+  if (countScans(result.scans, ScanState::kPredicted) == 0)
+    return;
+  const std::vector<Piece> pieces = piecesOf(result);
+  take(join(pieces, report, result), pieces, result);
+}
+
+/** \return scans that follow each other and match each other: one alone, or several */
+std::vector<RecoveryStage::Piece>
+RecoveryStage::piecesOf(const Slam6DResult& result)
+{
+  own_ = result.scans;
+  for (ScanResult& scan : own_)
+    scan.state = ScanState::kPredicted; // to its piece, others are not there
+  std::vector<Piece> pieces;
+  std::optional<ScanMatcher> matcher;
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    if (result.scans[i].state != ScanState::kPredicted) {
+      matcher.reset();
+      continue;
+    }
+    if (matcher && follow(i, *matcher, own_)) {
+      pieces.back().push_back(i);
+      continue;
+    }
+    if (!pieces.empty())
+      for (const std::size_t earlier : pieces.back())
+        own_[earlier].state = ScanState::kPending; // of another piece
+    own_[i].T_world_scan = result.scans[i].T_world_scan;
+    matcher.emplace(options_, result.parameters);
+    matcher->fix(scans_.reduced()[i], scans_.measured()[i], own_[i]);
+    pieces.push_back({i});
+  }
+  return pieces;
+}
+
+/** Matches a scan with those of a piece before it. \return whether it is believed */
+bool
+RecoveryStage::follow(std::size_t i, ScanMatcher& matcher, std::vector<ScanResult>& own)
+{
+  ScanResult& scan = own[i];
+  const ScanResult& before = own[i - 1];
+  scan.T_world_scan =
+      extrapolateOdometry(before.T_world_scan, before.initial_pose, scan.initial_pose);
+  scan.reason.clear();
+  matcher.match(scans_.reduced()[i],
+                scans_.measured()[i],
+                before.initial_pose.inverse() * scan.initial_pose,
+                scan,
+                [&](const ScanResult& found) {
+                  return recovery_.objection(i, found.T_world_scan, own);
+                });
+  if (isBelieved(scan))
+    return true;
+  const auto found = recovery_.find(i, own);
+  if (!found)
+    return false;
+  scan.T_world_scan = found->T_world_scan;
+  matcher.matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
+  return isBelieved(scan);
+}
+
+std::vector<std::pair<std::size_t, std::size_t>>
+RecoveryStage::likelyPairs(const Slam6DResult& result) const
+{
+  const std::size_t count = result.scans.size();
+  if (count <= kAllCompared)
+    return {};
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (result.scans[i].state != ScanState::kPredicted)
+      continue;
+    std::vector<std::pair<double, std::size_t>> others;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k == i)
+        continue;
+      if (std::max(i, k) - std::min(i, k) <= kCompared)
+        pairs.insert(std::minmax(i, k));
+      others.emplace_back((result.scans[k].T_world_scan.translation() -
+                           result.scans[i].T_world_scan.translation())
+                              .squaredNorm(),
+                          k);
+    }
+    std::sort(others.begin(), others.end());
+    for (std::size_t k = 0; k < std::min(kCompared, others.size()); ++k)
+      pairs.insert(std::minmax(i, others[k].second));
+  }
+  return {pairs.begin(), pairs.end()};
+}
+
+/** The map is the first known group, each piece of several scans another one. */
+JoinedScans
+RecoveryStage::join(const std::vector<Piece>& pieces,
+                    const ProgressCallback& report,
+                    const Slam6DResult& result)
+{
+  std::deque<PlaceableScan> list;
+  JoinOptions join;
+  join.num_threads = options_.num_threads;
+  join.progress = report;
+  join.pairs = likelyPairs(result);
+  join.known.resize(result.scans.size());
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    list.push_back(recovery_.placeable(i));
+    if (isBelieved(result.scans[i]))
+      join.known[i] = {0, result.scans[i].T_world_scan};
+  }
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    if (pieces[p].size() > 1)
+      for (const std::size_t i : pieces[p])
+        join.known[i] = {p + 1, own_[i].T_world_scan};
+  return joinScans(list, join);
+}
+
+void
+RecoveryStage::take(const JoinedScans& joined,
+                    const std::vector<Piece>& pieces,
+                    Slam6DResult& result)
+{
+  std::vector<bool> is_in_piece(result.scans.size(), false);
+  for (const Piece& piece : pieces)
+    for (const std::size_t i : piece)
+      is_in_piece[i] = piece.size() > 1;
+  for (const std::size_t i : joined.groups.front()) // in the order in which they joined
+    if (!isBelieved(result.scans[i]))
+      takePlace(i, joined.scans[i], !is_in_piece[i], result);
+  for (const Piece& piece : pieces) {
+    const JoinedScan& first = joined.scans[piece.front()];
+    if (first.group != 0)
+      layBeside(piece, first.reason, result);
+  }
+}
+
+/** Matches a scan from its place in the map. */
+void
+RecoveryStage::takePlace(std::size_t i,
+                         const JoinedScan& place,
+                         bool alone,
+                         Slam6DResult& result)
+{
+  ScanResult& scan = result.scans[i];
+  const Eigen::Isometry3d predicted = scan.T_world_scan;
+  const std::string lost = scan.reason;
+  scan.T_world_scan = place.T_group_scan;
+  if (i > 0)
+    matcher_.passOver(scans_.measured()[i - 1], result.scans[i - 1].T_world_scan);
+  matcher_.matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
+  if (!isBelieved(scan)) {
+    scan.T_world_scan = predicted;
+    scan.reason = lost + "; found again, but not matched there: " + scan.reason;
+    return;
+  }
+  scan.matched_pose = scan.T_world_scan;
+  scan.correction = (scan.T_world_scan.translation() - predicted.translation()).norm();
+  scan.recovered = alone ? RecoveredBy::kEverywhere : RecoveredBy::kTogether;
+}
+
+/** A piece that has no place in the map follows the odometry, as a whole. */
+void
+RecoveryStage::layBeside(const Piece& piece,
+                         const std::string& why,
+                         Slam6DResult& result) const
+{
+  const std::size_t first = piece.front();
+  ScanResult& scan = result.scans[first];
+  if (first > 0) {
+    const ScanResult& before = result.scans[first - 1];
+    scan.T_world_scan = extrapolateOdometry(
+        before.T_world_scan, before.initial_pose, scan.initial_pose);
+  }
+  const Eigen::Isometry3d T_world_piece =
+      scan.T_world_scan * own_[first].T_world_scan.inverse();
+  for (const std::size_t i : piece) {
+    ScanResult& one = result.scans[i];
+    one.T_world_scan = T_world_piece * own_[i].T_world_scan;
+    one.matched_pose = one.T_world_scan;
+    one.state = ScanState::kPredicted;
+    if (piece.size() > 1)
+      one.reason += "; lost together with " +
+                    text::counted(piece.size() - 1, "other scan") + ", which match it";
+    if (!why.empty())
+      one.reason += "; in the map: " + why;
+  }
+}
+
+} // namespace pcl6d::slam6d

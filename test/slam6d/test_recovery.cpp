@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scans that cannot be matched where the odometry expects them, and all after them: jumps,
+// turns, scans of elsewhere and pieces that meet the map again later, with exact truth.
+#include "corridor_drive.h"
+#include "recovery.h"
+#include "registered_run.h"
+#include "support/points.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using pcl6d::distanceBetween;
+using pcl6d::MapTrust;
+using pcl6d::poseFromEuler;
+using pcl6d::Random;
+using pcl6d::RecoveredBy;
+using pcl6d::ScanResult;
+using pcl6d::ScanState;
+using pcl6d::Slam6D;
+using pcl6d::Slam6DOptions;
+using pcl6d::Slam6DResult;
+using pcl6d::test::DriftingRun;
+using pcl6d::test::expectSameBits;
+using pcl6d::test::makeCorridorRun;
+using pcl6d::test::movedBy;
+using pcl6d::test::PillarRoom;
+using pcl6d::test::registered;
+
+namespace {
+// Ends of a chain of matches are off by up to half a voxel without any fault, too; wrong places
+// are several voxels away.
+constexpr double kShareOfVoxel = 1;
+constexpr double kTurnTol = 0.01; // [rad]
+
+/** Expects scans where they were taken, seen from the first one.
+ * \param[in] but those in between, which were lost */
+void
+expectTruth(const Slam6DResult& result,
+            const DriftingRun& run,
+            const std::vector<std::size_t>& but = {})
+{
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    SCOPED_TRACE("scan " + std::to_string(i));
+    const ScanResult& scan = result.scans[i];
+    if (std::find(but.begin(), but.end(), i) != but.end()) {
+      EXPECT_EQ(scan.state, ScanState::kPredicted);
+      EXPECT_NE(scan.reason, "");
+      continue;
+    }
+    EXPECT_NE(scan.state, ScanState::kPredicted) << scan.reason;
+    const auto off =
+        distanceBetween(run.truth[0].inverse() * run.truth[i],
+                        result.scans[0].T_world_scan.inverse() * scan.T_world_scan);
+    EXPECT_LT(off.translation, kShareOfVoxel * result.parameters.voxel.value);
+    EXPECT_LT(off.rotation, kTurnTol);
+  }
+}
+
+/** A drive that is carried away after a few scans, without the odometry noticing, to where
+ * nothing of the map is seen, and comes back. */
+DriftingRun
+carriedAway()
+{
+  Random random(5);
+  const PillarRoom corridor = pcl6d::test::corridorWithClosets(random);
+  DriftingRun run;
+  std::vector<double> way;
+  for (int i = 0; i < 6; ++i)
+    way.push_back(-5 + i);
+  for (int i = 0; i < 18; ++i)
+    way.push_back(18 - i);
+  for (const double x : way) {
+    run.truth.push_back(pcl6d::test::poseInCorridor(x));
+    run.odometry.push_back(movedBy(run.truth.size() > 6 ? -18 : 0) * run.truth.back());
+    run.scans.push_back(pcl6d::test::shortSighted(corridor, run.truth.back(), random));
+  }
+  return run;
+}
+
+/** A room that has nothing to do with the corridor. */
+PillarRoom
+otherRoom()
+{
+  PillarRoom room;
+  room.walls = {Eigen::Vector3d(-4, -3, -1), Eigen::Vector3d(3.5, 5, 1.4)};
+  return room;
+}
+} // namespace
+
+TEST(Recovery, FindsScansBehindAJumpOfTheOdometry)
+{
+  for (const double jump : {10.0, -3.0}) {
+    SCOPED_TRACE(jump);
+    const DriftingRun run = makeCorridorRun(14, 8, jump);
+    const Slam6DResult result = registered(run);
+    expectTruth(result, run);
+    EXPECT_EQ(result.scans[7].recovered, RecoveredBy::kNone);
+    EXPECT_NE(result.scans[8].recovered, RecoveredBy::kNone);
+    EXPECT_EQ(result.scans[9].recovered, RecoveredBy::kNone);
+    EXPECT_EQ(result.verification->trust, MapTrust::kGood);
+    EXPECT_TRUE(result.trusted());
+  }
+}
+
+TEST(Recovery, FindsScansBehindATurnOfTheOdometry)
+{
+  DriftingRun run = makeCorridorRun(12, 12, 0);
+  for (std::size_t i = 6; i < run.odometry.size(); ++i)
+    run.odometry[i] = run.odometry[5] * poseFromEuler({}, {0, 0, 0.8}) *
+                      run.truth[5].inverse() * run.truth[i];
+  const Slam6DResult result = registered(run);
+  expectTruth(result, run);
+  EXPECT_NE(result.scans[6].recovered, RecoveredBy::kNone);
+}
+
+TEST(Recovery, IsLeftOutWhereNotWanted)
+{
+  Slam6DOptions options;
+  options.recover = false;
+  const Slam6DResult result = registered(makeCorridorRun(14, 8, 10), options);
+  EXPECT_EQ(result.scans[8].recovered, RecoveredBy::kNone);
+  EXPECT_GT(
+      distanceBetween(makeCorridorRun(9, 8, 10).truth[8], result.scans[8].T_world_scan)
+          .translation,
+      5);
+}
+
+TEST(Recovery, LosesNothingBehindAScanOfElsewhere)
+{
+  DriftingRun run = makeCorridorRun(12, 12, 0);
+  Random random(4);
+  run.scans[6] = otherRoom().scan(Eigen::Isometry3d::Identity(), random, 0.03);
+  run.odometry[6] = run.odometry[5];
+  const Slam6DResult result = registered(run);
+  expectTruth(result, run, {6});
+  EXPECT_EQ(result.verification->trust, MapTrust::kDoubtful);
+  EXPECT_FALSE(result.trusted());
+}
+
+TEST(Recovery, PiecesThatMeetTheMapLaterAreJoinedAsAWhole)
+{
+  const DriftingRun run = carriedAway();
+  const Slam6DResult result = registered(run);
+  expectTruth(result, run);
+  EXPECT_EQ(result.scans[6].recovered, RecoveredBy::kTogether)
+      << "from there nothing of the map is seen";
+  EXPECT_TRUE(result.trusted());
+}
+
+TEST(Recovery, PiecesWithoutAPlaceKeepTheirShapeAndAreNamed)
+{
+  DriftingRun run = makeCorridorRun(10, 10, 0);
+  Random random(4);
+  std::vector<std::size_t> lost;
+  for (std::size_t i = 6; i < 10; ++i) {
+    run.scans[i] = otherRoom().scan(
+        poseFromEuler({0.3 * static_cast<double>(i) - 2, 0, 0}, {0, 0, 0.1}),
+        random,
+        0.03);
+    run.odometry[i] = run.odometry[5] * movedBy(0.35 * static_cast<double>(i - 5));
+    lost.push_back(i);
+  }
+  const Slam6DResult result = registered(run);
+  expectTruth(result, run, lost);
+  EXPECT_FALSE(result.trusted());
+  const auto& scans = result.scans;
+  for (std::size_t i = 7; i < 10;
+       ++i) { // of their own steps of 0.3 m, not the odometry's
+    EXPECT_NEAR(
+        distanceBetween(scans[i - 1].T_world_scan, scans[i].T_world_scan).translation,
+        0.3,
+        kShareOfVoxel * result.parameters.voxel.value)
+        << i;
+    EXPECT_NE(scans[i].reason.find("lost together with 3 other scans"),
+              std::string::npos)
+        << scans[i].reason;
+  }
+}
+
+TEST(Recovery, GivesTheSameBitsForAnyNumberOfThreads)
+{
+  const DriftingRun run = carriedAway();
+  Slam6DOptions options;
+  options.num_threads = 1;
+  const Slam6DResult one = registered(run, options);
+  for (const unsigned int threads : {2u, 8u}) {
+    options.num_threads = threads;
+    expectSameBits(registered(run, options), one);
+  }
+}
+
+TEST(Recovery, CanBeCancelledAndGoesOn)
+{
+  const DriftingRun run = carriedAway();
+  Slam6D slam;
+  for (std::size_t i = 0; i < run.scans.size(); ++i)
+    slam.addScan(run.scans[i], run.odometry[i]);
+  bool is_asked = false;
+  slam.setProgressCallback([&](const pcl6d::Progress& now) {
+    if (now.stage == "recovering" && !is_asked) {
+      is_asked = true;
+      slam.cancel();
+    }
+  });
+  EXPECT_FALSE(slam.optimize());
+  ASSERT_TRUE(is_asked);
+  EXPECT_TRUE(slam.optimize());
+  expectSameBits(slam.result(), registered(run));
+}
+
+TEST(RepeatedMotion, IsOneAfterTheOther)
+{
+  const Eigen::Isometry3d motion = poseFromEuler({1, 0.2, 0}, {0, 0.1, 0.3});
+  EXPECT_TRUE(pcl6d::slam6d::repeated(motion, 0).isApprox(Eigen::Isometry3d::Identity(),
+                                                          1e-15));
+  EXPECT_TRUE(
+      pcl6d::slam6d::repeated(motion, 3).isApprox(motion * motion * motion, 1e-14));
+}

@@ -9,6 +9,7 @@
 #include "common/output_folder.h"
 #include "common/printable.h"
 #include "common/progress_bar.h"
+#include "slam6d/join.h"
 #include "slam6d/live_window.h"
 #include "slam6d/ranks.h"
 #include "slam6d/run_drawing.h"
@@ -19,7 +20,6 @@
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/text.h>
-#include <pcl6d/run/run_folder.h>
 #include <pcl6d/slam6d/run_journal.h>
 #include <pcl6d/slam6d/slam6d.h>
 
@@ -46,13 +46,15 @@ public:
   : ranks_(ranks)
   , earlier_(app::openEarlier(settings))
   , folder_(app::openFolder(settings, earlier_))
-  , scans_(app::openScans(folder_, settings))
-  , settings_(app::resolved(settings, folder_))
+  , scans_(app::openScans(folder_, settings, earlier_))
+  , settings_(app::resolved(settings, folder_, earlier_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings))
   , memory_(settings.memory, out_.staging())
   , clouds_(scans_, memory_.bytes() / 4)
-  , window_(settings_.live_view, std::string(kName) + ' ' + settings_.input, bar_)
+  , window_(settings_.live_view,
+            std::string(kName) + ' ' + settings_.inputWords(),
+            bar_)
   , slam_(settings_.slam)
   {
     slam_.setSharing(ranks_);
@@ -63,32 +65,23 @@ public:
   int
   run()
   {
-    bar_.say(std::to_string(folder_.size()) + " scans" +
-             (earlier_ ? ", " + std::to_string(folder_.numRegistered()) +
-                             " of them registered in " + settings_.continued
-                       : "") +
-             (ranks_
-                  ? ", shared by " + std::to_string(ranks_->numRanks()) + " processes"
-                  : "") +
-             ", initial poses from " + folder_.poseSource());
-    for (const auto& plugin : settings_.plugins.loaded())
-      bar_.say("plug-in " + plugin.name + " (" + plugin.file.string() +
-               "): " + plugin.adds);
-    if (!folder_.coordinates().empty())
-      bar_.say(folder_.coordinates());
-    for (const auto& description : scans_.descriptions())
-      bar_.say(description);
-    const std::string foreseen = app::foreseenWork(settings_, folder_.size());
-    if (!foreseen.empty())
-      bar_.say(foreseen);
+    for (const auto& line : app::describeInput(
+             settings_, scans_, earlier_, ranks_ ? ranks_->numRanks() : 1))
+      bar_.say(line);
+    log_.warnings = earlier_.notes;
     if (!readScans()) {
       bar_.say("interrupted while reading; nothing is written");
       return app::kInterrupted;
     }
-    openJournal();
+    if (!earlier_.areJoined())
+      openJournal();
     const bool complete = match();
+    if (earlier_.areJoined() && !complete)
+      return stopJoining();
     app::RunOutput output(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
     const RunResult& summary = output.write(complete, log_, clouds_);
+    if (earlier_.areJoined() && !summary.complete)
+      return stopJoining();
     auto written = publish(summary);
     const app::Drawing drawing =
         app::drawApart(published_, summary, memory_.bytes(), interrupt_);
@@ -111,6 +104,14 @@ public:
   }
 
 private:
+  /** A part of a joined run would have scans in several worlds. */
+  int
+  stopJoining()
+  {
+    bar_.say("interrupted; the runs are not joined, and nothing is written");
+    return app::kInterrupted;
+  }
+
   /** A part of a run never takes the place of a whole one. \return what was written */
   std::vector<std::filesystem::path>
   publish(const RunResult& summary)
@@ -118,7 +119,8 @@ private:
     published_ = out_.folder();
     if (summary.complete) {
       auto written = out_.publish(app::Journal::kDrop);
-      journal_->remove();
+      if (journal_)
+        journal_->remove();
       return written;
     }
     bar_.say(
@@ -202,7 +204,9 @@ private:
       if (interrupt_.requested())
         slam_.cancel();
     });
-    const bool complete = slam_.optimize();
+    const bool complete = app::optimize(slam_, earlier_);
+    if (complete && earlier_.areJoined())
+      log_.joined = app::joinedWords(earlier_);
     printParameters();
     window_.update(slam_.result());
     return complete;
@@ -222,7 +226,8 @@ private:
   void
   printParameters()
   {
-    for (const auto& [name, parameter] : app::named(slam_.result().parameters))
+    for (const auto& [name, parameter] :
+         app::named(slam_.result().parameters, settings_))
       if (printed_.insert(name).second)
         bar_.say(app::parameterLine(name,
                                     parameter,
@@ -244,7 +249,7 @@ private:
   }
 
   WorkSharing* ranks_;
-  const std::optional<RunFolder> earlier_;
+  const app::EarlierRuns earlier_;
   const ScanFolder folder_;
   app::RunScans scans_;
   const Settings settings_;

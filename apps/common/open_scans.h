@@ -46,7 +46,10 @@ parameterLine(const std::string& name,
 {
   std::ostringstream line;
   line << "  " << name << " = " << parameter.value << ' ' << unit << " ("
-       << (parameter.given ? "given" : "auto: " + parameter.why) << ")";
+       << (!parameter.given        ? "auto: "
+           : parameter.why.empty() ? "given"
+                                   : "")
+       << parameter.why << ")";
   return line.str();
 }
 

@@ -38,8 +38,15 @@ checkOptionsAt(const std::string& place,
                const Suite& suite,
                const Trial& trial)
 {
-  static const std::set<std::string> kOfTheRunner = {
-      "config", "continue", "force", "help", "output", "quiet", "verbose", "version"};
+  static const std::set<std::string> kOfTheRunner = {"config",
+                                                     "continue",
+                                                     "force",
+                                                     "help",
+                                                     "join",
+                                                     "output",
+                                                     "quiet",
+                                                     "verbose",
+                                                     "version"};
   for (const auto& [name, value] : options.items()) {
     const std::string at = place + '/' + name;
     if (kOfTheRunner.count(name) > 0)

@@ -39,7 +39,7 @@ addOpen(OptionTable& table,
 }
 
 void
-addInput(OptionTable& table, Settings& s)
+addInput(OptionTable& table, Settings& s, bool& joins)
 {
   table.group("Input");
   table.add("plugin FILE", &s.plugin_files)
@@ -72,6 +72,11 @@ addInput(OptionTable& table, Settings& s)
       .help("goes on with a finished run: its scans keep their place and its options "
             "count unless given anew; taken are the files of SCAN_DIR whose names it "
             "lacks; -o is RUN_DIR by default");
+  table.add("join", &joins)
+      .help(
+          "the arguments are two finished runs of one site, RUN_A RUN_B (or more), in "
+          "place of SCAN_DIR: they become one, in the world of RUN_A, relaxed "
+          "together; their poses need have nothing in common");
 }
 
 void
@@ -256,9 +261,9 @@ refuseScale(const std::vector<std::string>& arguments)
 }
 
 void
-addOptions(OptionTable& table, Settings& settings)
+addOptions(OptionTable& table, Settings& settings, bool& joins)
 {
-  addInput(table, settings);
+  addInput(table, settings, joins);
   addMatching(table, settings);
   addGraph(table, settings);
   addRun(table, settings);

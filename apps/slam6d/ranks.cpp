@@ -235,10 +235,10 @@ agreeOnInput(WorkSharing& ranks,
 void
 help(WorkSharing& ranks, const std::string& name, const Settings& settings)
 {
-  const std::optional<RunFolder> earlier = openEarlier(settings);
+  const EarlierRuns earlier = openEarlier(settings);
   const ScanFolder folder = openFolder(settings, earlier);
-  RunScans scans = openScans(folder, settings);
-  const Settings all = resolved(settings, folder);
+  RunScans scans = openScans(folder, settings, earlier);
+  const Settings all = resolved(settings, folder, earlier);
   const MemoryBudget memory(all.memory, all.out);
   Slam6D slam(all.slam);
   slam.setSharing(&ranks);

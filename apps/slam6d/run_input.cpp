@@ -1,61 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/progress_bar.h"
+#include "slam6d/join.h"
 #include "slam6d/run_input.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/io/text.h>
 
+#include <algorithm>
+#include <optional>
 #include <utility>
-#include <vector>
 
 namespace pcl6d::app {
 
-std::optional<RunFolder>
-openEarlier(const Settings& settings)
-{
-  if (settings.continued.empty())
-    return {};
-  RunFolder run = RunFolder::finished(
-      settings.continued, "the run was interrupted; run it again, then go on with it");
-  run.requireWhole("scans/");
-  return run;
-}
-
-ScanFolder
-openFolder(const Settings& settings, const std::optional<RunFolder>& earlier)
-{
-  std::optional<ScanFolder> folder;
-  checkOptions([&] { folder.emplace(settings.input, settings.folder); },
-               {{"poses_file", "poses"}});
-  if (earlier)
-    folder->continueRun(earlier->path(), earlier->summary());
-  return *std::move(folder);
-}
-
-RunScans
-openScans(const ScanFolder& folder, const Settings& settings)
-{
-  RunScans scans(folder);
-  if (settings.deskew)
-    scans.deskew(settings.interpolation);
-  scans.filterLines(settings.filter);
-  scans.filterBy(settings.other_filter);
-  return scans;
-}
-
-Settings
-resolved(Settings settings, const ScanFolder& folder)
-{
-  settings.resolveGuess(folder.hasPoses());
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < folder.size(); ++i)
-    indices.push_back(folder.index(i));
-  settings.readLinks(indices);
-  return settings;
-}
-
+namespace {
+/** \return of many scans without common poses, what is done with them and how long that takes;
+ * else empty */
 std::string
-foreseenWork(const Settings& settings, std::size_t num_scans)
+foreseenWork(const Settings& settings,
+             const EarlierRuns& earlier,
+             std::size_t num_scans)
 {
   // Said where it is more than a few minutes. Seconds of one core for a pair that is compared
   // and for one that is placed, four of each scan: those of bench_join, which differ by a
@@ -65,11 +29,115 @@ foreseenWork(const Settings& settings, std::size_t num_scans)
   if (settings.slam.initial_guess != InitialGuess::kGlobal || num_scans < kMany)
     return "";
   const auto n = static_cast<double>(num_scans);
-  const double seconds = (kCompared * n * (n - 1) / 2 + kPlaced * kPlacedOfEach * n) /
+  double pairs = n * (n - 1) / 2;
+  for (std::size_t r = 0; earlier.areJoined() && r < earlier.runs.size(); ++r) {
+    const auto m = static_cast<double>(earlier.runs[r].summary().scans.size());
+    pairs -= m * (m - 1) / 2; // within a run nothing is compared
+  }
+  const double seconds = (kCompared * pairs + kPlaced * kPlacedOfEach * n) /
                          threadCount(settings.slam.num_threads);
+  if (earlier.areJoined())
+    return "all pairs of scans of different runs are compared, which takes about " +
+           durationText(seconds);
   return "without poses all pairs of " + std::to_string(num_scans) +
          " scans are compared, which takes about " + durationText(seconds) +
          "; with rough poses (--poses FILE) it takes a part of it";
+}
+
+std::string
+whatIsRead(const ScanFolder& folder, const EarlierRuns& earlier)
+{
+  std::string text = text::counted(folder.size(), "scan");
+  if (earlier.areJoined())
+    return text + " of " + folder.poseSource();
+  if (!earlier.empty())
+    text += ", " + std::to_string(folder.numRegistered()) + " of them registered in " +
+            earlier.runs[0].path().string();
+  return text;
+}
+} // namespace
+
+EarlierRuns
+openEarlier(const Settings& settings)
+{
+  if (!settings.joined.empty())
+    return openJoined(settings);
+  EarlierRuns earlier;
+  if (settings.continued.empty())
+    return earlier;
+  earlier.runs.push_back(RunFolder::finished(
+      settings.continued, "the run was interrupted; run it again, then go on with it"));
+  earlier.runs[0].requireWhole("scans/");
+  for (std::size_t i = 0; i < earlier.runs[0].summary().scans.size(); ++i)
+    earlier.scans.push_back({0, i});
+  return earlier;
+}
+
+ScanFolder
+openFolder(const Settings& settings, const EarlierRuns& earlier)
+{
+  if (earlier.areJoined())
+    return joinedFolder(earlier);
+  std::optional<ScanFolder> folder;
+  checkOptions([&] { folder.emplace(settings.input, settings.folder); },
+               {{"poses_file", "poses"}});
+  if (!earlier.empty())
+    folder->continueRun(earlier.runs[0].path(), earlier.runs[0].summary());
+  return *std::move(folder);
+}
+
+RunScans
+openScans(const ScanFolder& folder,
+          const Settings& settings,
+          const EarlierRuns& earlier)
+{
+  RunScans scans(folder);
+  if (earlier.areJoined()) {
+    scans.gate(gatesOf(earlier, settings));
+    return scans;
+  }
+  if (settings.deskew)
+    scans.deskew(settings.interpolation);
+  scans.filterLines(settings.filter);
+  scans.filterBy(settings.other_filter);
+  return scans;
+}
+
+Settings
+resolved(Settings settings, const ScanFolder& folder, const EarlierRuns& earlier)
+{
+  if (earlier.areJoined())
+    takeLengths(earlier, settings);
+  settings.resolveGuess(folder.hasPoses());
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < folder.size(); ++i)
+    indices.push_back(folder.index(i));
+  settings.readLinks(indices);
+  return settings;
+}
+
+std::vector<std::string>
+describeInput(const Settings& settings,
+              const RunScans& scans,
+              const EarlierRuns& earlier,
+              std::size_t num_processes)
+{
+  const ScanFolder& folder = scans.folder();
+  std::string first = whatIsRead(folder, earlier);
+  if (num_processes > 1)
+    first += ", shared by " + std::to_string(num_processes) + " processes";
+  if (!earlier.areJoined())
+    first += ", initial poses from " + folder.poseSource();
+  std::vector<std::string> lines{first};
+  for (const auto& plugin : settings.plugins.loaded())
+    lines.push_back("plug-in " + plugin.name + " (" + plugin.file.string() +
+                    "): " + plugin.adds);
+  lines.push_back(folder.coordinates());
+  lines.insert(lines.end(), earlier.notes.begin(), earlier.notes.end());
+  lines.insert(lines.end(), scans.descriptions().begin(), scans.descriptions().end());
+  lines.push_back(foreseenWork(settings, earlier, folder.size()));
+  lines.erase(std::remove(lines.begin(), lines.end(), ""), lines.end());
+  return lines;
 }
 
 } // namespace pcl6d::app

@@ -52,8 +52,15 @@ const std::set<std::string> kBrought = {"close-loops",
                                         "voxel"};
 
 /** What it read and how it ran, which each run says anew. */
-const std::set<std::string> kOfEachRun =
-    {"continue", "every", "first", "format", "graph-in", "last", "poses", "threads"};
+const std::set<std::string> kOfEachRun = {"continue",
+                                          "every",
+                                          "first",
+                                          "format",
+                                          "graph-in",
+                                          "join",
+                                          "last",
+                                          "poses",
+                                          "threads"};
 
 /** Scans are told apart by their names. Older versions wrote the replacement character for
  * what is no UTF-8: such scans would be taken twice. */

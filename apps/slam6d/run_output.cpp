@@ -40,7 +40,7 @@ optionsOf(const Settings& settings, const Slam6DParameters& parameters)
   std::vector<RunResult::Option> options;
   for (const auto& word : settings.words)
     options.push_back({word.name, word.value, word.given ? "given" : "default", ""});
-  for (const auto& [name, parameter] : named(parameters)) {
+  for (const auto& [name, parameter] : named(parameters, settings)) {
     options.push_back({name,
                        text::shortest(parameter.value),
                        parameter.given ? "given" : "derived",
@@ -100,6 +100,8 @@ runFolderRules(const Settings& settings)
   OutputRules rules;
   rules.folder = settings.out;
   rules.inputs = {settings.input, settings.folder.poses_file};
+  rules.inputs.insert(
+      rules.inputs.end(), settings.joined.begin(), settings.joined.end());
   rules.program = kProgram;
   rules.marker = "summary.json";
   rules.files = std::regex(
@@ -159,7 +161,7 @@ RunOutput::write(bool complete, const RunLog& log, KeptClouds& clouds)
     run_.map_points = run_.complete ? map.points().size() : 0;
   }
   run_.trusted = run_.complete && result_.trusted();
-  run_.verdict = verdictOf(run_);
+  run_.verdict = verdictOf(run_) + (log.joined.empty() ? "" : '\n' + log.joined);
   run_.files = writtenFiles(out_.staging());
   writer.writeSummary();
   requireAllFiles();
@@ -194,6 +196,7 @@ RunOutput::describe(bool complete, const RunLog& log)
   run_.moved = folder_.moved();
   if (run_.moved)
     run_.warnings.push_back(folder_.coordinates());
+  run_.warnings.insert(run_.warnings.end(), log.warnings.begin(), log.warnings.end());
   run_.options = optionsOf(settings_, result_.parameters);
   run_.stages = log.stages;
   for (std::size_t i = 0; i < folder_.size(); ++i)

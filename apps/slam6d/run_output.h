@@ -31,6 +31,8 @@ holdsCompleteRun(const OutputFolder& out);
 struct RunLog {
   std::vector<std::size_t> dropped; ///< per scan: points that were not finite
   std::vector<RunResult::Stage> stages;
+  std::vector<std::string> warnings;
+  std::string joined; ///< which runs were joined, for the verdict; else empty
 };
 
 /** \brief Adds a stage with its time and memory at the end of its scope. */

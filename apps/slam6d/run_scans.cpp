@@ -2,6 +2,7 @@
 #include "slam6d/run_scans.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/text.h>
 
 #include <utility>
@@ -79,6 +80,28 @@ RunScans::filterBy(const OtherFilter& filter)
     descriptions_.push_back("scans go through the filter " + filter.name);
 }
 
+void
+RunScans::gate(std::vector<std::pair<double, double>> gates)
+{
+  gates_ = std::move(gates);
+  if (!gates_.empty())
+    descriptions_.push_back(
+        "points outside the range gate of their own run are left out");
+}
+
+void
+RunScans::gateRegistered(Scan& scan, std::size_t i) const
+{
+  if (gates_.empty())
+    return;
+  const std::size_t dropped = scan.dropped;
+  maskOutOfRange(gates_[i].first, gates_[i].second, scan.points);
+  storeCoordinates(scan.points, scan.cloud);
+  static_cast<ScanCloud&>(scan) = finiteScan(scan.cloud, folder_.file(i).string());
+  scan.dropped += dropped;
+  scan.points = coordinatesOf(scan.cloud);
+}
+
 /** Counts the points that it made not finite, and those of the file. */
 void
 RunScans::filterByOther(Scan& scan, std::size_t i) const
@@ -119,8 +142,10 @@ RunScans::read(std::size_t i)
 {
   Scan scan = first_ && i == folder_.numRegistered() ? *std::exchange(first_, {})
                                                      : folder_.read(i);
-  if (i < folder_.numRegistered())
+  if (i < folder_.numRegistered()) {
+    gateRegistered(scan, i);
     return scan;
+  }
   if (filter_ != LineFilter::kNone)
     requireLines(scan, i);
   withName(folder_.file(i).string(), [&] {

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl6d::app {
@@ -36,6 +37,11 @@ public:
   void
   filterBy(const OtherFilter& filter);
 
+  /** \brief From now on registered scans lose the points outside the ranges [m] that their
+   * run counted. \param[in] gates one per scan that is registered, or none */
+  void
+  gate(std::vector<std::pair<double, double>> gates);
+
   const ScanFolder&
   folder() const
   {
@@ -57,6 +63,8 @@ public:
 
 private:
   void
+  gateRegistered(Scan& scan, std::size_t i) const;
+  void
   undoMotion(Scan& scan, std::size_t i) const;
   void
   filterByOther(Scan& scan, std::size_t i) const;
@@ -71,6 +79,7 @@ private:
   TimeFormat format_;
   LineFilter filter_ = LineFilter::kNone;
   OtherFilter other_filter_;
+  std::vector<std::pair<double, double>> gates_;
   std::vector<std::string> descriptions_;
 };
 

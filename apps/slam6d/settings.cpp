@@ -18,6 +18,7 @@ namespace pcl6d::app {
 namespace {
 constexpr const char* kUsageText =
     R"(usage: pcl_slam6d SCAN_DIR -o OUT_DIR [options]
+       pcl_slam6d --join RUN_A RUN_B -o OUT_DIR [options]
 Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one map
 and writes poses, map, picture and summary. Distances are in metres.
 Processes on one machine or many share the work: mpirun -n 4 pcl_slam6d SCAN_DIR -o OUT_DIR
@@ -52,6 +53,7 @@ constexpr const char* kWords[] = {"plugin",
                                   "relaxation-rounds",
                                   "graph-in",
                                   "continue",
+                                  "join",
                                   "iterations",
                                   "min-overlap",
                                   "max-correction",
@@ -96,7 +98,44 @@ wordOf(const std::string& name, std::vector<OptionWord>& words)
   return *std::find_if(
       words.begin(), words.end(), [&](const auto& one) { return one.name == name; });
 }
+
+/** Takes the arguments: a folder of scans, or runs that are joined. */
+void
+takeInputs(const std::vector<std::string>& inputs, bool joins, Settings& settings)
+{
+  if (!joins && inputs.size() > 1)
+    throw UsageError("SCAN_DIR is one folder, but " + text::quoted(inputs[1]) +
+                     " is given, too (runs are joined by --join)");
+  if (!joins) {
+    settings.input = inputs.front();
+    return;
+  }
+  settings.joined = inputs;
+  if (inputs.size() < 2)
+    throw UsageError("--join needs two finished runs: --join RUN_A RUN_B -o OUT_DIR");
+  if (!settings.continued.empty())
+    throw UsageError("--join and --continue contradict each other");
+  settings.auto_guess = false;
+  settings.slam.initial_guess = InitialGuess::kGlobal;
+}
+
+/** Where runs are joined: what the summary says of that. */
+void
+nameJoined(Settings& settings)
+{
+  if (settings.joined.empty())
+    return;
+  wordOf("join", settings.words).value = joined(settings.joined, " ");
+  wordOf("initial-guess", settings.words) = {
+      "initial-guess", toString(settings.slam.initial_guess), false};
+}
 } // namespace
+
+std::string
+Settings::inputWords() const
+{
+  return input.empty() ? pcl6d::app::joined(joined, " ") : input;
+}
 
 void
 Settings::resolveGuess(bool has_poses)
@@ -131,13 +170,16 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
 {
   refuseScale(arguments);
   OptionTable table(kUsageText);
-  table.positional("SCAN_DIR", &settings.input);
-  addOptions(table, settings);
+  std::vector<std::string> inputs;
+  bool joins = false;
+  table.positionals("SCAN_DIR", &inputs);
+  addOptions(table, settings, joins);
   table.bringOptions("continue", [&table](const std::string& run) {
     return optionsOfRun(run, table.given("plugin"));
   });
   if (!table.parse(arguments))
     return false;
+  takeInputs(inputs, joins, settings);
   if (settings.out.empty())
     settings.out = settings.continued;
   if (settings.out.empty())
@@ -154,6 +196,7 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
   loadPlugins(settings);
   settings.words = table.words({std::begin(kWords), std::end(kWords)});
   wordOf("plugin", settings.words).value = pluginWord(settings);
+  nameJoined(settings);
   settings.conditions = conditionsOf(settings.words, table);
   wordOf("plugin", settings.conditions).value = pluginCondition(settings);
   // Words have six digits; lengths are compared to the last bit by the tasks' names.
@@ -167,7 +210,17 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
   const bool relaxes = settings.slam.relaxation.has_value();
   const bool closes = settings.slam.loop_closing != LoopClosing::kNone;
   settings.without_effect = table.withoutEffect(
-      {{"interpolation", settings.deskew, "of --deskew"},
+      {{"first", !joins, "of SCAN_DIR"},
+       {"last", !joins, "of SCAN_DIR"},
+       {"every", !joins, "of SCAN_DIR"},
+       {"poses", !joins, "of SCAN_DIR"},
+       {"format", !joins, "of SCAN_DIR"},
+       {"deskew", !joins, "of SCAN_DIR"},
+       {"filter", !joins, "of SCAN_DIR"},
+       {"initial-guess", !joins, "of SCAN_DIR"},
+       {"resume", !joins, "of SCAN_DIR"},
+       {"fresh", !joins, "of SCAN_DIR"},
+       {"interpolation", settings.deskew, "of --deskew"},
        {"reduction-points",
         settings.slam.reduction == ReductionMethod::kRandom,
         "of --reduction random"},
@@ -190,7 +243,7 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
 }
 
 std::vector<std::pair<std::string, Parameter>>
-named(const Slam6DParameters& parameters)
+named(const Slam6DParameters& parameters, const Settings& settings)
 {
   std::vector<std::pair<std::string, Parameter>> known = {
       {"min-range", parameters.min_range},
@@ -208,6 +261,10 @@ named(const Slam6DParameters& parameters)
                                return !one.second.given && one.second.why.empty();
                              }),
               known.end());
+  for (auto& [name, parameter] : known)
+    if (const auto reason = settings.length_reasons.find(name);
+        reason != settings.length_reasons.end())
+      parameter.why = reason->second;
   return known;
 }
 

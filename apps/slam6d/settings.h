@@ -12,6 +12,7 @@
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +21,8 @@ namespace pcl6d::app {
 
 /** \brief The command line of pcl_slam6d. */
 struct Settings {
-  std::string input;
+  std::string input;               ///< the scans; empty where runs are joined
+  std::vector<std::string> joined; ///< folders of runs that become one; empty: none
   std::string out;
   ScanFolderOptions folder;
   Slam6DOptions slam;
@@ -47,7 +49,13 @@ struct Settings {
   bool timing = false;                ///< print where the time went
   std::vector<OptionWord> words;      ///< those of the summary
   std::vector<OptionWord> conditions; ///< those that poses follow from
-  std::string without_effect;         ///< words that were given for nothing; else empty
+  std::map<std::string, std::string>
+      length_reasons;         ///< of lengths that are given, but not by the user
+  std::string without_effect; ///< words that were given for nothing; else empty
+
+  /** \return what is read, for people */
+  std::string
+  inputWords() const;
 
   /** Decides what --initial-guess auto means for a folder. */
   void
@@ -68,6 +76,6 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings);
 /** \return the parameters that are known by now, under the names of their options; those of
  * loops and links are known after matching, and only if there is such a stage */
 std::vector<std::pair<std::string, Parameter>>
-named(const Slam6DParameters& parameters);
+named(const Slam6DParameters& parameters, const Settings& settings);
 
 } // namespace pcl6d::app

@@ -109,13 +109,12 @@ std::size_t
 SharedReading::add(std::size_t i, const Scan& scan, Slam6D& slam) const
 {
   const ScanFolder& folder = scans_.folder();
-  const std::string file = folder.file(i).string();
   if (i >= folder.numRegistered()) {
-    slam.addScan(scan.points, folder.initialPose(i), file);
+    slam.addScan(scan.points, folder.initialPose(i), folder.file(i).string());
     return scan.dropped;
   }
-  const ScanResult& earlier = earlier_->summary().scans.at(i);
-  slam.addRegistered(scan.points, earlier, file);
+  const ScanResult earlier = earlier_.resultOf(i); // files of runs are called alike
+  slam.addRegistered(scan.points, earlier, folder.name(i), earlier_.scans[i].run);
   return earlier.dropped;
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "slam6d/earlier_runs.h"
 #include "slam6d/run_scans.h"
 
 #include <pcl6d/common/work_sharing.h>
-#include <pcl6d/run/run_folder.h>
 #include <pcl6d/slam6d/slam6d.h>
 
 #include <functional>
-#include <optional>
 
 namespace pcl6d::app {
 
@@ -16,11 +15,9 @@ namespace pcl6d::app {
  * owns it. */
 class SharedReading {
 public:
-  /** Keeps references. \param[in] earlier the run that goes on, if one does
+  /** Keeps references. \param[in] earlier the runs that go on or are joined, if so
    * \param[in] ranks null: this process reads all */
-  SharedReading(RunScans& scans,
-                const std::optional<RunFolder>& earlier,
-                WorkSharing* ranks)
+  SharedReading(RunScans& scans, const EarlierRuns& earlier, WorkSharing* ranks)
   : scans_(scans), earlier_(earlier), ranks_(ranks)
   {}
 
@@ -46,7 +43,7 @@ private:
   readTogether(const Take& take);
 
   RunScans& scans_;
-  const std::optional<RunFolder>& earlier_;
+  const EarlierRuns& earlier_;
   WorkSharing* ranks_;
 };
 

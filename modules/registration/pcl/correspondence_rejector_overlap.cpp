@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "blob_points.h"
-
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/require_indices.h>
 #include <pcl6d/filters/point_normals.h>
 #include <pcl6d/registration/pcl/correspondence_rejector_overlap.h>
+#include <pcl6d/registration/pcl/impl/blob_points.h>
 #include <pcl6d/search/pcl/core_search.h>
 
 #include <algorithm>

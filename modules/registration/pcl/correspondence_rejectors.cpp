@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "blob_points.h"
-
 #include <pcl6d/common/number_range.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
@@ -9,6 +7,7 @@
 #include <pcl6d/registration/pcl/correspondence_rejector_surface_normal.h>
 #include <pcl6d/registration/pcl/correspondence_rejector_trimmed.h>
 #include <pcl6d/registration/pcl/correspondence_rejector_var_trimmed.h>
+#include <pcl6d/registration/pcl/impl/blob_points.h>
 
 #include <pcl/console/print.h>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/export.h>
 
 #include <pcl/common/io.h>
 #include <pcl/conversions.h>
@@ -9,7 +10,10 @@
 
 #include <string>
 
-namespace pcl6d::registration {
+/** \file
+ * What rejectors of pairs make of the clouds that PCL's pipelines hand over. */
+namespace PCL6D_EXPORTS pcl6d {
+namespace registration {
 
 /** \return a cloud as PCL's pipelines hand it over, as points of a type
  * \param[in] field that it must have \throws BadArgument it is null, or has no such field */
@@ -26,4 +30,5 @@ cloudOfBlob(const pcl::PCLPointCloud2::ConstPtr& blob, const std::string& field)
   return cloud;
 }
 
-} // namespace pcl6d::registration
+} // namespace registration
+} // namespace pcl6d

@@ -217,6 +217,14 @@ TEST(PlaceSearch, RefusesOptionsThatBreakTheirRules)
   options.max_ambiguity = pcl6d::test::kNan;
   EXPECT_NE(badArgumentOf([&] { options.validate(); }).find("max_ambiguity"),
             std::string::npos);
+  options = {};
+  options.min_overlap = 1.1;
+  EXPECT_EQ(badArgumentOf([&] { options.validate(); }),
+            "min_overlap = 1.1, but must be in [0, 1]");
+  options = {};
+  options.max_contradiction = -0.1;
+  EXPECT_EQ(badArgumentOf([&] { options.validate(); }),
+            "max_contradiction = -0.1, but must be in [0, 1]");
 }
 
 TEST(JudgePlace, MatchesAGuessAndSaysWhatSpeaksForIt)

@@ -24,4 +24,15 @@ matchingOptions(double voxel, double start)
   return options;
 }
 
+IcpOptions
+fineOptions(double voxel, unsigned int num_threads)
+{
+  IcpOptions options = matchingOptions(voxel, 0);
+  options.max_iterations = 100;
+  options.translation_epsilon = 0.001 * voxel;
+  options.rotation_epsilon = 1e-5;
+  options.num_threads = num_threads;
+  return options;
+}
+
 } // namespace pcl6d::global_registration

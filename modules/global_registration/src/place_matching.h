@@ -10,4 +10,9 @@ namespace pcl6d::global_registration {
 IcpOptions
 matchingOptions(double voxel, double start);
 
+/** \return how a place that was found is matched by all points, until nothing moves
+ * \param[in] voxel [m] of the scans */
+IcpOptions
+fineOptions(double voxel, unsigned int num_threads);
+
 } // namespace pcl6d::global_registration

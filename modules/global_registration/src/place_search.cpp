@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
+#include "pair_places.h"
 #include "place_matching.h"
 #include "place_starts.h"
-#include "place_support.h"
 
-#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
-#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/global_registration/place_search.h>
 #include <pcl6d/registration/icp.h>
 
 #include <algorithm>
-#include <sstream>
+#include <array>
+#include <utility>
 
 namespace pcl6d {
 using namespace global_registration;
@@ -22,7 +21,7 @@ using namespace global_registration;
 namespace {
 /** So many placements of the plans are looked at, with another direction up fewer: it seldom
  * is. So many starts are matched. */
-constexpr std::size_t kPlacements = 200, kOtherPlacements = 60, kMatchedPlaces = 30;
+constexpr std::size_t kPlacements = 400, kOtherPlacements = 60, kMatchedPlaces = 30;
 
 /** All of them are matched by few points, at least so many of the best by more. */
 constexpr std::size_t kFinelyMatched = 10;
@@ -33,46 +32,49 @@ public:
   Search(const PlaceableScan& first,
          const PlaceableScan& second,
          const PlaceSearchOptions& options)
-  : first_(first)
-  , second_(second)
-  , options_(options)
-  , voxel_(std::max(first.scan().voxel(), second.scan().voxel()))
-  , cell_(std::max(first.cell(), second.cell()))
+  : first_(first), second_(second), options_(options), places_(first, second)
   {}
 
   PlaceResult
   run() const
   {
-    const UprightScan fixed(first_, first_.vertical().up, cell_);
+    const UprightScan fixed(first_, first_.vertical().up, places_.cell());
     std::vector<PlaceStart> starts =
         startsOn(fixed, second_.vertical().up, kPlacements);
     PlaceResult result = judgedPlaces(starts);
-    if (result.answer == PlaceAnswer::kUnique || !options_.any_axis ||
-        second_.vertical().others.empty())
+    if (!options_.any_axis || second_.vertical().others.empty() || isClear(result))
       return result;
     for (const auto& other : second_.vertical().others)
       for (const double sign : {1.0, -1.0}) {
-        const auto more = startsOn(fixed, sign * other, kOtherPlacements);
+        auto more = startsOn(fixed, sign * other, kOtherPlacements);
+        for (auto& one : more)
+          one.placement = kOtherPlacements; // not trusted
         starts.insert(starts.end(), more.begin(), more.end());
       }
     sortByScore(starts);
     return judgedPlaces(starts);
   }
 
-  PlaceCandidate
-  judged(const Eigen::Isometry3d& T_first_second) const
+private:
+  /** Whether the best place stands out, so that up is not to be doubted. */
+  bool
+  isClear(const PlaceResult& result) const
   {
-    return candidateAt(polished(T_first_second, second_.matched()));
+    return !result.candidates.empty() &&
+           result.candidates[0].opinion.trust == LinkTrust::kGood &&
+           result.candidates[0].overlap >= kLeastOverlap &&
+           result.ambiguity() < options_.max_ambiguity;
   }
 
-private:
   std::vector<PlaceStart>
   startsOn(const UprightScan& fixed,
            const Eigen::Vector3d& up,
            std::size_t placements) const
   {
-    return placeStarts(
-        fixed, UprightScan(second_, up, cell_), placements, options_.num_threads);
+    return placeStarts(fixed,
+                       UprightScan(second_, up, places_.cell()),
+                       placements,
+                       options_.num_threads);
   }
 
   /** \param[in] starts the best first */
@@ -81,19 +83,12 @@ private:
   {
     PlaceResult result;
     for (const auto& start : matched(starts))
-      result.candidates.push_back(candidateAt(start));
+      result.candidates.push_back(places_.judged(start.T_first_second));
     std::stable_sort(result.candidates.begin(),
                      result.candidates.end(),
                      [](const auto& a, const auto& b) { return a.score > b.score; });
-    decide(result);
+    decideUniqueness(places_, options_, result);
     return result;
-  }
-
-  bool
-  areNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const
-  {
-    const MotionSize apart = distanceBetween(a, b);
-    return apart.translation < kOtherCells * cell_ && apart.rotation < kOtherTurn;
   }
 
   /** The best few, each where matching brings it, without those that fall together. */
@@ -101,11 +96,16 @@ private:
   matched(const std::vector<PlaceStart>& starts) const
   {
     std::vector<PlaceStart> chosen;
+    std::array<bool, kTrustedPlacements> is_known{};
     for (const auto& start : starts) {
-      if (chosen.size() == kMatchedPlaces)
-        break;
+      const bool is_trusted =
+          start.placement < kTrustedPlacements && !is_known[start.placement];
+      if (chosen.size() >= kMatchedPlaces && !is_trusted)
+        continue;
+      if (is_trusted)
+        is_known[start.placement] = true;
       if (std::none_of(chosen.begin(), chosen.end(), [&](const PlaceStart& other) {
-            return areNear(start.T_first_second, other.T_first_second);
+            return places_.areNear(start.T_first_second, other.T_first_second);
           }))
         chosen.push_back(start);
     }
@@ -117,7 +117,7 @@ private:
     for (const auto& one : chosen)
       if (distinct.size() < options_.candidates && one.score > 0 &&
           std::none_of(distinct.begin(), distinct.end(), [&](const PlaceStart& other) {
-            return areNear(one.T_first_second, other.T_first_second);
+            return places_.areNear(one.T_first_second, other.T_first_second);
           }))
         distinct.push_back(one);
     return distinct;
@@ -128,77 +128,15 @@ private:
   polish(std::vector<PlaceStart>& places, const PlaceableScan::Sample& by) const
   {
     parallelFor(places.size(), options_.num_threads, [&](std::size_t i) {
-      places[i] = polished(places[i].T_first_second, by);
+      places[i] = places_.matched(places[i].T_first_second, by);
     });
     sortByScore(places);
   }
 
-  PlaceStart
-  polished(const Eigen::Isometry3d& T_first_second,
-           const PlaceableScan::Sample& sample) const
-  {
-    const IcpResult found = icp({first_.scan().surfaces().part()},
-                                {&sample.points, &sample.normals},
-                                T_first_second,
-                                matchingOptions(voxel_, 2 * cell_));
-    PlaceStart place{found.T_target_source, 0};
-    const PlaceSupport support = supportOf(first_,
-                                           second_,
-                                           place.T_first_second,
-                                           kMetVoxels * voxel_,
-                                           kPlaceVoxels * voxel_);
-    place.score = support.score(kContradictedMatch);
-    return place;
-  }
-
-  PlaceCandidate
-  candidateAt(const PlaceStart& start) const
-  {
-    PlaceCandidate one;
-    one.T_first_second = start.T_first_second;
-    const PlaceSupport support = supportOf(first_,
-                                           second_,
-                                           one.T_first_second,
-                                           kMetVoxels * voxel_,
-                                           kPlaceVoxels * voxel_);
-    one.overlap = support.overlap();
-    one.evidence = linkEvidence(first_.scan(), second_.scan(), one.T_first_second);
-    one.contradiction = one.evidence.sight.contradiction();
-    one.score = one.overlap * portableExp(-one.contradiction / kContradictedPlace);
-    one.opinion = judgeLink(one.evidence, contradictionBackground({}));
-    return one;
-  }
-
-  void
-  decide(PlaceResult& result) const
-  {
-    std::ostringstream reason; // read by people
-    reason.precision(3);
-    const auto& candidates = result.candidates;
-    if (candidates.empty())
-      reason << "no place where surfaces of both meet";
-    else if (candidates[0].opinion.trust != LinkTrust::kGood)
-      reason << "the best place is " << toString(candidates[0].opinion.trust) << ": "
-             << candidates[0].opinion.reason;
-    else if (candidates[0].overlap < kLeastOverlap)
-      reason << "at the best place only " << 100 * candidates[0].overlap
-             << " % of the surfaces meet";
-    else if (result.ambiguity() > options_.max_ambiguity) {
-      const MotionSize apart =
-          distanceBetween(candidates[0].T_first_second, candidates[1].T_first_second);
-      result.answer = PlaceAnswer::kAmbiguous;
-      reason << "a place " << apart.translation << " m and " << apart.rotation / kDegree
-             << " deg from the best has " << result.ambiguity() << " of its score";
-    }
-    else
-      result.answer = PlaceAnswer::kUnique;
-    result.reason = reason.str();
-  }
-
   const PlaceableScan& first_;
   const PlaceableScan& second_;
-  const PlaceSearchOptions options_;
-  double voxel_, cell_; // [m]
+  const PlaceSearchOptions& options_;
+  PairPlaces places_;
 };
 } // namespace
 
@@ -224,14 +162,23 @@ PlaceResult::ambiguity() const
   return candidates[1].score / candidates[0].score;
 }
 
+PlaceSearchOptions
+PlaceSearchOptions::forTwoScans()
+{
+  PlaceSearchOptions options;
+  options.min_overlap = 0.2;
+  options.max_contradiction = 0.01;
+  return options;
+}
+
 void
 PlaceSearchOptions::validate() const
 {
   require(candidates > 0, "candidates", candidates, "> 0");
-  require(max_ambiguity >= 0 && max_ambiguity <= 1,
-          "max_ambiguity",
-          max_ambiguity,
-          "in [0, 1]");
+  for (const auto& [share, name] : {std::pair(max_ambiguity, "max_ambiguity"),
+                                    std::pair(min_overlap, "min_overlap"),
+                                    std::pair(max_contradiction, "max_contradiction")})
+    require(share >= 0 && share <= 1, name, share, "in [0, 1]");
 }
 
 PlaceResult
@@ -250,7 +197,28 @@ judgePlace(const PlaceableScan& first,
 {
   if (!isRigid(T_first_second))
     throw BadArgument("T_first_second is not a rigid motion");
-  return Search(first, second, {}).judged(T_first_second);
+  const PairPlaces places(first, second);
+  return places.judged(places.matched(T_first_second, second.matched()).T_first_second);
+}
+
+Eigen::Isometry3d
+refinePlace(const PlaceableScan& first,
+            const PlaceableScan& second,
+            const Eigen::Isometry3d& T_first_second,
+            unsigned int num_threads)
+{
+  if (!isRigid(T_first_second))
+    throw BadArgument("T_first_second is not a rigid motion");
+  const double voxel = std::max(first.scan().voxel(), second.scan().voxel());
+  const double cell = std::max(first.cell(), second.cell());
+  const IcpResult found = icp({first.scan().surfaces().part()},
+                              second.scan().surfaces().source(),
+                              T_first_second,
+                              fineOptions(voxel, num_threads));
+  const MotionSize way = distanceBetween(T_first_second, found.T_target_source);
+  const bool is_near =
+      way.translation < kOtherCells * cell && way.rotation < kOtherTurn;
+  return is_near ? found.T_target_source : T_first_second;
 }
 
 } // namespace pcl6d

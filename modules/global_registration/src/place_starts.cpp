@@ -7,6 +7,7 @@
 #include <pcl6d/common/portable_math.h>
 
 #include <algorithm>
+#include <array>
 
 namespace pcl6d::global_registration {
 
@@ -17,6 +18,25 @@ constexpr double kFloorCells = 2;
 /** All starts are judged by each fourth point: 150 of each scan, whose share is known to 4 %;
  * so many of the best by all. */
 constexpr std::size_t kGlance = 4, kJudgedStarts = 100;
+
+/** Moves those that are judged fully to the front: the best, and the best of each trusted
+ * placement. \return how many these are */
+std::size_t
+keepBest(std::vector<PlaceStart>& starts)
+{
+  std::array<bool, kTrustedPlacements> is_known{};
+  std::size_t count = 0;
+  const auto last =
+      std::stable_partition(starts.begin(), starts.end(), [&](const PlaceStart& one) {
+        bool is_first = false;
+        if (one.placement < kTrustedPlacements) {
+          is_first = !is_known[one.placement];
+          is_known[one.placement] = true;
+        }
+        return count++ < kJudgedStarts || is_first;
+      });
+  return static_cast<std::size_t>(last - starts.begin());
+}
 } // namespace
 
 void
@@ -51,6 +71,7 @@ placeStarts(const UprightScan& first,
   const double voxel =
       std::max(first.scan->scan().voxel(), second.scan->scan().voxel());
   std::vector<PlaceStart> starts;
+  std::size_t placement = 0;
   for (const auto& placed : placePlan(first.plan, second.plan, placements, search)) {
     const SinCos turn = portableSinCos(placed.yaw);
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -61,6 +82,7 @@ placeStarts(const UprightScan& first,
       heights = {0};
     for (const double height : heights) {
       PlaceStart start;
+      start.placement = placement;
       start.T_first_second.linear() =
           first.R_level_scan.transpose() * R * second.R_level_scan;
       start.T_first_second.translation() =
@@ -68,6 +90,7 @@ placeStarts(const UprightScan& first,
           Eigen::Vector3d(placed.shift.x(), placed.shift.y(), height);
       starts.push_back(start);
     }
+    ++placement;
   }
   const auto judge = [&](std::size_t count, std::size_t each) {
     parallelFor(count, num_threads, [&](std::size_t i) {
@@ -78,7 +101,7 @@ placeStarts(const UprightScan& first,
   };
   judge(starts.size(), kGlance);
   sortByScore(starts);
-  starts.resize(std::min(starts.size(), kJudgedStarts));
+  starts.resize(keepBest(starts));
   judge(starts.size(), every);
   sortByScore(starts);
   return starts;

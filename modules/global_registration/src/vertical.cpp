@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/filters/range_statistics.h>
+#include <pcl6d/filters/scan_parameters.h>
+#include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/global_registration/vertical.h>
+#include <pcl6d/registration/icp_model.h>
 
 #include <algorithm>
 #include <cmath>
@@ -185,6 +189,27 @@ estimateVertical(const Normals& normals, const Eigen::Vector3d& expected)
       estimate.others.push_back(other.up);
   estimate.is_sure = estimate.others.empty();
   return estimate;
+}
+
+VerticalEstimate
+estimateVerticalOfScan(const Points& measured,
+                       const Eigen::Vector3d& expected,
+                       unsigned int num_threads)
+{
+  const ScanParameters parameters = deriveScanParameters({}, {measured});
+  ReductionOptions reduction;
+  reduction.voxel = parameters.voxel.value;
+  IcpModel::Options options; // as scans are prepared to be placed
+  options.normals = true;
+  options.neighbours = 10;
+  options.normal_voxel = 3 * reduction.voxel;
+  options.num_threads = num_threads;
+  const Points seen =
+      gateByRange(measured, parameters.min_range.value, parameters.max_range.value);
+  if (seen.size() < 3)
+    return estimateVertical({}, expected);
+  return estimateVertical(IcpModel(reducePoints(seen, reduction), options).normals(),
+                          expected);
 }
 
 Eigen::Matrix3d

@@ -38,6 +38,16 @@ VerticalEstimate
 estimateVertical(const Normals& normals,
                  const Eigen::Vector3d& expected = Eigen::Vector3d::UnitZ());
 
+/** \brief The same from measured points: their range gate and reduction follow from them
+ * (deriveScanParameters()), and the normals are those of the reduced points.
+ * \param[in] measured [m] in the frame of their scanner, from whose origin they were seen
+ * \param[in] num_threads 0: one per core; never changes the result
+ * \throws BadArgument expected is no unit vector */
+VerticalEstimate
+estimateVerticalOfScan(const Points& measured,
+                       const Eigen::Vector3d& expected = Eigen::Vector3d::UnitZ(),
+                       unsigned int num_threads = 0);
+
 /** \return a rotation that turns `up` to z, by the shortest way
  * \throws BadArgument up is no unit vector */
 Eigen::Matrix3d

@@ -179,6 +179,7 @@ readLinkSet(const std::filesystem::path& folder, int every, std::size_t most)
     set.models.emplace_back(reducePoints(points, reduction), model);
     set.scans.emplace_back(points, set.models.back(), set.voxel);
   }
+  set.measured = std::move(measured);
   set.icp.metric = Metric::kGicp;
   set.icp.gicp_epsilon = 0.01;
   set.icp.facing_normals = true;

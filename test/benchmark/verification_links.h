@@ -18,7 +18,7 @@ struct LinkSet {
   std::string name;
   std::deque<IcpModel> models;
   std::deque<VerifiedScan> scans;
-  std::vector<Points> measured; ///< [m] within the range gate
+  std::vector<Points> measured;                ///< [m] within the range gate
   std::vector<Eigen::Isometry3d> T_world_scan; ///< of the reference
   IcpOptions icp;
   double voxel = 0; ///< [m]

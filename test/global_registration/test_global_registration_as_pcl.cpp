@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GlobalRegistration as a pcl::Registration, and its compiled core.
-#include "support/bits.h"
+// GlobalRegistration as a pcl::Registration.
 #include "support/points.h"
 #include "verification/verified_rooms.h"
 
 #include <pcl6d/global_registration/pcl/global_registration.h>
-#include <pcl6d/verification/prepared_scans.h>
 
 #include <pcl/point_types.h>
 
@@ -13,9 +11,6 @@
 
 using pcl6d::distanceBetween;
 using pcl6d::MotionSize;
-using pcl6d::PairPlacement;
-using pcl6d::PairPlacer;
-using pcl6d::PairPlacerOptions;
 using pcl6d::PlaceAnswer;
 using pcl6d::Points;
 using pcl6d::poseFromEuler;
@@ -23,7 +18,6 @@ using pcl6d::Random;
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::kNan;
 using pcl6d::test::PillarRoom;
-using pcl6d::test::sameBits;
 using pcl6d::test::ScannedPair;
 using pcl6d::test::toCloud;
 using Vector = Eigen::Vector3d;
@@ -322,51 +316,4 @@ TEST(GlobalRegistration, RefusesWhatBreaksARuleOrHasNoPlaceInIt)
   placing.setMaximumIterations(3);
   EXPECT_NE(badArgumentOf([&] { aligned(placing); }).find("iterations"),
             std::string::npos);
-}
-
-TEST(PairPlacer, GivesTheSameBitsForAnyNumberOfThreads)
-{
-  PairPlacerOptions options;
-  options.search.num_threads = 1;
-  PairPlacer alone;
-  alone.setOptions(options);
-  const PairPlacement one = alone.place(pair().first, pair().second);
-  for (const unsigned int threads : {2u, 8u}) {
-    options.search.num_threads = threads;
-    PairPlacer several;
-    several.setOptions(options);
-    const PairPlacement many = several.place(pair().first, pair().second);
-    EXPECT_TRUE(sameBits(many.T_target_source, one.T_target_source));
-  }
-}
-
-TEST(PairPlacer, SaysWhichScanHasTooFewPoints)
-{
-  PairPlacer placer;
-  const PairPlacement found = placer.place(pair().first, {{1, 2, 3}});
-  EXPECT_EQ(found.result.answer, PlaceAnswer::kNone);
-  EXPECT_NE(found.result.reason.find("the source"), std::string::npos)
-      << found.result.reason;
-  EXPECT_EQ(placer.place(pair().first, pair().second).result.answer,
-            PlaceAnswer::kUnique)
-      << "the next one is placed";
-}
-
-TEST(RefinePlace, StaysWhereMatchingFails)
-{
-  pcl6d::PreparedScans scans(2, pcl6d::deriveScanParameters({}, {pair().first}));
-  scans.set(0, pair().first, "first");
-  scans.set(1, pair().second, "second");
-  const pcl6d::PlaceableScan first(scans.scans()[0]), second(scans.scans()[1]);
-  const Eigen::Isometry3d far = poseFromEuler({300, 0, 0}, {0, 0, 1});
-  EXPECT_TRUE(sameBits(refinePlace(first, second, far), far));
-  const Eigen::Isometry3d near =
-      pair().T_first_second * poseFromEuler({0.03, -0.02, 0.01}, {0, 0, 0.01});
-  const MotionSize off =
-      distanceBetween(pair().T_first_second, refinePlace(first, second, near));
-  EXPECT_LT(off.translation, kFineTol);
-  EXPECT_LT(off.rotation, kFineTurn);
-  Eigen::Isometry3d stretched = near;
-  stretched.linear() *= 2;
-  EXPECT_NE(badArgumentOf([&] { refinePlace(first, second, stretched); }), "");
 }

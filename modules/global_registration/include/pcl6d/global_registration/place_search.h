@@ -53,7 +53,8 @@ struct PlaceResult {
 struct PlaceSearchOptions {
   std::size_t candidates = 5; ///< so many are kept; > 0
   double max_ambiguity = 0.6; ///< second score / score of a unique place; in [0, 1]
-  double min_overlap = 0.1;   ///< of a unique place: share of surfaces that meet; in [0, 1]
+  double min_overlap =
+      0.1; ///< of a unique place: share of surfaces that meet; in [0, 1]
   /** of a unique place: share of surfaces that the other scan looked through; in [0, 1]. Also
    * the opinion on the place must be good */
   double max_contradiction = 1;

@@ -140,6 +140,10 @@ addMatching(OptionTable& table, Settings& s)
       .help("share of the odometry's step by which a match may move a scan; beyond, it "
             "is not believed (inf: always). 1.5 x max-distance is always allowed; not "
             "applied to --initial-guess overlap and features");
+  table.add("no-recovery", &s.no_recovery)
+      .help(
+          "scans that cannot be matched keep their predicted pose, and are not looked "
+          "for elsewhere");
 }
 
 void

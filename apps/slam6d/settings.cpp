@@ -57,6 +57,7 @@ constexpr const char* kWords[] = {"plugin",
                                   "iterations",
                                   "min-overlap",
                                   "max-correction",
+                                  "no-recovery",
                                   "planes",
                                   "report",
                                   "threads",
@@ -191,6 +192,7 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
       },
       {{"max_iterations", "iterations"}, {"reduction_points", "reduction-points"}});
   settings.slam.verify = !settings.no_verification;
+  settings.slam.recover = !settings.no_recovery;
   if (settings.resume && settings.fresh)
     throw UsageError("--resume and --fresh contradict each other");
   loadPlugins(settings);

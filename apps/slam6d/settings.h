@@ -41,6 +41,7 @@ struct Settings {
   bool report = false;                   ///< write report.html
   bool no_picture = false;               ///< do not draw the map from above
   bool no_verification = false;          ///< do not judge the map in the end
+  bool no_recovery = false;              ///< do not look for lost scans
   bool resume = false;                   ///< say so if there is nothing to go on with
   bool fresh = false;                    ///< drop what an interrupted run has done
   bool force = false;

@@ -68,13 +68,13 @@ carriedAway()
   const PillarRoom corridor = pcl6d::test::corridorWithClosets(random);
   DriftingRun run;
   std::vector<double> way;
-  for (int i = 0; i < 6; ++i)
-    way.push_back(-5 + i);
-  for (int i = 0; i < 18; ++i)
-    way.push_back(18 - i);
+  for (int i = 0; i < 4; ++i)
+    way.push_back(-3 + i);
+  for (int i = 0; i < 10; ++i)
+    way.push_back(18 - 1.5 * i);
   for (const double x : way) {
     run.truth.push_back(pcl6d::test::poseInCorridor(x));
-    run.odometry.push_back(movedBy(run.truth.size() > 6 ? -18 : 0) * run.truth.back());
+    run.odometry.push_back(movedBy(run.truth.size() > 4 ? -18 : 0) * run.truth.back());
     run.scans.push_back(pcl6d::test::shortSighted(corridor, run.truth.back(), random));
   }
   return run;
@@ -145,7 +145,7 @@ TEST(Recovery, PiecesThatMeetTheMapLaterAreJoinedAsAWhole)
   const DriftingRun run = carriedAway();
   const Slam6DResult result = registered(run);
   expectTruth(result, run);
-  EXPECT_EQ(result.scans[6].recovered, RecoveredBy::kTogether)
+  EXPECT_EQ(result.scans[4].recovered, RecoveredBy::kTogether)
       << "from there nothing of the map is seen";
   EXPECT_TRUE(result.trusted());
 }
@@ -186,10 +186,8 @@ TEST(Recovery, GivesTheSameBitsForAnyNumberOfThreads)
   Slam6DOptions options;
   options.num_threads = 1;
   const Slam6DResult one = registered(run, options);
-  for (const unsigned int threads : {2u, 8u}) {
-    options.num_threads = threads;
-    expectSameBits(registered(run, options), one);
-  }
+  options.num_threads = 8;
+  expectSameBits(registered(run, options), one);
 }
 
 TEST(Recovery, CanBeCancelledAndGoesOn)

@@ -224,7 +224,11 @@ Joiner::settleBlock(const ScanGroup& to,
   for (std::size_t k = 0; k < asked; ++k) {
     const PlacedScan& one = block.members()[k * count / asked];
     const std::string objection =
-        placement_.objectionTo(one.scan, T_group_block * one.T_group_scan, to, links_);
+        placement_.objectionTo(one.scan,
+                               T_group_block * one.T_group_scan,
+                               to,
+                               links_,
+                               PlaceNeeds::kNoObjection);
     if (!objection.empty())
       return objection;
   }

@@ -45,38 +45,46 @@ objectionOf(const std::vector<LinkEvidence>& of_place,
   return "";
 }
 
-/** What all links of a place say of it together, as of a map in which the others hold. */
+/** What all links of a place say of it together, as of a map in which the others hold.
+ * \param[in] links of the map, by which such links are contradicted anyway */
 std::string
-doubtOfAll(const std::vector<LinkEvidence>& of_place, double background)
+doubtOfAll(const std::vector<LinkEvidence>& of_place,
+           const std::vector<LinkEvidence>& links)
 {
-  const std::size_t scan = of_place.size(); // the others are before it
+  const double background = contradictionBackground(links);
+  const std::size_t scan = of_place.size(), rest = scan + 1; // the others are before it
   std::vector<LinkCheck> checks;
-  for (std::size_t k = 0; k < of_place.size(); ++k) {
+  for (std::size_t k = 0; k < scan; ++k) {
     checks.push_back(
         linkCheck(k, scan, of_place[k], judgeLink(of_place[k], background)));
-    if (k == 0)
-      continue;
-    LinkCheck held; // the one before it
-    held.from = k - 1;
-    held.to = k;
+    LinkCheck held; // by the others, to each other
+    held.from = k;
+    held.to = rest;
     held.trust = LinkTrust::kGood;
     checks.push_back(held);
   }
-  const auto ties = verification::tiesOf(scan + 1, checks, background);
-  return ties.cut_from[scan];
+  LinkCheck& all = checks.back();
+  for (const auto& link : links) {
+    all.patches += link.sight.patches;
+    all.contradicted += link.sight.contradicted_patches;
+  }
+  return verification::tiesOf(rest + 1, checks, background).cut_from[scan];
 }
 
-/** \return the same, or that none says so, or what all say together */
+/** \return what links of a place say against it, one by one or together, or that none holds it,
+ * as it needs */
 std::string
-objectionUnlessHeld(const std::vector<LinkEvidence>& of_place,
-                    const std::vector<LinkEvidence>& links)
+objectionBy(const std::vector<LinkEvidence>& of_place,
+            const std::vector<LinkEvidence>& links,
+            PlaceNeeds needs)
 {
   bool is_held = false;
   const std::string objection = objectionOf(of_place, links, is_held);
-  if (!objection.empty())
+  if (!objection.empty() || needs == PlaceNeeds::kNoObjection)
     return objection;
-  return is_held ? doubtOfAll(of_place, contradictionBackground(links))
-                 : "no scan holds it where it fits best";
+  if (!is_held)
+    return "no scan holds it where it fits best";
+  return needs == PlaceNeeds::kToBeTied ? doubtOfAll(of_place, links) : "";
 }
 } // namespace
 
@@ -126,7 +134,8 @@ Settled
 JointPlacement::settle(std::size_t scan,
                        const std::vector<Place>& places,
                        const ScanGroup& group,
-                       const std::vector<LinkEvidence>& links) const
+                       const std::vector<LinkEvidence>& links,
+                       PlaceNeeds needs) const
 {
   std::vector<Place> best(
       places.begin(),
@@ -151,7 +160,7 @@ JointPlacement::settle(std::size_t scan,
       settled.ambiguity = best[k].support.score / best[0].support.score;
       break;
     }
-  decide(scan, group, links, settled);
+  decide(scan, group, links, needs, settled);
   return settled;
 }
 
@@ -159,6 +168,7 @@ void
 JointPlacement::decide(std::size_t scan,
                        const ScanGroup& group,
                        const std::vector<LinkEvidence>& links,
+                       PlaceNeeds needs,
                        Settled& settled) const
 {
   const JointSupport& support = settled.best.support;
@@ -168,7 +178,7 @@ JointPlacement::decide(std::size_t scan,
     settled.reason = "another place is nearly as good";
   else {
     settled.links = evidenceOf(scan, settled.best.T_group_scan, support.met, group);
-    settled.reason = objectionUnlessHeld(settled.links, links);
+    settled.reason = objectionBy(settled.links, links, needs);
   }
   settled.accepted = settled.reason.empty();
 }
@@ -189,35 +199,17 @@ JointPlacement::evidenceOf(std::size_t scan,
   return links;
 }
 
-/** Of those that a scan meets most at a place, where it lies exactly. */
-std::vector<LinkEvidence>
-JointPlacement::evidenceAt(std::size_t scan,
-                           const Eigen::Isometry3d& T_group_scan,
-                           const ScanGroup& group) const
-{
-  const double voxel = scans_[scan]->scan().voxel();
-  const JointSupport support = group.support(
-      scan, T_group_scan, kMetVoxels * voxel, kPlaceVoxels * voxel, kContradictedMatch);
-  return evidenceOf(scan, T_group_scan, support.met, group);
-}
-
 std::string
 JointPlacement::objectionTo(std::size_t scan,
                             const Eigen::Isometry3d& T_group_scan,
                             const ScanGroup& group,
-                            const std::vector<LinkEvidence>& links) const
+                            const std::vector<LinkEvidence>& links,
+                            PlaceNeeds needs) const
 {
-  bool is_held = false;
-  return objectionOf(evidenceAt(scan, T_group_scan, group), links, is_held);
-}
-
-std::string
-JointPlacement::whyNotHeld(std::size_t scan,
-                           const Eigen::Isometry3d& T_group_scan,
-                           const ScanGroup& group,
-                           const std::vector<LinkEvidence>& links) const
-{
-  return objectionUnlessHeld(evidenceAt(scan, T_group_scan, group), links);
+  const double voxel = scans_[scan]->scan().voxel();
+  const JointSupport support = group.support(
+      scan, T_group_scan, kMetVoxels * voxel, kPlaceVoxels * voxel, kContradictedMatch);
+  return objectionBy(evidenceOf(scan, T_group_scan, support.met, group), links, needs);
 }
 
 } // namespace pcl6d::global_registration

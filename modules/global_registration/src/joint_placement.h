@@ -4,6 +4,7 @@
 #include "place_hypotheses.h"
 #include "scan_group.h"
 
+#include <pcl6d/global_registration/place_by_guesses.h>
 #include <pcl6d/verification/link_evidence.h>
 
 #include <Eigen/Geometry>
@@ -54,34 +55,25 @@ public:
   settle(std::size_t scan,
          const std::vector<Place>& places,
          const ScanGroup& group,
-         const std::vector<LinkEvidence>& links) const;
+         const std::vector<LinkEvidence>& links,
+         PlaceNeeds needs = PlaceNeeds::kToBeTied) const;
 
-  /** \return why members do not hold a scan at a place: what they have against it, one by one,
-   * or that none holds it; else nothing */
-  std::string
-  whyNotHeld(std::size_t scan,
-             const Eigen::Isometry3d& T_group_scan,
-             const ScanGroup& group,
-             const std::vector<LinkEvidence>& links) const;
-
-  /** \return what members have against the place of a scan, one by one, in words; nothing
-   * also where none meets it */
+  /** \return what members have against the place of a scan, in words; nothing if it has what
+   * it needs */
   std::string
   objectionTo(std::size_t scan,
               const Eigen::Isometry3d& T_group_scan,
               const ScanGroup& group,
-              const std::vector<LinkEvidence>& links) const;
+              const std::vector<LinkEvidence>& links,
+              PlaceNeeds needs) const;
 
 private:
   void
   decide(std::size_t scan,
          const ScanGroup& group,
          const std::vector<LinkEvidence>& links,
+         PlaceNeeds needs,
          Settled& settled) const;
-  std::vector<LinkEvidence>
-  evidenceAt(std::size_t scan,
-             const Eigen::Isometry3d& T_group_scan,
-             const ScanGroup& group) const;
   std::vector<LinkEvidence>
   evidenceOf(std::size_t scan,
              const Eigen::Isometry3d& T_group_scan,

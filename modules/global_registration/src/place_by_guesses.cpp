@@ -131,7 +131,8 @@ placeByGuesses(const PlaceableScan& scan,
   const PlaceHypotheses none(all.list, options.max_ambiguity, options.num_threads, {});
   const JointPlacement placement(
       all.list, none, options.max_ambiguity, options.num_threads);
-  const Settled settled = placement.settle(all.list.size() - 1, places, all.group, {});
+  const Settled settled = placement.settle(
+      all.list.size() - 1, places, all.group, options.usual, options.needs);
   found.accepted = settled.accepted;
   found.T_world_scan = settled.best.T_group_scan;
   found.overlap = settled.best.support.overlap;
@@ -172,13 +173,16 @@ std::string
 objectionToPlace(const PlaceableScan& scan,
                  const std::vector<KnownScan>& others,
                  const Eigen::Isometry3d& T_world_scan,
+                 PlaceNeeds needs,
+                 const std::vector<LinkEvidence>& usual,
                  unsigned int num_threads)
 {
   requireRigid(T_world_scan, "T_world_scan");
   const Surroundings all(scan, others);
   const PlaceHypotheses none(all.list, 1, num_threads, {});
-  return JointPlacement(all.list, none, 1, num_threads)
-      .whyNotHeld(all.list.size() - 1, T_world_scan, all.group, {});
+  const JointPlacement placement(all.list, none, 1, num_threads);
+  return placement.objectionTo(
+      all.list.size() - 1, T_world_scan, all.group, usual, needs);
 }
 
 } // namespace pcl6d

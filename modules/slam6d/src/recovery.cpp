@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recovery.h"
 
+#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/global_registration/scan_joiner.h>
 
@@ -20,6 +21,13 @@ constexpr std::size_t kLatest = 8, kNearest = 8;
  * alone. */
 constexpr std::size_t kLookedAt = 2;
 constexpr double kSuspicious = 0.01;
+
+/** So many links of the map tell what right ones are contradicted by: their background is known
+ * to a third of it. */
+constexpr std::size_t kUsualLinks = 6;
+
+/** So many scans of a piece are asked, evenly among all. */
+constexpr std::size_t kAskedOfPiece = 12;
 
 /** Of so many a scan is looked for everywhere, at about 10 ms for each. */
 constexpr std::size_t kLatestEverywhere = 24, kNearestEverywhere = 40;
@@ -180,6 +188,27 @@ Recovery::knownAround(std::size_t scan,
   return known;
 }
 
+/** \return what the last scans before one that were matched where they were expected say of those
+ * before them */
+std::vector<LinkEvidence>
+Recovery::usualBefore(std::size_t scan, const std::vector<ScanResult>& scans) const
+{
+  std::vector<std::size_t> seconds;
+  for (std::size_t i = scan; i-- > 1 && seconds.size() < kUsualLinks;)
+    if (isBelieved(scans[i]) && isBelieved(scans[i - 1]) &&
+        scans[i].recovered == RecoveredBy::kNone)
+      seconds.push_back(i);
+  std::vector<LinkEvidence> links(seconds.size());
+  parallelFor(links.size(), options_.num_threads, [&](std::size_t k) {
+    const std::size_t i = seconds[k];
+    links[k] =
+        linkEvidence(verified_[i - 1],
+                     verified_[i],
+                     scans[i - 1].T_world_scan.inverse() * scans[i].T_world_scan);
+  });
+  return links;
+}
+
 std::string
 Recovery::objection(std::size_t scan,
                     const Eigen::Isometry3d& T_world_scan,
@@ -188,6 +217,8 @@ Recovery::objection(std::size_t scan,
   return objectionToPlace(placeable(scan),
                           knownAround(scan, T_world_scan.translation(), scans),
                           T_world_scan,
+                          PlaceNeeds::kToBeHeld,
+                          usualBefore(scan, scans),
                           options_.num_threads);
 }
 
@@ -232,6 +263,8 @@ Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
   const auto known = knownAround(scan, scans[scan].T_world_scan.translation(), scans);
   GuessOptions options;
   options.num_threads = options_.num_threads;
+  options.usual = usualBefore(scan, scans);
+  options.needs = PlaceNeeds::kToBeHeld;
   options.reach = std::min(kDeviations * way->deviation, kReachVoxels * voxel);
   const auto motions = motionsOf(*way);
   GuessedPlace place = placeByGuesses(placeable(scan), known, motions, options);
@@ -240,6 +273,7 @@ Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
                  place.guess == 0 ? RecoveredBy::kSearch : RecoveredBy::kMotion};
   if (!isSearchDue(scan, scans))
     return std::nullopt;
+  options.needs = PlaceNeeds::kToBeTied;
   const double by = std::max(kDeviations * way->deviation, options.reach);
   const Eigen::Vector3d up = placeable(scan).vertical().up;
   std::vector<Eigen::Isometry3d> guesses = spread(motions.front(), up, by);
@@ -249,6 +283,49 @@ Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
   if (place.accepted)
     return Found{place.T_world_scan, RecoveredBy::kSearch};
   return findEverywhere(scan, scans);
+}
+
+std::optional<Eigen::Isometry3d>
+Recovery::findBefore(const std::vector<std::size_t>& piece,
+                     const std::vector<ScanResult>& own,
+                     const std::vector<ScanResult>& scans)
+{
+  const std::size_t last = piece.back();
+  if (last + 1 >= scans.size() || !isBelieved(scans[last + 1]))
+    return std::nullopt;
+  const ScanResult& next = scans[last + 1];
+  const Eigen::Isometry3d predicted =
+      next.T_world_scan * next.initial_pose.inverse() * scans[last].initial_pose;
+  const double voxel = verified_[last].voxel();
+  GuessOptions options;
+  options.num_threads = options_.num_threads;
+  options.usual = usualBefore(last, scans);
+  options.needs = PlaceNeeds::kToBeHeld;
+  options.reach =
+      std::min(kDeviations * deviationOfStep(scans, last, voxel), kReachVoxels * voxel);
+  const GuessedPlace found =
+      placeByGuesses(placeable(last),
+                     knownAround(last, predicted.translation(), scans),
+                     {predicted},
+                     options);
+  if (!found.accepted)
+    return std::nullopt;
+  const Eigen::Isometry3d T_world_piece =
+      found.T_world_scan * own[last].T_world_scan.inverse();
+  const std::size_t asked = std::min(piece.size(), kAskedOfPiece);
+  for (std::size_t k = 0; k < asked; ++k) {
+    const std::size_t i = piece[k * piece.size() / asked];
+    const Eigen::Isometry3d T = T_world_piece * own[i].T_world_scan;
+    if (!objectionToPlace(placeable(i),
+                          knownAround(i, T.translation(), scans),
+                          T,
+                          PlaceNeeds::kNoObjection,
+                          options.usual,
+                          options_.num_threads)
+             .empty())
+      return std::nullopt;
+  }
+  return T_world_piece;
 }
 
 std::optional<Recovery::Found>

@@ -56,6 +56,16 @@ public:
   std::optional<Found>
   find(std::size_t scan, const std::vector<ScanResult>& scans);
 
+  /** \brief Looks for the place of a piece: lost scans that were matched among themselves.
+   * From the scan that follows it, if that is believed, the odometry leads back to the piece.
+   * \param[in] piece its scans, in their order \param[in] own their poses in the piece's frame
+   * \param[in] scans of the run
+   * \return T_world_piece, where nothing speaks against any of the piece's scans */
+  std::optional<Eigen::Isometry3d>
+  findBefore(const std::vector<std::size_t>& piece,
+             const std::vector<ScanResult>& own,
+             const std::vector<ScanResult>& scans);
+
   /** \return the scan made ready to be placed */
   const PlaceableScan&
   placeable(std::size_t scan);
@@ -71,6 +81,8 @@ private:
   knownAround(std::size_t scan,
               const Eigen::Vector3d& position,
               const std::vector<ScanResult>& scans);
+  std::vector<LinkEvidence>
+  usualBefore(std::size_t scan, const std::vector<ScanResult>& scans) const;
   std::vector<Eigen::Isometry3d>
   spread(const Eigen::Isometry3d& about, const Eigen::Vector3d& up, double by) const;
   std::optional<Found>

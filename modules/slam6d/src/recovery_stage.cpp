@@ -30,13 +30,16 @@ RecoveryStage::run(const ProgressCallback& report, Slam6DResult& result)
 {
   if (countScans(result.scans, ScanState::kPredicted) == 0)
     return;
-  const std::vector<Piece> pieces = piecesOf(result);
+  std::vector<Piece> pieces = piecesOf(report, result);
+  placeBackwards(pieces, result);
+  if (pieces.empty())
+    return;
   take(join(pieces, report, result), pieces, result);
 }
 
 /** \return scans that follow each other and match each other: one alone, or several */
 std::vector<RecoveryStage::Piece>
-RecoveryStage::piecesOf(const Slam6DResult& result)
+RecoveryStage::piecesOf(const ProgressCallback& report, const Slam6DResult& result)
 {
   own_ = result.scans;
   for (ScanResult& scan : own_)
@@ -44,6 +47,8 @@ RecoveryStage::piecesOf(const Slam6DResult& result)
   std::vector<Piece> pieces;
   std::optional<ScanMatcher> matcher;
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    if (report)
+      report({"matching what is lost", i, result.scans.size()});
     if (result.scans[i].state != ScanState::kPredicted) {
       matcher.reset();
       continue;
@@ -87,6 +92,25 @@ RecoveryStage::follow(std::size_t i, ScanMatcher& matcher, std::vector<ScanResul
   scan.T_world_scan = found->T_world_scan;
   matcher.matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
   return isBelieved(scan);
+}
+
+/** Pieces that the odometry ties to scans after them, from where it leads back; they are no
+ * pieces then. The last ones first, as others may be tied to them. */
+void
+RecoveryStage::placeBackwards(std::vector<Piece>& pieces, Slam6DResult& result)
+{
+  for (std::size_t p = pieces.size(); p-- > 0;) {
+    const Piece piece = pieces[p];
+    const auto T_world_piece = recovery_.findBefore(piece, own_, result.scans);
+    if (!T_world_piece)
+      continue;
+    for (std::size_t k = piece.size(); k-- > 0;)
+      takePlace(piece[k],
+                *T_world_piece * own_[piece[k]].T_world_scan,
+                piece.size() > 1 ? RecoveredBy::kTogether : RecoveredBy::kSearch,
+                result);
+    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(p));
+  }
 }
 
 std::vector<std::pair<std::size_t, std::size_t>>
@@ -152,7 +176,10 @@ RecoveryStage::take(const JoinedScans& joined,
       is_in_piece[i] = piece.size() > 1;
   for (const std::size_t i : joined.groups.front()) // in the order in which they joined
     if (!isBelieved(result.scans[i]))
-      takePlace(i, joined.scans[i], !is_in_piece[i], result);
+      takePlace(i,
+                joined.scans[i].T_group_scan,
+                is_in_piece[i] ? RecoveredBy::kTogether : RecoveredBy::kEverywhere,
+                result);
   for (const Piece& piece : pieces) {
     const JoinedScan& first = joined.scans[piece.front()];
     if (first.group != 0)
@@ -163,14 +190,14 @@ RecoveryStage::take(const JoinedScans& joined,
 /** Matches a scan from its place in the map. */
 void
 RecoveryStage::takePlace(std::size_t i,
-                         const JoinedScan& place,
-                         bool alone,
+                         const Eigen::Isometry3d& T_world_scan,
+                         RecoveredBy by,
                          Slam6DResult& result)
 {
   ScanResult& scan = result.scans[i];
   const Eigen::Isometry3d predicted = scan.T_world_scan;
   const std::string lost = scan.reason;
-  scan.T_world_scan = place.T_group_scan;
+  scan.T_world_scan = T_world_scan;
   if (i > 0)
     matcher_.passOver(scans_.measured()[i - 1], result.scans[i - 1].T_world_scan);
   matcher_.matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
@@ -181,7 +208,7 @@ RecoveryStage::takePlace(std::size_t i,
   }
   scan.matched_pose = scan.T_world_scan;
   scan.correction = (scan.T_world_scan.translation() - predicted.translation()).norm();
-  scan.recovered = alone ? RecoveredBy::kEverywhere : RecoveredBy::kTogether;
+  scan.recovered = by;
 }
 
 /** A piece that has no place in the map follows the odometry, as a whole. */

@@ -37,7 +37,7 @@ private:
   using Piece = std::vector<std::size_t>;
 
   std::vector<Piece>
-  piecesOf(const Slam6DResult& result);
+  piecesOf(const ProgressCallback& report, const Slam6DResult& result);
   bool
   follow(std::size_t scan, ScanMatcher& matcher, std::vector<ScanResult>& own);
   JoinedScans
@@ -50,9 +50,11 @@ private:
        Slam6DResult& result);
   void
   takePlace(std::size_t scan,
-            const JoinedScan& place,
-            bool alone,
+            const Eigen::Isometry3d& T_world_scan,
+            RecoveredBy by,
             Slam6DResult& result);
+  void
+  placeBackwards(std::vector<Piece>& pieces, Slam6DResult& result);
   void
   layBeside(const Piece& piece, const std::string& why, Slam6DResult& result) const;
   std::vector<std::pair<std::size_t, std::size_t>>

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/global_registration/placeable_scan.h>
+#include <pcl6d/verification/link_evidence.h>
 
 #include <Eigen/Geometry>
 
@@ -30,12 +31,25 @@ struct GuessedPlace {
   std::string reason;   ///< why it is not accepted, in words; else empty
 };
 
+/** \brief What a place needs not to be objected to. */
+enum class PlaceNeeds {
+  kToBeTied, ///< others that say that it is right, none, and not all together, against it:
+             ///< of a place found anywhere
+  kToBeHeld, ///< others that say that it is right, and none that contradicts it: of a place
+             ///< to which odometry leads
+  kNoObjection ///< none that contradicts it, also where nobody sees it
+};
+
 /** \brief Knobs of placeByGuesses(). */
 struct GuessOptions {
+  PlaceNeeds needs = PlaceNeeds::kToBeTied; ///< of the place that is accepted
   double reach =
       0; ///< [m] by which guesses may be off, besides two cells of plans; >= 0
   double max_ambiguity =
       0.6; ///< second score / score of a place that counts; in [0, 1]
+  /** links between scans that lie where they belong, which tell how much right places are
+   * contradicted by things that move, glass and edges; empty: as on average */
+  std::vector<LinkEvidence> usual;
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
@@ -68,6 +82,7 @@ contradictionOfPlace(const PlaceableScan& scan,
 
 /** \brief Asks others whether a scan is where it is said to be, by their points and rays.
  * \param[in] others with the same voxel
+ * \param[in] usual as GuessOptions::usual
  * \return why not, in words: one contradicts it, or none holds it; empty if nothing is against
  * it
  * \throws BadArgument T_world_scan is not a rigid motion */
@@ -75,6 +90,8 @@ std::string
 objectionToPlace(const PlaceableScan& scan,
                  const std::vector<KnownScan>& others,
                  const Eigen::Isometry3d& T_world_scan,
+                 PlaceNeeds needs = PlaceNeeds::kToBeTied,
+                 const std::vector<LinkEvidence>& usual = {},
                  unsigned int num_threads = 0);
 
 } // namespace pcl6d

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recovery_stage.h"
+#include "sequence_matcher.h"
+
+#include <pcl6d/common/pose.h>
+
+namespace pcl6d::slam6d {
+
+bool
+isRecovering(const Slam6DOptions& options)
+{
+  return options.recover && (options.initial_guess == InitialGuess::kOdometry ||
+                             options.initial_guess == InitialGuess::kOverlap);
+}
+
+Eigen::Isometry3d
+predictedPose(const std::vector<ScanResult>& scans, std::size_t scan)
+{
+  if (scan == 0)
+    return scans[scan].initial_pose;
+  const ScanResult& before = scans[scan - 1];
+  return extrapolateOdometry(
+      before.T_world_scan, before.initial_pose, scans[scan].initial_pose);
+}
+
+SequenceMatcher::SequenceMatcher(const Slam6DOptions& options,
+                                 const Slam6DParameters& parameters,
+                                 const KeptScans& scans,
+                                 Recovery& recovery)
+: options_(options), scans_(scans), recovery_(recovery), matcher_(options, parameters)
+{}
+
+void
+SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
+{
+  ScanResult& scan = scans[i];
+  scan.T_world_scan = predictedPose(scans, i);
+  if (i == 0)
+    return matcher_.fix(scans_.reduced()[i], scans_.measured()[i], scan);
+  const Eigen::Isometry3d odometry =
+      scans[i - 1].initial_pose.inverse() * scan.initial_pose;
+  const auto judge = [&](const ScanResult& found) {
+    return isDoubtful(found, i, scans)
+               ? recovery_.objection(i, found.T_world_scan, scans)
+               : "";
+  };
+  matcher_.match(scans_.reduced()[i], scans_.measured()[i], odometry, scan, judge);
+  if (isRecovering(options_) && !isBelieved(scan))
+    lookFor(i, scans);
+}
+
+void
+SequenceMatcher::takeIn(std::size_t i, const std::vector<ScanResult>& scans)
+{
+  matcher_.takeIn(scans_.reduced()[i], scans_.measured()[i], scans[i]);
+}
+
+void
+SequenceMatcher::recover(const ProgressCallback& report, Slam6DResult& result)
+{
+  RecoveryStage(options_, scans_, recovery_, matcher_).run(report, result);
+}
+
+/** \return whether points and rays have to confirm a match: where the scan before was lost,
+ * the odometry was far off, or a look at it raises doubts */
+bool
+SequenceMatcher::isDoubtful(const ScanResult& found,
+                            std::size_t i,
+                            const std::vector<ScanResult>& scans)
+{
+  return isRecovering(options_) &&
+         (!isBelieved(scans[i - 1]) ||
+          !matcher_.isSmallCorrection(found, predictedPose(scans, i)) ||
+          recovery_.seemsContradicted(i, found.T_world_scan, scans));
+}
+
+/** A scan that could not be matched where it was predicted. */
+void
+SequenceMatcher::lookFor(std::size_t i, std::vector<ScanResult>& scans)
+{
+  const auto found = recovery_.find(i, scans);
+  if (!found)
+    return;
+  ScanResult scan = scans[i];
+  const Eigen::Vector3d predicted = scan.T_world_scan.translation();
+  scan.T_world_scan = found->T_world_scan;
+  matcher_.matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
+  if (!isBelieved(scan))
+    return matcher_.passOver(scans_.measured()[i], scans[i].T_world_scan);
+  scan.correction = (scan.T_world_scan.translation() - predicted).norm();
+  scan.recovered = found->by;
+  scans[i] = scan;
+}
+
+} // namespace pcl6d::slam6d

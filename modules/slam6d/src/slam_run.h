@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "graph_stage.h"
+#include "kept_scans.h"
+#include "online_loops.h"
+#include "recovery.h"
+#include "run_verification.h"
+#include "sequence_matcher.h"
+
+#include <pcl6d/common/progress.h>
+#include <pcl6d/common/work_sharing.h>
+#include <pcl6d/slam6d/slam6d.h>
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d::slam6d {
+
+/** \brief What Slam6D does: the stages of a run one after the other, what they hand on, and what
+ * is kept between calls. */
+class SlamRun {
+public:
+  explicit SlamRun(const Slam6DOptions& options);
+
+  /** \param[in] scan with the initial pose, and all else if it is registered */
+  void
+  addScan(const Points& points, ScanResult scan, const std::string& given_name);
+
+  void
+  addRegistered(const Points& points,
+                ScanResult earlier,
+                const std::string& name,
+                std::size_t group);
+
+  bool
+  optimize();
+
+  void
+  setSharing(WorkSharing* with);
+
+  ProgressCallback progress;
+  Slam6D::Observer observer;
+  WorkSharing* sharing = nullptr;
+  TaskMemory* memory = nullptr;
+  std::atomic<bool> cancelled_{false};
+  Slam6DResult result_;
+
+private:
+  /** Scan after scan. \return false if cancelled */
+  bool
+  optimizeInOrder();
+
+  /** Scans that were lost are looked for once more, by all others. \return false if cancelled */
+  bool
+  recoverLost();
+
+  /** A map that its scans contradict is taken apart where they do, and put together anew: kept
+   * if more scans are tied then. \return false if cancelled */
+  bool
+  lookAgain();
+
+  bool
+  isWithoutSequence() const
+  {
+    return options_.initial_guess == InitialGuess::kGlobal;
+  }
+
+  /** Scans in any order. \return false if cancelled: no scan is registered then */
+  bool
+  optimizeWithoutPoses();
+
+  /** \return false if cancelled */
+  bool
+  registerAll();
+
+  /** Takes over what the first process has registered. */
+  void
+  takeRegistered();
+
+  void
+  takeResult();
+
+  /** \return the name of a scan that is about to be added */
+  std::string
+  nameOf(const std::string& given) const
+  {
+    return given.empty() ? "scan " + std::to_string(result_.scans.size()) : given;
+  }
+
+  void
+  takeInRegistered();
+
+  /** Carries the odometry's motion over from the scan before. */
+  void
+  predict(std::size_t i)
+  {
+    result_.scans[i].T_world_scan = predictedPose(result_.scans, i);
+  }
+
+  /** Those that wait; parameters follow from the first ones. */
+  void
+  prepareScans();
+
+  /** Goes on to the next one also if the result cannot be kept. */
+  void
+  registerScan(std::size_t i);
+
+  /** Chapter 5, when all scans are matched. \return false if cancelled */
+  bool
+  improve();
+
+  GraphStage
+  makeGraphStage(WorkSharing* with, const Slam6DParameters& parameters) const;
+
+  /** A loop that a scan closes is closed before the next one is matched. */
+  void
+  closeLoopsOnline(std::size_t scan);
+
+  /** Matching goes on behind the first scans, where they are. */
+  void
+  startAnew(std::size_t count);
+
+  /** \return false if cancelled */
+  bool
+  runGraphStage();
+
+  Slam6DOptions options_;
+  std::vector<std::uint64_t> inputs_; ///< of each scan: what it and those before are
+  KeptScans scans_;
+  std::vector<std::size_t> groups_; ///< of each registered scan: the number of its run
+  RunVerification verification_;
+  Recovery recovery_;
+  std::optional<SequenceMatcher> matcher_;
+  OnlineLoops online_loops_;
+  std::size_t num_registered_ =
+      0;                     ///< so many first scans an earlier run has registered
+  std::size_t next_ = 0;     ///< first scan that is not registered
+  std::size_t improved_ = 0; ///< so many scans went through the graph stage
+};
+
+} // namespace pcl6d::slam6d

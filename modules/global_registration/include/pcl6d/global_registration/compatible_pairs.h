@@ -33,14 +33,14 @@ struct CompatibilityOptions {
  * of n has a core number of n - 1 at least, so that all with smaller ones are left out as
  * soon as such a clique is found. The largest clique is not promised (that is NP-hard). With
  * 95 of 100 pairs wrong it is all right pairs as a rule, while these are more than what agrees
- * by chance, which is about 10 of 3000. Distances do not see a mirror image: a motion is to be
+ * by chance, which is a handful of 3000. Distances do not see a mirror image: a motion is to be
  * estimated from the pairs and looked at.
  * \param[in] source, target one point each per pair [m]; pairs with points that are not
  * finite are left out
  * \return places of pairs, ascending: any two of them agree; so small a number as chance
  * gives says that no motion was found
  * \throws BadArgument an option breaks its rule, or the numbers of points differ
- * \note Time and memory grow with the square of max_pairs: 3000 take 0.1 s and 1 MB.
+ * \note Time and memory grow with the square of max_pairs: 3000 take 0.05 s and 1 MB.
  * \note Sources: J. Shi, H. Yang, L. Carlone, "ROBIN: a graph-theoretic approach to reject
  * outliers in robust estimation", ICRA 2021 (invariants, cores, cliques); H. Lim et al.,
  * "KISS-Matcher", ICRA 2025; V. Batagelj, M. Zaversnik, "An O(m) algorithm for cores

@@ -196,7 +196,9 @@ TEST(Recovery, GivesTheSameBitsForAnyNumberOfThreads)
 
 TEST(Recovery, CanBeCancelledAndGoesOn)
 {
-  const DriftingRun run = carriedAway();
+  DriftingRun run = makeCorridorRun(8, 8, 0);
+  Random random(4);
+  run.scans[4] = otherRoom().scan(Eigen::Isometry3d::Identity(), random, 0.03);
   Slam6D slam;
   for (std::size_t i = 0; i < run.scans.size(); ++i)
     slam.addScan(run.scans[i], run.odometry[i]);

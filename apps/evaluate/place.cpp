@@ -5,55 +5,37 @@
 #include "common/reduction_options.h"
 #include "evaluate/pair_pose.h"
 #include "evaluate/pair_scan.h"
+#include "evaluate/place_report.h"
 #include "evaluate/result_file.h"
-#include "evaluate/result_json.h"
 #include "evaluate/verbs.h"
 
-#include <pcl6d/common/angle.h>
-#include <pcl6d/common/rotation.h>
-#include <pcl6d/filters/scan_parameters.h>
-#include <pcl6d/global_registration/place_search.h>
-#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/verification/prepared_scans.h>
 
-#include <cstdio>
+#include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace pcl6d::app {
 
 namespace {
-/** The command line of `pcl_slam6d_evaluate place`. */
-struct PlaceSettings {
-  std::string scan_a, scan_b, output;
-  ScanFormat format = ScanFormat::kAuto;
-  ScanParameterOptions parameters;
-  PlaceSearchOptions search;
-  bool quiet = false;
-};
-
-/** What was found, of the points as the files have them. */
-struct FoundPlaces {
-  PlaceResult result;
-  std::vector<Eigen::Isometry3d> T_a_b; ///< of each candidate
-  double voxel = 0;                     ///< [m]
-};
-
 bool
 parse(const std::vector<std::string>& arguments, PlaceSettings& s)
 {
   OptionTable table(std::string("usage: ") + kEvaluate +
-                    R"( place SCAN_A SCAN_B [options]
-Where scan B was taken, seen from scan A, without any guess: all turns and shifts are
-tried, the best places are judged by points and rays. Unique is of these two scans alone:
-rooms that are equal to the last chair deceive it.
+                    " place SCAN_A SCAN_B [options]\n       " + kEvaluate +
+                    R"( place SCAN RUN [options]
+Where scan B was taken, seen from scan A, or a scan in the map of a run of pcl_slam6d,
+without any guess: all turns and shifts are tried, the best places are judged by points
+and rays. Unique is of these scans alone: rooms that are equal to the last chair deceive
+two scans, and a run that saw but one of them.
 Exit code 0: one place, and no other nearly as good; 3: several, or none.
 )");
   table.positional("SCAN_A", &s.scan_a);
   table.positional("SCAN_B", &s.scan_b);
   table.group("Input");
   table.add("format", &s.format, scanFormatFromName).help("auto|pcd|ply|uos|kitti|xyz");
-  table.group("Range gate and reduction; auto: as pcl_slam6d does");
+  table.group("Range gate and reduction; auto: as pcl_slam6d does, or the run did");
   addReductionOptions(table, s.parameters);
   table.group("Search");
   table.addAs<int>("candidates", &s.search.candidates)
@@ -63,6 +45,8 @@ Exit code 0: one place, and no other nearly as good; 3: several, or none.
       .help("largest second score / score of a unique place; in [0, 1]");
   table.group("Run");
   table.add("output,o FILE", &s.output).help("write the candidates (.json)");
+  table.add("picture FILE", &s.picture)
+      .help("draw the best candidates side by side, from above (.png)");
   table.addAs<int>("threads", &s.search.num_threads)
       .within(0, 1024, "in [0, 1024]")
       .help("0: one per core; never changes the result");
@@ -70,7 +54,9 @@ Exit code 0: one place, and no other nearly as good; 3: several, or none.
   if (!table.parse(arguments))
     return false;
   requireExtension("--output", s.output, {".json"});
+  requireExtension("--picture", s.picture, {".png"});
   refuseInputs(s.output, {s.scan_a, s.scan_b});
+  refuseInputs(s.picture, {s.scan_a, s.scan_b}, "an input", "--picture");
   table.check([&] {
     s.parameters.validate();
     s.search.validate();
@@ -78,8 +64,43 @@ Exit code 0: one place, and no other nearly as good; 3: several, or none.
   return true;
 }
 
-FoundPlaces
-find(const PlaceSettings& s, ProgressBar& bar)
+/** What the picture shows: both scans, A turned upright. */
+void
+takeDrawn(const PlaceableScan& a, const PlaceableScan& b, PlaceReport& report)
+{
+  Eigen::Isometry3d T_drawn_a = Eigen::Isometry3d::Identity();
+  T_drawn_a.linear() = uprightRotation(a.vertical().up);
+  report.drawn_map = transformed(uprightPoints(a.scan(), a.vertical().up), T_drawn_a);
+  report.drawn_scan = uprightPoints(b.scan(), b.vertical().up);
+  for (FoundPlace& place : report.places)
+    place.T_drawn_scan = T_drawn_a * place.candidate.T_first_second;
+}
+} // namespace
+
+bool
+PlaceSettings::isInRun() const
+{
+  std::error_code error;
+  return std::filesystem::is_directory(scan_b, error);
+}
+
+Points
+uprightPoints(const VerifiedScan& scan, const Eigen::Vector3d& up)
+{
+  // Half of the way from a wall to a floor; what slopes more hides the walls from above.
+  constexpr double kUpright = 0.7071;
+  constexpr std::size_t kFew = 100;
+  const Points& all = scan.surfaces().points();
+  const Normals& normals = scan.surfaces().normals();
+  Points points;
+  for (std::size_t i = 0; i < all.size() && i < normals.size(); ++i)
+    if (std::abs(normals[i].cast<double>().dot(up)) < kUpright)
+      points.push_back(all[i]);
+  return points.size() < kFew ? all : points;
+}
+
+PlaceReport
+placeOfPair(const PlaceSettings& s, ProgressBar& bar)
 {
   const NearScan a = readNear(s.scan_a, s.format, bar);
   const NearScan b = readNear(s.scan_b, s.format, bar);
@@ -88,97 +109,30 @@ find(const PlaceSettings& s, ProgressBar& bar)
                       s.search.num_threads);
   scans.set(0, a.points, s.scan_a);
   scans.set(1, b.points, s.scan_b);
-  FoundPlaces found;
-  found.voxel = scans.parameters().voxel.value;
-  found.result = placeScan(
-      PlaceableScan(scans.scans()[0]), PlaceableScan(scans.scans()[1]), s.search);
-  for (const auto& one : found.result.candidates)
-    found.T_a_b.push_back(farPose(one.T_first_second, a, b));
-  if (scans.firstLike(1) == 0 && found.result.answer == PlaceAnswer::kUnique) {
-    found.result.answer = PlaceAnswer::kNone;
-    found.result.reason = "both hold the very same points, which is no evidence";
+  const PlaceableScan first(scans.scans()[0]), second(scans.scans()[1]);
+  const PlaceResult found = placeScan(first, second, s.search);
+  PlaceReport report;
+  report.of_what = "of B from A";
+  report.answer = found.answer;
+  report.reason = found.reason;
+  report.ambiguity = found.ambiguity();
+  report.voxel = scans.parameters().voxel.value;
+  for (const PlaceCandidate& one : found.candidates) {
+    FoundPlace& place = report.places.emplace_back();
+    place.pose = farPose(one.T_first_second, a, b);
+    place.score = one.score;
+    place.overlap = one.overlap;
+    place.contradiction = one.contradiction;
+    place.judged = toString(one.opinion.trust);
+    place.candidate = one;
   }
-  return found;
-}
-
-/** \return x y z [m] roll pitch yaw [deg], as --pose and --guess take them */
-std::string
-poseText(const Eigen::Isometry3d& pose)
-{
-  const Eigen::Vector3d& t = pose.translation();
-  const EulerAngles angles = eulerFromRotation(pose.linear());
-  char text[200];
-  std::snprintf(text,
-                sizeof text,
-                "%.4f %.4f %.4f %.3f %.3f %.3f",
-                t.x(),
-                t.y(),
-                t.z(),
-                degrees(angles.roll),
-                degrees(angles.pitch),
-                degrees(angles.yaw));
-  return text;
-}
-
-void
-print(const PlaceSettings& s, const FoundPlaces& found)
-{
-  const PlaceResult& result = found.result;
-  if (!s.quiet && !result.candidates.empty()) {
-    std::printf("%4s %8s %8s %13s  %-10s  %s\n",
-                "",
-                "score",
-                "overlap",
-                "contradicted",
-                "judged",
-                "pose of B from A: x y z [m] roll pitch yaw [deg]");
-    for (std::size_t i = 0; i < result.candidates.size(); ++i) {
-      const PlaceCandidate& one = result.candidates[i];
-      std::printf("%4zu %8.4f %6.1f %% %11.2f %%  %-10s  %s\n",
-                  i + 1,
-                  one.score,
-                  100 * one.overlap,
-                  100 * one.contradiction,
-                  toString(one.opinion.trust),
-                  poseText(found.T_a_b[i]).c_str());
-    }
-    std::printf("voxel %g m\n", found.voxel);
+  if (scans.firstLike(1) == 0 && report.answer == PlaceAnswer::kUnique) {
+    report.answer = PlaceAnswer::kNone;
+    report.reason = "both hold the very same points, which is no evidence";
   }
-  if (result.answer == PlaceAnswer::kUnique)
-    std::printf("unique: %s\n", poseText(found.T_a_b.front()).c_str());
-  else
-    std::printf("%s: %s\n", toString(result.answer), result.reason.c_str());
+  takeDrawn(first, second, report);
+  return report;
 }
-
-void
-write(const PlaceSettings& s, const FoundPlaces& found)
-{
-  Json candidates = Json::array();
-  for (std::size_t i = 0; i < found.result.candidates.size(); ++i) {
-    const PlaceCandidate& one = found.result.candidates[i];
-    Json rows = Json::array();
-    for (int k = 0; k < 16; ++k)
-      rows.push_back(found.T_a_b[i].matrix()(k / 4, k % 4));
-    candidates.push_back({{"T_a_b", rows},
-                          {"score", one.score},
-                          {"overlap", one.overlap},
-                          {"contradiction", one.contradiction},
-                          {"patches", one.evidence.sight.patches},
-                          {"trust", toString(one.opinion.trust)},
-                          {"probability_wrong", one.opinion.probability_wrong},
-                          {"reason", one.opinion.reason}});
-  }
-  const Json json = {{"schema_version", 1},
-                     {"scan_a", s.scan_a},
-                     {"scan_b", s.scan_b},
-                     {"voxel", found.voxel},
-                     {"answer", toString(found.result.answer)},
-                     {"reason", found.result.reason},
-                     {"ambiguity", found.result.ambiguity()},
-                     {"candidates", candidates}};
-  writeJson(s.output, json, 2);
-}
-} // namespace
 
 int
 runPlace(const std::vector<std::string>& arguments)
@@ -187,12 +141,19 @@ runPlace(const std::vector<std::string>& arguments)
   if (!parse(arguments, s))
     return kDone;
   ProgressBar bar(s.quiet);
-  const FoundPlaces found = find(s, bar);
-  print(s, found);
+  const auto report = s.isInRun() ? placeInRun(s, bar) : placeOfPair(s, bar);
+  if (!report) {
+    bar.warn("interrupted; nothing is written");
+    return kInterrupted;
+  }
+  for (const std::string& note : report->notes)
+    bar.warn(note);
+  printPlaces(s, *report);
   flushOutput();
   if (!s.output.empty())
-    write(s, found);
-  return found.result.answer == PlaceAnswer::kUnique ? kDone : kDoubtful;
+    writePlaces(s, *report);
+  const bool is_drawn = s.picture.empty() || drawPlaces(s, *report, bar);
+  return report->answer == PlaceAnswer::kUnique && is_drawn ? kDone : kDoubtful;
 }
 
 } // namespace pcl6d::app

@@ -136,7 +136,7 @@ TEST(PlaceInMap, AScanOfElsewhereHasNoPlace)
   Placeable elsewhere;
   elsewhere.add(other.scan(Eigen::Isometry3d::Identity(), random, kRayStep));
   const MapPlaces found = placeInMap(elsewhere[0], room.map());
-  EXPECT_NE(found.answer, PlaceAnswer::kUnique);
+  EXPECT_EQ(found.answer, PlaceAnswer::kNone);
   EXPECT_NE(found.reason, "");
 }
 

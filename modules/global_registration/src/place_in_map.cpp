@@ -72,16 +72,12 @@ decide(double max_ambiguity, MapPlaces& found)
     found.reason = "no place where its surfaces meet those of the map";
     return;
   }
-  const MapPlace& best = found.candidates.front();
-  const bool is_held = !best.links.empty(); // enough meets for links to be judged
-  if (is_held && found.ambiguity() > max_ambiguity) {
-    found.answer = PlaceAnswer::kAmbiguous;
-    found.reason = "another place is nearly as good";
+  found.reason = found.candidates.front().objection;
+  if (!found.reason.empty())
     return;
-  }
-  found.reason = best.objection;
-  if (found.reason.empty())
-    found.answer = PlaceAnswer::kUnique;
+  const bool is_unique = found.ambiguity() <= max_ambiguity;
+  found.answer = is_unique ? PlaceAnswer::kUnique : PlaceAnswer::kAmbiguous;
+  found.reason = is_unique ? "" : "another place is nearly as good";
 }
 } // namespace
 

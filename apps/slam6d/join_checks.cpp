@@ -120,7 +120,8 @@ requireOnce(const std::vector<std::string>& folders)
 void
 requireOutside(const fs::path& out, const fs::path& run)
 {
-  std::error_code error; // of what is not there: it is then no folder that holds another
+  std::error_code
+      error; // of what is not there: it is then no folder that holds another
   fs::path above = fs::weakly_canonical(fs::absolute(out), error).parent_path();
   for (; above.has_relative_path(); above = above.parent_path())
     if (fs::equivalent(above, run, error))

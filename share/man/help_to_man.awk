@@ -2,7 +2,7 @@
 # Makes a man page of what a program says to --help, each option on a line of its own:
 #   COLUMNS=10000 pcl_slam6d --help | awk -f help_to_man.awk -v name=pcl_slam6d \
 #     -v version=0.1.0 -v also="pcl_slam6d_convert(1)"
-# That is: a line "usage: ...", what it does, and groups "Caption:" of lines
+# That is: a line "usage: ..." (and more, indented as it), what it does, and groups "Caption:" of lines
 # "  name or option  text", two spaces or more between.
 
 function quoted(text) {
@@ -35,7 +35,12 @@ function summary(text,    end) {
 }
 
 NR == 1 && /^usage: / {
-  usage = substr($0, 8)
+  usages[++count] = substr($0, 8)
+  next
+}
+
+NR == count + 1 && index($0, "       " name) == 1 { # another way to call it
+  usages[++count] = substr($0, 8)
   next
 }
 
@@ -83,7 +88,9 @@ END {
   sub(/ /, "-", title)
   printf ".TH %s 1 \"\" \"pcl6d %s\" \"User Commands\"\n.ad l\n.nh\n", quoted(toupper(title)), version
   printf ".SH NAME\n%s \\- %s\n", quoted(title), quoted(summary(about))
-  printf ".SH SYNOPSIS\n.B %s\n%s\n", quoted(name), quoted(substr(usage, length(name) + 2))
+  print ".SH SYNOPSIS"
+  for (k = 1; k <= count; ++k)
+    printf "%s.B %s\n%s\n", k > 1 ? ".br\n" : "", quoted(name), quoted(substr(usages[k], length(name) + 2))
   printf ".SH DESCRIPTION\n%s", body
   print ".SH EXIT STATUS"
   print ".TP\n.B 0\ndone"

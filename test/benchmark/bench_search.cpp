@@ -102,10 +102,15 @@ PeerJob
 buildJob(std::size_t count, Order order, unsigned int threads)
 {
   const auto data = std::make_shared<Data>(count, order);
-  return {[=] { OurTree(threads).setInputCloud(data->cloud); },
+  return {[=] {
+            OurTree ours;
+            ours.setNumberOfThreads(threads);
+            ours.setInputCloud(data->cloud);
+          },
           [=] { PeerTree().setInputCloud(data->cloud); },
           [=](benchmark::State& state) {
-            OurTree ours(threads);
+            OurTree ours;
+            ours.setNumberOfThreads(threads);
             PeerTree theirs;
             ours.setInputCloud(data->cloud);
             theirs.setInputCloud(data->cloud);

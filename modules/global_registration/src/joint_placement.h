@@ -68,6 +68,8 @@ public:
               PlaceNeeds needs) const;
 
 private:
+  bool
+  isContradicted(const JointSupport& support, const ScanGroup& group) const;
   void
   decide(std::size_t scan,
          const ScanGroup& group,

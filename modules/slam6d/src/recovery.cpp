@@ -2,6 +2,7 @@
 #include "recovery.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/global_registration/scan_joiner.h>
 
@@ -109,6 +110,17 @@ motionsOf(const Way& way)
                              Eigen::Isometry3d(Eigen::Isometry3d::Identity())})
     guesses.push_back(way.T_world_last * motion);
   return guesses;
+}
+
+/** By Rodrigues, with the same bits on any machine. */
+Eigen::Matrix3d
+turnAbout(const Eigen::Vector3d& axis, double angle)
+{
+  const SinCos turn = portableSinCos(angle);
+  Eigen::Matrix3d cross;
+  cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
+  return Eigen::Matrix3d::Identity() + turn.sin * cross +
+         (1 - turn.cos) * cross * cross;
 }
 
 /** Long searches are made for the first scans that are lost one after the other, then ever more
@@ -247,7 +259,7 @@ Recovery::spread(const Eigen::Isometry3d& about,
     for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
       Eigen::Isometry3d pose = about;
       pose.translation() += about.linear() * level * Eigen::Vector3d(x * by, y * by, 0);
-      pose.linear() = about.linear() * Eigen::AngleAxisd(turn, up).toRotationMatrix();
+      pose.linear() = about.linear() * turnAbout(up, turn);
       poses.push_back(pose);
     }
   return poses;

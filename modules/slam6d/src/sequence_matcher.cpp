@@ -4,6 +4,8 @@
 
 #include <pcl6d/common/pose.h>
 
+#include <string>
+
 namespace pcl6d::slam6d {
 
 bool
@@ -39,14 +41,26 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
     return matcher_.fix(scans_.reduced()[i], scans_.measured()[i], scan);
   const Eigen::Isometry3d odometry =
       scans[i - 1].initial_pose.inverse() * scan.initial_pose;
+  const ScanResult predicted = scan;
+  bool is_vetoed = false;
   const auto judge = [&](const ScanResult& found) {
-    return isDoubtful(found, i, scans)
-               ? recovery_.objection(i, found.T_world_scan, scans)
-               : "";
+    const std::string objection =
+        isDoubtful(found, i, scans) ? recovery_.objection(i, found.T_world_scan, scans)
+                                    : "";
+    is_vetoed = !objection.empty();
+    return objection;
   };
   matcher_.match(scans_.reduced()[i], scans_.measured()[i], odometry, scan, judge);
-  if (isRecovering(options_) && !isBelieved(scan))
-    lookFor(i, scans);
+  if (!isRecovering(options_) || isBelieved(scan))
+    return;
+  lookFor(i, scans);
+  // Rays that contradict right places too are no judges: without a better place the match
+  // stands, and the verdict on the whole map tells what is to be thought of it.
+  if (isBelieved(scan) || !is_vetoed || !isBelieved(scans[i - 1]))
+    return;
+  scan = predicted;
+  matcher_.passOver(scans_.measured()[i - 1], scans[i - 1].T_world_scan);
+  matcher_.match(scans_.reduced()[i], scans_.measured()[i], odometry, scan);
 }
 
 void

@@ -224,16 +224,15 @@ RunOutput::warnOfOdometry()
   for (std::size_t i = 1; i < run_.scans.size(); ++i) {
     const ScanResult& scan = run_.scans[i];
     if (scan.start != InitialGuess::kOdometry || scan.state == ScanState::kPending ||
-        scan.state == ScanState::kPredicted)
+        scan.state == ScanState::kPredicted || scan.recovered != RecoveredBy::kNone)
       continue;
     if (++count <= 5)
       names += (names.empty() ? "" : ", ") + scan.file;
   }
   if (count > 0)
-    run_.warnings.push_back("the overlap search was not sure of " +
-                            std::to_string(count) +
-                            " scans, which started from the odometry: " + names +
-                            (count > 5 ? ", ..." : ""));
+    run_.warnings.push_back(
+        "the overlap search was not sure of " + text::counted(count, "scan") +
+        ", which started from the odometry: " + names + (count > 5 ? ", ..." : ""));
 }
 
 /** Writes scans/ and map.pcd, and gives the clouds up. \return false if interrupted */

@@ -2,8 +2,8 @@
 # Makes a man page of what a program says to --help, each option on a line of its own:
 #   COLUMNS=10000 pcl_slam6d --help | awk -f help_to_man.awk -v name=pcl_slam6d \
 #     -v version=0.1.0 -v also="pcl_slam6d_convert(1)"
-# That is: a line "usage: ..." (and more, indented as it), what it does, and groups "Caption:" of lines
-# "  name or option  text", two spaces or more between.
+# That is: a line "usage: ..." (more below it, indented as far), what it does, and groups
+# "Caption:" of lines "  name or option  text", two spaces or more between.
 
 function quoted(text) {
   gsub(/\\/, "\\e", text)
@@ -90,7 +90,7 @@ END {
   printf ".SH NAME\n%s \\- %s\n", quoted(title), quoted(summary(about))
   print ".SH SYNOPSIS"
   for (k = 1; k <= count; ++k)
-    printf "%s.B %s\n%s\n", k > 1 ? ".br\n" : "", quoted(name), quoted(substr(usages[k], length(name) + 2))
+    printf "%s.B %s\n%s\n", (k == 1 ? "" : ".br\n"), quoted(name), quoted(substr(usages[k], length(name) + 2))
   printf ".SH DESCRIPTION\n%s", body
   print ".SH EXIT STATUS"
   print ".TP\n.B 0\ndone"

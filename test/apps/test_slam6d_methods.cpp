@@ -162,12 +162,15 @@ TEST_F(Methods, FeaturesCanBeAskedForWherePosesAreWrong)
 TEST_F(Methods, OdometryWithoutPosesStartsWhereTheScanBeforeIs)
 {
   write({turned().scans[0], turned().scans[1]});
-  run(3, {"--initial-guess", "odometry"}); // turned by 60 degrees
+  run(3, {"--initial-guess", "odometry", "--no-recovery"}); // turned by 60 degrees
   expectOption("initial-guess", "odometry", "given");
   ASSERT_EQ(summary_["warnings"].size(), 1u);
   const std::string warning = summary_["warnings"][0];
   EXPECT_NE(warning.find("each scan starts where the one before is"), std::string::npos)
       << warning;
+  run(0, {"--initial-guess", "odometry"});
+  expectPath({turned().truth[0], turned().truth[1]});
+  EXPECT_EQ(summary_["scans"][1]["recovered"], "search");
 }
 
 TEST_F(Methods, OdometryWithoutPosesFitsScansTakenCloseTogether)
@@ -228,11 +231,17 @@ TEST_F(Methods, OverlapRepairsOdometryThatIsFarOff)
   writeOdometry({kIdentity, wrong});
   const std::vector<std::string> narrow = {
       "--voxel", "0.1", "--max-distance-start", "0.3"};
-  run(3, narrow);
-  std::vector<std::string> overlap = narrow;
-  overlap.insert(overlap.end(), {"--initial-guess", "overlap"});
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), narrow.begin(), narrow.end());
+    return more;
+  };
+  run(3, with({"--no-recovery"}));
+  const std::vector<std::string> overlap =
+      with({"--no-recovery", "--initial-guess", "overlap"});
   run(0, overlap);
   expectOption("initial-guess", "overlap", "given");
+  expectPath({kIdentity, truth});
+  run(0, narrow); // found again where it was lost
   expectPath({kIdentity, truth});
 }
 

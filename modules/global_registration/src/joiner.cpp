@@ -55,6 +55,7 @@ Joiner::run(JoinedScans& result)
       ranked_, placed_, scans_.size(), options_.pairs_per_scan, is_inside));
   judgeAgain();
   mergeGroups();
+  leaveTorn();
   sortGroups();
   result.pairs_placed = placed_.size();
 }
@@ -84,6 +85,38 @@ Joiner::place(const std::vector<RankedPair>& pairs)
     placed_.insert(one.scans);
   if (!pairs.empty())
     hypotheses_.add(pairs);
+}
+
+/** \return whether another group has a place for a member as well */
+bool
+Joiner::isTorn(std::size_t scan, std::size_t group) const
+{
+  for (std::size_t other = 0; other < groups_.size(); ++other) {
+    if (other == group)
+      continue;
+    const auto places = placement_.placesOf(scan, groups_[other].scans);
+    if (!places.empty() &&
+        placement_.settle(scan, places, groups_[other].scans, links_).accepted)
+      return true;
+  }
+  return false;
+}
+
+/** Members that another group would take as well, though the two are not one, are in neither:
+ * equal places look so. */
+void
+Joiner::leaveTorn()
+{
+  std::vector<std::pair<std::size_t, std::size_t>> torn; // scan, group
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (const PlacedScan& member : groups_[g].scans.members())
+      if (!isKnown(member.scan) && isTorn(member.scan, g))
+        torn.emplace_back(member.scan, g);
+  for (const auto& [scan, g] : torn) {
+    groups_[g].scans.remove(scan);
+    joined_[scan] = false;
+    reasons_[scan] = "it has a place in two groups that are not one";
+  }
 }
 
 /** All groups once more, as scans that were placed later may know better. */

@@ -61,6 +61,10 @@ private:
   comparedPairs() const;
   void
   place(const std::vector<RankedPair>& pairs);
+  bool
+  isTorn(std::size_t scan, std::size_t group) const;
+  void
+  leaveTorn();
   void
   judgeAgain();
   void

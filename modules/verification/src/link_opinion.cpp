@@ -188,8 +188,8 @@ judgeLink(const LinkEvidence& evidence, double background)
         LinkTrust::kWeak; // along these rays and surfaces cannot see an error
   else if (is_silent && evidence.fit.spread > 0 && opinion.beside < kGoodBelow)
     opinion.trust = LinkTrust::kUnverified; // the surfaces alone speak
-  else if (opinion.probability_wrong < kGoodBelow && !is_silent && evidence.fit.spread > 0 &&
-           evidence.sight.patches >= kLeastPatches &&
+  else if (opinion.probability_wrong < kGoodBelow && !is_silent &&
+           evidence.fit.spread > 0 && evidence.sight.patches >= kLeastPatches &&
            evidence.sight.confirmation() >= kLeastConfirmation)
     opinion.trust = LinkTrust::kGood;
   if (opinion.trust == LinkTrust::kUnverified)

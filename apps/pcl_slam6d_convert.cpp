@@ -11,7 +11,6 @@ main(int argc, char** argv)
        "WHAT ...",
        "convert",
        "Turns files of one format into another.",
-       38,
        {{"calibrate",
          "PICTURES -o CAMERA.yml",
          "chessboards to a camera",

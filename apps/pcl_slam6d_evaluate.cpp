@@ -11,7 +11,6 @@ main(int argc, char** argv)
        "WHAT ...",
        "evaluate",
        "Measures results against a reference, or without one.",
-       32,
        {{"trajectory", "ESTIMATE REFERENCE", "errors of a trajectory", runTrajectory},
         {"icp", "SCAN_A SCAN_B", "from how far off ICP finds the pose of B", runIcp},
         {"lengths", "FILE", "ratios of lengths", runLengths},

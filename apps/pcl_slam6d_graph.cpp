@@ -10,7 +10,6 @@ main(int argc, char** argv)
                    "JOB ...",
                    "do",
                    "Works on pose graphs (g2o or TORO files).",
-                   21,
                    {{"optimize",
                      "IN -o OUT",
                      "find the poses that fit the links best",

@@ -11,7 +11,6 @@ main(int argc, char** argv)
                    "JOB ...",
                    "do",
                    "Finds objects in scans and learns what they look like.",
-                   51,
                    {{"locate",
                      "INPUT --model MODEL... -o OUT_DIR",
                      "objects and their poses",

@@ -11,7 +11,6 @@ main(int argc, char** argv)
        "JOB RUN ...",
        "do",
        "Shows what a run of pcl_slam6d left in the folder RUN. Needs no display.",
-       11,
        {{"animation",
          "",
          "the map growing, relaxing, turning or flown through, as frames and a video",

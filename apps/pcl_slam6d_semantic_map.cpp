@@ -10,7 +10,6 @@ main(int argc, char** argv)
                    "JOB ...",
                    "do",
                    "Makes and asks semantic maps: planes with labels, objects, rooms.",
-                   21,
                    {{"build",
                      "RUN_DIR",
                      "make the semantic map of a run of pcl_slam6d",

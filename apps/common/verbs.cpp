@@ -3,6 +3,7 @@
 #include "common/option_table.h"
 #include "common/verbs.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 
@@ -18,15 +19,23 @@ namesOf(const std::vector<Verb>& verbs)
   return names;
 }
 
+std::string
+callOf(const Verb& verb)
+{
+  return verb.name + (verb.operands.empty() ? "" : " ") + verb.operands;
+}
+
 void
 printHelp(const VerbProgram& program)
 {
+  std::size_t widest = 0;
+  for (const Verb& verb : program.verbs)
+    widest = std::max(widest, callOf(verb).size());
   std::cout << "usage: " << program.name << ' ' << program.usage << '\n'
             << program.purpose << "\n\n";
   for (const Verb& verb : program.verbs)
-    std::cout << "  " << std::left << std::setw(program.help_column)
-              << verb.name + (verb.operands.empty() ? "" : " ") + verb.operands
-              << verb.help << '\n';
+    std::cout << "  " << std::left << std::setw(static_cast<int>(widest) + 2)
+              << callOf(verb) << verb.help << '\n';
   const std::string usage = program.usage;
   std::cout << '\n'
             << program.name << ' ' << usage.substr(0, usage.find(' '))

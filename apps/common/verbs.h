@@ -22,7 +22,6 @@ struct VerbProgram {
   const char* usage;   ///< what follows the name; its first word stands for a verb
   const char* deed;    ///< what the verb tells: "do", "convert"
   const char* purpose; ///< one line of --help
-  int help_column;     ///< of the texts behind the verbs
   std::vector<Verb> verbs;
 };
 

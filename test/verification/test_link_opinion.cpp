@@ -19,7 +19,7 @@ using pcl6d::test::kVoxel;
 namespace {
 const double kBackground = contradictionBackground({});
 
-/** \return evidence of rays alone */
+/** \return evidence of rays, and of surfaces that meet and stay where they are */
 LinkEvidence
 seen(std::size_t contradicted, std::size_t patches)
 {
@@ -30,6 +30,7 @@ seen(std::size_t contradicted, std::size_t patches)
   evidence.sight.confirmed_patches = patches - contradicted;
   evidence.sight.confirmed = 10 * (patches - contradicted);
   evidence.sight.free = 10 * contradicted;
+  evidence.fit.spread = 3;
   return evidence;
 }
 
@@ -117,6 +118,14 @@ TEST(LinkOpinion, NeedsThirtyPatches)
   EXPECT_EQ(judged(seen(0, 29)).reason, "only 29 patches of surface in common");
 }
 
+TEST(LinkOpinion, NeedsSurfacesThatMeet)
+{
+  LinkEvidence evidence = seen(0, 200);
+  evidence.fit.spread = 0;
+  EXPECT_EQ(judged(evidence).trust, LinkTrust::kWeak);
+  EXPECT_EQ(judged(evidence).reason, "no surfaces meet");
+}
+
 TEST(LinkOpinion, AsksForAnyPartOfThePointsToBeConfirmed)
 {
   LinkEvidence evidence = seen(0, 200);
@@ -175,7 +184,6 @@ TEST(ContradictionBackground, IsNeverNone)
 TEST(LinkOpinion, OfRaysThatAreNoJudgesIsUnverifiedUnlessSurfacesObject)
 {
   LinkEvidence evidence = seen(30, 300);
-  evidence.fit.spread = 3;
   EXPECT_EQ(judgeLink(evidence, 0.08).trust, LinkTrust::kUnverified);
   EXPECT_EQ(judgeLink(evidence, 0.08).reason,
             "rays contradict too much even where the scans of this map fit best");

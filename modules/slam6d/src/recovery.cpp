@@ -235,6 +235,16 @@ Recovery::objection(std::size_t scan,
 }
 
 bool
+Recovery::raysJudge(std::size_t scan, const std::vector<ScanResult>& scans) const
+{
+  const auto usual = usualBefore(scan, scans);
+  const double background = contradictionBackground(usual);
+  return std::any_of(usual.begin(), usual.end(), [&](const LinkEvidence& link) {
+    return judgeLink(link, background).trust == LinkTrust::kGood;
+  });
+}
+
+bool
 Recovery::seemsContradicted(std::size_t scan,
                             const Eigen::Isometry3d& T_world_scan,
                             const std::vector<ScanResult>& scans)

@@ -44,6 +44,11 @@ public:
             const Eigen::Isometry3d& T_world_scan,
             const std::vector<ScanResult>& scans);
 
+  /** \return whether rays call a link between the scans before good: else they are no judges
+   * here, or have not shown that they are */
+  bool
+  raysJudge(std::size_t scan, const std::vector<ScanResult>& scans) const;
+
   /** \return whether the scans before seem to look through a scan where it was matched, by a
    * look at some of its points: worth an objection() */
   bool

@@ -89,16 +89,18 @@ RunVerification::verify(const std::vector<std::string>& names,
   result.verification = std::move(map);
 }
 
-/** Where much is loose, or rays are no judges, the initial poses may be wrong as a whole. */
+/** Where much is loose or was lost, or rays are no judges, the initial poses may be wrong as a whole. */
 void
 RunVerification::explainDoubts(const std::vector<ScanResult>& scans,
                                MapVerification& map) const
 {
-  const auto loose = std::count_if(map.scans.begin(),
-                                   map.scans.end(),
-                                   [](const ScanCheck& scan) { return !scan.tied; });
-  const bool is_loose = map.trust == MapTrust::kDoubtful &&
-                        3 * static_cast<std::size_t>(loose) >= map.scans.size();
+  std::size_t loose = 0, lost = 0;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    loose += map.scans[i].tied ? 0 : 1;
+    lost += scans[i].recovered != RecoveredBy::kNone ? 1 : 0;
+  }
+  const bool is_loose =
+      map.trust == MapTrust::kDoubtful && (lost > 0 || 3 * loose >= map.scans.size());
   if (!is_loose && map.trust != MapTrust::kUnverified)
     return;
   std::vector<Eigen::Isometry3d> initial;

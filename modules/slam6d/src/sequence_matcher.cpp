@@ -54,9 +54,10 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
   if (!isRecovering(options_) || isBelieved(scan))
     return;
   lookFor(i, scans);
-  // Rays that contradict right places too are no judges: without a better place the match
-  // stands, and the verdict on the whole map tells what is to be thought of it.
-  if (isBelieved(scan) || !is_vetoed || !isBelieved(scans[i - 1]))
+  // Without a better place the match stands where rays are no judges: the verdict on the whole
+  // map tells what is to be thought of it.
+  if (isBelieved(scan) || !is_vetoed || !isBelieved(scans[i - 1]) ||
+      recovery_.raysJudge(i, scans))
     return;
   scan = predicted;
   matcher_.passOver(scans_.measured()[i - 1], scans[i - 1].T_world_scan);

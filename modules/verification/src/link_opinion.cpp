@@ -82,7 +82,9 @@ reasonOf(const LinkEvidence& evidence, double rays, double surfaces)
   const SightEvidence& sight = evidence.sight;
   const bool is_even =
       std::max(probabilityOf(rays), probabilityOf(surfaces)) < kGoodBelow;
-  if (is_even && evidence.fit.open_directions > 0)
+  if (is_even && evidence.fit.spread == 0 && sight.patches >= kLeastPatches)
+    why << "no surfaces meet";
+  else if (is_even && evidence.fit.open_directions > 0)
     why << "the surfaces leave "
         << text::counted(static_cast<std::size_t>(evidence.fit.open_directions),
                          "motion")

@@ -96,7 +96,9 @@ Joiner::isTorn(std::size_t scan, std::size_t group) const
       continue;
     const auto places = placement_.placesOf(scan, groups_[other].scans);
     if (!places.empty() &&
-        placement_.settle(scan, places, groups_[other].scans, links_).accepted)
+        placement_
+            .settle(scan, places, groups_[other].scans, links_, PlaceNeeds::kToBeTied)
+            .accepted)
       return true;
   }
   return false;

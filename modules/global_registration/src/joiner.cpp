@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 #include "joiner.h"
+#include "torn_scans.h"
 
 #include <pcl6d/common/parallel.h>
 
@@ -87,37 +88,50 @@ Joiner::place(const std::vector<RankedPair>& pairs)
     hypotheses_.add(pairs);
 }
 
-/** \return whether another group has a place for a member as well */
-bool
-Joiner::isTorn(std::size_t scan, std::size_t group) const
-{
-  for (std::size_t other = 0; other < groups_.size(); ++other) {
-    if (other == group)
-      continue;
-    const auto places = placement_.placesOf(scan, groups_[other].scans);
-    if (!places.empty() &&
-        placement_
-            .settle(scan, places, groups_[other].scans, links_, PlaceNeeds::kToBeTied)
-            .accepted)
-      return true;
-  }
-  return false;
-}
-
-/** Members that another group would take as well, though the two are not one, are in neither:
- * equal places look so. */
+/** Members that another group would take as well, though the two are not one, are in neither. */
 void
 Joiner::leaveTorn()
 {
-  std::vector<std::pair<std::size_t, std::size_t>> torn; // scan, group
-  for (std::size_t g = 0; g < groups_.size(); ++g)
-    for (const PlacedScan& member : groups_[g].scans.members())
-      if (!isKnown(member.scan) && isTorn(member.scan, g))
-        torn.emplace_back(member.scan, g);
-  for (const auto& [scan, g] : torn) {
-    groups_[g].scans.remove(scan);
+  std::vector<const ScanGroup*> groups;
+  for (const JoinedGroup& group : groups_)
+    groups.push_back(&group.scans);
+  const auto has_place = [&](std::size_t scan, std::size_t group) {
+    if (isKnown(scan))
+      return false;
+    const auto places = placement_.placesOf(scan, *groups[group]);
+    return !places.empty() &&
+           placement_.settle(scan, places, *groups[group], links_).accepted;
+  };
+  const auto torn = tornScans(scans_, groups, joined_by_, has_place);
+  for (const std::size_t scan : torn) {
+    if (isKnown(scan))
+      continue;
+    for (JoinedGroup& group : groups_)
+      group.scans.remove(scan);
     joined_[scan] = false;
     reasons_[scan] = "it has a place in two groups that are not one";
+  }
+  if (!torn.empty())
+    for (JoinedGroup& group : groups_)
+      cutLoose(group.scans);
+  dropSingles();
+}
+
+/** One scan that is left of a group is none. */
+void
+Joiner::dropSingles()
+{
+  for (auto group = groups_.begin(); group != groups_.end();) {
+    const auto& members = group->scans.members();
+    if (members.size() > 1 || (members.size() == 1 && isKnown(members[0].scan))) {
+      ++group;
+      continue;
+    }
+    for (const PlacedScan& one : members) {
+      joined_[one.scan] = false;
+      reasons_[one.scan] = "what it was joined to has a place in two groups";
+    }
+    group = groups_.erase(group);
   }
 }
 
@@ -176,6 +190,8 @@ Joiner::cutLoose(ScanGroup& group)
   if (group.members().size() < 3)
     return;
   for (const auto& [scan, why] : untiedOf(group, joined_by_, options_.num_threads)) {
+    if (isKnown(scan))
+      continue;
     group.remove(scan);
     joined_[scan] = false;
     reasons_[scan] = why;
@@ -254,21 +270,31 @@ Joiner::settleBlock(const ScanGroup& to,
   if (!settled.accepted)
     return settled.reason;
   T_group_block = settled.best.T_group_scan * fixing.T_group_scan.inverse();
-  const std::size_t count = block.members().size();
-  const std::size_t asked = std::min(count, kAskedOfBlock);
-  for (std::size_t k = 0; k < asked; ++k) {
-    const PlacedScan& one = block.members()[k * count / asked];
-    const std::string objection =
-        placement_.objectionTo(one.scan,
-                               T_group_block * one.T_group_scan,
-                               to,
-                               links_,
-                               PlaceNeeds::kNoObjection);
-    if (!objection.empty())
-      return objection;
-  }
+  const std::string objection = contradictionOf(block, T_group_block, to);
+  if (!objection.empty())
+    return objection;
   links_.insert(links_.end(), settled.links.begin(), settled.links.end());
   return "";
+}
+
+/** \return what a group has against a block there, some of whose scans are asked; or nothing */
+std::string
+Joiner::contradictionOf(const ScanGroup& block,
+                        const Eigen::Isometry3d& T_group_block,
+                        const ScanGroup& group) const
+{
+  const std::size_t count = block.members().size();
+  const std::size_t asked = std::min(count, kAskedOfBlock);
+  std::string objection;
+  for (std::size_t k = 0; k < asked && objection.empty(); ++k) {
+    const PlacedScan& one = block.members()[k * count / asked];
+    objection = placement_.objectionTo(one.scan,
+                                       T_group_block * one.T_group_scan,
+                                       group,
+                                       links_,
+                                       PlaceNeeds::kNoObjection);
+  }
+  return objection;
 }
 
 /** Joins what can be joined. \return the number of scans */

@@ -61,10 +61,10 @@ private:
   comparedPairs() const;
   void
   place(const std::vector<RankedPair>& pairs);
-  bool
-  isTorn(std::size_t scan, std::size_t group) const;
   void
   leaveTorn();
+  void
+  dropSingles();
   void
   judgeAgain();
   void
@@ -86,6 +86,10 @@ private:
               const ScanGroup& block,
               const BlockPlace& place,
               Eigen::Isometry3d& T_group_block);
+  std::string
+  contradictionOf(const ScanGroup& block,
+                  const Eigen::Isometry3d& T_group_block,
+                  const ScanGroup& group) const;
   std::size_t
   grow(ScanGroup& group);
   void

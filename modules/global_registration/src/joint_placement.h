@@ -56,7 +56,7 @@ public:
          const std::vector<Place>& places,
          const ScanGroup& group,
          const std::vector<LinkEvidence>& links,
-         PlaceNeeds needs = PlaceNeeds::kToBeHeld) const;
+         PlaceNeeds needs = PlaceNeeds::kToBeTied) const;
 
   /** \return what members have against the place of a scan, in words; nothing if it has what
    * it needs */

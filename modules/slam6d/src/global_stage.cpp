@@ -81,8 +81,7 @@ takePart(const Slam6DResult& part,
     }
     result.stages.push_back(stage);
   }
-  for (const std::size_t k : part.floating)
-    result.floating.push_back(group[k]);
+  // What no link of relaxation reaches was joined by points and rays all the same.
 }
 
 } // namespace

@@ -99,13 +99,12 @@ divide(const ScanGroup& group,
        ScanGroup& block,
        ScanGroup& rest)
 {
-  std::set<std::size_t> below = {scan};
-  for (const auto& one : group.members()) { // in the order in which they were joined
-    const auto by = joined_by.find(one.scan);
-    if (by != joined_by.end() && below.count(by->second) > 0)
-      below.insert(one.scan);
-    (below.count(one.scan) > 0 ? block : rest).add(one.scan, one.T_group_scan);
-  }
+  std::vector<std::size_t> scans; // in the order in which they were joined
+  for (const auto& one : group.members())
+    scans.push_back(one.scan);
+  const std::set<std::size_t> part = partBehind(scan, scans, joined_by);
+  for (const auto& one : group.members())
+    (part.count(one.scan) > 0 ? block : rest).add(one.scan, one.T_group_scan);
 }
 
 std::vector<std::pair<std::size_t, std::string>>

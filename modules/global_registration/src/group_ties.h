@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "joined_by.h"
 #include "place_hypotheses.h"
 #include "scan_group.h"
 
 #include <cstddef>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace pcl6d::global_registration {
-
-/** \brief Of scans that were joined one by one, each to the one that it met most. */
-using JoinedBy = std::map<std::size_t, std::size_t>;
 
 /** \brief Cuts a group into what was joined by way of a scan, with it, and the rest. */
 void

@@ -92,17 +92,20 @@ Joiner::place(const std::vector<RankedPair>& pairs)
 void
 Joiner::leaveTorn()
 {
-  std::vector<const ScanGroup*> groups;
-  for (const JoinedGroup& group : groups_)
-    groups.push_back(&group.scans);
+  std::vector<std::vector<std::size_t>> groups;
+  for (const JoinedGroup& group : groups_) {
+    groups.emplace_back();
+    for (const PlacedScan& one : group.scans.members())
+      groups.back().push_back(one.scan);
+  }
   const auto has_place = [&](std::size_t scan, std::size_t group) {
     if (isKnown(scan))
       return false;
-    const auto places = placement_.placesOf(scan, *groups[group]);
+    const auto places = placement_.placesOf(scan, groups_[group].scans);
     return !places.empty() &&
-           placement_.settle(scan, places, *groups[group], links_).accepted;
+           placement_.settle(scan, places, groups_[group].scans, links_).accepted;
   };
-  const auto torn = tornScans(scans_, groups, joined_by_, has_place);
+  const auto torn = tornScans(groups, joined_by_, has_place);
   for (const std::size_t scan : torn) {
     if (isKnown(scan))
       continue;

@@ -14,7 +14,9 @@ constexpr std::size_t kLeastRival = 3, kLeastRivalNextTo = 2;
 
 /** \return whether a scan was joined by way of one of these, or one of them by way of it */
 bool
-isNextTo(std::size_t scan, const std::set<std::size_t>& scans, const JoinedBy& joined_by)
+isNextTo(std::size_t scan,
+         const std::set<std::size_t>& scans,
+         const JoinedBy& joined_by)
 {
   const auto by = joined_by.find(scan);
   return (by != joined_by.end() && scans.count(by->second) > 0) ||
@@ -24,31 +26,28 @@ isNextTo(std::size_t scan, const std::set<std::size_t>& scans, const JoinedBy& j
          });
 }
 
-void
-addTornParts(const ScanList& scans,
-             const ScanGroup& group,
-             const JoinedBy& joined_by,
-             const std::set<std::size_t>& each,
-             std::set<std::size_t>& torn)
+/** \return a group's parts that are torn as a whole: never more than half of it */
+std::set<std::size_t>
+tornParts(const std::vector<std::size_t>& group,
+          const JoinedBy& joined_by,
+          const std::set<std::size_t>& torn)
 {
-  for (const PlacedScan& member : group.members()) {
-    ScanGroup part(scans), rest(scans);
-    divide(group, joined_by, member.scan, part, rest);
-    const auto& all = part.members();
+  std::set<std::size_t> parts;
+  for (const std::size_t scan : group) {
+    const std::set<std::size_t> part = partBehind(scan, group, joined_by);
     const auto count = static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [&](const PlacedScan& one) {
-          return each.count(one.scan) > 0;
+        std::count_if(part.begin(), part.end(), [&](std::size_t one) {
+          return torn.count(one) > 0;
         }));
-    if (2 * count >= all.size() && 2 * all.size() <= group.members().size())
-      for (const PlacedScan& one : all)
-        torn.insert(one.scan);
+    if (2 * count >= part.size() && 2 * part.size() <= group.size())
+      parts.insert(part.begin(), part.end());
   }
+  return parts;
 }
 } // namespace
 
 std::set<std::size_t>
-tornScans(const ScanList& scans,
-          const std::vector<const ScanGroup*>& groups,
+tornScans(const std::vector<std::vector<std::size_t>>& groups,
           const JoinedBy& joined_by,
           const std::function<bool(std::size_t scan, std::size_t group)>& has_place)
 {
@@ -64,22 +63,21 @@ tornScans(const ScanList& scans,
     const std::size_t least =
         isNextTo(scan, torn, joined_by) ? kLeastRivalNextTo : kLeastRival;
     for (std::size_t other = 0; other < groups.size(); ++other)
-      if (other != own && groups[other]->members().size() >= least &&
-          has(scan, other))
+      if (other != own && groups[other].size() >= least && has(scan, other))
         return true;
     return false;
   };
   for (std::size_t before = 1; torn.size() != before;) {
     before = torn.size();
     for (std::size_t g = 0; g < groups.size(); ++g)
-      for (const PlacedScan& member : groups[g]->members())
-        if (torn.count(member.scan) == 0 && is_torn(member.scan, g))
-          torn.insert(member.scan);
+      for (const std::size_t scan : groups[g])
+        if (torn.count(scan) == 0 && is_torn(scan, g))
+          torn.insert(scan);
   }
-  const std::set<std::size_t> each = torn;
-  for (const ScanGroup* group : groups)
-    addTornParts(scans, *group, joined_by, each, torn);
-  return torn;
+  std::set<std::size_t> all = torn;
+  for (const auto& group : groups)
+    all.merge(tornParts(group, joined_by, torn));
+  return all;
 }
 
 } // namespace pcl6d::global_registration

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scans that two groups would take, as numbers: who leaves, and what leaves with them.
+#include "torn_scans.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <utility>
+
+using pcl6d::global_registration::JoinedBy;
+using pcl6d::global_registration::partBehind;
+using pcl6d::global_registration::tornScans;
+
+namespace {
+using Scans = std::set<std::size_t>;
+using Groups = std::vector<std::vector<std::size_t>>;
+
+/** Asks a list of places, and counts the questions. */
+struct Places {
+  std::set<std::pair<std::size_t, std::size_t>> there; // scan, group
+  std::map<std::pair<std::size_t, std::size_t>, int> asked;
+
+  Scans
+  torn(const Groups& groups, const JoinedBy& joined_by)
+  {
+    return tornScans(groups, joined_by, [&](std::size_t scan, std::size_t group) {
+      ++asked[{scan, group}];
+      return there.count({scan, group}) > 0;
+    });
+  }
+};
+
+// 0 - 1 - 2 - 3 - 4 - 5, from 1 on 6 - 7, and others apart
+const JoinedBy kChain = {{2, 1}, {3, 2}, {4, 3}, {5, 4}, {6, 1}, {7, 6}, {12, 11}};
+const std::vector<std::size_t> kScans = {0, 1, 2, 3, 4, 5, 6, 7};
+} // namespace
+
+TEST(TornScans, AreNoneWhereNoOtherGroupHasAPlace)
+{
+  Places places;
+  EXPECT_EQ(places.torn({kScans, {10, 11, 12}}, kChain), Scans());
+  for (const auto& [question, times] : places.asked) {
+    EXPECT_EQ(times, 1) << question.first;
+    EXPECT_NE(question.second, question.first < 10 ? 0u : 1u) << "its own group";
+  }
+  EXPECT_EQ(places.asked.size(), 11u);
+  EXPECT_EQ(places.torn({kScans}, kChain), Scans()) << "nobody else to ask";
+  EXPECT_EQ(places.torn({}, {}), Scans());
+}
+
+TEST(TornScans, AreThoseThatAnotherGroupWouldTake)
+{
+  Places places;
+  places.there = {{0, 1}, {12, 0}};
+  EXPECT_EQ(places.torn({kScans, {10, 11, 12}}, kChain), (Scans{0, 12}));
+}
+
+TEST(TornScans, TakeThePartAlongHalfOfWhichIsTorn)
+{
+  Places places;
+  places.there = {{4, 1}};
+  EXPECT_EQ(places.torn({kScans, {10, 11, 12}}, kChain), (Scans{4, 5}));
+  places.there = {{3, 1}, {5, 1}};
+  EXPECT_EQ(places.torn({kScans, {10, 11, 12}}, kChain), (Scans{2, 3, 4, 5}));
+}
+
+TEST(TornScans, NeverTakeMoreThanHalfOfAGroupAlong)
+{
+  Places places;
+  const JoinedBy line = {{2, 1}, {3, 2}, {4, 3}, {5, 4}};
+  places.there = {{1, 1}, {3, 1}, {5, 1}}; // 2 and 4 lie in parts of 4 and 2
+  EXPECT_EQ(places.torn({{0, 1, 2, 3, 4, 5}, {10, 11, 12}}, line),
+            (Scans{1, 3, 4, 5}));
+}
+
+TEST(TornScans, AskAPairOfScansOnlyNextToATornOne)
+{
+  Places places;
+  places.there = {{5, 1}, {2, 2}};
+  EXPECT_EQ(places.torn({kScans, {20, 21}, {30, 31}}, kChain), Scans());
+  places.there = {{3, 1}, {2, 2}};
+  EXPECT_EQ(places.torn({kScans, {20, 21, 22}, {30, 31}}, kChain), (Scans{2, 3, 4, 5}))
+      << "3 was joined by way of 2; half of 2 to 5 is torn";
+  places.there = {{3, 1}};
+  EXPECT_EQ(places.torn({kScans, {20, 21, 22}, {30, 31}}, kChain), (Scans{3}));
+}
+
+TEST(PartBehind, IsWhatWasJoinedByWayOfAScan)
+{
+  EXPECT_EQ(partBehind(1, kScans, kChain), (Scans{1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(partBehind(6, kScans, kChain), (Scans{6, 7}));
+  EXPECT_EQ(partBehind(0, kScans, kChain), Scans{0});
+}

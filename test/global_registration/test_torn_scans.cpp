@@ -69,8 +69,7 @@ TEST(TornScans, NeverTakeMoreThanHalfOfAGroupAlong)
   Places places;
   const JoinedBy line = {{2, 1}, {3, 2}, {4, 3}, {5, 4}};
   places.there = {{1, 1}, {3, 1}, {5, 1}}; // 2 and 4 lie in parts of 4 and 2
-  EXPECT_EQ(places.torn({{0, 1, 2, 3, 4, 5}, {10, 11, 12}}, line),
-            (Scans{1, 3, 4, 5}));
+  EXPECT_EQ(places.torn({{0, 1, 2, 3, 4, 5}, {10, 11, 12}}, line), (Scans{1, 3, 4, 5}));
 }
 
 TEST(TornScans, AskAPairOfScansOnlyNextToATornOne)

@@ -21,17 +21,17 @@ constexpr std::size_t kTiedEvery = 2;
 std::vector<std::size_t>
 asTree(const ScanGroup& group, const JoinedBy& joined_by)
 {
-  std::map<std::size_t, std::vector<std::size_t>> joined; // places of members
+  std::vector<std::vector<std::size_t>> joined(group.members().size());
   for (std::size_t k = 1; k < group.members().size(); ++k) {
     const auto by = joined_by.find(group.members()[k].scan);
-    const auto parent = std::find_if(
-        group.members().begin(), group.members().end(), [&](const PlacedScan& one) {
-          return by != joined_by.end() && one.scan == by->second;
-        });
-    joined[parent == group.members().end()
-               ? 0
-               : static_cast<std::size_t>(parent - group.members().begin())]
-        .push_back(k);
+    // A scan that left and was joined again by way of what followed it is no parent of that.
+    const auto begin = group.members().begin();
+    const auto before = begin + static_cast<std::ptrdiff_t>(k);
+    const auto parent = std::find_if(begin, before, [&](const PlacedScan& one) {
+      return by != joined_by.end() && one.scan == by->second;
+    });
+    joined[parent == before ? 0 : static_cast<std::size_t>(parent - begin)].push_back(
+        k);
   }
   std::vector<std::size_t> order, open = {0};
   while (!open.empty()) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+using pcl6d::global_registration::inTreeOrder;
 using pcl6d::global_registration::JoinedBy;
 using pcl6d::global_registration::partBehind;
 using pcl6d::global_registration::tornScans;
@@ -89,4 +90,20 @@ TEST(PartBehind, IsWhatWasJoinedByWayOfAScan)
   EXPECT_EQ(partBehind(1, kScans, kChain), (Scans{1, 2, 3, 4, 5, 6, 7}));
   EXPECT_EQ(partBehind(6, kScans, kChain), (Scans{6, 7}));
   EXPECT_EQ(partBehind(0, kScans, kChain), Scans{0});
+}
+
+TEST(InTreeOrder, PutsWhatWasJoinedByWayOfAScanBehindIt)
+{
+  EXPECT_EQ(inTreeOrder(kScans, kChain),
+            (std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(inTreeOrder({1, 6, 2, 7, 3}, kChain),
+            (std::vector<std::size_t>{0, 1, 3, 2, 4}));
+}
+
+TEST(InTreeOrder, LosesNoScanWhereOneWasJoinedAnewByWayOfWhatFollowedIt)
+{
+  // 1 held 2, left, and was joined again by way of 2: each the other's parent.
+  const JoinedBy cycle = {{2, 1}, {1, 2}, {3, 3}, {4, 99}};
+  EXPECT_EQ(inTreeOrder({0, 2, 1, 3, 4}, cycle),
+            (std::vector<std::size_t>{0, 1, 2, 3, 4}));
 }

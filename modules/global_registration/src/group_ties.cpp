@@ -16,31 +16,14 @@ namespace {
 /** Half of the points are enough to tell which scans meet. */
 constexpr std::size_t kTiedEvery = 2;
 
-/** Members in an order in which all that was joined by way of a scan follows it, as
- * tiesOf() looks at parts of what follows each other. */
+/** \return the members in the order in which they were joined */
 std::vector<std::size_t>
-asTree(const ScanGroup& group, const JoinedBy& joined_by)
+scansOf(const ScanGroup& group)
 {
-  std::vector<std::vector<std::size_t>> joined(group.members().size());
-  for (std::size_t k = 1; k < group.members().size(); ++k) {
-    const auto by = joined_by.find(group.members()[k].scan);
-    // A scan that left and was joined again by way of what followed it is no parent of that.
-    const auto begin = group.members().begin();
-    const auto before = begin + static_cast<std::ptrdiff_t>(k);
-    const auto parent = std::find_if(begin, before, [&](const PlacedScan& one) {
-      return by != joined_by.end() && one.scan == by->second;
-    });
-    joined[parent == before ? 0 : static_cast<std::size_t>(parent - begin)].push_back(
-        k);
-  }
-  std::vector<std::size_t> order, open = {0};
-  while (!open.empty()) {
-    const std::size_t k = open.back();
-    open.pop_back();
-    order.push_back(k);
-    open.insert(open.end(), joined[k].rbegin(), joined[k].rend());
-  }
-  return order;
+  std::vector<std::size_t> scans;
+  for (const auto& one : group.members())
+    scans.push_back(one.scan);
+  return scans;
 }
 
 /** What each member and those that it meets most say of each other.
@@ -99,10 +82,7 @@ divide(const ScanGroup& group,
        ScanGroup& block,
        ScanGroup& rest)
 {
-  std::vector<std::size_t> scans; // in the order in which they were joined
-  for (const auto& one : group.members())
-    scans.push_back(one.scan);
-  const std::set<std::size_t> part = partBehind(scan, scans, joined_by);
+  const std::set<std::size_t> part = partBehind(scan, scansOf(group), joined_by);
   for (const auto& one : group.members())
     (part.count(one.scan) > 0 ? block : rest).add(one.scan, one.T_group_scan);
 }
@@ -110,7 +90,7 @@ divide(const ScanGroup& group,
 std::vector<std::pair<std::size_t, std::string>>
 untiedOf(const ScanGroup& group, const JoinedBy& joined_by, unsigned int num_threads)
 {
-  const auto order = asTree(group, joined_by);
+  const auto order = inTreeOrder(scansOf(group), joined_by);
   double background = 0;
   const auto links = linksOf(group, order, num_threads, background);
   const auto ties = verification::tiesOf(order.size(), links, background);

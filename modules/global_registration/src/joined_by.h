@@ -27,4 +27,30 @@ partBehind(std::size_t scan,
   return part;
 }
 
+/** \return places in the list, so that all that was joined by way of a scan follows it, as
+ * tiesOf() looks at parts of what follows each other. A scan that left and was joined again by
+ * way of what had followed it is no parent of that.
+ * \param[in] scans as partBehind(); not empty */
+inline std::vector<std::size_t>
+inTreeOrder(const std::vector<std::size_t>& scans, const JoinedBy& joined_by)
+{
+  std::vector<std::vector<std::size_t>> behind(scans.size());
+  for (std::size_t k = 1; k < scans.size(); ++k) {
+    const auto by = joined_by.find(scans[k]);
+    std::size_t parent = 0;
+    for (std::size_t i = 0; i < k && by != joined_by.end(); ++i)
+      if (scans[i] == by->second)
+        parent = i;
+    behind[parent].push_back(k);
+  }
+  std::vector<std::size_t> order, open = {0};
+  while (!open.empty()) {
+    const std::size_t k = open.back();
+    open.pop_back();
+    order.push_back(k);
+    open.insert(open.end(), behind[k].rbegin(), behind[k].rend());
+  }
+  return order;
+}
+
 } // namespace pcl6d::global_registration

@@ -2,6 +2,7 @@
 #include "graph_links.h"
 
 #include <pcl6d/common/components.h>
+#include <pcl6d/common/pose.h>
 
 #include <algorithm>
 #include <string>
@@ -20,6 +21,10 @@ odometryDeviation(const Eigen::Isometry3d& step, double voxel)
 {
   return kOdometryVoxels * voxel + kOdometryShare * step.translation().norm();
 }
+
+/** A loop whose ends are off by less than this share of max_distance, and turned by less
+ * than this angle, is closed already. */
+constexpr double kClosed = 0.5, kClosedTurn = 0.02; // [rad]
 
 /** A link that switching leaves less weight is refused. */
 constexpr double kSwitchedOff = 0.5;
@@ -123,6 +128,22 @@ costOf(const ScanLink& loop)
   if (!loop.T_from_to || !loop.covariance)
     return std::nullopt;
   return costOfCovariance(twistCovariance(*loop.T_from_to, *loop.covariance));
+}
+
+std::vector<Loop>
+openLoops(const std::vector<ScanLink>& found, const Poses& poses, double max_distance)
+{
+  std::vector<Loop> loops;
+  for (const ScanLink& link : found) {
+    if (link.verdict != LinkVerdict::kUsed)
+      continue;
+    const Eigen::Isometry3d corrected = poses[link.from] * *link.T_from_to;
+    const MotionSize off = distanceBetween(corrected, poses[link.to]);
+    if (off.translation > kClosed * max_distance || off.rotation > kClosedTurn)
+      loops.push_back(
+          {link.from, link.to, corrected, costOf(link).value_or(PerDimension::Zero())});
+  }
+  return loops;
 }
 
 std::vector<LoopEdge>

@@ -48,6 +48,11 @@ driftOf(const std::vector<ScanResult>& scans, std::size_t count, double voxel);
 PCL6D_EXPORTS std::optional<PerDimension> // shown to its test
 costOf(const ScanLink& loop);
 
+/** \return the loops whose ends do not meet yet
+ * \param[in] max_distance [m] within which matching pairs points */
+std::vector<Loop>
+openLoops(const std::vector<ScanLink>& found, const Poses& poses, double max_distance);
+
 /** \return the chain of the scans, and the loops among the links that are closed already
  * \param[in] open the others */
 std::vector<LoopEdge>

@@ -36,10 +36,6 @@ believedOf(const Slam6DResult& result)
 }
 
 namespace {
-/** A loop whose ends are off by less than this share of max_distance, and turned by less
- * than this angle, is closed already. */
-constexpr double kClosed = 0.5, kClosedTurn = 0.02; // [rad]
-
 /** Relaxation rests when no scan moves by more than this share of the voxel. */
 constexpr double kRestShare = 0.03;
 
@@ -173,7 +169,7 @@ GraphStage::closeLoops(Slam6DResult& result, std::size_t first)
   believed.resize(scans_.size());
   const std::vector<ScanLink> found =
       detectLoops(scans_, before, believed, detectionOptions(result, first));
-  const std::vector<Loop> loops = openLoops(found, before);
+  const std::vector<Loop> loops = openLoops(found, before, icp_.max_distance);
   result.links.insert(result.links.end(), found.begin(), found.end());
   if (loops.empty())
     return false;
@@ -200,23 +196,6 @@ bool
 GraphStage::closeLoopsOfLast(Slam6DResult& result)
 {
   return scans_.size() > 1 && closeLoops(result, scans_.size() - 1);
-}
-
-/** \return the loops whose ends do not meet yet */
-std::vector<Loop>
-GraphStage::openLoops(const std::vector<ScanLink>& found, const Poses& poses) const
-{
-  std::vector<Loop> loops;
-  for (const ScanLink& link : found) {
-    if (link.verdict != LinkVerdict::kUsed)
-      continue;
-    const Eigen::Isometry3d corrected = poses[link.from] * *link.T_from_to;
-    const MotionSize off = distanceBetween(corrected, poses[link.to]);
-    if (off.translation > kClosed * icp_.max_distance || off.rotation > kClosedTurn)
-      loops.push_back(
-          {link.from, link.to, corrected, costOf(link).value_or(PerDimension::Zero())});
-  }
-  return loops;
 }
 
 GraphSlamOptions

@@ -87,8 +87,6 @@ private:
   graphOptions() const;
   ScanNetwork
   makeNetwork(const Slam6DResult& result) const;
-  std::vector<Loop>
-  openLoops(const std::vector<ScanLink>& found, const Poses& poses) const;
   std::vector<ScanLink>
   odometryLinks(ScanNetwork& network, const Slam6DResult& result) const;
   void

@@ -89,7 +89,8 @@ RunVerification::verify(const std::vector<std::string>& names,
   result.verification = std::move(map);
 }
 
-/** Where much is loose or was lost, or rays are no judges, the initial poses may be wrong as a whole. */
+/** Where much is loose or was lost, or rays are no judges, the initial poses may be wrong as a
+ * whole. */
 void
 RunVerification::explainDoubts(const std::vector<ScanResult>& scans,
                                MapVerification& map) const

@@ -168,6 +168,8 @@ readLinkSet(const std::filesystem::path& folder, int every, std::size_t most)
   }
   const ScanParameters parameters = deriveScanParameters({}, measured);
   set.voxel = parameters.voxel.value;
+  set.min_range = parameters.min_range.value;
+  set.max_range = parameters.max_range.value;
   ReductionOptions reduction;
   reduction.voxel = set.voxel;
   IcpModel::Options model;

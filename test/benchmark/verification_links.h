@@ -21,7 +21,8 @@ struct LinkSet {
   std::vector<Points> measured;                ///< [m] within the range gate
   std::vector<Eigen::Isometry3d> T_world_scan; ///< of the reference
   IcpOptions icp;
-  double voxel = 0; ///< [m]
+  double voxel = 0;                    ///< [m]
+  double min_range = 0, max_range = 0; ///< [m] the gate
 };
 
 /** \brief Reads at most so many scans of a folder; the reference is `groundtruth.txt`, or

@@ -1,12 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/visibility/cube_faces.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pcl6d::visibility {
 
 namespace {
 constexpr std::uint16_t kNone = std::numeric_limits<std::uint16_t>::max();
+
+/** Spreads equal angles over about equal lengths: within 14 % of the mean, where the
+ * tangent would stretch twofold. */
+float
+evenly(float tangent)
+{
+  constexpr float kSlope = 1.27324F; // 4 / pi
+  return tangent * (kSlope - (kSlope - 1) * std::abs(tangent));
+}
+
+int
+cellAlong(float place, int side)
+{
+  return std::min(static_cast<int>((place + 1) / 2 * static_cast<float>(side)),
+                  side - 1);
+}
 
 /** A cell by its face, its row and its column. */
 struct CellOnCube {
@@ -121,6 +139,23 @@ private:
   std::vector<std::uint16_t> nearest_, farthest_, filled_;
 };
 } // namespace
+
+OnCube
+onCube(const Eigen::Vector3f& ray)
+{
+  Eigen::Index axis = 0;
+  const float length = ray.cwiseAbs().maxCoeff(&axis);
+  const auto face = static_cast<std::size_t>(2 * axis + (ray[axis] < 0 ? 1 : 0));
+  return {
+      face, evenly(ray[(axis + 1) % 3] / length), evenly(ray[(axis + 2) % 3] / length)};
+}
+
+std::size_t
+cellOf(const OnCube& place, int side)
+{
+  return static_cast<std::size_t>(cellAlong(place.v, side) * side +
+                                  cellAlong(place.u, side));
+}
 
 std::vector<Interval>
 haloOf(const Faces& measured, std::size_t face, int side, int filled)

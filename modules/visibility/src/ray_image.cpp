@@ -58,38 +58,6 @@ rangeOf(std::uint16_t code)
   return 0.5F * (place - static_cast<float>(whole) + 1) * power;
 }
 
-/** Spreads equal angles over about equal lengths: within 14 % of the mean, where the
- * tangent would stretch twofold. */
-float
-evenly(float tangent)
-{
-  constexpr float kSlope = 1.27324F; // 4 / pi
-  return tangent * (kSlope - (kSlope - 1) * std::abs(tangent));
-}
-
-visibility::OnCube
-onCube(const Eigen::Vector3f& ray)
-{
-  Eigen::Index axis = 0;
-  const float length = ray.cwiseAbs().maxCoeff(&axis);
-  const auto face = static_cast<std::size_t>(2 * axis + (ray[axis] < 0 ? 1 : 0));
-  return {
-      face, evenly(ray[(axis + 1) % 3] / length), evenly(ray[(axis + 2) % 3] / length)};
-}
-
-int
-cellAlong(float place, int side)
-{
-  return std::min(static_cast<int>((place + 1) / 2 * static_cast<float>(side)),
-                  side - 1);
-}
-
-std::size_t
-cellOf(const visibility::OnCube& place, int side)
-{
-  return static_cast<std::size_t>(cellAlong(place.v, side) * side +
-                                  cellAlong(place.u, side));
-}
 } // namespace
 
 const char*
@@ -145,7 +113,7 @@ RayImage::RayImage(const Points& measured, const RayImageOptions& options)
     const Eigen::Vector3f ray = p - origin_;
     const float range = ray.norm();
     if (range > 0 && std::isfinite(range)) // not if the square leaves float
-      rays.push_back({onCube(ray), codeOf(range)});
+      rays.push_back({visibility::onCube(ray), codeOf(range)});
   }
   if (rays.empty())
     return;
@@ -168,7 +136,7 @@ RayImage::fill(const std::vector<visibility::CodedRay>& rays, Level& level)
     auto& face = measured[ray.direction.face];
     if (face.empty())
       face.resize(cells);
-    face[cellOf(ray.direction, side)].add(ray.code);
+    face[visibility::cellOf(ray.direction, side)].add(ray.code);
   }
   std::size_t occupied = 0, answering = 0;
   for (std::size_t f = 0; f < measured.size(); ++f) {
@@ -190,7 +158,7 @@ RayImage::aim(const Eigen::Vector3f& place) const
   const float range = ray.norm();
   if (levels_.empty() || !(range > 0) || !std::isfinite(range))
     return {};
-  return {onCube(ray), range};
+  return {visibility::onCube(ray), range};
 }
 
 /** Asks for the cell that is likely to answer. */
@@ -202,7 +170,7 @@ RayImage::fetch(const Aim& aim) const
   const Level& finest = levels_.front();
   const auto& face = finest.faces[aim.direction.face];
   if (!face.empty())
-    __builtin_prefetch(&face[cellOf(aim.direction, finest.side)]);
+    __builtin_prefetch(&face[visibility::cellOf(aim.direction, finest.side)]);
 }
 
 SightOfPlace
@@ -242,7 +210,8 @@ RayImage::lookAlong(const Aim& aim, float sigma) const
     const auto& face = level.faces[direction.face];
     if (face.empty())
       continue;
-    const visibility::Interval& around = face[cellOf(direction, level.side)];
+    const visibility::Interval& around =
+        face[visibility::cellOf(direction, level.side)];
     if (around.isEmpty())
       continue;
     const auto noise = static_cast<float>(noise_);

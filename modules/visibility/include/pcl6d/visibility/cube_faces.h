@@ -3,6 +3,8 @@
 
 #include <pcl6d/common/export.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -46,6 +48,15 @@ struct CodedRay {
   OnCube direction;
   std::uint16_t code;
 };
+
+/** \param[in] ray [m] not zero \return where it meets the cube */
+PCL6D_EXPORTS OnCube
+onCube(const Eigen::Vector3f& ray);
+
+/** \param[in] side cells along an edge of a face
+ * \return the number of the cell on its face, row by row */
+PCL6D_EXPORTS std::size_t
+cellOf(const OnCube& place, int side);
 
 /** \brief Dilation by a square of three cells, across the edges of the cube.
  * \param[in] side cells along an edge of a face

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sight_votes.h"
+
+#include <pcl6d/search/point_tree.h>
+
+#include <vector>
+
+namespace pcl6d::moving_objects {
+
+/** \brief The places of a scan, and how near each other they are. */
+struct JudgedPlaces {
+  const Points& places;      ///< [m] in the scan's frame
+  Eigen::Vector3f origin;    ///< [m] of its rays
+  double cell = 0;           ///< [rad] that the places are apart, seen from there
+  double noise = 0;          ///< [m] standard deviation of a point
+};
+
+/** \brief Puts places together that were seen through, and tells which of these clusters
+ * are things that moved (see MovingPoints). */
+class MovingClusters {
+public:
+  /** Keeps references. \param[in] votes one per place */
+  MovingClusters(const JudgedPlaces& judged,
+                 const std::vector<Votes>& votes,
+                 const std::vector<Judge>& judges,
+                 unsigned int num_threads);
+
+  /** \return one per place */
+  std::vector<PointMotion>
+  decide();
+
+private:
+  float
+  reachOf(std::size_t place) const;
+  std::vector<Neighbour>
+  near(std::size_t place) const;
+  bool
+  isCandidate(std::size_t place) const;
+  bool
+  isHit(std::size_t place) const;
+  void
+  findClusters();
+  bool
+  moves(const std::vector<std::size_t>& cluster) const;
+  bool
+  continuesPlane(const std::vector<std::size_t>& cluster) const;
+  void
+  grow();
+  bool
+  belongs(std::size_t place);
+
+  const JudgedPlaces judged_;
+  const std::vector<Votes>& votes_;
+  const std::vector<Judge>& judges_;
+  unsigned int num_threads_;
+  PointTree tree_;
+  std::vector<std::size_t> candidates_;
+  std::vector<char> dynamic_;
+  std::vector<char> supported_; ///< 0: not asked, 1: on a surface of others, 2: not
+};
+
+} // namespace pcl6d::moving_objects

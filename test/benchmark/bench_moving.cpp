@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Folders whose points tell by a field `dynamic` whether they moved: how many of each kind are
+// told, by this suite and by two peers, and in what time.
+// usage: bench_moving [threads=N] [peers=1] [scans=N] [each=1] FOLDER ...
+#include "moving_peers.h"
+#include "verification_links.h"
+
+#include <pcl6d/io/scan_fields.h>
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/moving_objects/moving_points.h>
+
+#include <fstream>
+#include <set>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pcl6d::bench {
+
+namespace {
+using Clock = std::chrono::steady_clock;
+
+/** Points of both kinds, and how many of them were told so. */
+struct Score {
+  std::size_t still = 0, still_told = 0, moving = 0, moving_told = 0;
+  std::size_t known = 0, unseen_moving = 0;
+  double worst_eaten = 0; ///< share of static points called dynamic, worst scan
+
+  void
+  add(const std::vector<char>& truth, const std::vector<PointMotion>& told)
+  {
+    std::size_t here = 0, eaten = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const bool moved = told[i] == PointMotion::kDynamic;
+      known += told[i] != PointMotion::kUnknown ? 1 : 0;
+      if (truth[i]) {
+        ++moving;
+        moving_told += moved ? 1 : 0;
+        unseen_moving += told[i] == PointMotion::kUnknown ? 1 : 0;
+      }
+      else {
+        ++here;
+        eaten += moved ? 1 : 0;
+      }
+    }
+    still += here;
+    still_told += here - eaten;
+    if (here > 0)
+      worst_eaten = std::max(worst_eaten,
+                             static_cast<double>(eaten) / static_cast<double>(here));
+  }
+
+  void
+  print(const char* name, double seconds, std::size_t points) const
+  {
+    const auto share = [](std::size_t part, std::size_t all) {
+      return all == 0 ? 100.0
+                      : 100.0 * static_cast<double>(part) / static_cast<double>(all);
+    };
+    const double sa = share(still_told, still), da = share(moving_told, moving);
+    const double judged_da = share(moving_told, moving - unseen_moving);
+    std::printf("  %-10s SA %6.2f  DA %6.2f  AA %6.2f  (DA of those seen by others "
+                "%6.2f, AA %6.2f; told %5.1f %%; worst scan %.2f %% eaten)  %.1f ms per "
+                "100 000 points\n",
+                name,
+                sa,
+                da,
+                std::sqrt(sa * da),
+                judged_da,
+                std::sqrt(sa * judged_da),
+                share(known, still + moving),
+                100 * worst_eaten,
+                1e3 * seconds * 1e5 / static_cast<double>(points));
+  }
+};
+
+std::vector<std::vector<char>>
+truthOf(const std::string& folder, std::size_t count, double nearest, double farthest)
+{
+  const ScanFolder scans(folder, {});
+  std::vector<std::vector<char>> truth;
+  std::set<double> ids; // TEMP
+  {std::ifstream in(folder + "/moving_ids.txt"); double id; while (in >> id) ids.insert(id);}
+  for (std::size_t i = 0; i < std::min(count, scans.size()); ++i) {
+    const Scan scan = scans.read(i);
+    auto field = fieldValues(scan.cloud, "dynamic");
+    if (!field && !ids.empty()) { field = fieldValues(scan.cloud, "object_id"); for (auto& v : field->values) v = ids.count(v); }
+    truth.emplace_back();
+    for (std::size_t p = 0; p < scan.points.size(); ++p) {
+      const float range = scan.points[p].norm(); // as readLinkSet() leaves out
+      if (scan.points[p].allFinite() && range >= nearest && range <= farthest)
+        truth.back().push_back(field && field->values[p] != 0 ? 1 : 0);
+    }
+  }
+  return truth;
+}
+
+std::vector<SeenScan>
+seen(const LinkSet& set)
+{
+  std::vector<SeenScan> scans;
+  for (std::size_t i = 0; i < set.scans.size(); ++i) {
+    const IcpModel& surfaces = set.scans[i].surfaces();
+    SeenScan scan;
+    scan.rays = &set.scans[i].rays();
+    scan.surface = &surfaces.points();
+    scan.normals = &surfaces.normals();
+    scan.tree = &surfaces.tree();
+    scan.voxel = set.voxel;
+    scan.T_world_scan = set.T_world_scan[i];
+    scans.push_back(scan);
+  }
+  return scans;
+}
+
+void
+dump(const LinkSet& set,
+     std::size_t i,
+     const std::vector<char>& truth,
+     const std::vector<PointMotion>& told)
+{
+  const std::string name = "/tmp/moving_" + set.name + "_" + std::to_string(i) + ".txt";
+  FILE* file = std::fopen(name.c_str(), "w");
+  for (std::size_t p = 0; p < truth.size(); ++p) {
+    const Eigen::Vector3d w = set.T_world_scan[i] * set.measured[i][p].cast<double>();
+    std::fprintf(file, "%.3f %.3f %.3f %d %d\n", w.x(), w.y(), w.z(), truth[p],
+                 static_cast<int>(told[p]));
+  }
+  std::fclose(file);
+}
+
+int
+run(const std::vector<std::string>& arguments)
+{
+  std::map<std::string, int> knobs{
+      {"threads", 2}, {"peers", 0}, {"scans", 1000}, {"each", 0}, {"dump", 0}};
+  for (const std::string& argument : arguments) {
+    const auto equals = argument.find('=');
+    if (equals != std::string::npos) {
+      knobs.at(argument.substr(0, equals)) = std::atoi(argument.c_str() + equals + 1);
+      continue;
+    }
+    LinkSet set = readLinkSet(argument, 1, static_cast<std::size_t>(knobs["scans"]));
+    const auto truth =
+        truthOf(argument, set.scans.size(), set.min_range, set.max_range);
+    MovingPointsOptions options;
+    options.num_threads = static_cast<unsigned int>(knobs["threads"]);
+    const auto start = Clock::now();
+    const MovingPoints judges(seen(set), options);
+    Score score;
+    std::size_t points = 0;
+    std::vector<std::vector<PointMotion>> told;
+    for (std::size_t i = 0; i < set.scans.size(); ++i) {
+      told.push_back(judges.judge(i, set.measured[i]));
+      points += set.measured[i].size();
+    }
+    const std::chrono::duration<double> spent = Clock::now() - start;
+    std::printf("%s: %zu scans, %zu points, voxel %.3f m\n",
+                argument.c_str(),
+                set.scans.size(),
+                points,
+                set.voxel);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      score.add(truth[i], told[i]);
+      if (knobs["each"]) {
+        Score one;
+        one.add(truth[i], told[i]);
+        std::printf("%3zu %zu dynamic", i, one.moving);
+        one.print("", 0, 1);
+      }
+      if (knobs["dump"])
+        dump(set, i, truth[i], told[i]);
+    }
+    score.print("ours", spent.count(), points);
+    if (knobs["peers"])
+      for (const MovingPeer& peer : movingPeers()) {
+        const auto begun = Clock::now();
+        const auto by_peer = peer.judge(set.measured, set.T_world_scan);
+        const std::chrono::duration<double> its = Clock::now() - begun;
+        Score theirs;
+        for (std::size_t i = 0; i < by_peer.size(); ++i)
+          theirs.add(truth[i], by_peer[i]);
+        theirs.print(peer.name, its.count(), points);
+      }
+  }
+  return 0;
+}
+} // namespace
+} // namespace pcl6d::bench
+
+int
+main(int argc, char** argv)
+{
+  return pcl6d::bench::run({argv + 1, argv + argc});
+}

@@ -9,20 +9,25 @@
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/moving_objects/moving_points.h>
 
-#include <fstream>
-#include <set>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <fstream>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace pcl6d::bench {
 
 namespace {
-using Clock = std::chrono::steady_clock;
+/** \return [s] of all threads */
+double
+processorSeconds()
+{
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 /** Points of both kinds, and how many of them were told so. */
 struct Score {
@@ -50,8 +55,8 @@ struct Score {
     still += here;
     still_told += here - eaten;
     if (here > 0)
-      worst_eaten = std::max(worst_eaten,
-                             static_cast<double>(eaten) / static_cast<double>(here));
+      worst_eaten =
+          std::max(worst_eaten, static_cast<double>(eaten) / static_cast<double>(here));
   }
 
   void
@@ -63,18 +68,19 @@ struct Score {
     };
     const double sa = share(still_told, still), da = share(moving_told, moving);
     const double judged_da = share(moving_told, moving - unseen_moving);
-    std::printf("  %-10s SA %6.2f  DA %6.2f  AA %6.2f  (DA of those seen by others "
-                "%6.2f, AA %6.2f; told %5.1f %%; worst scan %.2f %% eaten)  %.1f ms per "
-                "100 000 points\n",
-                name,
-                sa,
-                da,
-                std::sqrt(sa * da),
-                judged_da,
-                std::sqrt(sa * judged_da),
-                share(known, still + moving),
-                100 * worst_eaten,
-                1e3 * seconds * 1e5 / static_cast<double>(points));
+    std::printf(
+        "  %-10s SA %6.2f  DA %6.2f  AA %6.2f  (DA of those seen by others "
+        "%6.2f, AA %6.2f; told %5.1f %%; worst scan %.2f %% eaten)  %.1f ms per "
+        "100 000 points\n",
+        name,
+        sa,
+        da,
+        std::sqrt(sa * da),
+        judged_da,
+        std::sqrt(sa * judged_da),
+        share(known, still + moving),
+        100 * worst_eaten,
+        1e3 * seconds * 1e5 / static_cast<double>(points));
   }
 };
 
@@ -84,11 +90,20 @@ truthOf(const std::string& folder, std::size_t count, double nearest, double far
   const ScanFolder scans(folder, {});
   std::vector<std::vector<char>> truth;
   std::set<double> ids; // TEMP
-  {std::ifstream in(folder + "/moving_ids.txt"); double id; while (in >> id) ids.insert(id);}
+  {
+    std::ifstream in(folder + "/moving_ids.txt");
+    double id;
+    while (in >> id)
+      ids.insert(id);
+  }
   for (std::size_t i = 0; i < std::min(count, scans.size()); ++i) {
     const Scan scan = scans.read(i);
     auto field = fieldValues(scan.cloud, "dynamic");
-    if (!field && !ids.empty()) { field = fieldValues(scan.cloud, "object_id"); for (auto& v : field->values) v = ids.count(v); }
+    if (!field && !ids.empty()) {
+      field = fieldValues(scan.cloud, "object_id");
+      for (auto& v : field->values)
+        v = ids.count(v);
+    }
     truth.emplace_back();
     for (std::size_t p = 0; p < scan.points.size(); ++p) {
       const float range = scan.points[p].norm(); // as readLinkSet() leaves out
@@ -127,7 +142,12 @@ dump(const LinkSet& set,
   FILE* file = std::fopen(name.c_str(), "w");
   for (std::size_t p = 0; p < truth.size(); ++p) {
     const Eigen::Vector3d w = set.T_world_scan[i] * set.measured[i][p].cast<double>();
-    std::fprintf(file, "%.3f %.3f %.3f %d %d\n", w.x(), w.y(), w.z(), truth[p],
+    std::fprintf(file,
+                 "%.3f %.3f %.3f %d %d\n",
+                 w.x(),
+                 w.y(),
+                 w.z(),
+                 truth[p],
                  static_cast<int>(told[p]));
   }
   std::fclose(file);
@@ -149,7 +169,7 @@ run(const std::vector<std::string>& arguments)
         truthOf(argument, set.scans.size(), set.min_range, set.max_range);
     MovingPointsOptions options;
     options.num_threads = static_cast<unsigned int>(knobs["threads"]);
-    const auto start = Clock::now();
+    const double start = processorSeconds();
     const MovingPoints judges(seen(set), options);
     Score score;
     std::size_t points = 0;
@@ -158,7 +178,7 @@ run(const std::vector<std::string>& arguments)
       told.push_back(judges.judge(i, set.measured[i]));
       points += set.measured[i].size();
     }
-    const std::chrono::duration<double> spent = Clock::now() - start;
+    const double spent = processorSeconds() - start;
     std::printf("%s: %zu scans, %zu points, voxel %.3f m\n",
                 argument.c_str(),
                 set.scans.size(),
@@ -175,16 +195,16 @@ run(const std::vector<std::string>& arguments)
       if (knobs["dump"])
         dump(set, i, truth[i], told[i]);
     }
-    score.print("ours", spent.count(), points);
+    score.print("ours", spent, points);
     if (knobs["peers"])
       for (const MovingPeer& peer : movingPeers()) {
-        const auto begun = Clock::now();
+        const double begun = processorSeconds();
         const auto by_peer = peer.judge(set.measured, set.T_world_scan);
-        const std::chrono::duration<double> its = Clock::now() - begun;
+        const double its = processorSeconds() - begun;
         Score theirs;
         for (std::size_t i = 0; i < by_peer.size(); ++i)
           theirs.add(truth[i], by_peer[i]);
-        theirs.print(peer.name, its.count(), points);
+        theirs.print(peer.name, its, points);
       }
   }
   return 0;

@@ -22,8 +22,9 @@ constexpr double kNearCells = 3;
 /** Or so many standard deviations: what differs by noise alone is near. */
 constexpr double kNearSigmas = 6;
 
-/** A cluster of fewer places may be chance: as a patch of sightEvidence(). */
-constexpr std::size_t kLeastPlaces = 4;
+/** A cluster with fewer misses, less twice its hits, may be chance: the least number of points
+ * that say something of a patch of sightEvidence(). */
+constexpr int kLeastMisses = 4;
 
 /** What grows, grows by so many places at most: enough for legs, heads and sides. */
 constexpr int kGrowths = 12;
@@ -116,7 +117,10 @@ MovingClusters::findClusters()
 bool
 MovingClusters::moves(const std::vector<std::size_t>& cluster) const
 {
-  return cluster.size() >= kLeastPlaces && !continuesPlane(cluster);
+  int misses = 0;
+  for (const std::size_t place : cluster)
+    misses += votes_[place].numMisses() - kHitInMisses * votes_[place].numHits();
+  return misses >= kLeastMisses && !continuesPlane(cluster);
 }
 
 bool
@@ -125,7 +129,9 @@ MovingClusters::continuesPlane(const std::vector<std::size_t>& /*cluster*/) cons
   return false;
 }
 
-/** Whether a place that nobody saw through is a part of what moves around it. */
+/** Whether a place that nobody saw through is a part of what moves around it: where others
+ * measured something near, but no surface through it, a quarter of its neighbours will do, as
+ * one side of it is enough; where nobody looked, most of them must move. */
 bool
 MovingClusters::belongs(std::size_t place)
 {
@@ -146,7 +152,7 @@ MovingClusters::belongs(std::size_t place)
     ++all;
     moving += dynamic_[other] ? 1 : 0;
   }
-  return 2 * moving > all;
+  return votes_[place].hits != 0 ? 4 * moving >= all : 2 * moving > all;
 }
 
 void

@@ -11,10 +11,10 @@ namespace pcl6d::moving_objects {
 
 /** \brief The places of a scan, and how near each other they are. */
 struct JudgedPlaces {
-  const Points& places;      ///< [m] in the scan's frame
-  Eigen::Vector3f origin;    ///< [m] of its rays
-  double cell = 0;           ///< [rad] that the places are apart, seen from there
-  double noise = 0;          ///< [m] standard deviation of a point
+  const Points& places;   ///< [m] in the scan's frame
+  Eigen::Vector3f origin; ///< [m] of its rays
+  double cell = 0;        ///< [rad] that the places are apart, seen from there
+  double noise = 0;       ///< [m] standard deviation of a point
 };
 
 /** \brief Puts places together that were seen through, and tells which of these clusters

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace pcl6d {
@@ -19,8 +20,10 @@ using namespace moving_objects;
 constexpr std::size_t kAsked = 32;
 /** ... out of so many times as many. */
 constexpr std::size_t kSpread = 8;
-/** ... of so many places: a share of 5 % of them is known to a fifth. */
-constexpr std::size_t kSample = 384;
+/** So many judges look at all places: what two of them hit and none saw through stands, as most
+ * places do. */
+constexpr std::size_t kFirst = 3;
+constexpr int kSettled = 2;
 
 /** [rad] Of a scan with too few points for an image of its own. */
 constexpr double kFinest = 0.0061;
@@ -57,7 +60,7 @@ requireSeen(const SeenScan& scan, std::size_t i)
 void
 MovingPointsOptions::validate() const
 {
-  require(neighbours >= 1 && neighbours <= 16, "neighbours", neighbours, "in [1, 16]");
+  require(neighbours >= 1 && neighbours <= 8, "neighbours", neighbours, "in [1, 8]");
 }
 
 MovingPoints::MovingPoints(std::vector<SeenScan> scans,
@@ -91,18 +94,26 @@ MovingPoints::judge(std::size_t scan, const Points& points) const
   if (buckets.places.empty())
     return motion;
 
-  Points sample;
-  const std::size_t step = std::max<std::size_t>(1, buckets.places.size() / kSample);
-  for (std::size_t i = 0; i < buckets.places.size(); i += step)
-    sample.push_back(buckets.places[i]);
-  const auto judges =
-      chooseJudges(candidatesFor(scan), sample, options_.neighbours);
-  if (judges.empty())
-    return motion;
-  const auto votes = votesOf(judges, judged, buckets.places, options_.num_threads);
+  Jury jury(candidatesFor(scan), judged, buckets.places, options_.num_threads);
+  std::vector<std::uint32_t> open(buckets.places.size());
+  std::iota(open.begin(), open.end(), 0U);
+  const auto leaveOpen = [&](auto&& is_open) {
+    open.erase(std::remove_if(
+                   open.begin(),
+                   open.end(),
+                   [&](std::uint32_t place) { return !is_open(jury.votes()[place]); }),
+               open.end());
+  };
+  const std::size_t chosen = jury.choose(open, options_.neighbours);
+  jury.ask(open, 0, kFirst);
+  leaveOpen([](const Votes& v) { return v.misses != 0 || v.numHits() < kSettled; });
+  jury.ask(open, kFirst, chosen);
+  leaveOpen([](const Votes& v) { return v.misses == 0 && v.hits == 0; });
+  jury.ask(open, chosen, jury.choose(open, options_.neighbours));
   const JudgedPlaces places{buckets.places, rays.origin(), cell, rays.noise()};
   const auto decided =
-      MovingClusters(places, votes, judges, options_.num_threads).decide();
+      MovingClusters(places, jury.votes(), jury.judges(), options_.num_threads)
+          .decide();
   for (std::size_t i = 0; i < points.size(); ++i)
     if (buckets.bucket[i] != RayBuckets::kNone)
       motion[i] = decided[buckets.bucket[i]];

@@ -77,9 +77,8 @@ bucketsOf(const Points& points,
               });
     for (std::size_t first = begin[c]; first < begin[c + 1];) {
       std::size_t last = first + 1;
-      while (last < begin[c + 1] &&
-             rays[last].range - rays[last - 1].range <=
-                 slack + width * rays[last].range)
+      while (last < begin[c + 1] && rays[last].range - rays[last - 1].range <=
+                                        slack + width * rays[last].range)
         ++last;
       for (std::size_t k = first; k < last; ++k)
         buckets.bucket[rays[k].point] =

@@ -14,8 +14,9 @@ namespace pcl6d::moving_objects {
 struct RayBuckets {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  Points places;                     ///< [m] of each bucket the point in the middle
-  std::vector<std::uint32_t> bucket; ///< of each point; kNone: not finite, or the origin
+  Points places; ///< [m] of each bucket the point in the middle
+  std::vector<std::uint32_t>
+      bucket; ///< of each point; kNone: not finite, or the origin
 };
 
 /** \param[in] origin [m] of the rays \param[in] cell [rad] > 0

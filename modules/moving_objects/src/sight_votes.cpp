@@ -5,11 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl6d::moving_objects {
 
 namespace {
 constexpr std::size_t kLookedAtOnce = 2048;
+
+/** Judges of one scan: the bits of Votes. */
+constexpr std::size_t kMostJudges = 16;
+
+/** Of so many places it is asked who sees them: a share of 5 % of them is known to a quarter. */
+constexpr std::size_t kSample = 256;
 
 /** Points within so many standard deviations of a surface are on it. */
 constexpr float kOnSurfaceSigmas = 3;
@@ -73,9 +80,9 @@ Judge::isMiss(const SightOfPlace& seen,
 {
   if (normal.isZero())
     return true;
-  const Eigen::Vector3f ray =
-      T_judge_judged_ * place - judge_->rays->origin();
-  const float slope = std::abs((T_judge_judged_.linear() * normal).dot(ray.normalized()));
+  const Eigen::Vector3f ray = T_judge_judged_ * place - judge_->rays->origin();
+  const float slope =
+      std::abs((T_judge_judged_.linear() * normal).dot(ray.normalized()));
   // look() tells the distance in thirds of its tolerance, which is right from 45 deg on.
   const float tolerance = 3 * seen.beyond / seen.sigmas;
   return seen.beyond * slope > tolerance;
@@ -101,26 +108,47 @@ Judge::supports(const Eigen::Vector3f& place) const
   return across <= tolerance + kBend * off.norm();
 }
 
-std::vector<Judge>
-chooseJudges(const std::vector<Judge>& candidates,
-             const Points& sample,
-             std::size_t count)
+Jury::Jury(std::vector<Judge> candidates,
+           const SeenScan& judged,
+           const Points& places,
+           unsigned int num_threads)
+: candidates_(std::move(candidates))
+, judged_(judged)
+, places_(places)
+, num_threads_(num_threads)
+, votes_(places.size())
+{}
+
+void
+Jury::ask(const std::vector<std::uint32_t>& which, std::size_t first, std::size_t end)
 {
-  std::vector<std::vector<std::uint8_t>> says; // per candidate and place
-  for (const Judge& candidate : candidates) {
-    says.emplace_back();
-    for (const SightOfPlace& seen : candidate.look(sample))
-      says.back().push_back(
+  parallelBlocks(which.size(), kLookedAtOnce, num_threads_, [&](const Block& block) {
+    look(which, block.begin, block.end, {first, std::min(end, judges_.size())});
+  });
+}
+
+/** Whoever tells most of what is least known comes next. */
+std::size_t
+Jury::choose(const std::vector<std::uint32_t>& which, std::size_t count)
+{
+  Points sample;
+  const std::size_t step = std::max<std::size_t>(1, which.size() / kSample);
+  for (std::size_t i = 0; i < which.size(); i += step)
+    sample.push_back(places_[which[i]]);
+  count = std::min(count, kMostJudges - judges_.size());
+  std::vector<std::vector<std::uint8_t>> says(candidates_.size()); // of each place
+  parallelFor(candidates_.size(), num_threads_, [&](std::size_t c) {
+    for (const SightOfPlace& seen : candidates_[c].look(sample))
+      says[c].push_back(
           seen.sight == Sight::kFree || seen.sight == Sight::kConfirmed ? 1 : 0);
-  }
-  // Whoever tells most of what is least known comes next.
+  });
   std::vector<double> worth(sample.size(), 1);
-  std::vector<bool> taken(candidates.size(), false);
-  std::vector<Judge> judges;
-  while (judges.size() < count) {
-    std::size_t best = candidates.size();
+  std::vector<Judge> rest;
+  std::vector<bool> taken(candidates_.size(), false);
+  for (std::size_t n = 0; n < count; ++n) {
+    std::size_t best = candidates_.size();
     double most = 0;
-    for (std::size_t c = 0; c < candidates.size(); ++c) {
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
       double sum = 0;
       for (std::size_t p = 0; !taken[c] && p < sample.size(); ++p)
         sum += says[c][p] * worth[p];
@@ -129,60 +157,66 @@ chooseJudges(const std::vector<Judge>& candidates,
         best = c;
       }
     }
-    if (best == candidates.size())
+    if (best == candidates_.size())
       break;
     taken[best] = true;
-    judges.push_back(candidates[best]);
+    judges_.push_back(candidates_[best]);
     for (std::size_t p = 0; p < sample.size(); ++p)
-      if (says[best][p])
-        worth[p] /= 2;
+      worth[p] /= says[best][p] ? 2 : 1;
   }
-  return judges;
+  for (std::size_t c = 0; c < candidates_.size(); ++c)
+    if (!taken[c])
+      rest.push_back(candidates_[c]);
+  candidates_ = std::move(rest);
+  return judges_.size();
 }
 
-std::vector<Votes>
-votesOf(const std::vector<Judge>& judges,
-        const SeenScan& judged,
-        const Points& places,
-        unsigned int num_threads)
+void
+Jury::look(const std::vector<std::uint32_t>& which,
+           std::size_t begin,
+           std::size_t end,
+           Bench bench)
 {
-  std::vector<Votes> votes(places.size());
-  parallelBlocks(places.size(), kLookedAtOnce, num_threads, [&](const Block& block) {
-    const Points some(places.begin() + static_cast<std::ptrdiff_t>(block.begin),
-                      places.begin() + static_cast<std::ptrdiff_t>(block.end));
-    std::vector<Eigen::Vector3f> normals(some.size());
-    for (std::size_t j = 0; j < judges.size(); ++j) {
-      const auto bit = static_cast<std::uint16_t>(1U << j);
-      const auto seen = judges[j].look(some);
-      for (std::size_t k = 0; k < seen.size(); ++k) {
-        Votes& vote = votes[block.begin + k];
-        if (seen[k].sight == Sight::kFree) {
-          if (vote.misses == 0)
-            normals[k] = normalOf(judged, some[k]);
-          if (judges[j].isMiss(seen[k], some[k], normals[k]))
-          vote.misses = static_cast<std::uint16_t>(vote.misses | bit);
-        }
-        else if (seen[k].sight == Sight::kConfirmed)
-          vote.hits = static_cast<std::uint16_t>(vote.hits | bit);
-      }
-    }
-    for (std::size_t k = 0; k < some.size(); ++k) {
-      Votes& vote = votes[block.begin + k];
-      if (vote.misses == 0)
+  Points some;
+  for (std::size_t i = begin; i < end; ++i)
+    some.push_back(places_[which[i]]);
+  std::vector<Eigen::Vector3f> normals(some.size());
+  std::vector<bool> is_known(some.size(), false);
+  for (std::size_t j = bench.first; j < bench.end; ++j) {
+    const unsigned bit = 1U << j;
+    const auto seen = judges_[j].look(some);
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      Votes& vote = votes_[which[begin + k]];
+      if (seen[k].sight == Sight::kConfirmed)
+        vote.hits = static_cast<std::uint16_t>(vote.hits | bit);
+      if (seen[k].sight != Sight::kFree)
         continue;
-      for (std::size_t j = 0; j < judges.size(); ++j) {
-        if (!judges[j].hasSurface())
-          continue;
-        const unsigned bit = 1U << j;
-        const bool on_surface = judges[j].supports(some[k]);
-        vote.hits = static_cast<std::uint16_t>(on_surface ? vote.hits | bit
-                                                          : vote.hits & ~bit);
-        if (on_surface)
-          vote.misses = static_cast<std::uint16_t>(vote.misses & ~bit);
-      }
+      if (!is_known[k])
+        normals[k] = normalOf(judged_, some[k]);
+      is_known[k] = true;
+      if (judges_[j].isMiss(seen[k], some[k], normals[k]))
+        vote.misses = static_cast<std::uint16_t>(vote.misses | bit);
     }
-  });
-  return votes;
+  }
+  for (std::size_t i = begin; i < end; ++i)
+    if (votes_[which[i]].misses != 0)
+      checkSurfaces(which[i], bench);
+}
+
+void
+Jury::checkSurfaces(std::size_t place, Bench bench)
+{
+  Votes& vote = votes_[place];
+  for (std::size_t j = bench.first; j < bench.end; ++j) {
+    if (!judges_[j].hasSurface())
+      continue;
+    const unsigned bit = 1U << j;
+    const bool on_surface = judges_[j].supports(places_[place]);
+    vote.hits =
+        static_cast<std::uint16_t>(on_surface ? vote.hits | bit : vote.hits & ~bit);
+    if (on_surface)
+      vote.misses = static_cast<std::uint16_t>(vote.misses & ~bit);
+  }
 }
 
 } // namespace pcl6d::moving_objects

@@ -59,26 +59,63 @@ private:
 
   const SeenScan* judge_;
   Eigen::Isometry3f T_judge_judged_;
-  double noise_;              ///< [m] of the judged points
-  double variance_;           ///< [m^2] of both translations
-  double turn_of_judged_;     ///< [rad] sigma
-  double turn_of_judge_;      ///< [rad] sigma
+  double noise_;          ///< [m] of the judged points
+  double variance_;       ///< [m^2] of both translations
+  double turn_of_judged_; ///< [rad] sigma
+  double turn_of_judge_;  ///< [rad] sigma
 };
 
-/** \brief Chooses, of the scans that may see places, those that have most to say, so that
- * each place is seen by several.
- * \param[in] candidates \param[in] sample some of the places of the judged scan */
-std::vector<Judge>
-chooseJudges(const std::vector<Judge>& candidates,
-             const Points& sample,
-             std::size_t count);
+/** \brief The scans that judge the places of one scan, at most 16, and what they say. */
+class Jury {
+public:
+  /** Keeps references. \param[in] candidates who may be asked
+   * \param[in] judged whose places are judged \param[in] places [m] in its frame */
+  Jury(std::vector<Judge> candidates,
+       const SeenScan& judged,
+       const Points& places,
+       unsigned int num_threads);
 
-/** \brief All judges look at all places of a scan. A hit counts where the place lies on a surface of
- * who measured it; this is asked where there is a miss, too. */
-std::vector<Votes>
-votesOf(const std::vector<Judge>& judges,
-        const SeenScan& judged,
-        const Points& places,
-        unsigned int num_threads);
+  /** \brief Takes in more judges: those of the candidates that have most to say of some places,
+   * so that each is seen by several. \return how many there are now */
+  std::size_t
+  choose(const std::vector<std::uint32_t>& which, std::size_t count);
+
+  /** \brief Some judges look at some places. A hit counts where the place lies on a surface of
+   * who measured it; this is asked where there is a miss, too. */
+  void
+  ask(const std::vector<std::uint32_t>& which, std::size_t first, std::size_t end);
+
+  /** \return one per place */
+  const std::vector<Votes>&
+  votes() const
+  {
+    return votes_;
+  }
+  /** \return in the order of the bits of votes */
+  const std::vector<Judge>&
+  judges() const
+  {
+    return judges_;
+  }
+
+private:
+  struct Bench { ///< judges [first, end)
+    std::size_t first, end;
+  };
+  void
+  look(const std::vector<std::uint32_t>& which,
+       std::size_t begin,
+       std::size_t end,
+       Bench bench);
+  void
+  checkSurfaces(std::size_t place, Bench bench);
+
+  std::vector<Judge> candidates_;
+  const SeenScan& judged_;
+  const Points& places_;
+  unsigned int num_threads_;
+  std::vector<Judge> judges_;
+  std::vector<Votes> votes_;
+};
 
 } // namespace pcl6d::moving_objects

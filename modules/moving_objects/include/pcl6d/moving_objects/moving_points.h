@@ -28,7 +28,8 @@ struct PoseSigma {
 
 /** \brief A scan as those that judge others see it. All pointers are kept, none is owned. */
 struct SeenScan {
-  const RayImage* rays = nullptr; ///< of all its measured points; null: it judges nobody
+  const RayImage* rays =
+      nullptr; ///< of all its measured points; null: it judges nobody
   /** its surfaces, reduced by a voxel: what a ray that ends near a place has hit. Without
    * them what the rays say must do */
   const Points* surface = nullptr;
@@ -41,7 +42,8 @@ struct SeenScan {
 
 /** \brief Knobs of MovingPoints. */
 struct MovingPointsOptions {
-  /** so many other scans judge each scan, those that see most of it; in [1, 16] */
+  /** so many other scans judge each scan, those that see most of it, and as many more what
+   * these did not see; in [1, 8] */
   std::size_t neighbours = 8;
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
 

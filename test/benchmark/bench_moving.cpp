@@ -13,9 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -89,21 +87,9 @@ truthOf(const std::string& folder, std::size_t count, double nearest, double far
 {
   const ScanFolder scans(folder, {});
   std::vector<std::vector<char>> truth;
-  std::set<double> ids; // TEMP
-  {
-    std::ifstream in(folder + "/moving_ids.txt");
-    double id;
-    while (in >> id)
-      ids.insert(id);
-  }
   for (std::size_t i = 0; i < std::min(count, scans.size()); ++i) {
     const Scan scan = scans.read(i);
-    auto field = fieldValues(scan.cloud, "dynamic");
-    if (!field && !ids.empty()) {
-      field = fieldValues(scan.cloud, "object_id");
-      for (auto& v : field->values)
-        v = ids.count(v);
-    }
+    const auto field = fieldValues(scan.cloud, "dynamic");
     truth.emplace_back();
     for (std::size_t p = 0; p < scan.points.size(); ++p) {
       const float range = scan.points[p].norm(); // as readLinkSet() leaves out
@@ -132,32 +118,11 @@ seen(const LinkSet& set)
   return scans;
 }
 
-void
-dump(const LinkSet& set,
-     std::size_t i,
-     const std::vector<char>& truth,
-     const std::vector<PointMotion>& told)
-{
-  const std::string name = "/tmp/moving_" + set.name + "_" + std::to_string(i) + ".txt";
-  FILE* file = std::fopen(name.c_str(), "w");
-  for (std::size_t p = 0; p < truth.size(); ++p) {
-    const Eigen::Vector3d w = set.T_world_scan[i] * set.measured[i][p].cast<double>();
-    std::fprintf(file,
-                 "%.3f %.3f %.3f %d %d\n",
-                 w.x(),
-                 w.y(),
-                 w.z(),
-                 truth[p],
-                 static_cast<int>(told[p]));
-  }
-  std::fclose(file);
-}
-
 int
 run(const std::vector<std::string>& arguments)
 {
   std::map<std::string, int> knobs{
-      {"threads", 2}, {"peers", 0}, {"scans", 1000}, {"each", 0}, {"dump", 0}};
+      {"threads", 2}, {"peers", 0}, {"scans", 1000}, {"each", 0}};
   for (const std::string& argument : arguments) {
     const auto equals = argument.find('=');
     if (equals != std::string::npos) {
@@ -192,9 +157,8 @@ run(const std::vector<std::string>& arguments)
         std::printf("%3zu %zu dynamic", i, one.moving);
         one.print("", 0, 1);
       }
-      if (knobs["dump"])
-        dump(set, i, truth[i], told[i]);
     }
+    std::printf("  background %.3f\n", judges.background());
     score.print("ours", spent, points);
     if (knobs["peers"])
       for (const MovingPeer& peer : movingPeers()) {

@@ -26,32 +26,42 @@ constexpr double kNearSigmas = 6;
  * that say something of a patch of sightEvidence(). */
 constexpr int kLeastMisses = 4;
 
+/** A thing that others saw in its place has moved if so many saw through most of it: one alone may
+ * be where it is not. */
+constexpr int kClearJudges = 2;
+
 /** What grows, grows by so many places at most: enough for legs, heads and sides. */
 constexpr int kGrowths = 12;
 
 constexpr std::size_t kPlacesPerBlock = 256;
+
+constexpr int kNobody = -1;
 } // namespace
 
 MovingClusters::MovingClusters(const JudgedPlaces& judged,
-                               const std::vector<Votes>& votes,
-                               const std::vector<Judge>& judges,
+                               const Jury& jury,
                                unsigned int num_threads)
 : judged_(judged)
-, votes_(votes)
-, judges_(judges)
+, jury_(jury)
+, votes_(jury.votes())
 , num_threads_(num_threads)
-, dynamic_(votes.size(), 0)
-, supported_(votes.size(), 0)
+, mover_(votes_.size(), kNobody)
+, excess_(votes_.size(), 0)
 {
-  for (std::size_t place = 0; place < votes.size(); ++place)
+  for (std::size_t place = 0; place < votes_.size(); ++place) {
+    if (votes_[place].misses == 0)
+      continue;
+    excess_[place] = votes_[place].numMisses() -
+                     kHitInMisses * __builtin_popcount(jury.lastingHits(place));
     if (isCandidate(place))
       candidates_.push_back(place);
+  }
 }
 
 bool
 MovingClusters::isCandidate(std::size_t place) const
 {
-  return votes_[place].numMisses() > kHitInMisses * votes_[place].numHits();
+  return excess_[place] > 0;
 }
 
 bool
@@ -108,74 +118,110 @@ MovingClusters::findClusters()
   }
   for (const auto& [first, cluster] : clusters) {
     const auto [hit, all] = strewn[first];
-    if (2 * hit < all && moves(cluster))
-      for (const std::size_t place : cluster)
-        dynamic_[place] = 1;
+    if (2 * hit >= all || !moves(cluster))
+      continue;
+    for (const std::size_t place : cluster)
+      mover_[place] = static_cast<int>(stayed_.size());
+    stayed_.push_back(stayedFor(cluster));
   }
 }
 
+/** Whether enough judges saw through it. Where as many saw it in its place, it may have stayed for
+ * a while, if it is gone for some who see all of it; parts of what stands are missed by some here,
+ * by others there. */
 bool
 MovingClusters::moves(const std::vector<std::size_t>& cluster) const
 {
-  int misses = 0;
-  for (const std::size_t place : cluster)
-    misses += votes_[place].numMisses() - kHitInMisses * votes_[place].numHits();
-  return misses >= kLeastMisses && !continuesPlane(cluster);
-}
-
-bool
-MovingClusters::continuesPlane(const std::vector<std::size_t>& /*cluster*/) const
-{
-  return false;
-}
-
-/** Whether a place that nobody saw through is a part of what moves around it: where others
- * measured something near, but no surface through it, a quarter of its neighbours will do, as
- * one side of it is enough; where nobody looked, most of them must move. */
-bool
-MovingClusters::belongs(std::size_t place)
-{
-  if (supported_[place] == 0) {
-    bool on_surface = false;
-    for (std::size_t j = 0; j < judges_.size() && !on_surface; ++j)
-      on_surface = (votes_[place].hits >> j & 1U) != 0 &&
-                   judges_[j].supports(judged_.places[place]);
-    supported_[place] = on_surface ? 1 : 2;
+  int excess = 0;
+  std::size_t hits = 0, misses = 0;
+  std::vector<std::pair<std::size_t, std::size_t>> of(jury_.judges().size());
+  for (const std::size_t place : cluster) {
+    excess += excess_[place];
+    for (std::size_t j = 0; j < of.size(); ++j) {
+      of[j].first += votes_[place].misses >> j & 1U;
+      of[j].second += votes_[place].hits >> j & 1U;
+    }
   }
-  if (supported_[place] == 1 && !isCandidate(place))
+  int clear = 0;
+  for (const auto& [missed, hit] : of) {
+    hits += hit;
+    misses += missed;
+    clear += 2 * missed >= cluster.size() && 4 * hit <= missed ? 1 : 0;
+  }
+  if (2 * hits > misses && clear < kClearJudges)
     return false;
+  return excess >= kLeastMisses;
+}
+
+/** \return who saw a thing that moved where it is, as it stayed for a while: those who hit most
+ * of it */
+std::uint16_t
+MovingClusters::stayedFor(const std::vector<std::size_t>& cluster) const
+{
+  unsigned stayed = 0;
+  for (std::size_t j = 0; j < jury_.judges().size(); ++j) {
+    std::size_t hit = 0;
+    for (const std::size_t place : cluster)
+      hit += votes_[place].hits >> j & 1U;
+    stayed |= 2 * hit > cluster.size() ? 1U << j : 0U;
+  }
+  return static_cast<std::uint16_t>(stayed);
+}
+
+/** \return the thing that a place, which is not known to move, is a part of; kNobody: none. Where
+ * others measured something near, but no surface through it, a quarter of its neighbours will
+ * do, as one side of it is enough; where nobody looked, most of them must move. */
+int
+MovingClusters::ownerOf(std::size_t place) const
+{
   std::size_t moving = 0, all = 0;
-  for (const Neighbour& n : near(place)) {
+  unsigned stayed = 0;
+  int owner = kNobody;
+  for (const Neighbour& n : near(place)) { // the nearest first
     const auto other = static_cast<std::size_t>(n.index);
     if (other == place)
       continue;
     ++all;
-    moving += dynamic_[other] ? 1 : 0;
+    if (mover_[other] == kNobody)
+      continue;
+    ++moving;
+    stayed |= stayed_[static_cast<std::size_t>(mover_[other])];
+    owner = owner == kNobody ? mover_[other] : owner;
   }
-  return votes_[place].hits != 0 ? 4 * moving >= all : 2 * moving > all;
+  const unsigned hits = votes_[place].hits;
+  if (hits != 0 ? 4 * moving < all : 2 * moving <= all)
+    return kNobody;
+  for (std::size_t j = 0; j < jury_.judges().size(); ++j)
+    if ((hits & ~stayed & 1U << j) != 0 &&
+        jury_.judges()[j].supports(judged_.places[place]))
+      return kNobody;
+  return owner;
 }
 
 void
 MovingClusters::grow()
 {
   std::vector<std::size_t> front;
-  for (std::size_t place = 0; place < dynamic_.size(); ++place)
-    if (dynamic_[place])
+  for (std::size_t place = 0; place < mover_.size(); ++place)
+    if (mover_[place] != kNobody)
       front.push_back(place);
   for (int round = 0; round < kGrowths && !front.empty(); ++round) {
     std::vector<std::size_t> border;
     for (const std::size_t place : front)
       for (const Neighbour& n : near(place))
-        if (!dynamic_[static_cast<std::size_t>(n.index)])
+        if (mover_[static_cast<std::size_t>(n.index)] == kNobody)
           border.push_back(static_cast<std::size_t>(n.index));
     std::sort(border.begin(), border.end());
     border.erase(std::unique(border.begin(), border.end()), border.end());
+    std::vector<int> owners; // as all were before this round
+    for (const std::size_t place : border)
+      owners.push_back(ownerOf(place));
     front.clear();
-    for (const std::size_t place : border) // as all were before this round
-      if (belongs(place))
-        front.push_back(place);
-    for (const std::size_t place : front)
-      dynamic_[place] = 1;
+    for (std::size_t k = 0; k < border.size(); ++k)
+      if (owners[k] != kNobody) {
+        mover_[border[k]] = owners[k];
+        front.push_back(border[k]);
+      }
   }
 }
 
@@ -189,7 +235,7 @@ MovingClusters::decide()
   }
   std::vector<PointMotion> motion(votes_.size(), PointMotion::kUnknown);
   for (std::size_t place = 0; place < votes_.size(); ++place)
-    if (dynamic_[place])
+    if (mover_[place] != kNobody)
       motion[place] = PointMotion::kDynamic;
     else if (votes_[place].hits != 0)
       motion[place] = PointMotion::kStatic;

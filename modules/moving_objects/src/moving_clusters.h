@@ -21,10 +21,9 @@ struct JudgedPlaces {
  * are things that moved (see MovingPoints). */
 class MovingClusters {
 public:
-  /** Keeps references. \param[in] votes one per place */
+  /** Keeps references. \param[in] jury of these places */
   MovingClusters(const JudgedPlaces& judged,
-                 const std::vector<Votes>& votes,
-                 const std::vector<Judge>& judges,
+                 const Jury& jury,
                  unsigned int num_threads);
 
   /** \return one per place */
@@ -44,21 +43,22 @@ private:
   findClusters();
   bool
   moves(const std::vector<std::size_t>& cluster) const;
-  bool
-  continuesPlane(const std::vector<std::size_t>& cluster) const;
+  std::uint16_t
+  stayedFor(const std::vector<std::size_t>& cluster) const;
   void
   grow();
-  bool
-  belongs(std::size_t place);
+  int
+  ownerOf(std::size_t place) const;
 
   const JudgedPlaces judged_;
+  const Jury& jury_;
   const std::vector<Votes>& votes_;
-  const std::vector<Judge>& judges_;
   unsigned int num_threads_;
   PointTree tree_;
   std::vector<std::size_t> candidates_;
-  std::vector<char> dynamic_;
-  std::vector<char> supported_; ///< 0: not asked, 1: on a surface of others, 2: not
+  std::vector<int> mover_;            ///< of each place; -1: none
+  std::vector<std::uint16_t> stayed_; ///< of each mover: who saw it while it stayed
+  std::vector<int> excess_;           ///< misses less twice the lasting hits
 };
 
 } // namespace pcl6d::moving_objects

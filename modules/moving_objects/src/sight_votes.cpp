@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace pcl6d::moving_objects {
@@ -29,21 +30,16 @@ constexpr double kReach = 1.75;
  * off the plane by such a share of it, by the bend of the surface. */
 constexpr float kBend = 0.1F;
 
-/** \return the normal of the surface of a scan at one of its places; zero: not known */
-Eigen::Vector3f
-normalOf(const SeenScan& scan, const Eigen::Vector3f& place)
-{
-  if (!scan.surface)
-    return Eigen::Vector3f::Zero();
-  const auto reach = static_cast<float>(kReach * scan.voxel);
-  const Neighbour nearest = scan.tree->nearest(place, reach * reach);
-  return nearest.index < 0 ? Eigen::Vector3f::Zero()
-                           : (*scan.normals)[static_cast<std::size_t>(nearest.index)];
-}
+/** Of places that are near a surface of another scan, so large a share is on that very surface;
+ * of a normal distribution 80 % lie within 1.28 standard deviations. So many say enough. */
+constexpr double kMeetingShare = 0.5;
+constexpr double kMeetingSigmas = 0.6745;
+constexpr std::size_t kLeastMeeting = 16;
 } // namespace
 
-Judge::Judge(const SeenScan& judge, const SeenScan& judged)
+Judge::Judge(const SeenScan& judge, const SeenScan& judged, std::ptrdiff_t later)
 : judge_(&judge)
+, later_(later)
 , T_judge_judged_((judge.T_world_scan.inverse() * judged.T_world_scan).cast<float>())
 , noise_(judged.rays ? judged.rays->noise() : 0)
 , variance_(judge.sigma.translation * judge.sigma.translation +
@@ -88,24 +84,62 @@ Judge::isMiss(const SightOfPlace& seen,
   return seen.beyond * slope > tolerance;
 }
 
-bool
-Judge::supports(const Eigen::Vector3f& place) const
+/** \return [m] across the surface, at a place in the judge's frame; none: it has none there */
+std::optional<float>
+Judge::distanceToSurface(const Eigen::Vector3f& seen) const
 {
-  if (!judge_->surface)
-    return true;
-  const Eigen::Vector3f seen = T_judge_judged_ * place;
   const auto reach = static_cast<float>(kReach * judge_->voxel);
   const Neighbour nearest = judge_->tree->nearest(seen, reach * reach);
   if (nearest.index < 0)
-    return false;
+    return std::nullopt;
   const auto at = static_cast<std::size_t>(nearest.index);
   const Eigen::Vector3f off = seen - (*judge_->surface)[at];
   const Eigen::Vector3f& normal = (*judge_->normals)[at];
+  const float across = normal.isZero() ? off.norm() : std::abs(normal.dot(off));
+  return std::max(0.0F, across - kBend * off.norm());
+}
+
+void
+Judge::calibrate(const Points& sample)
+{
+  if (!hasSurface())
+    return;
+  std::vector<float> apart;
+  for (const Eigen::Vector3f& place : sample)
+    if (const auto distance = distanceToSurface(T_judge_judged_ * place))
+      apart.push_back(*distance);
+  if (apart.size() < kLeastMeeting)
+    return;
+  const auto at = static_cast<std::ptrdiff_t>(kMeetingShare *
+                                              static_cast<double>(apart.size() - 1));
+  std::nth_element(apart.begin(), apart.begin() + at, apart.end());
+  const double sigma = apart[static_cast<std::size_t>(at)] / kMeetingSigmas;
+  const double own = judge_->rays->noise();
+  variance_ = std::max(variance_, sigma * sigma - noise_ * noise_ - own * own);
+}
+
+bool
+Judge::supports(const Eigen::Vector3f& place) const
+{
+  if (!hasSurface())
+    return true;
+  const Eigen::Vector3f seen = T_judge_judged_ * place;
+  const auto distance = distanceToSurface(seen);
   const float own = static_cast<float>(judge_->rays->noise());
   const float sigma = sigmaOf(place, seen);
-  const float tolerance = kOnSurfaceSigmas * std::sqrt(sigma * sigma + own * own);
-  const float across = normal.isZero() ? off.norm() : std::abs(normal.dot(off));
-  return across <= tolerance + kBend * off.norm();
+  return distance &&
+         *distance <= kOnSurfaceSigmas * std::sqrt(sigma * sigma + own * own);
+}
+
+Eigen::Vector3f
+normalOf(const SeenScan& scan, const Eigen::Vector3f& place)
+{
+  if (!scan.surface)
+    return Eigen::Vector3f::Zero();
+  const auto reach = static_cast<float>(kReach * scan.voxel);
+  const Neighbour nearest = scan.tree->nearest(place, reach * reach);
+  return nearest.index < 0 ? Eigen::Vector3f::Zero()
+                           : (*scan.normals)[static_cast<std::size_t>(nearest.index)];
 }
 
 Jury::Jury(std::vector<Judge> candidates,
@@ -135,7 +169,8 @@ Jury::choose(const std::vector<std::uint32_t>& which, std::size_t count)
   const std::size_t step = std::max<std::size_t>(1, which.size() / kSample);
   for (std::size_t i = 0; i < which.size(); i += step)
     sample.push_back(places_[which[i]]);
-  count = std::min(count, kMostJudges - judges_.size());
+  const std::size_t first = judges_.size();
+  count = std::min(count, kMostJudges - first);
   std::vector<std::vector<std::uint8_t>> says(candidates_.size()); // of each place
   parallelFor(candidates_.size(), num_threads_, [&](std::size_t c) {
     for (const SightOfPlace& seen : candidates_[c].look(sample))
@@ -161,6 +196,7 @@ Jury::choose(const std::vector<std::uint32_t>& which, std::size_t count)
       break;
     taken[best] = true;
     judges_.push_back(candidates_[best]);
+    judges_.back().calibrate(sample);
     for (std::size_t p = 0; p < sample.size(); ++p)
       worth[p] /= says[best][p] ? 2 : 1;
   }
@@ -168,7 +204,46 @@ Jury::choose(const std::vector<std::uint32_t>& which, std::size_t count)
     if (!taken[c])
       rest.push_back(candidates_[c]);
   candidates_ = std::move(rest);
+  orderInTime(first);
   return judges_.size();
+}
+
+/** Puts the new judges in order: those farthest in time first, as they know most of what moves
+ * slowly. */
+void
+Jury::orderInTime(std::size_t first)
+{
+  const auto nearer = [](const Judge& a, const Judge& b) {
+    return std::abs(a.later()) < std::abs(b.later()) ||
+           (std::abs(a.later()) == std::abs(b.later()) && a.later() < b.later());
+  };
+  std::sort(judges_.begin() + static_cast<std::ptrdiff_t>(first),
+            judges_.end(),
+            [&](const Judge& a, const Judge& b) { return nearer(b, a); });
+  before_.clear();
+  after_.clear();
+  for (std::size_t j = 0; j < judges_.size(); ++j)
+    (judges_[j].later() < 0 ? before_ : after_).push_back(j);
+  for (auto* side : {&before_, &after_})
+    std::sort(side->begin(), side->end(), [&](std::size_t a, std::size_t b) {
+      return nearer(judges_[a], judges_[b]);
+    });
+}
+
+std::uint16_t
+Jury::lastingHits(std::size_t place) const
+{
+  const Votes& vote = votes_[place];
+  unsigned lasting = 0;
+  for (const auto* side : {&before_, &after_}) {
+    bool was_gone = false;
+    for (const std::size_t j : *side) {
+      was_gone = was_gone || (vote.misses >> j & 1U) != 0;
+      if (was_gone)
+        lasting |= vote.hits & 1U << j;
+    }
+  }
+  return static_cast<std::uint16_t>(lasting);
 }
 
 void

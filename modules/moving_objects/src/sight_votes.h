@@ -3,7 +3,9 @@
 
 #include <pcl6d/moving_objects/moving_points.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pcl6d::moving_objects {
@@ -28,8 +30,15 @@ struct Votes {
 /** \brief A scan that judges the places of another. */
 class Judge {
 public:
-  /** Keeps references to the scans. */
-  Judge(const SeenScan& judge, const SeenScan& judged);
+  /** Keeps references to the scans. \param[in] later how many scans after the judged one it
+   * was measured; negative: before */
+  Judge(const SeenScan& judge, const SeenScan& judged, std::ptrdiff_t later);
+
+  std::ptrdiff_t
+  later() const
+  {
+    return later_;
+  }
 
   /** \return what its rays say of places in the frame of the judged scan */
   std::vector<SightOfPlace>
@@ -49,21 +58,34 @@ public:
     return judge_->surface != nullptr;
   }
 
+  /** \brief Finds how far the surfaces of both scans are apart where they meet, which tells how
+   * exactly their relative pose, their surfaces and their points are known: from now on places
+   * are taken to be as inexact. \param[in] sample of places of the judged scan */
+  void
+  calibrate(const Points& sample);
+
   /** \return whether a place lies on one of its surfaces; true if it has none */
   bool
   supports(const Eigen::Vector3f& place) const;
 
 private:
+  std::optional<float>
+  distanceToSurface(const Eigen::Vector3f& seen) const;
   float
   sigmaOf(const Eigen::Vector3f& place, const Eigen::Vector3f& seen) const;
 
   const SeenScan* judge_;
+  std::ptrdiff_t later_;
   Eigen::Isometry3f T_judge_judged_;
   double noise_;          ///< [m] of the judged points
   double variance_;       ///< [m^2] of both translations
   double turn_of_judged_; ///< [rad] sigma
   double turn_of_judge_;  ///< [rad] sigma
 };
+
+/** \return the normal of the surface of a scan at one of its places; zero: not known */
+Eigen::Vector3f
+normalOf(const SeenScan& scan, const Eigen::Vector3f& place);
 
 /** \brief The scans that judge the places of one scan, at most 16, and what they say. */
 class Jury {
@@ -91,6 +113,13 @@ public:
   {
     return votes_;
   }
+  /** \brief Hits by judges who saw the place after, or before, another saw through it, counted
+   * in time from the judged scan on: what is there, is gone and is there again is hit or missed
+   * by chance, as a thin thing. Hits before the first miss tell no more than that the thing
+   * stayed for a while. \return a bit for each of them */
+  std::uint16_t
+  lastingHits(std::size_t place) const;
+
   /** \return in the order of the bits of votes */
   const std::vector<Judge>&
   judges() const
@@ -99,6 +128,8 @@ public:
   }
 
 private:
+  void
+  orderInTime(std::size_t first);
   struct Bench { ///< judges [first, end)
     std::size_t first, end;
   };
@@ -115,6 +146,7 @@ private:
   const Points& places_;
   unsigned int num_threads_;
   std::vector<Judge> judges_;
+  std::vector<std::size_t> before_, after_; ///< judges, those near in time first
   std::vector<Votes> votes_;
 };
 

@@ -55,15 +55,15 @@ struct MovingPointsOptions {
 /** \brief Tells which points of registered scans moved, by the free space that other scans
  * measured through their places.
  *
- * Points that another scan's image cannot tell apart, those within one of its cells and
- * near in range, are judged as one. Each of these is looked at in the images of the scans
- * that see most of the scan: they saw through its place (a miss), or measured a surface
- * there (a hit, which must lie on their surfaces), or cannot say. A place with more misses
- * than twice its hits is a candidate, as a hit is a fact where a miss may have passed a
- * thin thing. Candidates near each other make clusters; one that is small, or is strewn
- * with places that were hit, as foliage, fences and poles are, or continues a plane that
- * stands, as panes of glass do, stays. What remains takes in what is near it, was not hit
- * and is surrounded by it: the parts of the thing that nobody saw through.
+ * Points that another scan's image cannot tell apart, those within one of its cells and near in
+ * range, are judged as one. Each of these is looked at in the images of the scans that see most of
+ * the scan: they saw through its place (a miss), or measured a surface there (a hit, which must
+ * lie on their surfaces), or cannot say. A miss counts where the ray ended farther behind than
+ * grazing explains. A hit counts twice, as rays pass beside thin things but never end at nothing;
+ * but not if all who saw through the place did so before, or after, the thing stayed there. Places
+ * that were missed more often make clusters; one with few misses, or strewn with places that were
+ * hit, as foliage and fences are, stays. What remains takes in what is near it, on no surface of
+ * others, and surrounded by it: the parts of the thing that nobody saw through.
  *
  * Same bits for any number of threads; judge() may be called from several. Idea: J. Schauer,
  * A. Nuechter, "The Peopleremover: removing dynamic objects from 3-D point cloud data by
@@ -85,20 +85,39 @@ public:
     return scans_.size();
   }
 
+  /** \return the share of surface points that rays contradict even between the scans that fit
+   * best: what errors of scanner and poses make, glass too; 0 without surfaces. With things
+   * that move alone it is small, as each of them is in the way of few scans */
+  double
+  background() const
+  {
+    return background_;
+  }
+
+  /** \return whether that is too much for rays to tell what moved: then all is unknown */
+  bool
+  isBlind() const;
+
   /** \brief Judges points of one scan by the others.
    * \param[in] scan its place among the scans; it must have rays
    * \param[in] points measured ones [m], in its frame: all, or some of them
    * \return one per point: unknown for those that are not finite, and all if no other scan
-   * sees them \throws BadArgument there is no such scan, or it has no rays */
+   * sees them or isBlind() \throws BadArgument there is no such scan, or it has no rays */
   std::vector<PointMotion>
   judge(std::size_t scan, const Points& points) const;
 
 private:
+  std::vector<std::size_t>
+  around(std::size_t scan, std::size_t count) const;
   std::vector<moving_objects::Judge>
   candidatesFor(std::size_t scan) const;
 
   std::vector<SeenScan> scans_;
   MovingPointsOptions options_;
+  double
+  contradictionOf(std::size_t scan) const;
+
+  double background_ = 0;
   std::vector<std::size_t> by_place_; ///< scans with rays, in the order of origins_
   Points origins_;                    ///< [m] of these, relative to the first of them
   PointTree places_;                  ///< over origins_

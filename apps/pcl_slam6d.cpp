@@ -78,7 +78,7 @@ public:
     const bool complete = match();
     if (earlier_.areJoined() && !complete)
       return stopJoining();
-    app::RunOutput output(settings_, folder_, slam_.result(), out_, bar_, interrupt_);
+    app::RunOutput output(settings_, folder_, slam_, out_, bar_, interrupt_);
     const RunResult& summary = output.write(complete, log_, clouds_);
     if (earlier_.areJoined() && !summary.complete)
       return stopJoining();

@@ -89,7 +89,7 @@ FinishedRun::readMap() const
 Scan
 FinishedRun::readScan(std::size_t place) const
 {
-  return pcl6d::readScan(run_.scanFile(places_[place]));
+  return run_.readStandingScan(places_[place]);
 }
 
 } // namespace pcl6d::app

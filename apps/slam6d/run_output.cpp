@@ -106,7 +106,8 @@ runFolderRules(const Settings& settings)
   rules.marker = "summary.json";
   rules.files = std::regex(
       "trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
-      "scans/scan[0-9]+\\.pcd|map\\.pcd|graph\\.g2o|(links|verification)\\.csv|"
+      "scans/"
+      "scan[0-9]+\\.pcd|(map|moving)\\.pcd|graph\\.g2o|(links|verification)\\.csv|"
       "(summary|objects|semantic_map)\\.json|"
       "semantic_map\\.(pcd|ply)|"
       "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
@@ -130,13 +131,14 @@ holdsCompleteRun(const OutputFolder& out)
 
 RunOutput::RunOutput(const Settings& settings,
                      const ScanFolder& folder,
-                     const Slam6DResult& result,
+                     const Slam6D& slam,
                      const OutputFolder& out,
                      ProgressBar& bar,
                      const Interrupt& interrupt)
 : settings_(settings)
 , folder_(folder)
-, result_(result)
+, result_(slam.result())
+, moving_(settings.moving, slam)
 , out_(out)
 , bar_(bar)
 , interrupt_(interrupt)
@@ -158,6 +160,8 @@ RunOutput::write(bool complete, const RunLog& log, KeptClouds& clouds)
     run_.complete = writeScans(clouds, map, settings_.planes ? &fine_map : nullptr);
     if (run_.complete && settings_.planes)
       writePlanesOf(fine_map);
+    if (run_.complete)
+      run_.moving = moving_.result();
     run_.map_points = run_.complete ? map.points().size() : 0;
   }
   run_.trusted = run_.complete && result_.trusted();
@@ -239,6 +243,7 @@ RunOutput::warnOfOdometry()
 bool
 RunOutput::writeScans(KeptClouds& clouds, MapBuilder& map, MapBuilder* fine_map)
 {
+  MapBuilder moving_map(planeVoxel(result_.parameters.voxel.value), run_.world_offset);
   const StageTimer timer("writing", run_.stages);
   const RunWriter writer(out_.staging(), run_);
   // A few scans at a time: written in parallel, joined in their order.
@@ -250,14 +255,22 @@ RunOutput::writeScans(KeptClouds& clouds, MapBuilder& map, MapBuilder* fine_map)
     }
     const std::size_t end = std::min(begin + kBatch, clouds.size());
     std::vector<pcl::PCLPointCloud2> batch;
-    for (std::size_t i = begin; i < end; ++i)
+    std::vector<Points> standing;
+    for (std::size_t i = begin; i < end; ++i) {
       batch.push_back(clouds.take(i));
+      const auto moved = moving_.apply(i, batch.back());
+      standing.push_back(moved.standing);
+      moving_map.addScan(moved.moving,
+                         {},
+                         run_.scans[i].T_world_scan,
+                         static_cast<std::uint32_t>(run_.scans[i].index));
+    }
     parallelFor(batch.size(), settings_.slam.num_threads, [&](std::size_t k) {
       writer.writeScan(begin + k, batch[k]);
     });
     for (std::size_t i = begin; i < end; ++i) {
       const pcl::PCLPointCloud2 cloud = std::exchange(batch[i - begin], {});
-      Points points = coordinatesOf(cloud);
+      Points points = std::move(standing[i - begin]);
       maskOutOfRange(result_.parameters.min_range.value,
                      result_.parameters.max_range.value,
                      points);
@@ -272,6 +285,8 @@ RunOutput::writeScans(KeptClouds& clouds, MapBuilder& map, MapBuilder* fine_map)
     bar_.show({"writing", end, clouds.size()});
   }
   writer.writeMap(map.cloud());
+  if (!moving_map.points().empty())
+    writer.writeMoving(moving_map.cloud());
   return true;
 }
 

@@ -5,12 +5,13 @@
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "slam6d/kept_clouds.h"
+#include "slam6d/moving_output.h"
 #include "slam6d/settings.h"
 
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/filters/map_builder.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/slam6d/slam6d_result.h>
+#include <pcl6d/slam6d/slam6d.h>
 
 #include <chrono>
 #include <string>
@@ -62,7 +63,7 @@ public:
   /** Keeps references to all of them. */
   RunOutput(const Settings& settings,
             const ScanFolder& folder,
-            const Slam6DResult& result,
+            const Slam6D& slam,
             const OutputFolder& out,
             ProgressBar& bar,
             const Interrupt& interrupt);
@@ -90,6 +91,7 @@ private:
   const Settings& settings_;
   const ScanFolder& folder_;
   const Slam6DResult& result_;
+  MovingOutput moving_;
   const OutputFolder& out_;
   ProgressBar& bar_;
   const Interrupt& interrupt_;

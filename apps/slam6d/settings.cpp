@@ -57,6 +57,7 @@ constexpr const char* kWords[] = {"plugin",
                                   "iterations",
                                   "min-overlap",
                                   "max-correction",
+                                  "moving",
                                   "no-recovery",
                                   "planes",
                                   "report",
@@ -192,6 +193,7 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
       },
       {{"max_iterations", "iterations"}, {"reduction_points", "reduction-points"}});
   settings.slam.verify = !settings.no_verification;
+  settings.slam.leave_out_moving = settings.moving != Moving::kKeep;
   settings.slam.recover = !settings.no_recovery;
   if (settings.resume && settings.fresh)
     throw UsageError("--resume and --fresh contradict each other");

@@ -3,6 +3,7 @@
 
 #include "common/memory_budget.h"
 #include "common/option_table.h"
+#include "slam6d/moving_output.h"
 #include "slam6d/other_filter.h"
 
 #include <pcl6d/filters/line_filter.h>
@@ -36,6 +37,7 @@ struct Settings {
   MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
   LineFilter filter = LineFilter::kNone; ///< along the lines of each scan
   OtherFilter other_filter;              ///< in its place, that of a plug-in
+  Moving moving = Moving::kLabel;        ///< what becomes of points that moved
   bool planes = false;                   ///< find and label the planes of the map
   bool live_view = false;                ///< show the map in a window while it grows
   bool report = false;                   ///< write report.html

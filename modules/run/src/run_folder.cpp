@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 constexpr const char* kSummary = "summary.json";
 constexpr const char* kTrajectory = "trajectory.kitti";
 constexpr const char* kMap = "map.pcd";
+constexpr const char* kMoving = "moving.pcd";
 
 /** \return the values of a field; none if the cloud has no such field */
 template <typename T>
@@ -225,24 +226,55 @@ RunFolder::readHistory() const
 RunMap
 RunFolder::readMap() const
 {
+  return readMapOf(kMap);
+}
+
+RunMap
+RunFolder::readMoving() const
+{
+  return readMapOf(kMoving);
+}
+
+RunMap
+RunFolder::readMapOf(const char* name) const
+{
   RunMap map;
-  if (!has(kMap))
+  if (!has(name))
     return map;
-  Scan scan = pcl6d::readScan(mapFile());
+  Scan scan = pcl6d::readScan(asWritten(path_ / name));
   map.points = std::move(scan.points);
   map.scans = valuesOf<std::uint32_t>(scan.cloud, "scan");
   map.intensities = valuesOf<float>(scan.cloud, "intensity");
   return map;
 }
 
+Scan
+RunFolder::readStandingScan(std::size_t place) const
+{
+  const fs::path file = scanFile(place);
+  if (!text::isThere(file))
+    return {};
+  Scan scan = pcl6d::readScan(file);
+  if (!summary_.moving || summary_.moving->removed)
+    return scan; // a field of that name is not of the run
+  const auto moved = fieldValues(scan.cloud, "dynamic");
+  if (!moved)
+    return scan;
+  std::vector<bool> stands;
+  for (const double value : moved->values)
+    stands.push_back(value == 0);
+  keepPoints(scan.cloud, stands);
+  scan.points = coordinatesOf(scan.cloud);
+  return scan;
+}
+
 RunMap
 RunFolder::readScanCloud(std::size_t place) const
 {
   RunMap map;
-  const fs::path file = scanFile(place);
-  if (!text::isThere(file))
+  Scan scan = readStandingScan(place);
+  if (scan.points.empty())
     return map;
-  Scan scan = pcl6d::readScan(file);
   map.points = std::move(scan.points);
   map.scans.assign(map.points.size(),
                    static_cast<std::uint32_t>(summary_.scans[place].index));
@@ -253,8 +285,7 @@ RunFolder::readScanCloud(std::size_t place) const
 Points
 RunFolder::readScan(std::size_t place) const
 {
-  const fs::path file = scanFile(place);
-  return text::isThere(file) ? pcl6d::readScan(file).points : Points();
+  return readStandingScan(place).points;
 }
 
 std::vector<RunLink>

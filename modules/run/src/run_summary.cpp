@@ -156,6 +156,12 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
   json["graph"] = graphOf(run);
   if (run.verification)
     json["verification"] = run_files::jsonOfVerification(*run.verification);
+  if (run.moving)
+    json["moving"] = {{"points", run.moving->points},
+                      {"removed", run.moving->removed},
+                      {"blind", run.moving->blind},
+                      {"background", run.moving->background},
+                      {"unknown", run.moving->unknown}};
   json["scans"] = Json::array();
   for (const ScanResult& scan : run.scans)
     json["scans"].push_back(toJson(scan));

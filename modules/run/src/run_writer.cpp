@@ -118,6 +118,12 @@ RunWriter::writeMap(const pcl::PCLPointCloud2& map) const
 }
 
 void
+RunWriter::writeMoving(const pcl::PCLPointCloud2& points) const
+{
+  writePcd(folder_ / "moving.pcd", points);
+}
+
+void
 RunWriter::writeSummary() const
 {
   writeRunSummary(folder_ / "summary.json", run_);

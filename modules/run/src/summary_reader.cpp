@@ -291,6 +291,26 @@ shownName(const std::string& name)
   return JsonValue::Json::parse(jsonText(name)).get<std::string>();
 }
 
+namespace {
+MovingResult
+movingFrom(const JsonValue& json, const std::vector<ScanResult>& scans)
+{
+  MovingResult moving;
+  const auto points = (json / "points").elements();
+  (json / "points").require(points.size() == scans.size(), "one number per scan");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    moving.points.push_back(points[i].count());
+    points[i].require(moving.points.back() <= scans[i].points,
+                      "at most the points of the scan");
+  }
+  moving.removed = (json / "removed").boolean();
+  moving.blind = (json / "blind").boolean();
+  moving.background = (json / "background").number();
+  moving.unknown = (json / "unknown").number();
+  return moving;
+}
+} // namespace
+
 RunResult
 runFrom(const JsonValue& json)
 {
@@ -311,6 +331,8 @@ runFrom(const JsonValue& json)
         .require(run.verification->scans.size() == run.scans.size(),
                  "one check per scan");
   }
+  if (const auto moving = json.find("moving")) // older runs have none
+    run.moving = movingFrom(*moving, run.scans);
   if (const auto files = json.find("files")) // older runs have none
     run.files = filesFrom(*files);
   return run;

@@ -150,6 +150,42 @@ describeVerification(const RunResult& run, std::ostream& text)
   const std::string exactness = exactnessOf(map, files);
   text << (exactness.empty() ? "" : "\n") << exactness;
 }
+
+/** What moved, and what became of it. */
+void
+describeMoving(const RunResult& run, std::ostream& text)
+{
+  if (!run.moving || run.scans.size() < 2)
+    return;
+  const MovingResult& moving = *run.moving;
+  text << std::fixed << std::setprecision(1);
+  if (moving.blind) {
+    text << "\nwhat moved is not known: rays contradict " << 100 * moving.background
+         << " % of the points even where scans fit best; scans are left as they are";
+    return;
+  }
+  std::size_t all = 0;
+  for (const ScanResult& scan : run.scans)
+    all += scan.points;
+  const std::size_t total = moving.total();
+  if (total == 0)
+    text << "\nnothing moved";
+  else
+    text << '\n'
+         << text::counted(total, "point") << " moved ("
+         << std::setprecision(total * 100 < all ? 2 : 1)
+         << 100 * static_cast<double>(total) / static_cast<double>(all) << " %), in "
+         << text::counted(static_cast<std::size_t>(std::count_if(
+                              moving.points.begin(),
+                              moving.points.end(),
+                              [](std::size_t points) { return points > 0; })),
+                          "scan")
+         << ": "
+         << (moving.removed ? "left out of scans and map"
+                            : "field dynamic in scans/, not in the map");
+  text << std::setprecision(0) << " (" << 100 * moving.unknown
+       << " % of the places were seen by no other scan)";
+}
 } // namespace
 
 std::string
@@ -190,6 +226,7 @@ verdictOf(const RunResult& run)
   describeVerification(run, text);
   describeQuality(run, text);
   describeStages(run, text);
+  describeMoving(run, text);
   return text.str();
 }
 

@@ -199,7 +199,7 @@ GraphStage::closeLoopsOfLast(Slam6DResult& result)
 }
 
 GraphSlamOptions
-GraphStage::graphOptions() const
+GraphStage::graphOptions(int rounds) const
 {
   GraphSlamOptions graph;
   graph.relaxation = *options_.relaxation;
@@ -208,7 +208,7 @@ GraphStage::graphOptions() const
   graph.least_deviation = kLeastShare * parameters_.voxel.value;
   graph.translation_epsilon = kRestShare * parameters_.voxel.value;
   graph.switch_links = true;
-  graph.max_iterations = options_.relaxation_rounds;
+  graph.max_iterations = rounds;
   graph.num_threads = options_.num_threads;
   graph.sharing = sharing_;
   return graph;
@@ -255,7 +255,7 @@ GraphStage::odometryLinks(ScanNetwork& network, const Slam6DResult& result) cons
     counts[k] = found[k].points_to.size();
   });
   for (std::size_t k = 0; k < found.size(); ++k)
-    if (found[k].to == found[k].from + 1 && counts[k] >= graphOptions().min_pairs)
+    if (found[k].to == found[k].from + 1 && counts[k] >= GraphSlamOptions().min_pairs)
       joined[found[k].to] = true;
   std::vector<ScanLink> links;
   for (std::size_t i = 1; i < result.scans.size(); ++i)
@@ -291,11 +291,11 @@ GraphStage::take(const GraphSlamResult& relaxed,
 }
 
 bool
-GraphStage::relax(Slam6DResult& result, const Observer& observer)
+GraphStage::relax(Slam6DResult& result, int rounds, const Observer& observer)
 {
   const auto start = Clock::now();
   ScanNetwork network = makeNetwork(result);
-  GraphSlam slam(graphOptions());
+  GraphSlam slam(graphOptions(rounds));
   const std::vector<ScanLink> odometry = odometryLinks(network, result);
   slam.setMeasuredLinks(measuredLinks(odometry, result.scans, parameters_.voxel.value));
   bool stopped = false;
@@ -379,8 +379,22 @@ GraphStage::run(Slam6DResult& result,
   if (options_.simultaneous)
     return matchSimultaneously(result, observer);
   if (options_.relaxation)
-    return relax(result, observer);
+    return relax(result, options_.relaxation_rounds, observer);
   return true;
+}
+
+bool
+GraphStage::relaxAgain(Slam6DResult& result, const Observer& observer)
+{
+  if (!options_.relaxation || options_.simultaneous || result.scans.size() < 2)
+    return true;
+  auto& links = result.links;
+  links.erase(
+      std::remove_if(links.begin(),
+                     links.end(),
+                     [](const ScanLink& link) { return link.kind != LinkKind::kLoop; }),
+      links.end());
+  return relax(result, 1, observer);
 }
 
 } // namespace pcl6d::slam6d

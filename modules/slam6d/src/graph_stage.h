@@ -70,6 +70,12 @@ public:
   bool
   run(Slam6DResult& result, const ClosedLoops& online, const Observer& observer);
 
+  /** \brief One more round of relaxation, with the scans that were added now in place of those that
+   * the result was made of: without what moved. Nothing is done if the options relax nothing.
+   * \return as run() */
+  bool
+  relaxAgain(Slam6DResult& result, const Observer& observer);
+
 private:
   bool
   isSequence() const;
@@ -80,11 +86,11 @@ private:
   LoopDetectionOptions
   detectionOptions(const Slam6DResult& result, std::size_t first) const;
   bool
-  relax(Slam6DResult& result, const Observer& observer);
+  relax(Slam6DResult& result, int rounds, const Observer& observer);
   bool
   matchSimultaneously(Slam6DResult& result, const Observer& observer);
   GraphSlamOptions
-  graphOptions() const;
+  graphOptions(int rounds) const;
   ScanNetwork
   makeNetwork(const Slam6DResult& result) const;
   std::vector<ScanLink>

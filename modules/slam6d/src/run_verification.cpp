@@ -65,6 +65,28 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
   }
 }
 
+std::deque<const IcpModel*>
+RunVerification::surfaces(const std::deque<IcpModel>& reduced) const
+{
+  std::deque<const IcpModel*> all;
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    all.push_back(surfaces_[i] ? &*surfaces_[i] : &reduced[i]);
+  return all;
+}
+
+void
+RunVerification::leaveOut(std::deque<std::optional<IcpModel>> still,
+                          const std::deque<IcpModel>& reduced)
+{
+  still_ = std::move(still);
+  const auto whole = surfaces(reduced);
+  for (std::size_t i = 0; i < still_.size(); ++i) {
+    const IcpModel& surfaces = still_[i] ? *still_[i] : *whole[i];
+    if (&scans_[i].surfaces() != &surfaces)
+      scans_[i].exchangeSurfaces(surfaces);
+  }
+}
+
 void
 RunVerification::verify(const std::vector<std::string>& names,
                         Slam6DResult& result) const

@@ -58,6 +58,12 @@ Slam6D::result() const
   return implementation_->result_;
 }
 
+std::vector<PointMotion>
+Slam6D::motionOf(std::size_t scan, const Points& points) const
+{
+  return implementation_->motionOf(scan, points);
+}
+
 void
 Slam6D::setProgressCallback(ProgressCallback callback)
 {

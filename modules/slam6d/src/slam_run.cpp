@@ -20,6 +20,7 @@ SlamRun::SlamRun(const Slam6DOptions& options)
 : options_(options)
 , scans_(options_)
 , verification_(options.num_threads)
+, moving_(options.num_threads)
 , recovery_(options_, verification_.scans())
 {
   options_.validate();
@@ -81,7 +82,8 @@ SlamRun::optimize()
   if (result_.scans.empty())
     throw BadArgument("no scan was added");
   prepareScans();
-  if (options_.verify || isWithoutSequence() || isRecovering(options_))
+  if (options_.verify || options_.leave_out_moving || isWithoutSequence() ||
+      isRecovering(options_))
     verification_.prepare(scans_.reduced(),
                           scans_.measured(),
                           matcher_->matcher().modelOptions(true),
@@ -90,10 +92,36 @@ SlamRun::optimize()
   if (isWithoutSequence() ? next_ < total && !optimizeWithoutPoses()
                           : !optimizeInOrder())
     return false;
+  if (options_.leave_out_moving && !leaveOutMoving())
+    return false;
   if (!options_.verify)
     return true;
   verification_.verify(scans_.names(), result_);
   return lookAgain();
+}
+
+bool
+SlamRun::leaveOutMoving()
+{
+  const auto whole = verification_.surfaces(scans_.reduced());
+  if (!moving_.judge(verification_.scans(), whole, result_))
+    return true;
+  const IcpModel::Options with_normals = matcher_->matcher().modelOptions(true);
+  verification_.leaveOut(moving_.still(with_normals), scans_.reduced());
+  if (!moving_.isNoticeable())
+    return true;
+  GraphStage stage = makeGraphStage(sharing, result_.parameters);
+  for (const VerifiedScan& scan : verification_.scans())
+    stage.add(scan.surfaces());
+  Slam6DResult improved = result_;
+  if (!stage.relaxAgain(improved, relaxing()))
+    return false;
+  result_ = std::move(improved);
+  if (!moving_.judge(verification_.scans(), whole, result_))
+    return true;
+  verification_.leaveOut(moving_.still(with_normals), scans_.reduced());
+  startAnew(result_.scans.size());
+  return true;
 }
 
 void
@@ -336,6 +364,19 @@ SlamRun::startAnew(std::size_t count)
     matcher_->takeIn(i, result_.scans);
 }
 
+GraphStage::Observer
+SlamRun::relaxing()
+{
+  return [this](int round) {
+    if (progress)
+      progress({"relaxing",
+                static_cast<std::size_t>(round),
+                static_cast<std::size_t>(options_.relaxation_rounds)});
+    const bool stop = cancelled_.exchange(false);
+    return !(sharing ? sharing->fromFirst(stop) : stop);
+  };
+}
+
 bool
 SlamRun::runGraphStage()
 {
@@ -343,14 +384,7 @@ SlamRun::runGraphStage()
   for (const IcpModel& model : scans_.reduced())
     stage.add(model);
   Slam6DResult improved = result_; // taken as a whole or not at all
-  const bool done = stage.run(improved, online_loops_.closed(), [&](int round) {
-    if (progress)
-      progress({"relaxing",
-                static_cast<std::size_t>(round),
-                static_cast<std::size_t>(options_.relaxation_rounds)});
-    const bool stop = cancelled_.exchange(false);
-    return !(sharing ? sharing->fromFirst(stop) : stop);
-  });
+  const bool done = stage.run(improved, online_loops_.closed(), relaxing());
   cancelled_ = false;
   if (done)
     result_ = std::move(improved);

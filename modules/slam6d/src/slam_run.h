@@ -3,6 +3,7 @@
 
 #include "graph_stage.h"
 #include "kept_scans.h"
+#include "moving_stage.h"
 #include "online_loops.h"
 #include "recovery.h"
 #include "run_verification.h"
@@ -38,6 +39,12 @@ public:
 
   bool
   optimize();
+
+  std::vector<PointMotion>
+  motionOf(std::size_t scan, const Points& points) const
+  {
+    return moving_.motionOf(scan, points);
+  }
 
   void
   setSharing(WorkSharing* with);
@@ -128,11 +135,21 @@ private:
   bool
   runGraphStage();
 
+  /** What moved is found, and takes no part in a last round of relaxation and in the verdict.
+   * \return false if cancelled */
+  bool
+  leaveOutMoving();
+
+  /** \return what a graph stage asks after each round */
+  GraphStage::Observer
+  relaxing();
+
   Slam6DOptions options_;
   std::vector<std::uint64_t> inputs_; ///< of each scan: what it and those before are
   KeptScans scans_;
   std::vector<std::size_t> groups_; ///< of each registered scan: the number of its run
   RunVerification verification_;
+  MovingStage moving_;
   Recovery recovery_;
   std::optional<SequenceMatcher> matcher_;
   OnlineLoops online_loops_;

@@ -112,6 +112,50 @@ addField(pcl::PCLPointCloud2& cloud,
   cloud.row_step = cloud.width * cloud.point_step;
 }
 
+void
+storeField(pcl::PCLPointCloud2& cloud,
+           const std::string& name,
+           std::uint8_t datatype,
+           const std::vector<double>& values)
+{
+  const pcl::PCLPointField* const field = find(cloud, name);
+  if (!field)
+    return addField(cloud, name, datatype, values);
+  require(values.size() == sizeOf(cloud),
+          "number of values",
+          values.size(),
+          "one per point, " + std::to_string(sizeOf(cloud)));
+  withTypeOf(field->datatype, [&](auto value) {
+    requireRoom(cloud, *field, sizeof value);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      value = valueAs<decltype(value)>(values[i]);
+      std::memcpy(
+          &cloud.data[i * cloud.point_step + field->offset], &value, sizeof value);
+    }
+  });
+}
+
+void
+keepPoints(pcl::PCLPointCloud2& cloud, const std::vector<bool>& keep)
+{
+  require(keep.size() == sizeOf(cloud),
+          "number of points to keep or not",
+          keep.size(),
+          "one per point, " + std::to_string(sizeOf(cloud)));
+  std::size_t kept = 0;
+  const std::size_t step = cloud.point_step;
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    if (!keep[i])
+      continue;
+    std::memmove(cloud.data.data() + kept * step, cloud.data.data() + i * step, step);
+    ++kept;
+  }
+  cloud.data.resize(kept * step);
+  cloud.width = static_cast<pcl::uindex_t>(kept);
+  cloud.height = 1;
+  cloud.row_step = static_cast<pcl::uindex_t>(kept * step);
+}
+
 namespace {
 const pcl::PCLPointField&
 coordinateField(const pcl::PCLPointCloud2& cloud, int axis)

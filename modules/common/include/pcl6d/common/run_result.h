@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -131,6 +132,22 @@ struct StageResult {
   std::vector<std::vector<Eigen::Isometry3d>> history;
 };
 
+/** \brief What a run did with points that moved while its scans were taken. */
+struct MovingResult {
+  std::vector<std::size_t> points; ///< of each scan, those that moved
+  bool removed = false;            ///< they are not in scans/; else labelled there
+  bool blind = false;              ///< rays contradict too much to tell what moved
+  double background = 0; ///< share of points that rays contradict where scans fit best
+  double unknown = 0;    ///< share of places that no other scan saw
+
+  /** \return points that moved, of all scans */
+  std::size_t
+  total() const
+  {
+    return std::accumulate(points.begin(), points.end(), std::size_t{0});
+  }
+};
+
 /** \brief Where a link between two scans comes from. */
 enum class LinkKind {
   kSequence, ///< a scan and the next one
@@ -233,7 +250,8 @@ struct RunResult {
   bool trusted = true;  ///< every scan was matched, and verification is not against it
   /** by places of scans; none of a run that was interrupted, not verified, or is older */
   std::optional<MapVerification> verification;
-  std::vector<std::string> warnings; ///< what went wrong without touching the poses
+  std::optional<MovingResult> moving; ///< none: nobody asked
+  std::vector<std::string> warnings;  ///< what went wrong without touching the poses
   std::string verdict; ///< the same in words, naming what is not to be trusted
   /** the files of the run as they were written, by their path in its folder ("map.pcd");
    * empty in runs of older versions */

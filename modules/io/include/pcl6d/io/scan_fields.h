@@ -35,6 +35,20 @@ addField(pcl::PCLPointCloud2& cloud,
          std::uint8_t datatype,
          const std::vector<double>& values);
 
+/** \brief Puts values into a field of every point: one that is there keeps its type, else it is
+ * appended. \param[in] datatype of pcl::PCLPointField, of a new field
+ * \throws BadArgument not one value per point, or fields and data do not fit together */
+void
+storeField(pcl::PCLPointCloud2& cloud,
+           const std::string& name,
+           std::uint8_t datatype,
+           const std::vector<double>& values);
+
+/** \brief Keeps some of the points of a cloud, in their order, as one list.
+ * \param[in] keep one per point \throws BadArgument another number */
+void
+keepPoints(pcl::PCLPointCloud2& cloud, const std::vector<bool>& keep);
+
 /** \return x, y and z of all points, rounded to float
  * \throws BadArgument no such fields of type float32 or float64 \ingroup io */
 Points

@@ -8,6 +8,7 @@
 #include <pcl6d/common/pose_graph.h>
 #include <pcl6d/common/trajectory.h>
 #include <pcl6d/io/frames_io.h>
+#include <pcl6d/io/scan_reader.h>
 #include <pcl6d/run/run_links_io.h>
 #include <pcl6d/run/run_summary.h>
 
@@ -120,8 +121,18 @@ public:
   RunMap
   readMap() const;
 
-  /** \return the points of a scan in its own frame [m]; none if the file is missing
-   * \param[in] place in summary().scans \throws IoFailed the file is broken */
+  /** \return what moved while the scans were taken, relative to the world offset; empty if nothing
+   * did, or nobody asked \throws IoFailed moving.pcd is broken */
+  RunMap
+  readMoving() const;
+
+  /** \return a scan with all its fields, but without the points that moved; empty if the file is
+   * missing \param[in] place in summary().scans \throws IoFailed the file is broken */
+  Scan
+  readStandingScan(std::size_t place) const;
+
+  /** \return the points of a scan in its own frame [m], but those that moved; none if the file is
+   * missing \param[in] place in summary().scans \throws IoFailed the file is broken */
   Points
   readScan(std::size_t place) const;
 
@@ -151,6 +162,8 @@ public:
   readObjects() const;
 
 private:
+  RunMap
+  readMapOf(const char* name) const;
   void
   takeScansFromPoses();
   std::filesystem::path

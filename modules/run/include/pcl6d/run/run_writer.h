@@ -56,6 +56,10 @@ public:
   void
   writeMap(const pcl::PCLPointCloud2& map) const;
 
+  /** \brief moving.pcd: what moved, which is not in the map. */
+  void
+  writeMoving(const pcl::PCLPointCloud2& points) const;
+
   /** \brief summary.json. */
   void
   writeSummary() const;

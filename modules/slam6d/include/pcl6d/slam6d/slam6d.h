@@ -5,6 +5,7 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/progress.h>
+#include <pcl6d/moving_objects/point_motion.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 #include <pcl6d/slam6d/task_memory.h>
@@ -124,6 +125,14 @@ public:
    */
   const Slam6DResult&
   result() const;
+
+  /** \brief Which of some points of a scan moved, as other scans saw their places free at other
+   * times; see MovingPoints. After optimize(), with Slam6DOptions::leave_out_moving. Points that
+   * are not near what moved of the reduced scan are kStatic, which then says no more than that.
+   * \param[in] scan its place \param[in] points [m] in its frame, all measured ones say
+   * \return one per point \throws BadArgument optimize() has not judged such a scan */
+  std::vector<PointMotion>
+  motionOf(std::size_t scan, const Points& points) const;
 
   void
   setProgressCallback(ProgressCallback callback);

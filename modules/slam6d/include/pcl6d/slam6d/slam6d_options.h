@@ -77,6 +77,9 @@ struct Slam6DOptions {
   /** with kOdometry and kOverlap, scans that cannot be matched where they are expected, and all
    * after them, are looked for elsewhere; points and rays decide */
   bool recover = true;
+  /** points that moved, as the rays of other scans tell, take no part in the last round of
+   * relaxation and in the verification */
+  bool leave_out_moving = true;
   bool verify = true; ///< judge the map by the points and rays of its scans, in the end
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */

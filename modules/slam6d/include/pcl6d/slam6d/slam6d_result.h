@@ -27,6 +27,15 @@ struct Slam6DParameters : ScanParameters {
   Parameter link_distance; ///< [m] between linked scans, of LinkRule::kDistance
 };
 
+/** \brief What the scans say of things that moved while they were taken. */
+struct MovingSummary {
+  std::size_t judged = 0;  ///< reduced points of all scans
+  std::size_t moving = 0;  ///< of these, points that moved
+  std::size_t unknown = 0; ///< of these, points whose places no other scan saw
+  double background = 0; ///< share of points that rays contradict where scans fit best
+  bool blind = false;    ///< that is too much to tell what moved: nothing was left out
+};
+
 /** \brief The result of Slam6D. */
 struct Slam6DResult {
   std::vector<ScanResult> scans; ///< in the order in which they were added
@@ -36,7 +45,8 @@ struct Slam6DResult {
   std::vector<ScanLink> links; ///< all links and loop candidates, with their verdicts
   /** the links that count as measured relative poses, and the final poses */
   PoseGraph graph;
-  std::vector<std::size_t> floating; ///< scans that no link joins to the first one
+  std::vector<std::size_t> floating;   ///< scans that no link joins to the first one
+  std::optional<MovingSummary> moving; ///< at the final poses; none if not asked for
   std::optional<MapVerification>
       verification; ///< of the final poses; none if not asked for
 

@@ -18,9 +18,8 @@ constexpr const char* kField = "dynamic"; // 1: it moved, else 0
 Moving
 movingFromName(const std::string& name)
 {
-  constexpr Named<Moving> kWords[] = {{Moving::kKeep, "keep"},
-                                      {Moving::kLabel, "label"},
-                                      {Moving::kRemove, "remove"}};
+  constexpr Named<Moving> kWords[] = {
+      {Moving::kKeep, "keep"}, {Moving::kLabel, "label"}, {Moving::kRemove, "remove"}};
   return fromName(kWords, "moving", name, WordList::kBars);
 }
 

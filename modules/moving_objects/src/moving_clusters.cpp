@@ -64,10 +64,11 @@ MovingClusters::isCandidate(std::size_t place) const
   return excess_[place] > 0;
 }
 
+/** Whether a place stands by itself: more judges hit it than saw through it. */
 bool
 MovingClusters::isHit(std::size_t place) const
 {
-  return votes_[place].hits != 0 && !isCandidate(place);
+  return votes_[place].numHits() > votes_[place].numMisses() && !isCandidate(place);
 }
 
 float
@@ -191,6 +192,8 @@ MovingClusters::ownerOf(std::size_t place) const
   const unsigned hits = votes_[place].hits;
   if (hits != 0 ? 4 * moving < all : 2 * moving <= all)
     return kNobody;
+  if (votes_[place].misses != 0 && votes_[place].numMisses() >= votes_[place].numHits())
+    return owner; // things passed there at several times
   for (std::size_t j = 0; j < jury_.judges().size(); ++j)
     if ((hits & ~stayed & 1U << j) != 0 &&
         jury_.judges()[j].supports(judged_.places[place]))

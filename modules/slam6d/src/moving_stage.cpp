@@ -12,6 +12,10 @@ namespace {
  * wrong by half the distance of pairs shifts a pose by a two-hundredth of it, as noise does. */
 constexpr double kNoticeable = 0.01;
 
+/** If a larger share moved, all points of a scan are worth looking at; if less, it is a few false
+ * alarms, or one thing, and what is near it is enough. Static scans have up to 0.003. */
+constexpr double kWorthAll = 0.005;
+
 /** Scans keep so many points, as addScan() asks for. */
 constexpr std::size_t kLeastLeft = 3;
 
@@ -28,7 +32,8 @@ isJudge(const VerifiedScan& scan, const ScanResult& result)
 }
 
 bool
-isSame(const std::vector<Eigen::Isometry3d>& poses, const std::vector<ScanResult>& scans)
+isSame(const std::vector<Eigen::Isometry3d>& poses,
+       const std::vector<ScanResult>& scans)
 {
   return poses.size() == scans.size() &&
          std::equal(poses.begin(),
@@ -89,12 +94,20 @@ MovingStage::judge(const std::deque<VerifiedScan>& scans,
   return true;
 }
 
+/** \return of its reduced points, those that moved */
+double
+MovingStage::shareOf(std::size_t scan) const
+{
+  return moving_[scan].empty() ? 0
+                               : static_cast<double>(moving_[scan].size()) /
+                                     static_cast<double>(motion_[scan].size());
+}
+
 bool
 MovingStage::isNoticeable() const
 {
   for (std::size_t i = 0; i < moving_.size(); ++i)
-    if (static_cast<double>(moving_[i].size()) >
-        kNoticeable * static_cast<double>(motion_[i].size()))
+    if (shareOf(i) > kNoticeable)
       return true;
   return false;
 }
@@ -121,10 +134,13 @@ MovingStage::still(const IcpModel::Options& model) const
 std::vector<PointMotion>
 MovingStage::motionOf(std::size_t scan, const Points& points) const
 {
-  require(scan < moving_.size(), "scan", scan, std::to_string(moving_.size()) + " judged");
+  require(
+      scan < moving_.size(), "scan", scan, std::to_string(moving_.size()) + " judged");
   std::vector<PointMotion> motion(points.size(), PointMotion::kStatic);
   if (moving_[scan].empty())
     return motion;
+  if (shareOf(scan) > kWorthAll)
+    return judges_->judge(scan, points);
   const auto reach = static_cast<float>(reach_ * reach_);
   Points close;
   std::vector<std::size_t> places;

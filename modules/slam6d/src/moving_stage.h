@@ -37,13 +37,16 @@ public:
   std::deque<std::optional<IcpModel>>
   still(const IcpModel::Options& model) const;
 
-  /** \brief Points of a scan, those reduced or others: which of them moved. Only what is near
-   * reduced points that moved is looked at; all else is taken to stand.
+  /** \brief Points of a scan, those reduced or others: which of them moved. Where little moved, only
+   * what is near it is looked at; all else is taken to stand.
    * \return one per point \throws BadArgument there is no such scan */
   std::vector<PointMotion>
   motionOf(std::size_t scan, const Points& points) const;
 
 private:
+  double
+  shareOf(std::size_t scan) const;
+
   unsigned int num_threads_;
   std::deque<const IcpModel*> surfaces_;
   std::vector<Eigen::Isometry3d> poses_;

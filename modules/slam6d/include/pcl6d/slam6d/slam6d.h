@@ -127,8 +127,8 @@ public:
   result() const;
 
   /** \brief Which of some points of a scan moved, as other scans saw their places free at other
-   * times; see MovingPoints. After optimize(), with Slam6DOptions::leave_out_moving. Points that
-   * are not near what moved of the reduced scan are kStatic, which then says no more than that.
+   * times; see MovingPoints. After optimize(), with Slam6DOptions::leave_out_moving. Where
+   * little of a scan moved, points that are not near it are kStatic, which says no more than that.
    * \param[in] scan its place \param[in] points [m] in its frame, all measured ones say
    * \return one per point \throws BadArgument optimize() has not judged such a scan */
   std::vector<PointMotion>

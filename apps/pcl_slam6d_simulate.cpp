@@ -4,6 +4,8 @@
 #include "common/interrupt.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
+#include "simulate/body_words.h"
+#include "simulate/intrude.h"
 #include "simulate/settings.h"
 #include "simulate/truth_files.h"
 
@@ -79,7 +81,12 @@ writeSceneFile(const fs::path& path,
     json["exact"] = true;
   if (s.simulation.range.max_range != RangeOptions().max_range)
     json["max_range"] = s.simulation.range.max_range;
+  if (s.traffic.people + s.traffic.cars > 0)
+    json["traffic"] = {{"people", s.traffic.people}, {"cars", s.traffic.cars}};
   app::describeScene(s.scene, scene, json);
+  if (!scene.moving.empty())
+    json["bodies"] =
+        app::describeBodies(scene.moving, simulator.sceneFromWorld().inverse());
   writeJson(path, json, 2);
 }
 
@@ -94,6 +101,7 @@ writeFiles(const app::OutputFolder& folder,
   const app::Interrupt interrupt;
   const TriangleScene& surfaces = simulator.scene().scene();
   const bool has_labels = app::wantsLabels(s.scene);
+  const bool tells_what_moves = !scene.moving.empty() && s.scene.labels.value_or(true);
   TruthCounts counts;
   const bool on_the_move = s.simulation.motion == ScanMotion::kContinuous;
   for (std::size_t i = 0; i < simulator.size(); ++i) {
@@ -108,6 +116,8 @@ writeFiles(const app::OutputFolder& folder,
       addTruthFields(cloud, scan, surfaces);
       counts.add(scan, surfaces);
     }
+    if (tells_what_moves)
+      addDynamicField(cloud, scan, simulator.scene());
     writePcd(folder / (scanName(static_cast<int>(i)) + ".pcd"),
              cloud,
              simulator.odometry().poses[i]);
@@ -151,12 +161,18 @@ printSummary(const SimulateSettings& s, const Simulator& simulator)
 int
 run(const std::vector<std::string>& arguments)
 {
+  if (!arguments.empty() && arguments.front() == app::kIntrude)
+    return app::runIntrude({arguments.begin() + 1, arguments.end()});
   SimulateSettings s;
   if (!app::parseSettings(arguments, s))
     return app::kDone;
-  const SimulationScene scene = app::sceneOf(s);
+  SimulationScene scene = app::sceneOf(s);
   std::optional<Simulator> drive;
   app::checkOptions([&] { drive.emplace(scene, s.simulation); });
+  if (s.traffic.people + s.traffic.cars > 0) {
+    addTraffic(scene, *drive, s.traffic);
+    drive.emplace(scene, s.simulation);
+  }
   const Simulator& simulator = *drive;
   app::OutputFolder out(outputRules(s));
   if (!out.holdsEarlierRun() && holdsScans(s.out))

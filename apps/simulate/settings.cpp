@@ -3,6 +3,7 @@
 #include "simulate/settings.h"
 
 #include <pcl6d/scanner/scanner_presets.h>
+#include <pcl6d/simulation/body_ways.h>
 
 #include <cmath>
 
@@ -57,6 +58,20 @@ addDrive(OptionTable& table, SimulateSettings& s)
 }
 
 void
+addMoving(OptionTable& table, SimulateSettings& s)
+{
+  table.group("What moves");
+  table.add("people", &s.traffic.people)
+      .within(0, kMostBodies, "in [0, 200]")
+      .help(
+          "walk about the robot, on free floor, never nearer to it than 1.2 m; points "
+          "then have the field dynamic: 1 on what moves, else 0");
+  table.add("traffic", &s.traffic.cars)
+      .within(0, kMostBodies, "in [0, 200]")
+      .help("cars that drive about the robot in the same way, never nearer than 3.5 m");
+}
+
+void
 addOptions(OptionTable& table, SimulateSettings& s)
 {
   table.positional("SCENE", &s.scene.name);
@@ -67,6 +82,7 @@ addOptions(OptionTable& table, SimulateSettings& s)
       .within(0, kNoBound, ">= 0")
       .help("same seed, same bytes; also of what is random in a scene");
   addScene(table, s.scene);
+  addMoving(table, s);
   addScanner(table, s);
   addDrive(table, s);
   table.group("Run");
@@ -116,6 +132,7 @@ SimulationScene
 sceneOf(SimulateSettings& s)
 {
   SimulationScene scene = loadScene(s.scene, s.simulation.seed);
+  s.traffic.seed = s.simulation.seed;
   s.simulation.num_scans = s.scans.value_or(scene.num_scans);
   applyScanner(s, scene.max_range, s.simulation);
   checkOptions([&] { s.simulation.validate(); }, {{"num_scans", "scans"}});

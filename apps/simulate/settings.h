@@ -4,6 +4,7 @@
 #include "simulate/scene_options.h"
 
 #include <pcl6d/simulation/simulator.h>
+#include <pcl6d/simulation/traffic.h>
 
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct SimulateSettings {
   std::optional<double> resolution; ///< [deg] none: the scanner's
   std::optional<double> noise;      ///< [m] none: the scanner's
   std::optional<double> max_range;  ///< [m] none: what suits scene or scanner
+  TrafficOptions traffic;           ///< its seed is that of the simulation
   bool exact = false;               ///< rays and ranges without errors
   std::string odometry = "wheel";
   std::string out;

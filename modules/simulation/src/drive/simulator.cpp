@@ -39,6 +39,13 @@ odometryOf(const Trajectory& truth, const SimulationOptions& options)
   }
   return wheelOdometry(truth, options.odometry, seed);
 }
+
+const SimulationOptions&
+validated(const SimulationOptions& options)
+{
+  options.validate();
+  return options;
+}
 } // namespace
 
 ScanMotion
@@ -75,29 +82,29 @@ SimulationOptions::validate() const
 }
 
 Simulator::Simulator(SimulationScene scene, const SimulationOptions& options)
-: scene_(std::move(scene.geometry), std::move(scene.moving)), options_(options)
+: scene_(std::move(scene.geometry), std::move(scene.moving))
+, options_(validated(options))
+, path_(scene.waypoints, options.robot)
 {
-  options.validate();
   if (!options_.scanner)
     options_.scanner = std::make_shared<DrivenScanner>();
   options_.range.seed = streamSeed(options.seed, kRangeStream);
-  const RobotPath path(scene.waypoints, options.robot);
-  requireFreePath(caster(), path, options.num_scans);
+  requireFreePath(caster(), path_, options.num_scans);
   if (options.motion == ScanMotion::kStop)
-    stopAndScan(path);
+    stopAndScan();
   else
-    scanOnTheMove(path);
+    scanOnTheMove();
   odometry_ = odometryOf(truth_, options_);
 }
 
 void
-Simulator::stopAndScan(const RobotPath& path)
+Simulator::stopAndScan()
 {
   speed_ = options_.speed.value_or(kUsualSpeed);
-  T_scene_world_ = path.sensorPose(caster(), 0);
+  T_scene_world_ = path_.sensorPose(caster(), 0);
   for (int i = 0; i < options_.num_scans; ++i) {
-    const double way = path.length() * i / options_.num_scans;
-    const Eigen::Isometry3d T_scene_scan = path.sensorPose(caster(), way);
+    const double way = path_.length() * i / options_.num_scans;
+    const Eigen::Isometry3d T_scene_scan = path_.sensorPose(caster(), way);
     truth_.poses.push_back(i == 0 ? Eigen::Isometry3d::Identity()
                                   : T_scene_world_.inverse() * T_scene_scan);
     truth_.stamps.push_back(way / speed_ + i * scanner().duration());
@@ -105,9 +112,9 @@ Simulator::stopAndScan(const RobotPath& path)
 }
 
 void
-Simulator::scanOnTheMove(const RobotPath& path)
+Simulator::scanOnTheMove()
 {
-  const double step = path.length() / options_.num_scans;
+  const double step = path_.length() / options_.num_scans;
   const double limit = step / scanner().duration();
   speed_ = options_.speed.value_or(std::min(kUsualSpeed, kSpareTime * limit));
   require(speed_ <= limit,
@@ -116,7 +123,7 @@ Simulator::scanOnTheMove(const RobotPath& path)
           "at most " + std::to_string(limit) + " m/s: a scan takes " +
               std::to_string(scanner().duration()) + " s, and the next one starts " +
               std::to_string(step) + " m on");
-  motion_.emplace(path, caster(), speed_);
+  motion_.emplace(path_, caster(), speed_);
   T_scene_world_ = motion_->poseAt(0);
   for (int i = 0; i < options_.num_scans; ++i) {
     truth_.stamps.push_back(step * i / speed_);
@@ -124,6 +131,21 @@ Simulator::scanOnTheMove(const RobotPath& path)
                                   : T_scene_world_.inverse() *
                                         motion_->poseAt(truth_.stamps.back()));
   }
+}
+
+Eigen::Isometry3d
+Simulator::poseAt(double time) const
+{
+  if (motion_)
+    return motion_->poseAt(time);
+  const auto& stamps = truth_.stamps;
+  const auto next = std::upper_bound(stamps.begin(), stamps.end(), time);
+  const auto i = std::max<std::ptrdiff_t>(next - stamps.begin(), 1) - 1;
+  const double since =
+      time - stamps[static_cast<std::size_t>(i)] - scanner().duration();
+  return path_.sensorPose(caster(),
+                          path_.length() * static_cast<double>(i) / options_.num_scans +
+                              std::max(0.0, since) * speed_);
 }
 
 Eigen::Isometry3d

@@ -4,6 +4,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/simulation/moving_body.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl6d {
@@ -38,12 +39,21 @@ MovingBody::validate() const
   for (std::size_t i = 0; i < way.size(); ++i) {
     const Eigen::Vector3d& next = way[(i + 1) % way.size()];
     require(isPlace(way[i]), ("way" + of).c_str(), way[i].transpose(), "within 1e9 m");
-    const bool is_leg = i + 1 < way.size() || end == WayEnd::kClosed;
+    const bool is_leg = times.empty() && (i + 1 < way.size() || end == WayEnd::kClosed);
     require(!is_leg || (next - way[i]).head<2>().norm() > 0,
             ("corner" + of).c_str(),
             i,
             "apart from the next one in x or y");
   }
+  require(times.empty() || times.size() == way.size(),
+          ("number of times" + of).c_str(),
+          times.size(),
+          "that of the corners, or 0");
+  for (std::size_t i = 0; i < times.size(); ++i)
+    require(std::isfinite(times[i]) && (i == 0 || times[i] >= times[i - 1]),
+            ("time" + of).c_str(),
+            times[i],
+            "finite and not before that of the corner before");
   require(speed >= 0 && speed <= 1000, ("speed" + of).c_str(), speed, "in [0, 1000]");
   require(start >= 0 && std::isfinite(start), ("start" + of).c_str(), start, ">= 0");
   try {
@@ -57,6 +67,8 @@ MovingBody::validate() const
 Eigen::Isometry3d
 MovingBody::poseAt(double time) const
 {
+  if (!times.empty())
+    return poseByTimetable(time);
   const std::size_t legs = way.size() - (end == WayEnd::kClosed ? 0 : 1);
   const auto leg = [&](std::size_t i) -> Eigen::Vector3d {
     return way[(i + 1) % way.size()] - way[i];
@@ -70,11 +82,58 @@ MovingBody::poseAt(double time) const
   double rest = place.way;
   while (i + 1 < legs && rest >= leg(i).norm())
     rest -= leg(i++).norm();
-  const Eigen::Vector2d ahead =
-      (place.is_returning ? -1 : 1) * leg(i).head<2>().normalized();
+  return poseOn(way[i] + rest * leg(i).normalized(),
+                (place.is_returning ? -1 : 1) * leg(i));
+}
+
+bool
+MovingBody::moves() const
+{
+  if (times.empty())
+    return speed > 0;
+  return std::any_of(
+      way.begin(), way.end(), [this](const auto& p) { return p != way.front(); });
+}
+
+Eigen::Isometry3d
+MovingBody::poseByTimetable(double time) const
+{
+  const auto next = std::upper_bound(times.begin(), times.end(), time);
+  const auto last = way.size() - 1;
+  const auto to = std::min(static_cast<std::size_t>(next - times.begin()), last);
+  const std::size_t from = to > 0 ? to - 1 : 0;
+  Eigen::Vector3d place = way[to];
+  if (time <= times.front())
+    place = way.front();
+  else if (time < times[to])
+    place = way[from] +
+            (time - times[from]) / (times[to] - times[from]) * (way[to] - way[from]);
+  // It looks where it goes, and where it waits, where it went.
+  const auto isLeg = [this](std::size_t i) {
+    return times[i + 1] > times[i] && (way[i + 1] - way[i]).head<2>().norm() > 0;
+  };
+  std::size_t leg = from;
+  while (leg > 0 && !isLeg(leg))
+    --leg;
+  while (leg + 1 < last && !isLeg(leg))
+    ++leg;
+  return poseOn(place,
+                isLeg(leg) ? Eigen::Vector3d(way[leg + 1] - way[leg])
+                           : Eigen::Vector3d::UnitX());
+}
+
+Eigen::Isometry3d
+MovingBody::poseOn(const Eigen::Vector3d& place, const Eigen::Vector3d& leg) const
+{
+  const Eigen::Vector2d ahead = leg.head<2>().normalized();
   Eigen::Isometry3d T_scene_body = Eigen::Isometry3d::Identity();
   T_scene_body.linear() << ahead.x(), -ahead.y(), 0, ahead.y(), ahead.x(), 0, 0, 0, 1;
-  T_scene_body.translation() = way[i] + rest * leg(i).normalized();
+  if (follows_slope) {
+    const Eigen::Vector3d x = leg.normalized();
+    const Eigen::Vector3d y = T_scene_body.linear().col(1);
+    T_scene_body.linear() << x, y, x.cross(y);
+  }
+  T_scene_body.translation() = place;
   return T_scene_body;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/require.h>
+#include <pcl6d/io/scan_fields.h>
 #include <pcl6d/simulation/truth_fields.h>
 
 #include <cmath>
@@ -60,6 +61,22 @@ addTruthFields(pcl::PCLPointCloud2& cloud,
   }
   cloud.data = std::move(data);
   cloud.row_step = cloud.width * cloud.point_step;
+}
+
+std::size_t
+addDynamicField(pcl::PCLPointCloud2& cloud,
+                const RangeScan& scan,
+                const MovingScene& scene)
+{
+  std::vector<double> values;
+  std::size_t moving = 0;
+  for (const auto& sample : scan.samples) {
+    const bool moves = std::isfinite(sample.range) && scene.moves(sample.triangle);
+    values.push_back(moves ? 1 : 0);
+    moving += moves ? 1 : 0;
+  }
+  addField(cloud, "dynamic", pcl::PCLPointField::UINT32, values);
+  return moving;
 }
 
 void

@@ -20,8 +20,9 @@ enum class WayEnd {
 
 /** \brief A thing that moves through a scene while it is scanned: a person, a car.
  *
- * It follows straight legs between corners with constant speed, upright, its x axis
- * ahead in plan, and turns at once where a leg ends. \ingroup simulation */
+ * It follows straight legs between corners, upright, its x axis ahead in plan, and turns
+ * at once where a leg ends: with constant speed for ever, or by a timetable.
+ * \ingroup simulation */
 struct MovingBody {
   std::string name = "body";
   /// in the body's own frame: x ahead, z up, origin where it touches the ground
@@ -30,6 +31,11 @@ struct MovingBody {
   double speed = 1;                 ///< [m/s] along the way, in [0, 1000]
   double start = 0;                 ///< [m] along the way at time 0, >= 0
   WayEnd end = WayEnd::kReturn;
+  /** [s] when it is at each corner, not decreasing: then `speed`, `start` and `end` do not
+   * count, it waits where two neighbours are one place, jumps where they have one time,
+   * and stands still before the first and after the last one. Empty: constant speed */
+  std::vector<double> times;
+  bool follows_slope = false; ///< its x axis rises and falls with the leg, as a car's
 
   /** \throws BadArgument naming the body and what breaks its rule */
   void
@@ -39,6 +45,16 @@ struct MovingBody {
    * \return T_scene_body. The body must be valid */
   Eigen::Isometry3d
   poseAt(double time) const;
+
+  /** \return whether it is ever at another place than at the start */
+  bool
+  moves() const;
+
+private:
+  Eigen::Isometry3d
+  poseByTimetable(double time) const;
+  Eigen::Isometry3d
+  poseOn(const Eigen::Vector3d& place, const Eigen::Vector3d& leg) const;
 };
 
 } // namespace pcl6d

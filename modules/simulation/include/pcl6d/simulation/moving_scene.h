@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
-#include <pcl6d/simulation/moving_body.h>
+#include <pcl6d/simulation/moving_bodies.h>
 #include <pcl6d/simulation/scene_view.h>
 
 #include <cstddef>
@@ -36,8 +36,19 @@ public:
   const TriangleScene&
   scene() const
   {
-    return bodies_.empty() ? ground_.scene() : all_;
+    return bodies_.size() == 0 ? ground_.scene() : all_;
   }
+
+  /** \return what moves, or could */
+  const MovingBodies&
+  bodies() const
+  {
+    return bodies_;
+  }
+
+  /** \return whether a triangle of scene() belongs to a body that moves */
+  bool
+  moves(std::uint32_t triangle) const;
 
   /** \return T_scene_body of what a triangle of scene() belongs to, at a time [s];
    * identity for the ground */
@@ -45,21 +56,8 @@ public:
   poseOf(std::uint32_t triangle, double time) const;
 
 private:
-  struct Ball {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    double radius = 0; // [m]
-    bool
-    isMissedBy(const Ray& ray) const;
-  };
-  struct Moving {
-    MovingBody body; // its shape is in the caster
-    RayCaster caster;
-    std::uint32_t first_triangle; // in all_
-    Ball shape;                   // in the body's frame
-    Ball reach;                   // in the scene, around the shape wherever it may be
-  };
   RayCaster ground_;
-  std::vector<Moving> bodies_;
+  MovingBodies bodies_;
   TriangleScene all_;
 };
 

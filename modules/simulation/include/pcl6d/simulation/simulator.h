@@ -130,6 +130,18 @@ public:
     return speed_;
   }
 
+  /** \return what it was made with, and the scanner that it took */
+  const SimulationOptions&
+  options() const
+  {
+    return options_;
+  }
+
+  /** \return where the sensor is in the coordinates of the scene, also between the scans.
+   * \param[in] time [s] from the start of the drive, >= 0 */
+  Eigen::Isometry3d
+  poseAt(double time) const;
+
   /** \return T_world_scan during the i-th scan. \param[in] time [s] since its stamp
    * \throws BadArgument i >= size() */
   Eigen::Isometry3d
@@ -146,12 +158,13 @@ public:
 
 private:
   void
-  stopAndScan(const RobotPath& path);
+  stopAndScan();
   void
-  scanOnTheMove(const RobotPath& path);
+  scanOnTheMove();
 
   MovingScene scene_;
   SimulationOptions options_;
+  RobotPath path_;
   double speed_ = 1;
   std::optional<RobotMotion> motion_; // none: it stops for each scan
   Eigen::Isometry3d T_scene_world_;

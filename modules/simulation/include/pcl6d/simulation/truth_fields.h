@@ -3,7 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/scanner/range_scan.h>
-#include <pcl6d/simulation/triangle_scene.h>
+#include <pcl6d/simulation/moving_scene.h>
 
 #include <pcl/PCLPointCloud2.h>
 
@@ -18,6 +18,15 @@ void
 addTruthFields(pcl::PCLPointCloud2& cloud,
                const RangeScan& scan,
                const TriangleScene& scene);
+
+/** \brief Appends the field `dynamic` (uint32): 1 of each point on a body that moves
+ * (MovingScene::moves()), else 0. \param[in] cloud one point per sample
+ * \return how many are 1 \throws BadArgument cloud and scan differ in size, or there is
+ * such a field */
+std::size_t
+addDynamicField(pcl::PCLPointCloud2& cloud,
+                const RangeScan& scan,
+                const MovingScene& scene);
 
 /** \brief How many points lie on what, by id; the size of a vector is the largest id
  * plus one. */

@@ -21,6 +21,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -53,7 +54,8 @@ outputRules(const SimulateSettings& s)
   rules.program = kSimulate;
   rules.marker = kMarker;
   rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
-                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json");
+                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json|"
+                           "groundtruth_motion\\.txt");
   rules.force = s.force;
   return rules;
 }
@@ -72,7 +74,7 @@ writeSceneFile(const fs::path& path,
                                  {"scanner", s.scanner},
                                  {"noise", s.simulation.range.noise}};
   if (s.simulation.motion == ScanMotion::kContinuous)
-    json["motion"] = {{"kind", "continuous"}, {"speed", simulator.speed()}};
+    json["motion"] = app::describeMotion(s, simulator.speed());
   if (s.odometry != SimulateSettings().odometry)
     json["odometry"] = s.odometry;
   if (s.resolution)
@@ -88,6 +90,26 @@ writeSceneFile(const fs::path& path,
     json["bodies"] =
         app::describeBodies(scene.moving, simulator.sceneFromWorld().inverse());
   writeJson(path, json, 2);
+}
+
+/** \return T_world_scan every 10 ms of each scan, its begin and end included */
+Trajectory
+motionWithinScans(const Simulator& simulator)
+{
+  constexpr double kStep = 0.01; // [s]
+  const double duration = simulator.scanner().duration();
+  const auto steps = static_cast<int>(std::ceil(duration / kStep));
+  Trajectory motion;
+  for (std::size_t i = 0; i < simulator.size(); ++i)
+    for (int k = 0; k <= steps; ++k) {
+      const double time = duration * k / steps;
+      const double stamp = simulator.truth().stamps[i] + time;
+      if (!motion.stamps.empty() && stamp <= motion.stamps.back())
+        continue; // the end of one sweep is the begin of the next
+      motion.stamps.push_back(stamp);
+      motion.poses.push_back(simulator.scanPose(i, time));
+    }
+  return motion;
 }
 
 /** \return false when a signal came in before the last scan */
@@ -125,8 +147,10 @@ writeFiles(const app::OutputFolder& folder,
   }
   writeTrajectoryKitti(folder / "odometry.txt", simulator.odometry());
   writeTrajectoryKitti(folder / "groundtruth.txt", simulator.truth());
-  if (on_the_move)
+  if (on_the_move) {
     writeStamps(folder / "times.txt", simulator.truth().stamps);
+    writeTrajectoryTum(folder / "groundtruth_motion.txt", motionWithinScans(simulator));
+  }
   if (has_labels)
     app::writeTruthFiles(folder, scene, simulator, counts);
   writeSceneFile(folder / kMarker, s, scene, simulator);
@@ -153,7 +177,9 @@ printSummary(const SimulateSettings& s, const Simulator& simulator)
               std::sqrt(sum_sq / static_cast<double>(simulator.size())),
               largest,
               s.out.c_str(),
-              s.simulation.motion == ScanMotion::kContinuous ? "times.txt " : "",
+              s.simulation.motion == ScanMotion::kContinuous
+                  ? "groundtruth_motion.txt times.txt "
+                  : "",
               app::wantsLabels(s.scene) ? "planes_truth.json objects_truth.json " : "",
               kMarker);
 }

@@ -47,4 +47,20 @@ describeBodies(const std::vector<MovingBody>& bodies,
   return all;
 }
 
+nlohmann::ordered_json
+describeMotion(const SimulateSettings& settings, double speed)
+{
+  const SimulationOptions& options = settings.simulation;
+  nlohmann::ordered_json json = {{"kind", "continuous"}, {"speed", speed}};
+  if (options.turns_in_place)
+    json["turns_in_place"] = true;
+  if (options.turn_rate)
+    json["turn_rate"] = *options.turn_rate;
+  if (options.vibration > 0)
+    json["vibration"] = options.vibration;
+  if (options.period)
+    json["period"] = *options.period;
+  return json;
+}
+
 } // namespace pcl6d::app

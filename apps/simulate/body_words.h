@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "simulate/settings.h"
+
 #include <pcl6d/simulation/moving_body.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,5 +17,9 @@ namespace pcl6d::app {
 nlohmann::ordered_json
 describeBodies(const std::vector<MovingBody>& bodies,
                const Eigen::Isometry3d& T_world_scene);
+
+/** \brief How the robot drives on while it scans, for scene.json. \param[in] speed [m/s] */
+nlohmann::ordered_json
+describeMotion(const SimulateSettings& settings, double speed);
 
 } // namespace pcl6d::app

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate/intrude.h"
 #include "common/app.h"
 #include "common/interrupt.h"
 #include "common/open_scans.h"
 #include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "simulate/body_words.h"
+#include "simulate/intrude.h"
 #include "simulate/settings.h"
 
 #include <pcl6d/common/error.h>
@@ -38,7 +38,8 @@ outputRules(const IntrudeSettings& s)
   rules.program = kSimulate;
   rules.marker = kRecord;
   rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
-                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json");
+                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json|"
+                           "groundtruth_motion\\.txt");
   rules.force = s.force;
   return rules;
 }
@@ -111,8 +112,9 @@ private:
   takeInitialPoses()
   {
     for (std::size_t i = 0; i < size(); ++i)
-      initial_.poses.push_back(scans_.summary() ? scans_.summary()->scans[i].initial_pose
-                                                : scans_.folder().initialPose(i));
+      initial_.poses.push_back(scans_.summary()
+                                   ? scans_.summary()->scans[i].initial_pose
+                                   : scans_.folder().initialPose(i));
   }
 
   // Truth is welcome here, as nothing is to be found out from it.
@@ -162,7 +164,8 @@ private:
       if (estimate.is_sure)
         sum += R * estimate.up;
     }
-    return sum.norm() > 0 ? Eigen::Vector3d(sum.normalized()) : Eigen::Vector3d::UnitZ();
+    return sum.norm() > 0 ? Eigen::Vector3d(sum.normalized())
+                          : Eigen::Vector3d::UnitZ();
   }
 
   bool

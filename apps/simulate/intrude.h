@@ -15,10 +15,10 @@ constexpr const char* kIntrude = "intrude"; ///< the job's name
 
 /** \brief The command line of pcl_slam6d_simulate intrude. */
 struct IntrudeSettings {
-  std::string input;        ///< folder of scans, or a run
+  std::string input; ///< folder of scans, or a run
   ScanFolderOptions scans;
-  std::string poses;        ///< file with the poses to walk by; empty: those of the folder
-  std::string up = "auto";  ///< auto, or x,y,z in the frame of the poses
+  std::string poses; ///< file with the poses to walk by; empty: those of the folder
+  std::string up = "auto";      ///< auto, or x,y,z in the frame of the poses
   std::optional<double> period; ///< [s] from scan to scan; none: the stamps, else 1
   IntruderOptions intruders;
   std::string out;

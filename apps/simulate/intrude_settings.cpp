@@ -39,7 +39,8 @@ addOptions(OptionTable& table, IntrudeSettings& s)
       .help("same seed, same bytes");
   table.group("Input");
   table.add("poses FILE", &s.poses)
-      .help("KITTI or TUM, one row per scan: where the scans were, better than the initial "
+      .help("KITTI or TUM, one row per scan: where the scans were, better than the "
+            "initial "
             "poses of the folder, which stay as they are in what is written");
   table.add("format", &s.scans.format, scanFormatFromName)
       .help("auto|pcd|ply|uos|uosr|kitti|xyz");

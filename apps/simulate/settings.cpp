@@ -47,6 +47,23 @@ addDrive(OptionTable& table, SimulateSettings& s)
             "have the field t, and times.txt has the stamps");
   table.addAuto("speed", &s.simulation.speed)
       .help("[m/s] or auto: 1, slower if a scan takes longer than the way to the next");
+  table.add("turns-in-place", &s.simulation.turns_in_place)
+      .help("drive straight from waypoint to waypoint, stop there and turn; with "
+            "--motion "
+            "continuous, as all that follow");
+  table.addAuto("turn-rate", &s.simulation.turn_rate, M_PI / 180)
+      .within(0.1, 570, "in [0.1, 570]")
+      .help("[deg/s] never turn faster: slow down in bends; auto: any rate, 30 with "
+            "--turns-in-place");
+  table.add("vibration", &s.simulation.vibration)
+      .within(0, 0.1, "in [0, 0.1]")
+      .help("[m] rms by which the sensor shakes, at 1 to 10 Hz, in all six degrees of "
+            "freedom");
+  table.addAuto("period", &s.simulation.period)
+      .above(0, "> 0")
+      .help(
+          "[s] from scan to scan; auto: evenly along the way. That of a scan, 0.1 for "
+          "ouster, gives sweeps one behind the other");
   const auto takeOdometry = [&s](const std::string& name) {
     s.simulation.odometry_kind = odometryKindFromName(name);
     s.odometry = name;

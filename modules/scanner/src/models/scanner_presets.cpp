@@ -201,6 +201,31 @@ vlp16(const Resolution& resolution)
   return {"", "", std::make_shared<SpinningLidar>(options), range};
 }
 
+// Ouster OS1 with 64 lines; their spacing is even. All lasers of a column fire at once.
+ScannerPreset
+ouster(const Resolution& resolution)
+{
+  constexpr int kLines = 64;
+  SpinningLidarOptions options;
+  const AngleRange elevations = {22.5 * kDegree, -22.5 * kDegree, kLines};
+  for (int i = 0; i < kLines; ++i)
+    options.elevations.push_back(elevations.angle(i));
+  options.columns = 1024;
+  if (resolution) {
+    const double columns = std::max(1.0, std::round(2 * M_PI / *resolution));
+    requireScanSize(kLines, columns);
+    options.columns = static_cast<int>(columns);
+  }
+  RangeOptions range;
+  range.noise = 0.01;
+  range.min_range = 0.5;
+  range.max_range = 100;
+  range.quantum = 0.003;
+  range.signal_range = 150;
+  range.beam = {0.0095, 3e-3, 7, 1.0};
+  return {"", "", std::make_shared<SpinningLidar>(options), range};
+}
+
 ScannerPreset
 tof(const Resolution& resolution)
 {
@@ -239,6 +264,7 @@ projection(const Resolution& resolution)
 }
 
 constexpr Entry kEntries[] = {
+    {"ouster", "spinning lidar, 360 x 45 deg, 64 x 1024 in 0.1 s", ouster},
     {"pitching", "Kurt3D: nodding fan, 180 x 120 deg, 241 x 181 in 3.2 s", pitching},
     {"projection", "structured light, 44 x 33 deg, 480 x 640 in 0.23 s", projection},
     {"rangefinder", "1D: one beam straight ahead", rangefinder},

@@ -18,7 +18,7 @@ constexpr double kAhead = 4;    // [s] a goal is where the scanner will be then
 constexpr double kRoom = 0.2;   // [m] between bodies
 constexpr int kGoals = 40;      // tries to find a goal, before a body waits
 constexpr int kDetours = 4;     // of them that may lead around corners: they cost most
-constexpr double kDetour = 1.5;  // times the straight way, at most
+constexpr double kDetour = 1.5; // times the straight way, at most
 constexpr int kAsides = 2000;   // tries to find a place out of the way: mere look-ups
 constexpr int kLives = 10;      // tries to lay a whole way
 constexpr double kActive = 0.5; // share of its time on its feet that is enough
@@ -176,8 +176,8 @@ bool
 BodyWays::appear(Walker& walker, double time) const
 {
   for (int i = 0; i < kGoals; ++i) {
-    const Eigen::Vector2d place = goalAt_(
-        time, walker.rules.nearest, walker.rules.farthest, walker.random);
+    const Eigen::Vector2d place =
+        goalAt_(time, walker.rules.nearest, walker.rules.farthest, walker.random);
     if (map_.room(place) < walker.rules.radius ||
         !meetsNobody(walker.rules, place, time))
       continue;
@@ -210,8 +210,8 @@ BodyWays::goOn(Walker& walker) const
       if (++detours > kDetours)
         continue;
       const double direct = (goal - from).norm();
-      corners = map_.way(
-          from, goal, rules.radius, std::min(rules.longest, kDetour * direct));
+      corners =
+          map_.way(from, goal, rules.radius, std::min(rules.longest, kDetour * direct));
     }
     if (corners.empty() || lengthOf(corners) > rules.longest ||
         !isLegal(walker, corners, time))

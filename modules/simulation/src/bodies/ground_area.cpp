@@ -73,8 +73,7 @@ withinReach(const GroundArea& area,
     for (int dy = -span; dy <= span; ++dy)
       for (int dx = -span; dx <= span; ++dx) {
         const std::size_t at = area.neighbour(cell, dx, dy);
-        if (at < area.size() &&
-            (area.middle(at) - place.head<2>()).norm() <= reach)
+        if (at < area.size() && (area.middle(at) - place.head<2>()).norm() <= reach)
           within[at] = 1;
       }
   }

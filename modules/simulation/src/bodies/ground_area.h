@@ -10,8 +10,8 @@
 /** \file The area around the places of a scanner, in cells. */
 namespace pcl6d::simulation {
 
-constexpr double kBodyHeight = 2;   // [m] that must be free above a floor
-constexpr double kSteepest = 0.2;   // of floors: twice a wheelchair ramp's
+constexpr double kBodyHeight = 2; // [m] that must be free above a floor
+constexpr double kSteepest = 0.2; // of floors: twice a wheelchair ramp's
 constexpr double kNoFloor = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostCells = 25e6; // 100 to 200 MB
 

@@ -121,8 +121,7 @@ GroundMap::floor(const Eigen::Vector2d& place) const
   // Weights of the four cells whose middles are around the place; unknown floors have none.
   double sum = 0;
   double weights = 0;
-  const Eigen::Vector2d corner =
-      place - Eigen::Vector2d::Constant(raster_.cell / 2);
+  const Eigen::Vector2d corner = place - Eigen::Vector2d::Constant(raster_.cell / 2);
   for (const double dx : {0.0, 1.0})
     for (const double dy : {0.0, 1.0}) {
       const auto near = cellAt(corner + raster_.cell * Eigen::Vector2d(dx, dy));

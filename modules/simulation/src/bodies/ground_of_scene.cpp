@@ -12,9 +12,9 @@ namespace pcl6d {
 using namespace simulation;
 
 namespace {
-constexpr double kFine = 0.1, kCoarse = 0.2;         // [m] cells
-constexpr double kFarApart = 60;                     // [m] places
-constexpr double kUneven = 0.02;                     // [m] steps of a rough floor
+constexpr double kFine = 0.1, kCoarse = 0.2; // [m] cells
+constexpr double kFarApart = 60;             // [m] places
+constexpr double kUneven = 0.02;             // [m] steps of a rough floor
 constexpr std::array<double, 3> kLookHeights = {0.25, 0.9, 1.6}; // [m] above the floor
 
 double
@@ -95,8 +95,7 @@ private:
       return; // nobody stands there to go on
     const double length = (area_.middle(to) - area_.middle(from)).norm();
     if (std::isnan(floors_[to]) && is_blocked_[to] == 0) {
-      const auto floor =
-          floorAt(to, floors_[from], kUneven + kSteepest * length);
+      const auto floor = floorAt(to, floors_[from], kUneven + kSteepest * length);
       if (floor && !isCut(from, to, *floor))
         reach(to, *floor);
       else

@@ -15,17 +15,19 @@ namespace pcl6d {
 using namespace simulation;
 
 namespace {
-constexpr double kSurveyCell = 0.25;     // [m] holds a floor point of most scanners 10 m away
+constexpr double kSurveyCell =
+    0.25; // [m] holds a floor point of most scanners 10 m away
 constexpr double kLargestCell = 0.5;
-constexpr double kLayer = 0.05;    // [m] of heights: a few times the noise of scanners
-constexpr double kFlatFloor = 0.1;      // [m] a floor's points lie within it, poses' errors too
-constexpr double kFoot = 0.25;     // [m] above the floor: lower things are stepped over
-constexpr std::uint32_t kSurePoints = 2; // points: one alone may be a mixed pixel
+constexpr double kLayer = 0.05; // [m] of heights: a few times the noise of scanners
+constexpr double kFlatFloor =
+    0.1;                       // [m] a floor's points lie within it, poses' errors too
+constexpr double kFoot = 0.25; // [m] above the floor: lower things are stepped over
+constexpr std::uint32_t kSurePoints = 2;   // points: one alone may be a mixed pixel
 constexpr std::uint32_t kFloorPoints = 50; // points of a floor around a scanner
-constexpr double kNear = 6;        // [m] from the scanner: there its floor is seen
-constexpr int kCloseRounds = 2;    // cells without points that are closed from each side
-constexpr int kCrossedRounds = 8;  // the same of cells that rays went through
-constexpr double kLevelRay = 1;    // [m] above or below the scanner: as bodies would be
+constexpr double kNear = 6;       // [m] from the scanner: there its floor is seen
+constexpr int kCloseRounds = 2;   // cells without points that are closed from each side
+constexpr int kCrossedRounds = 8; // the same of cells that rays went through
+constexpr double kLevelRay = 1;   // [m] above or below the scanner: as bodies would be
 constexpr std::uint8_t kSureRays = 3;
 constexpr std::size_t kRays = 20000; // of a scan that are followed
 
@@ -60,7 +62,7 @@ struct GroundSurvey::Impl {
   GroundArea area;
   std::vector<char> within;
   std::vector<Heights> heights;              // of each cell
-  std::vector<std::uint8_t> crossed; // by how many rays about as high as a body
+  std::vector<std::uint8_t> crossed;         // by how many rays about as high as a body
   std::vector<std::optional<double>> floors; // that each place sees [m]
 
   void

@@ -36,7 +36,6 @@ struct GroundMap::Search {
     bool is_done = false;
   };
 
-
   const GroundMap& map;
   double radius, longest; // [m]
   Eigen::Vector2d to;

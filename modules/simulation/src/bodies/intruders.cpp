@@ -22,8 +22,8 @@ using simulation::Sight;
 
 namespace {
 constexpr double kNoiseMargin = 3;      // standard deviations by which a body is nearer
-constexpr std::size_t kSights = 512; // directions that are kept of a scan
-constexpr int kViewTries = 8;          // tries to find a place in view
+constexpr std::size_t kSights = 512;    // directions that are kept of a scan
+constexpr int kViewTries = 8;           // tries to find a place in view
 constexpr std::size_t kRayBlock = 4096; // points
 
 // The frame whose z is up, about the same origin.
@@ -100,12 +100,12 @@ Intruders::Impl::goalAt(double time,
       std::max<std::ptrdiff_t>(next - scans.stamps.begin(), 1) - 1);
   const Eigen::Vector2d scanner = scans.poses[i].translation().head<2>();
   for (int look = 0; look < kViewTries && !sights[i].empty(); ++look) {
-    const auto at = static_cast<std::size_t>(
-        random.uniform() * static_cast<double>(sights[i].size()));
+    const auto at = static_cast<std::size_t>(random.uniform() *
+                                             static_cast<double>(sights[i].size()));
     const Sight& sight = sights[i][at];
     if (sight.range > nearest)
-      return scanner + random.uniform(nearest, std::min(farthest, sight.range)) *
-                           sight.direction;
+      return scanner +
+             random.uniform(nearest, std::min(farthest, sight.range)) * sight.direction;
   }
   return scanner;
 }
@@ -117,11 +117,10 @@ Intruders::Impl::lay(const GroundMap& map)
   track.times = scans.stamps;
   for (const auto& pose : scans.poses)
     track.places.push_back(pose.translation());
-  BodyWays ways(map,
-                track,
-                [this](double time, double nearest, double farthest, Random& random) {
-                  return goalAt(time, nearest, farthest, random);
-                });
+  BodyWays ways(
+      map, track, [this](double time, double nearest, double farthest, Random& random) {
+        return goalAt(time, nearest, farthest, random);
+      });
   std::vector<MovingBody> all;
   std::uint64_t seed = mixBits(options.seed);
   for (int i = 0; i < options.cars; ++i)

@@ -10,7 +10,7 @@
 namespace pcl6d {
 namespace {
 constexpr double kTrackStep = 0.25; // [s] between known places of the robot
-constexpr int kSightTries = 8;        // tries to find a place in sight
+constexpr int kSightTries = 8;      // tries to find a place in sight
 
 // Where the robot is, at the scans and on its way.
 ScannerTrack
@@ -47,29 +47,34 @@ TrafficOptions::validate() const
 }
 
 void
-addTraffic(SimulationScene& scene, const Simulator& drive, const TrafficOptions& options)
+addTraffic(SimulationScene& scene,
+           const Simulator& drive,
+           const TrafficOptions& options)
 {
   options.validate();
   if (options.people + options.cars == 0)
     return;
   const ScannerTrack track = trackOf(drive);
-  const double reach = wayRules(options.cars > 0 ? BodyKind::kCar : BodyKind::kPerson)
-                           .farthest;
-  const GroundMap map = groundOfScene(
-      drive.caster(), densely(track.places), drive.options().robot.sensor_height, reach);
+  const double reach =
+      wayRules(options.cars > 0 ? BodyKind::kCar : BodyKind::kPerson).farthest;
+  const GroundMap map = groundOfScene(drive.caster(),
+                                      densely(track.places),
+                                      drive.options().robot.sensor_height,
+                                      reach);
   // Around the robot, where no wall hides it.
-  const auto goalAt = [&](double time, double nearest, double farthest, Random& random) {
-    const Eigen::Vector2d robot = track.placeAt(time).head<2>();
-    Eigen::Vector2d goal = robot;
-    for (int i = 0; i < kSightTries; ++i) {
-      const SinCos turn = portableSinCos(random.uniform(0, 2 * M_PI));
-      goal = robot +
-             random.uniform(nearest, farthest) * Eigen::Vector2d(turn.cos, turn.sin);
-      if (map.isFree(robot, goal, 0))
-        break;
-    }
-    return goal;
-  };
+  const auto goalAt =
+      [&](double time, double nearest, double farthest, Random& random) {
+        const Eigen::Vector2d robot = track.placeAt(time).head<2>();
+        Eigen::Vector2d goal = robot;
+        for (int i = 0; i < kSightTries; ++i) {
+          const SinCos turn = portableSinCos(random.uniform(0, 2 * M_PI));
+          goal = robot + random.uniform(nearest, farthest) *
+                             Eigen::Vector2d(turn.cos, turn.sin);
+          if (map.isFree(robot, goal, 0))
+            break;
+        }
+        return goal;
+      };
   BodyWays ways(map, track, goalAt);
   for (const auto& body : scene.moving)
     ways.addOther(body);

@@ -13,26 +13,6 @@ constexpr std::size_t kStepsPerSpan = 64;
 constexpr double kProbeHeight = 0.5; // [m] above the waypoints
 constexpr double kLongest = 1e6;     // [m] a drive is checked every few centimetres
 
-struct SplinePoint {
-  Eigen::Vector3d position;
-  Eigen::Vector3d tangent; // not of unit length
-};
-
-// Uniform quadratic B-spline: in the span of waypoint i it runs from the middle of the
-// edge before it to the middle of the edge after it. u counts spans.
-SplinePoint
-splineAt(const std::vector<Eigen::Vector3d>& waypoints, double u)
-{
-  const std::size_t count = waypoints.size();
-  const auto span = std::min(static_cast<std::size_t>(u), count - 1);
-  const double t = u - static_cast<double>(span);
-  const Eigen::Vector3d& middle = waypoints[span];
-  const Eigen::Vector3d before = (waypoints[(span + count - 1) % count] + middle) / 2;
-  const Eigen::Vector3d after = (middle + waypoints[(span + 1) % count]) / 2;
-  return {(1 - t) * (1 - t) * before + 2 * t * (1 - t) * middle + t * t * after,
-          (1 - t) * (middle - before) + t * (after - middle)};
-}
-
 Eigen::Vector3d
 floorBelow(const RayCaster& caster, const Eigen::Vector3d& near)
 {
@@ -58,8 +38,9 @@ RobotOptions::validate() const
 }
 
 RobotPath::RobotPath(const std::vector<Eigen::Vector3d>& waypoints,
-                     const RobotOptions& options)
-: waypoints_(waypoints), options_(options)
+                     const RobotOptions& options,
+                     PathCorners corners)
+: waypoints_(waypoints), options_(options), corners_(corners)
 {
   options.validate();
   const std::size_t count = waypoints.size();
@@ -74,7 +55,7 @@ RobotPath::RobotPath(const std::vector<Eigen::Vector3d>& waypoints,
   way_ = {0};
   for (std::size_t i = 1; i <= count * kStepsPerSpan; ++i) {
     const auto at = [&](std::size_t step) {
-      return splineAt(waypoints_, static_cast<double>(step) / kStepsPerSpan).position;
+      return pointAtStep(static_cast<double>(step)).position;
     };
     way_.push_back(way_.back() + (at(i) - at(i - 1)).head<2>().norm());
   }
@@ -87,20 +68,66 @@ RobotPath::length() const
   return way_.back();
 }
 
-Eigen::Isometry3d
-RobotPath::sensorPose(const RayCaster& caster, double s) const
+std::vector<double>
+RobotPath::corners() const
+{
+  std::vector<double> corners;
+  if (corners_ == PathCorners::kSharp)
+    for (std::size_t i = 0; i < way_.size(); i += kStepsPerSpan)
+      corners.push_back(way_[i]);
+  return corners;
+}
+
+// Rounded: in the span of waypoint i from the middle of the edge before it to the middle of
+// the edge after it. Sharp: from waypoint i to the next.
+RobotPath::Point
+RobotPath::pointAtStep(double step) const
+{
+  const double u = step / kStepsPerSpan;
+  const std::size_t count = waypoints_.size();
+  const auto span = std::min(static_cast<std::size_t>(u), count - 1);
+  const double t = u - static_cast<double>(span);
+  const Eigen::Vector3d& here = waypoints_[span];
+  const Eigen::Vector3d& next = waypoints_[(span + 1) % count];
+  if (corners_ == PathCorners::kSharp)
+    return {here + t * (next - here), next - here};
+  const Eigen::Vector3d before = (waypoints_[(span + count - 1) % count] + here) / 2;
+  const Eigen::Vector3d after = (here + next) / 2;
+  return {(1 - t) * (1 - t) * before + 2 * t * (1 - t) * here + t * t * after,
+          (1 - t) * (here - before) + t * (after - here)};
+}
+
+RobotPath::Point
+RobotPath::pointAt(double s) const
 {
   s -= std::floor(s / length()) * length();
   const auto next = std::upper_bound(way_.begin() + 1, way_.end() - 1, s);
   const double part = (s - *(next - 1)) / (*next - *(next - 1));
-  const auto step = static_cast<double>(next - 1 - way_.begin());
-  const SplinePoint point = splineAt(waypoints_, (step + part) / kStepsPerSpan);
+  return pointAtStep(static_cast<double>(next - 1 - way_.begin()) + part);
+}
 
-  const Eigen::Vector2d heading = point.tangent.head<2>().normalized();
+Eigen::Vector2d
+RobotPath::heading(double s) const
+{
+  return pointAt(s).tangent.head<2>().normalized();
+}
+
+Eigen::Isometry3d
+RobotPath::sensorPose(const RayCaster& caster, double s) const
+{
+  return sensorPose(caster, s, heading(s));
+}
+
+Eigen::Isometry3d
+RobotPath::sensorPose(const RayCaster& caster,
+                      double s,
+                      const Eigen::Vector2d& heading) const
+{
+  const Eigen::Vector3d position = pointAt(s).position;
   const Eigen::Vector3d ahead(heading.x(), heading.y(), 0);
   const Eigen::Vector3d aside(-heading.y(), heading.x(), 0);
   const auto contact = [&](const Eigen::Vector3d& direction, double distance) {
-    return floorBelow(caster, point.position + distance * direction);
+    return floorBelow(caster, position + distance * direction);
   };
   const Eigen::Vector3d front = contact(ahead, options_.wheel_base / 2);
   const Eigen::Vector3d rear = contact(ahead, -options_.wheel_base / 2);

@@ -8,6 +8,7 @@
 #include <pcl6d/simulation/simulator.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pcl6d {
@@ -17,7 +18,12 @@ constexpr double kUsualSpeed = 1;    // [m/s]
 constexpr double kSpareTime = 0.9; // share of the time from scan to scan that one takes
 
 // What the seed is split for, so that more scans do not change the odometry's noise.
-enum Stream : std::uint64_t { kRangeStream = 1, kOdometryStream = 2 };
+enum Stream : std::uint64_t {
+  kRangeStream = 1,
+  kOdometryStream = 2,
+  kVibrationStream = 3
+};
+constexpr double kTurnRate = 30 * M_PI / 180; // [rad/s] of a small vehicle
 
 std::uint64_t
 streamSeed(std::uint64_t seed, Stream stream)
@@ -75,6 +81,20 @@ SimulationOptions::validate() const
           "speed",
           speed.value_or(0),
           "in (0, 50] m/s");
+  const bool drives_on = motion == ScanMotion::kContinuous;
+  const std::string rule = " where it stops for each scan";
+  require(drives_on || !turns_in_place, "turns_in_place", 1, "0" + rule);
+  require(drives_on || !turn_rate, "turn_rate", turn_rate.value_or(0), "none" + rule);
+  require(drives_on || vibration == 0, "vibration", vibration, "0" + rule);
+  require(drives_on || !period, "period", period.value_or(0), "none" + rule);
+  require(!period || (*period > 0 && std::isfinite(*period)),
+          "period",
+          period.value_or(0),
+          "> 0 s");
+  MotionOptions ride;
+  ride.turn_rate = turn_rate;
+  ride.vibration = vibration;
+  ride.validate();
   range.validate();
   robot.validate();
   odometry.validate();
@@ -84,7 +104,9 @@ SimulationOptions::validate() const
 Simulator::Simulator(SimulationScene scene, const SimulationOptions& options)
 : scene_(std::move(scene.geometry), std::move(scene.moving))
 , options_(validated(options))
-, path_(scene.waypoints, options.robot)
+, path_(scene.waypoints,
+        options.robot,
+        options.turns_in_place ? PathCorners::kSharp : PathCorners::kRounded)
 {
   if (!options_.scanner)
     options_.scanner = std::make_shared<DrivenScanner>();
@@ -111,22 +133,45 @@ Simulator::stopAndScan()
   }
 }
 
+double
+Simulator::speedOnTheMove() const
+{
+  if (options_.period) {
+    require(*options_.period >= scanner().duration(),
+            "period",
+            *options_.period,
+            "at least " + std::to_string(scanner().duration()) +
+                " s, which a scan takes");
+    return options_.speed.value_or(kUsualSpeed);
+  }
+  const double limit = path_.length() / options_.num_scans / scanner().duration();
+  return options_.speed.value_or(std::min(kUsualSpeed, kSpareTime * limit));
+}
+
 void
 Simulator::scanOnTheMove()
 {
+  speed_ = speedOnTheMove();
+  MotionOptions ride;
+  ride.speed = speed_;
+  ride.turn_rate = options_.turn_rate;
+  if (options_.turns_in_place)
+    ride.turn_rate = options_.turn_rate.value_or(kTurnRate);
+  ride.vibration = options_.vibration;
+  ride.seed = streamSeed(options_.seed, kVibrationStream);
+  motion_.emplace(path_, caster(), ride);
+  const double period =
+      options_.period.value_or(motion_->duration() / options_.num_scans);
   const double step = path_.length() / options_.num_scans;
-  const double limit = step / scanner().duration();
-  speed_ = options_.speed.value_or(std::min(kUsualSpeed, kSpareTime * limit));
-  require(speed_ <= limit,
+  require(period >= scanner().duration(),
           "speed",
           speed_,
-          "at most " + std::to_string(limit) + " m/s: a scan takes " +
-              std::to_string(scanner().duration()) + " s, and the next one starts " +
-              std::to_string(step) + " m on");
-  motion_.emplace(path_, caster(), speed_);
+          "at most " + std::to_string(step / scanner().duration()) +
+              " m/s: a scan takes " + std::to_string(scanner().duration()) +
+              " s, and the next one starts " + std::to_string(step) + " m on");
   T_scene_world_ = motion_->poseAt(0);
   for (int i = 0; i < options_.num_scans; ++i) {
-    truth_.stamps.push_back(step * i / speed_);
+    truth_.stamps.push_back(period * i);
     truth_.poses.push_back(i == 0 ? Eigen::Isometry3d::Identity()
                                   : T_scene_world_.inverse() *
                                         motion_->poseAt(truth_.stamps.back()));

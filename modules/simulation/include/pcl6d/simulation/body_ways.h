@@ -31,7 +31,7 @@ struct WayRules {
    * its length */
   double radius;
   std::vector<double> discs;
-  double keep_away;        ///< [m] from the scanner to its middle, in plan, at any time
+  double keep_away; ///< [m] from the scanner to its middle, in plan, at any time
   double nearest, farthest; ///< [m] from the scanner: where it wants to go
   double shortest, longest; ///< [m] of a way from one goal to the next
 };
@@ -44,8 +44,9 @@ wayRules(BodyKind kind);
 
 /** \brief Where a scanner is. */
 struct ScannerTrack {
-  std::vector<double> times;           ///< [s] increasing
-  std::vector<Eigen::Vector3d> places; ///< [m] at these times, z up; between them straight
+  std::vector<double> times; ///< [s] increasing
+  std::vector<Eigen::Vector3d>
+      places; ///< [m] at these times, z up; between them straight
 
   /** \throws BadArgument no time, times that do not increase, not one place for each */
   void
@@ -65,8 +66,8 @@ struct ScannerTrack {
 class BodyWays {
 public:
   /** A place in view of the scanner at a time, in plan, between two distances from it [m]. */
-  using GoalAt = std::function<Eigen::Vector2d(
-      double time, double nearest, double farthest, Random& random)>;
+  using GoalAt = std::function<
+      Eigen::Vector2d(double time, double nearest, double farthest, Random& random)>;
 
   /** Keeps a reference to the map. \throws BadArgument see ScannerTrack::validate() */
   BodyWays(const GroundMap& map, ScannerTrack track, GoalAt goalAt);

@@ -23,7 +23,8 @@ public:
     double cell = 0.1;                             ///< [m] edge of a cell, > 0
     std::size_t columns = 0;                       ///< along x
     std::size_t rows = 0;                          ///< along y
-    std::vector<double> floors; ///< [m] row by row; NaN: something stands there, or unknown
+    std::vector<double>
+        floors; ///< [m] row by row; NaN: something stands there, or unknown
   };
 
   /** \throws BadArgument a field breaks its rule, or as many floors as cells are not there */
@@ -73,7 +74,8 @@ private:
   roomOf(std::size_t cell) const;
 
   Raster raster_;
-  std::vector<float> gaps_; // [m] from the middle of a cell to that of the next unfree one
+  std::vector<float>
+      gaps_; // [m] from the middle of a cell to that of the next unfree one
 };
 
 } // namespace pcl6d

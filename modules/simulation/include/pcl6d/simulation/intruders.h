@@ -17,10 +17,10 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of Intruders. */
 struct IntruderOptions {
-  int people = 0; ///< in [0, 200]; people or cars > 0
-  int cars = 0;   ///< in [0, 200]
+  int people = 0;                                ///< in [0, 200]; people or cars > 0
+  int cars = 0;                                  ///< in [0, 200]
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ(); ///< in the world; any length > 0
-  std::uint64_t seed = 1;   ///< same seed, same ways and noise
+  std::uint64_t seed = 1;                        ///< same seed, same ways and noise
   unsigned num_threads = 0; ///< 0: one per core; never changes results
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
@@ -30,8 +30,8 @@ struct IntruderOptions {
 /** \brief What bodies do to one scan. */
 struct IntrudedPoints {
   std::vector<std::uint32_t> indices; ///< of the points that moved, ascending
-  Points points;                      ///< where they are now, in the frame of the scan [m]
-  std::vector<std::uint32_t> bodies;  ///< which body each lies on
+  Points points; ///< where they are now, in the frame of the scan [m]
+  std::vector<std::uint32_t> bodies; ///< which body each lies on
 };
 
 /** \brief People and cars that walk through recorded scans.

@@ -48,6 +48,15 @@ struct SimulationOptions {
   /// [m/s] in plan, in (0, 50]; none: 1, or less where a scan could not end before the
   /// next one starts
   std::optional<double> speed;
+  /// \name Of kContinuous only; see MotionOptions
+  ///@{
+  bool turns_in_place = false;     ///< it drives straight from waypoint to waypoint
+  std::optional<double> turn_rate; ///< [rad/s] none: any, in place 30 deg/s
+  double vibration = 0;            ///< [m]
+  /** [s] from scan to scan, at least what one takes: with just that, scans follow each other
+   * without a pause; none: evenly along the way, once round */
+  std::optional<double> period;
+  ///@}
   OdometryKind odometry_kind = OdometryKind::kWheel;
   OdometryOptions odometry;              ///< of kWheel
   VisualInertialOptions visual_inertial; ///< of kVisualInertial
@@ -71,8 +80,8 @@ struct SimulationOptions {
  * \endcode \ingroup simulation */
 class Simulator {
 public:
-  /** \throws BadArgument scene or options break a rule, or the speed is too high for a
-   * scan to end before the next one starts \throws ComputeFailed the path leaves the
+  /** \throws BadArgument scene or options break a rule, or the speed is too high, or the
+   * period too short, for a scan to end before the next one starts \throws ComputeFailed the path leaves the
    * floor or leads through a surface */
   explicit Simulator(SimulationScene scene, const SimulationOptions& options = {});
 
@@ -161,6 +170,8 @@ private:
   stopAndScan();
   void
   scanOnTheMove();
+  double
+  speedOnTheMove() const;
 
   MovingScene scene_;
   SimulationOptions options_;

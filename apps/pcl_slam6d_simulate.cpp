@@ -2,14 +2,13 @@
 // Scans of a built-in scene with drifting odometry and exact truth.
 #include "common/app.h"
 #include "common/interrupt.h"
-#include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "simulate/body_words.h"
 #include "simulate/intrude.h"
 #include "simulate/settings.h"
+#include "simulate/simulated_folder.h"
 #include "simulate/truth_files.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_name.h>
@@ -25,7 +24,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <regex>
 
 namespace {
 namespace fs = std::filesystem;
@@ -33,32 +31,6 @@ using namespace pcl6d;
 
 using app::kSimulate;
 using app::SimulateSettings;
-constexpr const char* kMarker = "scene.json"; // only simulated folders have it
-
-/** \return whether a folder holds scans */
-bool
-holdsScans(const fs::path& folder)
-{
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".pcd")
-      return true;
-  return false;
-}
-
-app::OutputRules
-outputRules(const SimulateSettings& s)
-{
-  app::OutputRules rules;
-  rules.folder = s.out;
-  rules.program = kSimulate;
-  rules.marker = kMarker;
-  rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
-                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json|"
-                           "groundtruth_motion\\.txt");
-  rules.force = s.force;
-  return rules;
-}
 
 void
 writeSceneFile(const fs::path& path,
@@ -153,7 +125,7 @@ writeFiles(const app::OutputFolder& folder,
   }
   if (has_labels)
     app::writeTruthFiles(folder, scene, simulator, counts);
-  writeSceneFile(folder / kMarker, s, scene, simulator);
+  writeSceneFile(folder / app::kSceneFile, s, scene, simulator);
   return true;
 }
 
@@ -181,7 +153,7 @@ printSummary(const SimulateSettings& s, const Simulator& simulator)
                   ? "groundtruth_motion.txt times.txt "
                   : "",
               app::wantsLabels(s.scene) ? "planes_truth.json objects_truth.json " : "",
-              kMarker);
+              app::kSceneFile);
 }
 
 int
@@ -200,9 +172,8 @@ run(const std::vector<std::string>& arguments)
     drive.emplace(scene, s.simulation);
   }
   const Simulator& simulator = *drive;
-  app::OutputFolder out(outputRules(s));
-  if (!out.holdsEarlierRun() && holdsScans(s.out))
-    throw IoFailed(s.out + ": holds scans that were not simulated; use another folder");
+  app::OutputFolder out(app::simulatedFolder(s.out, s.force));
+  app::requireNoOtherScans(out);
   app::ProgressBar progress(s.quiet);
   if (!writeFiles(out, s, scene, simulator, progress)) {
     progress.say("interrupted: nothing written");

@@ -2,11 +2,11 @@
 #include "common/app.h"
 #include "common/interrupt.h"
 #include "common/open_scans.h"
-#include "common/output_folder.h"
 #include "common/progress_bar.h"
 #include "simulate/body_words.h"
 #include "simulate/intrude.h"
 #include "simulate/settings.h"
+#include "simulate/simulated_folder.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/global_registration/vertical.h>
@@ -26,23 +26,7 @@
 namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
-constexpr const char* kRecord = "scene.json";
 constexpr const char* kTruth = "groundtruth.txt";
-
-OutputRules
-outputRules(const IntrudeSettings& s)
-{
-  OutputRules rules;
-  rules.folder = s.out;
-  rules.inputs = {s.input, s.poses};
-  rules.program = kSimulate;
-  rules.marker = kRecord;
-  rules.files = std::regex("scan[0-9]+\\.pcd|odometry\\.txt|groundtruth\\.txt|"
-                           "(planes|objects)_truth\\.json|times\\.txt|scene\\.json|"
-                           "groundtruth_motion\\.txt");
-  rules.force = s.force;
-  return rules;
-}
 
 /** \brief Reads the scans, lets the bodies in, and writes the folder. */
 class Intrusion {
@@ -51,8 +35,10 @@ public:
   : s_(settings)
   , bar_(settings.quiet)
   , scans_(openScans(settings.input, settings.scans, bar_))
-  , out_(outputRules(settings))
+  , out_(
+        simulatedFolder(settings.out, settings.force, {settings.input, settings.poses}))
   {
+    requireNoOtherScans(out_);
     if (!scans_.folder().hasPoses() && !scans_.summary() && s_.poses.empty())
       throw IoFailed(s_.input + ": the scans have no poses: where would somebody walk? "
                                 "Register them with pcl_slam6d, and take its folder");
@@ -97,7 +83,7 @@ public:
                   options.cars,
                   s_.out.c_str(),
                   has_truth_ ? "groundtruth.txt " : "",
-                  kRecord);
+                  kSceneFile);
     return kDone;
   }
 
@@ -241,7 +227,7 @@ private:
         {"seed", s_.intruders.seed},
         {"traffic", {{"people", s_.intruders.people}, {"cars", s_.intruders.cars}}},
         {"bodies", describeBodies(bodies, intruders.worldFromLevel())}};
-    writeJson(out_ / kRecord, json, 2);
+    writeJson(out_ / kSceneFile, json, 2);
   }
 
   const IntrudeSettings& s_;

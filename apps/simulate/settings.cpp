@@ -136,11 +136,16 @@ applyScanner(const SimulateSettings& s, double scene_range, SimulationOptions& o
 bool
 parseSettings(const std::vector<std::string>& arguments, SimulateSettings& s)
 {
-  OptionTable table(std::string("usage: ") + kSimulate +
-                    " SCENE -o DIR [options]\nSimulates a robot that drives through "
-                    "a scene and scans it.\nSCENE is a scene description FILE.json, "
-                    "a mesh FILE.ply|obj|stl with --path, or one of:" +
-                    sceneList() + "\nScanners:" + scannerList());
+  OptionTable table(
+      std::string("usage: ") + kSimulate + " SCENE -o DIR [options]\n       " +
+      kSimulate +
+      " intrude RUN -o DIR [options]\nSimulates a robot that drives "
+      "through a scene and scans it.\nSCENE is a scene description FILE.json, "
+      "a mesh FILE.ply|obj|stl with --path, or one of:" +
+      sceneList() + "\nScanners:" + scannerList() +
+      "\nJobs:\n  intrude RUN -o DIR  lets people and cars move through "
+      "recorded scans; " +
+      kSimulate + " intrude --help tells the options");
   addOptions(table, s);
   return table.parse(arguments);
 }

@@ -76,7 +76,7 @@ _pcl6d_takes_value() { # line
 
 _pcl6d() {
   local program=${COMP_WORDS[0]} current=${COMP_WORDS[COMP_CWORD]}
-  local before=${COMP_WORDS[COMP_CWORD - 1]} help jobs line
+  local before=${COMP_WORDS[COMP_CWORD - 1]} help jobs line works_alone=
   COMPREPLY=()
   # bash takes --option=value for three words.
   if [[ $before == "=" ]]; then
@@ -86,13 +86,17 @@ _pcl6d() {
   fi
   _pcl6d_ask "$program"
   jobs=$(_pcl6d_jobs "$help")
-  if [[ $jobs && $COMP_CWORD -eq 1 ]]; then
+  # A program may have options of its own beside its jobs.
+  [[ $help == *$'\n'"  --"* ]] && works_alone=yes
+  if [[ $jobs && ! $works_alone && $COMP_CWORD -eq 1 ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$jobs --help --version" -- "$current")
     return
   fi
-  if [[ $jobs ]]; then
-    grep -qxF -- "${COMP_WORDS[1]}" <<<"$jobs" || return
+  if [[ $jobs && $COMP_CWORD -gt 1 ]] && grep -qxF -- "${COMP_WORDS[1]}" <<<"$jobs"; then
     _pcl6d_ask "$program" "${COMP_WORDS[1]}"
+    jobs=
+  elif [[ $jobs && ! $works_alone ]]; then
+    return
   fi
   if [[ $before == -* ]]; then
     line=$(_pcl6d_line "$help" "$before")
@@ -110,6 +114,9 @@ _pcl6d() {
   # Names in place of a file, such as those of scenes: the first list of the help.
   mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W \
     "$(sed -nE '/^[A-Z][a-z]*:$/q; s/^  ([a-z0-9-]+): .*/\1/p' <<<"$help")" -- "$current")
+  if [[ $jobs && $COMP_CWORD -eq 1 ]]; then
+    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$jobs" -- "$current")
+  fi
 }
 
 # bash loads this file as that of one program; sourced by hand it serves them all.

@@ -19,7 +19,7 @@ page() { # program, job or "", see also
 }
 
 jobs_of() { # program
-  "$1" --help | awk '/^  [a-z][a-z-]* ?/ { jobs = jobs " " $1 }
+  "$1" --help | awk '/^  [a-z][a-z-]*( |$)/ { jobs = jobs " " $1 }
                      /--help tells the options/ { print jobs }'
 }
 

@@ -57,14 +57,17 @@ allMatches(const std::string& text, const std::string& pattern)
   return words;
 }
 
-/** \return the jobs of a program, and "" if it has only one */
+/** \return the jobs of a program, and "" if it has only one, or options beside them */
 Words
 jobsOf(const std::string& program)
 {
   const std::string text = help(program, 100);
   if (text.find("--help tells the options") == std::string::npos)
     return {""};
-  return allMatches(text, "\n  ([a-z][a-z-]*)[ \n]");
+  Words jobs = allMatches(text, "\n  ([a-z][a-z-]*)[ \n]");
+  if (text.find("\n  --") != std::string::npos)
+    jobs.insert("");
+  return jobs;
 }
 
 Words
@@ -232,6 +235,8 @@ TEST(Completion, GivesJobsOptionsAndTheWordsOfAnOption)
   EXPECT_EQ(completed({"pcl_slam6d", "--quiet", "--seed", "1", "--quie"}),
             Words{"--quiet"});
   EXPECT_EQ(completed({"pcl_slam6d_simulate", "cor"}), Words{"corridor"});
+  EXPECT_EQ(completed({"pcl_slam6d_simulate", "intr"}), Words{"intrude"});
+  EXPECT_EQ(completed({"pcl_slam6d_simulate", "intrude", "--car"}), Words{"--cars"});
   EXPECT_EQ(completed({"pcl_slam6d_convert", "stereo", "--matcher", ""}),
             (Words{"sgbm", "bm"}));
   EXPECT_EQ(completed({"pcl_slam6d_render", "picture", "--background", ""}),

@@ -157,6 +157,8 @@ jobsOf(const std::string& help)
   static const std::regex line("\n  ([a-z][a-z-]*)[ \n]");
   for (std::sregex_iterator i(help.begin(), help.end(), line), end; i != end; ++i)
     jobs.push_back((*i)[1]);
+  if (help.find("\n  --") != std::string::npos)
+    jobs.emplace_back(); // what it does without a job
   return jobs;
 }
 
@@ -180,8 +182,10 @@ extremeOptionCases(const fs::path& calls,
       jobs.emplace_back(); // the program's only one
     for (const std::string& job : jobs) {
       const auto call = std::find_if(table.begin(), table.end(), [&](const auto& row) {
+        const std::string& first = row.second.arguments.front();
         return row.second.program == name &&
-               (job.empty() || row.second.arguments.front() == job);
+               (job.empty() ? std::find(jobs.begin(), jobs.end(), first) == jobs.end()
+                            : first == job);
       });
       if (call == table.end())
         throw std::runtime_error(calls.string() + ": no row for " + name + ' ' + job);

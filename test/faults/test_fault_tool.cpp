@@ -198,4 +198,7 @@ TEST(ExtremeOptions, AreReadFromTheHelp)
   EXPECT_EQ(jobsOf("usage: p JOB\n\n  build DIR  makes\n  info MAP   tells\n\n"
                    "p JOB --help tells the options.\n"),
             (std::vector<std::string>{"build", "info"}));
+  EXPECT_EQ(jobsOf("usage: p IN\nJobs:\n  info MAP   p info --help tells the options\n"
+                   "Run:\n  --quiet   no progress\n"),
+            (std::vector<std::string>{"info", ""}));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/scanner/spinning_lidar.h>
 
 #include <gtest/gtest.h>
@@ -54,6 +55,19 @@ TEST(SpinningLidar, Vlp16FiresItsLasersInOrder)
   EXPECT_NEAR(lidar.time(0, 900) - lidar.time(0, 0), 0.05, 1e-12);
   EXPECT_EQ(lidar.duration(), 0.1);
   EXPECT_LT(lidar.time(0, 1799), lidar.duration());
+}
+
+TEST(SpinningLidar, OusterHas64LinesOver45Degrees)
+{
+  const auto lidar = pcl6d::scannerByName("ouster").scanner;
+  ASSERT_EQ(lidar->numLines(), 64);
+  ASSERT_EQ(lidar->samplesPerLine(), 1024);
+  EXPECT_EQ(lidar->duration(), 0.1);
+  EXPECT_NEAR(std::asin(lidar->ray(0, 0).direction.z()), 22.5 * kDegree, 1e-12);
+  EXPECT_NEAR(std::asin(lidar->ray(63, 0).direction.z()), -22.5 * kDegree, 1e-12);
+  for (const int line : {0, 31, 63}) // a column fires at once
+    EXPECT_EQ(lidar->time(line, 512), 0.05);
+  EXPECT_EQ(pcl6d::scannerByName("ouster", kDegree).scanner->samplesPerLine(), 360);
 }
 
 TEST(SpinningLidar, RefusesBrokenOptions)

@@ -94,6 +94,40 @@ TEST(MovingBody, StopsReturnsOrGoesRound)
   expectPlace(circles, at_end + third / 2 + 1, {2, 0, 0}, x);
 }
 
+TEST(MovingBody, FollowsItsTimetable)
+{
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  MovingBody body = walker(WayEnd::kReturn);
+  // It waits at (4, 0), jumps to (0, 5), and goes on along -x.
+  body.way = {{0, 0, 0}, {4, 0, 0.4}, {4, 0, 0.4}, {0, 5, 0}, {-2, 5, 0}};
+  body.times = {1, 3, 5, 5, 6};
+  EXPECT_NO_THROW(body.validate());
+  expectPlace(body, 0, {0, 0, 0}, x);
+  expectPlace(body, 1, {0, 0, 0}, x);
+  expectPlace(body, 2, {2, 0, 0.2}, x);
+  expectPlace(body, 4, {4, 0, 0.4}, x);
+  expectPlace(body, 5, {0, 5, 0}, -x);
+  expectPlace(body, 5.5, {-1, 5, 0}, -x);
+  expectPlace(body, 100, {-2, 5, 0}, -x);
+  EXPECT_TRUE(body.moves());
+  body.follows_slope = true; // 10 % up
+  const Eigen::Isometry3d pose = body.poseAt(2);
+  EXPECT_LT((pose.linear().col(0) - Eigen::Vector3d(4, 0, 0.4).normalized()).norm(),
+            1e-12);
+  EXPECT_LT((pose.linear().col(1) - y).norm(), 1e-12);
+  EXPECT_NEAR(pose.linear().determinant(), 1, 1e-12);
+  body.way = {{1, 2, 3}, {1, 2, 3}};
+  body.times = {0, 1};
+  EXPECT_NO_THROW(body.validate());
+  EXPECT_FALSE(body.moves());
+  expectPlace(body, 0.5, {1, 2, 3}, x);
+  body.times.clear();
+  body.speed = 0;
+  EXPECT_FALSE(body.moves());
+  body.speed = 1;
+  EXPECT_TRUE(body.moves());
+}
+
 TEST(MovingBody, RefusesWhatCannotMove)
 {
   const auto broken = [](const std::function<void(MovingBody&)>& spoil) {
@@ -115,6 +149,9 @@ TEST(MovingBody, RefusesWhatCannotMove)
       [](MovingBody& body) { body.start = std::numeric_limits<double>::infinity(); });
   broken([](MovingBody& body) { body.shape = {}; });
   broken([](MovingBody& body) { body.shape.triangles[0].vertices[0] = 99; });
+  broken([](MovingBody& body) { body.times = {0, 1}; }); // of three corners
+  broken([](MovingBody& body) { body.times = {0, 2, 1}; });
+  broken([](MovingBody& body) { body.times = {0, 1, std::nan("")}; });
   MovingBody body = walker(WayEnd::kClosed);
   body.way.push_back(body.way[0]);
   EXPECT_THROW(body.validate(), BadArgument) << "the last leg has no length";

@@ -121,3 +121,26 @@ TEST(RobotPath, RefusesWaypointsThatAreNoPlace)
   corners[2].x() = 9e8; // a place, but too long a drive
   EXPECT_THROW(RobotPath(corners, RobotOptions()), pcl6d::BadArgument);
 }
+
+TEST(RobotPath, IsStraightFromCornerToCornerIfTheyAreSharp)
+{
+  const auto caster = slope();
+  const auto waypoints = square();
+  const RobotPath path(waypoints, {}, pcl6d::PathCorners::kSharp);
+  EXPECT_NEAR(path.length(), 40, 1e-9);
+  const auto corners = path.corners();
+  ASSERT_EQ(corners.size(), 9u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_NEAR(corners[i], 5.0 * static_cast<double>(i), 1e-9);
+    const Eigen::Vector2d leg = (waypoints[(i + 1) % 8] - waypoints[i]).head<2>();
+    EXPECT_LT((path.heading(corners[i]) - leg.normalized()).norm(), 1e-12);
+    EXPECT_LT((path.heading(corners[i] + 4.9) - leg.normalized()).norm(), 1e-12);
+  }
+  EXPECT_TRUE(RobotPath(waypoints, {}).corners().empty());
+  const Eigen::Isometry3d turned =
+      path.sensorPose(caster, 3, Eigen::Vector2d(0, 1)); // where it would head along -x
+  EXPECT_LT((turned.linear().col(0) - Eigen::Vector3d::UnitY()).norm(), 1e-9);
+  EXPECT_LT((path.sensorPose(caster, 3).translation() - turned.translation()).norm(),
+            1e-9)
+      << "the plane has one height there, whatever the heading";
+}

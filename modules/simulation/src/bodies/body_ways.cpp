@@ -3,7 +3,6 @@
 #include "built_in/outdoor_models.h"
 
 #include <pcl6d/common/error.h>
-#include <pcl6d/common/require.h>
 #include <pcl6d/simulation/body_ways.h>
 
 #include <algorithm>
@@ -22,7 +21,6 @@ constexpr double kDetour = 1.5; // times the straight way, at most
 constexpr int kAsides = 2000;   // tries to find a place out of the way: mere look-ups
 constexpr int kLives = 10;      // tries to lay a whole way
 constexpr double kActive = 0.5; // share of its time on its feet that is enough
-constexpr double kShoulders = 0.25; // [m] radius of a person, see personModel()
 
 // Around its origin, wherever it turns.
 double
@@ -57,46 +55,6 @@ planRadius(const TriangleScene& shape)
   return radius;
 }
 } // namespace
-
-const char*
-toString(BodyKind kind)
-{
-  return kind == BodyKind::kPerson ? "person" : "car";
-}
-
-WayRules
-wayRules(BodyKind kind)
-{
-  // Four discs cover a rectangle of 4.3 m x 1.76 m.
-  return kind == BodyKind::kPerson
-             ? WayRules{1.1, 1.7, kShoulders + 0.05, {0}, 1.2, 2, 10, 1.5, 15}
-             : WayRules{3, 8, 1.05, {-1.65, -0.55, 0.55, 1.65}, 3.5, 4, 25, 5, 50};
-}
-
-void
-ScannerTrack::validate() const
-{
-  require(!times.empty(), "number of times", times.size(), ">= 1");
-  require(places.size() == times.size(),
-          "number of places",
-          places.size(),
-          "that of the times");
-  for (std::size_t i = 1; i < times.size(); ++i)
-    require(times[i] > times[i - 1], "time", times[i], "after the one before");
-}
-
-Eigen::Vector3d
-ScannerTrack::placeAt(double time) const
-{
-  const auto next = std::upper_bound(times.begin(), times.end(), time);
-  if (next == times.begin())
-    return places.front();
-  if (next == times.end())
-    return places.back();
-  const auto i = static_cast<std::size_t>(next - times.begin());
-  const double part = (time - times[i - 1]) / (times[i] - times[i - 1]);
-  return places[i - 1] + part * (places[i] - places[i - 1]);
-}
 
 /** \brief A body on its way. */
 struct BodyWays::Walker {

@@ -118,18 +118,24 @@ GroundMap::floor(const Eigen::Vector2d& place) const
   const auto cell = cellAt(place);
   if (!cell || std::isnan(raster_.floors[*cell]))
     return std::nullopt;
-  // Weights of the four cells whose middles are around the place; unknown floors have none.
+  // Of the four cells whose middles are around the place; unknown floors have no weight.
+  const Eigen::Array2d at = (place - raster_.low).array() / raster_.cell - 0.5;
+  const Eigen::Array2d first = at.floor();
   double sum = 0;
   double weights = 0;
-  const Eigen::Vector2d corner = place - Eigen::Vector2d::Constant(raster_.cell / 2);
   for (const double dx : {0.0, 1.0})
     for (const double dy : {0.0, 1.0}) {
-      const auto near = cellAt(corner + raster_.cell * Eigen::Vector2d(dx, dy));
-      if (!near || std::isnan(raster_.floors[*near]))
+      const Eigen::Array2d near = first + Eigen::Array2d(dx, dy);
+      if (near.minCoeff() < 0 || near.x() >= static_cast<double>(raster_.columns) ||
+          near.y() >= static_cast<double>(raster_.rows))
         continue;
-      const Eigen::Vector2d off = (place - middle(*near)).cwiseAbs() / raster_.cell;
-      const double weight = std::max(0.0, 1 - off.x()) * std::max(0.0, 1 - off.y());
-      sum += weight * raster_.floors[*near];
+      const double height =
+          raster_.floors[static_cast<std::size_t>(near.y()) * raster_.columns +
+                         static_cast<std::size_t>(near.x())];
+      const double weight = (1 - (at - near).abs()).prod();
+      if (std::isnan(height))
+        continue;
+      sum += weight * height;
       weights += weight;
     }
   return weights > 0 ? sum / weights : raster_.floors[*cell];

@@ -10,7 +10,7 @@
 
 namespace pcl6d {
 namespace {
-// The corners of a way that cannot be left out.
+// The corners of a way that cannot be left out; none if a disc does not fit on it.
 std::vector<Eigen::Vector2d>
 straightened(const std::vector<Eigen::Vector2d>& corners,
              const GroundMap& map,
@@ -21,6 +21,8 @@ straightened(const std::vector<Eigen::Vector2d>& corners,
     std::size_t to = corners.size() - 1;
     while (to > from + 1 && !map.isFree(corners[from], corners[to], radius))
       to = from + 1 + (to - from - 1) / 2;
+    if (!map.isFree(corners[from], corners[to], radius))
+      return {};
     way.push_back(corners[to]);
     from = to;
   }
@@ -56,7 +58,8 @@ struct GroundMap::Search {
     open.emplace(through, cell);
   }
 
-  // To the cells around one that are wide enough. Those at the rim of the map never are.
+  // To the cells around one that are wide enough, also between their middles. Those at the
+  // rim of the map never are.
   void
   goOn(std::size_t cell, double length)
   {
@@ -65,7 +68,7 @@ struct GroundMap::Search {
       for (const std::ptrdiff_t dx : {-1, 0, 1}) {
         const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) +
                                                    dy * columns + dx);
-        if (next != cell && map.roomOf(next) >= radius)
+        if (next != cell && map.roomOf(next) >= radius + map.raster_.cell / 2)
           reach(next,
                 cell,
                 length + map.raster_.cell *

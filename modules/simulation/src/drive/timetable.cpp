@@ -48,8 +48,8 @@ void
 Timetable::drive(double way, double heading, double speed, double turn_rate)
 {
   const Row& last = rows_.back();
-  const double time = std::max((way - last.way) / speed,
-                               std::abs(heading - last.heading) / turn_rate);
+  const double time =
+      std::max((way - last.way) / speed, std::abs(heading - last.heading) / turn_rate);
   if (time > 0)
     rows_.push_back({last.time + time, way, heading});
 }
@@ -63,7 +63,8 @@ Timetable::at(double time) const
       });
   const Row& a = *(next - 1);
   const double part = (time - a.time) / (next->time - a.time);
-  return {time, a.way + part * (next->way - a.way),
+  return {time,
+          a.way + part * (next->way - a.way),
           a.heading + part * (next->heading - a.heading)};
 }
 

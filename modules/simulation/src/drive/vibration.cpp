@@ -20,8 +20,11 @@ leftOf(double frequency, double step)
 }
 } // namespace
 
-Vibration::Vibration(
-    double rms, double lever, double round, double step, std::uint64_t seed)
+Vibration::Vibration(double rms,
+                     double lever,
+                     double round,
+                     double step,
+                     std::uint64_t seed)
 {
   Random random(mixBits(seed));
   const double octaves = portableLog(kHighestShake / kLowestShake);
@@ -47,8 +50,8 @@ Vibration::at(double time) const
   for (std::size_t axis = 0; axis < sines_.size(); ++axis)
     for (const auto& sine : sines_[axis]) {
       const double turns = sine.frequency * time + sine.phase;
-      shake[axis] += sine.amplitude *
-                     portableSinCos(2 * M_PI * (turns - std::floor(turns))).sin;
+      shake[axis] +=
+          sine.amplitude * portableSinCos(2 * M_PI * (turns - std::floor(turns))).sin;
     }
   // The quaternion of a small turn, to second order.
   Eigen::Quaterniond turn(1, shake[3] / 2, shake[4] / 2, shake[5] / 2);

@@ -42,7 +42,7 @@ MovingBodies::MovingBodies(std::vector<MovingBody> bodies)
       way.extend(corner);
     const Ball reach = {way.center(),
                         way.diagonal().norm() / 2 + shape.centre.norm() + shape.radius};
-    RayCaster caster(std::exchange(body.shape, {}));
+    RayCaster caster(body.shape);
     bodies_.push_back({std::move(body), std::move(caster), first, shape, reach});
   }
 }

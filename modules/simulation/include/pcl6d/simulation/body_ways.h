@@ -5,6 +5,7 @@
 #include <pcl6d/common/random.h>
 #include <pcl6d/simulation/ground_map.h>
 #include <pcl6d/simulation/moving_body.h>
+#include <pcl6d/simulation/way_rules.h>
 
 #include <Eigen/Core>
 
@@ -14,47 +15,6 @@
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
-
-constexpr int kMostBodies = 200; ///< of a kind that options may ask for
-
-/** \brief Bodies that find their way by themselves. */
-enum class BodyKind { kPerson, kCar };
-
-/** \return "person", "car": also the names of the bodies */
-const char*
-toString(BodyKind kind);
-
-/** \brief How bodies of a kind move about a scanner. */
-struct WayRules {
-  double slowest, fastest; ///< [m/s] a body's speed, the same all its way
-  /** [m] radius of the discs that stand for it, in plan, and where their middles are along
-   * its length */
-  double radius;
-  std::vector<double> discs;
-  double keep_away; ///< [m] from the scanner to its middle, in plan, at any time
-  double nearest, farthest; ///< [m] from the scanner: where it wants to go
-  double shortest, longest; ///< [m] of a way from one goal to the next
-};
-
-/** \return People walk at 1.1 to 1.7 m/s (R. C. Browning et al., "Effects of obesity and sex
- * on the energetic cost and preferred speed of walking", J. Applied Physiology 100(2), 2006:
- * 1.4 m/s), cars drive at 3 to 8 m/s, as where people walk. */
-WayRules
-wayRules(BodyKind kind);
-
-/** \brief Where a scanner is. */
-struct ScannerTrack {
-  std::vector<double> times; ///< [s] increasing
-  std::vector<Eigen::Vector3d>
-      places; ///< [m] at these times, z up; between them straight
-
-  /** \throws BadArgument no time, times that do not increase, not one place for each */
-  void
-  validate() const;
-
-  Eigen::Vector3d
-  placeAt(double time) const;
-};
 
 /** \brief Lays the ways of bodies around a scanner.
  *

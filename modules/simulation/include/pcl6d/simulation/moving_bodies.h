@@ -37,7 +37,7 @@ public:
     return bodies_.size();
   }
 
-  /** \return the body with all but its shape */
+  /** \param[in] i below size() */
   const MovingBody&
   body(std::size_t i) const
   {
@@ -56,7 +56,7 @@ private:
     isMissedBy(const Ray& ray) const;
   };
   struct Moving {
-    MovingBody body; // its shape is in the caster
+    MovingBody body;
     RayCaster caster;
     std::uint32_t first_triangle; // in shapes_
     Ball shape;                   // in the body's frame

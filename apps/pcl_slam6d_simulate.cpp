@@ -76,12 +76,44 @@ motionWithinScans(const Simulator& simulator)
     for (int k = 0; k <= steps; ++k) {
       const double time = duration * k / steps;
       const double stamp = simulator.truth().stamps[i] + time;
-      if (!motion.stamps.empty() && stamp <= motion.stamps.back())
+      if (!motion.stamps.empty() && stamp < motion.stamps.back() + kStep / 4)
         continue; // the end of one sweep is the begin of the next
       motion.stamps.push_back(stamp);
       motion.poses.push_back(simulator.scanPose(i, time));
     }
   return motion;
+}
+
+/** \brief A scan as it is written, and what is counted on the way. */
+pcl::PCLPointCloud2
+cloudOf(const SimulateSettings& s,
+        const Simulator& simulator,
+        std::size_t i,
+        TruthCounts& counts)
+{
+  pcl::PCLPointCloud2 cloud;
+  const RangeScan scan = simulator.rangeScan(i);
+  pcl::toPCLPointCloud2(toPointCloud(scan, simulator.scanner()), cloud);
+  if (s.simulation.motion == ScanMotion::kContinuous)
+    addTimeField(cloud, simulator.scanner());
+  if (app::wantsLabels(s.scene)) {
+    addTruthFields(cloud, scan, simulator.scene().scene());
+    counts.add(scan, simulator.scene().scene());
+  }
+  if (simulator.scene().bodies().size() > 0 && s.scene.labels.value_or(true))
+    addDynamicField(cloud, scan, simulator.scene());
+  return cloud;
+}
+
+void
+writeTrajectories(const app::OutputFolder& folder, const Simulator& simulator)
+{
+  writeTrajectoryKitti(folder / "odometry.txt", simulator.odometry());
+  writeTrajectoryKitti(folder / "groundtruth.txt", simulator.truth());
+  if (simulator.options().motion != ScanMotion::kContinuous)
+    return;
+  writeStamps(folder / "times.txt", simulator.truth().stamps);
+  writeTrajectoryTum(folder / "groundtruth_motion.txt", motionWithinScans(simulator));
 }
 
 /** \return false when a signal came in before the last scan */
@@ -93,37 +125,17 @@ writeFiles(const app::OutputFolder& folder,
            app::ProgressBar& progress)
 {
   const app::Interrupt interrupt;
-  const TriangleScene& surfaces = simulator.scene().scene();
-  const bool has_labels = app::wantsLabels(s.scene);
-  const bool tells_what_moves = !scene.moving.empty() && s.scene.labels.value_or(true);
   TruthCounts counts;
-  const bool on_the_move = s.simulation.motion == ScanMotion::kContinuous;
   for (std::size_t i = 0; i < simulator.size(); ++i) {
     if (interrupt.requested())
       return false;
-    pcl::PCLPointCloud2 cloud;
-    const RangeScan scan = simulator.rangeScan(i);
-    pcl::toPCLPointCloud2(toPointCloud(scan, simulator.scanner()), cloud);
-    if (on_the_move)
-      addTimeField(cloud, simulator.scanner());
-    if (has_labels) {
-      addTruthFields(cloud, scan, surfaces);
-      counts.add(scan, surfaces);
-    }
-    if (tells_what_moves)
-      addDynamicField(cloud, scan, simulator.scene());
     writePcd(folder / (scanName(static_cast<int>(i)) + ".pcd"),
-             cloud,
+             cloudOf(s, simulator, i, counts),
              simulator.odometry().poses[i]);
     progress.show({"simulating", i + 1, simulator.size()});
   }
-  writeTrajectoryKitti(folder / "odometry.txt", simulator.odometry());
-  writeTrajectoryKitti(folder / "groundtruth.txt", simulator.truth());
-  if (on_the_move) {
-    writeStamps(folder / "times.txt", simulator.truth().stamps);
-    writeTrajectoryTum(folder / "groundtruth_motion.txt", motionWithinScans(simulator));
-  }
-  if (has_labels)
+  writeTrajectories(folder, simulator);
+  if (app::wantsLabels(s.scene))
     app::writeTruthFiles(folder, scene, simulator, counts);
   writeSceneFile(folder / app::kSceneFile, s, scene, simulator);
   return true;

@@ -207,8 +207,12 @@ private:
     const fs::path truth = fs::path(s_.input) / kTruth;
     std::error_code missing;
     has_truth_ = fs::is_regular_file(truth, missing);
-    if (has_truth_)
-      writeTrajectoryKitti(out_ / kTruth, readTrajectory(truth));
+    if (!has_truth_)
+      return;
+    std::error_code error;
+    fs::copy_file(truth, out_ / kTruth, error);
+    if (error)
+      throw IoFailed(truth.string() + ": cannot be copied: " + error.message());
   }
 
   void

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate/simulated_folder.h"
 #include "simulate/settings.h"
+#include "simulate/simulated_folder.h"
 
 #include <pcl6d/common/error.h>
 

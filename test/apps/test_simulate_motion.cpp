@@ -63,6 +63,45 @@ TEST(SimulateMotion, ScansOnTheMoveCarryTimesAndStamps)
             std::string::npos);
 }
 
+TEST(SimulateMotion, SweepsTellTheTrueMotionWithinThem)
+{
+  const TempFolder folder;
+  const Outcome outcome = simulate(folder.path(),
+                                   {"--motion",
+                                    "continuous",
+                                    "--scanner",
+                                    "ouster",
+                                    "--resolution",
+                                    "6",
+                                    "--scans",
+                                    "12",
+                                    "--period",
+                                    "0.1",
+                                    "--speed",
+                                    "0.5",
+                                    "--turns-in-place",
+                                    "--turn-rate",
+                                    "30",
+                                    "--vibration",
+                                    "0.002"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto truth = pcl6d::readTrajectory(folder / "groundtruth.txt");
+  const auto motion = pcl6d::readTrajectory(folder / "groundtruth_motion.txt");
+  ASSERT_EQ(motion.stamps.size(), 121u); // every 10 ms of 1.2 s
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_NEAR(motion.stamps[10 * i], 0.1 * static_cast<double>(i), 1e-12);
+    const auto error = pcl6d::distanceBetween(motion.poses[10 * i], truth.poses[i]);
+    EXPECT_LT(error.translation, 1e-12);
+    EXPECT_LT(error.rotation, 1e-7);
+  }
+  const std::string scene = pcl6d::test::readText(folder / "scene.json");
+  for (const char* word :
+       {"turns_in_place", "turn_rate", "\"vibration\": 0.002", "period"})
+    EXPECT_NE(scene.find(word), std::string::npos) << word;
+  ASSERT_EQ(simulate(folder.path(), {"--scans", "1"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "groundtruth_motion.txt"));
+}
+
 TEST(SimulateMotion, StoppingLeavesNoTimes)
 {
   const TempFolder folder;
@@ -124,6 +163,12 @@ TEST(SimulateMotion, NamesWhatCannotBe)
   for (const std::string speed : {"0", "-1", "nan", "51", "1e9"})
     expectUsage(onTheMoveWith({"--speed", speed}), {"--speed", "in (0, 50]"});
   expectUsage(onTheMoveWith({"--speed", "fast"}), {"fast"});
+  expectUsage(onTheMoveWith({"--period", "0.5"}), {"--period = 0.5", "a scan takes"});
+  expectUsage(onTheMoveWith({"--turn-rate", "0"}), {"--turn-rate", "in [0.1, 570]"});
+  expectUsage(onTheMoveWith({"--vibration", "1"}), {"--vibration", "in [0, 0.1]"});
+  for (const std::string option : {"--period", "--turn-rate", "--vibration"})
+    expectUsage({option, "0.1"}, {option, "where it stops for each scan"});
+  expectUsage({"--turns-in-place"}, {"--turns-in-place", "where it stops"});
   expectUsage({"--motion", "continuous", "--speed", "2"},
               {"--speed = 2", "at most 0.28", "a scan takes 4.8"});
 }

@@ -59,9 +59,9 @@ protected:
         map_, track_, [this](double time, double near, double far, Random& random) {
           const double x = random.uniform(-1, 1);
           const double y = random.uniform(-1, 1);
-          return Eigen::Vector2d(
-              track_.placeAt(time).head<2>() +
-              Eigen::Vector2d(x, y).normalized() * random.uniform(near, far));
+          return Eigen::Vector2d(track_.placeAt(time).head<2>() +
+                                 Eigen::Vector2d(x, y).normalized() *
+                                     random.uniform(near, far));
         });
   }
 
@@ -111,8 +111,8 @@ TEST_F(YardWays, BodiesKeepAwayFromTheScannerAndFromEachOther)
 TEST_F(YardWays, BodiesMoveMostOfTheTimeAtTheSpeedOfTheirKind)
 {
   for (const MovingBody& body : crowd(ways())) {
-    const auto rules = pcl6d::wayRules(body.name == "car" ? BodyKind::kCar
-                                                           : BodyKind::kPerson);
+    const auto rules =
+        pcl6d::wayRules(body.name == "car" ? BodyKind::kCar : BodyKind::kPerson);
     ASSERT_EQ(body.times.size(), body.way.size());
     EXPECT_EQ(body.times.front(), 0);
     EXPECT_GE(body.times.back(), 60);

@@ -41,14 +41,14 @@ distanceToUnfree(const GroundMap::Raster& raster, const Place& place)
 {
   const double width = kCell * static_cast<double>(raster.columns);
   const double height = kCell * static_cast<double>(raster.rows);
-  double least = std::min({place.x(), place.y(), width - place.x(), height - place.y()});
+  double least =
+      std::min({place.x(), place.y(), width - place.x(), height - place.y()});
   for (std::size_t i = 0; i < raster.floors.size(); ++i) {
     if (!std::isnan(raster.floors[i]))
       continue;
     const Place low = kCell * Place(static_cast<double>(i % raster.columns),
                                     static_cast<double>(i / raster.columns));
-    const Place nearest =
-        place.cwiseMax(low).cwiseMin(low + Place::Constant(kCell));
+    const Place nearest = place.cwiseMax(low).cwiseMin(low + Place::Constant(kCell));
     least = std::min(least, (place - nearest).norm());
   }
   return least;
@@ -116,8 +116,8 @@ TEST(GroundMap, FindsAShortWayThroughTheGap)
   // The shortest one touches both ends of the gap; steps of cells in eight directions are
   // up to 8 % longer.
   EXPECT_GE(lengthOf(way), (to - from).norm());
-  EXPECT_LT(lengthOf(way), 1.08 * ((Place(4.1, 2.6) - from).norm() +
-                                   (to - Place(4.1, 2.6)).norm()));
+  EXPECT_LT(lengthOf(way),
+            1.08 * ((Place(4.1, 2.6) - from).norm() + (to - Place(4.1, 2.6)).norm()));
   EXPECT_TRUE(map.way(from, to, kRadius, 5.5).empty()) << "longer than that";
   EXPECT_TRUE(map.way(from, to, 0.65, 20).empty()) << "too wide for the gap";
   EXPECT_TRUE(map.way(from, {4.1, 1}, kRadius, 20).empty()) << "into the wall";

@@ -87,8 +87,7 @@ areSame(const IntrudedPoints& a, const IntrudedPoints& b)
 Eigen::Isometry3d
 poseIn(const Intruders& some, std::size_t body, std::size_t scan)
 {
-  return some.worldFromLevel() *
-         some.body(body).poseAt(recording().scans.stamps[scan]);
+  return some.worldFromLevel() * some.body(body).poseAt(recording().scans.stamps[scan]);
 }
 } // namespace
 
@@ -109,9 +108,9 @@ TEST(Intruders, EachMovedPointIsOnItsBodyAndOnItsOldRay)
       if (k % 20 > 0)
         continue;
       const Eigen::Isometry3d T_world_body = poseIn(some, now.bodies[k], i);
-      const double off = pcl6d::test::distanceTo(
-          some.body(now.bodies[k]).shape,
-          T_world_body.inverse() * recording().scans.poses[i] * p);
+      const double off = pcl6d::test::distanceTo(some.body(now.bodies[k]).shape,
+                                                 T_world_body.inverse() *
+                                                     recording().scans.poses[i] * p);
       EXPECT_LT(off, 6 * kNoise * 1.25) << "rangeNoise() is good within 25 %";
     }
   }
@@ -135,8 +134,8 @@ TEST(Intruders, NoPointIsLeftBehindABody)
         if (!measured[k].allFinite() || has_moved[k] != 0)
           continue;
         const Eigen::Vector3d p = measured[k].cast<double>();
-        const auto hit = caster.cast({T_body_scan.translation(),
-                                      T_body_scan.linear() * p.normalized()});
+        const auto hit = caster.cast(
+            {T_body_scan.translation(), T_body_scan.linear() * p.normalized()});
         EXPECT_FALSE(hit && hit->range < p.norm() - 3 * 1.25 * kNoise - 1e-6)
             << "scan " << i << ", point " << k << ", body " << body;
       }
@@ -152,7 +151,8 @@ TEST(Intruders, WalkUprightOnTheGround)
       const Eigen::Isometry3d T_scene_body =
           recording().T_world_scene.inverse() * poseIn(some, body, i);
       EXPECT_NEAR(T_scene_body.translation().z(), 0, 0.04);
-      EXPECT_GT(T_scene_body.linear()(2, 2), some.body(body).name == "car" ? 0.99 : 1 - 1e-9);
+      EXPECT_GT(T_scene_body.linear()(2, 2),
+                some.body(body).name == "car" ? 0.99 : 1 - 1e-9);
       EXPECT_GT((T_scene_body.inverse() * recording().T_world_scene.inverse() *
                  recording().scans.poses[i].translation())
                     .head<2>()

@@ -10,6 +10,9 @@
 #include <cmath>
 
 namespace pcl6d::simulation {
+namespace {
+constexpr double kSlack = 0.05; // of the reach: places closer to the last are skipped
+} // namespace
 
 std::size_t
 GroundArea::at(const Eigen::Vector2d& place) const
@@ -65,11 +68,12 @@ withinReach(const GroundArea& area,
 {
   std::vector<char> within(area.size(), 0);
   const auto span = static_cast<int>(std::ceil(reach / area.cell));
-  std::size_t last = area.size();
+  const Eigen::Vector3d* last = nullptr;
   for (const auto& place : places) {
-    const std::size_t cell = area.at(place.head<2>());
-    if (std::exchange(last, cell) == cell) // a scanner that stands
+    if (last != nullptr && (place - *last).head<2>().norm() < kSlack * reach)
       continue;
+    last = &place;
+    const std::size_t cell = area.at(place.head<2>());
     for (int dy = -span; dy <= span; ++dy)
       for (int dx = -span; dx <= span; ++dx) {
         const std::size_t at = area.neighbour(cell, dx, dy);

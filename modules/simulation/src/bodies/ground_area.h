@@ -46,7 +46,8 @@ struct GroundArea {
 GroundArea
 areaAround(const std::vector<Eigen::Vector3d>& places, double reach, double cell);
 
-/** \return for each cell whether a place is within reach */
+/** \return for each cell whether a place is within reach, which is taken 5 % too short where
+ * places are close to each other */
 std::vector<char>
 withinReach(const GroundArea& area,
             const std::vector<Eigen::Vector3d>& places,

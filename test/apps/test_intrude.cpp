@@ -38,8 +38,20 @@ protected:
   SetUpTestSuite()
   {
     scans_ = std::make_unique<TempFolder>();
-    ASSERT_EQ(run({"crowd", "--without", "person", "--without", "car", "--labels", "no",
-                   "--scans", "6", "--resolution", "1.5", "--odometry", "exact", "-o",
+    ASSERT_EQ(run({"crowd",
+                   "--without",
+                   "person",
+                   "--without",
+                   "car",
+                   "--labels",
+                   "no",
+                   "--scans",
+                   "6",
+                   "--resolution",
+                   "1.5",
+                   "--odometry",
+                   "exact",
+                   "-o",
                    scans_->path().string()})
                   .exit_code,
               0);
@@ -87,15 +99,15 @@ TEST_F(Intrude, OtherPointsKeepTheirBitsAndMovedOnesTheirRay)
     ASSERT_EQ(now.point_step, before.cloud.point_step + 4);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const std::uint8_t* const is = &now.data[k * now.point_step];
-      const std::uint8_t* const was =
-          &before.cloud.data[k * before.cloud.point_step];
+      const std::uint8_t* const was = &before.cloud.data[k * before.cloud.point_step];
       if (dynamic->values[k] == 0) {
         ASSERT_EQ(std::memcmp(is, was, before.cloud.point_step), 0) << i << ' ' << k;
         continue;
       }
       ++moved;
       EXPECT_LT(points[k].norm(), before.points[k].norm());
-      EXPECT_LT(points[k].normalized().cross(before.points[k].normalized()).norm(), 1e-5);
+      EXPECT_LT(points[k].normalized().cross(before.points[k].normalized()).norm(),
+                1e-5);
     }
   }
   EXPECT_GT(moved, 200u);
@@ -113,7 +125,8 @@ TEST_F(Intrude, KeepsInitialPosesAndTruthAndTellsWhoWalksWhere)
   for (std::size_t i = 0; i < now.size(); ++i) {
     EXPECT_TRUE(now.initialPose(i).isApprox(before.initialPose(i), 1e-15));
     EXPECT_EQ(now.stamps().at(i), 3.0 * static_cast<double>(i));
-    EXPECT_TRUE(pcl6d::readPcdViewpoint(now.file(i)).isApprox(now.initialPose(i), 1e-12));
+    EXPECT_TRUE(
+        pcl6d::readPcdViewpoint(now.file(i)).isApprox(now.initialPose(i), 1e-12));
   }
   EXPECT_EQ(readText(folder_ / "out/groundtruth.txt"),
             readText(*scans_ / "groundtruth.txt"));
@@ -157,7 +170,8 @@ TEST_F(Intrude, WalksByBetterPosesAndLeavesTheInitialOnes)
 
 TEST_F(Intrude, HasTheSameBytesForTheSameSeed)
 {
-  const auto bytes = [&](const std::string& name, const std::vector<std::string>& more) {
+  const auto bytes = [&](const std::string& name,
+                         const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"--people", "2"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(intrude(folder_ / name, arguments).exit_code, 0);
@@ -192,12 +206,17 @@ TEST_F(Intrude, NamesWhatCannotBe)
         {"intrude", in, "-o", to, "--people", "1", "--up", up}, 2, {"--up", up});
   expectRefused({"intrude", to + "-none", "-o", to, "--people", "1"}, 1, {"none"});
   writeText(folder_ / "two.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n");
-  expectRefused({"intrude", in, "-o", to, "--people", "1", "--poses",
+  expectRefused({"intrude",
+                 in,
+                 "-o",
+                 to,
+                 "--people",
+                 "1",
+                 "--poses",
                  (folder_ / "two.txt").string()},
                 1,
                 {"two.txt", "2 poses", "6 scans"});
-  expectRefused(
-      {"intrude", in, "-o", to, "--cars", "1", "--up", "1,0,0"}, 1, {"no "});
+  expectRefused({"intrude", in, "-o", to, "--cars", "1", "--up", "1,0,0"}, 1, {"no "});
 }
 
 TEST_F(Intrude, WantsPosesAndGroundAndScansOfItsOwn)
@@ -214,8 +233,8 @@ TEST_F(Intrude, WantsPosesAndGroundAndScansOfItsOwn)
                      "WIDTH 400\nHEIGHT 1\nVIEWPOINT 1 0 0 1 0 0 0\nPOINTS 400\nDATA "
                      "ascii\n";
   for (int i = 0; i < 400; ++i)
-    wall += std::to_string(0.1 * (i % 20)) + " 4 " + std::to_string(1 + 0.1 * (i / 20)) +
-            "\n";
+    wall += std::to_string(0.1 * (i % 20)) + " 4 " +
+            std::to_string(1 + 0.1 * (i / 20)) + "\n";
   writeText(folder_ / "bare/scan000.pcd", wall);
   expectError(run({"intrude", bare, "-o", out, "--people", "1"}),
               kName,
@@ -226,8 +245,13 @@ TEST_F(Intrude, WantsPosesAndGroundAndScansOfItsOwn)
               kName,
               1,
               {"has a field dynamic already"});
-  expectError(run({"intrude", scans_->path().string(), "-o", scans_->path().string(),
-                   "--people", "1", "--force"}),
+  expectError(run({"intrude",
+                   scans_->path().string(),
+                   "-o",
+                   scans_->path().string(),
+                   "--people",
+                   "1",
+                   "--force"}),
               kName,
               1,
               {"output folder is the input folder"});

@@ -47,15 +47,17 @@ dynamicPoints(const fs::path& scan)
 TEST(SimulateTraffic, PeopleWalkInTheCorridorAndAreLabelled)
 {
   const TempFolder folder;
-  const Outcome outcome = simulate(
-      folder.path(), {"corridor", "--people", "3", "--scans", "8", "--resolution", "2"});
+  const Outcome outcome =
+      simulate(folder.path(),
+               {"corridor", "--people", "3", "--scans", "8", "--resolution", "2"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::size_t moving = 0;
   for (int i = 0; i < 8; ++i)
     moving += dynamicPoints(folder / ("scan00" + std::to_string(i) + ".pcd"));
   EXPECT_GT(moving, 50u);
   const auto cloud = pcl6d::readPcd(folder / "scan000.pcd");
-  EXPECT_FALSE(pcl6d::fieldValues(cloud, "plane_id")) << "of corridor only if asked for";
+  EXPECT_FALSE(pcl6d::fieldValues(cloud, "plane_id"))
+      << "of corridor only if asked for";
   const json scene = json::parse(readText(folder / "scene.json"));
   EXPECT_EQ(scene["traffic"]["people"], 3);
   ASSERT_EQ(scene["bodies"].size(), 3u);
@@ -121,9 +123,17 @@ TEST(SimulateTraffic, ACrowdIsLabelledTooUnlessLabelsAreNotWanted)
 TEST(SimulateTraffic, HasTheSameBytesForTheSameSeed)
 {
   const TempFolder folder;
-  const auto bytes = [&](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"parking", "--people", "2", "--traffic", "1",
-                                          "--scans", "3", "--resolution", "6"};
+  const auto bytes = [&](const std::string& name,
+                         const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"parking",
+                                          "--people",
+                                          "2",
+                                          "--traffic",
+                                          "1",
+                                          "--scans",
+                                          "3",
+                                          "--resolution",
+                                          "6"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(simulate(folder / name, arguments).exit_code, 0);
     return contentOf(folder / name);

@@ -64,19 +64,23 @@ writeSceneFile(const fs::path& path,
   writeJson(path, json, 2);
 }
 
-/** \return T_world_scan every 10 ms of each scan, its begin and end included */
+/** \return T_world_scan every 10 ms of each scan, its begin and end included; less often if
+ * that were more than a million poses */
 Trajectory
 motionWithinScans(const Simulator& simulator)
 {
   constexpr double kStep = 0.01; // [s]
+  constexpr double kMostRows = 1e6;
+  constexpr double kSame = 1e-6; // [s]
   const double duration = simulator.scanner().duration();
-  const auto steps = static_cast<int>(std::ceil(duration / kStep));
+  const double most = kMostRows / static_cast<double>(simulator.size());
+  const auto steps = static_cast<int>(std::ceil(std::min(duration / kStep, most)));
   Trajectory motion;
   for (std::size_t i = 0; i < simulator.size(); ++i)
     for (int k = 0; k <= steps; ++k) {
       const double time = duration * k / steps;
       const double stamp = simulator.truth().stamps[i] + time;
-      if (!motion.stamps.empty() && stamp < motion.stamps.back() + kStep / 4)
+      if (!motion.stamps.empty() && stamp < motion.stamps.back() + kSame)
         continue; // the end of one sweep is the begin of the next
       motion.stamps.push_back(stamp);
       motion.poses.push_back(simulator.scanPose(i, time));

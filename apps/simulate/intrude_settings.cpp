@@ -45,7 +45,7 @@ addOptions(OptionTable& table, IntrudeSettings& s)
   table.add("format", &s.scans.format, scanFormatFromName)
       .help("auto|pcd|ply|uos|uosr|kitti|xyz");
   table.addAuto("period", &s.period)
-      .above(0, "> 0")
+      .within(1e-6, 36000, "in [1e-6, 36000]")
       .help("[s] from scan to scan; auto: the time stamps of the folder, else 1");
   table.add("up", &s.up)
       .help("auto, or x,y,z: which way is up in the frame of the poses; auto: by the "

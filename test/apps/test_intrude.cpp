@@ -200,7 +200,7 @@ TEST_F(Intrude, NamesWhatCannotBe)
   expectRefused({"intrude", in, "-o", to, "--people", "999"}, 2, {"in [0, 200]"});
   expectRefused({"intrude", in, "-o", to, "--people", "1", "--period", "0"},
                 2,
-                {"--period", "> 0"});
+                {"--period", "in [1e-6, 36000]"});
   for (const char* up : {"0,0,0", "1,2", "north", "1,2,3,4", "nan,0,1"})
     expectRefused(
         {"intrude", in, "-o", to, "--people", "1", "--up", up}, 2, {"--up", up});

@@ -185,4 +185,8 @@ TEST(ScannerTrack, IsStraightBetweenItsPlaces)
   track.times = {1};
   EXPECT_THROW(track.validate(), BadArgument);
   EXPECT_THROW(ScannerTrack().validate(), BadArgument);
+  track.times = {0, 1.1e5};
+  EXPECT_THROW(track.validate(), BadArgument) << "too long";
+  track.times = {0, HUGE_VAL};
+  EXPECT_THROW(track.validate(), BadArgument);
 }

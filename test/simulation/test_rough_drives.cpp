@@ -169,6 +169,14 @@ TEST(RobotMotion, RefusesWhatNoRobotDoes)
     refused([&](auto& options) { options.turn_rate = rate; });
   for (const double vibration : {-0.001, 0.11, std::nan("")})
     refused([&](auto& options) { options.vibration = vibration; });
+  refused([](auto& options) { // 32 m in 37 days
+    options.speed = 1e-5;
+    options.turn_rate = 1;
+  });
+  refused([](auto& options) { // in 9 hours
+    options.speed = 1e-3;
+    options.vibration = 0.001;
+  });
   EXPECT_THROW(onTheSquare(pcl6d::PathCorners::kSharp, ride()), pcl6d::BadArgument)
       << "no turn rate for the corners";
   EXPECT_THROW(pcl6d::PoseSpline({}, 1), pcl6d::BadArgument);

@@ -13,7 +13,7 @@ namespace pcl6d::simulation {
 constexpr double kBodyHeight = 2; // [m] that must be free above a floor
 constexpr double kSteepest = 0.2; // of floors: twice a wheelchair ramp's
 constexpr double kNoFloor = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMostCells = 25e6; // 100 to 200 MB
+constexpr double kMostCells = 1e7; // 200 to 300 MB
 
 /** \brief A rectangle of square cells. */
 struct GroundArea {
@@ -42,7 +42,7 @@ struct GroundArea {
 
 /** \brief All that is within reach of the places.
  * \param[in] cell [m] \throws BadArgument no place, a place that is none, or reach is not in
- * (0, 1000] m \throws ComputeFailed more than 25 million cells */
+ * (0, 1000] m \throws ComputeFailed more than 10 million cells */
 GroundArea
 areaAround(const std::vector<Eigen::Vector3d>& places, double reach, double cell);
 

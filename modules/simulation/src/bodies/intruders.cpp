@@ -141,6 +141,8 @@ Intruders::Intruders(const Trajectory& scans,
           "number of stamps",
           scans.stamps.size(),
           "that of the scans");
+  ScannerTrack{scans.stamps, std::vector<Eigen::Vector3d>(scans.poses.size())}
+      .validate();
   impl_->options = options;
   impl_->T_world_level = levelFrame(options.up);
   impl_->T_world_level.translation() =

@@ -17,6 +17,10 @@ ScannerTrack
 trackOf(const Simulator& drive)
 {
   const double end = drive.truth().stamps.back() + drive.scanner().duration();
+  require(end <= kLongestTrack,
+          "duration of the drive [s]",
+          end,
+          "at most 1e5 where bodies move");
   const int moments = std::max(1, static_cast<int>(std::ceil(end / kTrackStep)));
   ScannerTrack track;
   for (int i = 0; i <= moments; ++i) {

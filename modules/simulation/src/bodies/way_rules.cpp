@@ -3,6 +3,7 @@
 #include <pcl6d/simulation/way_rules.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl6d {
 namespace {
@@ -32,8 +33,15 @@ ScannerTrack::validate() const
           "number of places",
           places.size(),
           "that of the times");
-  for (std::size_t i = 1; i < times.size(); ++i)
-    require(times[i] > times[i - 1], "time", times[i], "after the one before");
+  for (std::size_t i = 0; i < times.size(); ++i)
+    require(std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1]),
+            "time",
+            times[i],
+            "finite and after the one before");
+  require(times.back() - times.front() <= kLongestTrack,
+          "time from the first place to the last [s]",
+          times.back() - times.front(),
+          "at most 1e5: ways are laid for all of it");
 }
 
 Eigen::Vector3d

@@ -17,6 +17,7 @@ namespace {
 constexpr double kKnotSpacing = 0.1; // [m] at most
 constexpr double kKnotTime = 0.1;    // [s] at most, where it slows down
 constexpr double kShakeTime = 0.1 / simulation::kHighestShake; // [s] ten in a wave
+constexpr double kMostKnots = 1e6;                             // 200 MB
 constexpr double kTopSpeed = 50;                               // [m/s]
 
 // Weights of the four control points around the place u in [0, 1) between the second
@@ -35,13 +36,17 @@ cubicWeights(double u)
 std::size_t
 stepsOf(double round, double longest)
 {
+  require(round <= kMostKnots * longest,
+          "time of one round",
+          round,
+          "at most " + std::to_string(kMostKnots * longest) + " s");
   return static_cast<std::size_t>(std::ceil(round / longest));
 }
 
 std::vector<Eigen::Isometry3d>
 posesEvenly(const RobotPath& path, const RayCaster& caster)
 {
-  const std::size_t count = stepsOf(path.length(), kKnotSpacing);
+  const auto count = static_cast<std::size_t>(std::ceil(path.length() / kKnotSpacing));
   std::vector<Eigen::Isometry3d> poses;
   for (std::size_t i = 0; i < count; ++i)
     poses.push_back(path.sensorPose(

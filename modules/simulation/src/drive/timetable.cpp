@@ -9,6 +9,7 @@
 namespace pcl6d::simulation {
 namespace {
 constexpr double kBendStep = 0.01; // [m] much shorter than a bend
+constexpr double kMostSteps = 1e6;
 
 double
 angleOf(const Eigen::Vector2d& direction)
@@ -33,7 +34,8 @@ Timetable::Timetable(const RobotPath& path, double speed, double turn_rate)
     drive(way, next, speed, turn_rate);
   };
   if (corners.empty()) {
-    const auto steps = static_cast<int>(std::ceil(path.length() / kBendStep));
+    const auto steps =
+        static_cast<int>(std::min(kMostSteps, std::ceil(path.length() / kBendStep)));
     for (int i = 1; i <= steps; ++i)
       turnTo(path.length() * i / steps);
     return;

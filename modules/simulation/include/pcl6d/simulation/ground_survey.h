@@ -23,7 +23,7 @@ namespace PCL6D_EXPORTS pcl6d {
  * cell and to its eight neighbours 0.25, 0.9 and 1.6 m above the floor, so nothing that is
  * as high as a table and wider than 0.7 cells is missed
  * \throws BadArgument no place, or reach breaks its rule
- * \throws ComputeFailed there is no floor below the scanner, or the area is larger than 25
+ * \throws ComputeFailed there is no floor below the scanner, or the area is larger than 10
  * million cells \ingroup simulation */
 GroundMap
 groundOfScene(const RayCaster& caster,
@@ -41,7 +41,7 @@ public:
   /** \param[in] places of the scanner [m], z up
    * \param[in] reach [m] in plan from the places, farther points do not count; > 0
    * \throws BadArgument no place, or reach breaks its rule
-   * \throws ComputeFailed the area is larger than 25 million cells of 0.5 m */
+   * \throws ComputeFailed the area is larger than 10 million cells of 0.5 m */
   GroundSurvey(const std::vector<Eigen::Vector3d>& places, double reach);
 
   ~GroundSurvey();

@@ -55,8 +55,9 @@ private:
  * \ingroup simulation */
 class RobotMotion {
 public:
-  /** \throws BadArgument an option breaks its rule \throws ComputeFailed there is no floor
-   * below the path */
+  /** \throws BadArgument an option breaks its rule, or a round takes more than a million
+   * control points: 28 hours with a turn rate, 2.8 hours with vibration
+   * \throws ComputeFailed there is no floor below the path */
   RobotMotion(const RobotPath& path,
               const RayCaster& caster,
               const MotionOptions& options);

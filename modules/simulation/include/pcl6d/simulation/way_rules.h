@@ -11,6 +11,8 @@ namespace PCL6D_EXPORTS pcl6d {
 
 constexpr int kMostBodies = 200; ///< of a kind that options may ask for
 
+constexpr double kLongestTrack = 1e5; ///< [s] more than a day
+
 /** \brief Bodies that find their way by themselves. */
 enum class BodyKind { kPerson, kCar };
 
@@ -42,7 +44,8 @@ struct ScannerTrack {
   std::vector<Eigen::Vector3d>
       places; ///< [m] at these times, z up; between them straight
 
-  /** \throws BadArgument no time, times that do not increase, not one place for each */
+  /** \throws BadArgument no time, times that do not increase, not one place for each, or
+   * longer than kLongestTrack */
   void
   validate() const;
 

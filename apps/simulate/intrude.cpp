@@ -133,13 +133,16 @@ private:
       trajectory_.stamps.push_back(static_cast<double>(i) * s_.period.value_or(1));
   }
 
-  // The mean of what scans are sure of, against the tilt of the first sensor.
+  // The mean of what scans say near the z of the poses, or are sure of: walls alone leave
+  // three directions, of which the expected one is meant.
   Eigen::Vector3d
   verticalOfScans()
   {
-    constexpr std::size_t kLooks = 8; // scans along the way
+    constexpr std::size_t kSome = 8; // scans along the way
+    constexpr double kTilted =
+        0.9397; // cosine of 20 deg: of poses that begin at a sensor
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    const std::size_t step = (size() + kLooks - 1) / kLooks;
+    const std::size_t step = (size() + kSome - 1) / kSome;
     for (std::size_t i = 0; i < size(); i += step) {
       bar_.show({"looking for the vertical", i + 1, size()});
       const Eigen::Matrix3d R = trajectory_.poses[i].linear();
@@ -147,8 +150,9 @@ private:
           estimateVerticalOfScan(coordinatesOf(scans_.folder().readCloud(i).cloud),
                                  R.transpose() * Eigen::Vector3d::UnitZ(),
                                  s_.intruders.num_threads);
-      if (estimate.is_sure)
-        sum += R * estimate.up;
+      const Eigen::Vector3d up = R * estimate.up;
+      if (estimate.is_sure || up.z() > kTilted)
+        sum += up;
     }
     return sum.norm() > 0 ? Eigen::Vector3d(sum.normalized())
                           : Eigen::Vector3d::UnitZ();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/unit_guess.h"
 #include "evaluate/place_map.h"
+#include "evaluate/placed_scans.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/fingerprint.h>
@@ -25,22 +26,6 @@ openRun(const std::string& path)
   if (!std::filesystem::exists(std::filesystem::path(path) / "summary.json"))
     throw IoFailed(path + ": is a folder, but no run of pcl_slam6d (no summary.json)");
   return RunFolder::finished(path, "the run was interrupted; run it again");
-}
-
-/** \return places of the scans that the run ties to its world */
-std::vector<std::size_t>
-placedOf(const RunResult& run)
-{
-  std::vector<std::size_t> placed;
-  for (std::size_t i = 0; i < run.scans.size(); ++i) {
-    const ScanResult& scan = run.scans[i];
-    const bool is_floating =
-        std::find(run.floating.begin(), run.floating.end(), scan.file) !=
-        run.floating.end();
-    if (scan.state != ScanState::kPredicted && !is_floating)
-      placed.push_back(i);
-  }
-  return placed;
 }
 
 std::uint64_t
@@ -70,7 +55,7 @@ requireSameUnits(const PlaceSettings& s,
 PlaceMap::PlaceMap(const PlaceSettings& settings,
                    const NearScan& scan,
                    const ProgressCallback& show)
-: run_(openRun(settings.scan_b)), places_(placedOf(run_.summary()))
+: run_(openRun(settings.scan_b)), places_(placedScans(run_.summary()))
 {
   prepare(settings, scan, read(settings, scan, show));
 }

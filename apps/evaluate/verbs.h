@@ -9,6 +9,8 @@ constexpr const char* kEvaluate = "pcl_slam6d_evaluate"; ///< the program's name
 
 /** \file What the verbs do stands in the table of pcl_slam6d_evaluate.cpp. */
 int
+runChanges(const Arguments& arguments);
+int
 runTrajectory(const Arguments& arguments);
 int
 runIcp(const Arguments& arguments);

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/app.h"
+#include "common/option_table.h"
+#include "common/reduction_options.h"
+#include "evaluate/changes_settings.h"
+#include "evaluate/result_file.h"
+#include "evaluate/verbs.h"
+
+#include <pcl6d/moving_objects/run_changes.h>
+
+namespace pcl6d::app {
+
+namespace {
+std::string
+usage()
+{
+  return std::string("usage: ") + kEvaluate +
+         R"( changes RUN_A RUN_B [options]
+What appeared, vanished and moved between two runs of pcl_slam6d over one site, and
+which surfaces lie nearer or farther. RUN_B is brought into the world of RUN_A first:
+as its poses say if points and rays confirm them, else without any guess. What only one
+of the runs saw is not compared. What is a change, and how sure: share/doc/changes.md.
+Exit code 0: compared, be there changes or not; 1: the runs do not meet; 3: they meet,
+but not so that differences could be believed, and none is told of.
+)";
+}
+
+void
+addOptions(OptionTable& table, ChangesSettings& s)
+{
+  table.positional("RUN_A", &s.run_a);
+  table.positional("RUN_B", &s.run_b);
+  table.group("World");
+  table.add("given", &s.given)
+      .help("the poses of both runs are of one world and exact: they are taken as they are");
+  table.group("Range gate and reduction; auto: those of the runs, the coarser voxel");
+  addReductionOptions(table, s.parameters);
+  table.group("Changes");
+  table.add("least-size", &s.least_size)
+      .help("voxels: smaller things are not told of; > 0");
+  table.add("min-confidence", &s.min_confidence)
+      .help("less sure changes are not told of; in [0, 1)");
+  table.addAs<int>("rows", &s.rows)
+      .within(0, kNoBound, ">= 0")
+      .help("so many changes are listed, of each kind the largest first");
+  table.group("Run");
+  table.add("output,o OUT_DIR", &s.out)
+      .help("folder for changes.json, changes.ply (grey: as it was; green: appeared; red: "
+            "vanished; blue: moved; orange: surfaces) and changes.png; made if missing");
+  table.add("json FILE", &s.json).help("write changes.json alone, to this file");
+  table.addAs<int>("threads", &s.num_threads)
+      .within(0, 1024, "in [0, 1024]")
+      .help("0: one per core; never changes the result");
+  table.add("force", &s.force).help("write into a folder that holds other files");
+  table.add("quiet", &s.quiet).help("print the changes, warnings and errors only");
+}
+} // namespace
+
+bool
+parseChangesSettings(const std::vector<std::string>& arguments, ChangesSettings& s)
+{
+  OptionTable table(usage());
+  addOptions(table, s);
+  if (!table.parse(arguments))
+    return false;
+  requireExtension("--json", s.json, {".json"});
+  refuseInputs(s.json, {s.run_a, s.run_b}, "an input", "--json");
+  table.check([&] {
+    s.parameters.validate();
+    RunChangesOptions options;
+    options.min_confidence = s.min_confidence;
+    options.least_size = s.least_size;
+    options.validate();
+  });
+  s.without_effect = table.withoutEffect({{"force", !s.out.empty(), "with --output"}});
+  return true;
+}
+
+} // namespace pcl6d::app

@@ -25,8 +25,8 @@ driveThrough(double shift, int count = 4)
 {
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < count; ++i)
-    poses.push_back(
-        poseFromEuler({-2 + 1.8 * i + shift, 0.3 - 0.4 * shift, 0.1}, {0.01, 0, 1.3 * i}));
+    poses.push_back(poseFromEuler({-2 + 1.8 * i + shift, 0.3 - 0.4 * shift, 0.1},
+                                  {0.01, 0, 1.3 * i}));
   return poses;
 }
 

@@ -140,12 +140,14 @@ TEST(RunAlignment, RefusesWrongInput)
   EXPECT_EQ(badArgumentOf([&] { alignRuns(a.run, b.run, wrong); }),
             "reach = -1, but must be finite and > 0");
   b.run[0].T_world_scan.linear() *= 2;
-  EXPECT_EQ(badArgumentOf([&] { alignRuns(a.run, b.run, options()); }),
-            "second run: scan 0 has a pose that is no rigid motion, or a covariance that "
-            "is not finite");
+  EXPECT_EQ(
+      badArgumentOf([&] { alignRuns(a.run, b.run, options()); }),
+      "second run: scan 0 has a pose that is no rigid motion, or a covariance that "
+      "is not finite");
   const Normals few(3, Eigen::Vector3f::UnitZ());
   a.run[0].normals = &few;
-  EXPECT_NE(badArgumentOf([&] { alignRuns(a.run, b.run, options()); })
-                .find("first run: scan 0 has 3 normals, but must have one for each"),
+  EXPECT_NE(badArgumentOf([&] {
+              alignRuns(a.run, b.run, options());
+            }).find("first run: scan 0 has 3 normals, but must have one for each"),
             std::string::npos);
 }

@@ -52,7 +52,8 @@ TEST(RunChanges, OfOneRoomThatWasScannedTwiceAreNone)
   const RunChanges found = RoomPair({}, {}).changes();
   EXPECT_TRUE(found.changes.empty()) << describe(found);
   EXPECT_EQ(found.first.changed + found.second.changed, 0u);
-  EXPECT_LT(found.contradiction(), 0.002); // of the worst right links (algorithms.md T.1)
+  EXPECT_LT(found.contradiction(),
+            0.002); // of the worst right links (algorithms.md T.1)
   EXPECT_GT(found.first.there, found.first.points * 9 / 10);
 }
 
@@ -86,8 +87,8 @@ TEST(RunChanges, TellSeveralThingsApart)
       RoomPair(roomWith({kCrate, third}), roomWith({kOther})).changes();
   ASSERT_EQ(found.changes.size(), 3u) << describe(found);
   ASSERT_EQ(ofKind(found, ChangeKind::kAppeared).size(), 1u);
-  EXPECT_TRUE(isWithin(
-      ofKind(found, ChangeKind::kAppeared)[0].points, kOther, kBeside));
+  EXPECT_TRUE(
+      isWithin(ofKind(found, ChangeKind::kAppeared)[0].points, kOther, kBeside));
   for (const Change& one : ofKind(found, ChangeKind::kVanished))
     EXPECT_TRUE(isWithin(one.points, kCrate, kBeside) ||
                 isWithin(one.points, third, kBeside));
@@ -154,7 +155,8 @@ TEST(RunChanges, AreTheSameForAnyNumberOfThreads)
   for (std::size_t i = 0; i < one.changes.size(); ++i) {
     EXPECT_EQ(one.changes[i].points, three.changes[i].points);
     EXPECT_EQ(one.changes[i].confidence, three.changes[i].confidence);
-    EXPECT_TRUE(sameBits(one.changes[i].box.T_world_box, three.changes[i].box.T_world_box));
+    EXPECT_TRUE(
+        sameBits(one.changes[i].box.T_world_box, three.changes[i].box.T_world_box));
   }
   ASSERT_EQ(one.distances.size(), three.distances.size());
   for (std::size_t i = 0; i < one.distances.size(); ++i)
@@ -171,8 +173,8 @@ TEST(RunChanges, DoNotDependOnTheWorld)
   const RunChanges found = findChanges(a.run, b.run, options);
   ASSERT_EQ(found.changes.size(), 1u) << describe(found);
   EXPECT_EQ(found.changes[0].kind, ChangeKind::kVanished);
-  EXPECT_TRUE(isWithin(
-      transformed(found.changes[0].points, T.inverse()), kCrate, kBeside));
+  EXPECT_TRUE(
+      isWithin(transformed(found.changes[0].points, T.inverse()), kCrate, kBeside));
   EXPECT_NEAR(
       found.changes[0].box.T_world_box.linear().col(2).dot(options.up), 1, 1e-9);
 }
@@ -226,9 +228,8 @@ TEST(RunChanges, LeaveOutWhatMovesWithinARun)
 TEST(RunChanges, OfNothingAreNone)
 {
   const RoomRun a({}, driveThrough(0, 1), 3);
-  for (const auto& [first, second] : {std::pair<ComparedRun, ComparedRun>{{}, {}},
-                                      {a.run, {}},
-                                      {{}, a.run}}) {
+  for (const auto& [first, second] :
+       {std::pair<ComparedRun, ComparedRun>{{}, {}}, {a.run, {}}, {{}, a.run}}) {
     const RunChanges found = findChanges(first, second, changesOptions());
     EXPECT_TRUE(found.changes.empty()) << describe(found);
     EXPECT_EQ(found.contradiction(), 0);
@@ -248,7 +249,8 @@ TEST(RunChanges, RefuseWrongOptionsAndIncompleteScans)
             "noise = -1, but must be finite and >= 0");
   EXPECT_EQ(refused([](auto& o) { o.min_confidence = 1; }),
             "min_confidence = 1, but must be in [0, 1)");
-  EXPECT_EQ(refused([](auto& o) { o.gap = -2; }), "gap = -2, but must be finite and > 0");
+  EXPECT_EQ(refused([](auto& o) { o.gap = -2; }),
+            "gap = -2, but must be finite and > 0");
   EXPECT_EQ(refused([](auto& o) { o.least_size = 0; }),
             "least_size = 0, but must be finite and > 0");
   EXPECT_NE(refused([](auto& o) { o.up = Vector(0, 0, 2); }).find("a unit vector"),
@@ -257,10 +259,12 @@ TEST(RunChanges, RefuseWrongOptionsAndIncompleteScans)
             "depth = 0, but must be finite and > 0");
   RoomRun a({}, driveThrough(0, 1), 3);
   a.run[0].rays = nullptr;
-  EXPECT_EQ(badArgumentOf([&] { findChanges(a.run, {}, changesOptions()); }),
-            "first run: scan 0 has no points, normals or rays, but must have all three");
-  EXPECT_EQ(badArgumentOf([&] { findChanges({}, a.run, changesOptions()); }),
-            "second run: scan 0 has no points, normals or rays, but must have all three");
+  EXPECT_EQ(
+      badArgumentOf([&] { findChanges(a.run, {}, changesOptions()); }),
+      "first run: scan 0 has no points, normals or rays, but must have all three");
+  EXPECT_EQ(
+      badArgumentOf([&] { findChanges({}, a.run, changesOptions()); }),
+      "second run: scan 0 has no points, normals or rays, but must have all three");
 }
 
 TEST(RunChanges, HaveNamesForTheirKinds)

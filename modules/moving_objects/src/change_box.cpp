@@ -24,13 +24,14 @@ uprightAxes(const Eigen::Vector3d& up)
 namespace {
 /** \return in plan, the sum of the distances of points from the nearest side of a box */
 double
-fromSides(const Points& points, const Eigen::Matrix3d& axes, const Eigen::AlignedBox3d& box)
+fromSides(const Points& points,
+          const Eigen::Matrix3d& axes,
+          const Eigen::AlignedBox3d& box)
 {
   double sum = 0;
   for (const auto& p : points) {
     const Eigen::Vector3d own = axes.transpose() * p.cast<double>();
-    const Eigen::Vector2d sides =
-        (own - box.min()).cwiseMin(box.max() - own).head<2>();
+    const Eigen::Vector2d sides = (own - box.min()).cwiseMin(box.max() - own).head<2>();
     sum += sides.minCoeff();
   }
   return sum;

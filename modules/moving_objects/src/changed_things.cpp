@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "changed_things.h"
-
 #include "change_box.h"
+#include "changed_things.h"
 
 #include <pcl6d/common/components.h>
 #include <pcl6d/common/median.h>
@@ -32,6 +31,10 @@ constexpr std::size_t kLeastVoxels = 8;
 constexpr std::size_t kMostOfPart = 24;
 /** Points of a sheet lie up to half a voxel, and noise, on both sides. */
 constexpr double kSheetVoxels = 1.5;
+/** A sheet of its own as flat as that has so many voxels, four by four: smaller ones are the
+ * rims of plates that were seen along. */
+constexpr double kFlatVoxels = 0.5;
+constexpr std::size_t kLeastOfSheet = 16;
 
 /** A thing stands out where less than so large a share of it is next to what is there: the
  * foot of a cube of three voxels is a third, leaves and edges are nearly all fringe. */
@@ -70,7 +73,10 @@ clustersOf(const std::vector<GoneVoxel>& gone, double gap, unsigned int num_thre
 
 /** \return the number of places in a box, or by so much beside it [m] */
 std::size_t
-countIn(const ChangeBox& box, double beside, const Points& places, const PointTree& tree)
+countIn(const ChangeBox& box,
+        double beside,
+        const Points& places,
+        const PointTree& tree)
 {
   const Eigen::Vector3d half = box.size / 2 + Eigen::Vector3d::Constant(beside);
   const Eigen::Isometry3d T_box_world = box.T_world_box.inverse();
@@ -94,11 +100,13 @@ isThing(const Cluster& cluster,
 {
   // Points are in the middle of what they stand for: a voxel is missing at the ends.
   const double longest = box.size.maxCoeff() + options.voxel;
-  const auto fringe = std::count_if(cluster.begin(), cluster.end(), [&](std::size_t i) {
-    return gone[i].on_fringe;
-  });
-  return cluster.size() >= kLeastVoxels && longest >= options.least_size * options.voxel &&
-         static_cast<double>(fringe) < kMostFringe * static_cast<double>(cluster.size());
+  const auto fringe = std::count_if(
+      cluster.begin(), cluster.end(), [&](std::size_t i) { return gone[i].on_fringe; });
+  const bool is_flat = box.size.minCoeff() < kFlatVoxels * options.voxel;
+  return cluster.size() >= (is_flat ? kLeastOfSheet : kLeastVoxels) &&
+         longest >= options.least_size * options.voxel &&
+         static_cast<double>(fringe) <
+             kMostFringe * static_cast<double>(cluster.size());
 }
 
 Points
@@ -113,14 +121,36 @@ placesOf(const Cluster& cluster, const std::vector<GoneVoxel>& gone)
 /** A thing that parts may be of. */
 struct Whole {
   std::size_t cluster;
+  ChangeBox box;
   PointTree tree;
-  double reach; ///< [m] its longest edge
 };
 
+/** \return whether all places lie in a box, or by so much beside it [m] */
+bool
+areInside(const Points& places, const ChangeBox& box, double beside)
+{
+  const Eigen::Isometry3d T_box_world = box.T_world_box.inverse();
+  const Eigen::Vector3d half = box.size / 2 + Eigen::Vector3d::Constant(beside);
+  return std::all_of(places.begin(), places.end(), [&](const Eigen::Vector3f& p) {
+    const Eigen::Vector3d own = T_box_world * p.cast<double>();
+    return (own.cwiseAbs().array() <= half.array()).all();
+  });
+}
+
+/** \return whether all places are within the longest edge of a thing from it */
+bool
+areNear(const Points& places, const Whole& whole)
+{
+  const auto reach = static_cast<float>(whole.box.size.maxCoeff());
+  return std::all_of(places.begin(), places.end(), [&](const Eigen::Vector3f& p) {
+    return whole.tree.hasNeighbour(p, reach * reach);
+  });
+}
+
 /** \return of each cluster, the largest first, the one that it is a part of; itself if of
- * none. Parts are small, and within half of the longest edge of what they are of: what was
- * seen of a thing through gaps, and points in the air behind its edges, where beams were
- * divided. */
+ * none. A part lies in the box of what it is of, as the legs of a table do; or it is small and
+ * thin, and within its longest edge: what was seen of a thing through gaps, and points in the
+ * air behind its edges, where beams were divided. */
 std::vector<std::size_t>
 wholesOf(const std::vector<Cluster>& clusters,
          const std::vector<GoneVoxel>& gone,
@@ -130,20 +160,16 @@ wholesOf(const std::vector<Cluster>& clusters,
   std::vector<Whole> large;
   for (std::size_t k = 0; k < clusters.size(); ++k) {
     const Points places = placesOf(clusters[k], gone);
-    wholes.push_back(k);
     const ChangeBox box = boxAbout(places, options.up);
-    if (clusters[k].size() >= kMostOfPart)
-      large.push_back({k, PointTree(places, 1), box.size.maxCoeff()});
-    if (clusters[k].size() >= kMostOfPart || box.size.minCoeff() > kSheetVoxels * options.voxel)
-      continue;
+    const bool is_small = places.size() < kMostOfPart &&
+                          box.size.minCoeff() <= kSheetVoxels * options.voxel;
     const auto of = std::find_if(large.begin(), large.end(), [&](const Whole& whole) {
-      const auto reach_sq = static_cast<float>(whole.reach * whole.reach);
-      return std::all_of(places.begin(), places.end(), [&](const auto& p) {
-        return whole.tree.hasNeighbour(p, reach_sq);
-      });
+      return areInside(places, whole.box, options.gap * options.voxel) ||
+             (is_small && areNear(places, whole));
     });
-    if (of != large.end())
-      wholes[k] = of->cluster;
+    wholes.push_back(of == large.end() ? k : of->cluster);
+    if (of == large.end() && places.size() >= kMostOfPart)
+      large.push_back({k, box, PointTree(places, 1)});
   }
   return wholes;
 }
@@ -199,8 +225,7 @@ thingsOf(const SeenThrough& seen, const RunChangesOptions& options)
     thing.box = boxAbout(thing.points, options.up);
     if (!isThing(clusters[k], seen.gone, thing.box, options))
       continue;
-    const std::size_t hidden =
-        countIn(thing.box, options.voxel, seen.unknown, unknown);
+    const std::size_t hidden = countIn(thing.box, options.voxel, seen.unknown, unknown);
     if (static_cast<double>(hidden) >
         kMostUnknown * static_cast<double>(thing.points.size()))
       continue;
@@ -278,9 +303,7 @@ confidenceOf(double places, double background, double patches)
 }
 
 ChangedThings
-changedThings(SeenThrough& first,
-              SeenThrough& second,
-              const RunChangesOptions& options)
+changedThings(SeenThrough& first, SeenThrough& second, const RunChangesOptions& options)
 {
   Things of_first = thingsOf(first, options), of_second = thingsOf(second, options);
   const double edge = kPatchVoxels * options.voxel;
@@ -289,7 +312,8 @@ changedThings(SeenThrough& first,
   // Laplace's rule: what was not met in N places may be met in the next one.
   const double places = static_cast<double>(a.all + b.all + 1);
   ChangedThings changed;
-  changed.background = static_cast<double>(a.by_chance + b.by_chance + 1) / (places + 1);
+  changed.background =
+      static_cast<double>(a.by_chance + b.by_chance + 1) / (places + 1);
   changed.vanished = sureThings(std::move(of_first),
                                 ChangeKind::kVanished,
                                 places,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "moved_surfaces.h"
-
 #include "change_box.h"
+#include "moved_surfaces.h"
 
 #include <pcl6d/common/components.h>
 #include <pcl6d/common/median.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "moved_things.h"
-
 #include "change_box.h"
+#include "moved_things.h"
 
 #include <pcl6d/common/angle.h>
 #include <pcl6d/common/parallel.h>
@@ -26,10 +25,10 @@ constexpr double kEdgeShare = 0.25;
 constexpr std::size_t kLeastOfShape = 20;
 
 /** Of the thing of which less was seen so many points meet the other one within a voxel ... */
-constexpr double kLeastOfLess = 0.8;
-/** ... and so many the other way: of two boxes that were seen from opposite sides, the top and
- * two corners still meet. */
-constexpr double kLeastOfMore = 0.45;
+constexpr double kLeastOfLess = 0.9;
+/** ... and so many the other way: of two boxes of which one was seen from three sides
+ * and one from two, two thirds. */
+constexpr double kLeastOfMore = 0.65;
 
 /** So many points of a thing are matched, from starts about the vertical by 15 degrees. */
 constexpr std::size_t kPoints = 400;
@@ -246,7 +245,8 @@ takeMoved(std::vector<Change>& vanished,
           areAlike(vanished[v].box, appeared[a].box, options.voxel))
         pairs.push_back({v, a, {}});
   parallelFor(pairs.size(), options.num_threads, [&](std::size_t k) {
-    pairs[k].fit = fitOf(vanished[pairs[k].vanished], appeared[pairs[k].appeared], options);
+    pairs[k].fit =
+        fitOf(vanished[pairs[k].vanished], appeared[pairs[k].appeared], options);
   });
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
     return a.fit.agreement() > b.fit.agreement();

@@ -80,7 +80,8 @@ findChanges(const ComparedRun& first,
   requireComplete(first, "first run");
   requireComplete(second, "second run");
   const moving_objects::RunSurface on_first(first, options.voxel, options.num_threads);
-  const moving_objects::RunSurface on_second(second, options.voxel, options.num_threads);
+  const moving_objects::RunSurface on_second(
+      second, options.voxel, options.num_threads);
   const SurfacedRun a{first, on_first}, b{second, on_second};
   auto gone = moving_objects::seenThrough(a, b, options);
   auto come = moving_objects::seenThrough(b, a, options);

@@ -24,8 +24,9 @@ requireComplete(const ComparedRun& run, const char* name)
                         " normals, but must have one for each of its " +
                         std::to_string(scan.points->size()) + " points");
     if (!isRigid(scan.T_world_scan) || !scan.covariance.allFinite())
-      throw BadArgument(where + "a pose that is no rigid motion, or a covariance that is "
-                                "not finite");
+      throw BadArgument(where +
+                        "a pose that is no rigid motion, or a covariance that is "
+                        "not finite");
   }
 }
 

@@ -58,7 +58,8 @@ isShifted(const Eigen::Vector3f& place,
        surface.tree().withinRadius(place, depth * depth + radius * radius)) {
     const auto k = static_cast<std::size_t>(near.index);
     const float along = (surface.points()[k] - place).dot(normal);
-    if (std::abs(along) <= depth && near.distance_sq - along * along <= radius * radius &&
+    if (std::abs(along) <= depth &&
+        near.distance_sq - along * along <= radius * radius &&
         surface.normals()[k].dot(normal) > kFacing)
       return true;
   }
@@ -78,7 +79,9 @@ struct Asked {
 
 /** \return whether the rays went through the surface of a place, not along it */
 bool
-wentThrough(const SightOfPlace& seen, const Eigen::Vector3f& normal, Eigen::Vector3f ray)
+wentThrough(const SightOfPlace& seen,
+            const Eigen::Vector3f& normal,
+            Eigen::Vector3f ray)
 {
   if (seen.sight != Sight::kFree)
     return false;
@@ -173,8 +176,7 @@ statesOf(const ComparedScan& scan,
     if (by.surface.tree().hasNeighbour(states.places[i],
                                        static_cast<float>(there * there)))
       continue;
-    if (isShifted(
-            states.places[i], R * (*scan.normals)[i], by.surface, options))
+    if (isShifted(states.places[i], R * (*scan.normals)[i], by.surface, options))
       states.states[i] = State::kShifted;
     else
       open.push_back(i);

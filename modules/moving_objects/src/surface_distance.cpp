@@ -29,12 +29,13 @@ constexpr double kOf95 = 1.96; ///< standard deviations: 95 % of a normal distri
 
 /** What a run has in a cylinder. */
 struct InCylinder {
-  double mean = 0;        ///< [m] along the normal
-  double within = 0;      ///< [m^2] variance of points about the means of their scans
-  double between = 0;     ///< [m^2] variance of these means; 0 of one scan
-  double pose = 0;        ///< [m^2] variance by the poses of the scans, in the mean
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero(); ///< [m] of the points, from the core
-  double tilt = 0;        ///< sine of the angle between their normals and that of the core
+  double mean = 0;    ///< [m] along the normal
+  double within = 0;  ///< [m^2] variance of points about the means of their scans
+  double between = 0; ///< [m^2] variance of these means; 0 of one scan
+  double pose = 0;    ///< [m^2] variance by the poses of the scans, in the mean
+  Eigen::Vector3d middle =
+      Eigen::Vector3d::Zero(); ///< [m] of the points, from the core
+  double tilt = 0; ///< sine of the angle between their normals and that of the core
   std::size_t points = 0; ///< 0: nothing
   std::size_t scans = 0;
 };
@@ -66,9 +67,8 @@ sumsOf(const RunSurface& surface,
         surface.normals()[k].dot(normal) < kFacing)
       continue;
     const std::uint32_t scan = surface.scans()[k];
-    auto own = std::find_if(sums.begin(), sums.end(), [&](const OfScan& one) {
-      return one.scan == scan;
-    });
+    auto own = std::find_if(
+        sums.begin(), sums.end(), [&](const OfScan& one) { return one.scan == scan; });
     if (own == sums.end())
       own = sums.insert(own, OfScan{scan});
     own->sum += along;
@@ -107,10 +107,11 @@ inCylinder(const SurfacedRun& of,
     const auto count = static_cast<double>(one.count);
     const double mean = one.sum / count;
     found.within += std::max(0.0, one.sum_sq - count * mean * mean) / points;
-    found.between += (mean - found.mean) * (mean - found.mean) / std::max(scans - 1, 1.0);
-    found.pose += poseVariance(
-                      of.run[one.scan], place.cast<double>(), normal.cast<double>()) /
-                  scans;
+    found.between +=
+        (mean - found.mean) * (mean - found.mean) / std::max(scans - 1, 1.0);
+    found.pose +=
+        poseVariance(of.run[one.scan], place.cast<double>(), normal.cast<double>()) /
+        scans;
   }
   if (found.scans == 1)
     found.between = 0;
@@ -154,7 +155,7 @@ corePlaces(const RunSurface& surface, double spacing, Normals& facing)
 
 /** \return the median of what differs between scans where there are several; [m^2] */
 double
-usualBetween(const std::vector<std::optional<Core>>& cores, InCylinder Core::* run)
+usualBetween(const std::vector<std::optional<Core>>& cores, InCylinder Core::*run)
 {
   std::vector<double> all;
   for (const auto& core : cores)
@@ -274,10 +275,10 @@ moving_objects::distancesBetween(const SurfacedRun& of,
   const double usual_to = usualBetween(cores, &Core::to);
   for (auto& core : cores)
     if (core)
-      core->distance.lod = kOf95 * std::sqrt(varianceOf(core->of, usual_of) +
-                                             varianceOf(core->to, usual_to) +
-                                             (core->of.pose + core->to.pose) / 2 +
-                                             tiltVariance(*core));
+      core->distance.lod =
+          kOf95 *
+          std::sqrt(varianceOf(core->of, usual_of) + varianceOf(core->to, usual_to) +
+                    (core->of.pose + core->to.pose) / 2 + tiltVariance(*core));
   const double scale = scaleOf(cores);
   std::vector<SurfaceDistance> distances;
   for (const auto& core : cores)

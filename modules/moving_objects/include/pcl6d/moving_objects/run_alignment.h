@@ -10,9 +10,9 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of alignRuns(). */
 struct RunAlignmentOptions {
-  double voxel = 0.05;      ///< [m] of the reduction of the scans; finite, > 0
-  double reach = 4;         ///< voxels: pairs are farther apart by less at first; > 0
-  bool move = true;         ///< false: poses stay, only their covariances are found
+  double voxel = 0.05; ///< [m] of the reduction of the scans; finite, > 0
+  double reach = 4;    ///< voxels: pairs are farther apart by less at first; > 0
+  bool move = true;    ///< false: poses stay, only their covariances are found
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void

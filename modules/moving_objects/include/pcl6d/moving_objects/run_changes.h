@@ -28,8 +28,9 @@ toString(ChangeKind kind);
 
 /** \brief A box about some points, upright. */
 struct ChangeBox {
-  Eigen::Isometry3d T_world_box = Eigen::Isometry3d::Identity(); ///< of its centre; z is up
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();                ///< [m] whole edges
+  Eigen::Isometry3d T_world_box =
+      Eigen::Isometry3d::Identity();              ///< of its centre; z is up
+  Eigen::Vector3d size = Eigen::Vector3d::Zero(); ///< [m] whole edges
 
   /** \return [m^3] */
   double
@@ -42,9 +43,9 @@ struct ChangeBox {
 /** \brief Something that differs between two runs. */
 struct Change {
   ChangeKind kind = ChangeKind::kAppeared;
-  ChangeBox box;   ///< where it is: in the second run, if it is there
-  Points points;   ///< [m] in the world, one per voxel, of the run that the box is of
-  double confidence = 0;   ///< in [0, 1]: that it is no chance
+  ChangeBox box; ///< where it is: in the second run, if it is there
+  Points points; ///< [m] in the world, one per voxel, of the run that the box is of
+  double confidence = 0;     ///< in [0, 1]: that it is no chance
   std::size_t witnesses = 0; ///< scans of the other run that saw through it
   /** kMoved: where it was before, and the motion of its points in the world */
   std::optional<ChangeBox> before;
@@ -60,11 +61,13 @@ struct Change {
 /** \brief What another run says of the points of a run, of one per voxel and scan. */
 struct RunTally {
   std::size_t points = 0;
-  std::size_t there = 0;   ///< a surface of the other run is there
-  std::size_t shifted = 0; ///< one lies before or behind it, within the depth of surfaces
+  std::size_t there = 0; ///< a surface of the other run is there
+  std::size_t shifted =
+      0; ///< one lies before or behind it, within the depth of surfaces
   std::size_t seen_through = 0; ///< the other run saw through
-  std::size_t changed = 0; ///< of these, in something that is told of
-  std::size_t restless = 0; ///< other scans of its own run saw through it, too: it moves
+  std::size_t changed = 0;      ///< of these, in something that is told of
+  std::size_t restless =
+      0;                   ///< other scans of its own run saw through it, too: it moves
   std::size_t unknown = 0; ///< not seen by the other run
 };
 
@@ -85,14 +88,14 @@ struct RunChanges {
 
 /** \brief Knobs of findChanges(). */
 struct RunChangesOptions {
-  double voxel = 0.05; ///< [m] of the reduction of the scans; finite, > 0
-  double noise = 0.01; ///< [m] standard deviation of a point; finite, >= 0
-  double gap = 2.5;    ///< voxels between points of one thing, at most; finite, > 0
+  double voxel = 0.05;   ///< [m] of the reduction of the scans; finite, > 0
+  double noise = 0.01;   ///< [m] standard deviation of a point; finite, >= 0
+  double gap = 2.5;      ///< voxels between points of one thing, at most; finite, > 0
   double least_size = 3; ///< voxels, longest edge of the box of a thing; finite, > 0
   double min_confidence = 0.99; ///< below, nothing is told of; in [0, 1)
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ(); ///< unit vector in the world
   SurfaceDistanceOptions surfaces = {}; ///< its voxel and threads are those here
-  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  unsigned int num_threads = 0;         ///< 0: one per core; never changes the result
   /** told of "comparing"; may throw, which ends it */
   ProgressCallback progress = {};
   /** \throws BadArgument naming the first field that breaks its rule, with its value */

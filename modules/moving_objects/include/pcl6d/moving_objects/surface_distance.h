@@ -15,7 +15,7 @@ struct SurfaceDistanceOptions {
   double spacing = 2;    ///< voxels between core points; finite, > 0
   double normal = 3;     ///< voxels, radius of the surface that gives a normal; > 0
   double cylinder = 2.5; ///< voxels, radius of the cylinder along the normal; > 0
-  double depth = 2.5;    ///< voxels, half its length: larger distances are not found; > 0
+  double depth = 2.5; ///< voxels, half its length: larger distances are not found; > 0
   std::size_t least_points = 4; ///< in the cylinder, of each run; > 0
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */

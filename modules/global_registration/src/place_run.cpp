@@ -83,8 +83,8 @@ answerOf(std::vector<World> worlds,
   });
   const std::string looked = std::to_string(tried) + " of its scans looked for";
   // A run of few scans cannot have more that agree; one that is sure will do.
-  const bool is_one = !worlds.empty() && (worlds[0].isEnough(enough) ||
-                                          worlds[0].sure > 0);
+  const bool is_one =
+      !worlds.empty() && (worlds[0].isEnough(enough) || worlds[0].sure > 0);
   if (!is_one) {
     place.reason = "none of " + looked + " has one place in it (" + reason + ")";
     return place;
@@ -118,7 +118,10 @@ placeRun(const std::vector<KnownScan>& run,
          const RunPlaceOptions& options)
 {
   options.validate();
-  require(!run.empty(), "run", 0, "one scan at least");
+  require(!run.empty(), "scans of the run", run.size(), "> 0");
+  for (const KnownScan& one : run)
+    if (!isRigid(one.T_world_scan))
+      throw BadArgument("a pose of the run is not a rigid motion");
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const KnownScan& one : run)
     centre += one.T_world_scan.translation() / static_cast<double>(run.size());
@@ -129,9 +132,11 @@ placeRun(const std::vector<KnownScan>& run,
   std::string reason;
   std::size_t tried = 0;
   const auto order = orderOf(run.size(), options.tries);
-  for (const std::size_t i : order) {
-    if (options.progress)
+  if (options.progress)
+    search.progress = [&](const Progress&) {
       options.progress({"placing the run", tried, order.size()});
+    };
+  for (const std::size_t i : order) {
     const MapPlaces found = placeInMap(*run[i].scan, map, search);
     ++tried;
     const bool is_sure = found.answer == PlaceAnswer::kUnique;

@@ -17,19 +17,23 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief Where the world of a run lies in that of another one. */
 struct RunPlace {
   PlaceAnswer answer = PlaceAnswer::kNone;
-  Eigen::Isometry3d T_map_run = Eigen::Isometry3d::Identity(); ///< if there is one place
-  std::size_t agreeing = 0; ///< scans whose places say so
-  std::size_t tried = 0;    ///< scans that were looked for
-  std::string reason;       ///< why there is no such place, in words; else empty
+  Eigen::Isometry3d T_map_run =
+      Eigen::Isometry3d::Identity(); ///< if there is one place
+  std::size_t agreeing = 0;          ///< scans whose places say so
+  std::size_t tried = 0;             ///< scans that were looked for
+  std::string reason; ///< why there is no such place, in words; else empty
 };
 
 /** \brief Knobs of placeRun(). */
 struct RunPlaceOptions {
-  std::size_t tries = 8;  ///< so many scans of the run, evenly, are looked for at most; > 0
-  std::size_t enough = 2; ///< agreeing scans with one sure place: no more are looked for; > 0
+  std::size_t tries =
+      8; ///< so many scans of the run, evenly, are looked for at most; > 0
+  std::size_t enough =
+      2; ///< agreeing scans with one sure place: no more are looked for; > 0
   double max_ambiguity = 0.6;   ///< as of MapPlaceOptions
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
-  ProgressCallback progress = {}; ///< told of "placing the run"; may throw, which ends it
+  ProgressCallback progress =
+      {}; ///< told of "placing the run"; may throw, which ends it
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

@@ -78,8 +78,9 @@ compare(const ChangesSettings& s, FolderJob& job)
   printChanges(report);
   flushOutput();
   if (!world.doubt.empty()) {
-    job.bar.warn(s.run_b + ": where it lies in " + s.run_a + " is not to be believed: " +
-                 world.doubt + "; no change is told of, and nothing is written");
+    job.bar.warn(s.run_b + ": where it lies in " + s.run_a +
+                 " is not to be believed: " + world.doubt +
+                 "; no change is told of, and nothing is written");
     return kDoubtful;
   }
   if (!s.json.empty())

@@ -61,8 +61,8 @@ changeJson(const Change& one, const Eigen::Vector3d& offset)
   }
   json["witnesses"] = one.witnesses;
   if (one.before) {
-    const Eigen::Isometry3d motion = Eigen::Translation3d(offset) * one.motion *
-                                     Eigen::Translation3d(-offset);
+    const Eigen::Isometry3d motion =
+        Eigen::Translation3d(offset) * one.motion * Eigen::Translation3d(-offset);
     json["before"] = boxJson(*one.before, offset);
     json["motion"] = rowByRow(motion.matrix());
     json["agreement"] = one.agreement;
@@ -149,10 +149,11 @@ cloudOf(const ChangesReport& report)
 {
   pcl::PointCloud<pcl::PointXYZRGB> coloured;
   std::vector<double> numbers;
-  const auto add = [&](const Eigen::Vector3f& place, Colour colour, std::size_t number) {
-    coloured.emplace_back(colour[0], colour[1], colour[2]).getVector3fMap() = place;
-    numbers.push_back(static_cast<double>(number));
-  };
+  const auto add =
+      [&](const Eigen::Vector3f& place, Colour colour, std::size_t number) {
+        coloured.emplace_back(colour[0], colour[1], colour[2]).getVector3fMap() = place;
+        numbers.push_back(static_cast<double>(number));
+      };
   constexpr Colour kGrey{150, 150, 150};
   for (const auto& p : mapOf(report.world.a))
     add(p, kGrey, 0);
@@ -174,9 +175,9 @@ drawBox(const ChangeBox& box, Colour colour, Overlay& overlay)
                              std::pair(-1, -1),
                              std::pair(1, -1),
                              std::pair(1, 1)})
-    line.points.push_back(
-        box.T_world_box *
-        Eigen::Vector3d(x * box.size.x() / 2, y * box.size.y() / 2, box.size.z() / 2));
+    line.points.push_back(box.T_world_box * Eigen::Vector3d(x * box.size.x() / 2,
+                                                            y * box.size.y() / 2,
+                                                            box.size.z() / 2));
   overlay.lines.push_back(line);
 }
 
@@ -200,9 +201,9 @@ draw(const std::filesystem::path& path, const ChangesReport& report)
     if (!one.before)
       continue;
     drawBox(*one.before, colour, scene.overlay);
-    scene.overlay.lines.push_back({{one.before->T_world_box.translation(),
-                                    one.box.T_world_box.translation()},
-                                   colour});
+    scene.overlay.lines.push_back(
+        {{one.before->T_world_box.translation(), one.box.T_world_box.translation()},
+         colour});
   }
   scene.overlay.keys = {{"appeared", kGreen},
                         {"vanished", kRed},
@@ -250,9 +251,8 @@ publishChanges(FolderJob& job, const ChangesReport& report)
   writeChangesJson(*job.out / "changes.json", report);
   writeScan(*job.out / "changes.ply", cloudOf(report));
   job.publish();
-  return job.draw("changes.png", [&](const std::filesystem::path& picture) {
-    draw(picture, report);
-  });
+  return job.draw("changes.png",
+                  [&](const std::filesystem::path& picture) { draw(picture, report); });
 }
 
 } // namespace pcl6d::app

@@ -32,7 +32,8 @@ addOptions(OptionTable& table, ChangesSettings& s)
   table.positional("RUN_B", &s.run_b);
   table.group("World");
   table.add("given", &s.given)
-      .help("the poses of both runs are of one world and exact: they are taken as they are");
+      .help("the poses of both runs are of one world and exact: they are taken as they "
+            "are");
   table.group("Range gate and reduction; auto: those of the runs, the coarser voxel");
   addReductionOptions(table, s.parameters);
   table.group("Changes");
@@ -45,8 +46,10 @@ addOptions(OptionTable& table, ChangesSettings& s)
       .help("so many changes are listed, of each kind the largest first");
   table.group("Run");
   table.add("output,o OUT_DIR", &s.out)
-      .help("folder for changes.json, changes.ply (grey: as it was; green: appeared; red: "
-            "vanished; blue: moved; orange: surfaces) and changes.png; made if missing");
+      .help(
+          "folder for changes.json, changes.ply (grey: as it was; green: appeared; "
+          "red: "
+          "vanished; blue: moved; orange: surfaces) and changes.png; made if missing");
   table.add("json FILE", &s.json).help("write changes.json alone, to this file");
   table.addAs<int>("threads", &s.num_threads)
       .within(0, 1024, "in [0, 1024]")

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace pcl6d::app {
@@ -31,6 +32,19 @@ double
 lengthOf(const RunFolder& run, const char* name)
 {
   return lengthOfRun(run.summary(), name, run.path() / "summary.json");
+}
+
+/** \return the points that count \throws ComputeFailed fewer than 3 do */
+Points
+gated(const Points& measured, double least, double most, const std::string& name)
+{
+  Points points = gateByRange(measured, least, most);
+  if (points.size() >= 3)
+    return points;
+  std::ostringstream message;
+  message << name << ": " << points.size() << " points within the range gate of "
+          << least << " to " << most << " m, but at least 3 are needed";
+  throw ComputeFailed(message.str());
 }
 
 /** \return [m] the median range of some scans of a run */
@@ -63,10 +77,9 @@ ComparedRuns::ComparedRuns(const ChangesSettings& s, const ProgressCallback& sho
     if (places_.back().empty())
       throw IoFailed(path + ": holds no scan with a sure place");
     if (places_.back().size() < run.scans.size())
-      notes_.push_back(
-          path + ": " +
-          text::counted(run.scans.size() - places_.back().size(), "scan") +
-          " without a sure place in the run left out");
+      notes_.push_back(path + ": " +
+                       text::counted(run.scans.size() - places_.back().size(), "scan") +
+                       " without a sure place in the run left out");
     if (!run.trusted)
       notes_.push_back(path + ": not to be trusted by its own verdict");
   }
@@ -85,16 +98,16 @@ ComparedRuns::ComparedRuns(const ChangesSettings& s, const ProgressCallback& sho
   prepared_.emplace(points.size(), parameters, 1);
   parallelFor(points.size(), s.num_threads, [&](std::size_t i) {
     const bool of_a = i < size(0);
-    prepared_->set(i,
-                   std::exchange(points[i], {}),
-                   of_a ? name(0, i) : name(1, i - size(0)));
+    prepared_->set(
+        i, std::exchange(points[i], {}), of_a ? name(0, i) : name(1, i - size(0)));
   });
 }
 
-const std::string&
+std::string
 ComparedRuns::name(std::size_t run, std::size_t i) const
 {
-  return runs_[run].summary().scans[places_[run][i]].file;
+  return runs_[run].path().string() + ": " +
+         runs_[run].summary().scans[places_[run][i]].file;
 }
 
 std::vector<Points>
@@ -111,7 +124,7 @@ ComparedRuns::read(const ChangesSettings& s,
     const std::size_t end = std::min(begin + kBatch, points.size());
     parallelFor(end - begin, s.num_threads, [&](std::size_t k) {
       const std::size_t i = begin + k;
-      points[i] = gateByRange(folder.readScan(places_[run][i]), least, most);
+      points[i] = gated(folder.readScan(places_[run][i]), least, most, name(run, i));
     });
     show({"reading", end, points.size()});
   }
@@ -128,9 +141,8 @@ ComparedRuns::compared(std::size_t run) const
     compared.points = &one.surfaces().points();
     compared.normals = &one.surfaces().normals();
     compared.rays = &one.rays();
-    compared.T_world_scan =
-        Eigen::Translation3d(-worldOffset()) *
-        runs_[run].summary().scans[places_[run][i]].T_world_scan;
+    compared.T_world_scan = Eigen::Translation3d(-worldOffset()) *
+                            runs_[run].summary().scans[places_[run][i]].T_world_scan;
     scans.push_back(compared);
   }
   return scans;

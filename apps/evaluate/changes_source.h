@@ -11,7 +11,9 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl6d::app {
@@ -35,8 +37,8 @@ public:
   {
     return prepared_->scans()[(run == 0 ? 0 : size(0)) + i];
   }
-  /** \return its name in its run */
-  const std::string&
+  /** \return its run and its name there, for messages */
+  std::string
   name(std::size_t run, std::size_t i) const;
 
   /** \return the scans of a run with their poses relative to the world offset of A */

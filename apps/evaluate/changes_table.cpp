@@ -92,20 +92,21 @@ void
 printTally(const char* name, const std::string& run, const RunTally& tally)
 {
   const auto share = [&](std::size_t count) {
-    return tally.points == 0 ? 0
-                             : 100 * static_cast<double>(count) /
-                                   static_cast<double>(tally.points);
+    return tally.points == 0
+               ? 0
+               : 100 * static_cast<double>(count) / static_cast<double>(tally.points);
   };
-  std::printf("%s %s: %.2f %% as in the other, %.2f %% shifted, %.2f %% in changes, %.2f %% "
-              "more seen through, %.2f %% moving by itself, %.1f %% not seen\n",
-              name,
-              run.c_str(),
-              share(tally.there),
-              share(tally.shifted),
-              share(tally.changed),
-              share(tally.seen_through - tally.changed),
-              share(tally.restless),
-              share(tally.unknown));
+  std::printf(
+      "%s %s: %.2f %% as in the other, %.2f %% shifted, %.2f %% in changes, %.2f %% "
+      "more seen through, %.2f %% moving by itself, %.1f %% not seen\n",
+      name,
+      run.c_str(),
+      share(tally.there),
+      share(tally.shifted),
+      share(tally.changed),
+      share(tally.seen_through - tally.changed),
+      share(tally.restless),
+      share(tally.unknown));
 }
 } // namespace
 
@@ -113,20 +114,21 @@ void
 printChanges(const ChangesReport& report)
 {
   const CommonWorld& world = report.world;
-  std::printf("%s on %s: %s; moved by %.3f m and %.2f deg, %.0f %% meet, %.3f m apart, "
-              "scans bent by %.3f m; links: %zu good, %zu weak, %zu unverified, %zu wrong\n",
-              report.settings.run_b.c_str(),
-              report.settings.run_a.c_str(),
-              sourceWords(world.source).c_str(),
-              world.alignment.T_new_old.translation().norm(),
-              degrees(rotationAngle(world.alignment.T_new_old.linear())),
-              100 * world.alignment.overlap,
-              world.alignment.residual,
-              world.alignment.bending,
-              world.count(LinkTrust::kGood),
-              world.count(LinkTrust::kWeak),
-              world.count(LinkTrust::kUnverified),
-              world.count(LinkTrust::kWrong));
+  std::printf(
+      "%s on %s: %s; moved by %.3f m and %.2f deg, %.0f %% meet, %.3f m apart, "
+      "scans bent by %.3f m; links: %zu good, %zu weak, %zu unverified, %zu wrong\n",
+      report.settings.run_b.c_str(),
+      report.settings.run_a.c_str(),
+      sourceWords(world.source).c_str(),
+      world.alignment.T_new_old.translation().norm(),
+      degrees(rotationAngle(world.alignment.T_new_old.linear())),
+      100 * world.alignment.overlap,
+      world.alignment.residual,
+      world.alignment.bending,
+      world.count(LinkTrust::kGood),
+      world.count(LinkTrust::kWeak),
+      world.count(LinkTrust::kUnverified),
+      world.count(LinkTrust::kWrong));
   if (!world.doubt.empty())
     return;
   printRows(report);

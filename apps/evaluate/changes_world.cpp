@@ -40,7 +40,8 @@ askedPairs(const ComparedRun& a, const ComparedRun& b)
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t i = 0; i < a.size(); ++i)
       near.emplace_back(
-          (a[i].T_world_scan.translation() - b[j].T_world_scan.translation()).norm(), i);
+          (a[i].T_world_scan.translation() - b[j].T_world_scan.translation()).norm(),
+          i);
     std::sort(near.begin(), near.end());
     for (std::size_t n = 0; n < std::min(kLinksOfScan, near.size()); ++n)
       pairs.emplace_back(near[n].second, j);

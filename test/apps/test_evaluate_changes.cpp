@@ -119,7 +119,8 @@ TEST_F(EvaluateChanges, TellsWhatVanishedAndAppearedInTheWorldOfTheFirst)
 
 TEST_F(EvaluateChanges, FindsNoneInARoomThatIsAsItWas)
 {
-  const Outcome outcome = changes("before", "again", {"--json", rooms() / "again.json"});
+  const Outcome outcome =
+      changes("before", "again", {"--json", rooms() / "again.json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err << outcome.out;
   EXPECT_NE(outcome.out.find("0 moved, 0 appeared, 0 vanished, 0 shifted"),
             std::string::npos)
@@ -156,14 +157,15 @@ TEST_F(EvaluateChanges, AreTheSameForAnyNumberOfThreads)
 
 TEST_F(EvaluateChanges, AreMirroredWhenTheRunsChangePlaces)
 {
-  ASSERT_EQ(
-      changes("after", "before", {"--quiet", "--json", rooms() / "back.json"}).exit_code,
-      0);
+  ASSERT_EQ(changes("after", "before", {"--quiet", "--json", rooms() / "back.json"})
+                .exit_code,
+            0);
   const Json told = json("back.json");
   ASSERT_EQ(told["changes"].size(), 2u);
   EXPECT_EQ(told["changes"][0]["kind"], "appeared");
   EXPECT_LT(
-      (centreOf(told["changes"][0]) - inWorld("after", 5, kCrate.center())).norm(), 0.5);
+      (centreOf(told["changes"][0]) - inWorld("after", 5, kCrate.center())).norm(),
+      0.5);
 }
 
 TEST_F(EvaluateChanges, TellsOfNoneWhereGivenPosesAreNotToBeBelieved)
@@ -210,10 +212,11 @@ TEST_F(EvaluateChanges, ComparesRunsOfOneScan)
 TEST_F(EvaluateChanges, RefusesWhatIsNoRun)
 {
   expectError(changes("before", "nowhere"), kName, 1, {"nowhere"});
-  expectError(changes("before.scans", "before"),
-              kName,
-              1,
-              {"before.scans: is a folder, but no run of pcl_slam6d (no summary.json)"});
+  expectError(
+      changes("before.scans", "before"),
+      kName,
+      1,
+      {"before.scans: is a folder, but no run of pcl_slam6d (no summary.json)"});
   fs::create_directory(rooms() / "empty");
   expectError(changes("before", "empty"), kName, 1, {"empty", "no summary.json"});
 }
@@ -234,7 +237,8 @@ TEST_F(EvaluateChanges, RefusesRunsInOtherUnits)
   Drive millimetres{{0, 2, 4}, Eigen::Isometry3d::Identity()};
   millimetres.unit = 0.001;
   rooms().run("millimetres", millimetres);
-  expectError(changes("before", "millimetres"), kName, 1, {"millimetres", "not in metres"});
+  expectError(
+      changes("before", "millimetres"), kName, 1, {"millimetres", "not in metres"});
 }
 
 TEST_F(EvaluateChanges, RefusesAGateThatLeavesNothing)
@@ -256,8 +260,10 @@ TEST_F(EvaluateChanges, RefusesWrongOptions)
               kName,
               2,
               {"--least-size = 0"});
-  expectError(
-      changes("before", "after", {"--json", "told.txt"}), kName, 2, {"--json", ".json"});
+  expectError(changes("before", "after", {"--json", "told.txt"}),
+              kName,
+              2,
+              {"--json", ".json"});
   expectError(
       changes("before", "after", {"--rows", "-1"}), kName, 2, {"--rows", ">= 0"});
   expectError(runProgram(kName, {"changes", rooms() / "before"}), kName, 2, {"RUN_B"});

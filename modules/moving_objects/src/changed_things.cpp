@@ -66,6 +66,7 @@ clustersOf(const std::vector<GoneVoxel>& gone, double gap, unsigned int num_thre
   for (std::size_t i = 0; i < gone.size(); ++i)
     by_first[components.firstOf(i)].push_back(i);
   std::vector<Cluster> clusters;
+  clusters.reserve(by_first.size());
   for (auto& [first, cluster] : by_first)
     clusters.push_back(std::move(cluster));
   return clusters;

@@ -168,6 +168,7 @@ std::vector<Eigen::Isometry3d>
 startsOf(const Shape& from, const Shape& to, const Eigen::Vector3d& up)
 {
   std::vector<Eigen::Matrix3d> turns;
+  turns.reserve(kTurns + 24); // a box has 24 ways to lie in itself
   for (int k = 0; k < kTurns; ++k)
     turns.push_back(rotationFromVector(radians(360.0 * k / kTurns) * up));
   const Eigen::Matrix3d from_box = from.box.T_world_box.linear().transpose();

@@ -46,6 +46,7 @@ scaleOf(const std::vector<PlanePair>& pairs, const RobustMotion& fit)
   constexpr double kOfMedian = 1.4826; // of a normal distribution
   constexpr double kLeast = 1e-6;      // [m] exact points have weights, too
   std::vector<double> sizes;
+  sizes.reserve(pairs.size());
   for (const PlanePair& pair : pairs)
     sizes.push_back(
         std::abs(pair.residual - jacobianOf(pair, fit.centre).dot(fit.step)));

@@ -81,7 +81,7 @@ struct Asked {
 bool
 wentThrough(const SightOfPlace& seen,
             const Eigen::Vector3f& normal,
-            Eigen::Vector3f ray)
+            const Eigen::Vector3f& ray)
 {
   if (seen.sight != Sight::kFree)
     return false;

@@ -42,20 +42,20 @@ struct ChangeBox {
 
 /** \brief Something that differs between two runs. */
 struct Change {
-  ChangeKind kind = ChangeKind::kAppeared;
   ChangeBox box; ///< where it is: in the second run, if it is there
-  Points points; ///< [m] in the world, one per voxel, of the run that the box is of
-  double confidence = 0;     ///< in [0, 1]: that it is no chance
-  std::size_t witnesses = 0; ///< scans of the other run that saw through it
   /** kMoved: where it was before, and the motion of its points in the world */
   std::optional<ChangeBox> before;
-  Points points_before;
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  double agreement = 0; ///< kMoved: share of points of both that meet after the motion
+  Points points; ///< [m] in the world, one per voxel, of the run that the box is of
+  Points points_before;
+  double confidence = 0; ///< in [0, 1]: that it is no chance
+  double agreement = 0;  ///< kMoved: share of points of both that meet by the motion
+  std::size_t witnesses = 0; ///< scans of the other run that saw through it
   /** kSurface: [m] towards the scanner, from the first run to the second one, the median; and
    * its level of detection with 95 % */
   double distance = 0;
   double lod = 0;
+  ChangeKind kind = ChangeKind::kAppeared;
 };
 
 /** \brief What another run says of the points of a run, of one per voxel and scan. */

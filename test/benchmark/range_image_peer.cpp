@@ -14,7 +14,7 @@ namespace pcl6d::bench {
 namespace {
 constexpr std::size_t kRemoving = 3, kAll = 5;
 constexpr std::array<double, kAll> kPixels{2.5, 2.0, 1.5, 1.0, 0.7}; // per degree
-constexpr float kMargin = 0.05F; // of the range that the scan measured
+constexpr float kMargin = 0.05F;   // of the range that the scan measured
 constexpr double kMapVoxel = 0.05; // [m]
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr float kNothing = std::numeric_limits<float>::infinity();

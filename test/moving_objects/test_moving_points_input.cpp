@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What cannot be judged, and what must not be asked.
+#include "moving_room.h"
+#include "support/points.h"
+#include "visibility/rays.h"
+
+#include <deque>
+
+namespace pcl6d {
+namespace {
+
+using namespace test;
+
+Points
+sphereOf(double radius, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero())
+{
+  return scanAround(20000, origin, [&](auto&&) { return radius; });
+}
+
+/** Rays of spheres, without surfaces. */
+class RaysAlone : public testing::Test {
+protected:
+  SeenScan
+  sphere(double radius)
+  {
+    images_.emplace_back(sphereOf(radius));
+    SeenScan scan;
+    scan.rays = &images_.back();
+    return scan;
+  }
+  std::deque<RayImage> images_;
+};
+
+std::size_t
+count(const std::vector<PointMotion>& motion, PointMotion kind)
+{
+  return static_cast<std::size_t>(std::count(motion.begin(), motion.end(), kind));
+}
+
+TEST_F(RaysAlone, OneScanKnowsNothing)
+{
+  const Points points = sphereOf(3);
+  const auto alone = MovingPoints({sphere(3)}).judge(0, points);
+  EXPECT_EQ(alone, std::vector<PointMotion>(points.size(), PointMotion::kUnknown));
+  const auto with_mute = MovingPoints({sphere(3), SeenScan()}).judge(0, points);
+  EXPECT_EQ(with_mute, alone) << "a scan without rays judges nobody";
+  EXPECT_EQ(MovingPoints(std::vector<SeenScan>{}).size(), 0u);
+}
+
+TEST_F(RaysAlone, JudgeWithoutSurfaces)
+{
+  // A ball of directions that the other scan sees through, in a sphere that both see.
+  const auto rangeOf = [](const Eigen::Vector3d& way) {
+    return way.x() > 0.95 ? 2.0 : 4.0;
+  };
+  const Points points = scanAround(20000, {0, 0, 0}, rangeOf);
+  images_.emplace_back(points);
+  SeenScan judged;
+  judged.rays = &images_.back();
+  const MovingPoints judges({judged, sphere(4)});
+  EXPECT_EQ(judges.background(), 0) << "is told by surfaces";
+  const auto motion = judges.judge(0, points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ASSERT_EQ(motion[i],
+              points[i].norm() < 3 ? PointMotion::kDynamic : PointMotion::kStatic)
+        << points[i].transpose();
+}
+
+TEST_F(RaysAlone, PointsThatAreNoneAreUnknown)
+{
+  const MovingPoints judges({sphere(3), sphere(3)});
+  const auto motion =
+      judges.judge(0, {{kNan, 0, 0}, {3, 0, 0}, {0, 0, 0}, {0, kInfinity, 0}});
+  EXPECT_EQ(motion,
+            (std::vector<PointMotion>{PointMotion::kUnknown,
+                                      PointMotion::kStatic,
+                                      PointMotion::kUnknown,
+                                      PointMotion::kUnknown}));
+  EXPECT_TRUE(judges.judge(0, {}).empty());
+}
+
+TEST_F(RaysAlone, ScansThatSeeNothingOfEachOtherKnowNothing)
+{
+  SeenScan far = sphere(3);
+  far.T_world_scan.translation().x() = 1000;
+  const Points points = sphereOf(3);
+  EXPECT_EQ(count(MovingPoints({sphere(3), far}).judge(0, points), PointMotion::kUnknown),
+            points.size());
+}
+
+TEST_F(RaysAlone, ScansOfTooFewPointsForAnImageJudgeNobody)
+{
+  images_.emplace_back(Points{{3, 0, 0}});
+  SeenScan tiny;
+  tiny.rays = &images_.back();
+  const MovingPoints judges({sphere(3), tiny});
+  EXPECT_EQ(judges.judge(0, {{2, 0, 0}}),
+            std::vector<PointMotion>{PointMotion::kUnknown});
+  EXPECT_EQ(judges.judge(1, {{3, 0, 0}}),
+            std::vector<PointMotion>{PointMotion::kStatic})
+      << "but is judged";
+}
+
+TEST_F(RaysAlone, RefusesWhatBreaksARule)
+{
+  const auto refused = [&](const std::function<void(SeenScan&)>& spoil) {
+    std::vector<SeenScan> scans{sphere(3), sphere(3)};
+    spoil(scans[1]);
+    return badArgumentOf([&] { (void)MovingPoints(scans); });
+  };
+  const auto starts = [](const std::string& text, const std::string& with) {
+    return text.compare(0, with.size(), with) == 0;
+  };
+  const Points wall{{3, 0, 0}, {3, 1, 0}};
+  const Normals normals{{-1, 0, 0}, {-1, 0, 0}}, too_few{{-1, 0, 0}};
+  const PointTree tree(wall);
+  const auto dress = [&](SeenScan& s) {
+    s.surface = &wall;
+    s.normals = &normals;
+    s.tree = &tree;
+    s.voxel = 0.1;
+  };
+  EXPECT_EQ(refused(dress), "");
+  EXPECT_TRUE(starts(refused([](SeenScan& s) { s.T_world_scan.linear() *= 2; }),
+                     "scan 1: T_world_scan = "));
+  for (const double bad : {-1.0, double{kNan}, double{kInfinity}}) {
+    EXPECT_TRUE(starts(refused([&](SeenScan& s) { s.sigma.translation = bad; }),
+                       "scan 1: sigma of translation = "));
+    EXPECT_TRUE(starts(refused([&](SeenScan& s) { s.sigma.rotation = bad; }),
+                       "scan 1: sigma of rotation = "));
+    EXPECT_TRUE(starts(refused([&](SeenScan& s) {
+                         dress(s);
+                         s.voxel = bad;
+                       }),
+                       "scan 1: voxel = "));
+  }
+  for (const auto& lack : std::vector<std::function<void(SeenScan&)>>{
+           [](SeenScan& s) { s.tree = nullptr; },
+           [](SeenScan& s) { s.normals = nullptr; },
+           [&](SeenScan& s) { s.normals = &too_few; }})
+    EXPECT_TRUE(starts(refused([&](SeenScan& s) {
+                         dress(s);
+                         lack(s);
+                       }),
+                       "scan 1: normals of the surface = "));
+}
+
+TEST_F(RaysAlone, RefusesScansThatAreNotThere)
+{
+  const MovingPoints judges({sphere(3), SeenScan()});
+  EXPECT_EQ(badArgumentOf([&] { (void)judges.judge(2, {}); }),
+            "scan = 2, but must be one of 2");
+  EXPECT_EQ(badArgumentOf([&] { (void)judges.judge(1, {}); }),
+            "rays of the scan = none, but must be there");
+}
+
+TEST(MovingPointsOptions, RefuseWhatBreaksARule)
+{
+  for (const std::size_t bad : {std::size_t{0}, std::size_t{9}}) {
+    MovingPointsOptions options;
+    options.neighbours = bad;
+    EXPECT_NE(badArgumentOf([&] { options.validate(); }).find("neighbours = "),
+              std::string::npos);
+    EXPECT_NE(badArgumentOf([&] { (void)MovingPoints({}, options); }), "");
+    EXPECT_NE(badArgumentOf([&] { (void)MovingScans(options); }), "");
+  }
+  MovingPointsOptions options;
+  for (options.neighbours = 1; options.neighbours <= 8; ++options.neighbours)
+    EXPECT_NO_THROW(options.validate());
+}
+
+TEST(BlindScans, WhereAllContradictsNothingIsTold)
+{
+  // Each scan is of a larger room, so that all points of one are seen through by the next.
+  std::vector<TrueScan> scans;
+  Random random(2);
+  for (int i = 0; i < 4; ++i) {
+    MovingRoom room;
+    const Eigen::Vector3d more(i, i, 0.5 * i);
+    room.walls = {room.walls.min() - more, room.walls.max() + more};
+    room.step = 0.025;
+    scans.push_back(room.scan(tripod(0, 0, 0.3 * i), random));
+  }
+  MovingScans judges;
+  for (const TrueScan& scan : scans)
+    judges.add(scan.points, scan.T_world_scan);
+  EXPECT_TRUE(judges.isBlind());
+  EXPECT_GT(judges.judges().background(), 0.5);
+  EXPECT_EQ(count(judges.motion(0, scans[0].points), PointMotion::kUnknown),
+            scans[0].points.size());
+}
+
+TEST(BlindScans, WrongPosesMakeBlindAndRightOnesDoNot)
+{
+  MovingRoom room;
+  room.step = 0.025;
+  const auto nobody = [](std::size_t) {
+    return std::vector<Body>{standing(3, 2, {0.8, 1.2, 2}, Met::kRoom)};
+  };
+  const auto scans = scansOf(room, 6, nobody);
+  MovingScans right, wrong;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    right.add(scans[i].points, scans[i].T_world_scan);
+    const double way = 0.5 * static_cast<double>(i); // [m]
+    wrong.add(scans[i].points,
+              Eigen::Translation3d(way, -way, 0) * scans[i].T_world_scan);
+  }
+  EXPECT_FALSE(right.isBlind());
+  EXPECT_TRUE(wrong.isBlind());
+}
+
+} // namespace
+} // namespace pcl6d

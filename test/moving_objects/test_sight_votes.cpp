@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sight_votes.h"
+#include "visibility/rays.h"
+
+#include <deque>
+
+namespace pcl6d::moving_objects {
+namespace {
+
+/** Scans of spheres about the scanner, without surfaces unless asked for: of a place within a
+ * sphere all of its rays say the same. */
+class Spheres : public testing::Test {
+protected:
+  const SeenScan&
+  sphere(double radius)
+  {
+    RayImageOptions options;
+    options.noise = kNoise;
+    images_.emplace_back(
+        test::scanAround(20000, {0, 0, 0}, [&](auto&&) { return radius; }), options);
+    scans_.emplace_back();
+    scans_.back().rays = &images_.back();
+    return scans_.back();
+  }
+  /** Gives the scan a wall at x = 3 m as its surface, with or without normals. */
+  const SeenScan&
+  wallOf(const SeenScan& scan, const Eigen::Vector3f& normal)
+  {
+    for (float y = -1; y < 1; y += 0.1F)
+      for (float z = -1; z < 1; z += 0.1F)
+        wall_.emplace_back(3, y, z);
+    normals_.assign(wall_.size(), normal);
+    tree_ = PointTree(wall_);
+    scans_.push_back(scan);
+    scans_.back().surface = &wall_;
+    scans_.back().normals = &normals_;
+    scans_.back().tree = &tree_;
+    scans_.back().voxel = 0.1;
+    return scans_.back();
+  }
+
+  /** \return what judges say of a place at 3 m; their radius by how much later they are */
+  Jury
+  asked(const std::vector<std::pair<std::ptrdiff_t, double>>& judges)
+  {
+    const SeenScan& judged = sphere(3);
+    std::vector<Judge> candidates;
+    for (const auto& [later, radius] : judges)
+      candidates.emplace_back(sphere(radius), judged, later);
+    Jury jury(std::move(candidates), judged, places_, 1);
+    jury.ask({0}, 0, jury.choose({0}, judges.size()));
+    return jury;
+  }
+
+  static constexpr double kNoise = 0.01; // [m]
+  const Points places_{{3, 0, 0}};
+  std::deque<RayImage> images_;
+  std::deque<SeenScan> scans_;
+  Points wall_;
+  Normals normals_;
+  PointTree tree_;
+};
+
+/** \return the bits of the judges that are so much later */
+unsigned
+bitsOf(const Jury& jury, std::ptrdiff_t later)
+{
+  unsigned bits = 0;
+  for (std::size_t j = 0; j < jury.judges().size(); ++j)
+    bits |= jury.judges()[j].later() == later ? 1U << j : 0U;
+  return bits;
+}
+
+TEST_F(Spheres, VoteByWhereTheirRaysEnded)
+{
+  const Jury jury = asked({{1, 3}, {2, 5}, {3, 2}});
+  EXPECT_EQ(jury.votes()[0].hits, bitsOf(jury, 1));
+  EXPECT_EQ(jury.votes()[0].misses, bitsOf(jury, 2));
+  EXPECT_EQ(jury.votes()[0].numHits(), 1);
+  EXPECT_EQ(jury.votes()[0].numMisses(), 1);
+  EXPECT_EQ(bitsOf(jury, 3), 0u) << "who sees nothing of it is no judge";
+}
+
+TEST_F(Spheres, HitsLastIfTheThingWasGoneBetween)
+{
+  const Jury jury = asked({{1, 3}, {2, 5}, {3, 3}});
+  EXPECT_EQ(jury.lastingHits(0), bitsOf(jury, 3)) << "seen, gone, seen again";
+}
+
+TEST_F(Spheres, HitsBeforeTheFirstMissDoNotLast)
+{
+  const Jury jury = asked({{1, 3}, {2, 3}, {3, 5}, {-1, 3}, {-2, 5}});
+  EXPECT_EQ(jury.votes()[0].numHits(), 3);
+  EXPECT_EQ(jury.lastingHits(0), 0) << "it came, stayed and left";
+}
+
+TEST_F(Spheres, HitsLastOnTheirSideOfTimeOnly)
+{
+  const Jury jury = asked({{-1, 5}, {-2, 3}, {1, 3}, {2, 5}});
+  EXPECT_EQ(jury.lastingHits(0), bitsOf(jury, -2));
+}
+
+TEST_F(Spheres, TheJuryTakesThoseThatSayMost)
+{
+  const SeenScan& judged = sphere(3);
+  const Points places(50, Eigen::Vector3f(3, 0, 0));
+  std::vector<Judge> candidates;
+  for (int k = 0; k < 40; ++k)
+    candidates.emplace_back(sphere(k % 2 == 0 ? 2 : 3), judged, k + 1);
+  Jury jury(std::move(candidates), judged, places, 1);
+  std::vector<std::uint32_t> all(places.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i)
+    all[i] = i;
+  EXPECT_EQ(jury.choose(all, 8), 8u);
+  for (const Judge& judge : jury.judges())
+    EXPECT_EQ(judge.later() % 2, 0) << "the others see nothing of the places";
+  EXPECT_EQ(jury.choose(all, 20), 16u) << "a bit for each";
+  EXPECT_EQ(jury.choose(all, 1), 16u);
+}
+
+TEST_F(Spheres, AMissIsFartherBehindThanGrazingExplains)
+{
+  const Judge judge(sphere(5), sphere(3), 1);
+  const Eigen::Vector3f place(3, 0, 0);
+  SightOfPlace seen;
+  seen.sight = Sight::kFree;
+  seen.beyond = 0.4F;
+  seen.sigmas = 12; // so that its tolerance is 3 x 0.4 / 12 = 0.1 m
+  const auto tilted = [](double slope) {
+    return Eigen::Vector3d(slope, 0, std::sqrt(1 - slope * slope)).cast<float>().eval();
+  };
+  EXPECT_TRUE(judge.isMiss(seen, place, tilted(1)));
+  EXPECT_TRUE(judge.isMiss(seen, place, tilted(0.26))) << "0.4 m along: 0.104 m across";
+  EXPECT_FALSE(judge.isMiss(seen, place, tilted(0.24)));
+  EXPECT_FALSE(judge.isMiss(seen, place, -tilted(0.24))) << "whatever side is out";
+  EXPECT_TRUE(judge.isMiss(seen, place, {0, 0, 0})) << "not known";
+}
+
+TEST_F(Spheres, ASurfaceSupportsWhatIsOnIt)
+{
+  const SeenScan& judged = sphere(3);
+  const Judge judge(wallOf(sphere(3), {-1, 0, 0}), judged, 1);
+  ASSERT_TRUE(judge.hasSurface());
+  const float sigma = static_cast<float>(std::sqrt(2.0) * kNoise); // of both points
+  EXPECT_TRUE(judge.supports({3, 0.03F, 0.02F}));
+  EXPECT_TRUE(judge.supports({3 + 2.9F * sigma, 0, 0}));
+  // 3 sigma, and what a patch may bend within half a voxel.
+  EXPECT_FALSE(judge.supports({3 + 3.1F * sigma + 0.01F, 0, 0}));
+  EXPECT_FALSE(judge.supports({3, 1.5F, 0})) << "it has none there";
+  EXPECT_TRUE(Judge(sphere(3), judged, 1).supports({9, 9, 9})) << "it has none at all";
+}
+
+TEST_F(Spheres, WithoutANormalTheNearestPointMustBeNear)
+{
+  const Judge judge(wallOf(sphere(3), {0, 0, 0}), sphere(3), 1);
+  EXPECT_TRUE(judge.supports(wall_[205]));
+  EXPECT_FALSE(judge.supports(wall_[205] + Eigen::Vector3f(0.06F, 0, 0)));
+}
+
+TEST_F(Spheres, CalibratingTakesInHowFarSurfacesAreApart)
+{
+  Judge judge(wallOf(sphere(3), {-1, 0, 0}), sphere(3), 1);
+  const Eigen::Vector3f off(0.08F, 0, 0); // of a pose, say
+  EXPECT_FALSE(judge.supports(wall_[205] + off));
+  Points few(wall_.begin(), wall_.begin() + 15), sample = wall_;
+  for (Eigen::Vector3f& p : few)
+    p += off;
+  judge.calibrate(few);
+  EXPECT_FALSE(judge.supports(wall_[205] + off)) << "15 say too little";
+  for (Eigen::Vector3f& p : sample)
+    p += off;
+  judge.calibrate(sample);
+  EXPECT_TRUE(judge.supports(wall_[205] + off));
+}
+
+TEST_F(Spheres, AnInexactPoseWidensWhatIsOnASurface)
+{
+  SeenScan judged = sphere(3);
+  judged.sigma.translation = 0.05;
+  const SeenScan& wall = wallOf(sphere(3), {-1, 0, 0});
+  EXPECT_TRUE(Judge(wall, judged, 1).supports({3.12F, 0, 0}));
+  judged.sigma = {0, 0.05 / 3}; // [rad] 5 cm at 3 m
+  EXPECT_TRUE(Judge(wall, judged, 1).supports({3.12F, 0, 0}));
+  judged.sigma = {};
+  EXPECT_FALSE(Judge(wall, judged, 1).supports({3.12F, 0, 0}));
+}
+
+TEST_F(Spheres, NormalsAreThoseOfTheNearestSurface)
+{
+  const SeenScan& wall = wallOf(sphere(3), {-1, 0, 0});
+  EXPECT_EQ(normalOf(wall, {3.05F, 0, 0}), Eigen::Vector3f(-1, 0, 0));
+  EXPECT_TRUE(normalOf(wall, {3.5F, 0, 0}).isZero()) << "too far";
+  EXPECT_TRUE(normalOf(sphere(3), {3, 0, 0}).isZero()) << "no surface";
+}
+
+} // namespace
+} // namespace pcl6d::moving_objects

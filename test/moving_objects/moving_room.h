@@ -34,7 +34,8 @@ enum class Met { kRoom, kThing, kMover };
 struct Body {
   Eigen::AlignedBox3d box; ///< [m] in the world
   Met met = Met::kThing;
-  double steepest = 0; ///< cosine of incidence from which on it is seen: glass; 0: always
+  double steepest =
+      0; ///< cosine of incidence from which on it is seen: glass; 0: always
 };
 
 /** \return a box of some size that stands on the floor about a place */

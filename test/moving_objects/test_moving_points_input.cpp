@@ -84,8 +84,9 @@ TEST_F(RaysAlone, ScansThatSeeNothingOfEachOtherKnowNothing)
   SeenScan far = sphere(3);
   far.T_world_scan.translation().x() = 1000;
   const Points points = sphereOf(3);
-  EXPECT_EQ(count(MovingPoints({sphere(3), far}).judge(0, points), PointMotion::kUnknown),
-            points.size());
+  EXPECT_EQ(
+      count(MovingPoints({sphere(3), far}).judge(0, points), PointMotion::kUnknown),
+      points.size());
 }
 
 TEST_F(RaysAlone, ScansOfTooFewPointsForAnImageJudgeNobody)

@@ -126,8 +126,9 @@ TEST(MovingPointsLaws, TheOrderOfPointsDoesNotMatter)
   std::iota(order.begin(), order.end(), std::size_t{0});
   Random random(9);
   for (std::size_t i = order.size(); i > 1; --i)
-    std::swap(order[i - 1],
-              order[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+    std::swap(
+        order[i - 1],
+        order[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
   Points shuffled;
   for (const std::size_t i : order)
     shuffled.push_back(points[i]);
@@ -146,7 +147,8 @@ TEST(MovingPointsLaws, AskingTwiceGivesTheSame)
   EXPECT_EQ(judges.motion(2, scene()[2].points), answer()[2]);
   EXPECT_EQ(judges.motion(2, scene()[2].points), answer()[2]);
   MovingScans again = copy;
-  EXPECT_EQ(again.motion(2, scene()[2].points), answer()[2]) << "copies share the scans";
+  EXPECT_EQ(again.motion(2, scene()[2].points), answer()[2])
+      << "copies share the scans";
 }
 
 } // namespace

@@ -147,14 +147,17 @@ TEST(MovingScans, RefuseWhatBreaksARuleAndStayAsTheyWere)
   const Points& points = scene()[0].points;
   Eigen::Isometry3d bent = Eigen::Isometry3d::Identity();
   bent.linear() *= 1.1;
-  EXPECT_NE(badArgumentOf([&] { scans.add(points, bent); }).find("scan 5: T_world_scan"),
-            std::string::npos);
+  EXPECT_NE(
+      badArgumentOf([&] { scans.add(points, bent); }).find("scan 5: T_world_scan"),
+      std::string::npos);
   const Eigen::Isometry3d here = Eigen::Isometry3d::Identity();
-  EXPECT_NE(badArgumentOf([&] { scans.add(points, here, {-1, 0}); })
-                .find("scan 5: sigma of translation = -1"),
+  EXPECT_NE(badArgumentOf([&] {
+              scans.add(points, here, {-1, 0});
+            }).find("scan 5: sigma of translation = -1"),
             std::string::npos);
-  EXPECT_NE(badArgumentOf([&] { scans.add(points, here, {}, {kNan, 0, 0}); })
-                .find("origin of the rays = "),
+  EXPECT_NE(badArgumentOf([&] {
+              scans.add(points, here, {}, {kNan, 0, 0});
+            }).find("origin of the rays = "),
             std::string::npos);
   for (const double bad : {0.0, -0.1, double{kNan}, double{kInfinity}})
     EXPECT_NE(badArgumentOf([&] { scans.setVoxel(bad); }).find("voxel = "),

@@ -48,7 +48,8 @@ TEST(RayBuckets, TellThingsBehindEachOtherApart)
 
 TEST(RayBuckets, TellThingsBesideEachOtherApart)
 {
-  const RayBuckets found = bucketsAt({ahead(5), ahead(5, static_cast<float>(2 * kCell))});
+  const RayBuckets found =
+      bucketsAt({ahead(5), ahead(5, static_cast<float>(2 * kCell))});
   EXPECT_NE(found.bucket[0], found.bucket[1]);
 }
 

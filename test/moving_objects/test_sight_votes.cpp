@@ -136,6 +136,15 @@ TEST_F(Spheres, AMissIsFartherBehindThanGrazingExplains)
   EXPECT_TRUE(judge.isMiss(seen, place, {0, 0, 0})) << "not known";
 }
 
+TEST_F(Spheres, AJudgeKnowsTheGapsBetweenItsRays)
+{
+  const SeenScan& judged = sphere(3);
+  SeenScan moved = sphere(5);
+  moved.T_world_scan.translation().x() = 1; // 2 m from the place
+  const double cell = moved.rays->resolution();
+  EXPECT_NEAR(Judge(moved, judged, 1).gapAt({3, 0, 0}), 2 * cell, 1e-6);
+}
+
 TEST_F(Spheres, ASurfaceSupportsWhatIsOnIt)
 {
   const SeenScan& judged = sphere(3);

@@ -2,9 +2,8 @@
 #include "moving_clusters.h"
 
 #include <pcl6d/common/components.h>
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/parallel.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -151,7 +150,39 @@ MovingClusters::moves(const std::vector<std::size_t>& cluster) const
   }
   if (2 * hits > misses && clear < kClearJudges)
     return false;
-  return excess >= kLeastMisses;
+  return excess >= kLeastMisses && !isPassedBeside(cluster);
+}
+
+/** Whether some hit most of a cluster that is thinner than the gaps between the rays of all who
+ * saw through it, as a pole: these may have passed beside it. */
+bool
+MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster) const
+{
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const std::size_t place : cluster)
+    middle += judged_.places[place].cast<double>();
+  middle /= static_cast<double>(cluster.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const std::size_t place : cluster) {
+    const Eigen::Vector3d off = judged_.places[place].cast<double>() - middle;
+    scatter += off * off.transpose();
+  }
+  // Of points spread evenly over a width its variance is width^2 / 12.
+  const double width = std::sqrt(12 * symmetricEigenvalues<3>(scatter)(1) /
+                                 static_cast<double>(cluster.size()));
+  bool is_hit = false;
+  for (std::size_t j = 0; j < jury_.judges().size(); ++j) {
+    std::size_t hit = 0, missed = 0;
+    for (const std::size_t place : cluster) {
+      hit += votes_[place].hits >> j & 1U;
+      missed += votes_[place].misses >> j & 1U;
+    }
+    is_hit = is_hit || 2 * hit > cluster.size();
+    if (2 * missed > cluster.size() &&
+        jury_.judges()[j].gapAt(middle.cast<float>()) < width)
+      return false;
+  }
+  return is_hit;
 }
 
 /** \return who saw a thing that moved where it is, as it stayed for a while: those who hit most

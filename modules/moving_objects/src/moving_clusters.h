@@ -43,6 +43,8 @@ private:
   findClusters();
   bool
   moves(const std::vector<std::size_t>& cluster) const;
+  bool
+  isPassedBeside(const std::vector<std::size_t>& cluster) const;
   std::uint16_t
   stayedFor(const std::vector<std::size_t>& cluster) const;
   void

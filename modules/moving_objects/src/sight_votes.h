@@ -58,6 +58,14 @@ public:
     return judge_->surface != nullptr;
   }
 
+  /** \return [m] between its rays at a place in the frame of the judged scan */
+  double
+  gapAt(const Eigen::Vector3f& place) const
+  {
+    const Eigen::Vector3f ray = T_judge_judged_ * place - judge_->rays->origin();
+    return judge_->rays->resolution() * ray.norm();
+  }
+
   /** \brief Finds how far the surfaces of both scans are apart where they meet, which tells how
    * exactly their relative pose, their surfaces and their points are known: from now on places
    * are taken to be as inexact. \param[in] sample of places of the judged scan */

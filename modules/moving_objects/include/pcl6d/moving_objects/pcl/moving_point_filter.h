@@ -114,7 +114,7 @@ private:
   MovingScans scans_;
   std::vector<PointCloudConstPtr> clouds_;
   std::optional<Eigen::Vector3f> origin_;
-  std::size_t chosen_ = 0;         ///< by setInputScan()
+  std::size_t chosen_ = 0;          ///< by setInputScan()
   PointCloudConstPtr chosen_cloud_; ///< that goes with it
 };
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <random>
 #include <utility>
+#include <vector>
 
 // Floor and two walls of a room, 4 m x 4 m x 4 m, with the corner at the origin, measured
 // with a noise of some millimetres; another sample of points for each seed.
@@ -51,15 +52,17 @@ crossing(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& r
 }
 
 // A scan of a room of 12 m x 8 m x 3 m with three pillars, line by line, as a scanner at a
-// pose sees it: a full turn of kTurns values a line.
+// pose sees it: a full turn of kTurns values a line. More boxes may stand in it.
 constexpr int kTurns = 180;
 inline pcl::PointCloud<pcl::PointXYZ>::Ptr
-scanRoom(const Eigen::Isometry3d& T_room_scan)
+scanRoom(const Eigen::Isometry3d& T_room_scan, const std::vector<Box>& more = {})
 {
   const Box walls{Eigen::Vector3d(-5, -4, -1), Eigen::Vector3d(7, 4, 2)};
-  const Box pillars[] = {{Eigen::Vector3d(-3, 1.5, -1), Eigen::Vector3d(-2.4, 2.3, 2)},
-                         {Eigen::Vector3d(1, -3, -1), Eigen::Vector3d(1.5, -2, 0.7)},
-                         {Eigen::Vector3d(4.5, 2, -1), Eigen::Vector3d(5.5, 2.6, 2)}};
+  std::vector<Box> pillars{
+      {Eigen::Vector3d(-3, 1.5, -1), Eigen::Vector3d(-2.4, 2.3, 2)},
+      {Eigen::Vector3d(1, -3, -1), Eigen::Vector3d(1.5, -2, 0.7)},
+      {Eigen::Vector3d(4.5, 2, -1), Eigen::Vector3d(5.5, 2.6, 2)}};
+  pillars.insert(pillars.end(), more.begin(), more.end());
   pcl::PointCloud<pcl::PointXYZ>::Ptr scan(new pcl::PointCloud<pcl::PointXYZ>);
   for (double up = -0.85; up < 0.85; up += 0.035)
     for (int i = 0; i < kTurns; ++i) {

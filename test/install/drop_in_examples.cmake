@@ -19,6 +19,7 @@ run(COMMAND ${work}/examples_build/pipeline_drop_in
 run(COMMAND ${work}/examples_build/coarse_start PRINTS "features: ok" "overlap: ok" "ICP: ok")
 run(COMMAND ${work}/examples_build/place_drop_in PRINTS "place: unique" "of these compatible" "the place is found")
 run(COMMAND ${work}/examples_build/verify_drop_in PRINTS "near +PCL: converged.*PCL6D: good" "told from the right one")
+run(COMMAND ${work}/examples_build/moving_drop_in PRINTS "the walker is gone, the room stands")
 run(COMMAND ${work}/examples_build/slam_in_memory PRINTS "7 of 7 scans matched")
 run(COMMAND ${work}/examples_build/loop_closing_drop_in PRINTS "with pcl6d::ELCH .ok.")
 run(COMMAND ${work}/examples_build/relaxation_drop_in PRINTS "pcl6d::LUM ok")

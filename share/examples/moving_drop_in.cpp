@@ -29,8 +29,7 @@ countIn(const Cloud& cloud, const Eigen::Isometry3d& T_room_scan, const Box& wal
   const Eigen::AlignedBox3d body(walker[0], walker[1]);
   Counts counts;
   for (const Point& point : cloud) {
-    const Eigen::Vector3d place =
-        T_room_scan * point.getVector3fMap().cast<double>();
+    const Eigen::Vector3d place = T_room_scan * point.getVector3fMap().cast<double>();
     ++(body.exteriorDistance(place) < 1e-3 ? counts.walker : counts.room);
   }
   return counts;

@@ -90,6 +90,20 @@ TEST(MovingPoints, AThingThatStaysForAWhileIsDynamicOnceItLeft)
   EXPECT_LT(shareOf(room.dynamic, room.points), 5e-5) << testing::PrintToString(room);
 }
 
+TEST(MovingPoints, AThingThatStaysForMostOfTheTimeIsDynamicToo)
+{
+  const auto scans = scansOf({}, 8, [](std::size_t i) {
+    return i < 5 ? with(walker(3.2, -2.5)) : furniture();
+  });
+  const auto motion = motionOf(scans);
+  const Told thing = toldOf(scans, motion, Met::kMover, kFoot);
+  ASSERT_GT(thing.points, 1200u) << "of five scans";
+  EXPECT_GT(shareOf(thing.dynamic, thing.points), 0.98)
+      << testing::PrintToString(thing);
+  const Told room = toldOf(scans, motion, Met::kRoom);
+  EXPECT_LT(shareOf(room.dynamic, room.points), 1e-4) << testing::PrintToString(room);
+}
+
 TEST(MovingPoints, AThinPoleThatSomeScansMissStands)
 {
   // 2 cm at 2 to 4 m, where rays are 3 to 6 cm apart: each scan misses most of it.

@@ -66,6 +66,24 @@ TEST_F(RaysAlone, JudgeWithoutSurfaces)
         << points[i].transpose();
 }
 
+TEST_F(RaysAlone, FewMissesMayBeChance)
+{
+  // The points of a cap of the sphere are nearer than the other scan saw: one or two of them
+  // may be dust, thirty are a thing.
+  const auto told = [&](double cap) {
+    const Points points = scanAround(20000, {0, 0, 0}, [&](const Eigen::Vector3d& way) {
+      return way.x() > 1 - cap ? 2.0 : 4.0;
+    });
+    images_.emplace_back(points);
+    SeenScan judged;
+    judged.rays = &images_.back();
+    return count(MovingPoints({judged, sphere(4)}).judge(0, points),
+                 PointMotion::kDynamic);
+  };
+  EXPECT_EQ(told(2e-4), 0u);
+  EXPECT_GT(told(3e-3), 25u);
+}
+
 TEST_F(RaysAlone, PointsThatAreNoneAreUnknown)
 {
   const MovingPoints judges({sphere(3), sphere(3)});

@@ -32,7 +32,7 @@ constexpr double kLeastOfMore = 0.65;
 
 /** So many points of a thing are matched, from starts about the vertical by 15 degrees. */
 constexpr std::size_t kPoints = 400;
-constexpr int kTurns = 24;
+constexpr int kTurnsTried = 24;
 constexpr std::size_t kPolished = 4; ///< of the starts, the best
 constexpr int kSteps = 20;           ///< of matching
 
@@ -168,9 +168,9 @@ std::vector<Eigen::Isometry3d>
 startsOf(const Shape& from, const Shape& to, const Eigen::Vector3d& up)
 {
   std::vector<Eigen::Matrix3d> turns;
-  turns.reserve(kTurns + 24); // a box has 24 ways to lie in itself
-  for (int k = 0; k < kTurns; ++k)
-    turns.push_back(rotationFromVector(radians(360.0 * k / kTurns) * up));
+  turns.reserve(kTurnsTried + 24); // a box has 24 ways to lie in itself
+  for (int k = 0; k < kTurnsTried; ++k)
+    turns.push_back(rotationFromVector(radians(360.0 * k / kTurnsTried) * up));
   const Eigen::Matrix3d from_box = from.box.T_world_box.linear().transpose();
   std::array<int, 3> order{0, 1, 2};
   do

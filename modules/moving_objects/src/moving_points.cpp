@@ -34,7 +34,7 @@ constexpr std::size_t kLookedAt = 24, kPatchPoints = 4000, kFitting = 8;
 /** So many points that say something tell a share of 5 % to a half. */
 constexpr std::size_t kLeastSaid = 100;
 /** Cubes of sightEvidence(), whose counts are not used. */
-constexpr double kPatchVoxels = 6;
+constexpr double kCountedCube = 6;
 
 /** Rays that contradict more even where scans fit best say nothing: the bound of verification. A
  * scanner of 2002 in a corridor with glass has 0.1, one that moved while it scanned 0.03 to 0.4,
@@ -131,7 +131,7 @@ MovingPoints::contradictionOf(std::size_t scan) const
                       some,
                       scans_[other].T_world_scan.inverse() * judged.T_world_scan,
                       uncertainty,
-                      kPatchVoxels * judged.voxel);
+                      kCountedCube * judged.voxel);
     if (seen.free + seen.confirmed < kLeastSaid)
       continue;
     const double share = seen.contradiction();

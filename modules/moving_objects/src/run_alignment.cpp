@@ -24,12 +24,12 @@ constexpr std::size_t kPointsOfScan = 2000;
 constexpr double kCubeVoxels = 16;
 
 /** Steps of matching: pairs are looked for anew, within half of the distance until ... */
-constexpr int kSteps = 12;
+constexpr int kMostSteps = 12;
 /** ... it is so many standard deviations of the residuals, or a voxel. */
 constexpr double kReachSigmas = 4;
 
 /** So many pairs of a scan settle where it lies: fewer are a corner of something. */
-constexpr std::size_t kLeastPairs = 100;
+constexpr std::size_t kFewestPairs = 100;
 
 /** Surfaces that face less alike are no pair: 45 degrees. */
 constexpr float kFacing = 0.7071F;
@@ -93,7 +93,7 @@ moveInOnePiece(const RunSurface& on,
                RunAlignment& result)
 {
   double reach = options.reach * options.voxel;
-  for (int k = 0; k < kSteps; ++k) {
+  for (int k = 0; k < kMostSteps; ++k) {
     std::vector<PlanePair> all;
     std::size_t looked_at = 0;
     for (const ScanPairs& one : pairsOfAll(second, on, reach, options.num_threads)) {
@@ -125,7 +125,7 @@ moveEach(const RunSurface& on, const RunAlignmentOptions& options, ComparedRun& 
     const Eigen::Vector3d before = second[s].T_world_scan.translation();
     for (int k = 0; k < kEach; ++k) {
       const auto found = pairsOf(second[s], on, options.voxel);
-      if (found.pairs.size() < kLeastPairs)
+      if (found.pairs.size() < kFewestPairs)
         break;
       const RobustMotion fit = robustMotion(found.pairs, kCubeVoxels * options.voxel);
       second[s].T_world_scan = fit.motion() * second[s].T_world_scan;
@@ -148,7 +148,7 @@ setCovariances(const RunSurface& on,
   parallelFor(run.size(), options.num_threads, [&](std::size_t s) {
     const auto found = pairsOf(run[s], on, options.voxel);
     const RobustMotion fit = robustMotion(found.pairs, kCubeVoxels * options.voxel);
-    is_known[s] = fit.pairs >= kLeastPairs;
+    is_known[s] = fit.pairs >= kFewestPairs;
     run[s].covariance = fit.uncertaintyAbout(run[s].T_world_scan.translation());
   });
   const auto traceOf = [&](std::size_t s) {

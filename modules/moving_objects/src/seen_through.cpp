@@ -17,7 +17,7 @@ enum class State : std::uint8_t { kUnknown, kThere, kShifted, kGone, kRestless }
 constexpr double kThereVoxels = 1;
 
 /** Shifted surfaces face alike within 45 degrees. */
-constexpr float kFacing = 0.7071F;
+constexpr float kSameSide = 0.7071F;
 
 /** What is there within so many voxels of a gone voxel makes it a fringe. */
 constexpr double kFringeVoxels = 1.5;
@@ -60,14 +60,14 @@ isShifted(const Eigen::Vector3f& place,
     const float along = (surface.points()[k] - place).dot(normal);
     if (std::abs(along) <= depth &&
         near.distance_sq - along * along <= radius * radius &&
-        surface.normals()[k].dot(normal) > kFacing)
+        surface.normals()[k].dot(normal) > kSameSide)
       return true;
   }
   return false;
 }
 
 /** What rays say of places. */
-struct Votes {
+struct ViewCounts {
   std::vector<std::uint32_t> free, confirmed;
 };
 
@@ -91,14 +91,14 @@ wentThrough(const SightOfPlace& seen,
 }
 
 /** Asks all scans of a run but one. */
-Votes
-votesOf(const ComparedRun& run,
-        const ComparedScan* without,
-        const Asked& asked,
-        double noise)
+ViewCounts
+countsOf(const ComparedRun& run,
+         const ComparedScan* without,
+         const Asked& asked,
+         double noise)
 {
-  Votes votes{std::vector<std::uint32_t>(asked.places.size()),
-              std::vector<std::uint32_t>(asked.places.size())};
+  ViewCounts counts{std::vector<std::uint32_t>(asked.places.size()),
+                    std::vector<std::uint32_t>(asked.places.size())};
   for (const ComparedScan& other : run) {
     if (&other == without || asked.places.empty())
       continue;
@@ -117,11 +117,11 @@ votesOf(const ComparedRun& run,
     const auto seen = other.rays->look(places, sigmas);
     for (std::size_t k = 0; k < places.size(); ++k) {
       const Eigen::Vector3f ray = asked.places[k] - eye.cast<float>();
-      votes.free[k] += wentThrough(seen[k], asked.normals[k], ray) ? 1 : 0;
-      votes.confirmed[k] += seen[k].sight == Sight::kConfirmed ? 1 : 0;
+      counts.free[k] += wentThrough(seen[k], asked.normals[k], ray) ? 1 : 0;
+      counts.confirmed[k] += seen[k].sight == Sight::kConfirmed ? 1 : 0;
     }
   }
-  return votes;
+  return counts;
 }
 
 /** The rays of all scans of the other run: who saw through outvotes who did not. What the
@@ -140,22 +140,22 @@ askRays(const ComparedScan& scan,
     asked.places.push_back(states.places[i]);
     asked.normals.emplace_back(R * (*scan.normals)[i]);
   }
-  const Votes votes = votesOf(by, nullptr, asked, noise);
+  const ViewCounts counts = countsOf(by, nullptr, asked, noise);
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < open.size(); ++k) {
     const std::size_t i = open[k];
-    states.witnesses[i] = votes.free[k];
-    states.states[i] = votes.confirmed[k] > 0 ? State::kThere : State::kUnknown;
-    if (votes.free[k] <= votes.confirmed[k])
+    states.witnesses[i] = counts.free[k];
+    states.states[i] = counts.confirmed[k] > 0 ? State::kThere : State::kUnknown;
+    if (counts.free[k] <= counts.confirmed[k])
       continue;
     states.states[i] = State::kGone;
     places.push_back(i);
     gone.places.push_back(asked.places[k]);
     gone.normals.push_back(asked.normals[k]);
   }
-  const Votes own_votes = votesOf(own, &scan, gone, noise);
+  const ViewCounts own_counts = countsOf(own, &scan, gone, noise);
   for (std::size_t k = 0; k < places.size(); ++k)
-    if (own_votes.free[k] > kRestlessTimes * (own_votes.confirmed[k] + 1))
+    if (own_counts.free[k] > kRestlessTimes * (own_counts.confirmed[k] + 1))
       states.states[places[k]] = State::kRestless;
 }
 

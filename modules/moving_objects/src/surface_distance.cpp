@@ -23,7 +23,7 @@ namespace {
 constexpr float kMostCurvature = 0.05F;
 
 /** Points that face less alike are of another surface: 60 degrees. */
-constexpr float kFacing = 0.5F;
+constexpr float kAlike = 0.5F;
 
 constexpr double kOf95 = 1.96; ///< standard deviations: 95 % of a normal distribution
 
@@ -64,7 +64,7 @@ sumsOf(const RunSurface& surface,
     const Eigen::Vector3f offset = surface.points()[k] - place;
     const float along = offset.dot(normal);
     if (std::abs(along) > depth || near.distance_sq - along * along > radius * radius ||
-        surface.normals()[k].dot(normal) < kFacing)
+        surface.normals()[k].dot(normal) < kAlike)
       continue;
     const std::uint32_t scan = surface.scans()[k];
     auto own = std::find_if(

@@ -171,6 +171,33 @@ TEST(MovingPoints, FloorThatIsGrazedStands)
   EXPECT_EQ(floor.dynamic, 0u) << testing::PrintToString(floor);
 }
 
+TEST(MovingPoints, ALongDriveIsJudgedByThoseNearBy)
+{
+  // 400 m of a hall, a scan each 2 m, somebody who walks ahead: of the 200 scans around, those
+  // within sight are asked, not each sixth, of which five would be left.
+  MovingRoom hall;
+  hall.walls = {Eigen::Vector3d(-5, -3, 0), Eigen::Vector3d(405, 3, 4)};
+  hall.step = 0.045;
+  Random random(3);
+  std::vector<TrueScan> all;
+  MovingScans judges;
+  for (int i = 0; i < 200; ++i) {
+    hall.bodies = {walker(2.0 * i + 3, i % 2 == 0 ? -1.5 : 1.5)};
+    all.push_back(hall.scan(tripod(2.0 * i, 0, 0.3 * i), random));
+    judges.add(all.back().points, all.back().T_world_scan);
+  }
+  const std::vector<TrueScan> some(all.begin() + 98, all.begin() + 103);
+  std::vector<std::vector<PointMotion>> motion;
+  for (std::size_t i = 98; i < 103; ++i)
+    motion.push_back(judges.motion(i, all[i].points));
+  const Told walker = toldOf(some, motion, Met::kMover, kFoot);
+  const Told room = toldOf(some, motion, Met::kRoom);
+  ASSERT_GT(walker.points, 150u);
+  EXPECT_GT(shareOf(walker.dynamic, walker.points), 0.98)
+      << testing::PrintToString(walker);
+  EXPECT_LT(shareOf(room.dynamic, room.points), 1e-4) << testing::PrintToString(room);
+}
+
 TEST(MovingPoints, SmallErrorsOfPosesMoveNothing)
 {
   auto scans = scansOf({}, 8, [](std::size_t) { return furniture(); });

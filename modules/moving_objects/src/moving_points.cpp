@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -22,6 +23,8 @@ using namespace moving_objects;
 constexpr std::size_t kAsked = 32;
 /** ... out of so many times as many. */
 constexpr std::size_t kSpread = 8;
+/** Those who stand farther away than such a share of a scan's surface see little of it. */
+constexpr double kReachShare = 0.9;
 /** So many judges look at all places: what two of them hit and none saw through stands, as most
  * places do. */
 constexpr std::size_t kFirst = 3;
@@ -43,6 +46,22 @@ constexpr double kMostBackground = 0.05;
 
 /** [rad] Of a scan with too few points for an image of its own. */
 constexpr double kFinest = 0.0061;
+
+/** \return [m] how far the surfaces of a scan reach; infinite if it has none */
+float
+reachOf(const SeenScan& scan)
+{
+  if (!scan.surface || scan.surface->empty())
+    return std::numeric_limits<float>::infinity();
+  std::vector<float> ranges;
+  ranges.reserve(scan.surface->size());
+  for (const Eigen::Vector3f& p : *scan.surface)
+    ranges.push_back((p - scan.rays->origin()).norm());
+  const auto at =
+      static_cast<std::ptrdiff_t>(kReachShare * static_cast<double>(ranges.size() - 1));
+  std::nth_element(ranges.begin(), ranges.begin() + at, ranges.end());
+  return ranges[static_cast<std::size_t>(at)];
+}
 
 void
 requireSeen(const SeenScan& scan, std::size_t i)
@@ -179,8 +198,8 @@ MovingPoints::judge(std::size_t scan, const Points& points) const
   return motion;
 }
 
-/** Scans that were near at other times: of those around, so many as can be asked, evenly over
- * their order, as a thing that moves is elsewhere only after a while. */
+/** Scans that were near at other times: of those around, as far as its surfaces reach, so many as
+ * can be asked, evenly over their order, as a thing that moves is elsewhere only after a while. */
 std::vector<std::size_t>
 MovingPoints::around(std::size_t scan, std::size_t count) const
 {
@@ -188,8 +207,11 @@ MovingPoints::around(std::size_t scan, std::size_t count) const
       (scans_[scan].T_world_scan * scans_[scan].rays->origin().cast<double>() -
        scans_.front().T_world_scan.translation())
           .cast<float>();
+  const float reach = reachOf(scans_[scan]);
   std::vector<std::size_t> near;
   for (const Neighbour& n : places_.nearestK(here, count * kSpread + 1)) {
+    if (near.size() >= count && n.distance_sq > reach * reach)
+      break; // the nearest come first
     const std::size_t other = by_place_[static_cast<std::size_t>(n.index)];
     if (other != scan)
       near.push_back(other);

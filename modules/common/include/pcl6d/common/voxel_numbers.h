@@ -33,6 +33,14 @@ public:
     return {size_ - 1, true};
   }
 
+  /** \return the number of the voxel, or size() if it was not added */
+  std::size_t
+  find(VoxelKey key) const
+  {
+    const Slot* slot = slots_.empty() ? nullptr : &slots_[placeOf(key)];
+    return slot && slot->number > 0 ? slot->number - 1 : size_;
+  }
+
   /** \return the number of voxels */
   std::size_t
   size() const

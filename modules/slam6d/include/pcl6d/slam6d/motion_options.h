@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+
+#include <optional>
+#include <vector>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Knobs of the motion within scans, which Slam6D finds if scans come with the times
+ * of their points. */
+struct MotionOptions {
+  /** [s] a pose about every so many seconds of a scan; none: one at its begin and one at its
+   * end, with constant velocity between. > 0 */
+  std::optional<double> knots;
+  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  void
+  validate() const;
+};
+
+/** \brief The times of a scan's points. */
+struct ScanTimes {
+  std::vector<double> times;   ///< [s] since the stamp, one per point, in any order
+  std::optional<double> stamp; ///< [s] none: the scan begins when the one before ends
+};
+
+} // namespace pcl6d

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carried_on.h"
+#include "motion_tracker.h"
+
+#include <pcl6d/common/median.h>
+#include <pcl6d/common/rotation.h>
+#include <pcl6d/filters/motion_correction.h>
+#include <pcl6d/io/text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pcl6d::slam6d {
+
+namespace {
+/** A motion that moves the median point less than this share of the noise cannot be seen. */
+constexpr double kLeastNoises = 0.25;
+
+/** Between two knots the motion is one turn about one axis: beyond a right angle the chord is
+ * far from any path. */
+constexpr double kLargestTurn = M_PI / 2;
+
+/** Where two scans meet is as exact as their poses: the mean of a hundred planes. */
+constexpr double kSlack = 0.1;
+
+constexpr double kLeastOverlap = 0.1; ///< share of points on planes, as of Slam6DOptions
+constexpr std::size_t kWindow = 10;   ///< scans that are looked at together
+constexpr double kSureDeviations = 5; ///< as many scans are asked, see StageAgreement
+constexpr double kVoxelsOfCube = 16;  ///< agreementCube()
+
+double
+largestTurn(const Trajectory& knots)
+{
+  double largest = 0;
+  for (std::size_t k = 0; k + 1 < knots.poses.size(); ++k)
+    largest = std::max(largest,
+                       rotationAngle(knots.poses[k + 1].linear() *
+                                     knots.poses[k].linear().transpose()));
+  return largest;
+}
+
+double
+meanOf(const std::vector<double>& values)
+{
+  return values.empty() ? 0
+                        : std::accumulate(values.begin(), values.end(), 0.0) /
+                              static_cast<double>(values.size());
+}
+
+/** \return the knots with the poses of a path at their times */
+template <typename Path>
+Trajectory
+knotsAlong(const Trajectory& knots, const Path& path)
+{
+  Trajectory along = knots;
+  for (std::size_t k = 0; k < along.poses.size(); ++k)
+    along.poses[k] = path(along.stamps[k]);
+  return along;
+}
+} // namespace
+
+Eigen::Isometry3d
+carriedOn(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double s)
+{
+  const Eigen::Isometry3d step = a.inverse() * b;
+  const double whole = std::floor(std::clamp(s, -1000.0, 1000.0));
+  const double rest = std::clamp(s, -1000.0, 1000.0) - whole;
+  Eigen::Isometry3d pose = a;
+  const Eigen::Isometry3d one = whole < 0 ? step.inverse() : step;
+  for (double k = 0; k < std::abs(whole); ++k)
+    pose = pose * one;
+  Eigen::Isometry3d part = Eigen::Isometry3d::Identity();
+  const Eigen::Vector3d turn = rotationVector(step.linear());
+  // Half of the turn on the way: the chord of the arc.
+  part.translation() =
+      rest * (rotationFromVector((rest - 1) / 2 * turn) * step.translation());
+  part.linear() = rotationFromVector(rest * turn);
+  pose = pose * part;
+  pose.linear() = nearestRotation(pose.linear());
+  return pose;
+}
+
+/** Half of a sample finds the motion: a hundred times the unknowns of a scan's two poses, and
+ * as many again for each further one, up to ten. */
+std::size_t
+sampleSize(const Trajectory& knots)
+{
+  return 2400 * std::min<std::size_t>(knots.poses.size() - 1, 5);
+}
+
+/** \return what may have happened since the scan before: knots of the scan each */
+std::vector<Trajectory>
+MotionTracker::startsOf(const MovingScan& scan) const
+{
+  const TrackedScan& last = scans_.back();
+  const Trajectory& before = last.knots;
+  const Trajectory times = restingKnots(scan, before.poses.back());
+  std::vector<Trajectory> starts = {times}; // it stands still
+  const std::size_t k = before.poses.size() - 2;
+  const double step = before.stamps[k + 1] - before.stamps[k];
+  if (last.is_moved) // it goes on as it was
+    starts.push_back(knotsAlong(times, [&](double t) {
+      return carriedOn(
+          before.poses[k], before.poses[k + 1], (t - before.stamps[k]) / step);
+    }));
+  const Eigen::Isometry3d pose = last.pose();
+  if (scans_.size() > 1 && last.is_matched) { // ... from scan to scan
+    const TrackedScan& earlier = scans_[scans_.size() - 2];
+    const double period = last.stamp - earlier.stamp;
+    if (period > 0) {
+      const Eigen::Isometry3d from = earlier.pose();
+      const auto path = [&](double t) {
+        return carriedOn(from, pose, (t - earlier.stamp) / period);
+      };
+      starts.push_back(knotsAlong(times, path));
+      starts.push_back(restingKnots(scan, path(scan.stamp)));
+    }
+  }
+  if (!last_step_)
+    return starts;
+  const Eigen::Isometry3d there = pose * *last_step_; // as the odometry says
+  starts.push_back(restingKnots(scan, there));
+  if (scan.step && scan.step_time > 0)
+    starts.push_back(knotsAlong(times, [&](double t) {
+      return carriedOn(
+          there, there * *scan.step, (t - scan.stamp) / scan.step_time);
+    }));
+  if (last_step_time_ > 0)
+    starts.push_back(knotsAlong(times, [&](double t) {
+      return carriedOn(pose, there, (t - last.stamp) / last_step_time_);
+    }));
+  return starts;
+}
+
+/** \return the start at which most points lie on the map */
+Trajectory
+MotionTracker::best(const std::vector<Trajectory>& starts,
+                    const TimedPoints& half) const
+{
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    // Rough starts are compared roughly: by a quarter of a cell.
+    const double fit = meanOf(fitOf(map_,
+                                    worldPoints(half, starts[i], icp_.num_threads),
+                                    map_options_.cell / 4,
+                                    icp_.num_threads));
+    if (fit > most) {
+      most = fit;
+      best = i;
+    }
+  }
+  return starts[best];
+}
+
+/** \return the start with what is known of the motion: the last two knots before, and that
+ * velocities do not change much */
+MotionStart
+MotionTracker::startOf(const Trajectory& knots) const
+{
+  const MotionNoise noise = motionNoise();
+  const Trajectory& before = scans_.back().knots;
+  const std::size_t k = before.poses.size() - 2;
+  MotionStart start;
+  start.held.poses = {before.poses[k], before.poses[k + 1]};
+  start.held.stamps = {before.stamps[k], before.stamps[k + 1]};
+  start.knots = knots;
+  start.terms = elasticTermsBetween({0, before.stamps[k]},
+                                    {1, before.stamps[k + 1]},
+                                    {2, knots.stamps[0]},
+                                    {3, knots.stamps[1]},
+                                    noise,
+                                    kSlack * icp_.noise,
+                                    kSlack * icp_.noise / std::max(reach_, icp_.noise));
+  const auto within = elasticTermsWithin(knots.stamps, 2, noise);
+  start.terms.insert(start.terms.end(), within.begin(), within.end());
+  return start;
+}
+
+/** Knots one after the other: each follows from where those before were found, either as the
+ * start has it or as the last step goes on. */
+Trajectory
+MotionTracker::grown(Trajectory knots, const TimedPoints& half) const
+{
+  const Trajectory start = knots;
+  MotionIcpOptions rough = icp_;
+  rough.max_iterations = 5; // the next knots need a direction, not the last millimetre
+  for (std::size_t k = 1; k + 1 < knots.poses.size(); ++k) {
+    TimedPoints part;
+    for (std::size_t i = 0; i < half.times.size(); ++i)
+      if (half.times[i] <= knots.stamps[k]) {
+        part.points.push_back(half.points[i]);
+        part.times.push_back(half.times[i]);
+      }
+    Trajectory known;
+    known.poses.assign(knots.poses.begin(), knots.poses.begin() + k + 1);
+    known.stamps.assign(knots.stamps.begin(), knots.stamps.begin() + k + 1);
+    const MotionIcpResult found = motionIcp(map_, part, startOf(known), rough);
+    std::copy(found.knots.poses.begin(), found.knots.poses.end(), knots.poses.begin());
+    TimedPoints next; // of the step to come
+    for (std::size_t i = 0; i < half.times.size(); ++i)
+      if (half.times[i] > knots.stamps[k] && half.times[i] <= knots.stamps[k + 1]) {
+        next.points.push_back(half.points[i]);
+        next.times.push_back(half.times[i]);
+      }
+    Trajectory as_started = knots, goes_on = knots;
+    for (std::size_t j = k + 1; j < knots.poses.size(); ++j) {
+      as_started.poses[j] =
+          knots.poses[k] * (start.poses[k].inverse() * start.poses[j]);
+      goes_on.poses[j] = carriedOn(knots.poses[k - 1],
+                                   knots.poses[k],
+                                   (knots.stamps[j] - knots.stamps[k - 1]) /
+                                       (knots.stamps[k] - knots.stamps[k - 1]));
+    }
+    knots = best({as_started, goes_on}, next);
+  }
+  return knots;
+}
+
+/** The same scan as if it had not moved. */
+MotionIcpResult
+MotionTracker::matchRigid(const MovingScan& scan,
+                          const TimedPoints& half,
+                          const MotionIcpResult& found) const
+{
+  const Eigen::Isometry3d middle = MotionCorrection(found.knots)
+                                       .poseAt((found.knots.stamps.front() +
+                                                found.knots.stamps.back()) /
+                                               2);
+  MotionStart start;
+  start.knots = restingKnots(scan, middle);
+  start.held.poses = {middle};
+  start.held.stamps = {scan.stamp};
+  // What the surfaces do not fix stays; a thousandth of the noise is rigid.
+  start.terms.push_back(rigidTerm(0, 1, map_options_.cell));
+  for (std::size_t k = 0; k + 1 < start.knots.poses.size(); ++k)
+    start.terms.push_back(rigidTerm(k + 1, k + 2, 1e-3 * icp_.noise));
+  MotionIcpResult rigid = motionIcp(map_, half, start, icp_);
+  for (auto& pose : rigid.knots.poses)
+    pose = rigid.knots.poses.front();
+  return rigid;
+}
+
+/** \param[in] half points that took no part in finding it
+ * \param[in,out] found gets gain and reason */
+bool
+MotionTracker::isMoved(const MovingScan& scan,
+                       const TimedPoints& half,
+                       const Trajectory& rigid,
+                       TrackedScan& found) const
+{
+  const auto moved = worldPoints(half, found.knots, icp_.num_threads);
+  const auto still = worldPoints(half, rigid, icp_.num_threads);
+  found.gain = changeOf(fitOf(map_, still, icp_.noise, icp_.num_threads),
+                        fitOf(map_, moved, icp_.noise, icp_.num_threads),
+                        half.points,
+                        cube_);
+  const Points undone =
+      undoMotion(half, found.knots, scan.stamp, icp_.num_threads);
+  std::vector<double> ways;
+  for (std::size_t i = 0; i < undone.size(); ++i)
+    ways.push_back((undone[i] - half.points[i]).norm());
+  if (upperMedian(std::move(ways)) < kLeastNoises * icp_.noise)
+    found.reason = "no motion that could be seen";
+  else if (found.gain.isLoss())
+    found.reason = "its points agree less with the motion undone";
+  else if (!isContinued(scan)) {
+    std::vector<AgreementChange> last = {found.gain};
+    for (std::size_t i = scans_.size(); i > 0 && last.size() < kWindow; --i)
+      last.push_back(scans_[i - 1].gain);
+    if (!found.gain.isGain(kSureDeviations) && !pooled(last).isGain(kSureDeviations))
+      found.reason = "its points do not agree clearly better with the motion undone";
+  }
+  return found.reason.empty();
+}
+
+TrackedScan
+MotionTracker::find(const MovingScan& scan)
+{
+  TrackedScan found;
+  const std::vector<Trajectory> starts = startsOf(scan);
+  found.sample = sampler_.draw(scan.measured, sampleSize(starts[0]));
+  const TimedPoints half = halfOf(found.sample, 0);
+  const Trajectory start = grown(best(starts, half), half);
+  const MotionIcpResult match = motionIcp(map_, half, startOf(start), icp_);
+  found.knots = match.knots;
+  const double overlap =
+      static_cast<double>(match.pairs) / static_cast<double>(half.points.size());
+  found.is_matched = (match.status == Status::kOk ||
+                      match.status == Status::kMaxIterations) &&
+                     overlap >= kLeastOverlap;
+  if (!found.is_matched) {
+    found.reason = "it does not meet the scans before";
+    found.knots = restingKnots(scan, MotionCorrection(start).poseAt(scan.stamp));
+    return found;
+  }
+  const MotionIcpResult rigid = matchRigid(scan, half, match);
+  found.rigid_pose = rigid.knots.poses.front();
+  if (largestTurn(match.knots) > kLargestTurn)
+    found.reason = "it turns by " +
+                   std::to_string(std::lround(largestTurn(match.knots) * 180 / M_PI)) +
+                   " deg between two knots, more than a right angle";
+  else
+    found.is_moved = isMoved(scan, halfOf(found.sample, 1), rigid.knots, found);
+  if (!found.is_moved)
+    found.knots = rigid.knots;
+  return found;
+}
+
+} // namespace pcl6d::slam6d

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "motion_sample.h"
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/registration/motion_icp.h>
+#include <pcl6d/slam6d/motion_options.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d::slam6d {
+
+/** \brief A scan that was taken on the move, in a clock that all scans share. */
+struct MovingScan {
+  TimedPoints measured; ///< times in the clock [s]
+  double stamp = 0;     ///< [s] the time of its pose
+  /** step of the odometry from this scan's stamp to that of the next, and the time it
+   * took [s]; none: there is no odometry, or no next scan */
+  std::optional<Eigen::Isometry3d> step;
+  double step_time = 0;
+};
+
+/** \brief What was found of a scan. */
+struct PCL6D_EXPORTS TrackedScan { // shown to the test of MotionTracker
+  Trajectory knots;  ///< T_world_knot at times of the clock; poses alike if it is rigid
+  TimedPoints sample; ///< some of the measured points
+  Points undone;      ///< all points in the frame of pose(); as measured if it is rigid
+  double stamp = 0;
+  bool is_matched = false; ///< the first one is
+  bool is_moved = false;   ///< its motion counts
+  Eigen::Isometry3d rigid_pose = Eigen::Isometry3d::Identity(); ///< as if it had not moved
+  std::string reason;      ///< why it does not, or why it was not matched
+  AgreementChange gain;    ///< of the motion over a rigid scan
+
+  /** \return T_world_scan at its stamp */
+  Eigen::Isometry3d
+  pose() const;
+};
+
+/** \return how many points of a scan are looked at */
+std::size_t
+sampleSize(const Trajectory& knots);
+
+/** \brief Finds the motion within scans, scan after scan: each against a map of those before
+ * whose motion is undone already, from constant velocity or the odometry, whichever fits
+ * better. The world is that of the first pose. The same bits for any number of threads. */
+class PCL6D_EXPORTS MotionTracker { // shown to its test
+public:
+  /** \param[in] voxel [m] of the reduction \param[in] noise [m] of the points across surfaces
+   * \param[in] knots [s] between the poses of a scan; none: its begin and its end */
+  MotionTracker(double voxel,
+                double noise,
+                std::optional<double> knots,
+                std::uint64_t seed,
+                unsigned int num_threads);
+
+  /** \brief Begins with a scan at a pose. It is taken as rigid until the next one comes, of
+   * which it is told then how it moved itself. */
+  void
+  begin(const MovingScan& scan, const Eigen::Isometry3d& pose);
+
+  /** \brief The next scan. */
+  void
+  track(const MovingScan& scan);
+
+  /** \brief A scan whose pose is known and which has not moved, in place of the next one. */
+  void
+  take(const Points& points, const Eigen::Isometry3d& pose, double stamp, double end);
+
+  /** \return the scans so far. All but the first stand when they are tracked; the first when
+   * the second is */
+  const std::vector<TrackedScan>&
+  scans() const
+  {
+    return scans_;
+  }
+
+  const SurfaceMapOptions&
+  mapOptions() const
+  {
+    return map_options_;
+  }
+
+  /** \return of the points across surfaces [m] */
+  double
+  noise() const
+  {
+    return icp_.noise;
+  }
+
+  /** \return how much velocities change, as the scans so far show it */
+  MotionNoise
+  motionNoise() const;
+
+private:
+  Trajectory
+  restingKnots(const MovingScan& scan, const Eigen::Isometry3d& pose) const;
+  std::vector<Trajectory>
+  startsOf(const MovingScan& scan) const;
+  Trajectory
+  best(const std::vector<Trajectory>& starts, const TimedPoints& half) const;
+  MotionStart
+  startOf(const Trajectory& knots) const;
+  Trajectory
+  grown(Trajectory knots, const TimedPoints& half) const;
+  MotionIcpResult
+  matchRigid(const MovingScan& scan,
+             const TimedPoints& half,
+             const MotionIcpResult& found) const;
+  bool
+  isMoved(const MovingScan& scan,
+          const TimedPoints& half,
+          const Trajectory& rigid,
+          TrackedScan& found) const;
+  bool
+  isContinued(const MovingScan& scan) const;
+  TrackedScan
+  find(const MovingScan& scan);
+  void
+  learnNoise(const TrackedScan& scan);
+  void
+  findFirst(const MovingScan& second);
+  void
+  keep(TrackedScan scan, const MovingScan& measured);
+  void
+  addToMap(const TrackedScan& scan);
+
+  std::optional<double> knot_time_;
+  SurfaceMapOptions map_options_;
+  SurfaceMap map_;
+  MotionSampler sampler_;
+  MotionIcpOptions icp_;
+  double cube_; ///< [m] whose points count as one
+  std::vector<TrackedScan> scans_;
+  MovingScan first_; ///< until the second one is tracked
+  std::optional<Eigen::Isometry3d> last_step_; ///< of the odometry, to the next scan
+  double last_step_time_ = 0;                  ///< [s]
+  std::vector<double> linear_changes_, angular_changes_;
+  double reach_ = 0; ///< [m] of the scans so far
+  Eigen::Vector3d cleared_ = Eigen::Vector3d::Zero(); ///< where the map was last cut
+};
+
+} // namespace pcl6d::slam6d

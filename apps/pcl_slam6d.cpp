@@ -171,7 +171,23 @@ private:
   bool
   readScans()
   {
-    const app::StageTimer timer("reading", log_.stages);
+    bool is_whole = false;
+    {
+      const app::StageTimer timer("reading", log_.stages);
+      is_whole = readAll();
+    }
+    if (scans_.estimatesMotion()) { // which is found meanwhile
+      const double seconds = slam_.result().motion_seconds;
+      log_.stages.back().seconds -= seconds;
+      log_.stages.push_back(
+          {"motion within scans", seconds, log_.stages.back().peak_memory_mb});
+    }
+    return is_whole;
+  }
+
+  bool
+  readAll()
+  {
     app::SharedReading reading(scans_, earlier_, ranks_);
     return reading.readAll([&](std::size_t i, Scan scan) {
       memory_.require(scan.points.size(), folder_.file(i).string());
@@ -277,6 +293,10 @@ main(int argc, char** argv)
       return static_cast<int>(app::kDone);
     if (settings.verbose)
       pcl::console::setVerbosityLevel(pcl::console::L_INFO);
+    if (ranks && settings.deskew == app::Deskew::kEstimate)
+      throw app::UsageError(
+          "--deskew estimate follows one scan after the other, and is "
+          "not shared by several processes: run it without mpirun");
     if (!ranks || ranks->isFirst())
       return Job(settings, ranks.get()).run();
     app::help(*ranks, kName, settings);

@@ -67,6 +67,13 @@ Option::otherwise(const std::string& word)
   return *this;
 }
 
+Option&
+Option::implied(const std::string& word)
+{
+  implied_ = word;
+  return *this;
+}
+
 OptionTable::OptionTable(const std::string& usage) : usage_(usage)
 {}
 

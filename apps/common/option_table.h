@@ -43,6 +43,10 @@ public:
   /** \brief The value must be in (low, high]. */
   Option&
   above(double low, const std::string& rule, double high = kNoBound);
+  /** \brief The value of a word that is given without one: `--name`; another one stands behind
+   * an equals sign: `--name=word`. */
+  Option&
+  implied(const std::string& word);
   /** \brief The word of the summary for an option without default that is not given. */
   Option&
   otherwise(const std::string& word);
@@ -56,6 +60,7 @@ private:
   std::string help_;
   std::string usual_;     ///< the default in words; empty: none
   std::string otherwise_; ///< see otherwise()
+  std::string implied_;   ///< see implied()
   bool required_ = false, composing_ = false, multitoken_ = false;
   std::string rule_;
   std::function<bool(double)> obeys_; ///< the rule; empty: there is none
@@ -284,6 +289,9 @@ private:
       value->required();
     else if (!row.usual_.empty())
       value->default_value(T(), row.usual_); // shown only, the variable has it
+    if constexpr (std::is_same_v<T, std::string>)
+      if (!row.implied_.empty())
+        value->implicit_value(row.implied_);
     if (row.composing_)
       value->composing();
     if (row.multitoken_)

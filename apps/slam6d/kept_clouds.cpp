@@ -36,7 +36,16 @@ KeptClouds::add(pcl::PCLPointCloud2 cloud)
 }
 
 pcl::PCLPointCloud2
-KeptClouds::take(std::size_t i)
+KeptClouds::take(std::size_t i, const std::optional<ScanMotion>& motion)
+{
+  pcl::PCLPointCloud2 cloud = takeRaw(i);
+  if (motion)
+    scans_.undoMotion(*motion, i, cloud);
+  return cloud;
+}
+
+pcl::PCLPointCloud2
+KeptClouds::takeRaw(std::size_t i)
 {
   Kept kept = std::exchange(clouds_.at(i), {});
   if (kept.in_memory)

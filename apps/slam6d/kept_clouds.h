@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pcl6d::app {
@@ -28,12 +29,16 @@ public:
     return clouds_.size();
   }
 
-  /** \brief Gives a cloud up. \throws IoFailed its file cannot be read again, or holds
+  /** \brief Gives a cloud up. \param[in] motion that is undone, if it was found
+   * \throws IoFailed its file cannot be read again, or holds
    * something else now */
   pcl::PCLPointCloud2
-  take(std::size_t i);
+  take(std::size_t i, const std::optional<ScanMotion>& motion = {});
 
 private:
+  pcl::PCLPointCloud2
+  takeRaw(std::size_t i);
+
   struct Kept {
     pcl::PCLPointCloud2 cloud;     ///< without data if it is to be read again
     std::uint64_t fingerprint = 0; ///< of what is to be read again

@@ -39,6 +39,20 @@ addOpen(OptionTable& table,
 }
 
 void
+takeDeskew(Settings& s, const std::string& word)
+{
+  if (word == "no")
+    s.deskew = Deskew::kNone;
+  else if (word == "yes" || word == "odometry")
+    s.deskew = Deskew::kOdometry;
+  else if (word == "estimate")
+    s.deskew = Deskew::kEstimate;
+  else
+    throw BadArgument("deskew = " + word +
+                      ", but must be odometry, estimate, yes or no");
+}
+
+void
 addInput(OptionTable& table, Settings& s, bool& joins)
 {
   table.group("Input");
@@ -61,13 +75,25 @@ addInput(OptionTable& table, Settings& s, bool& joins)
           "is there)");
   addOpen(table, s, "format", toString(s.folder.format), takeFormat)
       .help("auto|pcd|ply|uos|kitti|xyz, or one of a plug-in");
-  table.add("deskew", &s.deskew)
+  table
+      .addWord(
+          "deskew WORD", "no", [&s](const std::string& word) { takeDeskew(s, word); })
+      .implied("yes")
       .help("scans were taken while moving: correct each point by its time (field t or "
-            "time) along the initial poses; needs their time stamps (times.txt, or TUM "
-            "rows)");
+            "time). odometry, or no word: along the initial poses; needs their time "
+            "stamps (times.txt, or TUM rows). estimate: by the motion that the scans "
+            "show "
+            "themselves; needs neither");
   table.add("interpolation", &s.interpolation, motionInterpolationFromName, "linear")
       .help("linear|cubic: how --deskew moves between two poses; cubic follows bends "
             "better");
+  table.add("knots SECONDS", &s.slam.motion.knots)
+      .above(0, "> 0 s", kFinite)
+      .otherwise("none")
+      .help("of --deskew estimate: a pose every so many seconds of a scan; without, "
+            "one at "
+            "its begin and one at its end, which is enough for scans of a tenth of a "
+            "second");
   table.add("continue RUN_DIR", &s.continued)
       .help("goes on with a finished run: its scans keep their place and its options "
             "count unless given anew; taken are the files of SCAN_DIR whose names it "

@@ -96,8 +96,10 @@ openScans(const ScanFolder& folder,
     scans.gate(gatesOf(earlier, settings));
     return scans;
   }
-  if (settings.deskew)
+  if (settings.deskew == Deskew::kOdometry)
     scans.deskew(settings.interpolation);
+  if (settings.deskew == Deskew::kEstimate)
+    scans.estimateMotion();
   scans.filterLines(settings.filter);
   scans.filterBy(settings.other_filter);
   return scans;

@@ -206,9 +206,16 @@ RunOutput::describe(bool complete, const RunLog& log)
   for (std::size_t i = 0; i < folder_.size(); ++i)
     run_.scans[i].dropped = log.dropped[i];
   run_.complete = complete;
+  const bool is_followed =
+      settings_.slam.motion.gives_poses &&
+      std::any_of(run_.scans.begin(), run_.scans.end(), [](const ScanResult& scan) {
+        return scan.motion && scan.motion->undone;
+      });
   if (!folder_.hasPoses() && folder_.size() > 1)
     run_.warnings.push_back(
-        isWithoutPrior(settings_.slam.initial_guess)
+        is_followed ? "no initial poses were found: each scan starts from the one "
+                      "before, by the motion that was found"
+        : isWithoutPrior(settings_.slam.initial_guess)
             ? "no initial poses were found: scans were placed by what they see alone"
             : "no initial poses were found: each scan starts where the one before is, "
               "which only fits scans taken close together; give poses with --poses or "
@@ -257,7 +264,7 @@ RunOutput::writeScans(KeptClouds& clouds, MapBuilder& map, MapBuilder* fine_map)
     std::vector<pcl::PCLPointCloud2> batch;
     std::vector<Points> standing;
     for (std::size_t i = begin; i < end; ++i) {
-      batch.push_back(clouds.take(i));
+      batch.push_back(clouds.take(i, run_.scans[i].motion));
       const auto moved = moving_.apply(i, batch.back());
       standing.push_back(moved.standing);
       moving_map.addScan(moved.moving,

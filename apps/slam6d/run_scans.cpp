@@ -4,7 +4,9 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/text.h>
+#include <pcl6d/registration/motion_icp.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace pcl6d::app {
@@ -50,11 +52,76 @@ RunScans::deskew(MotionInterpolation interpolation)
   correction_ = withName(
       name, [&] { return MotionCorrection(folder_.odometry(), interpolation); });
   first_ = folder_.read(first);
-  const FieldValues times = timesOf(*first_, first);
+  const FieldValues times = timesOf(first_->cloud, first);
   format_ = withName(
       file, [&] { return correction_->timeFormat(times, folder_.stamps()[first]); });
   descriptions_.push_back("motion during a scan is corrected: field " + times.name +
                           ", " + toString(format_));
+}
+
+/** Stamps tell the unit of times; without any, times tell it alone. */
+void
+RunScans::estimateMotion()
+{
+  const std::size_t first = folder_.numRegistered();
+  const auto& stamps = folder_.stamps();
+  if (stamps.size() > 1) {
+    Trajectory clock;
+    clock.stamps = stamps;
+    clock.poses.assign(stamps.size(), Eigen::Isometry3d::Identity());
+    clock_ = withName(folder_.file(first).parent_path().string(),
+                      [&] { return MotionCorrection(clock); });
+  }
+  first_ = folder_.read(first);
+  const FieldValues times = timesOf(first_->cloud, first);
+  format_ = withName(folder_.file(first).string(), [&] {
+    return clock_ ? clock_->timeFormat(times, stamps[first]) : timeFormatAlone(times);
+  });
+  estimates_motion_ = true;
+  descriptions_.push_back("motion during a scan is found from the scans: field " +
+                          times.name + ", " + toString(format_));
+}
+
+ScanTimes
+RunScans::scanTimes(const pcl::PCLPointCloud2& cloud, std::size_t i) const
+{
+  const FieldValues field = timesOf(cloud, i);
+  const auto& stamps = folder_.stamps();
+  ScanTimes times;
+  if (!stamps.empty())
+    times.stamp = stamps[i];
+  if (clock_) {
+    times.times = withName(folder_.file(i).string(),
+                           [&] { return clock_->timesOf(field, format_, stamps[i]); });
+    return times;
+  }
+  withName(folder_.file(i).string(), [&] { return timeFormatAlone(field); });
+  for (const double value : field.values)
+    times.times.push_back(value * format_.unit);
+  if (format_.is_absolute && !times.times.empty()) {
+    const double begin = *std::min_element(times.times.begin(), times.times.end());
+    times.stamp = times.stamp.value_or(begin);
+    for (double& time : times.times)
+      time -= *times.stamp;
+  }
+  return times;
+}
+
+ScanTimes
+RunScans::scanTimes(const Scan& scan, std::size_t i) const
+{
+  return scanTimes(scan.cloud, i);
+}
+
+void
+RunScans::undoMotion(const ScanMotion& motion,
+                     std::size_t i,
+                     pcl::PCLPointCloud2& cloud) const
+{
+  if (!motion.undone)
+    return;
+  TimedPoints scan{coordinatesOf(cloud), scanTimes(cloud, i).times};
+  storeCoordinates(pcl6d::undoMotion(scan, motion.path, 0, 1), cloud);
 }
 
 void
@@ -127,13 +194,13 @@ RunScans::requireLines(const Scan& scan, std::size_t i) const
 }
 
 FieldValues
-RunScans::timesOf(const Scan& scan, std::size_t i) const
+RunScans::timesOf(const pcl::PCLPointCloud2& cloud, std::size_t i) const
 {
   const std::string file = folder_.file(i).string();
-  auto times = withName(file, [&] { return timeField(scan.cloud); });
+  auto times = withName(file, [&] { return timeField(cloud); });
   if (!times)
     throw IoFailed(file + ": has no field t or time, which --deskew needs (fields: " +
-                   fieldNames(scan.cloud) + ")");
+                   fieldNames(cloud) + ")");
   return *std::move(times);
 }
 
@@ -167,7 +234,7 @@ RunScans::undoMotion(Scan& scan, std::size_t i) const
 {
   const double stamp = folder_.stamps()[i];
   correction_->correct(
-      scan.points, correction_->timesOf(timesOf(scan, i), format_, stamp), stamp);
+      scan.points, correction_->timesOf(timesOf(scan.cloud, i), format_, stamp), stamp);
   storeCoordinates(scan.points, scan.cloud);
 }
 

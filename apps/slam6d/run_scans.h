@@ -3,9 +3,11 @@
 
 #include "slam6d/other_filter.h"
 
+#include <pcl6d/common/run_result.h>
 #include <pcl6d/filters/line_filter.h>
 #include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/slam6d/motion_options.h>
 
 #include <optional>
 #include <string>
@@ -27,6 +29,29 @@ public:
    * tells how times are stored. \throws IoFailed poses, stamps or times are missing or broken */
   void
   deskew(MotionInterpolation interpolation);
+
+  /** \brief From now on scans come with the times of their points, so that their motion can be
+   * found. Reads the first scan to be registered, which tells how times are stored.
+   * \throws IoFailed times are missing or broken */
+  void
+  estimateMotion();
+
+  /** \return whether estimateMotion() was called */
+  bool
+  estimatesMotion() const
+  {
+    return estimates_motion_;
+  }
+
+  /** \return the times of the points of a scan that was read
+   * \throws IoFailed they are missing or broken */
+  ScanTimes
+  scanTimes(const Scan& scan, std::size_t i) const;
+
+  /** \brief Brings a scan that was read to the pose at its stamp.
+   * \throws IoFailed as scanTimes() */
+  void
+  undoMotion(const ScanMotion& motion, std::size_t i, pcl::PCLPointCloud2& cloud) const;
 
   /** \brief From now on scans go through filters along their lines (--filter). */
   void
@@ -71,10 +96,15 @@ private:
   void
   requireLines(const Scan& scan, std::size_t i) const;
   FieldValues
-  timesOf(const Scan& scan, std::size_t i) const;
+  timesOf(const pcl::PCLPointCloud2& cloud, std::size_t i) const;
+  ScanTimes
+  scanTimes(const pcl::PCLPointCloud2& cloud, std::size_t i) const;
 
   const ScanFolder& folder_;
-  std::optional<MotionCorrection> correction_;
+  std::optional<MotionCorrection> correction_; ///< along the initial poses
+  bool estimates_motion_ = false;
+  std::optional<MotionCorrection>
+      clock_;                 ///< of estimated motion: the stamps of the scans
   std::optional<Scan> first_; ///< to be registered, if it was read already
   TimeFormat format_;
   LineFilter filter_ = LineFilter::kNone;

@@ -33,6 +33,7 @@ constexpr const char* kWords[] = {"plugin",
                                   "format",
                                   "deskew",
                                   "interpolation",
+                                  "knots",
                                   "filter",
                                   "reduction",
                                   "reduction-points",
@@ -94,6 +95,20 @@ conditionsOf(const std::vector<OptionWord>& words, const OptionTable& table)
   return conditions;
 }
 
+/** \return the arguments, in which `--deskew estimate` is `--deskew=estimate`: as the word may be
+ * left out, the parser takes another argument for no word of it */
+std::vector<std::string>
+withDeskewWord(std::vector<std::string> arguments)
+{
+  for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
+    if (arguments[i] == "--deskew" &&
+        (arguments[i + 1] == "estimate" || arguments[i + 1] == "odometry")) {
+      arguments[i] += "=" + arguments[i + 1];
+      arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    }
+  return arguments;
+}
+
 OptionWord&
 wordOf(const std::string& name, std::vector<OptionWord>& words)
 {
@@ -144,6 +159,7 @@ Settings::resolveGuess(bool has_poses)
 {
   if (!auto_guess)
     return;
+  slam.motion.gives_poses = !has_poses && deskew == Deskew::kEstimate;
   slam.initial_guess = has_poses ? InitialGuess::kOdometry : InitialGuess::kGlobal;
   for (auto* options : {&words, &conditions})
     for (auto& word : *options)
@@ -168,8 +184,9 @@ Settings::readLinks(const std::vector<std::size_t>& indices)
 }
 
 bool
-parseSettings(const std::vector<std::string>& arguments, Settings& settings)
+parseSettings(const std::vector<std::string>& given, Settings& settings)
 {
+  const std::vector<std::string> arguments = withDeskewWord(given);
   refuseScale(arguments);
   OptionTable table(kUsageText);
   std::vector<std::string> inputs;
@@ -224,7 +241,8 @@ parseSettings(const std::vector<std::string>& arguments, Settings& settings)
        {"initial-guess", !joins, "of SCAN_DIR"},
        {"resume", !joins, "of SCAN_DIR"},
        {"fresh", !joins, "of SCAN_DIR"},
-       {"interpolation", settings.deskew, "of --deskew"},
+       {"interpolation", settings.deskew == Deskew::kOdometry, "of --deskew"},
+       {"knots", settings.deskew == Deskew::kEstimate, "of --deskew estimate"},
        {"reduction-points",
         settings.slam.reduction == ReductionMethod::kRandom,
         "of --reduction random"},

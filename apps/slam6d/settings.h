@@ -20,6 +20,13 @@
 
 namespace pcl6d::app {
 
+/** \brief How the motion of the scanner during each scan is undone. */
+enum class Deskew {
+  kNone,
+  kOdometry, ///< along the initial poses
+  kEstimate  ///< as the scans themselves show it
+};
+
 /** \brief The command line of pcl_slam6d. */
 struct Settings {
   std::string input;               ///< the scans; empty where runs are joined
@@ -33,8 +40,8 @@ struct Settings {
   std::string continued;                 ///< folder of a run that goes on; empty: none
   std::string graph_in;                  ///< file of given links; empty: none
   bool auto_guess = true; ///< the initial guess follows from the poses that are there
-  bool deskew = false;    ///< undo the motion of the scanner during each scan
-  MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of deskew
+  Deskew deskew = Deskew::kNone;
+  MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of kOdometry
   LineFilter filter = LineFilter::kNone; ///< along the lines of each scan
   OtherFilter other_filter;              ///< in its place, that of a plug-in
   Moving moving = Moving::kLabel;        ///< what becomes of points that moved

@@ -109,6 +109,13 @@ std::size_t
 SharedReading::add(std::size_t i, const Scan& scan, Slam6D& slam) const
 {
   const ScanFolder& folder = scans_.folder();
+  if (i >= folder.numRegistered() && scans_.estimatesMotion()) {
+    slam.addScan(scan.points,
+                 scans_.scanTimes(scan, i),
+                 folder.initialPose(i),
+                 folder.file(i).string());
+    return scan.dropped;
+  }
   if (i >= folder.numRegistered()) {
     slam.addScan(scan.points, folder.initialPose(i), folder.file(i).string());
     return scan.dropped;

@@ -82,7 +82,9 @@ TEST(Slam6dMoving, LabelsWhatMovedAndLeavesItOutOfTheMap)
   const TempFolder folder;
   const Outcome outcome = slam(walkedScans(), folder / "out", {"--no-picture"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("field dynamic in scans/, not in the map"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("field dynamic in scans/, not in the map"),
+            std::string::npos)
+      << outcome.out;
   const RunFolder run(folder / "out");
   ASSERT_TRUE(run.summary().moving);
   EXPECT_FALSE(run.summary().moving->removed);
@@ -108,10 +110,12 @@ TEST(Slam6dMoving, LabelsWhatMovedAndLeavesItOutOfTheMap)
 TEST(Slam6dMoving, RemovesItWhereAskedFor)
 {
   const TempFolder folder;
-  const Outcome outcome = slam(
-      walkedScans(), folder / "out", {"--no-picture", "--moving", "remove", "--planes"});
+  const Outcome outcome = slam(walkedScans(),
+                               folder / "out",
+                               {"--no-picture", "--moving", "remove", "--planes"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("left out of scans and map"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("left out of scans and map"), std::string::npos)
+      << outcome.out;
   const RunFolder run(folder / "out");
   const auto scan = pcl6d::readScan(folder / "out/scans/scan003.pcd");
   EXPECT_FALSE(pcl6d::fieldValues(scan.cloud, "dynamic"));
@@ -130,9 +134,8 @@ TEST(Slam6dMoving, AsksNobodyWhereItIsKept)
   const RunFolder run(folder / "out");
   EXPECT_FALSE(run.summary().moving);
   EXPECT_FALSE(fs::exists(folder / "out/moving.pcd"));
-  EXPECT_FALSE(
-      pcl6d::fieldValues(pcl6d::readScan(folder / "out/scans/scan003.pcd").cloud,
-                         "dynamic"));
+  EXPECT_FALSE(pcl6d::fieldValues(
+      pcl6d::readScan(folder / "out/scans/scan003.pcd").cloud, "dynamic"));
   EXPECT_EQ(run.readScan(3).size(), walkedRun().scans[3].size());
 }
 
@@ -156,7 +159,8 @@ TEST(Slam6dMoving, GoesOnWithALabelledRun)
 {
   const TempFolder folder;
   ASSERT_EQ(
-      slam(walkedScans(), folder / "out", {"--no-picture", "--last", "5"}).exit_code, 0);
+      slam(walkedScans(), folder / "out", {"--no-picture", "--last", "5"}).exit_code,
+      0);
   const Outcome outcome =
       slam(walkedScans(),
            folder / "more",

@@ -78,11 +78,10 @@ TEST(Slam6DMoving, TakesNoPartInALastRoundOfRelaxation)
 {
   const Slam6D slam = optimized(walkedRun());
   const auto& stages = slam.result().stages;
-  EXPECT_EQ(std::count_if(stages.begin(),
-                          stages.end(),
-                          [](const auto& stage) {
-                            return stage.kind == StageKind::kRelaxation;
-                          }),
+  EXPECT_EQ(std::count_if(
+                stages.begin(),
+                stages.end(),
+                [](const auto& stage) { return stage.kind == StageKind::kRelaxation; }),
             2);
   EXPECT_EQ(stages.back().rounds, 1);
   EXPECT_LT(farthestOff(slam, walkedRun()), 0.01);

@@ -11,7 +11,8 @@ namespace pcl6d::test {
 
 /** \brief A run through a room, and what of it lies on somebody who walks there. */
 struct WalkedRun : DriftingRun {
-  std::vector<std::vector<char>> walker; ///< of each point: 0 no, 1 near the floor, 2 above it
+  std::vector<std::vector<char>>
+      walker; ///< of each point: 0 no, 1 near the floor, 2 above it
 };
 
 /** \brief Eight scans along a room in which somebody has gone on by 0.8 m before each of them.
@@ -42,9 +43,7 @@ makeWalkedRun(bool is_walked = true)
     for (const auto& p : run.scans.back()) {
       const Eigen::Vector3d place = run.truth.back() * p.cast<double>();
       const bool is_on = is_walked && body.contains(place);
-      run.walker.back().push_back(!is_on                          ? 0
-                                  : place.z() < floor + kFoot ? 1
-                                                              : 2);
+      run.walker.back().push_back(!is_on ? 0 : place.z() < floor + kFoot ? 1 : 2);
     }
   }
   return run;

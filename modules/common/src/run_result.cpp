@@ -25,7 +25,8 @@ constexpr Named<RecoveredBy> kRecoveries[] = {{RecoveredBy::kNone, ""},
                                               {RecoveredBy::kTogether, "together"}};
 constexpr Named<StageKind> kStages[] = {{StageKind::kMatching, "matching"},
                                         {StageKind::kLoopClosing, "loop closing"},
-                                        {StageKind::kRelaxation, "relaxation"}};
+                                        {StageKind::kRelaxation, "relaxation"},
+                                        {StageKind::kMotion, "motion within scans"}};
 constexpr Named<LinkKind> kKinds[] = {{LinkKind::kSequence, "sequence"},
                                       {LinkKind::kNetwork, "network"},
                                       {LinkKind::kLoop, "loop"},

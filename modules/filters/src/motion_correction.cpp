@@ -11,7 +11,7 @@
 
 namespace pcl6d {
 namespace {
-constexpr double kLongest = 1.5; // periods between a point and its stamp
+constexpr double kLongestShare = 1.5; // periods between a point and its stamp
 constexpr std::size_t kPointsPerBlock = 4096;
 
 struct Unit {
@@ -68,6 +68,31 @@ requireFinite(const FieldValues& times)
           "0");
 }
 } // namespace
+
+TimeFormat
+timeFormatAlone(const FieldValues& times)
+{
+  requireFinite(times);
+  constexpr double kShortest = 0.02,
+                   kLongest = 20; // [s] a factor of 1000: one unit fits
+  const auto [first, last] =
+      std::minmax_element(times.values.begin(), times.values.end());
+  const double lasts = times.values.empty() ? 0 : *last - *first;
+  for (const auto& unit : kUnits) {
+    const double seconds = lasts * unit.seconds;
+    const bool is_of_type = times.is_integer == (unit.seconds < 1);
+    const bool is_long = !times.is_integer || seconds > kShortest || lasts == 0;
+    if (is_of_type && is_long && seconds <= kLongest) {
+      const double latest = std::max(std::abs(*first), std::abs(*last));
+      return {unit.seconds, latest * unit.seconds > kLongest && lasts > 0};
+    }
+  }
+  require(false,
+          ("largest difference of field " + times.name).c_str(),
+          lasts,
+          times.is_integer ? "20 ms to 20 s in ms, us or ns" : "at most 20 s");
+  return {};
+}
 
 std::string
 toString(const TimeFormat& format)
@@ -189,7 +214,7 @@ TimeFormat
 MotionCorrection::timeFormat(const FieldValues& times, double stamp) const
 {
   requireFinite(times);
-  const double limit = kLongest * period(stamp);
+  const double limit = kLongestShare * period(stamp);
   for (const bool is_absolute : {false, true})
     for (const auto& unit : kUnits) {
       const TimeFormat format = {unit.seconds, is_absolute};
@@ -212,7 +237,7 @@ MotionCorrection::timesOf(const FieldValues& times,
 {
   requireFinite(times);
   const double largest = farthest(times, format, stamp);
-  require(largest <= kLongest * period(stamp),
+  require(largest <= kLongestShare * period(stamp),
           ("largest time between a point and its scan's stamp, field " + times.name +
            " " + toString(format))
               .c_str(),

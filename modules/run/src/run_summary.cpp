@@ -106,12 +106,22 @@ totalsOf(const RunResult& run)
           {"peak_memory_mb", memory}};
 }
 
+Json
+toJson(const ScanMotion& motion)
+{
+  Json json;
+  visitMotionFields(motion, Writer{json});
+  return json;
+}
+
 /** The name of the scan's file comes with its bytes if JSON does not hold it as it is. */
 Json
 toJson(const ScanResult& scan)
 {
   Json json;
   visitScanFields(scan, Writer{json});
+  if (scan.motion)
+    json["motion"] = toJson(*scan.motion);
   if (!run_files::isPlainName(scan.file))
     json[run_files::kFileBytes] = run_files::hexOf(scan.file);
   return json;

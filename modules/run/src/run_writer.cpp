@@ -72,8 +72,8 @@ RunWriter::writeFramesOf(std::size_t place) const
     if (stage.kind != StageKind::kMatching)
       for (const auto& poses : stage.history)
         frames.push_back({poses[place],
-                          stage.kind == StageKind::kRelaxation ? FrameKind::kLum
-                                                               : FrameKind::kElch});
+                          stage.kind == StageKind::kLoopClosing ? FrameKind::kElch
+                                                                : FrameKind::kLum});
   writeFrames(in("frames", place, ".frames"), frames);
 }
 

@@ -148,6 +148,8 @@ scanFrom(const JsonValue& json)
 {
   ScanResult scan;
   visitScanFields(scan, Reader{json});
+  if (const auto motion = json.find("motion"))
+    visitMotionFields(scan.motion.emplace(), Reader{*motion});
   const JsonValue file = json / "file";
   file.require(scan.file.empty() || json.has(kFileBytes) || isPlainName(scan.file),
                "a name without control characters");

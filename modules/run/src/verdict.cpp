@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/median.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/run_writer.h>
 #include <pcl6d/run/verification_io.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
+#include <map>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -127,6 +130,42 @@ describeStages(const RunResult& run, std::ostream& text)
   }
 }
 
+/** How the scanner moved while it took its scans: a line. */
+void
+describeMotion(const RunResult& run, std::ostream& text)
+{
+  std::vector<double> ways, turns, times;
+  std::map<std::string, std::size_t> reasons; // why a scan was left as it was
+  for (const ScanResult& scan : run.scans)
+    if (scan.motion && scan.motion->undone) {
+      ways.push_back(scan.motion->translation);
+      turns.push_back(scan.motion->rotation);
+      times.push_back(scan.motion->seconds);
+    }
+    else if (scan.motion)
+      ++reasons[scan.motion->reason];
+  std::size_t left = 0;
+  std::string words;
+  for (const auto& [reason, count] : reasons) {
+    left += count;
+    words += (words.empty() ? " (" : "; ") + reason + ": " + std::to_string(count);
+  }
+  if (ways.size() + left == 0)
+    return;
+  constexpr double kDegrees = 180 / M_PI;
+  text << "\nmotion within scans: undone in " << ways.size() << " of "
+       << text::counted(ways.size() + left, "scan");
+  if (!ways.empty())
+    text << std::fixed << std::setprecision(3) << ", about " << upperMedian(ways)
+         << " m and " << std::setprecision(2) << kDegrees * upperMedian(turns)
+         << " deg in " << upperMedian(times) << " s, at most " << std::setprecision(3)
+         << *std::max_element(ways.begin(), ways.end()) << " m and "
+         << std::setprecision(2)
+         << kDegrees * *std::max_element(turns.begin(), turns.end()) << " deg";
+  if (left > 0)
+    text << "; left as they were: " << left << words << ')';
+}
+
 /** What verification says, and why. */
 void
 describeVerification(const RunResult& run, std::ostream& text)
@@ -227,6 +266,7 @@ verdictOf(const RunResult& run)
   describeQuality(run, text);
   describeStages(run, text);
   describeMoving(run, text);
+  describeMotion(run, text);
   return text.str();
 }
 

@@ -72,6 +72,13 @@ public:
     measured_[place] = MeasuredScan();
   }
 
+  /** Puts other reduced points in the place of a scan's; what refers to them sees these. */
+  void
+  replace(std::size_t place, IcpModel reduced)
+  {
+    reduced_[place] = std::move(reduced);
+  }
+
   const std::vector<std::string>&
   names() const
   {

@@ -24,10 +24,10 @@ constexpr double kLargestTurn = M_PI / 2;
 /** Where two scans meet is as exact as their poses: the mean of a hundred planes. */
 constexpr double kSlack = 0.1;
 
-constexpr double kLeastOverlap = 0.1; ///< share of points on planes, as of Slam6DOptions
-constexpr std::size_t kWindow = 10;   ///< scans that are looked at together
+constexpr double kLeastOverlap =
+    0.1;                            ///< share of points on planes, as of Slam6DOptions
+constexpr std::size_t kWindow = 10; ///< scans that are looked at together
 constexpr double kSureDeviations = 5; ///< as many scans are asked, see StageAgreement
-constexpr double kVoxelsOfCube = 16;  ///< agreementCube()
 
 double
 largestTurn(const Trajectory& knots)
@@ -46,6 +46,12 @@ meanOf(const std::vector<double>& values)
   return values.empty() ? 0
                         : std::accumulate(values.begin(), values.end(), 0.0) /
                               static_cast<double>(values.size());
+}
+
+bool
+isOk(const MotionIcpResult& result)
+{
+  return result.status == Status::kOk || result.status == Status::kMaxIterations;
 }
 
 /** \return the knots with the poses of a path at their times */
@@ -123,8 +129,7 @@ MotionTracker::startsOf(const MovingScan& scan) const
   starts.push_back(restingKnots(scan, there));
   if (scan.step && scan.step_time > 0)
     starts.push_back(knotsAlong(times, [&](double t) {
-      return carriedOn(
-          there, there * *scan.step, (t - scan.stamp) / scan.step_time);
+      return carriedOn(there, there * *scan.step, (t - scan.stamp) / scan.step_time);
     }));
   if (last_step_time_ > 0)
     starts.push_back(knotsAlong(times, [&](double t) {
@@ -154,25 +159,34 @@ MotionTracker::best(const std::vector<Trajectory>& starts,
   return starts[best];
 }
 
-/** \return the start with what is known of the motion: the last two knots before, and that
- * velocities do not change much */
+/** \return the start with what is known of the motion: that it goes on from the last two knots
+ * before, or if these do not tell, that it is about that of the start */
 MotionStart
-MotionTracker::startOf(const Trajectory& knots) const
+MotionTracker::startOf(const Trajectory& knots, bool goes_on) const
 {
-  const MotionNoise noise = motionNoise();
-  const Trajectory& before = scans_.back().knots;
-  const std::size_t k = before.poses.size() - 2;
+  const TrackedScan& last = scans_.back();
   MotionStart start;
-  start.held.poses = {before.poses[k], before.poses[k + 1]};
-  start.held.stamps = {before.stamps[k], before.stamps[k + 1]};
   start.knots = knots;
-  start.terms = elasticTermsBetween({0, before.stamps[k]},
-                                    {1, before.stamps[k + 1]},
+  MotionNoise noise = MotionNoise::plausible();
+  double slack = map_options_.cell;
+  if (last.is_guide && goes_on) {
+    noise = motionNoise();
+    slack = kSlack * icp_.noise;
+    start.held.poses = {last.knots.poses.end() - 2, last.knots.poses.end()};
+    start.held.stamps = {last.knots.stamps.end() - 2, last.knots.stamps.end()};
+  }
+  else {
+    const double step = knots.stamps[1] - knots.stamps[0];
+    start.held.poses = {carriedOn(knots.poses[0], knots.poses[1], -1), knots.poses[0]};
+    start.held.stamps = {knots.stamps[0] - step, knots.stamps[0]};
+  }
+  start.terms = elasticTermsBetween({0, start.held.stamps[0]},
+                                    {1, start.held.stamps[1]},
                                     {2, knots.stamps[0]},
                                     {3, knots.stamps[1]},
                                     noise,
-                                    kSlack * icp_.noise,
-                                    kSlack * icp_.noise / std::max(reach_, icp_.noise));
+                                    slack,
+                                    slack / std::max(reach_, map_options_.cell));
   const auto within = elasticTermsWithin(knots.stamps, 2, noise);
   start.terms.insert(start.terms.end(), within.begin(), within.end());
   return start;
@@ -196,7 +210,7 @@ MotionTracker::grown(Trajectory knots, const TimedPoints& half) const
     Trajectory known;
     known.poses.assign(knots.poses.begin(), knots.poses.begin() + k + 1);
     known.stamps.assign(knots.stamps.begin(), knots.stamps.begin() + k + 1);
-    const MotionIcpResult found = motionIcp(map_, part, startOf(known), rough);
+    const MotionIcpResult found = motionIcp(map_, part, startOf(known, true), rough);
     std::copy(found.knots.poses.begin(), found.knots.poses.end(), knots.poses.begin());
     TimedPoints next; // of the step to come
     for (std::size_t i = 0; i < half.times.size(); ++i)
@@ -224,10 +238,9 @@ MotionTracker::matchRigid(const MovingScan& scan,
                           const TimedPoints& half,
                           const MotionIcpResult& found) const
 {
-  const Eigen::Isometry3d middle = MotionCorrection(found.knots)
-                                       .poseAt((found.knots.stamps.front() +
-                                                found.knots.stamps.back()) /
-                                               2);
+  const Eigen::Isometry3d middle =
+      MotionCorrection(found.knots)
+          .poseAt((found.knots.stamps.front() + found.knots.stamps.back()) / 2);
   MotionStart start;
   start.knots = restingKnots(scan, middle);
   start.held.poses = {middle};
@@ -256,15 +269,17 @@ MotionTracker::isMoved(const MovingScan& scan,
                         fitOf(map_, moved, icp_.noise, icp_.num_threads),
                         half.points,
                         cube_);
-  const Points undone =
-      undoMotion(half, found.knots, scan.stamp, icp_.num_threads);
+  const Points undone = undoMotion(half, found.knots, scan.stamp, icp_.num_threads);
   std::vector<double> ways;
   for (std::size_t i = 0; i < undone.size(); ++i)
     ways.push_back((undone[i] - half.points[i]).norm());
+  found.is_guide = true;
   if (upperMedian(std::move(ways)) < kLeastNoises * icp_.noise)
     found.reason = "no motion that could be seen";
-  else if (found.gain.isLoss())
+  else if (found.gain.isLoss()) {
+    found.is_guide = false;
     found.reason = "its points agree less with the motion undone";
+  }
   else if (!isContinued(scan)) {
     std::vector<AgreementChange> last = {found.gain};
     for (std::size_t i = scans_.size(); i > 0 && last.size() < kWindow; --i)
@@ -275,27 +290,71 @@ MotionTracker::isMoved(const MovingScan& scan,
   return found.reason.empty();
 }
 
+/** Tells how much better the pose is than that of the odometry, if there is one. */
+void
+MotionTracker::compareWithOdometry(const TimedPoints& half, TrackedScan& found) const
+{
+  if (!last_step_)
+    return;
+  const Eigen::Isometry3d pose = found.pose();
+  const Eigen::Isometry3d there = scans_.back().pose() * *last_step_;
+  found.odometry_error = (there.translation() - pose.translation()).norm();
+  Trajectory moved = found.knots;
+  for (Eigen::Isometry3d& knot : moved.poses)
+    knot = there * (pose.inverse() * knot);
+  const auto fit = [&](const Trajectory& knots) {
+    return fitOf(
+        map_, worldPoints(half, knots, icp_.num_threads), icp_.noise, icp_.num_threads);
+  };
+  found.odometry = changeOf(fit(moved), fit(found.knots), half.points, cube_);
+}
+
+/** A motion that is found may be worse than none, where it began too suddenly for what is known
+ * of it: then it is looked for once more, from none and freely. */
+MotionIcpResult
+MotionTracker::match(const MovingScan& scan,
+                     const TimedPoints& half,
+                     MotionIcpResult& rigid) const
+{
+  const auto fit = [&](const Trajectory& knots) {
+    return meanOf(fitOf(map_,
+                        worldPoints(half, knots, icp_.num_threads),
+                        icp_.noise,
+                        icp_.num_threads));
+  };
+  const Trajectory start = grown(best(startsOf(scan), half), half);
+  MotionIcpResult found = motionIcp(map_, half, startOf(start, true), icp_);
+  if (!isOk(found))
+    return found;
+  rigid = matchRigid(scan, half, found);
+  if (!isOk(rigid) || fit(found.knots) >= fit(rigid.knots))
+    return found;
+  const MotionIcpResult freely =
+      motionIcp(map_, half, startOf(grown(rigid.knots, half), false), icp_);
+  return isOk(freely) && fit(freely.knots) > fit(found.knots) ? freely : found;
+}
+
 TrackedScan
 MotionTracker::find(const MovingScan& scan)
 {
   TrackedScan found;
-  const std::vector<Trajectory> starts = startsOf(scan);
-  found.sample = sampler_.draw(scan.measured, sampleSize(starts[0]));
+  found.stamp = scan.stamp;
+  found.knots = restingKnots(scan, scans_.back().pose());
+  found.sample = sampler_.draw(scan.measured, sampleSize(found.knots));
   const TimedPoints half = halfOf(found.sample, 0);
-  const Trajectory start = grown(best(starts, half), half);
-  const MotionIcpResult match = motionIcp(map_, half, startOf(start), icp_);
-  found.knots = match.knots;
+  MotionIcpResult rigid;
+  const MotionIcpResult match = this->match(scan, half, rigid);
   const double overlap =
       static_cast<double>(match.pairs) / static_cast<double>(half.points.size());
-  found.is_matched = (match.status == Status::kOk ||
-                      match.status == Status::kMaxIterations) &&
-                     overlap >= kLeastOverlap;
+  found.is_matched = isOk(match) && overlap >= kLeastOverlap;
   if (!found.is_matched) {
+    const Trajectory start = best(startsOf(scan), half);
     found.reason = "it does not meet the scans before";
     found.knots = restingKnots(scan, MotionCorrection(start).poseAt(scan.stamp));
     return found;
   }
-  const MotionIcpResult rigid = matchRigid(scan, half, match);
+  found.knots = match.knots;
+  compareWithOdometry(halfOf(found.sample, 1), found);
   found.rigid_pose = rigid.knots.poses.front();
   if (largestTurn(match.knots) > kLargestTurn)
     found.reason = "it turns by " +

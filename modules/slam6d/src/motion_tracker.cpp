@@ -4,6 +4,7 @@
 
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/common/random.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/text.h>
@@ -18,9 +19,16 @@ namespace {
 constexpr double kNoisesOfCell = 16;
 constexpr double kVoxelsOfCell = 2.5; ///< so that six reduced points lie in a cell
 
+/** [s] A scan whose points have all one time is taken to last so long. */
+constexpr double kLeastTime = 1e-3;
+
 /** Scans follow each other without a stop if the time between is at most this share of the
  * time of a scan. */
 constexpr double kLargestGap = 0.5;
+
+/** Points of a scan that go into the map: 20, as many as count, in each of a thousand cells
+ * within reach. */
+constexpr std::size_t kPointsOfMap = 20000;
 
 /** \return the range that one in ten points lies beyond */
 double
@@ -31,7 +39,8 @@ farRange(const Points& points)
     ranges.push_back(p.norm());
   if (ranges.empty())
     return 0;
-  const auto place = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() * 9 / 10);
+  const auto place =
+      ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() * 9 / 10);
   std::nth_element(ranges.begin(), place, ranges.end());
   return *place;
 }
@@ -48,7 +57,7 @@ MotionTracker::MotionTracker(double voxel,
                              std::optional<double> knots,
                              std::uint64_t seed,
                              unsigned int num_threads)
-: knot_time_(knots), sampler_(voxel, seed), cube_(kVoxelsOfCube * voxel)
+: knot_time_(knots), sampler_(voxel, seed), cube_(agreementCube(voxel))
 {
   map_options_.cell = std::max(kVoxelsOfCell * voxel, kNoisesOfCell * noise);
   map_ = SurfaceMap(map_options_);
@@ -66,9 +75,10 @@ MotionTracker::restingKnots(const MovingScan& scan, const Eigen::Isometry3d& pos
       std::minmax_element(scan.measured.times.begin(), scan.measured.times.end());
   const double steps =
       knot_time_ ? std::max(1.0, std::round((*last - *first) / *knot_time_)) : 1;
+  const double end = std::max(*last, *first + kLeastTime);
   Trajectory knots;
   for (double k = 0; k <= steps; ++k) {
-    knots.stamps.push_back(*first + k / steps * (*last - *first));
+    knots.stamps.push_back(*first + k / steps * (end - *first));
     knots.poses.push_back(pose);
   }
   return knots;
@@ -85,20 +95,16 @@ MotionTracker::begin(const MovingScan& scan, const Eigen::Isometry3d& pose)
 }
 
 void
-MotionTracker::take(const Points& points,
-                    const Eigen::Isometry3d& pose,
-                    double stamp,
-                    double end)
+MotionTracker::take(const Points& points, const Eigen::Isometry3d& pose)
 {
   MovingScan still;
   still.measured.points = points;
-  still.measured.times.assign(points.size(), stamp);
-  still.measured.times.back() = end;
-  still.stamp = stamp;
+  still.measured.times.assign(points.size(), 0);
   TrackedScan scan;
   scan.knots = restingKnots(still, pose);
   scan.is_matched = true;
   keep(std::move(scan), still);
+  first_ = MovingScan();
 }
 
 void
@@ -117,6 +123,9 @@ MotionTracker::track(const MovingScan& scan)
     next = find(scan);
   }
   first_ = MovingScan();
+  if (is_second && !scans_[0].is_moved)
+    scans_[0].reason =
+        next.is_moved ? "the next scan does not follow it at once" : next.reason;
   learnNoise(next);
   keep(std::move(next), scan);
 }
@@ -145,11 +154,10 @@ MotionTracker::findFirst(const MovingScan& second)
       return;
     TrackedScan first = scans_[0];
     for (std::size_t k = 0; k < first.knots.poses.size(); ++k)
-      first.knots.poses[k] = carriedOn(
-          pose,
-          round == 0 ? found.rigid_pose : found.pose(),
-          (first.knots.stamps[k] - first_.stamp) / time);
-    first.is_moved = true;
+      first.knots.poses[k] = carriedOn(pose,
+                                       round == 0 ? found.rigid_pose : found.pose(),
+                                       (first.knots.stamps[k] - first_.stamp) / time);
+    first.is_moved = first.is_guide = true;
     scans_.clear();
     map_ = SurfaceMap(map_options_);
     keep(std::move(first), first_);
@@ -160,63 +168,64 @@ void
 MotionTracker::keep(TrackedScan scan, const MovingScan& measured)
 {
   scan.stamp = measured.stamp;
-  scan.undone = scan.is_moved ? undoMotion(measured.measured,
-                                           scan.knots,
-                                           measured.stamp,
-                                           icp_.num_threads)
-                              : measured.measured.points;
   if (scan.sample.points.empty())
     scan.sample = sampler_.draw(measured.measured, sampleSize(scan.knots));
   last_step_ = measured.step;
   last_step_time_ = measured.step_time;
   scans_.push_back(std::move(scan));
-  addToMap(scans_.back());
+  addToMap(scans_.back(), measured);
 }
 
 /** Far parts of the map are of no more use, and of another drift when they come in sight
  * again. */
 void
-MotionTracker::addToMap(const TrackedScan& scan)
+MotionTracker::addToMap(const TrackedScan& scan, const MovingScan& measured)
 {
   if (!scan.is_matched)
     map_ = SurfaceMap(map_options_); // goes on from here
-  const Eigen::Isometry3d pose = scan.pose();
+  const Eigen::Vector3d place = scan.pose().translation();
   reach_ = std::max(reach_, farRange(scan.sample.points));
-  if ((pose.translation() - cleared_).norm() > reach_ / 2) {
-    cleared_ = pose.translation();
+  if ((place - cleared_).norm() > reach_ / 2) {
+    cleared_ = place;
     map_.forgetBeyond(cleared_, 2 * reach_);
   }
-  std::vector<Eigen::Vector3d> world;
-  for (const auto& p : scan.undone)
-    world.push_back(pose * p.cast<double>());
-  map_.add(world);
+  TimedPoints part; // more points of a scan do not make its planes better
+  const auto& [points, times] = measured.measured;
+  const std::size_t every = 1 + points.size() / kPointsOfMap;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (mixBits(i) % every == 0) { // rows of a scan have their own periods
+      part.points.push_back(points[i]);
+      part.times.push_back(times[i]);
+    }
+  map_.add(worldPoints(part, scan.knots, icp_.num_threads));
 }
 
+/** From every second scan: an error of where two scans meet makes velocities swing from one
+ * scan to the next. */
 void
 MotionTracker::learnNoise(const TrackedScan& scan)
 {
-  if (!scan.is_moved || scans_.empty() || !scans_.back().is_moved)
+  const std::size_t count = scans_.size();
+  if (!scan.is_moved || count < 2 || !scans_[count - 1].is_moved ||
+      !scans_[count - 2].is_moved)
     return;
-  const auto velocity = [](const Trajectory& knots, std::size_t k) {
-    const double time = knots.stamps[k + 1] - knots.stamps[k];
+  const auto velocity = [](const Trajectory& knots) { // the mean one
+    const Eigen::Isometry3d &from = knots.poses.front(), &to = knots.poses.back();
     Eigen::Matrix<double, 6, 1> v;
-    v << (knots.poses[k + 1].translation() - knots.poses[k].translation()) / time,
-        rotationVector(knots.poses[k + 1].linear() *
-                       knots.poses[k].linear().transpose()) /
-            time;
-    return v;
+    v << to.translation() - from.translation(),
+        rotationVector(to.linear() * from.linear().transpose());
+    return Eigen::Matrix<double, 6, 1>(v /
+                                       (knots.stamps.back() - knots.stamps.front()));
   };
-  const Trajectory& before = scans_.back().knots;
-  const std::size_t last = before.poses.size() - 2;
-  const Eigen::Matrix<double, 6, 1> change =
-      velocity(scan.knots, 0) - velocity(before, last);
-  const double time = (scan.knots.stamps[0] + scan.knots.stamps[1] -
-                       before.stamps[last] - before.stamps[last + 1]) /
+  const Trajectory &now = scan.knots, &before = scans_[count - 2].knots;
+  const Eigen::Matrix<double, 6, 1> change = velocity(now) - velocity(before);
+  const double time = (now.stamps.front() + now.stamps.back() - before.stamps.front() -
+                       before.stamps.back()) /
                       2;
   if (time <= 0)
     return;
-  linear_changes_.push_back(change.head<3>().squaredNorm() / 3 / time);
-  angular_changes_.push_back(change.tail<3>().squaredNorm() / 3 / time);
+  linear_changes_.push_back(change.head<3>().squaredNorm() / 3 / velocityChange(time));
+  angular_changes_.push_back(change.tail<3>().squaredNorm() / 3 / velocityChange(time));
 }
 
 MotionNoise
@@ -225,14 +234,14 @@ MotionTracker::motionNoise() const
   // The median of the mean of three squared normal numbers is 0.79; the rest is room for
   // scans that turn after many that did not.
   constexpr double kRoom = 4 / 0.79;
-  constexpr double kLeastShare = 1e-3; // no drive is smoother than a thirtieth of plausible
+  constexpr double kLeastShare = 0.03; // no drive is smoother
   constexpr std::size_t kLeastScans = 5, kMostScans = 30;
   const MotionNoise plausible = MotionNoise::plausible();
   const auto learnt = [&](const std::vector<double>& all, double most) {
     if (all.size() < kLeastScans)
       return most;
     const auto count = static_cast<std::ptrdiff_t>(std::min(all.size(), kMostScans));
-    const double seen = kRoom * upperMedian({all.end() - count, all.end()});
+    const double seen = std::sqrt(kRoom * upperMedian({all.end() - count, all.end()}));
     return std::clamp(seen, kLeastShare * most, most);
   };
   return {learnt(linear_changes_, plausible.linear),

@@ -25,15 +25,18 @@ struct MovingScan {
 
 /** \brief What was found of a scan. */
 struct PCL6D_EXPORTS TrackedScan { // shown to the test of MotionTracker
-  Trajectory knots;  ///< T_world_knot at times of the clock; poses alike if it is rigid
+  Trajectory knots; ///< T_world_knot at times of the clock; poses alike if it is rigid
   TimedPoints sample; ///< some of the measured points
-  Points undone;      ///< all points in the frame of pose(); as measured if it is rigid
   double stamp = 0;
   bool is_matched = false; ///< the first one is
   bool is_moved = false;   ///< its motion counts
-  Eigen::Isometry3d rigid_pose = Eigen::Isometry3d::Identity(); ///< as if it had not moved
-  std::string reason;      ///< why it does not, or why it was not matched
-  AgreementChange gain;    ///< of the motion over a rigid scan
+  bool is_guide = false;   ///< its knots tell how the next scan goes on
+  Eigen::Isometry3d rigid_pose =
+      Eigen::Isometry3d::Identity(); ///< as if it had not moved
+  std::string reason;                ///< why it does not, or why it was not matched
+  AgreementChange gain;              ///< of the motion over a rigid scan
+  AgreementChange odometry;  ///< from where the odometry led to where it was found
+  double odometry_error = 0; ///< [m] between these
 
   /** \return T_world_scan at its stamp */
   Eigen::Isometry3d
@@ -66,9 +69,10 @@ public:
   void
   track(const MovingScan& scan);
 
-  /** \brief A scan whose pose is known and which has not moved, in place of the next one. */
+  /** \brief A scan whose pose is known and which has not moved, in place of the next one. Its
+   * time is not known. */
   void
-  take(const Points& points, const Eigen::Isometry3d& pose, double stamp, double end);
+  take(const Points& points, const Eigen::Isometry3d& pose);
 
   /** \return the scans so far. All but the first stand when they are tracked; the first when
    * the second is */
@@ -82,6 +86,13 @@ public:
   mapOptions() const
   {
     return map_options_;
+  }
+
+  /** \return how far its scans reach [m] */
+  double
+  reach() const
+  {
+    return reach_;
   }
 
   /** \return of the points across surfaces [m] */
@@ -103,7 +114,7 @@ private:
   Trajectory
   best(const std::vector<Trajectory>& starts, const TimedPoints& half) const;
   MotionStart
-  startOf(const Trajectory& knots) const;
+  startOf(const Trajectory& knots, bool goes_on) const;
   Trajectory
   grown(Trajectory knots, const TimedPoints& half) const;
   MotionIcpResult
@@ -115,8 +126,12 @@ private:
           const TimedPoints& half,
           const Trajectory& rigid,
           TrackedScan& found) const;
+  void
+  compareWithOdometry(const TimedPoints& half, TrackedScan& found) const;
   bool
   isContinued(const MovingScan& scan) const;
+  MotionIcpResult
+  match(const MovingScan& scan, const TimedPoints& half, MotionIcpResult& rigid) const;
   TrackedScan
   find(const MovingScan& scan);
   void
@@ -126,7 +141,7 @@ private:
   void
   keep(TrackedScan scan, const MovingScan& measured);
   void
-  addToMap(const TrackedScan& scan);
+  addToMap(const TrackedScan& scan, const MovingScan& measured);
 
   std::optional<double> knot_time_;
   SurfaceMapOptions map_options_;
@@ -135,11 +150,11 @@ private:
   MotionIcpOptions icp_;
   double cube_; ///< [m] whose points count as one
   std::vector<TrackedScan> scans_;
-  MovingScan first_; ///< until the second one is tracked
+  MovingScan first_;                           ///< until the second one is tracked
   std::optional<Eigen::Isometry3d> last_step_; ///< of the odometry, to the next scan
   double last_step_time_ = 0;                  ///< [s]
   std::vector<double> linear_changes_, angular_changes_;
-  double reach_ = 0; ///< [m] of the scans so far
+  double reach_ = 0;                                  ///< [m] of the scans so far
   Eigen::Vector3d cleared_ = Eigen::Vector3d::Zero(); ///< where the map was last cut
 };
 

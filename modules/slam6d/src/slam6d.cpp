@@ -28,7 +28,16 @@ Slam6D::addScan(const Points& points,
   ScanResult scan;
   scan.initial_pose = initial_pose;
   scan.T_world_scan = initial_pose;
-  implementation_->addScan(points, scan, name);
+  implementation_->addStill(points, scan, name);
+}
+
+void
+Slam6D::addScan(const Points& points,
+                const ScanTimes& times,
+                const Eigen::Isometry3d& initial_pose,
+                const std::string& name)
+{
+  implementation_->addMoving(points, times, initial_pose, name);
 }
 
 void

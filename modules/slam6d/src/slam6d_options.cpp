@@ -58,6 +58,7 @@ Slam6DOptions::validate() const
           link_hysteresis,
           "in [0, 1)");
   require(relaxation_rounds > 0, "relaxation_rounds", relaxation_rounds, "> 0");
+  motion.validate();
   require(max_correction >= 0, "max_correction", max_correction, ">= 0");
 }
 

@@ -19,6 +19,7 @@ namespace pcl6d::slam6d {
 SlamRun::SlamRun(const Slam6DOptions& options)
 : options_(options)
 , scans_(options_)
+, motion_(options_)
 , verification_(options.num_threads)
 , moving_(options.num_threads)
 , recovery_(options_, verification_.scans())
@@ -71,7 +72,7 @@ SlamRun::addRegistered(const Points& points,
   if (result_.scans.size() > num_registered_)
     throw BadArgument(nameOf(name) + ": is registered, but one before it is not");
   earlier.matched_pose = earlier.T_world_scan;
-  addScan(points, earlier, name);
+  addStill(points, earlier, name);
   groups_.push_back(group);
   ++num_registered_;
 }
@@ -79,8 +80,11 @@ SlamRun::addRegistered(const Points& points,
 bool
 SlamRun::optimize()
 {
+  addUndone(true);
   if (result_.scans.empty())
     throw BadArgument("no scan was added");
+  if (options_.motion.gives_poses && motion_.anyMoved())
+    options_.initial_guess = InitialGuess::kOdometry;
   prepareScans();
   if (options_.verify || options_.leave_out_moving || isWithoutSequence() ||
       isRecovering(options_))
@@ -92,12 +96,18 @@ SlamRun::optimize()
   if (isWithoutSequence() ? next_ < total && !optimizeWithoutPoses()
                           : !optimizeInOrder())
     return false;
+  relaxMotions();
   if (options_.leave_out_moving && !leaveOutMoving())
     return false;
   if (!options_.verify)
     return true;
   verification_.verify(scans_.names(), result_);
-  return lookAgain();
+  const bool is_whole = lookAgain();
+  if (options_.leave_out_moving) // where poses were looked at again
+    moving_.judge(
+        verification_.scans(), verification_.surfaces(scans_.reduced()), result_);
+  motion_.describe(result_.scans);
+  return is_whole;
 }
 
 bool

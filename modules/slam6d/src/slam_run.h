@@ -3,6 +3,7 @@
 
 #include "graph_stage.h"
 #include "kept_scans.h"
+#include "motion_stage.h"
 #include "moving_stage.h"
 #include "online_loops.h"
 #include "recovery.h"
@@ -15,8 +16,10 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl6d::slam6d {
@@ -30,6 +33,17 @@ public:
   /** \param[in] scan with the initial pose, and all else if it is registered */
   void
   addScan(const Points& points, ScanResult scan, const std::string& given_name);
+
+  /** The same, behind scans whose motion is not known yet. */
+  void
+  addStill(const Points& points, const ScanResult& scan, const std::string& given_name);
+
+  /** A scan whose motion is to be found. */
+  void
+  addMoving(const Points& points,
+            const ScanTimes& times,
+            const Eigen::Isometry3d& pose,
+            const std::string& given_name);
 
   void
   addRegistered(const Points& points,
@@ -95,8 +109,18 @@ private:
   std::string
   nameOf(const std::string& given) const
   {
-    return given.empty() ? "scan " + std::to_string(result_.scans.size()) : given;
+    return given.empty()
+               ? "scan " + std::to_string(result_.scans.size() + motion_.numWaiting())
+               : given;
   }
+
+  /** Scans of which is known how they moved. \param[in] all none is to follow */
+  void
+  addUndone(bool all);
+
+  /** The motion within scans, of all at once. */
+  void
+  relaxMotions();
 
   void
   takeInRegistered();
@@ -147,6 +171,11 @@ private:
   Slam6DOptions options_;
   std::vector<std::uint64_t> inputs_; ///< of each scan: what it and those before are
   KeptScans scans_;
+  MotionStage motion_;
+  std::size_t num_relaxed_ =
+      0; ///< so many scans were there when their motion was relaxed
+  std::deque<std::pair<Points, Eigen::Isometry3d>>
+      last_still_;                  ///< registered or without times
   std::vector<std::size_t> groups_; ///< of each registered scan: the number of its run
   RunVerification verification_;
   MovingStage moving_;

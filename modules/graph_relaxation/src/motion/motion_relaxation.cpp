@@ -43,14 +43,13 @@ struct KnotSums {
 class SemiRigid {
 public:
   SemiRigid(const std::vector<MotionScan>& scans,
-             const MotionRelaxationOptions& options)
+            const MotionRelaxationOptions& options)
   : scans_(scans), options_(options)
   {
     for (const MotionScan& scan : scans_) {
       first_.push_back(poses_.size());
       const MotionCorrection check(scan.knots); // its rules are those of knots
-      poses_.insert(
-          poses_.end(), scan.knots.poses.begin(), scan.knots.poses.end());
+      poses_.insert(poses_.end(), scan.knots.poses.begin(), scan.knots.poses.end());
     }
     initial_ = poses_;
     addTerms();
@@ -106,14 +105,13 @@ private:
       if (i + 1 == scans_.size() || !isNext(i))
         continue;
       const auto& next = scans_[i + 1].knots.stamps;
-      const auto between =
-          elasticTermsBetween({last - 1, stamps[stamps.size() - 2]},
-                              {last, stamps.back()},
-                              {first_[i + 1], next[0]},
-                              {first_[i + 1] + 1, next[1]},
-                              options_.motion,
-                              slack,
-                              turn);
+      const auto between = elasticTermsBetween({last - 1, stamps[stamps.size() - 2]},
+                                               {last, stamps.back()},
+                                               {first_[i + 1], next[0]},
+                                               {first_[i + 1] + 1, next[1]},
+                                               options_.motion,
+                                               slack,
+                                               turn);
       terms_.insert(terms_.end(), between.begin(), between.end());
     }
   }
@@ -139,10 +137,10 @@ private:
     BlockSystem<6> system(poses_.size(), couplings);
     std::vector<Vector6> b(poses_.size(), Vector6::Zero());
     const auto place = [&](std::size_t row, std::size_t column) {
-      return static_cast<std::size_t>(
-          std::lower_bound(
-              couplings.begin(), couplings.end(), std::make_pair(row, column)) -
-          couplings.begin());
+      return static_cast<std::size_t>(std::lower_bound(couplings.begin(),
+                                                       couplings.end(),
+                                                       std::make_pair(row, column)) -
+                                      couplings.begin());
     };
     const auto add = [&](std::size_t row,
                          std::size_t column,
@@ -226,7 +224,10 @@ private:
   }
 
   void
-  addLink(const SurfacePiece& from, const SurfacePiece& to, double share, KnotSums& sum) const
+  addLink(const SurfacePiece& from,
+          const SurfacePiece& to,
+          double share,
+          KnotSums& sum) const
   {
     const double residual = to.height - from.height;
     const double variance = from.variance + to.variance;
@@ -248,9 +249,7 @@ private:
     for (const ElasticTerm& term : terms_) {
       const Vector6 residual = term.residual(poses_);
       const auto coefficients = term.coefficients();
-      Vector6 weights;
-      weights << Eigen::Vector3d::Constant(term.translation_weight),
-          Eigen::Vector3d::Constant(term.rotation_weight);
+      const Vector6 weights = term.weights(residual);
       for (std::size_t i = 0; i < 4; ++i) {
         b[term.knots[i]] -= coefficients[i] * weights.cwiseProduct(residual);
         for (std::size_t j = 0; j < 4; ++j)

@@ -122,7 +122,8 @@ linksOf(const std::vector<SurfacePiece>& pieces)
   std::vector<PieceLink> links;
   std::vector<double> counts(pieces.size(), 0);
   for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
-    for (end = begin + 1; end < pieces.size() && pieces[end].plane == pieces[begin].plane;)
+    for (end = begin + 1;
+         end < pieces.size() && pieces[end].plane == pieces[begin].plane;)
       ++end;
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t stride = 1; i + stride < end; stride *= 2) {

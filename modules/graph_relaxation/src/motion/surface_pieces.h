@@ -25,8 +25,9 @@ struct SurfacePiece {
 
 /** Two pieces of one plane, that are to be at one height. */
 struct PieceLink {
-  std::size_t from = 0, to = 0; ///< places of the pieces; the knot of from is not larger
-  double share = 1;             ///< of its weight, as its pieces have other links, too
+  std::size_t from = 0,
+              to = 0; ///< places of the pieces; the knot of from is not larger
+  double share = 1;   ///< of its weight, as its pieces have other links, too
 };
 
 /** \return the pieces of all scans, sorted by plane, then knot \param[in] first number of the

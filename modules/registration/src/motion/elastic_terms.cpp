@@ -32,8 +32,15 @@ sameVelocity(const std::array<std::size_t, 4>& knots,
   term.knots = knots;
   term.first = -1 / first_time;
   term.last = 1 / last_time;
-  term.translation_weight = 1 / (noise.linear * between);
-  term.rotation_weight = 1 / (noise.angular * between);
+  const double change = velocityChange(between);
+  const auto weight = [&](double acceleration) {
+    return 1 / (acceleration * acceleration * change);
+  };
+  const MotionNoise plausible = MotionNoise::plausible();
+  term.translation_weight = weight(noise.linear);
+  term.rotation_weight = weight(noise.angular);
+  term.translation_least = weight(std::max(noise.linear, plausible.linear));
+  term.rotation_least = weight(std::max(noise.angular, plausible.angular));
   return term;
 }
 } // namespace
@@ -43,6 +50,13 @@ MotionNoise::validate() const
 {
   require(std::isfinite(linear) && linear > 0, "linear", linear, "finite and > 0");
   require(std::isfinite(angular) && angular > 0, "angular", angular, "finite and > 0");
+}
+
+double
+velocityChange(double time)
+{
+  constexpr double kLasting = 1; // [s] of an acceleration
+  return time * std::min(time, kLasting);
 }
 
 Vector6
@@ -55,6 +69,22 @@ ElasticTerm::residual(const std::vector<Eigen::Isometry3d>& world) const
   if (last != 0)
     value += last * stepBetween(world[c], world[d]);
   return value;
+}
+
+Vector6
+ElasticTerm::weights(const Vector6& residual) const
+{
+  constexpr double kDeviations = 3;
+  const auto left = [](double off, double weight, double least) {
+    const double deviations = off * std::sqrt(weight) / kDeviations;
+    return std::max(least, weight / (1 + deviations * deviations));
+  };
+  Vector6 weights;
+  weights << Eigen::Vector3d::Constant(
+      left(residual.head<3>().norm(), translation_weight, translation_least)),
+      Eigen::Vector3d::Constant(
+          left(residual.tail<3>().norm(), rotation_weight, rotation_least));
+  return weights;
 }
 
 std::vector<ElasticTerm>
@@ -100,12 +130,20 @@ elasticTermsBetween(const KnotPlace& a,
   meeting.gap = 1;
   meeting.first = -gap / 2 / before;
   meeting.last = -gap / 2 / after;
-  // A position between two known velocities: density t^3 / 12.
-  const double spread = gap * gap * gap / 12;
-  meeting.translation_weight =
-      1 / (noise.linear * spread + slack_translation * slack_translation);
-  meeting.rotation_weight =
-      1 / (noise.angular * spread + slack_rotation * slack_rotation);
+  // Of a random walk of velocities that both ends of the gap are known of: q t^3 / 12; and the
+  // line that fits a parabola best leaves its ends by a t^2 / 12.
+  const double bend = (before * before + after * after) / 2 / 12;
+  const double spread = gap * gap * velocityChange(gap) / 12 + bend * bend;
+  const auto weight = [&](double acceleration, double slack) {
+    return 1 / (acceleration * acceleration * spread + slack * slack);
+  };
+  const MotionNoise plausible = MotionNoise::plausible();
+  meeting.translation_weight = weight(noise.linear, slack_translation);
+  meeting.rotation_weight = weight(noise.angular, slack_rotation);
+  meeting.translation_least =
+      weight(std::max(noise.linear, plausible.linear), slack_translation);
+  meeting.rotation_least =
+      weight(std::max(noise.angular, plausible.angular), slack_rotation);
   return {sameVelocity(knots, before, after, gap + (before + after) / 2, noise),
           meeting};
 }
@@ -118,6 +156,7 @@ rigidTerm(std::size_t from, std::size_t to, double deviation)
   term.knots = {from, to, to, to};
   term.first = 1;
   term.translation_weight = term.rotation_weight = 1 / (deviation * deviation);
+  term.translation_least = term.rotation_least = term.translation_weight;
   return term;
 }
 

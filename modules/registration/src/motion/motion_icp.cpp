@@ -42,10 +42,11 @@ requireTimes(const TimedPoints& scan)
 /** A point on its plane. */
 struct Pair {
   bool is_used = false;
-  double residual = 0;     ///< [m]
-  double deviation = 1;    ///< [m] what is expected of it
-  Eigen::Vector3d normal;  ///< d residual / d position
-  Eigen::Vector3d turning; ///< d residual / d rotation about the position of the scanner
+  double residual = 0;    ///< [m]
+  double deviation = 1;   ///< [m] what is expected of it
+  Eigen::Vector3d normal; ///< d residual / d position
+  Eigen::Vector3d
+      turning; ///< d residual / d rotation about the position of the scanner
 };
 
 /** The normal equations of some points. */
@@ -137,8 +138,7 @@ private:
       return pair;
     pair.residual = plane->normal.dot(place - plane->mean);
     pair.is_used = std::abs(pair.residual) <= limit_;
-    pair.deviation =
-        std::sqrt(plane->variance + options_.noise * options_.noise);
+    pair.deviation = std::sqrt(plane->variance + options_.noise * options_.noise);
     pair.normal = plane->normal;
     pair.turning = arm.cross(plane->normal);
     return pair;
@@ -227,15 +227,12 @@ private:
     for (const ElasticTerm& term : start_.terms) {
       const Vector6 residual = term.residual(world);
       const auto coefficients = term.coefficients();
-      Vector6 weights;
-      weights << Eigen::Vector3d::Constant(term.translation_weight),
-          Eigen::Vector3d::Constant(term.rotation_weight);
+      const Vector6 weights = term.weights(residual);
       for (std::size_t i = 0; i < 4; ++i) {
         if (term.knots[i] < num_held)
           continue;
         const auto row = static_cast<Eigen::Index>(6 * (term.knots[i] - num_held));
-        sums.b.segment<6>(row) -=
-            coefficients[i] * weights.cwiseProduct(residual);
+        sums.b.segment<6>(row) -= coefficients[i] * weights.cwiseProduct(residual);
         for (std::size_t j = 0; j < 4; ++j)
           if (term.knots[j] >= num_held)
             sums.A
@@ -253,8 +250,8 @@ private:
       const auto at = static_cast<Eigen::Index>(6 * k);
       Eigen::Isometry3d& pose = knots.poses[k];
       pose.translation() += step.segment<3>(at);
-      pose.linear() = nearestRotation(
-          rotationFromVector(step.segment<3>(at + 3)) * pose.linear());
+      pose.linear() =
+          nearestRotation(rotationFromVector(step.segment<3>(at + 3)) * pose.linear());
     }
   }
 
@@ -341,11 +338,10 @@ worldPoints(const TimedPoints& scan, const Trajectory& knots, unsigned int num_t
   requireTimes(scan);
   const MotionCorrection path(knots);
   std::vector<Eigen::Vector3d> points(scan.points.size());
-  parallelBlocks(
-      points.size(), kPointsPerBlock, num_threads, [&](const Block& block) {
-        for (std::size_t i = block.begin; i < block.end; ++i)
-          points[i] = path.poseAt(scan.times[i]) * scan.points[i].cast<double>();
-      });
+  parallelBlocks(points.size(), kPointsPerBlock, num_threads, [&](const Block& block) {
+    for (std::size_t i = block.begin; i < block.end; ++i)
+      points[i] = path.poseAt(scan.times[i]) * scan.points[i].cast<double>();
+  });
   return points;
 }
 

@@ -33,7 +33,10 @@ void
 SurfaceMapOptions::validate() const
 {
   require(std::isfinite(cell) && cell > 0, "cell", cell, "finite and > 0");
-  require(levels >= 1 && levels <= static_cast<int>(kMostLevels), "levels", levels, "in [1, 8]");
+  require(levels >= 1 && levels <= static_cast<int>(kMostLevels),
+          "levels",
+          levels,
+          "in [1, 8]");
   require(flatness > 1, "flatness", flatness, "> 1");
   require(points_of_scan >= 1, "points_of_scan", points_of_scan, ">= 1");
   require(points_of_cell >= 1, "points_of_cell", points_of_cell, ">= 1");

@@ -5,6 +5,7 @@
 #include <pcl6d/common/map_verification.h>
 #include <pcl6d/common/moved_points.h>
 #include <pcl6d/common/status.h>
+#include <pcl6d/common/trajectory.h>
 
 #include <Eigen/Geometry>
 
@@ -77,6 +78,19 @@ toString(RecoveredBy by);
 RecoveredBy
 recoveredByFromName(const std::string& name);
 
+/** \brief How the scanner moved while it took a scan. */
+struct ScanMotion {
+  bool undone = false;    ///< the scan's points were brought to the pose at its stamp
+  std::string reason;     ///< why not; else empty
+  double seconds = 0;     ///< from the first to the last point
+  double translation = 0; ///< [m] between their poses
+  double rotation = 0;    ///< [rad]
+  std::size_t knots = 0;  ///< poses that the motion is made of; 0: it was not undone
+  /** T_scan_knot at times [s] since the scan's stamp; empty if it was not undone, or of a run
+   * that was read */
+  Trajectory path;
+};
+
 /** \brief A scan that was registered, or is to be. \ingroup common */
 struct ScanResult {
   std::string file; ///< its name in the folder that it came from
@@ -102,6 +116,7 @@ struct ScanResult {
                          ///< kFeatures and kGlobal, from the one they found
   std::string reason;    ///< why the match is not believed; else empty
   RecoveredBy recovered = RecoveredBy::kNone;
+  std::optional<ScanMotion> motion; ///< none: it was not looked for
 };
 
 /** \return the number of scans in a state */
@@ -109,9 +124,14 @@ std::size_t
 countScans(const std::vector<ScanResult>& scans, ScanState state);
 
 /** \brief The stages that change poses. */
-enum class StageKind { kMatching, kLoopClosing, kRelaxation };
+enum class StageKind {
+  kMatching,
+  kLoopClosing,
+  kRelaxation,
+  kMotion ///< the motion within scans, of all at once
+};
 
-/** \return "matching", "loop closing" or "relaxation" */
+/** \return "matching", "loop closing", "relaxation" or "motion within scans" */
 const char*
 toString(StageKind kind);
 /** \throws BadArgument no stage has that name */

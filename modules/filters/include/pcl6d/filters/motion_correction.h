@@ -27,6 +27,14 @@ toString(const TimeFormat& format);
 std::optional<FieldValues>
 timeField(const pcl::PCLPointCloud2& cloud);
 
+/** \brief Finds the unit of the times of a scan that nothing else is known of: a floating type
+ * holds seconds, an integer that of ms, us and ns in which the scan lasts 20 ms to 20 s. Times
+ * later than 20 s are absolute: they count from no scan.
+ * \throws BadArgument a time is not finite, the scan lasts longer than 20 s, or in no unit so
+ * long */
+TimeFormat
+timeFormatAlone(const FieldValues& times);
+
 /** \brief How a pose between two poses of the odometry is found. */
 enum class MotionInterpolation {
   kLinear, ///< position linear, rotation by slerp (book A.1): a path with corners

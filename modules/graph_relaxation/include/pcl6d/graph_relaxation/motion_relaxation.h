@@ -18,8 +18,9 @@ struct MotionScan {
 
 /** \brief Knobs of relaxMotions(). */
 struct MotionRelaxationOptions {
-  SurfaceMapOptions map; ///< the planes on which scans are to meet; all points count alike
-  double noise = 0.01;   ///< [m] of the points across surfaces; > 0
+  SurfaceMapOptions
+      map; ///< the planes on which scans are to meet; all points count alike
+  double noise = 0.01; ///< [m] of the points across surfaces; > 0
   MotionNoise motion = MotionNoise::plausible(); ///< how much velocities change
   /** [m] within which steps from knot to knot stay as they are where nothing fixes them, and
    * [rad]; > 0 */

@@ -15,23 +15,30 @@
  * ("knots"), and those of one scan with those of the next. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How much velocities change: the spectral density of the accelerations, so that a
- * velocity changes within the time t by a standard deviation of sqrt(density t) per axis
- * (white noise on acceleration, T. Barfoot, "State estimation for robotics", 2017). */
+/** \brief How much velocities change: the standard deviation of the accelerations per axis.
+ * They last for about a second, so that a velocity changes within the time t by a times t, for
+ * longer by a times the root of t (white noise on acceleration, T. Barfoot, "State estimation
+ * for robotics", 2017). */
 struct MotionNoise {
-  double linear = 4;  ///< [m^2/s^3] > 0
-  double angular = 4; ///< [rad^2/s^3] > 0
-  /** \return what is plausible of anything that carries a scanner: 2 m/s^2 and 2 rad/s^2
-   * that last for a second: a car that brakes, a hand that turns */
+  double linear = 5;  ///< [m/s^2] > 0
+  double angular = 5; ///< [rad/s^2] > 0
+  /** \return what is plausible of anything that carries a scanner: half of what weighs it
+   * down, as of a car that brakes, and a robot or a hand that begins to turn by 30 deg/s
+   * within a tenth of a second */
   static MotionNoise
   plausible()
   {
-    return {4, 4};
+    return {5, 5};
   }
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
 };
+
+/** \return the variance of a change of velocity within a time [s], over that of the
+ * accelerations */
+double
+velocityChange(double time);
 
 /** \brief A linear rule about the steps between up to four knots a, b, c, d:
  * first (b - a) + gap (c - b) + last (d - c) is about zero, where the step from a pose to
@@ -41,6 +48,8 @@ struct ElasticTerm {
   double first = 0, gap = 0, last = 0;
   double translation_weight = 0; ///< [1 / units of the rule^2]
   double rotation_weight = 0;
+  /** weights that are left where the rule is broken, as by a sudden turn */
+  double translation_least = 0, rotation_least = 0;
 
   /** \return how the rule's value changes with the position and, for small steps, the
    * rotation of each knot */
@@ -49,6 +58,11 @@ struct ElasticTerm {
   {
     return {-first, first - gap, gap - last, last};
   }
+
+  /** \return how much the rule counts at a value: half as much at three standard deviations, less
+   * beyond (Cauchy), but not less than the least weights */
+  Eigen::Matrix<double, 6, 1>
+  weights(const Eigen::Matrix<double, 6, 1>& residual) const;
 
   /** \return the value of the rule: translations, then rotations */
   Eigen::Matrix<double, 6, 1>
@@ -64,7 +78,8 @@ elasticTermsWithin(const std::vector<double>& stamps,
                    const MotionNoise& noise);
 
 /** \brief The rules between the last step of a scan and the first of the next: velocities are
- * alike, the more so the shorter the gap, and the next one begins where these lead. The
+ * alike, the more so the shorter the gap, and the next one begins where these lead, as far as
+ * straight steps can tell: one of the time t with the acceleration a ends a t^2 / 12 off. The
  * begin of a scan need not be the end of the one before (P. Dellenbach et al., "CT-ICP",
  * ICRA 2022).
  * \param[in] a, b stamps and numbers of the last two knots, c, d of the first two of the next

@@ -28,9 +28,9 @@ struct MotionIcpOptions {
   double max_distance_start = 1; ///< [m] from its plane, of a point at the start; > 0
   double distance_decay = 0.6;   ///< the limit's factor per iteration; in (0, 1)
   double max_deviations = 6;     ///< the limit falls to so many deviations; > 0
-  double epsilon = 0.02;         ///< stop where no point moves farther than this share of
-                                 ///< the noise, by knots; > 0
-  unsigned int num_threads = 0;  ///< 0: one per core; never changes the result
+  double epsilon = 0.02; ///< stop where no point moves farther than this share of
+                         ///< the noise, by knots; > 0
+  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -46,14 +46,16 @@ struct MotionStart {
 
 /** \brief The outcome of motionIcp(). */
 struct MotionIcpResult {
-  Status status = Status::kTooFewPairs; ///< kOk, kMaxIterations, kTooFewPairs (the start),
-                                        ///< kRankDeficient (some motion is not fixed even
-                                        ///< with the rules: the start), kDiverged
-  Trajectory knots;                     ///< T_world_knot at the stamps of the start
+  Status status =
+      Status::kTooFewPairs; ///< kOk, kMaxIterations, kTooFewPairs (the start),
+                            ///< kRankDeficient (some motion is not fixed even
+                            ///< with the rules: the start), kDiverged
+  Trajectory knots;         ///< T_world_knot at the stamps of the start
   int iterations = 0;
   std::size_t pairs = 0; ///< points on a plane
-  double deviation = 1;  ///< robust standard deviation of their distances over what planes
-                         ///< and noise let expect
+  double deviation =
+      1; ///< robust standard deviation of their distances over what planes
+         ///< and noise let expect
 };
 
 /** \brief Matches a scan that was taken on the move: its poses at some times ("knots"), with

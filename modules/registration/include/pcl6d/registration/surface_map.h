@@ -88,9 +88,9 @@ private:
   struct Cell {
     VoxelKey key = 0;
     Sums sums;
-    Sums fresh;          ///< of the scan that is being added
+    Sums fresh; ///< of the scan that is being added
     bool is_flat = false;
-    SurfacePlane plane;  ///< of a flat one
+    SurfacePlane plane; ///< of a flat one
   };
   struct Level {
     double edge = 0; ///< [m]

@@ -34,6 +34,19 @@ visitScanFields(Scan& scan, Visit&& visit)
   visit("recovered", scan.recovered);
 }
 
+/** \param[in] motion a ScanMotion, const or not */
+template <typename Motion, typename Visit>
+void
+visitMotionFields(Motion& motion, Visit&& visit)
+{
+  visit("undone", motion.undone);
+  visit("reason", motion.reason);
+  visit("seconds", motion.seconds);
+  visit("translation", motion.translation);
+  visit("rotation", motion.rotation);
+  visit("knots", motion.knots);
+}
+
 /** \param[in] moved a MovedPoints, const or not */
 template <typename Moved, typename Visit>
 void

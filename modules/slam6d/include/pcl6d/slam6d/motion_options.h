@@ -14,6 +14,9 @@ struct MotionOptions {
   /** [s] a pose about every so many seconds of a scan; none: one at its begin and one at its
    * end, with constant velocity between. > 0 */
   std::optional<double> knots;
+  /** with InitialGuess::kGlobal: where scans have moved, each starts from the one before by
+   * the motion that was found, in place of all being looked at together */
+  bool gives_poses = false;
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

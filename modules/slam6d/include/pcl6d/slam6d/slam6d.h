@@ -64,6 +64,22 @@ public:
           const Eigen::Isometry3d& initial_pose,
           const std::string& name = "");
 
+  /** \brief Adds a scan that was taken on the move: its motion is found from its points and
+   * those of the scans before and after it, and undone; initial poses need not tell of it
+   * (`--deskew estimate`, share/doc/run_folder.md). It is kept as it is where that does not make
+   * the scans agree better. When all are registered, the motion of all is found anew at once.
+   * ScanResult::motion says what was found; undoMotion() brings further points of the scan there.
+   * \param[in] points each in the scanner's frame at its own time [m]
+   * \param[in] times of the points; a scan appears in the result when the one after it is
+   * added, or in optimize()
+   * \throws BadArgument as above, also if there is not one finite time per point, or the work
+   * is shared (setSharing()) \throws ComputeFailed as optimize() */
+  void
+  addScan(const Points& points,
+          const ScanTimes& times,
+          const Eigen::Isometry3d& initial_pose,
+          const std::string& name = "");
+
   /** \brief Adds a scan that an earlier run has registered: its result stands, and the
    * scans that follow are matched against it. The relaxation may move it. Scans of several
    * runs, which have no common world, are joined with InitialGuess::kGlobal: each run is moved

@@ -9,6 +9,7 @@
 #include <pcl6d/graph_relaxation/parameterisations.h>
 #include <pcl6d/graph_relaxation/scan_network.h>
 #include <pcl6d/registration/icp_model.h>
+#include <pcl6d/slam6d/motion_options.h>
 
 #include <limits>
 #include <optional>
@@ -80,6 +81,7 @@ struct Slam6DOptions {
   /** points that moved, as the rays of other scans tell, take no part in the last round of
    * relaxation and in the verification */
   bool leave_out_moving = true;
+  MotionOptions motion; ///< within scans that come with the times of their points
   bool verify = true; ///< judge the map by the points and rays of its scans, in the end
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */

@@ -41,6 +41,7 @@ struct Slam6DResult {
   std::vector<ScanResult> scans; ///< in the order in which they were added
   Slam6DParameters parameters;
   double matching_seconds = 0;
+  double motion_seconds = 0; ///< of finding the motion within scans as they were added
   std::vector<StageResult> stages;
   std::vector<ScanLink> links; ///< all links and loop candidates, with their verdicts
   /** the links that count as measured relative poses, and the final poses */

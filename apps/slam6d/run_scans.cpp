@@ -118,7 +118,7 @@ RunScans::undoMotion(const ScanMotion& motion,
                      std::size_t i,
                      pcl::PCLPointCloud2& cloud) const
 {
-  if (!motion.undone)
+  if (!motion.undone || motion.path.poses.empty()) // or an earlier run has done it
     return;
   TimedPoints scan{coordinatesOf(cloud), scanTimes(cloud, i).times};
   storeCoordinates(pcl6d::undoMotion(scan, motion.path, 0, 1), cloud);

@@ -10,16 +10,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace pcl6d::slam6d {
 
 namespace {
-/** A motion that moves the median point less than this share of the noise cannot be seen. */
-constexpr double kLeastNoises = 0.25;
+/** A motion that moves the median point less than this share of the noise cannot be seen; one
+ * that moves it by two, as errors of matching may, must show by points that agree clearly better. */
+constexpr double kLeastNoises = 0.25, kSureNoises = 2;
 
-/** Between two knots the motion is one turn about one axis: beyond a right angle the chord is
- * far from any path. */
-constexpr double kLargestTurn = M_PI / 2;
+/** Of the way: wheels slip. Only the first knot is held, which is about where the stamp is. */
+constexpr double kOdometryError = 0.1;
 
 /** Where two scans meet is as exact as their poses: the mean of a hundred planes. */
 constexpr double kSlack = 0.1;
@@ -138,25 +139,30 @@ MotionTracker::startsOf(const MovingScan& scan) const
   return starts;
 }
 
-/** \return the start at which most points lie on the map */
-Trajectory
-MotionTracker::best(const std::vector<Trajectory>& starts,
-                    const TimedPoints& half) const
+/** Puts the starts in order: first the one at which most points lie on the map. */
+void
+MotionTracker::sortByFit(const TimedPoints& half, std::vector<Trajectory>& starts) const
 {
-  std::size_t best = 0;
-  double most = -1;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
+  std::vector<std::pair<double, std::size_t>> fits;
+  for (std::size_t i = 0; i < starts.size(); ++i)
     // Rough starts are compared roughly: by a quarter of a cell.
-    const double fit = meanOf(fitOf(map_,
+    fits.emplace_back(-meanOf(fitOf(map_,
                                     worldPoints(half, starts[i], icp_.num_threads),
                                     map_options_.cell / 4,
-                                    icp_.num_threads));
-    if (fit > most) {
-      most = fit;
-      best = i;
-    }
-  }
-  return starts[best];
+                                    icp_.num_threads)),
+                      i);
+  std::sort(fits.begin(), fits.end());
+  std::vector<Trajectory> sorted;
+  for (const auto& [fit, i] : fits)
+    sorted.push_back(std::move(starts[i]));
+  starts = std::move(sorted);
+}
+
+Trajectory
+MotionTracker::best(std::vector<Trajectory> starts, const TimedPoints& half) const
+{
+  sortByFit(half, starts);
+  return starts.front();
 }
 
 /** \return the start with what is known of the motion: that it goes on from the last two knots
@@ -167,7 +173,7 @@ MotionTracker::startOf(const Trajectory& knots, bool goes_on) const
   const TrackedScan& last = scans_.back();
   MotionStart start;
   start.knots = knots;
-  MotionNoise noise = MotionNoise::plausible();
+  MotionNoise noise = MotionNoise::usual();
   double slack = map_options_.cell;
   if (last.is_guide && goes_on) {
     noise = motionNoise();
@@ -187,9 +193,51 @@ MotionTracker::startOf(const Trajectory& knots, bool goes_on) const
                                     noise,
                                     slack,
                                     slack / std::max(reach_, map_options_.cell));
-  const auto within = elasticTermsWithin(knots.stamps, 2, noise);
+  std::size_t first = 2;
+  if (last_step_ && goes_on) { // the odometry is not believed far beyond its error
+    start.held.poses.push_back(last.pose() * *last_step_);
+    start.held.stamps.push_back(knots.stamps[0]);
+    const double error =
+        kOdometryError * last_step_->translation().norm() + map_options_.cell;
+    for (ElasticTerm& term : start.terms) // behind it
+      for (std::size_t k = 2; k < 4; ++k)
+        ++term.knots[k];
+    ++first;
+    ElasticTerm near = rigidTerm(2, first, error);
+    near.translation_least = near.rotation_least = 0;
+    start.terms.push_back(near);
+  }
+  const auto within = elasticTermsWithin(knots.stamps, first, noise);
   start.terms.insert(start.terms.end(), within.begin(), within.end());
   return start;
+}
+
+/** First with constant velocity over all of the scan, then with twice as many steps each time:
+ * few unknowns come near from far away. */
+Trajectory
+MotionTracker::refined(const Trajectory& start, const TimedPoints& half) const
+{
+  MotionIcpOptions rough = icp_;
+  rough.max_iterations = 10; // the next ones go on
+  const std::size_t all = start.poses.size() - 1;
+  Trajectory knots;
+  knots.poses = {start.poses.front(), start.poses.back()};
+  knots.stamps = {start.stamps.front(), start.stamps.back()};
+  for (std::size_t steps = 1;; steps = std::min(2 * steps, all)) {
+    const MotionCorrection path(knots);
+    Trajectory finer;
+    for (std::size_t k = 0; k <= steps; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(steps);
+      finer.stamps.push_back(
+          k == steps ? start.stamps.back()
+                     : start.stamps.front() +
+                           share * (start.stamps.back() - start.stamps.front()));
+      finer.poses.push_back(path.poseAt(finer.stamps.back()));
+    }
+    if (steps == all)
+      return finer;
+    knots = motionIcp(map_, half, startOf(finer, true), rough).knots;
+  }
 }
 
 /** Knots one after the other: each follows from where those before were found, either as the
@@ -255,6 +303,16 @@ MotionTracker::matchRigid(const MovingScan& scan,
   return rigid;
 }
 
+/** \return whether a scan, or the last ones with it, agrees clearly better with its motion */
+bool
+MotionTracker::isSure(const AgreementChange& gain) const
+{
+  std::vector<AgreementChange> last = {gain};
+  for (std::size_t i = scans_.size(); i > 0 && last.size() < kWindow; --i)
+    last.push_back(scans_[i - 1].gain);
+  return gain.isGain(kSureDeviations) || pooled(last).isGain(kSureDeviations);
+}
+
 /** \param[in] half points that took no part in finding it
  * \param[in,out] found gets gain and reason */
 bool
@@ -263,30 +321,30 @@ MotionTracker::isMoved(const MovingScan& scan,
                        const Trajectory& rigid,
                        TrackedScan& found) const
 {
-  const auto moved = worldPoints(half, found.knots, icp_.num_threads);
-  const auto still = worldPoints(half, rigid, icp_.num_threads);
-  found.gain = changeOf(fitOf(map_, still, icp_.noise, icp_.num_threads),
-                        fitOf(map_, moved, icp_.noise, icp_.num_threads),
-                        half.points,
-                        cube_);
+  const auto fit = [&](const Trajectory& knots) {
+    return fitOf(
+        map_, worldPoints(half, knots, icp_.num_threads), icp_.noise, icp_.num_threads);
+  };
+  const std::vector<double> still = fit(rigid);
+  found.fit = fit(found.knots);
+  found.gain = changeOf(still, found.fit, half.points, cube_);
   const Points undone = undoMotion(half, found.knots, scan.stamp, icp_.num_threads);
   std::vector<double> ways;
   for (std::size_t i = 0; i < undone.size(); ++i)
     ways.push_back((undone[i] - half.points[i]).norm());
+  const double way = upperMedian(std::move(ways)) / icp_.noise;
+  const bool is_sure = isSure(found.gain);
   found.is_guide = true;
-  if (upperMedian(std::move(ways)) < kLeastNoises * icp_.noise)
+  if (way < kLeastNoises || (way < kSureNoises && !is_sure))
     found.reason = "no motion that could be seen";
   else if (found.gain.isLoss()) {
     found.is_guide = false;
     found.reason = "its points agree less with the motion undone";
   }
-  else if (!isContinued(scan)) {
-    std::vector<AgreementChange> last = {found.gain};
-    for (std::size_t i = scans_.size(); i > 0 && last.size() < kWindow; --i)
-      last.push_back(scans_[i - 1].gain);
-    if (!found.gain.isGain(kSureDeviations) && !pooled(last).isGain(kSureDeviations))
-      found.reason = "its points do not agree clearly better with the motion undone";
-  }
+  else if (!isContinued(scan) && !assumes_moving_ && !is_sure)
+    found.reason = "its points do not agree clearly better with the motion undone";
+  if (!found.reason.empty())
+    found.fit = still;
   return found.reason.empty();
 }
 
@@ -309,29 +367,87 @@ MotionTracker::compareWithOdometry(const TimedPoints& half, TrackedScan& found) 
   found.odometry = changeOf(fit(moved), fit(found.knots), half.points, cube_);
 }
 
-/** A motion that is found may be worse than none, where it began too suddenly for what is known
- * of it: then it is looked for once more, from none and freely. */
+/** \return how a scan is found from a start, and how well its points lie then */
+MotionTracker::Attempt
+MotionTracker::attempt(const Trajectory& rough,
+                       bool goes_on,
+                       const TimedPoints& half) const
+{
+  const Trajectory start = rough.poses.size() == 2
+                               ? rough
+                               : best({refined(rough, half), grown(rough, half)}, half);
+  Attempt attempt;
+  attempt.found = motionIcp(map_, half, startOf(start, goes_on), icp_);
+  if (isOk(attempt.found))
+    attempt.fit = meanOf(fitOf(map_,
+                               worldPoints(half, attempt.found.knots, icp_.num_threads),
+                               icp_.noise,
+                               icp_.num_threads));
+  return attempt;
+}
+
+/** \return the share of points that usually lies on the map; 0 if that is not known */
+double
+MotionTracker::usualFit() const
+{
+  std::vector<double> fits;
+  for (std::size_t i = scans_.size(); i > 0 && fits.size() < kWindow; --i)
+    if (!scans_[i - 1].fit.empty())
+      fits.push_back(meanOf(scans_[i - 1].fit));
+  return upperMedian(std::move(fits));
+}
+
+/** From the start that fits best; if what is found is much worse than usual, or than no motion,
+ * as where a turn began too suddenly for what is known, from the others, and freely. */
 MotionIcpResult
 MotionTracker::match(const MovingScan& scan,
                      const TimedPoints& half,
                      MotionIcpResult& rigid) const
 {
-  const auto fit = [&](const Trajectory& knots) {
-    return meanOf(fitOf(map_,
-                        worldPoints(half, knots, icp_.num_threads),
-                        icp_.noise,
-                        icp_.num_threads));
+  constexpr double kUsual = 0.9; // fits of good scans differ by less
+  std::vector<Trajectory> starts = startsOf(scan);
+  sortByFit(half, starts);
+  Attempt best = attempt(starts[0], true, half);
+  for (std::size_t i = 1; i < starts.size() && best.fit < kUsual * usualFit(); ++i)
+    for (const bool goes_on : {true, false}) {
+      Attempt other = attempt(starts[i], goes_on, half);
+      if (other.fit > best.fit)
+        best = std::move(other);
+    }
+  if (!isOk(best.found))
+    return best.found;
+  rigid = matchRigid(scan, half, best.found);
+  const double still = meanOf(fitOf(map_,
+                                    worldPoints(half, rigid.knots, icp_.num_threads),
+                                    icp_.noise,
+                                    icp_.num_threads));
+  if (isOk(rigid) && best.fit < still) {
+    Attempt freely = attempt(rigid.knots, false, half);
+    if (freely.fit > best.fit)
+      best = std::move(freely);
+  }
+  return best.found;
+}
+
+/** \return the largest turn between two knots that the odometry tells of [rad]; 0 without any */
+double
+MotionTracker::turnOfOdometry(const MovingScan& scan) const
+{
+  const Trajectory times = restingKnots(scan, Eigen::Isometry3d::Identity());
+  const double step = times.stamps[1] - times.stamps[0];
+  const auto turn = [&](const std::optional<Eigen::Isometry3d>& motion, double time) {
+    return motion && time > 0 ? rotationAngle(motion->linear()) * step / time : 0;
   };
-  const Trajectory start = grown(best(startsOf(scan), half), half);
-  MotionIcpResult found = motionIcp(map_, half, startOf(start, true), icp_);
-  if (!isOk(found))
-    return found;
-  rigid = matchRigid(scan, half, found);
-  if (!isOk(rigid) || fit(found.knots) >= fit(rigid.knots))
-    return found;
-  const MotionIcpResult freely =
-      motionIcp(map_, half, startOf(grown(rigid.knots, half), false), icp_);
-  return isOk(freely) && fit(freely.knots) > fit(found.knots) ? freely : found;
+  return std::max(turn(scan.step, scan.step_time), turn(last_step_, last_step_time_));
+}
+
+/** Takes a scan for rigid that turned too fast for straight steps between knots. */
+void
+MotionTracker::leaveTurned(double turn, TrackedScan& found)
+{
+  found.is_moved = found.is_guide = false;
+  found.reason = "it turns by " + std::to_string(std::lround(turn * 180 / M_PI)) +
+                 " deg between two knots, more than a right angle";
 }
 
 TrackedScan
@@ -342,8 +458,14 @@ MotionTracker::find(const MovingScan& scan)
   found.knots = restingKnots(scan, scans_.back().pose());
   found.sample = sampler_.draw(scan.measured, sampleSize(found.knots));
   const TimedPoints half = halfOf(found.sample, 0);
-  MotionIcpResult rigid;
-  const MotionIcpResult match = this->match(scan, half, rigid);
+  const double told = turnOfOdometry(scan);
+  MotionIcpResult match, rigid;
+  if (told > kLargestTurn) {
+    match.knots = best(startsOf(scan), half);
+    match = rigid = matchRigid(scan, half, match);
+  }
+  else
+    match = this->match(scan, half, rigid);
   const double overlap =
       static_cast<double>(match.pairs) / static_cast<double>(half.points.size());
   found.is_matched = isOk(match) && overlap >= kLeastOverlap;
@@ -354,12 +476,12 @@ MotionTracker::find(const MovingScan& scan)
     return found;
   }
   found.knots = match.knots;
-  compareWithOdometry(halfOf(found.sample, 1), found);
+  found.moved_pose = found.pose();
   found.rigid_pose = rigid.knots.poses.front();
-  if (largestTurn(match.knots) > kLargestTurn)
-    found.reason = "it turns by " +
-                   std::to_string(std::lround(largestTurn(match.knots) * 180 / M_PI)) +
-                   " deg between two knots, more than a right angle";
+  compareWithOdometry(halfOf(found.sample, 1), found);
+  const double turn = std::max(told, largestTurn(match.knots));
+  if (turn > kLargestTurn)
+    leaveTurned(turn, found);
   else
     found.is_moved = isMoved(scan, halfOf(found.sample, 1), rigid.knots, found);
   if (!found.is_moved)

@@ -117,9 +117,39 @@ MotionStage::trackNext()
 {
   const Added& next = waiting_[num_tracked_++];
   if (tracker_->scans().empty())
-    tracker_->begin(next.moving, next.pose);
-  else
-    tracker_->track(next.moving);
+    return tracker_->begin(next.moving, next.pose);
+  if (tracker_->scans().size() == 1 && !tracker_->isContinued(next.moving)) {
+    rival_ = tracker_;
+    rival_->assumeMoving();
+  }
+  tracker_->track(next.moving);
+  if (!rival_)
+    return;
+  rival_->track(next.moving);
+  decide();
+}
+
+/** Scans on a straight way fit as well if all are skewed alike: a few may be needed to tell
+ * whether they are. What nothing speaks against stays as it was measured. */
+void
+MotionStage::decide()
+{
+  constexpr std::size_t kMostScans = 20; // are held back until then
+  const auto& still = tracker_->scans();
+  const auto& moving = rival_->scans();
+  std::vector<AgreementChange> changes;
+  for (std::size_t i = 1; i < still.size(); ++i)
+    if (still[i].fit.size() == moving[i].fit.size() && !still[i].fit.empty())
+      changes.push_back(changeOf(still[i].fit,
+                                 moving[i].fit,
+                                 halfOf(still[i].sample, 1).points,
+                                 agreementCube(voxel_)));
+  const AgreementChange all = pooled(changes);
+  if (all.isGain(kSureDeviations))
+    tracker_ = std::move(rival_);
+  if (all.isGain(kSureDeviations) || all.isLoss(kSureDeviations) ||
+      still.size() >= kMostScans)
+    rival_.reset();
 }
 
 std::vector<MotionStage::Ready>
@@ -131,8 +161,8 @@ MotionStage::take(bool all)
   while (num_tracked_ > 0) {
     const auto& tracked = tracker_->scans();
     const std::size_t number = tracked.size() - num_tracked_;
-    if (number == 0 && tracked.size() == 1 && !all)
-      break; // how the first one moved follows from the second
+    if (((number == 0 && tracked.size() == 1) || rival_) && !all)
+      break; // how the first one moved follows from the second, or later ones
     ready.push_back(readyOf(waiting_.front(), tracked[number]));
     waiting_.pop_front();
     --num_tracked_;

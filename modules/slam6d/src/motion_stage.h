@@ -101,6 +101,8 @@ private:
   begin(const Points& points);
   void
   trackNext();
+  void
+  decide();
   Ready
   readyOf(const Added& added, const TrackedScan& tracked);
   Eigen::Isometry3d
@@ -128,6 +130,9 @@ private:
 
   const Slam6DOptions& options_;
   std::optional<MotionTracker> tracker_;
+  /** Where there may be stops between scans: the same as if there were none, until one of them
+   * agrees clearly better. */
+  std::optional<MotionTracker> rival_;
   double min_range_ = 0, max_range_ = 0, voxel_ = 0; ///< [m]
   std::deque<Added> waiting_; ///< the first num_tracked_ are tracked
   std::size_t num_tracked_ = 0;

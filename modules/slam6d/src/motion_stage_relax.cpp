@@ -27,6 +27,30 @@ placed(const TrackedScan& scan, const Eigen::Isometry3d& T_world_scan)
   return knots;
 }
 
+/** A scan that seemed to stand still between others that did not has moved as they did. */
+void
+freeBetween(std::vector<MotionScan>& scans)
+{
+  for (std::size_t i = 1; i + 1 < scans.size(); ++i) {
+    const Trajectory &before = scans[i - 1].knots, &after = scans[i + 1].knots;
+    Trajectory& knots = scans[i].knots;
+    const double gap =
+        after.stamps.front() - before.stamps.back() -
+        (knots.stamps.back() - knots.stamps.front()); // of time without a scan
+    if (!scans[i].is_rigid || scans[i - 1].is_rigid || scans[i + 1].is_rigid ||
+        knots.stamps.front() < before.stamps.back() ||
+        gap > knots.stamps.back() - knots.stamps.front() || gap < 0)
+      continue;
+    Trajectory path;
+    path.poses = {before.poses.back(), after.poses.front()};
+    path.stamps = {before.stamps.back(), after.stamps.front()};
+    const MotionCorrection between(path);
+    for (std::size_t k = 0; k < knots.poses.size(); ++k)
+      knots.poses[k] = between.poseAt(knots.stamps[k]);
+    scans[i].is_rigid = false;
+  }
+}
+
 /** \return how each scan's second half of points lies on the map of all first halves */
 std::vector<std::vector<double>>
 fitsOf(const std::vector<MotionScan>& scans,
@@ -114,6 +138,7 @@ MotionStage::relax(const ScanMatcher& matcher, KeptScans& scans, Slam6DResult& r
     moving.push_back(std::move(scan));
     judges.push_back(halfOf(tracked.sample, 1));
   }
+  freeBetween(moving);
   const MotionRelaxationOptions options = relaxationOptions();
   const auto before = fitsOf(moving, judges, options);
   const MotionRelaxationResult relaxed = relaxMotions(moving, options);
@@ -176,11 +201,15 @@ MotionStage::takeOver(const std::vector<std::size_t>& members,
 {
   std::optional<Eigen::Isometry3d> T_world_relaxed;
   for (std::size_t i = 0; i < members.size(); ++i) {
+    const bool is_moved = !moving[i].is_rigid;
     Known& known = known_[members[i]];
     ScanResult& scan = result.scans[known.place];
     const TrackedScan before = known.tracked;
     known.tracked.knots = moving[i].knots;
-    if (!before.is_moved) // to the last bit
+    known.tracked.is_moved = is_moved;
+    if (is_moved)
+      known.tracked.reason.clear();
+    else // to the last bit
       for (Eigen::Isometry3d& pose : known.tracked.knots.poses)
         pose = known.tracked.knots.poses.front();
     if (!T_world_relaxed)
@@ -189,7 +218,7 @@ MotionStage::takeOver(const std::vector<std::size_t>& members,
       scan.T_world_scan = *T_world_relaxed * known.tracked.pose();
       scan.T_world_scan.linear() = nearestRotation(scan.T_world_scan.linear());
     }
-    if (before.is_moved)
+    if (is_moved)
       scans.replace(known.place,
                     matcher.prepare(undoneAnew(
                         scans.reduced()[known.place].points(), before, known.tracked)));

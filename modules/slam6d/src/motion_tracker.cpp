@@ -103,6 +103,7 @@ MotionTracker::take(const Points& points, const Eigen::Isometry3d& pose)
   TrackedScan scan;
   scan.knots = restingKnots(still, pose);
   scan.is_matched = true;
+  scan.is_timed = false;
   keep(std::move(scan), still);
   first_ = MovingScan();
 }
@@ -111,33 +112,40 @@ void
 MotionTracker::track(const MovingScan& scan)
 {
   const bool is_second = scans_.size() == 1 && !first_.measured.points.empty();
-  if (is_second && isContinued(scan))
+  if (is_second && (isContinued(scan) || assumes_moving_) &&
+      turnOfOdometry(scan) <= kLargestTurn)
     findFirst(scan);
   TrackedScan next = find(scan);
   if (is_second && !next.is_moved && scans_[0].is_moved) { // both stand still, then
-    const Eigen::Isometry3d pose = scans_[0].pose();
-    const MovingScan first = std::move(first_);
-    scans_.clear();
-    map_ = SurfaceMap(map_options_);
-    begin(first, pose);
+    restartFirst();
     next = find(scan);
   }
   first_ = MovingScan();
   if (is_second && !scans_[0].is_moved)
     scans_[0].reason =
-        next.is_moved ? "the next scan does not follow it at once" : next.reason;
+        next.is_moved ? "too little is known of how it went on" : next.reason;
   learnNoise(next);
   keep(std::move(next), scan);
 }
 
-/** \return whether a scan began about when the one before ended */
+/** The first scan stands still again. */
+void
+MotionTracker::restartFirst()
+{
+  const Eigen::Isometry3d pose = scans_[0].pose();
+  const MovingScan first = std::move(first_);
+  scans_.clear();
+  map_ = SurfaceMap(map_options_);
+  begin(first, pose);
+}
+
 bool
 MotionTracker::isContinued(const MovingScan& scan) const
 {
   const Trajectory times = restingKnots(scan, Eigen::Isometry3d::Identity());
   const double duration = times.stamps.back() - times.stamps.front();
   const double gap = times.stamps.front() - scans_.back().knots.stamps.back();
-  return std::abs(gap) <= kLargestGap * duration;
+  return scans_.back().is_timed && std::abs(gap) <= kLargestGap * duration;
 }
 
 /** The first two scans tell together how the first one moved: as from one to the other. Both
@@ -150,13 +158,16 @@ MotionTracker::findFirst(const MovingScan& second)
   const double time = second.stamp - first_.stamp;
   for (int round = 0; round < kRounds && time > 0; ++round) {
     const TrackedScan found = find(second);
-    if (!found.is_matched)
+    if (!found.is_matched && (round > 0 || !last_step_))
       return;
     TrackedScan first = scans_[0];
+    const bool has_odometry = round == 0 && last_step_;
+    const Eigen::Isometry3d there = has_odometry ? pose * *last_step_
+                                    : round == 0 ? found.rigid_pose
+                                                 : found.moved_pose;
     for (std::size_t k = 0; k < first.knots.poses.size(); ++k)
-      first.knots.poses[k] = carriedOn(pose,
-                                       round == 0 ? found.rigid_pose : found.pose(),
-                                       (first.knots.stamps[k] - first_.stamp) / time);
+      first.knots.poses[k] =
+          carriedOn(pose, there, (first.knots.stamps[k] - first_.stamp) / time);
     first.is_moved = first.is_guide = true;
     scans_.clear();
     map_ = SurfaceMap(map_options_);
@@ -236,16 +247,18 @@ MotionTracker::motionNoise() const
   constexpr double kRoom = 4 / 0.79;
   constexpr double kLeastShare = 0.03; // no drive is smoother
   constexpr std::size_t kLeastScans = 5, kMostScans = 30;
-  const MotionNoise plausible = MotionNoise::plausible();
-  const auto learnt = [&](const std::vector<double>& all, double most) {
+  const MotionNoise plausible = MotionNoise::plausible(), usual = MotionNoise::usual();
+  const auto learnt = [&](const std::vector<double>& all,
+                          double most,
+                          double at_first) {
     if (all.size() < kLeastScans)
-      return most;
+      return at_first;
     const auto count = static_cast<std::ptrdiff_t>(std::min(all.size(), kMostScans));
     const double seen = std::sqrt(kRoom * upperMedian({all.end() - count, all.end()}));
     return std::clamp(seen, kLeastShare * most, most);
   };
-  return {learnt(linear_changes_, plausible.linear),
-          learnt(angular_changes_, plausible.angular)};
+  return {learnt(linear_changes_, plausible.linear, usual.linear),
+          learnt(angular_changes_, plausible.angular, usual.angular)};
 }
 
 } // namespace pcl6d::slam6d

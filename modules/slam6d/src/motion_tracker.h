@@ -30,11 +30,15 @@ struct PCL6D_EXPORTS TrackedScan { // shown to the test of MotionTracker
   double stamp = 0;
   bool is_matched = false; ///< the first one is
   bool is_moved = false;   ///< its motion counts
+  bool is_timed = true;    ///< its stamps are those of the clock
   bool is_guide = false;   ///< its knots tell how the next scan goes on
-  Eigen::Isometry3d rigid_pose =
-      Eigen::Isometry3d::Identity(); ///< as if it had not moved
-  std::string reason;                ///< why it does not, or why it was not matched
-  AgreementChange gain;              ///< of the motion over a rigid scan
+  /** at its stamp, as if it had not moved, and as if it had, whatever counts */
+  Eigen::Isometry3d rigid_pose = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d moved_pose = Eigen::Isometry3d::Identity();
+  std::string reason; ///< why it does not, or why it was not matched
+  std::vector<double>
+      fit; ///< of the points of the sample that judge, on the map before it
+  AgreementChange gain;      ///< of the motion over a rigid scan
   AgreementChange odometry;  ///< from where the odometry led to where it was found
   double odometry_error = 0; ///< [m] between these
 
@@ -68,6 +72,18 @@ public:
   /** \brief The next scan. */
   void
   track(const MovingScan& scan);
+
+  /** \brief Takes the first scan to have moved on to the second one as if without a stop, and all
+   * to move unless their points agree less so. To be asked for between these two. */
+  void
+  assumeMoving()
+  {
+    assumes_moving_ = true;
+  }
+
+  /** \return whether a scan began about when the one before ended */
+  bool
+  isContinued(const MovingScan& scan) const;
 
   /** \brief A scan whose pose is known and which has not moved, in place of the next one. Its
    * time is not known. */
@@ -107,14 +123,31 @@ public:
   motionNoise() const;
 
 private:
+  /** Between two knots the motion is one turn about one axis: beyond a right angle the chord is
+   * far from any path. */
+  static constexpr double kLargestTurn = 1.5708; // [rad]
+
+  struct Attempt {
+    MotionIcpResult found;
+    double fit = -1; ///< mean over the points; -1: nothing was found
+  };
+
   Trajectory
   restingKnots(const MovingScan& scan, const Eigen::Isometry3d& pose) const;
   std::vector<Trajectory>
   startsOf(const MovingScan& scan) const;
+  void
+  sortByFit(const TimedPoints& half, std::vector<Trajectory>& starts) const;
   Trajectory
-  best(const std::vector<Trajectory>& starts, const TimedPoints& half) const;
+  best(std::vector<Trajectory> starts, const TimedPoints& half) const;
+  Attempt
+  attempt(const Trajectory& rough, bool goes_on, const TimedPoints& half) const;
+  double
+  usualFit() const;
   MotionStart
   startOf(const Trajectory& knots, bool goes_on) const;
+  Trajectory
+  refined(const Trajectory& start, const TimedPoints& half) const;
   Trajectory
   grown(Trajectory knots, const TimedPoints& half) const;
   MotionIcpResult
@@ -126,16 +159,22 @@ private:
           const TimedPoints& half,
           const Trajectory& rigid,
           TrackedScan& found) const;
+  bool
+  isSure(const AgreementChange& gain) const;
   void
   compareWithOdometry(const TimedPoints& half, TrackedScan& found) const;
-  bool
-  isContinued(const MovingScan& scan) const;
   MotionIcpResult
   match(const MovingScan& scan, const TimedPoints& half, MotionIcpResult& rigid) const;
+  double
+  turnOfOdometry(const MovingScan& scan) const;
+  static void
+  leaveTurned(double turn, TrackedScan& found);
   TrackedScan
   find(const MovingScan& scan);
   void
   learnNoise(const TrackedScan& scan);
+  void
+  restartFirst();
   void
   findFirst(const MovingScan& second);
   void
@@ -148,6 +187,7 @@ private:
   SurfaceMap map_;
   MotionSampler sampler_;
   MotionIcpOptions icp_;
+  bool assumes_moving_ = false;
   double cube_; ///< [m] whose points count as one
   std::vector<TrackedScan> scans_;
   MovingScan first_;                           ///< until the second one is tracked

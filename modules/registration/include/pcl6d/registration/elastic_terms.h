@@ -30,6 +30,13 @@ struct MotionNoise {
   {
     return {5, 5};
   }
+  /** \return what is usual of a drive or a walk: a start or a bend in a second or so; the rest
+   * is left to what scans show (ElasticTerm::weights()) */
+  static MotionNoise
+  usual()
+  {
+    return {1, 1};
+  }
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

@@ -9,9 +9,10 @@
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/io/trajectory_io.h>
 
-#include <nlohmann/json.hpp>
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
+
+#include <nlohmann/json.hpp>
 
 namespace {
 namespace fs = std::filesystem;
@@ -247,7 +248,8 @@ TEST_F(EstimatedMotion, EqualTimesAndASingleScanStayAsTheyAre)
   sweeps[0].times.assign(sweeps[0].times.size(), 0.02);
   write(0, 1, pcl::PCLPointField::FLOAT32);
   run({"--force"});
-  EXPECT_EQ(summary()["scans"][0]["motion"]["reason"], "all of its points have one time");
+  EXPECT_EQ(summary()["scans"][0]["motion"]["reason"],
+            "all of its points have one time");
 }
 
 TEST_F(EstimatedMotion, WordsOfTheCommandLine)

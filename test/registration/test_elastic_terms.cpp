@@ -62,8 +62,7 @@ TEST(ElasticTerms, CoefficientsAreTheDerivatives)
       const Poses poses = scanner.knots(stamps).poses;
       Poses moved = poses;
       moved[k].translation().y() += kStep;
-      const double slope =
-          (term.residual(moved)[1] - term.residual(poses)[1]) / kStep;
+      const double slope = (term.residual(moved)[1] - term.residual(poses)[1]) / kStep;
       EXPECT_NEAR(slope, term.coefficients()[k], 1e-6);
     }
 }

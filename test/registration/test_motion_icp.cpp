@@ -96,8 +96,8 @@ TEST_F(MotionIcp, TimeThatRunsBackwardsSwapsBeginAndEnd)
     time = 0.1 - time;
   const auto backwards = pcl6d::motionIcp(map, reversed, resting({0, 0.1}), options);
   for (const std::size_t k : {0, 1}) {
-    const auto off = pcl6d::distanceBetween(forwards.knots.poses[k],
-                                            backwards.knots.poses[1 - k]);
+    const auto off =
+        pcl6d::distanceBetween(forwards.knots.poses[k], backwards.knots.poses[1 - k]);
     EXPECT_LT(off.translation, 1e-4); // both have converged to so much
     EXPECT_LT(off.rotation, 1e-4);
   }

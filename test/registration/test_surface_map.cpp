@@ -62,7 +62,8 @@ TEST(SurfaceMap, ACloudIsNoPlaneNorIsALine)
   pcl6d::Random random(3);
   Places cloud, line;
   for (int i = 0; i < 5000; ++i) {
-    cloud.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    cloud.emplace_back(
+        random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     line.emplace_back(random.uniform(-1, 1), 0.1, 0.1);
   }
   for (const Places& points : {cloud, line}) {

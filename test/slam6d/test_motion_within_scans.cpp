@@ -66,7 +66,8 @@ struct MotionWithinScans : testing::Test {
         const Eigen::Vector3d truth =
             scanner.poseAt(static_cast<double>(i) * kTurn + sweeps[i].times[k]) *
             sweeps[i].points[k].cast<double>();
-        near += (scan.T_world_scan * undone[k].cast<double>() - truth).norm() < kTolerance;
+        near +=
+            (scan.T_world_scan * undone[k].cast<double>() - truth).norm() < kTolerance;
       }
     }
     return static_cast<double>(near) / static_cast<double>(all);
@@ -205,7 +206,8 @@ TEST_F(MotionWithinScans, AThirdOfATurnWithinAScanIsTooMuchForTwoPoses)
   scanner.turning = Eigen::Vector3d(0, 0, 2 * M_PI / 3 / kTurn);
   drive(4);
   Slam6D slam(options);
-  for (std::size_t i = 0; i < sweeps.size(); ++i) { // with odometry, or nothing is known
+  for (std::size_t i = 0; i < sweeps.size();
+       ++i) { // with odometry, or nothing is known
     const double stamp = static_cast<double>(i) * kTurn;
     slam.addScan(sweeps[i].points, {sweeps[i].times, stamp}, scanner.poseAt(stamp));
   }

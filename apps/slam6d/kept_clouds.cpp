@@ -36,7 +36,7 @@ KeptClouds::add(pcl::PCLPointCloud2 cloud)
 }
 
 pcl::PCLPointCloud2
-KeptClouds::take(std::size_t i, const std::optional<ScanMotion>& motion)
+KeptClouds::take(std::size_t i, const std::optional<MotionWithinScan>& motion)
 {
   pcl::PCLPointCloud2 cloud = takeRaw(i);
   if (motion)

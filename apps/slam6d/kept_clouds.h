@@ -33,7 +33,7 @@ public:
    * \throws IoFailed its file cannot be read again, or holds
    * something else now */
   pcl::PCLPointCloud2
-  take(std::size_t i, const std::optional<ScanMotion>& motion = {});
+  take(std::size_t i, const std::optional<MotionWithinScan>& motion = {});
 
 private:
   pcl::PCLPointCloud2

@@ -87,12 +87,12 @@ addInput(OptionTable& table, Settings& s, bool& joins)
   table.add("interpolation", &s.interpolation, motionInterpolationFromName, "linear")
       .help("linear|cubic: how --deskew moves between two poses; cubic follows bends "
             "better");
-  table.add("knots SECONDS", &s.slam.motion.knots)
+  table.addAuto("knots SECONDS", &s.slam.motion.knots)
       .above(0, "> 0 s", kFinite)
-      .otherwise("none")
-      .help("of --deskew estimate: a pose every so many seconds of a scan; without, "
-            "one at "
-            "its begin and one at its end, which is enough for scans of a tenth of a "
+      .help("[s] or auto: of --deskew estimate, a pose every so many seconds of a "
+            "scan; auto: "
+            "one at its begin and one at its end, which is enough for scans of a tenth "
+            "of a "
             "second");
   table.add("continue RUN_DIR", &s.continued)
       .help("goes on with a finished run: its scans keep their place and its options "

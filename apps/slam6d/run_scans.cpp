@@ -114,7 +114,7 @@ RunScans::scanTimes(const Scan& scan, std::size_t i) const
 }
 
 void
-RunScans::undoMotion(const ScanMotion& motion,
+RunScans::undoMotion(const MotionWithinScan& motion,
                      std::size_t i,
                      pcl::PCLPointCloud2& cloud) const
 {

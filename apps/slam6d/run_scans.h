@@ -51,7 +51,9 @@ public:
   /** \brief Brings a scan that was read to the pose at its stamp.
    * \throws IoFailed as scanTimes() */
   void
-  undoMotion(const ScanMotion& motion, std::size_t i, pcl::PCLPointCloud2& cloud) const;
+  undoMotion(const MotionWithinScan& motion,
+             std::size_t i,
+             pcl::PCLPointCloud2& cloud) const;
 
   /** \brief From now on scans go through filters along their lines (--filter). */
   void

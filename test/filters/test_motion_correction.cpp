@@ -200,3 +200,29 @@ TEST(MotionCorrection, TakesPclClouds)
   EXPECT_EQ(cloud[2].getVector3fMap(), expected[2]);
   EXPECT_EQ(cloud[2].intensity, 7);
 }
+
+TEST(TimeFormatAlone, TheUnitFollowsFromTypeAndHowLongAScanLasts)
+{
+  const auto unitOf = [](std::vector<double> values, bool is_integer) {
+    return pcl6d::toString(
+        pcl6d::timeFormatAlone({"t", is_integer, std::move(values)}));
+  };
+  EXPECT_EQ(unitOf({0, 0.1}, false), "in s since the scan's stamp");
+  EXPECT_EQ(unitOf({0, 0.0001}, false), "in s since the scan's stamp");
+  EXPECT_EQ(unitOf({1.7e9, 1.7e9 + 0.1}, false), "in s, absolute");
+  EXPECT_EQ(unitOf({0, 100}, true), "in ms since the scan's stamp");
+  EXPECT_EQ(unitOf({-50000, 50000}, true), "in us since the scan's stamp");
+  EXPECT_EQ(unitOf({0, 1e8}, true), "in ns since the scan's stamp");
+  EXPECT_EQ(unitOf({0, 5e9}, true), "in ns since the scan's stamp");
+  EXPECT_EQ(unitOf({1.7e18, 1.7e18 + 1e8}, true), "in ns, absolute");
+  EXPECT_EQ(unitOf({3, 3}, false), "in s since the scan's stamp") << "at one time";
+}
+
+TEST(TimeFormatAlone, WhatIsNoScanIsRefused)
+{
+  for (const bool is_integer : {false, true}) {
+    EXPECT_THROW(pcl6d::timeFormatAlone({"t", is_integer, {0, 1e11}}), BadArgument);
+    EXPECT_THROW(pcl6d::timeFormatAlone({"t", is_integer, {0, NAN}}), BadArgument);
+  }
+  EXPECT_THROW(pcl6d::timeFormatAlone({"t", true, {0, 1}}), BadArgument);
+}

@@ -107,7 +107,7 @@ totalsOf(const RunResult& run)
 }
 
 Json
-toJson(const ScanMotion& motion)
+toJson(const MotionWithinScan& motion)
 {
   Json json;
   visitMotionFields(motion, Writer{json});

@@ -215,7 +215,9 @@ MotionTracker::startOf(const Trajectory& knots, bool goes_on) const
 /** First with constant velocity over all of the scan, then with twice as many steps each time:
  * few unknowns come near from far away. */
 Trajectory
-MotionTracker::refined(const Trajectory& start, const TimedPoints& half) const
+MotionTracker::refined(const Trajectory& start,
+                       bool goes_on,
+                       const TimedPoints& half) const
 {
   MotionIcpOptions rough = icp_;
   rough.max_iterations = 10; // the next ones go on
@@ -236,48 +238,8 @@ MotionTracker::refined(const Trajectory& start, const TimedPoints& half) const
     }
     if (steps == all)
       return finer;
-    knots = motionIcp(map_, half, startOf(finer, true), rough).knots;
+    knots = motionIcp(map_, half, startOf(finer, goes_on), rough).knots;
   }
-}
-
-/** Knots one after the other: each follows from where those before were found, either as the
- * start has it or as the last step goes on. */
-Trajectory
-MotionTracker::grown(Trajectory knots, const TimedPoints& half) const
-{
-  const Trajectory start = knots;
-  MotionIcpOptions rough = icp_;
-  rough.max_iterations = 5; // the next knots need a direction, not the last millimetre
-  for (std::size_t k = 1; k + 1 < knots.poses.size(); ++k) {
-    TimedPoints part;
-    for (std::size_t i = 0; i < half.times.size(); ++i)
-      if (half.times[i] <= knots.stamps[k]) {
-        part.points.push_back(half.points[i]);
-        part.times.push_back(half.times[i]);
-      }
-    Trajectory known;
-    known.poses.assign(knots.poses.begin(), knots.poses.begin() + k + 1);
-    known.stamps.assign(knots.stamps.begin(), knots.stamps.begin() + k + 1);
-    const MotionIcpResult found = motionIcp(map_, part, startOf(known, true), rough);
-    std::copy(found.knots.poses.begin(), found.knots.poses.end(), knots.poses.begin());
-    TimedPoints next; // of the step to come
-    for (std::size_t i = 0; i < half.times.size(); ++i)
-      if (half.times[i] > knots.stamps[k] && half.times[i] <= knots.stamps[k + 1]) {
-        next.points.push_back(half.points[i]);
-        next.times.push_back(half.times[i]);
-      }
-    Trajectory as_started = knots, goes_on = knots;
-    for (std::size_t j = k + 1; j < knots.poses.size(); ++j) {
-      as_started.poses[j] =
-          knots.poses[k] * (start.poses[k].inverse() * start.poses[j]);
-      goes_on.poses[j] = carriedOn(knots.poses[k - 1],
-                                   knots.poses[k],
-                                   (knots.stamps[j] - knots.stamps[k - 1]) /
-                                       (knots.stamps[k] - knots.stamps[k - 1]));
-    }
-    knots = best({as_started, goes_on}, next);
-  }
-  return knots;
 }
 
 /** The same scan as if it had not moved. */
@@ -373,16 +335,25 @@ MotionTracker::attempt(const Trajectory& rough,
                        bool goes_on,
                        const TimedPoints& half) const
 {
-  const Trajectory start = rough.poses.size() == 2
-                               ? rough
-                               : best({refined(rough, half), grown(rough, half)}, half);
+  const Trajectory first =
+      rough.poses.size() == 2 ? rough : refined(rough, goes_on, half);
+  const MotionStart start = startOf(first, goes_on);
   Attempt attempt;
-  attempt.found = motionIcp(map_, half, startOf(start, goes_on), icp_);
-  if (isOk(attempt.found))
-    attempt.fit = meanOf(fitOf(map_,
-                               worldPoints(half, attempt.found.knots, icp_.num_threads),
-                               icp_.noise,
-                               icp_.num_threads));
+  attempt.found = motionIcp(map_, half, start, icp_);
+  if (!isOk(attempt.found))
+    return attempt;
+  attempt.fit = meanOf(fitOf(map_,
+                             worldPoints(half, attempt.found.knots, icp_.num_threads),
+                             icp_.noise,
+                             icp_.num_threads));
+  std::vector<Eigen::Isometry3d> world = start.held.poses;
+  world.insert(
+      world.end(), attempt.found.knots.poses.begin(), attempt.found.knots.poses.end());
+  for (const ElasticTerm& term : start.terms)
+    attempt.broken += term.cost(world);
+  // A point that lies on a plane is about e times as likely as one that does not.
+  attempt.score =
+      static_cast<double>(half.points.size()) / 2 * attempt.fit - attempt.broken;
   return attempt;
 }
 
@@ -398,22 +369,26 @@ MotionTracker::usualFit() const
 }
 
 /** From the start that fits best; if what is found is much worse than usual, or than no motion,
- * as where a turn began too suddenly for what is known, from the others, and freely. */
+ * or too sudden, from the others, and freely. */
 MotionIcpResult
 MotionTracker::match(const MovingScan& scan,
                      const TimedPoints& half,
                      MotionIcpResult& rigid) const
 {
   constexpr double kUsual = 0.9; // fits of good scans differ by less
+  constexpr double kSudden = 10; // rules are broken by as much once in e^10 scans
   std::vector<Trajectory> starts = startsOf(scan);
   sortByFit(half, starts);
   Attempt best = attempt(starts[0], true, half);
-  for (std::size_t i = 1; i < starts.size() && best.fit < kUsual * usualFit(); ++i)
-    for (const bool goes_on : {true, false}) {
-      Attempt other = attempt(starts[i], goes_on, half);
-      if (other.fit > best.fit)
-        best = std::move(other);
-    }
+  const auto take = [&](const Attempt& other) {
+    if (other.score > best.score)
+      best = other;
+  };
+  for (std::size_t i = 1;
+       i < starts.size() && (best.fit < kUsual * usualFit() || best.broken > kSudden);
+       ++i)
+    for (const bool goes_on : {true, false})
+      take(attempt(starts[i], goes_on, half));
   if (!isOk(best.found))
     return best.found;
   rigid = matchRigid(scan, half, best.found);
@@ -421,11 +396,8 @@ MotionTracker::match(const MovingScan& scan,
                                     worldPoints(half, rigid.knots, icp_.num_threads),
                                     icp_.noise,
                                     icp_.num_threads));
-  if (isOk(rigid) && best.fit < still) {
-    Attempt freely = attempt(rigid.knots, false, half);
-    if (freely.fit > best.fit)
-      best = std::move(freely);
-  }
+  if (isOk(rigid) && best.fit < still)
+    take(attempt(rigid.knots, false, half));
   return best.found;
 }
 

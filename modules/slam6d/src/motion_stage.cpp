@@ -226,10 +226,10 @@ MotionStage::placeOf(const Added& added, const TrackedScan& tracked)
   return now.taken;
 }
 
-ScanMotion
+MotionWithinScan
 MotionStage::motionOf(const Known& known) const
 {
-  ScanMotion motion;
+  MotionWithinScan motion;
   const TrackedScan& tracked = known.tracked;
   motion.undone = tracked.is_moved;
   motion.reason = tracked.reason;

@@ -107,7 +107,7 @@ private:
   readyOf(const Added& added, const TrackedScan& tracked);
   Eigen::Isometry3d
   placeOf(const Added& added, const TrackedScan& tracked);
-  ScanMotion
+  MotionWithinScan
   motionOf(const Known& known) const;
   std::vector<std::size_t>
   placedScans(const Slam6DResult& result) const;

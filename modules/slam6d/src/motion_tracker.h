@@ -129,7 +129,9 @@ private:
 
   struct Attempt {
     MotionIcpResult found;
-    double fit = -1; ///< mean over the points; -1: nothing was found
+    double fit = -1;   ///< mean over the points; -1: nothing was found
+    double broken = 0; ///< how much its rules are: a logarithm of how seldom that is
+    double score = -INFINITY; ///< a logarithm of how likely it is
   };
 
   Trajectory
@@ -147,9 +149,7 @@ private:
   MotionStart
   startOf(const Trajectory& knots, bool goes_on) const;
   Trajectory
-  refined(const Trajectory& start, const TimedPoints& half) const;
-  Trajectory
-  grown(Trajectory knots, const TimedPoints& half) const;
+  refined(const Trajectory& start, bool goes_on, const TimedPoints& half) const;
   MotionIcpResult
   matchRigid(const MovingScan& scan,
              const TimedPoints& half,

@@ -25,8 +25,11 @@ using Couplings = BlockSystem<6>::Couplings;
 /** A rigid scan bends by no more than this share of the noise. */
 constexpr double kRigid = 1e-3;
 
+/** Where two scans meet is as exact as their poses: the mean of a hundred planes. */
+constexpr double kSlack = 0.1;
+
 /** Rounds end when no knot moves farther than this share of the noise. */
-constexpr double kRest = 0.1;
+constexpr double kRest = 0.2;
 
 /** Links count by how far their pieces are apart, at first in units of so many deviations, half
  * as many in each round: what is off as a whole comes nearer before it is left out. */
@@ -90,7 +93,7 @@ private:
   void
   addTerms()
   {
-    const double slack = kRest * options_.noise;
+    const double slack = kSlack * options_.noise;
     const double turn = slack * options_.hold_rotation / options_.hold_translation;
     for (std::size_t i = 0; i < scans_.size(); ++i) {
       const auto& stamps = scans_[i].knots.stamps;

@@ -11,6 +11,9 @@ namespace pcl6d {
 namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
+/** At so many standard deviations a rule counts half. */
+constexpr double kDeviations = 3;
+
 Vector6
 stepBetween(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to)
 {
@@ -71,10 +74,21 @@ ElasticTerm::residual(const std::vector<Eigen::Isometry3d>& world) const
   return value;
 }
 
+double
+ElasticTerm::cost(const std::vector<Eigen::Isometry3d>& world) const
+{
+  const Vector6 value = residual(world);
+  const auto of = [](double off_sq, double weight) {
+    constexpr double kScale = kDeviations * kDeviations;
+    return kScale / 2 * std::log1p(off_sq * weight / kScale);
+  };
+  return of(value.head<3>().squaredNorm(), translation_weight) +
+         of(value.tail<3>().squaredNorm(), rotation_weight);
+}
+
 Vector6
 ElasticTerm::weights(const Vector6& residual) const
 {
-  constexpr double kDeviations = 3;
   const auto left = [](double off, double weight, double least) {
     const double deviations = off * std::sqrt(weight) / kDeviations;
     return std::max(least, weight / (1 + deviations * deviations));

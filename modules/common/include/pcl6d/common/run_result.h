@@ -79,7 +79,7 @@ RecoveredBy
 recoveredByFromName(const std::string& name);
 
 /** \brief How the scanner moved while it took a scan. */
-struct ScanMotion {
+struct MotionWithinScan {
   bool undone = false;    ///< the scan's points were brought to the pose at its stamp
   std::string reason;     ///< why not; else empty
   double seconds = 0;     ///< from the first to the last point
@@ -116,7 +116,7 @@ struct ScanResult {
                          ///< kFeatures and kGlobal, from the one they found
   std::string reason;    ///< why the match is not believed; else empty
   RecoveredBy recovered = RecoveredBy::kNone;
-  std::optional<ScanMotion> motion; ///< none: it was not looked for
+  std::optional<MotionWithinScan> motion; ///< none: it was not looked for
 };
 
 /** \return the number of scans in a state */

@@ -26,7 +26,7 @@ struct MotionRelaxationOptions {
    * [rad]; > 0 */
   double hold_translation = 0.02;
   double hold_rotation = 0.005;
-  int max_rounds = 12;          ///< each with pairs anew; > 0
+  int max_rounds = 8;           ///< each with pairs anew; > 0
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void

@@ -71,6 +71,11 @@ struct ElasticTerm {
   Eigen::Matrix<double, 6, 1>
   weights(const Eigen::Matrix<double, 6, 1>& residual) const;
 
+  /** \return how unlikely the rule's value is, as the logarithm that goes with weights(); 0 where
+   * it is kept */
+  double
+  cost(const std::vector<Eigen::Isometry3d>& knots_world) const;
+
   /** \return the value of the rule: translations, then rotations */
   Eigen::Matrix<double, 6, 1>
   residual(const std::vector<Eigen::Isometry3d>& knots_world) const;

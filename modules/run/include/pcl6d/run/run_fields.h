@@ -34,7 +34,7 @@ visitScanFields(Scan& scan, Visit&& visit)
   visit("recovered", scan.recovered);
 }
 
-/** \param[in] motion a ScanMotion, const or not */
+/** \param[in] motion a MotionWithinScan, const or not */
 template <typename Motion, typename Visit>
 void
 visitMotionFields(Motion& motion, Visit&& visit)

@@ -57,10 +57,10 @@ overTheStair()
 }
 
 // At kSpeed, without further wishes.
-pcl6d::MotionOptions
+pcl6d::RobotMotionOptions
 ride()
 {
-  pcl6d::MotionOptions options;
+  pcl6d::RobotMotionOptions options;
   options.speed = kSpeed;
   return options;
 }

@@ -21,10 +21,10 @@ using pcl6d::Simulator;
 
 constexpr double kSpeed = 0.5; // [m/s]
 
-pcl6d::MotionOptions
+pcl6d::RobotMotionOptions
 ride()
 {
-  pcl6d::MotionOptions options;
+  pcl6d::RobotMotionOptions options;
   options.speed = kSpeed;
   return options;
 }
@@ -55,7 +55,7 @@ floorOnly()
 }
 
 RobotMotion
-onTheSquare(pcl6d::PathCorners corners, const pcl6d::MotionOptions& options)
+onTheSquare(pcl6d::PathCorners corners, const pcl6d::RobotMotionOptions& options)
 {
   return RobotMotion(RobotPath(kSquare, {}, corners), floorOnly(), options);
 }
@@ -73,7 +73,7 @@ ratesAt(const RobotMotion& motion, double time)
 
 TEST(RobotMotion, TurnsInPlaceAtSharpCorners)
 {
-  pcl6d::MotionOptions options = ride();
+  pcl6d::RobotMotionOptions options = ride();
   options.turn_rate = kTurnRate;
   const RobotMotion motion = onTheSquare(pcl6d::PathCorners::kSharp, options);
   const double leg = 8 / kSpeed, turn = M_PI / 2 / kTurnRate; // [s]
@@ -100,7 +100,7 @@ TEST(RobotMotion, TurnsInPlaceAtSharpCorners)
 
 TEST(RobotMotion, SlowsDownInBendsToItsTurnRate)
 {
-  pcl6d::MotionOptions options = ride();
+  pcl6d::RobotMotionOptions options = ride();
   options.speed = 3; // the bends have radii from 2 m on: it would turn at 1.5 rad/s
   const RobotMotion fast = onTheSquare(pcl6d::PathCorners::kRounded, options);
   options.turn_rate = kTurnRate;
@@ -121,7 +121,7 @@ TEST(RobotMotion, SlowsDownInBendsToItsTurnRate)
 
 TEST(RobotMotion, ShakesAsMuchAsItIsToldAndNoFasterThanTenHertz)
 {
-  pcl6d::MotionOptions options = ride();
+  pcl6d::RobotMotionOptions options = ride();
   options.turn_rate = kTurnRate;
   const RobotMotion smooth = onTheSquare(pcl6d::PathCorners::kSharp, options);
   options.vibration = 0.004;
@@ -158,7 +158,7 @@ TEST(RobotMotion, ShakesAsMuchAsItIsToldAndNoFasterThanTenHertz)
 TEST(RobotMotion, RefusesWhatNoRobotDoes)
 {
   const auto refused = [](const auto& spoil) {
-    pcl6d::MotionOptions options = ride();
+    pcl6d::RobotMotionOptions options = ride();
     spoil(options);
     EXPECT_THROW(onTheSquare(pcl6d::PathCorners::kRounded, options),
                  pcl6d::BadArgument);

@@ -76,7 +76,7 @@ std::vector<Eigen::Isometry3d>
 shaken(const PoseSpline& spline,
        double round,
        double lever,
-       const MotionOptions& options)
+       const RobotMotionOptions& options)
 {
   const auto count = static_cast<double>(stepsOf(round, kShakeTime));
   const double step = round / count;
@@ -89,7 +89,7 @@ shaken(const PoseSpline& spline,
 } // namespace
 
 void
-MotionOptions::validate() const
+RobotMotionOptions::validate() const
 {
   require(speed > 0 && speed <= kTopSpeed, "speed", speed, "in (0, 50] m/s");
   require(!turn_rate || (*turn_rate > 0 && *turn_rate <= 10),
@@ -139,7 +139,7 @@ PoseSpline::poseAt(double time) const
 
 RobotMotion::RobotMotion(const RobotPath& path,
                          const RayCaster& caster,
-                         const MotionOptions& options)
+                         const RobotMotionOptions& options)
 {
   options.validate();
   require(options.turn_rate || path.corners().empty(),

@@ -91,7 +91,7 @@ SimulationOptions::validate() const
           "period",
           period.value_or(0),
           "> 0 s");
-  MotionOptions ride;
+  RobotMotionOptions ride;
   ride.turn_rate = turn_rate;
   ride.vibration = vibration;
   ride.validate();
@@ -152,7 +152,7 @@ void
 Simulator::scanOnTheMove()
 {
   speed_ = speedOnTheMove();
-  MotionOptions ride;
+  RobotMotionOptions ride;
   ride.speed = speed_;
   ride.turn_rate = options_.turn_rate;
   if (options_.turns_in_place)

@@ -10,7 +10,7 @@ namespace pcl6d::simulation {
 
 constexpr double kHighestShake = 10; // [Hz]
 
-/** \brief A small motion that comes back after each round: see MotionOptions::vibration. */
+/** \brief A small motion that comes back after each round: see RobotMotionOptions::vibration. */
 class Vibration {
 public:
   /** \param[in] rms [m] of the distance \param[in] lever [m] between the contacts

@@ -13,7 +13,7 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How a robot drives along a path without a stop for its scans. */
-struct MotionOptions {
+struct RobotMotionOptions {
   double speed = 1; ///< [m/s] in plan, in (0, 50]
   /** [rad/s] in (0, 10]: it slows down where the path bends more, and turns so fast at sharp
    * corners, where it stops; none: it never slows down, and a path with sharp corners is
@@ -60,7 +60,7 @@ public:
    * \throws ComputeFailed there is no floor below the path */
   RobotMotion(const RobotPath& path,
               const RayCaster& caster,
-              const MotionOptions& options);
+              const RobotMotionOptions& options);
 
   /** \param[in] time [s] any; the drive goes round and round
    * \return T_scene_sensor */

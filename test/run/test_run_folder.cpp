@@ -244,6 +244,20 @@ TEST(RunFolder, NamesWhatIsMissing)
   EXPECT_TRUE(run.readScan(1).empty());
 }
 
+TEST(RunFolder, MissesWhatMovedOnlyWhereSomethingDid)
+{
+  RunFiles files;
+  files.summary.moving.emplace();
+  files.summary.moving->points = {0, 0};
+  files.writeSummary();
+  EXPECT_EQ(RunFolder(files.path()).missing(), std::vector<std::string>());
+  files.summary.scans[1].points = 5;
+  files.summary.moving->points = {0, 1};
+  files.writeSummary();
+  EXPECT_EQ(RunFolder(files.path()).missing(), std::vector<std::string>{"moving.pcd"});
+  EXPECT_TRUE(RunFolder(files.path()).readMoving().points.empty());
+}
+
 TEST(RunFolder, TellsThatARunWasInterrupted)
 {
   RunFiles files;

@@ -151,6 +151,8 @@ RunFolder::missing() const
   for (const std::string name : {"graph.g2o", "links.csv"})
     if (!has(name) && !no_graph)
       missing.push_back(name);
+  if (!interrupted && summary_.moving && summary_.moving->total() > 0 && !has(kMoving))
+    missing.push_back(kMoving);
   for (std::size_t i = 0; i < summary_.scans.size(); ++i) {
     if (has("scans") && !text::isThere(scanPath(i)))
       missing.push_back("scans/" + scanPath(i).filename().string());

@@ -66,7 +66,9 @@ RunPictures::drawTop()
 {
   TopViewOptions options = optionsOf<TopViewOptions>("", PointColour::kHeight);
   options.shading = 0.4;
-  return TopView(options).draw(topScene(options.colour)).image;
+  TopViewScene scene = topScene(options.colour);
+  scene.moving = run_.readMoving().points;
+  return TopView(options).draw(scene).image;
 }
 
 Camera

@@ -150,6 +150,45 @@ TEST(TopView, DrawsTheTrajectoriesOverTheMap)
   EXPECT_LT(brightnessAt(picture, 4.5, 2.5), kDark);
 }
 
+TEST(TopView, DrawsWhatMovedInRedOverTheMap)
+{
+  const auto isRed = [](const TopViewPicture& picture, double x, double y) {
+    const Eigen::Vector2d pixel = picture.layout.toPixel({x, y});
+    const Colour c =
+        picture.image.at(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+    return c[0] > 200 && c[1] < 80 && c[2] < 80;
+  };
+  auto scene = makeL();
+  const auto before = TopView(smallPicture()).draw(scene);
+  scene.moving = {{4, 2, 0.5F},
+                  {6, 0, -5}, // below the wall, and yet seen
+                  {std::numeric_limits<float>::quiet_NaN(), 3, 0},
+                  {4, 1000, 0}}; // does not make the picture larger
+  const auto picture = TopView(smallPicture()).draw(scene);
+  EXPECT_EQ(picture.layout.area.max(), before.layout.area.max());
+  EXPECT_TRUE(isRed(picture, 4, 2));
+  EXPECT_TRUE(isRed(picture, 6, 0));
+  EXPECT_FALSE(isRed(before, 4, 2));
+  EXPECT_FALSE(isRed(before, 6, 0));
+  EXPECT_FALSE(isRed(picture, 5, 0));
+  auto options = smallPicture();
+  options.cut.slice = {0.5, 0.4};
+  const auto slice = TopView(options).draw(scene);
+  EXPECT_TRUE(isRed(slice, 4, 2));
+  EXPECT_FALSE(isRed(slice, 6, 0)); // not in the slice
+  const auto redInTheLegend = [](const TopViewPicture& drawn) {
+    int count = 0;
+    for (int row = 0; row < static_cast<int>(drawn.layout.map.top); ++row)
+      for (int column = 0; column < drawn.image.width; ++column) {
+        const Colour c = drawn.image.at(column, row);
+        count += c[0] > 200 && c[1] < 80 && c[2] < 80;
+      }
+    return count;
+  };
+  EXPECT_GT(redInTheLegend(picture), 20);
+  EXPECT_EQ(redInTheLegend(before), 0);
+}
+
 TEST(TopView, ColoursByHeightAndByScan)
 {
   TopViewScene scene;

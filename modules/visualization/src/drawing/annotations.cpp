@@ -200,10 +200,10 @@ Annotations::addLegendEntry(const std::string& label, const Colour& colour)
 }
 
 void
-Annotations::addLegend(const Paths& paths, const Overlay& overlay)
+Annotations::addLegend(const Paths& paths, const std::vector<Overlay::Key>& keys)
 {
   legend_end_ = {frame_.width - frame_.margin, topRow()};
-  for (auto key = overlay.keys.rbegin(); key != overlay.keys.rend(); ++key)
+  for (auto key = keys.rbegin(); key != keys.rend(); ++key)
     addLegendEntry(key->text, key->colour);
   const bool has_final = !paths.final.poses.empty();
   const bool has_initial = !paths.initial.poses.empty();

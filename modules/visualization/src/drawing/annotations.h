@@ -11,7 +11,9 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <type_traits>
+#include <vector>
 
 namespace pcl6d::visualization {
 
@@ -49,9 +51,9 @@ public:
   addOverlay(const Overlay& overlay);
   void
   addTitle(const std::string& title);
-  /** \brief Which path is which, and the keys of the overlay; after the title. */
+  /** \brief Which path is which, and further keys; after the title. */
   void
-  addLegend(const Paths& paths, const Overlay& overlay);
+  addLegend(const Paths& paths, const std::vector<Overlay::Key>& keys);
   void
   addScaleBar(const Eigen::Vector2d& begin, const Eigen::Vector2d& end, double metres);
   /** \brief The colour bar, or the names of the colours. */
@@ -128,7 +130,11 @@ annotate(const Options& options,
   annotations.addPaths(paths);
   annotations.addOverlay(scene.overlay);
   annotations.addTitle(options.title);
-  annotations.addLegend(paths, scene.overlay);
+  std::vector<Overlay::Key> keys = scene.overlay.keys;
+  if constexpr (std::is_same_v<Layout, TopViewLayout>)
+    if (!scene.moving.empty())
+      keys.push_back({"what moved", themeOf(options.background).moved});
+  annotations.addLegend(paths, keys);
   if constexpr (std::is_same_v<Layout, TopViewLayout>)
     annotations.addScaleBar(
         layout.scale_bar_begin, layout.scale_bar_end, layout.scale_bar_metres);

@@ -12,16 +12,25 @@ struct Theme {
   Colour plain;   ///< points whose colour tells nothing
   Colour initial; ///< poses before the run
   Colour final;   ///< poses after it
+  Colour moved;   ///< points of what moved
 };
 
 inline Theme
 themeOf(Background background)
 {
   if (background == Background::kLight)
-    return {
-        {255, 255, 255}, {40, 40, 40}, {170, 174, 182}, {240, 120, 20}, {200, 0, 70}};
-  return {
-      {12, 13, 18}, {225, 225, 225}, {92, 97, 108}, {255, 130, 70}, {255, 255, 255}};
+    return {{255, 255, 255},
+            {40, 40, 40},
+            {170, 174, 182},
+            {240, 120, 20},
+            {200, 0, 70},
+            {230, 20, 20}};
+  return {{12, 13, 18},
+          {225, 225, 225},
+          {92, 97, 108},
+          {255, 130, 70},
+          {255, 255, 255},
+          {255, 42, 42}};
 }
 
 } // namespace pcl6d::visualization

@@ -34,6 +34,7 @@ topSceneOf(const RunFolder& run)
   RunMap map = run.readMap();
   scene.points = std::move(map.points);
   scene.scans = std::move(map.scans);
+  scene.moving = run.readMoving().points;
   scene.trajectory = run.trajectory();
   scene.initial = run.initialTrajectory();
   return scene;

@@ -143,7 +143,8 @@ layOut(const Points& points, const TopViewScene& scene, const TopViewOptions& op
   layout.area = box;
   layout.text_size = textSizeFor(options.width);
   const bool has_top_line = !options.title.empty() || !scene.trajectory.poses.empty() ||
-                            !scene.initial.poses.empty() || !scene.overlay.keys.empty();
+                            !scene.initial.poses.empty() ||
+                            !scene.overlay.keys.empty() || !scene.moving.empty();
   layout.map.left = margin;
   layout.map.right = options.width - margin;
   layout.map.top = margin + (has_top_line ? 2.2 * layout.text_size : 0);
@@ -208,6 +209,30 @@ drawnPoints(const TopViewScene& scene,
   layout.points_drawn = drawn.pixels.size();
   return drawn;
 }
+
+/** \brief Adds what moved, over the other points. \param[in] size [px] of those */
+void
+addMoving(const TopViewScene& scene,
+          const TopViewOptions& options,
+          const TopViewLayout& layout,
+          double size,
+          PixelScene& canvas)
+{
+  constexpr float kOver = 1.1F;     // the highest layer of other points is 1
+  constexpr double kNoticeable = 3; // [px]
+  const auto shown = shownPoints(scene.moving, scene.trajectory, options.cut).indices;
+  std::vector<Eigen::Vector3f> pixels;
+  for (const auto i : thinned(shown, options.max_points)) {
+    const Eigen::Vector2d pixel =
+        layout.toPixel(scene.moving[i].head<2>().cast<double>());
+    if (layout.map.contains(pixel))
+      pixels.emplace_back(
+          static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), kOver);
+  }
+  const Colour colour = themeOf(options.background).moved;
+  canvas.addPoints(
+      pixels, std::vector<Colour>(pixels.size(), colour), std::max(size, kNoticeable));
+}
 } // namespace
 
 void
@@ -249,6 +274,8 @@ TopView::draw(const TopViewScene& scene) const
       layout.width, layout.height, themeOf(options_.background).background);
   canvas.setShading(options_.shading);
   canvas.addPoints(drawn.pixels, drawn.colours, drawn.size);
+  if (!scene.moving.empty())
+    addMoving(scene, options_, layout, drawn.size, canvas);
   const Annotations::Project project = [&](const Eigen::Vector3d& place) {
     return std::optional<Eigen::Vector2d>(layout.toPixel(place.head<2>()));
   };

@@ -9,8 +9,8 @@
 /** \file What a run left, as scenes that can be drawn. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return the map of a run with both trajectories, relative to its world offset
- * \throws IoFailed map.pcd is broken \ingroup visualization */
+/** \return the map of a run, what moved and both trajectories, relative to its world offset
+ * \throws IoFailed map.pcd or moving.pcd is broken \ingroup visualization */
 TopViewScene
 topSceneOf(const RunFolder& run);
 

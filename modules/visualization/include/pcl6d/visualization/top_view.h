@@ -44,7 +44,9 @@ struct TopViewOptions {
 struct TopViewScene : MapCloud {
   Trajectory trajectory; ///< final poses, or empty
   Trajectory initial;    ///< poses before the run, or empty
-  Overlay overlay;       ///< drawn over points and poses
+  Points
+      moving; ///< [m] what moved, red over the other points, or empty; NaN is skipped
+  Overlay overlay; ///< drawn over points and poses
 };
 
 /** \brief A picture and where things are on it. */

@@ -36,7 +36,7 @@ What the run lacks is named on it; of a file that cannot be read the exit code i
   table.add("output,o FILE.html", &s.output).help("default: RUN/report.html");
   table.add("title", &s.title).help("default: the name of the folder RUN");
   table.add("max-points", &s.options.max_points)
-      .help("of the map, which is thinned evenly; 12 bytes each");
+      .help("of the map, which is thinned evenly, and of what moved; 12 bytes each");
   s.memory.addTo(table);
   table.add("quiet", &s.quiet).help("print warnings and errors only");
   if (!table.parse(arguments))

@@ -10,6 +10,7 @@ namespace fs = std::filesystem;
 using pcl6d::test::expectError;
 using pcl6d::test::expectPassed;
 using pcl6d::test::findBrowser;
+using pcl6d::test::isChecked;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
 using pcl6d::test::runProgram;
@@ -32,9 +33,38 @@ demo()
   return out;
 }
 
-/** A copy of it, to be spoilt. */
+/** A run in which people walked, made once for all tests. */
+const fs::path&
+busy()
+{
+  static const TempFolder folder;
+  static const fs::path out = folder / "busy";
+  if (fs::exists(out))
+    return out;
+  const std::string in = folder / "scans";
+  runProgram("pcl_slam6d_simulate",
+             {"corridor",
+              "--people",
+              "3",
+              "--scans",
+              "20",
+              "--resolution",
+              "2",
+              "--seed",
+              "3",
+              "-o",
+              in,
+              "--quiet"});
+  slam(in, out, {"--last", "7", "--report", "--no-picture", "--quiet"});
+  return out;
+}
+
+/** A copy of a run, to be spoilt. */
 struct Copy : TempFolder {
-  Copy() { fs::copy(demo(), path(), fs::copy_options::recursive); }
+  explicit Copy(const fs::path& run = demo())
+  {
+    fs::copy(run, path(), fs::copy_options::recursive);
+  }
 };
 
 bool
@@ -67,6 +97,41 @@ TEST(RenderReport, OfTheDemoWorksOnDesktopAndPhone)
     expectPassed(outcome);
     EXPECT_EQ(outcome["width"], width);
   }
+}
+
+TEST(RenderReport, TellsWhatMoved)
+{
+  const auto moved = nlohmann::json::parse(readText(busy() / "summary.json"))["moving"];
+  ASSERT_EQ(moved["points"].size(), 8u);
+  std::size_t points = 0;
+  for (const auto& of_scan : moved["points"])
+    points += of_scan.get<std::size_t>();
+  EXPECT_GT(points, 100u);
+  const TempFolder folder;
+  const fs::path page = folder / "again.html";
+  const Outcome outcome =
+      runProgram(kRender, {"report", busy().string(), "-o", page.string()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(readText(page) == readText(busy() / "report.html"));
+  EXPECT_TRUE(holds(page, "\"moving\":{\"points\":" + std::to_string(points) + ','));
+  if (findBrowser().empty())
+    GTEST_SKIP() << "no browser: apt-get install chromium";
+  const auto outcome_in_browser = selfTestOf(page, 1280, 900);
+  expectPassed(outcome_in_browser);
+  EXPECT_TRUE(isChecked(outcome_in_browser, "what moved is red"));
+}
+
+TEST(RenderReport, NamesWhatMovedWhereItIsMissingOrBroken)
+{
+  const Copy run(busy());
+  fs::remove(run / "moving.pcd");
+  const Outcome missing = runProgram(kRender, {"report", run.path().string()});
+  EXPECT_EQ(missing.exit_code, 0) << missing.err;
+  EXPECT_NE(missing.err.find("missing: moving.pcd"), std::string::npos) << missing.err;
+  writeText(run / "moving.pcd", "{");
+  const Outcome broken = runProgram(kRender, {"report", run.path().string()});
+  EXPECT_EQ(broken.exit_code, 3) << broken.err;
+  EXPECT_NE(broken.err.find("moving.pcd"), std::string::npos) << broken.err;
 }
 
 TEST(RenderReport, SaysWhatIsMissingOrBroken)

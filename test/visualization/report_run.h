@@ -116,4 +116,26 @@ makeReportData(int scans = 10)
   return data;
 }
 
+constexpr std::size_t kWalkerPoints = 2000; // in the moving map of makeMovingReport()
+
+/** \return the same run with somebody who walks over the floor beside the scanner, seen by its first
+ * five scans */
+inline ReportData
+makeMovingReport(int scans = 10)
+{
+  ReportData data = makeReportData(scans);
+  for (std::size_t i = 0; i < kWalkerPoints; ++i) {
+    const float step = static_cast<float>(i / 20), height = static_cast<float>(i % 20);
+    data.moving.points.emplace_back(2 + 0.16F * step, 5.0F, 0.1F + 0.09F * height);
+    data.moving.scans.push_back(static_cast<std::uint32_t>(i * 5 / kWalkerPoints));
+  }
+  MovingResult moving;
+  moving.points.assign(data.summary.scans.size(), 0);
+  for (std::size_t i = 0; i < 5; ++i)
+    moving.points[i] = 40 + i;
+  moving.unknown = 0.25;
+  data.summary.moving = moving;
+  return data;
+}
+
 } // namespace pcl6d::test

@@ -17,6 +17,8 @@ using nlohmann::json;
 using pcl6d::ReportData;
 using pcl6d::ReportOptions;
 using pcl6d::test::kReportOffset;
+using pcl6d::test::kWalkerPoints;
+using pcl6d::test::makeMovingReport;
 using pcl6d::test::makeReportData;
 using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
@@ -69,11 +71,11 @@ bytesOf(const std::string& base64)
   return bytes;
 }
 
-/** \return the points of the map of a report */
+/** \return the points of the map of a report, or those of what "moving" */
 pcl6d::Points
-pointsOf(const json& map)
+pointsOf(const json& map, const char* which = "positions")
 {
-  const std::string bytes = bytesOf(map["positions"]);
+  const std::string bytes = bytesOf(map[which]);
   std::vector<std::uint16_t> steps(bytes.size() / 2);
   std::memcpy(steps.data(), bytes.data(), bytes.size());
   pcl6d::Points points;
@@ -130,6 +132,78 @@ TEST(Report, HoldsTheMapToHalfAStep)
   const std::string grey = bytesOf(run["map"]["intensities"]);
   EXPECT_EQ(static_cast<unsigned char>(grey.front()), 0);
   EXPECT_EQ(static_cast<unsigned char>(grey.back()), 255);
+}
+
+TEST(Report, HoldsWhatMovedBesideTheMap)
+{
+  const ReportData data = makeMovingReport();
+  const json run = runIn(pageOf(data));
+  EXPECT_EQ(pointsOf(run["map"]).size(), data.map.points.size());
+  const pcl6d::Points points = pointsOf(run["map"], "moving");
+  ASSERT_EQ(points.size(), kWalkerPoints);
+  EXPECT_EQ(run["map"]["moving_total"], kWalkerPoints);
+  const double step = run["map"]["step"];
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ASSERT_LE((points[i] - data.moving.points[i]).cwiseAbs().maxCoeff(),
+              0.501 * step + 2e-6)
+        << i;
+  const json& moving = run["moving"];
+  EXPECT_EQ(moving["points"], 40 + 41 + 42 + 43 + 44);
+  EXPECT_EQ(moving["measured"], 10045); // 1000 to 1009 points a scan
+  EXPECT_EQ(moving["of_scans"][4], 44);
+  EXPECT_EQ(moving["of_scans"][5], 0);
+  EXPECT_EQ(moving["unknown"], 0.25);
+  EXPECT_FALSE(moving["blind"].get<bool>());
+  EXPECT_FALSE(moving["removed"].get<bool>());
+}
+
+TEST(Report, SaysNothingOfMotionWhereNobodyAskedOrNothingCouldTell)
+{
+  const json unasked = runIn(pageOf(makeReportData()));
+  EXPECT_TRUE(unasked["moving"].is_null());
+  EXPECT_FALSE(unasked["map"].contains("moving"));
+  ReportData still = makeReportData();
+  still.summary.moving.emplace();
+  still.summary.moving->points.assign(10, 0);
+  const json run = runIn(pageOf(still));
+  EXPECT_EQ(run["moving"]["points"], 0);
+  EXPECT_FALSE(run["map"].contains("moving"));
+  ReportData alone = makeReportData(1);
+  alone.summary.moving.emplace();
+  alone.summary.moving->points = {0};
+  EXPECT_TRUE(runIn(pageOf(alone))["moving"].is_null()); // as the verdict
+  still.summary.moving->blind = true;
+  still.summary.moving->background = 0.125;
+  const json blind = runIn(pageOf(still));
+  EXPECT_TRUE(blind["moving"]["blind"].get<bool>());
+  EXPECT_EQ(blind["moving"]["background"], 0.125);
+}
+
+TEST(Report, ShowsWhatMovedWithoutAMap)
+{
+  ReportData data = makeMovingReport();
+  data.map = {};
+  data.moving.points.emplace_back(static_cast<float>(kNan), 0.0F, 0.0F);
+  data.moving.scans.push_back(0);
+  const json map = runIn(pageOf(data))["map"];
+  EXPECT_EQ(map["positions"], "");
+  EXPECT_EQ(pointsOf(map, "moving").size(), kWalkerPoints); // NaN has no place
+}
+
+TEST(Report, LeavesMostOfItsBudgetToTheMap)
+{
+  ReportOptions options;
+  options.max_points = 1000;
+  const json map = runIn(pageOf(makeMovingReport(), options))["map"];
+  const std::size_t moving = pointsOf(map, "moving").size();
+  EXPECT_LE(moving, 250u);
+  EXPECT_GT(moving, 200u);
+  EXPECT_LE(pointsOf(map).size() + moving, 1000u);
+  EXPECT_GT(pointsOf(map).size() + moving, 900u);
+  options.max_points = 3; // no quarter of them is a point
+  const json tiny = runIn(pageOf(makeMovingReport(), options))["map"];
+  EXPECT_FALSE(tiny.contains("moving"));
+  EXPECT_LE(pointsOf(tiny).size(), 3u);
 }
 
 TEST(Report, ThinsTheMapToItsBudget)
@@ -235,6 +309,12 @@ TEST(Report, TellsWhatIsWrong)
   EXPECT_THROW(pageOf(makeReportData(), options), pcl6d::BadArgument);
   ReportData data = makeReportData();
   data.map.scans.pop_back();
+  EXPECT_THROW(pageOf(data), pcl6d::BadArgument);
+  data = makeMovingReport();
+  data.moving.scans.pop_back();
+  EXPECT_THROW(pageOf(data), pcl6d::BadArgument);
+  data = makeMovingReport();
+  data.summary.moving->points.pop_back();
   EXPECT_THROW(pageOf(data), pcl6d::BadArgument);
   const TempFolder folder;
   pcl6d::test::writeText(folder / "file", "");

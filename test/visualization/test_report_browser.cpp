@@ -14,6 +14,7 @@ using pcl6d::ReportData;
 using pcl6d::test::expectPassed;
 using pcl6d::test::findBrowser;
 using pcl6d::test::isChecked;
+using pcl6d::test::makeMovingReport;
 using pcl6d::test::makeReportData;
 using pcl6d::test::readText;
 using pcl6d::test::selfTestOf;
@@ -44,6 +45,16 @@ protected:
 private:
   TempFolder folder_;
 };
+
+/** \return what a check of the page found */
+std::string
+detailOf(const nlohmann::json& outcome, const std::string& name)
+{
+  for (const auto& check : outcome["checks"])
+    if (check["name"] == name)
+      return check["detail"];
+  return "no check " + name;
+}
 
 bool
 isThere(const std::string& program)
@@ -77,6 +88,41 @@ TEST_F(ReportInABrowser, WorksOnADesktop)
        {"map", "trajectory", "initial", "links", "planes", "objects", "grid"})
     EXPECT_TRUE(isChecked(outcome, "layer " + std::string(layer) + " can be switched"))
         << layer;
+  EXPECT_FALSE(isChecked(outcome, "layer moving can be switched"));
+  EXPECT_EQ(detailOf(outcome, "what moved is told"), ""); // nobody asked
+}
+
+TEST_F(ReportInABrowser, ShowsWhatMovedInRedAndSwitchesIt)
+{
+  for (const auto& [width, height] : {std::pair(1280, 900), {390, 844}}) {
+    SCOPED_TRACE(width);
+    const auto outcome = open(makeMovingReport(), width, height);
+    expectPassed(outcome);
+    EXPECT_TRUE(isChecked(outcome, "layer moving can be switched"));
+    EXPECT_TRUE(isChecked(outcome, "what moved is red"));
+    const std::string text = detailOf(outcome, "what moved is told");
+    for (const char* const words : {"210 points moved (2.1 %), in 5 scans",
+                                    "red in the map",
+                                    "25 % of the places were seen by no other scan"})
+      EXPECT_NE(text.find(words), std::string::npos) << words << " in: " << text;
+  }
+}
+
+TEST_F(ReportInABrowser, TellsThatNothingMovedOrWhyThatIsNotKnown)
+{
+  ReportData data = makeReportData();
+  data.summary.moving.emplace();
+  data.summary.moving->points.assign(10, 0);
+  const auto still = open(data, 800, 600);
+  expectPassed(still);
+  EXPECT_EQ(detailOf(still, "what moved is told").rfind("Nothing moved.", 0), 0u);
+  EXPECT_FALSE(isChecked(still, "layer moving can be switched"));
+  data.summary.moving->blind = true;
+  data.summary.moving->background = 0.125;
+  const auto blind = open(data, 800, 600);
+  expectPassed(blind);
+  const std::string text = detailOf(blind, "what moved is told");
+  EXPECT_NE(text.find("contradict 12.5 % of the points"), std::string::npos) << text;
 }
 
 TEST_F(ReportInABrowser, WorksOnAPhoneWithOddNames)

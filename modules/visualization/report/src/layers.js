@@ -13,7 +13,7 @@ import {isDoubtful} from './run.js';
 
 export const kColours = {
   trajectory: '#ffffff', initial: '#ff9d2e', used: '#3fd0c9', odometry: '#ffc24b', refused: '#ff5c5c',
-  doubtful: '#ff4d4d', picked: '#ff3d8b', object: '#ffd84a', grid: '#39434d',
+  doubtful: '#ff4d4d', picked: '#ff3d8b', moving: '#ff2a2a', object: '#ffd84a', grid: '#39434d',
 };
 
 /** Discs instead of squares; of points in metres, never smaller than some pixels. */
@@ -44,6 +44,12 @@ export function mapLayer(run, space, size) {
   const colours = new Uint8Array(run.map.positions.length);
   points.geometry.setAttribute('color', new BufferAttribute(colours, 3, true));
   return points;
+}
+
+/** What moved. */
+export function movingLayer(run, space, size) {
+  const moving = {...run.map, positions: run.map.moving};
+  return mapPoints(moving, space, asDiscs(new PointsMaterial({size, color: kColours.moving}), 2.4));
 }
 
 /** The points of one scan, drawn over the map. */

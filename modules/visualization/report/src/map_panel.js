@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The map with its switches.
 import {counted, el, fixed, metres, whole} from './dom.js';
+import {kColours} from './layers.js';
 import {isDoubtful} from './run.js';
 import {View} from './view.js';
 
 const kLayers = [
   ['map', 'Map', (run) => run.map.positions.length > 0],
+  ['moving', 'What moved', (run) => run.map.moving.length > 0],
   ['trajectory', 'Trajectory', (run) => run.scans.length > 0],
   ['initial', 'Initial poses', (run) => run.scans.length > 1],
   ['links', 'Links', (run) => run.links.length > 0],
@@ -39,9 +41,10 @@ export class MapPanel {
 
   #note() {
     const {map} = this.run;
-    const shown = map.positions.length / 3;
-    const thinned = shown < map.total
-      ? `Thinned to ${whole(shown)} of ${whole(map.total)} points for this page; map.pcd has them all.` : '';
+    const thinned = [[map.positions, map.total, 'map.pcd'], [map.moving, map.moving_total, 'moving.pcd']]
+      .filter(([positions, total]) => positions.length / 3 < total)
+      .map(([positions, total, file]) => `Thinned to ${whole(positions.length / 3)} of ${whole(total)} points ` +
+        `for this page; ${file} has them all.`).join(' ');
     return el('p', {class: 'hint'}, 'Drag to turn, right drag (two fingers) to move. Click the map, then ' +
       `scroll to zoom. Click a pose to see its scan. ${thinned}`);
   }
@@ -74,6 +77,10 @@ export class MapPanel {
         this.view.show(name, visible);
       });
       button.dataset.layer = name;
+      if (name === 'moving') { // the one whose colour tells what it is
+        button.classList.add('swatch');
+        button.style.setProperty('--colour', kColours.moving);
+      }
       return button;
     });
     return el('div', {class: 'group', role: 'group', 'aria-label': 'what is shown'}, chips);
@@ -150,7 +157,8 @@ export class MapPanel {
     if (!scan) return;
     const links = this.run.links.filter(({from, to}) => from === scan.index || to === scan.index);
     const rows = [['State', scan.state], ['Overlap', fixed(scan.overlap, 2)], ['Residual', metres(scan.rms)],
-      ['Correction', metres(scan.correction)], ['Links', counted(links.length, 'link')]];
+      ['Correction', metres(scan.correction)], ['Links', counted(links.length, 'link')],
+      ...(scan.moved ? [['Moved', counted(scan.moved, 'point')]] : [])];
     this.card.replaceChildren(
       el('button', {type: 'button', class: 'close', 'aria-label': 'close', onclick: () =>
         this.selection.choose(scan, this)}, '\u00d7'),

@@ -17,6 +17,7 @@ function decodedMap(map) {
   return {
     ...map,
     positions: shortsOf(map.positions), // x y z of each point, in steps from the origin
+    moving: shortsOf(map.moving ?? ''), // the same of what moved, which is not in the map
     scans: map.scans === undefined ? null : shortsOf(map.scans), // place in run.scans
     intensities: map.intensities === undefined ? null : bytesOf(map.intensities),
   };
@@ -36,6 +37,7 @@ export function readRun() {
   run.map = decodedMap(run.map);
   run.ramps = {height: bytesOf(run.ramps.height), order: bytesOf(run.ramps.order)};
   run.scans = run.scans.map(withoutMatch);
+  run.scans.forEach((scan, place) => { scan.moved = run.moving?.of_scans[place] ?? null; });
   run.doubtful = run.scans.filter(isDoubtful);
   run.refused = run.links.filter((link) => link.verdict === 'refused');
   run.scanOfIndex = new Map(run.scans.map((scan) => [scan.index, scan]));

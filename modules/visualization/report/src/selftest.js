@@ -40,6 +40,36 @@ function checkLayers(map, check) {
   check('all layers come back', differing(before, pixelsOf(map)) === 0, '');
 }
 
+/** \return how many pixels are red, as nothing else on the map is */
+function redPixels(map) {
+  let count = 0;
+  for (const pixel of pixelsOf(map)) {
+    const [red, green, blue] = [pixel & 255, pixel >> 8 & 255, pixel >> 16 & 255];
+    count += red > 100 && red > 3 * green && red > 3 * blue;
+  }
+  return count;
+}
+
+function checkMovingWords({run}, check) {
+  const text = document.getElementById('moved')?.textContent ?? '';
+  const {moving} = run;
+  const word = !moving ? '' : moving.blind ? 'not known' : moving.points > 0 ? 'moved (' : 'Nothing moved';
+  check('what moved is told', moving ? text.includes(word) : text === '', text);
+}
+
+function checkMoving({run, map}, check) {
+  const button = map.tools.querySelector('[data-layer="moving"]');
+  const isThere = run.map.moving.length > 0;
+  check('what moved has a switch where something did', Boolean(button) === isThere, '');
+  if (!button) return;
+  check('what moved is shown at first', button.getAttribute('aria-pressed') === 'true', '');
+  const shown = redPixels(map);
+  button.click();
+  const hidden = redPixels(map);
+  button.click();
+  check('what moved is red', shown > hidden, `${shown} red pixels, ${hidden} without`);
+}
+
 function isOrdered(values, down) {
   const order = (a, b) =>
     (typeof a === 'string' ? a.localeCompare(b, 'en', {numeric: true}) : a - b) * (down ? -1 : 1);
@@ -98,10 +128,12 @@ export function selfTest(page) {
   const check = (name, passed, detail) => checks.push({name, passed, detail: String(detail)});
   try {
     checkLayout(check);
+    checkMovingWords(page, check);
     check('WebGL works', Boolean(page.map.view), '');
     if (page.map.view) {
       checkCanvas(page.map, check);
       checkLayers(page.map, check);
+      checkMoving(page, check);
       if (page.run.scans.length > 0) checkPick(page, check);
     }
     for (const [name, table] of Object.entries(page.tables)) checkTable(name, table, check);

@@ -27,6 +27,7 @@ export function scanTable(run, selection) {
       badge('State', 'state', 'fixed: the first one; matched; anything else is not to be trusted',
         (scan) => isDoubtful(scan) ? 'bad' : 'good'),
       count('Points', 'points', 'as measured'),
+      ...(run.moving?.points > 0 ? [count('Moved', 'moved', 'points on what moved')] : []),
       count('Pairs', 'pairs', 'within the largest pair distance'),
       number('Overlap', 'overlap', 2, 'pairs / points left after reduction'),
       length('Residual', 'rms', 'rms of the pairs'),

@@ -39,6 +39,20 @@ function meaning(run) {
     'each other. The rest of the map may still be good.';
 }
 
+const percent = (share) => fixed(100 * share, share > 0 && share < 0.01 ? 2 : 1) + ' %';
+
+/** What moved while the scans were taken, or why that is not known. */
+function movingWords({moving, map}) {
+  if (moving.blind)
+    return `What moved is not known: rays contradict ${percent(moving.background)} of the points even where ` +
+      'scans fit best. Scans and map are left as they are.';
+  const unseen = `${fixed(100 * moving.unknown, 0)} % of the places were seen by no other scan: of them it is not known.`;
+  if (moving.points === 0) return `Nothing moved. ${unseen}`;
+  return `${counted(moving.points, 'point')} moved (${percent(moving.points / moving.measured)}), in ` +
+    `${counted(moving.of_scans.filter((points) => points > 0).length, 'scan')}: ${map.moving.length > 0 ? 'red in the map below, and ' : ''}` +
+    `${moving.removed ? 'left out of scans and map' : 'labelled in scans/, but not part of the map'}. ${unseen}`;
+}
+
 function fact(value, label) {
   return el('div', {}, el('dd', {}, value), el('dt', {}, label));
 }
@@ -126,6 +140,7 @@ export function verdictSection(run, choose) {
     el('h2', {}, words),
     el('p', {}, meaning(run)),
     exactness.map((line) => el('p', {}, line[0].toUpperCase() + line.slice(1) + '.')),
+    run.moving ? el('p', {id: 'moved'}, movingWords(run)) : null,
     list.length > 0 ? el('ul', {class: 'notes'}, list) : null,
     numbers.length > 0 ? el('p', {class: 'numbers'}, 'Weakest matches: ' + numbers[0] + '.') : null,
     facts(run));

@@ -3,7 +3,7 @@ import {Color, PerspectiveCamera, Plane, Scene, Vector3, WebGLRenderer} from 'th
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {isPlace, spaceOf} from './geometry.js';
 import {
-  colourMap, gridLayer, initialLayer, linksLayer, mapLayer, objectsLayer, placesOfScan, planesLayer,
+  colourMap, gridLayer, initialLayer, linksLayer, mapLayer, movingLayer, objectsLayer, placesOfScan, planesLayer,
   scanPoints, trajectoryLayer,
 } from './layers.js';
 import {EyeDomeLighting} from './shading.js';
@@ -42,6 +42,7 @@ export class View {
     this.gridStep = grid.step;
     this.layers = {
       map: mapLayer(run, space, this.pointSize),
+      moving: movingLayer(run, space, this.pointSize),
       trajectory: trajectoryLayer(run, space, ratio),
       initial: initialLayer(run, space),
       links: linksLayer(run, space),
@@ -112,7 +113,7 @@ export class View {
   hideAbove(height) {
     this.lid.constant = height === null ? 1e9 : height - this.space.centre[2];
     const lids = height === null ? null : [this.lid];
-    for (const layer of [this.layers.map, this.layers.planes, this.picked])
+    for (const layer of [this.layers.map, this.layers.moving, this.layers.planes, this.picked])
       layer.traverse((part) => {
         if (!part.material) return;
         part.material.clippingPlanes = lids;
@@ -122,7 +123,8 @@ export class View {
   }
 
   setPointSize(factor) {
-    this.layers.map.material.size = this.pointSize * factor;
+    for (const layer of [this.layers.map, this.layers.moving])
+      layer.material.size = this.pointSize * factor;
     this.draw();
   }
 

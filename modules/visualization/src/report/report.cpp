@@ -101,6 +101,15 @@ check(const RunMap& map)
       throw BadArgument("a map of " + std::to_string(map.points.size()) +
                         " points with " + std::to_string(count) + ' ' + what);
 }
+
+void
+check(const RunResult& run)
+{
+  if (run.moving && run.moving->points.size() != run.scans.size())
+    throw BadArgument("a run of " + std::to_string(run.scans.size()) +
+                      " scans with what moved in " +
+                      std::to_string(run.moving->points.size()));
+}
 } // namespace
 
 void
@@ -121,6 +130,7 @@ gatherReport(const RunFolder& run,
   data.summary = run.summary();
   data.summary.links = readOrTell([&] { return run.readLinks(); }, data);
   data.map = readOrTell([&] { return run.readMap(); }, data);
+  data.moving = readOrTell([&] { return run.readMoving(); }, data);
   data.planes = readOrTell([&] { return run.readPlanes(); }, data);
   data.objects = readOrTell([&] { return run.readObjects(); }, data);
   addFolder(run, data, options);
@@ -142,6 +152,8 @@ writeReport(const fs::path& path, const ReportData& data, const ReportOptions& o
 {
   options.validate();
   check(data.map);
+  check(data.moving);
+  check(data.summary);
   const std::string json = reportJson(data, options);
   const std::string_view page = kReportPage;
   const std::size_t place = page.find(kReportPlace);

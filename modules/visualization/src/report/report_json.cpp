@@ -95,12 +95,15 @@ toJson(const RunLink& link)
 }
 
 Json
-toJson(const ReportMap& map, std::size_t total)
+toJson(const ReportMap& map, const ReportData& data)
 {
-  Json json{{"total", total},
+  Json json{{"total", data.map.points.size()},
+            {"moving_total", data.moving.points.size()},
             {"origin", numbersOf(map.origin)},
             {"step", map.step},
             {"positions", base64Of(map.positions)}};
+  if (!map.moving.empty())
+    json["moving"] = base64Of(map.moving);
   if (!map.scans.empty())
     json["scans"] = base64Of(map.scans);
   if (!map.intensities.empty())
@@ -176,6 +179,25 @@ graphStagesOf(const RunResult& summary)
     json.erase("seconds");
   }
   return stages;
+}
+
+/** \return what moved, as in the verdict; null: nobody asked, or a scan is alone */
+Json
+movingOf(const RunResult& summary)
+{
+  if (!summary.moving || summary.scans.size() < 2)
+    return nullptr;
+  const MovingResult& moving = *summary.moving;
+  std::size_t measured = 0;
+  for (const ScanResult& scan : summary.scans)
+    measured += scan.points;
+  return {{"points", moving.total()},
+          {"measured", measured},
+          {"of_scans", moving.points},
+          {"removed", moving.removed},
+          {"blind", moving.blind},
+          {"background", moving.background},
+          {"unknown", moving.unknown}};
 }
 
 /** \return the way from each finite position to the next [m] */
@@ -259,7 +281,8 @@ reportJson(const ReportData& data, const ReportOptions& options)
             {"length", lengthOf(summary)},
             {"options", optionsOf(summary)},
             {"stages", stagesOf(summary)},
-            {"graph_stages", graphStagesOf(summary)}};
+            {"graph_stages", graphStagesOf(summary)},
+            {"moving", movingOf(summary)}};
   json["scans"] = listOf(summary.scans, [&](const auto& scan, std::size_t) {
     return toJson(scan, offset);
   });
@@ -271,7 +294,7 @@ reportJson(const ReportData& data, const ReportOptions& options)
   json["objects"] = listOf(data.objects, [&](const auto& object, std::size_t) {
     return toJson(object, offset);
   });
-  json["map"] = toJson(reportMapOf(data, options.max_points), data.map.points.size());
+  json["map"] = toJson(reportMapOf(data, options.max_points), data);
   json["ramps"] = {{"height", rampOf(heightColour)}, {"order", rampOf(orderColour)}};
   json["pictures"] = picturesOf(data);
   return withoutMarkup(json.dump(-1, ' ', true, Json::error_handler_t::replace));

@@ -28,20 +28,35 @@ quantileOf(std::vector<float>& values, double share)
   return *place;
 }
 
+/** \brief Points of which some are shown. */
+struct Chosen {
+  const Points& points;
+  std::vector<std::size_t> indices; ///< ascending; at first of all that can be drawn
+
+  explicit Chosen(const Points& all) : points(all)
+  {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (canBeDrawn(points[i]))
+        indices.push_back(i);
+  }
+};
+
 /** \return where the points are but for a few far ones: from the 0.1 % to the 99.9 %
  * quantile of each coordinate and as much again to both sides */
 Eigen::AlignedBox3d
-extentOf(const Points& points, const std::vector<std::size_t>& indices)
+extentOf(const Chosen& map, const Chosen& moving)
 {
   Eigen::AlignedBox3d all, most;
   Eigen::Vector3d low, high;
-  for (const auto i : indices)
-    all.extend(points[i].cast<double>());
-  std::vector<float> values(indices.size());
+  for (const Chosen* part : {&map, &moving})
+    for (const auto i : part->indices)
+      all.extend(part->points[i].cast<double>());
+  std::vector<float> values;
   for (int axis = 0; axis < 3; ++axis) {
-    std::transform(indices.begin(), indices.end(), values.begin(), [&](std::size_t i) {
-      return points[i][axis];
-    });
+    values.clear();
+    for (const Chosen* part : {&map, &moving})
+      for (const auto i : part->indices)
+        values.push_back(part->points[i][axis]);
     low[axis] = quantileOf(values, 0.001);
     high[axis] = quantileOf(values, 0.999);
   }
@@ -51,22 +66,30 @@ extentOf(const Points& points, const std::vector<std::size_t>& indices)
   return all.intersection(most);
 }
 
-/** \return the indices of the points that a report shows */
-std::vector<std::size_t>
-chosenPoints(const Points& points, std::size_t max_points, Eigen::AlignedBox3d& extent)
+/** Leaves out what is outside the box, and thins what is left to a budget. */
+void
+keepWithin(const Eigen::AlignedBox3d& box, std::size_t max_points, Chosen& chosen)
 {
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (canBeDrawn(points[i]))
-      chosen.push_back(i);
-  if (chosen.empty())
-    return chosen;
-  extent = extentOf(points, chosen);
+  auto& indices = chosen.indices;
   const auto is_far = [&](std::size_t i) {
-    return !extent.contains(points[i].cast<double>());
+    return !box.contains(chosen.points[i].cast<double>());
   };
-  chosen.erase(std::remove_if(chosen.begin(), chosen.end(), is_far), chosen.end());
-  return thinned(chosen, max_points);
+  indices.erase(std::remove_if(indices.begin(), indices.end(), is_far), indices.end());
+  indices = thinned(indices, max_points);
+}
+
+/** \return x y z of each point, in the steps of the map */
+std::vector<std::uint16_t>
+stepsOf(const Chosen& chosen, const ReportMap& map)
+{
+  std::vector<std::uint16_t> steps;
+  steps.reserve(3 * chosen.indices.size());
+  for (const auto i : chosen.indices)
+    for (int axis = 0; axis < 3; ++axis)
+      steps.push_back(static_cast<std::uint16_t>(
+          std::lround((static_cast<double>(chosen.points[i][axis]) - map.origin[axis]) /
+                      map.step)));
+  return steps;
 }
 
 std::vector<std::uint16_t>
@@ -133,23 +156,23 @@ ReportMap
 reportMapOf(const ReportData& data, std::size_t max_points)
 {
   ReportMap map;
-  Eigen::AlignedBox3d extent;
-  const Points& points = data.map.points;
-  const std::vector<std::size_t> chosen = chosenPoints(points, max_points, extent);
-  if (chosen.empty())
+  Chosen standing(data.map.points), moving(data.moving.points);
+  if (standing.indices.empty() && moving.indices.empty())
     return map;
+  const Eigen::AlignedBox3d extent = extentOf(standing, moving);
+  keepWithin(extent, max_points / 4, moving); // few points, but what one looks for
+  keepWithin(extent, max_points - moving.indices.size(), standing);
   map.origin = extent.min();
   map.step = std::max(extent.sizes().maxCoeff(), 1e-3) / kLargest;
-  map.positions.reserve(3 * chosen.size());
-  for (const auto i : chosen)
-    for (int axis = 0; axis < 3; ++axis)
-      map.positions.push_back(static_cast<std::uint16_t>(std::lround(
-          (static_cast<double>(points[i][axis]) - map.origin[axis]) / map.step)));
+  map.positions = stepsOf(standing, map);
+  map.moving = stepsOf(moving, map);
+  const std::vector<std::size_t>& chosen = standing.indices;
   if (!data.map.scans.empty() && data.summary.scans.size() < kLargest)
     map.scans = scanPlaces(data, chosen);
   if (!data.map.intensities.empty())
     map.intensities = greyValues(data.map.intensities, chosen);
-  map.ceiling = ceilingOf(data);
+  if (!chosen.empty())
+    map.ceiling = ceilingOf(data);
   return map;
 }
 

@@ -26,6 +26,7 @@ struct ReportData {
   std::vector<std::string> missing; ///< what is not there or broken, in words
   bool is_damaged = false;          ///< some of that is there, but cannot be read
   RunMap map;                       ///< relative to the world offset; NaN is left out
+  RunMap moving;                    ///< what moved, which is not in the map; as the map
   std::vector<Plane> planes;        ///< in full coordinates
   std::vector<ObjectPose> objects;  ///< in full coordinates
   std::vector<ReportPicture> pictures;
@@ -34,7 +35,8 @@ struct ReportData {
 /** \brief Knobs of reports: what bounds their size. The rest of a report is 0.6 MB, and
  * about 0.5 kB per scan and 0.2 kB per link. */
 struct ReportOptions {
-  std::size_t max_points = 400000; ///< of the map, 12 bytes each; thinned evenly; > 0
+  /** of the map, 12 bytes each; thinned evenly; up to a quarter are for what moved; > 0 */
+  std::size_t max_points = 400000;
   std::size_t max_picture_bytes = 4000000; ///< of all pictures together
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
@@ -51,7 +53,7 @@ gatherReport(const RunFolder& run,
              const ReportOptions& options = ReportOptions());
 
 /** \brief Adds what only a folder tells: which files are missing, and the pictures. Run, map,
- * planes and objects are taken as they are in data. */
+ * what moved, planes and objects are taken as they are in data. */
 void
 addFolder(const RunFolder& run,
           ReportData& data,
@@ -61,12 +63,14 @@ addFolder(const RunFolder& run,
  * dimensions, plots, tables, pictures, options (share/doc/report.md). Atomically.
  *
  * The map is thinned and rounded to steps of the 65535th part of its extent; the few points
- * that lie farther from the others than the map is large are left out.
+ * that lie farther from the others than the map is large are left out. What moved is red
+ * over it, and can be switched off.
  * \code
  * const pcl6d::RunFolder run("out");
  * pcl6d::writeReport("out/report.html", pcl6d::gatherReport(run));
  * \endcode
- * \throws BadArgument an option breaks its rule, or the map's fields differ in length
+ * \throws BadArgument an option breaks its rule, or the fields of the map or of what moved
+ * differ in length, or the scans and the counts of what moved in each
  * \throws IoFailed the file cannot be written \ingroup visualization */
 void
 writeReport(const std::filesystem::path& path,

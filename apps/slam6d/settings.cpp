@@ -157,6 +157,7 @@ Settings::inputWords() const
 void
 Settings::resolveGuess(bool has_poses)
 {
+  slam.motion.keep_still = deskew == Deskew::kEstimate && !continued.empty();
   if (!auto_guess)
     return;
   slam.motion.gives_poses = !has_poses && deskew == Deskew::kEstimate;

@@ -69,6 +69,14 @@ fitOf(const SurfaceMap& map,
   return fit;
 }
 
+double
+meanOf(const std::vector<double>& values)
+{
+  return values.empty() ? 0
+                        : std::accumulate(values.begin(), values.end(), 0.0) /
+                              static_cast<double>(values.size());
+}
+
 AgreementChange
 changeOf(const std::vector<double>& before,
          const std::vector<double>& after,
@@ -79,8 +87,8 @@ changeOf(const std::vector<double>& before,
   if (before.empty())
     return change;
   const auto count = static_cast<double>(before.size());
-  change.before = std::accumulate(before.begin(), before.end(), 0.0) / count;
-  change.after = std::accumulate(after.begin(), after.end(), 0.0) / count;
+  change.before = meanOf(before);
+  change.after = meanOf(after);
   const double gain = change.after - change.before;
   std::map<VoxelKey, double> cubes; // what the points of a cube gain beyond the mean
   for (std::size_t i = 0; i < before.size(); ++i)

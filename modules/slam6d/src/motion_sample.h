@@ -38,6 +38,10 @@ fitOf(const SurfaceMap& map,
       double noise,
       unsigned int num_threads);
 
+/** \return their mean; 0 without any */
+double
+meanOf(const std::vector<double>& values);
+
 /** \return the change of a mean over points, where those of one cube count as one
  * \param[in] points that tell the cube \param[in] cube [m] edge */
 PCL6D_EXPORTS AgreementChange // shown to its test

@@ -7,7 +7,6 @@
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/filters/motion_correction.h>
-#include <pcl6d/io/text.h>
 
 #include <algorithm>
 #include <cmath>

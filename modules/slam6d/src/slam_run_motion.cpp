@@ -39,6 +39,8 @@ SlamRun::addStill(const Points& points,
 {
   addUndone(true);
   addScan(points, scan, given_name);
+  if (!options_.motion.keep_still)
+    return;
   last_still_.emplace_back(points, result_.scans.back().T_world_scan);
   if (last_still_.size() > kLastStill)
     last_still_.pop_front();

@@ -89,6 +89,12 @@ elasticTermsWithin(const std::vector<double>& stamps,
                    std::size_t first,
                    const MotionNoise& noise);
 
+/** \brief A knot among all that rules speak of. */
+struct KnotPlace {
+  std::size_t number = 0;
+  double stamp = 0; ///< [s]
+};
+
 /** \brief The rules between the last step of a scan and the first of the next: velocities are
  * alike, the more so the shorter the gap, and the next one begins where these lead, as far as
  * straight steps can tell: one of the time t with the acceleration a ends a t^2 / 12 off. The
@@ -97,10 +103,6 @@ elasticTermsWithin(const std::vector<double>& stamps,
  * \param[in] a, b stamps and numbers of the last two knots, c, d of the first two of the next
  * \param[in] slack [m] and [rad] by which scans do not meet even without a gap; > 0
  * \throws BadArgument stamps do not increase (b may be c or later), or a rule is broken */
-struct KnotPlace {
-  std::size_t number = 0;
-  double stamp = 0; ///< [s]
-};
 std::vector<ElasticTerm>
 elasticTermsBetween(const KnotPlace& a,
                     const KnotPlace& b,

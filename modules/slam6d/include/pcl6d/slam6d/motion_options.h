@@ -17,6 +17,9 @@ struct MotionOptions {
   /** with InitialGuess::kGlobal: where scans have moved, each starts from the one before by
    * the motion that was found, in place of all being looked at together */
   bool gives_poses = false;
+  /** scans that move will follow ones that are registered or have no times: the last ten of these
+   * are kept with all of their points, so that the first that moves is compared with them */
+  bool keep_still = false;
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

@@ -41,8 +41,9 @@ takeOffset(MapFiles& files)
 MapFiles
 filesOfRun(const fs::path& path)
 {
-  const RunFolder run = RunFolder::finished(
-      path, "the run was interrupted, so it has no map; run it again");
+  const auto opened = std::make_shared<RunFolder>(RunFolder::finished(
+      path, "the run was interrupted, so it has no map; run it again"));
+  const RunFolder& run = *opened;
   const fs::path summary = path / "summary.json";
   MapFiles result;
   result.map.pose_source = summary.string();
@@ -56,9 +57,7 @@ filesOfRun(const fs::path& path)
     result.map.names.push_back(run.summary().scans[i].file);
   }
   result.moved = run.summary().moved;
-  result.read = [files = result.files](std::size_t i) {
-    return readScan(files[i]).points;
-  };
+  result.read = [opened](std::size_t i) { return opened->readScan(i); };
   return result;
 }
 

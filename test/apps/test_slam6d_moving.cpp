@@ -10,6 +10,7 @@
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/run/run_folder.h>
 
+#include <nlohmann/json.hpp>
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
 
@@ -122,6 +123,24 @@ TEST(Slam6dMoving, RemovesItWhereAskedFor)
   EXPECT_EQ(scan.points.size() + run.summary().moving->points[3],
             walkedRun().scans[3].size());
   EXPECT_TRUE(fs::exists(folder / "out/moving.pcd"));
+}
+
+TEST(Slam6dMoving, IsNotMeasuredWithTheMap)
+{
+  const TempFolder folder;
+  nlohmann::json measures[2];
+  const std::string what[] = {"label", "remove"};
+  for (int k = 0; k < 2; ++k) {
+    const std::string run = folder / what[k], json = folder / (what[k] + ".json");
+    ASSERT_EQ(
+        slam(walkedScans(), run, {"--no-picture", "--moving", what[k]}).exit_code, 0);
+    const Outcome outcome = pcl6d::test::runProgram("pcl_slam6d_evaluate",
+                                                    {"map", run, "-o", json, "--quiet"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    measures[k] = nlohmann::json::parse(pcl6d::test::readText(json));
+  }
+  for (const char* name : {"agreement", "thickness", "entropy"})
+    EXPECT_EQ(measures[0][name], measures[1][name]) << name;
 }
 
 TEST(Slam6dMoving, AsksNobodyWhereItIsKept)

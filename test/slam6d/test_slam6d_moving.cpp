@@ -88,6 +88,25 @@ TEST(Slam6DMoving, TakesNoPartInALastRoundOfRelaxation)
   EXPECT_TRUE(slam.result().trusted());
 }
 
+TEST(Slam6DMoving, CancelledInTheLastRoundItGoesOnWithIt)
+{
+  const Slam6D whole = optimized(walkedRun());
+  Slam6D slam;
+  for (std::size_t i = 0; i < walkedRun().scans.size(); ++i)
+    slam.addScan(walkedRun().scans[i], walkedRun().odometry[i]);
+  bool is_cancelled = false;
+  slam.setProgressCallback([&](const pcl6d::Progress& progress) {
+    if (is_cancelled || progress.stage != "relaxing" || !slam.result().moving)
+      return;
+    is_cancelled = true;
+    slam.cancel();
+  });
+  EXPECT_FALSE(slam.optimize());
+  ASSERT_TRUE(is_cancelled);
+  EXPECT_TRUE(slam.optimize());
+  expectSameBits(slam.result(), whole.result());
+}
+
 TEST(Slam6DMoving, ChangesNothingWhereNothingMoves)
 {
   const WalkedRun still = makeWalkedRun(false);

@@ -28,6 +28,13 @@ public:
         const std::deque<const IcpModel*>& surfaces,
         Slam6DResult& result);
 
+  /** \brief judge() does its work again, also at the same poses. */
+  void
+  forget()
+  {
+    poses_.clear();
+  }
+
   /** \return whether so much of a scan moved that poses may follow it */
   bool
   isNoticeable() const;

@@ -20,8 +20,10 @@ SlamRun::leaveOutMoving()
   for (const VerifiedScan& scan : verification_.scans())
     stage.add(scan.surfaces());
   Slam6DResult improved = result_;
-  if (!stage.relaxAgain(improved, relaxing()))
+  if (!stage.relaxAgain(improved, relaxing())) {
+    moving_.forget(); // so that going on comes here again
     return false;
+  }
   result_ = std::move(improved);
   if (!moving_.judge(verification_.scans(), whole, result_))
     return true;

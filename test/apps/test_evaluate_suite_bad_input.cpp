@@ -45,8 +45,8 @@ TEST_F(SuiteBadInput, NamesTheValueThatAnOptionDoesNotTake)
                     {"/methods/metascan/voxel: ", "--voxel = -1"});
   expectRefusedWith([](Json& s) { s["methods"]["metascan"]["iterations"] = "many"; },
                     {"/methods/metascan/iterations: ", "many"});
-  expectRefusedWith([](Json& s) { s["methods"]["metascan"]["deskew"] = "yes"; },
-                    {"/methods/metascan/deskew: "});
+  expectRefusedWith([](Json& s) { s["methods"]["metascan"]["deskew"] = "perhaps"; },
+                    {"/methods/metascan/deskew: ", "odometry, estimate"});
   expectRefusedWith(
       [](Json& s) {
         s["methods"]["metascan"]["voxel"] = {1, 2};

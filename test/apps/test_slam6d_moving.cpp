@@ -10,9 +10,10 @@
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/run/run_folder.h>
 
-#include <nlohmann/json.hpp>
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
@@ -132,10 +133,10 @@ TEST(Slam6dMoving, IsNotMeasuredWithTheMap)
   const std::string what[] = {"label", "remove"};
   for (int k = 0; k < 2; ++k) {
     const std::string run = folder / what[k], json = folder / (what[k] + ".json");
-    ASSERT_EQ(
-        slam(walkedScans(), run, {"--no-picture", "--moving", what[k]}).exit_code, 0);
-    const Outcome outcome = pcl6d::test::runProgram("pcl_slam6d_evaluate",
-                                                    {"map", run, "-o", json, "--quiet"});
+    ASSERT_EQ(slam(walkedScans(), run, {"--no-picture", "--moving", what[k]}).exit_code,
+              0);
+    const Outcome outcome = pcl6d::test::runProgram(
+        "pcl_slam6d_evaluate", {"map", run, "-o", json, "--quiet"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     measures[k] = nlohmann::json::parse(pcl6d::test::readText(json));
   }

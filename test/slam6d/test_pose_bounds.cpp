@@ -72,6 +72,17 @@ bounded(const Poses& poses, MapVerification map, unsigned int threads = 1)
 }
 } // namespace
 
+TEST(PoseBounds, AreUnknownWhereLinksAreTooUnlikeForTheirSum)
+{
+  const auto map = bounded(
+      line(3),
+      mapOf(3, {link(0, 1, diagonal(1e8, 1e8)), link(1, 2, diagonal(1e-12, 1e-12))}));
+  EXPECT_EQ(map.scans[0].bound, 0);
+  EXPECT_FALSE(map.scans[1].bound);
+  EXPECT_FALSE(map.scans[2].bound);
+  EXPECT_FALSE(map.scans[2].covariance);
+}
+
 TEST(PoseBounds, OfOneLinkAreThoseOfTheLink)
 {
   Matrix6 covariance = diagonal(0.01, 0.001);

@@ -32,7 +32,8 @@ openMotions(const SurfaceFit& fit)
   for (int k = 0; k < std::min(fit.open_directions, 6); ++k) {
     const Twist motion = eigen.vectors.col(5 - k); // the most uncertain first
     const double turning = fit.spread * motion.tail<3>().norm();
-    motions.push_back(motion / std::hypot(motion.head<3>().norm(), turning));
+    motions.push_back(motion /
+                      Eigen::Vector2d(motion.head<3>().norm(), turning).norm());
   }
   return motions;
 }

@@ -61,8 +61,9 @@ MotionTracker::MotionTracker(double voxel,
   map_options_.cell = std::max(kVoxelsOfCell * voxel, kNoisesOfCell * noise);
   map_ = SurfaceMap(map_options_);
   icp_.noise = noise;
-  icp_.max_distance_start =
-      map_options_.cell * std::exp2(map_options_.levels - 1) / 2; // half a large cell
+  icp_.max_distance_start = map_options_.cell *
+                            std::ldexp(1.0, map_options_.levels - 1) /
+                            2; // half a large cell
   icp_.num_threads = num_threads;
 }
 

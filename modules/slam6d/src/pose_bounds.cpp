@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/components.h>
 #include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 #include <pcl6d/registration/twist.h>
@@ -151,7 +152,12 @@ boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
   const std::size_t links = graph.links.size();
   PoseGraphOptimizer optimizer(std::move(graph), options);
   const PoseGraphResult& best = optimizer.optimize();
-  const std::vector<Matrix6> covariances = optimizer.marginalCovariances();
+  std::vector<Matrix6> covariances;
+  try {
+    covariances = optimizer.marginalCovariances();
+  } catch (const ComputeFailed&) {
+    return; // links so unlike that doubles do not hold their sum: better none than a wrong one
+  }
   const double excess = excessOf(best, links, scans, map);
   for (std::size_t v = 1; v < scans.size(); ++v) {
     const Twist way = smallMotion(T_world_scan[scans[v]].inverse() * best.poses[v]);

@@ -270,8 +270,10 @@ private:
   addHold(const Add& add, std::vector<Vector6>& b) const
   {
     Vector6 weights;
-    weights << Eigen::Vector3d::Constant(std::pow(options_.hold_translation, -2)),
-        Eigen::Vector3d::Constant(std::pow(options_.hold_rotation, -2));
+    weights << Eigen::Vector3d::Constant(
+        1 / (options_.hold_translation * options_.hold_translation)),
+        Eigen::Vector3d::Constant(1 /
+                                  (options_.hold_rotation * options_.hold_rotation));
     add(0, 0, (weights / (kRigid * kRigid)).asDiagonal());
     for (std::size_t k = 1; k < poses_.size(); ++k) {
       ElasticTerm step;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/elastic_terms.h>
@@ -80,7 +81,7 @@ ElasticTerm::cost(const std::vector<Eigen::Isometry3d>& world) const
   const Vector6 value = residual(world);
   const auto of = [](double off_sq, double weight) {
     constexpr double kScale = kDeviations * kDeviations;
-    return kScale / 2 * std::log1p(off_sq * weight / kScale);
+    return kScale / 2 * portableLog(1 + off_sq * weight / kScale);
   };
   return of(value.head<3>().squaredNorm(), translation_weight) +
          of(value.tail<3>().squaredNorm(), rotation_weight);

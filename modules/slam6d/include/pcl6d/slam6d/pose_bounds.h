@@ -11,7 +11,8 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How exactly the links of a verified map fix its poses: fills covariance and bound of
- * every scan that they tie to the first one; of none if that is not tied itself.
+ * every scan that they tie to the first one; of none if that is not tied itself, or where
+ * links are so unlike that doubles do not hold their sum.
  *
  * Links that rays confirm, with those whose surfaces ask for a shift, are measurements of a
  * graph: each says by how much its surfaces would move its scans, with what covariance. The

@@ -73,6 +73,7 @@ public:
     for (const double time : scan.times)
       shares_.push_back(knotShare(start.knots.stamps, time));
     pairs_.resize(scan.points.size());
+    scales_.assign(start.knots.poses.size() - 1, 1);
   }
 
   MotionIcpResult
@@ -137,34 +138,53 @@ private:
     if (!plane)
       return pair;
     pair.residual = plane->normal.dot(place - plane->mean);
-    pair.is_used = std::abs(pair.residual) <= limit_;
+    pair.is_used = std::abs(pair.residual) <= limitOf(shares_[i].knot);
     pair.deviation = std::sqrt(plane->variance + options_.noise * options_.noise);
     pair.normal = plane->normal;
     pair.turning = arm.cross(plane->normal);
     return pair;
   }
 
-  /** Finds the scale of the residuals, which weights and limit follow. */
+  /** Finds the scale of the residuals, which weights and limit follow: of all, and of each step
+   * between knots. Where a scan begins to turn, the points behind come from farther away than
+   * the others, and are not to be taken for those of something else. */
   void
   weigh(MotionIcpResult& result)
   {
     std::vector<double> sizes, deviations;
-    for (const Pair& pair : pairs_)
-      if (pair.is_used) {
-        sizes.push_back(std::abs(pair.residual) / pair.deviation);
-        deviations.push_back(pair.deviation);
+    std::vector<std::vector<double>> of_steps(scales_.size());
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+      if (pairs_[i].is_used) {
+        sizes.push_back(std::abs(pairs_[i].residual) / pairs_[i].deviation);
+        of_steps[shares_[i].knot].push_back(sizes.back());
+        deviations.push_back(pairs_[i].deviation);
       }
     result.pairs = sizes.size();
-    // Never below what is expected: a lucky median must not leave the rest out.
-    scale_ = std::max(1.0, kOfMedian * upperMedian(std::move(sizes)));
+    result.deviation = scaleOf(std::move(sizes));
     usual_ = upperMedian(std::move(deviations));
-    result.deviation = scale_;
+    for (std::size_t k = 0; k < scales_.size(); ++k)
+      scales_[k] = of_steps[k].size() < kLeastPairs ? result.deviation
+                                                    : scaleOf(std::move(of_steps[k]));
+    widest_ = *std::max_element(scales_.begin(), scales_.end());
+  }
+
+  /** Never below what is expected: a lucky median must not leave the rest out. */
+  static double
+  scaleOf(std::vector<double> sizes)
+  {
+    return std::max(1.0, kOfMedian * upperMedian(std::move(sizes)));
+  }
+
+  double
+  limitOf(std::size_t step) const
+  {
+    return std::max(limit_, options_.max_deviations * scales_[step] * usual_);
   }
 
   double
   narrowest() const
   {
-    return options_.max_deviations * scale_ * usual_;
+    return options_.max_deviations * widest_ * usual_;
   }
 
   std::size_t
@@ -204,10 +224,11 @@ private:
       const Pair& pair = pairs_[i];
       if (!pair.is_used)
         continue;
-      const double off = std::abs(pair.residual) / pair.deviation / scale_;
-      const double weight = robustWeight(RobustKernel::kGemanMcClure, off) /
-                            (pair.deviation * pair.deviation * scale_ * scale_);
       const KnotShare& at = shares_[i];
+      const double expected = pair.deviation * scales_[at.knot];
+      const double weight = robustWeight(RobustKernel::kGemanMcClure,
+                                         std::abs(pair.residual) / expected) /
+                            (expected * expected);
       Eigen::Matrix<double, 12, 1> row;
       row << (1 - at.share) * pair.normal, (1 - at.share) * pair.turning,
           at.share * pair.normal, at.share * pair.turning;
@@ -280,10 +301,11 @@ private:
   const MotionIcpOptions& options_;
   std::vector<KnotShare> shares_;
   std::vector<Pair> pairs_;
-  double limit_ = 0; ///< [m] of residuals
-  double scale_ = 1; ///< of residuals over what is expected of them
-  double usual_ = 1; ///< [m] what is expected of the one in the middle
-  double range_ = 0; ///< [m] median
+  double limit_ = 0;           ///< [m] of residuals
+  std::vector<double> scales_; ///< of residuals over what is expected, by steps
+  double widest_ = 1;          ///< the largest of these
+  double usual_ = 1;           ///< [m] what is expected of the one in the middle
+  double range_ = 0;           ///< [m] median
 };
 } // namespace
 

@@ -63,7 +63,8 @@ struct MotionIcpResult {
  *
  * Point-to-plane ICP with times: a point measured at time t depends on the two knots around
  * it, each to its share of the time. Distances count by the spread of their plane, and less
- * the farther they are beyond it (Geman-McClure, scaled by the median). What the surfaces do
+ * the farther they are beyond it (Geman-McClure, scaled by the median of each step between
+ * knots, as one in which the scanner begins to turn comes from farther away). What the surfaces do
  * not fix follows from the rules, such as constant velocity. The same bits for any number of
  * threads.
  * \return never throws on data

@@ -28,15 +28,29 @@ struct MotionWithinScans : testing::Test {
     return ours;
   }();
   std::vector<TimedPoints> sweeps;
+  double period = kTurn; // [s] from scan to scan
 
   void
   drive(int count)
   {
     for (int i = 0; i < count; ++i) {
-      sweeps.push_back(scanner.sweep(i * kTurn, random));
+      sweeps.push_back(scanner.sweep(i * period, random));
       for (double& time : sweeps.back().times)
-        time -= i * kTurn; // since the stamp
+        time -= i * period; // since the stamp
     }
+  }
+
+  // Scans of 1.2 s, with 0.3 s between them.
+  void
+  driveSlowly(int count)
+  {
+    scanner.turn = 1.2;
+    period = 1.5;
+    scanner.velocity = Eigen::Vector3d(0.3, 0.05, 0);
+    scanner.turning.setZero();
+    options.motion.knots = 0.3;
+    options.voxel = 0.1; // of so few points a coarser one would follow
+    drive(count);
   }
 
   // Adds all scans, without odometry.
@@ -46,7 +60,7 @@ struct MotionWithinScans : testing::Test {
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
       ScanTimes times{sweeps[i].times, {}};
       if (has_stamps)
-        times.stamp = static_cast<double>(i) * kTurn;
+        times.stamp = static_cast<double>(i) * period;
       slam.addScan(sweeps[i].points, times, scanner.poseAt(0));
     }
   }
@@ -64,7 +78,7 @@ struct MotionWithinScans : testing::Test {
               : sweeps[i].points;
       for (std::size_t k = 0; k < undone.size(); k += 20, ++all) {
         const Eigen::Vector3d truth =
-            scanner.poseAt(static_cast<double>(i) * kTurn + sweeps[i].times[k]) *
+            scanner.poseAt(static_cast<double>(i) * period + sweeps[i].times[k]) *
             sweeps[i].points[k].cast<double>();
         near +=
             (scan.T_world_scan * undone[k].cast<double>() - truth).norm() < kTolerance;
@@ -213,6 +227,38 @@ TEST_F(MotionWithinScans, AThirdOfATurnWithinAScanIsTooMuchForTwoPoses)
   }
   slam.optimize();
   expectLeft(slam.result(), "deg between two knots, more than a right angle");
+}
+
+TEST_F(MotionWithinScans, ATurnThatBeginsWithinASlowScanIsFollowed)
+{
+  // At the end of the fourth of five scans: by 18 degrees within it. Of one pose per scan nobody
+  // could tell.
+  scanner.stop = 3 * 1.5 + 0.6;
+  scanner.turning_after = 0.52;
+  driveSlowly(5);
+  Slam6D slam(options);
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    const double stamp = static_cast<double>(i) * period;
+    slam.addScan(sweeps[i].points, {sweeps[i].times, stamp}, scanner.poseAt(stamp));
+  }
+  slam.optimize();
+  EXPECT_GT(shareInPlace(slam.result()), 0.95);
+  for (const auto& scan : slam.result().scans) {
+    EXPECT_TRUE(scan.motion->undone) << scan.motion->reason;
+    EXPECT_EQ(scan.motion->knots, 5u);
+  }
+  EXPECT_NEAR(slam.result().scans[3].motion->rotation, 0.6 * 0.52, 0.02);
+  EXPECT_NEAR(slam.result().scans[4].motion->rotation, 1.2 * 0.52, 0.02);
+}
+
+TEST_F(MotionWithinScans, ThoseOfSeveralKnotsWaitForWhatComesAfter)
+{
+  driveSlowly(7);
+  Slam6D slam(options);
+  addTo(slam);
+  EXPECT_EQ(slam.result().scans.size(), 1u); // one for its odometry, five to be seen
+  slam.optimize();
+  EXPECT_EQ(slam.result().scans.size(), 7u);
 }
 
 TEST_F(MotionWithinScans, GoesOnBehindRegisteredScans)

@@ -8,17 +8,21 @@
 #include <pcl6d/registration/motion_icp.h>
 #include <pcl6d/registration/twist.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace pcl6d::test {
 
-/** \brief A scanner that spins in a room while it is carried along at a constant velocity. */
+/** \brief A scanner that spins in a room while it is carried along at a constant velocity, and
+ * may stop to turn in place. */
 struct MovingScanner {
   PillarRoom room;
   Eigen::Vector3d velocity{0.8, 0.3, 0.05};  ///< [m/s] in the world
   Eigen::Vector3d turning{0.02, -0.03, 0.4}; ///< [rad/s] in the world
   Eigen::Vector3d begin{-1, -0.5, 0.2};      ///< [m]
+  double stop = INFINITY;                    ///< [s] then it stops, and turns
+  double turning_after = 0;                  ///< [rad/s] then, about its z axis
   double turn = 0.1;                         ///< [s] of a scan
   double step = 0.04;                        ///< [rad] between rays
   double sigma = 0.005;                      ///< [m] of the ranges
@@ -28,8 +32,12 @@ struct MovingScanner {
   poseAt(double time) const
   {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.linear() = rotationFromVector(time * turning);
-    pose.translation() = begin + time * velocity;
+    const double moved = std::min(time, stop);
+    pose.linear() = rotationFromVector(moved * turning);
+    pose.translation() = begin + moved * velocity;
+    if (time > stop)
+      pose.rotate(
+          Eigen::AngleAxisd((time - stop) * turning_after, Eigen::Vector3d::UnitZ()));
     return pose;
   }
 

@@ -32,6 +32,17 @@ largestTurn(const Trajectory& knots)
   return largest;
 }
 
+/** \return the mean of those that have a plane: others, where nothing is known yet, speak neither
+ * for nor against. A third at least counts: few that agree are chance. */
+double
+onPlanes(const std::vector<double>& fit)
+{
+  const auto known = static_cast<double>(
+      std::count_if(fit.begin(), fit.end(), [](double f) { return f > 0; }));
+  const auto count = static_cast<double>(fit.size());
+  return fit.empty() ? 0 : meanOf(fit) * count / std::max(known, count / 3);
+}
+
 bool
 isOk(const MotionIcpResult& result)
 {
@@ -112,10 +123,10 @@ MotionTracker::isMoved(const MovingScan& scan,
 void
 MotionTracker::compareWithOdometry(const TimedPoints& half, TrackedScan& found) const
 {
-  if (!last_step_)
+  if (!scans_.back().step)
     return;
   const Eigen::Isometry3d pose = found.pose();
-  const Eigen::Isometry3d there = scans_.back().pose() * *last_step_;
+  const Eigen::Isometry3d there = scans_.back().pose() * *scans_.back().step;
   found.odometry_error = (there.translation() - pose.translation()).norm();
   Trajectory moved = found.knots;
   for (Eigen::Isometry3d& knot : moved.poses)
@@ -129,30 +140,43 @@ MotionTracker::compareWithOdometry(const TimedPoints& half, TrackedScan& found) 
 
 /** \return how a scan is found from a start, and how well its points lie then */
 MotionTracker::Attempt
-MotionTracker::attempt(const Trajectory& rough,
+MotionTracker::attempt(const Trajectory& start,
                        bool goes_on,
                        const TimedPoints& half) const
 {
-  const Trajectory first =
-      rough.poses.size() == 2 ? rough : refined(rough, goes_on, half);
-  const MotionStart start = startOf(first, goes_on);
   Attempt attempt;
-  attempt.found = motionIcp(map_, half, start, icp_);
+  attempt.found = motionIcp(map_, half, startOf(start, goes_on), icp_);
   if (!isOk(attempt.found))
     return attempt;
-  attempt.fit = meanOf(fitOf(map_,
-                             worldPoints(half, attempt.found.knots, icp_.num_threads),
-                             icp_.noise,
-                             icp_.num_threads));
-  std::vector<Eigen::Isometry3d> world = start.held.poses;
+  attempt.fit = onPlanes(fitOf(map_,
+                               worldPoints(half, attempt.found.knots, icp_.num_threads),
+                               icp_.noise,
+                               icp_.num_threads));
+  // What was looked for freely is to go on, too.
+  const MotionStart rules = startOf(start, true);
+  std::vector<Eigen::Isometry3d> world = rules.held.poses;
   world.insert(
       world.end(), attempt.found.knots.poses.begin(), attempt.found.knots.poses.end());
-  for (const ElasticTerm& term : start.terms)
+  for (const ElasticTerm& term : rules.terms)
     attempt.broken += term.cost(world);
   // A point that lies on a plane is about e times as likely as one that does not.
   attempt.score =
       static_cast<double>(half.points.size()) / 2 * attempt.fit - attempt.broken;
   return attempt;
+}
+
+/** \return the better one of what is found of all of a scan, and then step after step */
+MotionTracker::Attempt
+MotionTracker::attemptBoth(const Trajectory& rough,
+                           bool goes_on,
+                           const TimedPoints& half) const
+{
+  if (rough.poses.size() == 2)
+    return attempt(rough, goes_on, half);
+  Attempt whole = attempt(refined(rough, goes_on, half), goes_on, half);
+  const Trajectory& begin = isOk(whole.found) ? whole.found.knots : rough;
+  Attempt stepwise = attempt(grown(begin, goes_on, half), goes_on, half);
+  return stepwise.score > whole.score ? stepwise : whole;
 }
 
 /** \return the share of points that usually lies on the map; 0 if that is not known */
@@ -162,7 +186,7 @@ MotionTracker::usualFit() const
   std::vector<double> fits;
   for (std::size_t i = scans_.size(); i > 0 && fits.size() < kWindow; --i)
     if (!scans_[i - 1].fit.empty())
-      fits.push_back(meanOf(scans_[i - 1].fit));
+      fits.push_back(onPlanes(scans_[i - 1].fit));
   return upperMedian(std::move(fits));
 }
 
@@ -177,25 +201,27 @@ MotionTracker::match(const MovingScan& scan,
   constexpr double kSudden = 10; // rules are broken by as much once in e^10 scans
   std::vector<Trajectory> starts = startsOf(scan);
   sortByFit(half, starts);
-  Attempt best = attempt(starts[0], true, half);
+  Attempt best = attemptBoth(starts[0], true, half);
   const auto take = [&](const Attempt& other) {
     if (other.score > best.score)
       best = other;
   };
+  const double usual = usualFit();
   for (std::size_t i = 1;
-       i < starts.size() && (best.fit < kUsual * usualFit() || best.broken > kSudden);
+       i < starts.size() &&
+       (usual == 0 || best.fit < kUsual * usual || best.broken > kSudden);
        ++i)
     for (const bool goes_on : {true, false})
-      take(attempt(starts[i], goes_on, half));
+      take(attemptBoth(starts[i], goes_on, half));
   if (!isOk(best.found))
     return best.found;
   rigid = matchRigid(scan, half, best.found);
-  const double still = meanOf(fitOf(map_,
-                                    worldPoints(half, rigid.knots, icp_.num_threads),
-                                    icp_.noise,
-                                    icp_.num_threads));
+  const double still = onPlanes(fitOf(map_,
+                                      worldPoints(half, rigid.knots, icp_.num_threads),
+                                      icp_.noise,
+                                      icp_.num_threads));
   if (isOk(rigid) && best.fit < still)
-    take(attempt(rigid.knots, false, half));
+    take(attemptBoth(rigid.knots, false, half));
   return best.found;
 }
 
@@ -208,7 +234,8 @@ MotionTracker::turnOfOdometry(const MovingScan& scan) const
   const auto turn = [&](const std::optional<Eigen::Isometry3d>& motion, double time) {
     return motion && time > 0 ? rotationAngle(motion->linear()) * step / time : 0;
   };
-  return std::max(turn(scan.step, scan.step_time), turn(last_step_, last_step_time_));
+  return std::max(turn(scan.step, scan.step_time),
+                  turn(scans_.back().step, scans_.back().step_time));
 }
 
 /** Takes a scan for rigid that turned too fast for straight steps between knots. */

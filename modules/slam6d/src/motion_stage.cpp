@@ -157,12 +157,14 @@ MotionStage::take(bool all)
 {
   while (num_tracked_ + (all ? 0 : 1) < waiting_.size())
     trackNext();
+  if (all && tracker_)
+    tracker_->finish();
   std::vector<Ready> ready;
   while (num_tracked_ > 0) {
     const auto& tracked = tracker_->scans();
     const std::size_t number = tracked.size() - num_tracked_;
-    if (((number == 0 && tracked.size() == 1) || rival_) && !all)
-      break; // how the first one moved follows from the second, or later ones
+    if ((number >= tracker_->numSettled() || rival_) && !all)
+      break; // how it moved follows from later ones, too
     ready.push_back(readyOf(waiting_.front(), tracked[number]));
     waiting_.pop_front();
     --num_tracked_;

@@ -88,17 +88,17 @@ MotionTracker::startsOf(const MovingScan& scan) const
       starts.push_back(restingKnots(scan, path(scan.stamp)));
     }
   }
-  if (!last_step_)
+  if (!last.step)
     return starts;
-  const Eigen::Isometry3d there = pose * *last_step_; // as the odometry says
+  const Eigen::Isometry3d there = pose * *last.step; // as the odometry says
   starts.push_back(restingKnots(scan, there));
   if (scan.step && scan.step_time > 0)
     starts.push_back(knotsAlong(times, [&](double t) {
       return carriedOn(there, there * *scan.step, (t - scan.stamp) / scan.step_time);
     }));
-  if (last_step_time_ > 0)
+  if (last.step_time > 0)
     starts.push_back(knotsAlong(times, [&](double t) {
-      return carriedOn(pose, there, (t - last.stamp) / last_step_time_);
+      return carriedOn(pose, there, (t - last.stamp) / last.step_time);
     }));
   return starts;
 }
@@ -158,11 +158,11 @@ MotionTracker::startOf(const Trajectory& knots, bool goes_on) const
                                     slack,
                                     slack / std::max(reach_, map_options_.cell));
   std::size_t first = 2;
-  if (last_step_ && goes_on) { // the odometry is not believed far beyond its error
-    start.held.poses.push_back(last.pose() * *last_step_);
+  if (last.step && goes_on) { // the odometry is not believed far beyond its error
+    start.held.poses.push_back(last.pose() * *last.step);
     start.held.stamps.push_back(knots.stamps[0]);
     const double error =
-        kOdometryError * last_step_->translation().norm() + map_options_.cell;
+        kOdometryError * last.step->translation().norm() + map_options_.cell;
     for (ElasticTerm& term : start.terms) // behind it
       for (std::size_t k = 2; k < 4; ++k)
         ++term.knots[k];

@@ -59,12 +59,27 @@ MotionTracker::MotionTracker(double voxel,
 : knot_time_(knots), sampler_(voxel, seed), cube_(agreementCube(voxel))
 {
   map_options_.cell = std::max(kVoxelsOfCell * voxel, kNoisesOfCell * noise);
-  map_ = SurfaceMap(map_options_);
   icp_.noise = noise;
-  icp_.max_distance_start = map_options_.cell *
-                            std::ldexp(1.0, map_options_.levels - 1) /
-                            2; // half a large cell
   icp_.num_threads = num_threads;
+  reachTo(0);
+}
+
+/** Far away, planes need large cells: three lines of a scanner with 2 deg between them, and who
+ * comes from half a large cell away finds them. */
+void
+MotionTracker::reachTo(double range)
+{
+  constexpr double kAngleOfCell = 0.1; // [rad]
+  constexpr int kMostLevels = 8;       // as of SurfaceMap
+  reach_ = std::max(reach_, range);
+  if (scans_.empty()) {
+    while (map_options_.levels < kMostLevels &&
+           std::ldexp(map_options_.cell, map_options_.levels - 1) <
+               kAngleOfCell * reach_)
+      ++map_options_.levels;
+    map_ = SurfaceMap(map_options_);
+  }
+  icp_.max_distance_start = std::ldexp(map_options_.cell, map_options_.levels - 1) / 2;
 }
 
 /** Knots of a scan that stands still. */
@@ -126,6 +141,7 @@ MotionTracker::track(const MovingScan& scan)
         next.is_moved ? "too little is known of how it went on" : next.reason;
   learnNoise(next);
   keep(std::move(next), scan);
+  settle(kLater);
 }
 
 /** The first scan stands still again. */
@@ -158,11 +174,11 @@ MotionTracker::findFirst(const MovingScan& second)
   const double time = second.stamp - first_.stamp;
   for (int round = 0; round < kRounds && time > 0; ++round) {
     const TrackedScan found = find(second);
-    if (!found.is_matched && (round > 0 || !last_step_))
+    if (!found.is_matched && (round > 0 || !scans_[0].step))
       return;
     TrackedScan first = scans_[0];
-    const bool has_odometry = round == 0 && last_step_;
-    const Eigen::Isometry3d there = has_odometry ? pose * *last_step_
+    const bool has_odometry = round == 0 && scans_[0].step;
+    const Eigen::Isometry3d there = has_odometry ? pose * *scans_[0].step
                                     : round == 0 ? found.rigid_pose
                                                  : found.moved_pose;
     for (std::size_t k = 0; k < first.knots.poses.size(); ++k)
@@ -181,8 +197,9 @@ MotionTracker::keep(TrackedScan scan, const MovingScan& measured)
   scan.stamp = measured.stamp;
   if (scan.sample.points.empty())
     scan.sample = sampler_.draw(measured.measured, sampleSize(scan.knots));
-  last_step_ = measured.step;
-  last_step_time_ = measured.step_time;
+  reachTo(farRange(scan.sample.points));
+  scan.step = measured.step;
+  scan.step_time = measured.step_time;
   scans_.push_back(std::move(scan));
   addToMap(scans_.back(), measured);
 }
@@ -195,7 +212,6 @@ MotionTracker::addToMap(const TrackedScan& scan, const MovingScan& measured)
   if (!scan.is_matched)
     map_ = SurfaceMap(map_options_); // goes on from here
   const Eigen::Vector3d place = scan.pose().translation();
-  reach_ = std::max(reach_, farRange(scan.sample.points));
   if ((place - cleared_).norm() > reach_ / 2) {
     cleared_ = place;
     map_.forgetBeyond(cleared_, 2 * reach_);

@@ -28,10 +28,12 @@ struct PCL6D_EXPORTS TrackedScan { // shown to the test of MotionTracker
   Trajectory knots; ///< T_world_knot at times of the clock; poses alike if it is rigid
   TimedPoints sample; ///< some of the measured points
   double stamp = 0;
-  bool is_matched = false; ///< the first one is
-  bool is_moved = false;   ///< its motion counts
-  bool is_timed = true;    ///< its stamps are those of the clock
-  bool is_guide = false;   ///< its knots tell how the next scan goes on
+  std::optional<Eigen::Isometry3d> step; ///< of the odometry, to the next scan
+  double step_time = 0;                  ///< [s] of it
+  bool is_matched = false;               ///< the first one is
+  bool is_moved = false;                 ///< its motion counts
+  bool is_timed = true;                  ///< its stamps are those of the clock
+  bool is_guide = false;                 ///< its knots tell how the next scan goes on
   /** at its stamp, as if it had not moved, and as if it had, whatever counts */
   Eigen::Isometry3d rigid_pose = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d moved_pose = Eigen::Isometry3d::Identity();
@@ -90,8 +92,20 @@ public:
   void
   take(const Points& points, const Eigen::Isometry3d& pose);
 
-  /** \return the scans so far. All but the first stand when they are tracked; the first when
-   * the second is */
+  /** \brief No more scans are to be waited for: looks again at those that were not yet. */
+  void
+  finish();
+
+  /** \return the number of scans, from the first on, that stand. Where a scan has more than two
+   * knots, that is when some after it are known, too; else all do, but for the first without a
+   * second one */
+  std::size_t
+  numSettled() const
+  {
+    return num_settled_;
+  }
+
+  /** \return the scans so far */
   const std::vector<TrackedScan>&
   scans() const
   {
@@ -127,9 +141,12 @@ private:
    * far from any path. */
   static constexpr double kLargestTurn = 1.5708; // [rad]
 
+  /** So many scans after one, and twice as many before it, show what lies around it. */
+  static constexpr std::size_t kLater = 5;
+
   struct Attempt {
     MotionIcpResult found;
-    double fit = -1;   ///< mean over the points; -1: nothing was found
+    double fit = -1;   ///< mean over the points on planes; -1: nothing was found
     double broken = 0; ///< how much its rules are: a logarithm of how seldom that is
     double score = -INFINITY; ///< a logarithm of how likely it is
   };
@@ -143,13 +160,35 @@ private:
   Trajectory
   best(std::vector<Trajectory> starts, const TimedPoints& half) const;
   Attempt
-  attempt(const Trajectory& rough, bool goes_on, const TimedPoints& half) const;
+  attempt(const Trajectory& start, bool goes_on, const TimedPoints& half) const;
+  Attempt
+  attemptBoth(const Trajectory& rough, bool goes_on, const TimedPoints& half) const;
   double
   usualFit() const;
   MotionStart
   startOf(const Trajectory& knots, bool goes_on) const;
   Trajectory
   refined(const Trajectory& start, bool goes_on, const TimedPoints& half) const;
+  Eigen::Isometry3d
+  nextPose(const Trajectory& knots,
+           std::size_t from,
+           std::size_t to,
+           std::size_t next,
+           const TimedPoints& half) const;
+  Trajectory
+  grown(const Trajectory& start, bool goes_on, const TimedPoints& half) const;
+  Trajectory
+  grownBack(const Trajectory& start, const TimedPoints& half) const;
+  bool
+  isSteered(const TrackedScan& scan) const;
+  SurfaceMap
+  mapAround(std::size_t number) const;
+  void
+  lookAgain(std::size_t number);
+  void
+  settle(std::size_t later);
+  TrackedScan
+  foundAgain(TrackedScan scan) const;
   MotionIcpResult
   matchRigid(const MovingScan& scan,
              const TimedPoints& half,
@@ -178,6 +217,8 @@ private:
   void
   findFirst(const MovingScan& second);
   void
+  reachTo(double range);
+  void
   keep(TrackedScan scan, const MovingScan& measured);
   void
   addToMap(const TrackedScan& scan, const MovingScan& measured);
@@ -190,9 +231,8 @@ private:
   bool assumes_moving_ = false;
   double cube_; ///< [m] whose points count as one
   std::vector<TrackedScan> scans_;
-  MovingScan first_;                           ///< until the second one is tracked
-  std::optional<Eigen::Isometry3d> last_step_; ///< of the odometry, to the next scan
-  double last_step_time_ = 0;                  ///< [s]
+  std::size_t num_settled_ = 0;
+  MovingScan first_; ///< until the second one is tracked
   std::vector<double> linear_changes_, angular_changes_;
   double reach_ = 0;                                  ///< [m] of the scans so far
   Eigen::Vector3d cleared_ = Eigen::Vector3d::Zero(); ///< where the map was last cut

@@ -13,6 +13,7 @@ using pcl6d::judgeLink;
 using pcl6d::LinkEvidence;
 using pcl6d::LinkOpinion;
 using pcl6d::LinkTrust;
+using pcl6d::withThingsOnce;
 using pcl6d::test::kNan;
 using pcl6d::test::kVoxel;
 
@@ -200,4 +201,38 @@ TEST(ContradictionBackground, DoesNotDependOnTheOrderOfLinks)
   const double expected = contradictionBackground(links);
   std::reverse(links.begin(), links.end());
   EXPECT_EQ(contradictionBackground(links), expected);
+}
+
+TEST(LinkOpinion, DoubtsALinkLessWhereThingsCountOnce)
+{
+  // Five people, as far as both scans see them: 21 of 531 patches, all of things.
+  LinkEvidence evidence = seen(21, 531);
+  evidence.sight.things = 6;
+  evidence.sight.patches_of_things = 21;
+  EXPECT_EQ(judged(evidence).trust, LinkTrust::kWeak);
+  const LinkEvidence once = withThingsOnce(evidence);
+  EXPECT_EQ(once.sight.contradicted_patches, 6u);
+  EXPECT_EQ(once.sight.patches, 516u);
+  EXPECT_EQ(once.sight.confirmed_patches, evidence.sight.confirmed_patches);
+  EXPECT_EQ(judged(once).trust, LinkTrust::kGood);
+  EXPECT_EQ(withThingsOnce(once).sight.contradicted_patches, 6u)
+      << "done once, and for all";
+}
+
+TEST(LinkOpinion, IsTheSameWithoutThings)
+{
+  for (const std::size_t k : {0u, 21u, 250u}) {
+    const LinkEvidence evidence = seen(k, 531);
+    EXPECT_EQ(judged(withThingsOnce(evidence)).probability_wrong,
+              judged(evidence).probability_wrong);
+  }
+}
+
+TEST(LinkOpinion, CountsTheRestOfWhatIsContradictedAsEver)
+{
+  LinkEvidence evidence = seen(250, 531); // a wall, and a thing before it
+  evidence.sight.things = 1;
+  evidence.sight.patches_of_things = 6;
+  EXPECT_EQ(withThingsOnce(evidence).sight.contradicted_patches, 245u);
+  EXPECT_EQ(judged(withThingsOnce(evidence)).trust, LinkTrust::kWrong);
 }

@@ -6,6 +6,7 @@
 #include <pcl6d/verification/ties.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace pcl6d::global_registration {
 
@@ -78,13 +79,25 @@ doubtOfAll(const std::vector<LinkEvidence>& of_place,
   return verification::tiesOf(rest + 1, checks, background).cut_from[scan];
 }
 
+std::vector<LinkEvidence>
+withThingsOnce(std::vector<LinkEvidence> links)
+{
+  for (LinkEvidence& link : links)
+    link = pcl6d::withThingsOnce(std::move(link));
+  return links;
+}
+
 /** \return what links of a place say against it, one by one or together, or that none holds it,
- * as it needs */
+ * as it needs. Where it was expected, things count once: people who walk about */
 std::string
-objectionBy(const std::vector<LinkEvidence>& of_place,
-            const std::vector<LinkEvidence>& links,
+objectionBy(std::vector<LinkEvidence> of_place,
+            std::vector<LinkEvidence> links,
             PlaceNeeds needs)
 {
+  if (needs == PlaceNeeds::kToBeHeldAsExpected) {
+    of_place = withThingsOnce(std::move(of_place));
+    links = withThingsOnce(std::move(links));
+  }
   bool is_held = false;
   const std::string objection = objectionOf(of_place, links, is_held);
   if (!objection.empty() || needs == PlaceNeeds::kNoObjection)

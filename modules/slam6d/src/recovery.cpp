@@ -224,12 +224,13 @@ Recovery::usualBefore(std::size_t scan, const std::vector<ScanResult>& scans) co
 std::string
 Recovery::objection(std::size_t scan,
                     const Eigen::Isometry3d& T_world_scan,
-                    const std::vector<ScanResult>& scans)
+                    const std::vector<ScanResult>& scans,
+                    PlaceNeeds needs)
 {
   return objectionToPlace(placeable(scan),
                           knownAround(scan, T_world_scan.translation(), scans),
                           T_world_scan,
-                          PlaceNeeds::kToBeHeld,
+                          needs,
                           usualBefore(scan, scans),
                           options_.num_threads);
 }

@@ -38,11 +38,13 @@ public:
   Recovery(const Slam6DOptions& options, const std::deque<VerifiedScan>& verified);
 
   /** \return why the scans around do not hold a scan where it was matched; empty if they do
-   * \param[in] scans of the run; those believed are asked */
+   * \param[in] scans of the run; those believed are asked
+   * \param[in] needs of the place: whether it was expected there */
   std::string
   objection(std::size_t scan,
             const Eigen::Isometry3d& T_world_scan,
-            const std::vector<ScanResult>& scans);
+            const std::vector<ScanResult>& scans,
+            PlaceNeeds needs = PlaceNeeds::kToBeHeld);
 
   /** \return whether rays call a link between the scans before good: else they are no judges
    * here, or have not shown that they are */

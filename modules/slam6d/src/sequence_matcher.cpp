@@ -45,8 +45,14 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
   bool is_vetoed = false;
   const auto judge = [&](const ScanResult& found) {
     const std::string objection =
-        isDoubtful(found, i, scans) ? recovery_.objection(i, found.T_world_scan, scans)
-                                    : "";
+        isDoubtful(found, i, scans)
+            ? recovery_.objection(i,
+                                  found.T_world_scan,
+                                  scans,
+                                  isExpected(found, i, scans)
+                                      ? PlaceNeeds::kToBeHeldAsExpected
+                                      : PlaceNeeds::kToBeHeld)
+            : "";
     is_vetoed = !objection.empty();
     return objection;
   };
@@ -87,6 +93,20 @@ SequenceMatcher::isDoubtful(const ScanResult& found,
          (!isBelieved(scans[i - 1]) ||
           !matcher_.isSmallCorrection(found, predictedPose(scans, i)) ||
           recovery_.seemsContradicted(i, found.T_world_scan, scans));
+}
+
+/** \return whether a match is where odometry leads from the scan before: what is contradicted
+ * there by things that stand alone are things that moved, rather than another place */
+bool
+SequenceMatcher::isExpected(const ScanResult& found,
+                            std::size_t i,
+                            const std::vector<ScanResult>& scans) const
+{
+  const Eigen::Isometry3d odometry =
+      scans[i - 1].initial_pose.inverse() * scans[i].initial_pose;
+  return isBelieved(scans[i - 1]) &&
+         !odometry.isApprox(Eigen::Isometry3d::Identity(), 1e-12) &&
+         matcher_.isSmallCorrection(found, predictedPose(scans, i));
 }
 
 /** A scan that could not be matched where it was predicted. */

@@ -56,6 +56,10 @@ private:
   isDoubtful(const ScanResult& found,
              std::size_t scan,
              const std::vector<ScanResult>& scans);
+  bool
+  isExpected(const ScanResult& found,
+             std::size_t scan,
+             const std::vector<ScanResult>& scans) const;
   void
   lookFor(std::size_t scan, std::vector<ScanResult>& scans);
 

@@ -17,6 +17,11 @@ constexpr double kAbstainingShare = 0.05;
  * opened, or a car, makes few of them. */
 constexpr double kPatchVoxels = 6, kPatchSpread = 0.15;
 
+/** Things that may have walked on between two scans are no larger [m], by the diagonal of the box
+ * about them, nor than the surfaces are spread: a person of 1.9 m with a stride and arms of 1 m, in
+ * any direction of the axes. Cars are left out, as parked ones tell places apart. */
+constexpr double kLargestThing = 2.5;
+
 /** Surfaces of a right link are no farther apart, in voxels: wrong ones, which matching has
  * pulled together, must not hide what contradicts them. Pairs reach to 1.7 voxels. */
 constexpr double kMostMisfit = 0.5;

@@ -39,7 +39,8 @@ lookFrom(const VerifiedScan& from,
                        sampleOf(at.surfaces().points()),
                        T_from_at,
                        uncertainty,
-                       std::max(kPatchVoxels * voxel, kPatchSpread * fit.spread),
+                       {std::max(kPatchVoxels * voxel, kPatchSpread * fit.spread),
+                        std::min(kLargestThing, fit.spread)},
                        contradictions);
 }
 
@@ -162,6 +163,17 @@ double
 LinkEvidence::deviation() const
 {
   return std::max(fit.deviation(), kResolution * voxel);
+}
+
+LinkEvidence
+withThingsOnce(LinkEvidence evidence)
+{
+  SightEvidence& sight = evidence.sight;
+  const std::size_t once_more = sight.patches_of_things - sight.things;
+  sight.patches -= once_more;
+  sight.contradicted_patches -= once_more;
+  sight.patches_of_things = sight.things;
+  return evidence;
 }
 
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "standing_things.h"
+
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/voxel_key.h>
 #include <pcl6d/visibility/sight_evidence.h>
@@ -22,6 +24,7 @@ struct Witness {
   VoxelKey patch;
   bool free;
   std::size_t contradiction; ///< place in the list, if it is free
+  Eigen::Vector3f place;
 };
 
 double
@@ -30,12 +33,14 @@ shareOf(std::size_t part, std::size_t rest)
   return part == 0 ? 0 : static_cast<double>(part) / static_cast<double>(part + rest);
 }
 
-/** Counts the patches of witnesses, and marks the contradictions in contradicted ones. */
-void
+/** Counts the patches of witnesses, and marks the contradictions in contradicted ones.
+ * \return the contradicted patches, as places in the list of contradictions */
+std::vector<std::vector<std::size_t>>
 countPatches(std::vector<Witness>& witnesses,
              SightEvidence& evidence,
              std::vector<Contradiction>& contradictions)
 {
+  std::vector<std::vector<std::size_t>> found;
   std::stable_sort(
       witnesses.begin(), witnesses.end(), [](const Witness& a, const Witness& b) {
         return a.patch < b.patch;
@@ -54,12 +59,37 @@ countPatches(std::vector<Witness>& witnesses,
       evidence.contradicted_patches += contradicted ? 1 : 0;
       evidence.confirmed_patches += 2 * free < all ? 1 : 0;
     }
-    if (contradicted && all >= kLeastOfPatch)
+    if (contradicted && all >= kLeastOfPatch) {
+      found.emplace_back();
       for (; first != last; ++first)
-        if (first->free)
+        if (first->free) {
           contradictions[first->contradiction].clear = true;
+          found.back().push_back(first->contradiction);
+        }
+    }
     first = last;
   }
+  return found;
+}
+
+/** Tells those contradicted patches that are of things from the rest. */
+void
+countThings(const std::vector<Witness>& witnesses,
+            const std::vector<Contradiction>& contradictions,
+            const std::vector<std::vector<std::size_t>>& patches,
+            const SightPatch& size,
+            SightEvidence& evidence)
+{
+  Points free, confirmed;
+  for (const Contradiction& one : contradictions)
+    free.push_back(one.place);
+  for (const Witness& witness : witnesses)
+    if (!witness.free)
+      confirmed.push_back(witness.place);
+  const auto found = visibility::standingThings(
+      free, confirmed, patches, 0.5 * size.edge, size.largest_thing);
+  evidence.things = found.things;
+  evidence.patches_of_things = found.patches;
 }
 
 /** \return variance [m^2] of a place along the ray to it */
@@ -117,6 +147,8 @@ SightEvidence::operator+=(const SightEvidence& other)
   patches += other.patches;
   confirmed_patches += other.confirmed_patches;
   contradicted_patches += other.contradicted_patches;
+  things += other.things;
+  patches_of_things += other.patches_of_things;
   return *this;
 }
 
@@ -137,10 +169,17 @@ sightEvidence(const RayImage& image,
               const Points& points,
               const Eigen::Isometry3d& T_image_points,
               const PlaceUncertainty& uncertainty,
-              double patch,
+              const SightPatch& patch,
               std::vector<Contradiction>* contradictions)
 {
-  require(std::isfinite(patch) && patch > 0, "patch", patch, "finite and > 0");
+  require(std::isfinite(patch.edge) && patch.edge > 0,
+          "patch",
+          patch.edge,
+          "finite and > 0");
+  require(std::isfinite(patch.largest_thing) && patch.largest_thing >= 0,
+          "largest_thing",
+          patch.largest_thing,
+          "finite and >= 0");
   SightEvidence evidence;
   std::vector<Witness> witnesses;
   // The list of the caller stays as it is if a point throws.
@@ -163,16 +202,18 @@ sightEvidence(const RayImage& image,
       continue;
     case Sight::kConfirmed:
       ++evidence.confirmed;
-      witnesses.push_back({voxelKey(p, patch), false, 0});
+      witnesses.push_back({voxelKey(p, patch.edge), false, 0, p});
       continue;
     case Sight::kFree:
       break;
     }
     ++evidence.free;
-    witnesses.push_back({voxelKey(p, patch), true, found.size()});
+    witnesses.push_back({voxelKey(p, patch.edge), true, found.size(), p});
     found.push_back({p, seen.beyond, false});
   }
-  countPatches(witnesses, evidence, found);
+  const auto patches = countPatches(witnesses, evidence, found);
+  if (patch.largest_thing > 0 && !patches.empty())
+    countThings(witnesses, found, patches, patch, evidence);
   if (contradictions)
     contradictions->insert(contradictions->end(), found.begin(), found.end());
   return evidence;

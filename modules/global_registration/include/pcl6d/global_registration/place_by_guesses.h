@@ -37,6 +37,9 @@ enum class PlaceNeeds {
              ///< of a place found anywhere
   kToBeHeld, ///< others that say that it is right, and none that contradicts it: of a place
              ///< to which odometry leads
+  kToBeHeldAsExpected, ///< the same, but contradicted things that stand alone count once
+  ///< (withThingsOnce()): of a place that is as near to where it was
+  ///< expected as odometry always is
   kNoObjection ///< none that contradicts it, also where nobody sees it
 };
 

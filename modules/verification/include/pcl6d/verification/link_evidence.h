@@ -46,6 +46,16 @@ linkEvidence(const VerifiedScan& first,
              const Eigen::Isometry3d& T_first_second,
              std::vector<Contradiction>* contradictions = nullptr);
 
+/** \brief The same, with each contradicted thing that stands alone counted as one patch.
+ *
+ * The patches of one thing are no independent witnesses: a person who walked on between two scans
+ * makes five or six of them where the scanner stands near, and a link is doubted that all walls
+ * confirm. But a place that looks like the right one is contradicted by such things alone, too: a
+ * parked car, a pillar. So this is for places that something else speaks for, such as odometry;
+ * a place found anywhere, and a map, are judged by all patches. */
+LinkEvidence
+withThingsOnce(LinkEvidence evidence);
+
 /** \brief The judgement on a link. */
 struct LinkOpinion {
   LinkTrust trust = LinkTrust::kWeak;

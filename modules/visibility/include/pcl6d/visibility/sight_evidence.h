@@ -33,6 +33,9 @@ struct SightEvidence {
   std::size_t patches = 0;              ///< with at least 4 points that say something
   std::size_t confirmed_patches = 0;    ///< most of whose points are confirmed
   std::size_t contradicted_patches = 0; ///< at least 3, and half of whose points, free
+  std::size_t things =
+      0; ///< contradicted ones that stand alone (SightPatch::largest_thing)
+  std::size_t patches_of_things = 0; ///< of the contradicted patches, those of things
 
   /** \brief Adds what is known of other points, such as those of the other way round. */
   SightEvidence&
@@ -52,6 +55,22 @@ struct SightEvidence {
   confirmation() const;
 };
 
+/** \brief How points that are near each other count together. */
+struct SightPatch {
+  // Not explicit: an edge alone is a size.
+  SightPatch(double edge_of_cube) : edge(edge_of_cube) {}
+  SightPatch(double edge_of_cube, double largest)
+  : edge(edge_of_cube), largest_thing(largest)
+  {}
+
+  double edge; ///< [m] of a cube of points; finite, > 0
+  /** [m] diagonal of the box about the largest thing: contradicted points no farther apart than
+   * half a cube, or in one patch, around which fewer than half of those that say something are
+   * confirmed. Something that has walked on, or a piece of furniture at a wrong pose; a part of a
+   * wall that is hidden but for a gap, too. Finite, >= 0; 0: things are not looked for */
+  double largest_thing = 0;
+};
+
 /** \brief A contradicted point, for a picture of it. */
 struct Contradiction {
   Eigen::Vector3f place = Eigen::Vector3f::Zero(); ///< [m] in the frame of the points
@@ -61,16 +80,16 @@ struct Contradiction {
 
 /** \brief Looks at the points of one scan in the image of another.
  * \param[in] T_image_points pose of the points' scan seen from that of the image
- * \param[in] patch [m] edge of a cube of points; > 0
+ * \param[in] patch how they are counted
  * \param[out] contradictions if given, the contradicted points are added to it
- * \throws BadArgument patch is not positive, or a point is too far away for it (see
+ * \throws BadArgument patch breaks its rules, or a point is too far away for it (see
  * voxelKey()) */
 SightEvidence
 sightEvidence(const RayImage& image,
               const Points& points,
               const Eigen::Isometry3d& T_image_points,
               const PlaceUncertainty& uncertainty,
-              double patch,
+              const SightPatch& patch,
               std::vector<Contradiction>* contradictions = nullptr);
 
 /** \brief How far the rays of a scan contradict its own points: every second finite point,

@@ -190,7 +190,8 @@ TEST(StandingThings, AddUp)
 
 TEST(StandingThings, RefuseASizeThatIsNone)
 {
-  for (const double wrong : {-1.0, static_cast<double>(kNan), static_cast<double>(kInfinity)})
+  for (const double wrong :
+       {-1.0, static_cast<double>(kNan), static_cast<double>(kInfinity)})
     EXPECT_NE(badArgumentOf([&] {
                 seenBefore({}, {kPatch, wrong});
               }).find("largest_thing = "),

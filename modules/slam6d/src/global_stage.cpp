@@ -2,6 +2,7 @@
 #include "global_stage.h"
 #include "joined_runs.h"
 #include "packing.h"
+#include "registered.h"
 
 #include <pcl6d/slam6d/auto_parameters.h>
 

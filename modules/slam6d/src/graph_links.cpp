@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_links.h"
+#include "registered.h"
 
 #include <pcl6d/common/components.h>
 #include <pcl6d/common/pose.h>
@@ -104,10 +105,7 @@ odometryLink(const Poses& poses, std::size_t scan)
 bool
 isRefuted(const std::vector<ScanResult>& scans, std::size_t scan)
 {
-  const auto is_lost = [](const ScanResult& one) {
-    return one.state == ScanState::kPredicted || one.state == ScanState::kPending;
-  };
-  return !is_lost(scans[scan]) && !is_lost(scans[scan - 1]) &&
+  return isRegistered(scans[scan]) && isRegistered(scans[scan - 1]) &&
          scans[scan].recovered != RecoveredBy::kNone;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_links.h"
 #include "graph_stage.h"
+#include "registered.h"
 
 #include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
@@ -23,16 +24,6 @@ posesOf(const Slam6DResult& result)
   for (const ScanResult& scan : result.scans)
     poses.push_back(scan.T_world_scan);
   return poses;
-}
-
-std::vector<bool>
-believedOf(const Slam6DResult& result)
-{
-  std::vector<bool> believed;
-  for (const ScanResult& scan : result.scans)
-    believed.push_back(scan.state != ScanState::kPredicted &&
-                       scan.state != ScanState::kPending);
-  return believed;
 }
 
 namespace {
@@ -131,7 +122,7 @@ GraphStage::judgeMatching(Slam6DResult& result) const
   for (const ScanResult& scan : result.scans)
     odometry.push_back(scan.initial_pose);
   StageResult stage =
-      judged(StageKind::kMatching, odometry, posesOf(result), believedOf(result));
+      judged(StageKind::kMatching, odometry, posesOf(result), areRegistered(result));
   stage.seconds =
       result.matching_seconds; // not undone: each scan was judged for itself
   stage.history = {posesOf(result)};
@@ -164,7 +155,7 @@ GraphStage::closeLoops(Slam6DResult& result, std::size_t first)
 {
   const auto start = Clock::now();
   Poses before = posesOf(result);
-  std::vector<bool> believed = believedOf(result);
+  std::vector<bool> believed = areRegistered(result);
   before.resize(scans_.size());
   believed.resize(scans_.size());
   const std::vector<ScanLink> found =
@@ -228,7 +219,7 @@ GraphStage::makeNetwork(const Slam6DResult& result) const
           : std::min(icp_.max_distance, kPlaneVoxels * parameters_.voxel.value);
   network.num_threads = options_.num_threads;
   network.sharing = sharing_;
-  ScanNetwork links(scans_, believedOf(result), network);
+  ScanNetwork links(scans_, areRegistered(result), network);
   for (const ScanLink& link : result.links)
     if (link.kind == LinkKind::kLoop && link.verdict == LinkVerdict::kUsed)
       links.keep(link.from, link.to, LinkKind::kLoop, false);
@@ -312,7 +303,7 @@ GraphStage::relax(Slam6DResult& result, int rounds, const Observer& observer)
   if (stopped)
     return false;
   StageResult stage =
-      judged(StageKind::kRelaxation, before, relaxed.poses, believedOf(result));
+      judged(StageKind::kRelaxation, before, relaxed.poses, areRegistered(result));
   stage.rounds = relaxed.iterations;
   if (stage.reason.empty())
     stage.reason = whyNotTaken(relaxed);
@@ -350,7 +341,7 @@ GraphStage::matchSimultaneously(Slam6DResult& result, const Observer& observer)
     return false;
   }
   StageResult stage =
-      judged(StageKind::kRelaxation, before, matched.poses, believedOf(result));
+      judged(StageKind::kRelaxation, before, matched.poses, areRegistered(result));
   if (stage.reason.empty() && matched.status == Status::kTooFewPairs)
     stage.reason = "no scan has a neighbour";
   stage.rounds = static_cast<int>((matched.pops + scans_.size() - 1) / scans_.size());

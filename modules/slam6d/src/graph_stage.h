@@ -16,10 +16,6 @@ namespace pcl6d::slam6d {
 Poses
 posesOf(const Slam6DResult& result);
 
-/** \return per scan whether it was matched, or is the first one */
-std::vector<bool>
-believedOf(const Slam6DResult& result);
-
 /** \brief Loops that were closed while scans were matched. */
 struct ClosedLoops {
   std::vector<ScanLink> links; ///< all candidates, with their verdicts

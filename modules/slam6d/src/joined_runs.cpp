@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "joined_runs.h"
+#include "registered.h"
 
 #include <pcl6d/slam6d/groups_apart.h>
 
@@ -21,12 +22,6 @@ firstGroupOf(const KnownPlaces& known)
   return first;
 }
 } // namespace
-
-bool
-isRegistered(const ScanResult& scan)
-{
-  return scan.state != ScanState::kPending && scan.state != ScanState::kPredicted;
-}
 
 bool
 isOfFurtherRun(std::size_t scan, const std::vector<std::size_t>& runs)

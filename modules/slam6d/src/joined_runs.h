@@ -12,10 +12,6 @@
  * of each such scan, which are the first ones, the number of its run. */
 namespace pcl6d::slam6d {
 
-/** \return whether a run has given a scan its place */
-bool
-isRegistered(const ScanResult& scan);
-
 /** \return whether a scan belongs to another run than the one with the smallest number, whose
  * world stays */
 bool

@@ -14,7 +14,8 @@
 namespace pcl6d::slam6d {
 
 namespace {
-constexpr int kRounds = 3; ///< of following it forth and back; the last ones rarely help
+constexpr int kRounds =
+    3; ///< of following it forth and back; the last ones rarely help
 constexpr int kRoughIterations = 10; ///< of a part: those with more points go on
 
 /** \return the points of a time [s] */
@@ -103,7 +104,8 @@ MotionTracker::nextPose(const Trajectory& knots,
                                     map_options_.cell / 4, // as of rough starts
                                     icp_.num_threads));
     if (i == 0) // a share of n points spreads by 1 / (2 root n)
-      best_fit = fit + kSureShares / 2 / std::sqrt(1.0 + static_cast<double>(seen.points.size()));
+      best_fit = fit + kSureShares / 2 /
+                           std::sqrt(1.0 + static_cast<double>(seen.points.size()));
     else if (fit > best_fit) {
       best = i;
       best_fit = fit;
@@ -127,7 +129,8 @@ MotionTracker::grown(const Trajectory& start,
     if (k > 1)
       knots.poses[k] = nextPose(knots, k - 2, k - 1, k, half);
     Trajectory part = partOf(knots, 0, k);
-    const TimedPoints seen = pointsBetween(half, part.stamps.front(), part.stamps.back());
+    const TimedPoints seen =
+        pointsBetween(half, part.stamps.front(), part.stamps.back());
     part = motionIcp(map_, seen, startOf(part, goes_on), rough).knots;
     std::copy(part.poses.begin(), part.poses.end(), knots.poses.begin());
   }
@@ -146,7 +149,8 @@ MotionTracker::grownBack(const Trajectory& start, const TimedPoints& half) const
     if (k + 2 <= last)
       knots.poses[k] = nextPose(knots, k + 2, k + 1, k, half);
     Trajectory part = partOf(knots, k, last);
-    const TimedPoints seen = pointsBetween(half, part.stamps.front(), part.stamps.back());
+    const TimedPoints seen =
+        pointsBetween(half, part.stamps.front(), part.stamps.back());
     part = motionIcp(map_, seen, startOf(part, false), rough).knots;
     std::copy(part.poses.begin(),
               part.poses.end(),

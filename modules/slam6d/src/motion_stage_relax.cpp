@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "motion_stage.h"
+#include "registered.h"
 
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/filters/motion_correction.h>
@@ -97,12 +98,9 @@ std::vector<std::size_t>
 MotionStage::placedScans(const Slam6DResult& result) const
 {
   std::vector<std::size_t> members;
-  for (std::size_t k = 0; k < known_.size(); ++k) {
-    const ScanState state = result.scans[known_[k].place].state;
-    if (state == ScanState::kFixed || state == ScanState::kMatched ||
-        state == ScanState::kUnconverged)
+  for (std::size_t k = 0; k < known_.size(); ++k)
+    if (isRegistered(result.scans[known_[k].place]))
       members.push_back(k);
-  }
   return members;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "moving_stage.h"
+#include "registered.h"
 
 #include <pcl6d/common/require.h>
 
@@ -26,9 +27,7 @@ constexpr double kAround = 3;
 bool
 isJudge(const VerifiedScan& scan, const ScanResult& result)
 {
-  return (result.state == ScanState::kFixed || result.state == ScanState::kMatched ||
-          result.state == ScanState::kUnconverged) &&
-         !scan.abstains();
+  return isRegistered(result) && !scan.abstains();
 }
 
 bool

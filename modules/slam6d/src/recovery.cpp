@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recovery.h"
+#include "registered.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
@@ -64,7 +65,7 @@ deviationOfStep(const std::vector<ScanResult>& scans, std::size_t before, double
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t i = before; i-- > 0 && count < kCorrections;)
-    if (isBelieved(scans[i]) && scans[i].state != ScanState::kFixed &&
+    if (isRegistered(scans[i]) && scans[i].state != ScanState::kFixed &&
         scans[i].recovered == RecoveredBy::kNone) {
       sum += scans[i].correction * scans[i].correction;
       ++count;
@@ -78,7 +79,7 @@ wayTo(std::size_t scan, const std::vector<ScanResult>& scans, double voxel)
   Way way;
   std::vector<std::size_t> believed; // the last two
   for (std::size_t i = scan; i-- > 0 && believed.size() < 2;)
-    if (isBelieved(scans[i]))
+    if (isRegistered(scans[i]))
       believed.push_back(i);
   if (believed.empty())
     return std::nullopt;
@@ -135,13 +136,6 @@ isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans)
 }
 } // namespace
 
-bool
-isBelieved(const ScanResult& scan)
-{
-  return scan.state == ScanState::kFixed || scan.state == ScanState::kMatched ||
-         scan.state == ScanState::kUnconverged;
-}
-
 Eigen::Isometry3d
 repeated(const Eigen::Isometry3d& motion, std::size_t count)
 {
@@ -176,11 +170,11 @@ Recovery::around(std::size_t scan,
 {
   std::vector<std::size_t> chosen;
   for (std::size_t i = scan; i-- > 0 && chosen.size() < latest;)
-    if (isBelieved(scans[i]))
+    if (isRegistered(scans[i]))
       chosen.push_back(i);
   std::vector<std::pair<double, std::size_t>> others;
   for (std::size_t i = 0; i < scans.size() && nearest > 0; ++i)
-    if (i != scan && isBelieved(scans[i]) &&
+    if (i != scan && isRegistered(scans[i]) &&
         std::find(chosen.begin(), chosen.end(), i) == chosen.end())
       others.emplace_back((scans[i].T_world_scan.translation() - position).norm(), i);
   std::sort(others.begin(), others.end());
@@ -207,7 +201,7 @@ Recovery::usualBefore(std::size_t scan, const std::vector<ScanResult>& scans) co
 {
   std::vector<std::size_t> seconds;
   for (std::size_t i = scan; i-- > 1 && seconds.size() < kUsualLinks;)
-    if (isBelieved(scans[i]) && isBelieved(scans[i - 1]) &&
+    if (isRegistered(scans[i]) && isRegistered(scans[i - 1]) &&
         scans[i].recovered == RecoveredBy::kNone)
       seconds.push_back(i);
   std::vector<LinkEvidence> links(seconds.size());
@@ -314,7 +308,7 @@ Recovery::findBefore(const std::vector<std::size_t>& piece,
                      const std::vector<ScanResult>& scans)
 {
   const std::size_t last = piece.back();
-  if (last + 1 >= scans.size() || !isBelieved(scans[last + 1]))
+  if (last + 1 >= scans.size() || !isRegistered(scans[last + 1]))
     return std::nullopt;
   const ScanResult& next = scans[last + 1];
   const Eigen::Isometry3d predicted =

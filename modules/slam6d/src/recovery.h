@@ -15,10 +15,6 @@
 
 namespace pcl6d::slam6d {
 
-/** \return whether a scan was matched, or is the first one */
-bool
-isBelieved(const ScanResult& scan);
-
 /** \return a number of motions one after the other: motion^count */
 PCL6D_EXPORTS Eigen::Isometry3d // shown to its test
 repeated(const Eigen::Isometry3d& motion, std::size_t count);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recovery_stage.h"
+#include "registered.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/text.h>
@@ -84,14 +85,14 @@ RecoveryStage::follow(std::size_t i, ScanMatcher& matcher, std::vector<ScanResul
                 [&](const ScanResult& found) {
                   return recovery_.objection(i, found.T_world_scan, own);
                 });
-  if (isBelieved(scan))
+  if (isRegistered(scan))
     return true;
   const auto found = recovery_.find(i, own);
   if (!found)
     return false;
   scan.T_world_scan = found->T_world_scan;
   matcher.matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
-  return isBelieved(scan);
+  return isRegistered(scan);
 }
 
 /** Pieces that the odometry ties to scans after them, from where it leads back; they are no
@@ -155,7 +156,7 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
   join.known.resize(result.scans.size());
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     list.push_back(recovery_.placeable(i));
-    if (isBelieved(result.scans[i]))
+    if (isRegistered(result.scans[i]))
       join.known[i] = {0, result.scans[i].T_world_scan};
   }
   for (std::size_t p = 0; p < pieces.size(); ++p)
@@ -175,7 +176,7 @@ RecoveryStage::take(const JoinedScans& joined,
     for (const std::size_t i : piece)
       is_in_piece[i] = piece.size() > 1;
   for (const std::size_t i : joined.groups.front()) // in the order in which they joined
-    if (!isBelieved(result.scans[i]))
+    if (!isRegistered(result.scans[i]))
       takePlace(i,
                 joined.scans[i].T_group_scan,
                 is_in_piece[i] ? RecoveredBy::kTogether : RecoveredBy::kEverywhere,
@@ -201,7 +202,7 @@ RecoveryStage::takePlace(std::size_t i,
   if (i > 0)
     matcher_.passOver(scans_.measured()[i - 1], result.scans[i - 1].T_world_scan);
   matcher_.matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
-  if (!isBelieved(scan)) {
+  if (!isRegistered(scan)) {
     scan.T_world_scan = predicted;
     scan.reason = lost + "; found again, but not matched there: " + scan.reason;
     return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recovery.h"
+#include "registered.h"
 #include "second_look.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ countLoose(const Slam6DResult& result)
 {
   std::size_t count = 0;
   for (std::size_t i = 0; i < result.scans.size(); ++i)
-    count += !isBelieved(result.scans[i]) || !result.verification->scans[i].tied;
+    count += !isRegistered(result.scans[i]) || !result.verification->scans[i].tied;
   return count;
 }
 } // namespace
@@ -32,7 +33,7 @@ hasUntied(const Slam6DResult& result)
   if (!result.verification || result.verification->trust != MapTrust::kDoubtful)
     return false;
   for (std::size_t i = 0; i < result.scans.size(); ++i)
-    if (isBelieved(result.scans[i]) && !result.verification->scans[i].tied)
+    if (isRegistered(result.scans[i]) && !result.verification->scans[i].tied)
       return true;
   return false;
 }
@@ -42,7 +43,7 @@ loosen(std::size_t keeps, Slam6DResult& result)
 {
   for (std::size_t i = std::max<std::size_t>(1, keeps); i < result.scans.size(); ++i) {
     ScanResult& scan = result.scans[i];
-    if (!isBelieved(scan) || isWithFirst(result, i))
+    if (!isRegistered(scan) || isWithFirst(result, i))
       continue;
     scan.state = ScanState::kPredicted;
     scan.recovered = RecoveredBy::kNone;
@@ -61,7 +62,8 @@ void
 keepMatchedPoses(const Slam6DResult& before, Slam6DResult& now)
 {
   for (std::size_t i = 0; i < now.scans.size(); ++i)
-    if (now.scans[i].recovered == before.scans[i].recovered && isBelieved(now.scans[i]))
+    if (now.scans[i].recovered == before.scans[i].recovered &&
+        isRegistered(now.scans[i]))
       now.scans[i].matched_pose = before.scans[i].matched_pose;
 }
 

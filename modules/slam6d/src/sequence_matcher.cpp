@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recovery_stage.h"
+#include "registered.h"
 #include "sequence_matcher.h"
 
 #include <pcl6d/common/pose.h>
@@ -57,12 +58,12 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
     return objection;
   };
   matcher_.match(scans_.reduced()[i], scans_.measured()[i], odometry, scan, judge);
-  if (!isRecovering(options_) || isBelieved(scan))
+  if (!isRecovering(options_) || isRegistered(scan))
     return;
   lookFor(i, scans);
   // Without a better place the match stands where rays are no judges: the verdict on the whole
   // map tells what is to be thought of it.
-  if (isBelieved(scan) || !is_vetoed || !isBelieved(scans[i - 1]) ||
+  if (isRegistered(scan) || !is_vetoed || !isRegistered(scans[i - 1]) ||
       recovery_.raysJudge(i, scans))
     return;
   scan = predicted;
@@ -90,7 +91,7 @@ SequenceMatcher::isDoubtful(const ScanResult& found,
                             const std::vector<ScanResult>& scans)
 {
   return isRecovering(options_) &&
-         (!isBelieved(scans[i - 1]) ||
+         (!isRegistered(scans[i - 1]) ||
           !matcher_.isSmallCorrection(found, predictedPose(scans, i)) ||
           recovery_.seemsContradicted(i, found.T_world_scan, scans));
 }
@@ -104,7 +105,7 @@ SequenceMatcher::isExpected(const ScanResult& found,
 {
   const Eigen::Isometry3d odometry =
       scans[i - 1].initial_pose.inverse() * scans[i].initial_pose;
-  return isBelieved(scans[i - 1]) &&
+  return isRegistered(scans[i - 1]) &&
          !odometry.isApprox(Eigen::Isometry3d::Identity(), 1e-12) &&
          matcher_.isSmallCorrection(found, predictedPose(scans, i));
 }
@@ -120,7 +121,7 @@ SequenceMatcher::lookFor(std::size_t i, std::vector<ScanResult>& scans)
   const Eigen::Vector3d predicted = scan.T_world_scan.translation();
   scan.T_world_scan = found->T_world_scan;
   matcher_.matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
-  if (!isBelieved(scan))
+  if (!isRegistered(scan))
     return matcher_.passOver(scans_.measured()[i], scans[i].T_world_scan);
   scan.correction = (scan.T_world_scan.translation() - predicted).norm();
   scan.recovered = found->by;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/slam6d/slam6d_result.h>
+
+#include <vector>
+
+namespace pcl6d::slam6d {
+
+/** \return whether a scan was matched, or is one that keeps its pose: other scans may be held
+ * against it */
+inline bool
+isRegistered(const ScanResult& scan)
+{
+  return scan.state == ScanState::kFixed || scan.state == ScanState::kMatched ||
+         scan.state == ScanState::kUnconverged;
+}
+
+/** \return the same of each scan */
+inline std::vector<bool>
+areRegistered(const Slam6DResult& result)
+{
+  std::vector<bool> registered;
+  for (const ScanResult& scan : result.scans)
+    registered.push_back(isRegistered(scan));
+  return registered;
+}
+
+} // namespace pcl6d::slam6d

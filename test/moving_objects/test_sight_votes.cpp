@@ -159,6 +159,38 @@ TEST_F(Spheres, ASurfaceSupportsWhatIsOnIt)
   EXPECT_TRUE(Judge(sphere(3), judged, 1).supports({9, 9, 9})) << "it has none at all";
 }
 
+TEST_F(Spheres, FromFarRaysTellLessThanASurface)
+{
+  const SeenScan& judged = sphere(3);
+  SeenScan far = wallOf(sphere(30), {-1, 0, 0});
+  const double cell = far.rays->resolution();
+  // 3 sigma of both points and the gap between rays, against 1.75 voxels of 0.1 m.
+  const double farthest = (0.175 - 3 * std::sqrt(2.0) * kNoise) / cell;
+  far.T_world_scan.translation().x() = 3 - 0.99 * farthest;
+  EXPECT_TRUE(Judge(far, judged, 1).tellsWhere({3, 0, 0}));
+  far.T_world_scan.translation().x() = 3 - 1.01 * farthest;
+  EXPECT_FALSE(Judge(far, judged, 1).tellsWhere({3, 0, 0}));
+}
+
+TEST_F(Spheres, AHitFromFarCountsIfThereIsASurface)
+{
+  // From 30 m its rays end at the place, within half a metre; its wall is at 3 m.
+  const auto hitsOf = [&](const SeenScan& scan) {
+    SeenScan far = scan;
+    far.T_world_scan.translation().x() = -27;
+    Jury jury({Judge(far, sphere(3), 1)}, sphere(3), places_, 1);
+    jury.ask({0}, 0, jury.choose({0}, 1));
+    return jury.votes()[0].numHits();
+  };
+  EXPECT_EQ(hitsOf(sphere(30)), 1) << "it has no surfaces to ask";
+  const SeenScan& walled = wallOf(sphere(30), {-1, 0, 0});
+  EXPECT_EQ(hitsOf(walled), 0);
+  for (Eigen::Vector3f& p : wall_)
+    p.x() = 30;
+  tree_ = PointTree(wall_);
+  EXPECT_EQ(hitsOf(walled), 1) << "now the wall is where the place is";
+}
+
 TEST_F(Spheres, WithoutANormalTheNearestPointMustBeNear)
 {
   const Judge judge(wallOf(sphere(3), {0, 0, 0}), sphere(3), 1);

@@ -119,6 +119,15 @@ Judge::calibrate(const Points& sample)
 }
 
 bool
+Judge::tellsWhere(const Eigen::Vector3f& place) const
+{
+  const double own = judge_->rays->noise();
+  const double sigma = sigmaOf(place, T_judge_judged_ * place);
+  return kOnSurfaceSigmas * std::sqrt(sigma * sigma + own * own) + gapAt(place) <=
+         kReach * judge_->voxel;
+}
+
+bool
 Judge::supports(const Eigen::Vector3f& place) const
 {
   if (!hasSurface())
@@ -274,10 +283,11 @@ Jury::look(const std::vector<std::uint32_t>& which,
     }
   }
   for (std::size_t i = begin; i < end; ++i)
-    if (votes_[which[i]].misses != 0)
-      checkSurfaces(which[i], bench);
+    checkSurfaces(which[i], bench);
 }
 
+/** Where nobody saw through a place, only the hits that rays know too inexactly are asked for
+ * their surface. */
 void
 Jury::checkSurfaces(std::size_t place, Bench bench)
 {
@@ -286,6 +296,9 @@ Jury::checkSurfaces(std::size_t place, Bench bench)
     if (!judges_[j].hasSurface())
       continue;
     const unsigned bit = 1U << j;
+    if (vote.misses == 0 &&
+        ((vote.hits & bit) == 0 || judges_[j].tellsWhere(places_[place])))
+      continue;
     const bool on_surface = judges_[j].supports(places_[place]);
     vote.hits =
         static_cast<std::uint16_t>(on_surface ? vote.hits | bit : vote.hits & ~bit);

@@ -72,6 +72,11 @@ public:
   void
   calibrate(const Points& sample);
 
+  /** \return whether its rays know where they ended near a place at least as exactly as its
+   * reduced surface: from far, a hit says that something is near, not that it is there */
+  bool
+  tellsWhere(const Eigen::Vector3f& place) const;
+
   /** \return whether a place lies on one of its surfaces; true if it has none */
   bool
   supports(const Eigen::Vector3f& place) const;
@@ -111,9 +116,17 @@ public:
   choose(const std::vector<std::uint32_t>& which, std::size_t count);
 
   /** \brief Some judges look at some places. A hit counts where the place lies on a surface of
-   * who measured it; this is asked where there is a miss, too. */
+   * who measured it; this is asked where there is a miss, too, or where the rays alone cannot
+   * tell. */
   void
   ask(const std::vector<std::uint32_t>& which, std::size_t first, std::size_t end);
+
+  /** \return the scan whose places they judge */
+  const SeenScan&
+  judged() const
+  {
+    return judged_;
+  }
 
   /** \return one per place */
   const std::vector<Votes>&

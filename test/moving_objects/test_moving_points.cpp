@@ -76,6 +76,29 @@ TEST(MovingPoints, TwoScansTellWhatOneOfThemSawThrough)
   EXPECT_LT(shareOf(room.dynamic, room.points), 2e-5) << testing::PrintToString(room);
 }
 
+TEST(MovingPoints, WhatAPartOfAThingTellsHoldsForItsOtherSides)
+{
+  // A car before the first scanner; a pillar hides most of its place from the second, who sees
+  // through a third. The rest reaches no farther than three times as far from its middle.
+  const Body pillar = standing(1.75, -1.1, {0.5, 0.75, 3}, Met::kRoom);
+  const Body car = standing(-0.5, 2, {4, 1.6, 1.4}, Met::kMover);
+  MovingRoom room;
+  Random random(11);
+  std::vector<TrueScan> scans;
+  room.bodies = {pillar, car};
+  scans.push_back(room.scan(tripod(-1, -2), random));
+  room.bodies = {pillar};
+  scans.push_back(room.scan(tripod(3.5, -2), random));
+  const auto motion = motionOf(scans);
+  const Told told = toldOf(scans, motion, Met::kMover, kFoot);
+  ASSERT_GT(told.points, 1500u);
+  EXPECT_GT(shareOf(told.dynamic, told.points), 0.8) << testing::PrintToString(told);
+  const Told stands = toldOf(scans, motion, Met::kRoom);
+  EXPECT_LT(shareOf(stands.dynamic, stands.points), 3e-4)
+      << "all but places that hold its foot and the floor: "
+      << testing::PrintToString(stands);
+}
+
 TEST(MovingPoints, AThingThatStaysForAWhileIsDynamicOnceItLeft)
 {
   const auto scans = scansOf({}, 10, [](std::size_t i) {

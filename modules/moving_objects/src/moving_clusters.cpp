@@ -32,6 +32,14 @@ constexpr int kClearJudges = 2;
 /** What grows, grows by so many places at most: enough for legs, heads and sides. */
 constexpr int kGrowths = 12;
 
+/** A half of a thing reaches a quarter of its length from the middle of that half; the other end is
+ * three times as far. What nobody saw through belongs to a thing within so many times the distance
+ * from its middle of what was seen through. */
+constexpr float kTimesAsFar = 3;
+
+/** A surface that is within so many standard deviations of the middle of a thing may be its own. */
+constexpr float kSideSigmas = 3;
+
 constexpr std::size_t kPlacesPerBlock = 256;
 
 constexpr int kNobody = -1;
@@ -120,8 +128,12 @@ MovingClusters::findClusters()
     if (2 * hit >= all || !moves(cluster))
       continue;
     for (const std::size_t place : cluster)
-      mover_[place] = static_cast<int>(stayed_.size());
-    stayed_.push_back(stayedFor(cluster));
+      mover_[place] = static_cast<int>(movers_.size());
+    const Eigen::Vector3f middle = middleOf(cluster).cast<float>();
+    float farthest = 0;
+    for (const std::size_t place : cluster)
+      farthest = std::max(farthest, (judged_.places[place] - middle).norm());
+    movers_.push_back({stayedFor(cluster), middle, kTimesAsFar * farthest});
   }
 }
 
@@ -152,15 +164,21 @@ MovingClusters::moves(const std::vector<std::size_t>& cluster) const
   return excess >= kLeastMisses && !isPassedBeside(cluster);
 }
 
+Eigen::Vector3d
+MovingClusters::middleOf(const std::vector<std::size_t>& cluster) const
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::size_t place : cluster)
+    sum += judged_.places[place].cast<double>();
+  return sum / static_cast<double>(cluster.size());
+}
+
 /** Whether some hit most of a cluster that is thinner than the gaps between the rays of all who
  * saw through it, as a pole: these may have passed beside it. */
 bool
 MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster) const
 {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const std::size_t place : cluster)
-    middle += judged_.places[place].cast<double>();
-  middle /= static_cast<double>(cluster.size());
+  const Eigen::Vector3d middle = middleOf(cluster);
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const std::size_t place : cluster) {
     const Eigen::Vector3d off = judged_.places[place].cast<double>() - middle;
@@ -199,11 +217,27 @@ MovingClusters::stayedFor(const std::vector<std::size_t>& cluster) const
   return static_cast<std::uint16_t>(stayed);
 }
 
+/** \return whether a place may be of the surface of a mover: then what is known of the mover lies
+ * behind that surface, or on it, seen from the scanner. It stands before the ground and the walls
+ * about it. */
+bool
+MovingClusters::isSideOf(const Mover& mover, std::size_t place) const
+{
+  const Eigen::Vector3f& at = judged_.places[place];
+  if ((mover.middle - at).norm() > mover.reach)
+    return false;
+  const Eigen::Vector3f normal = normalOf(jury_.judged(), at);
+  const float side = normal.dot(judged_.origin - at) < 0 ? -1 : 1; // to the scanner
+  return !normal.isZero() && side * normal.dot(mover.middle - at) <=
+                                 kSideSigmas * static_cast<float>(judged_.noise);
+}
+
 /** \return the thing that a place, which is not known to move, is a part of; kNobody: none. Where
  * others measured something near, but no surface through it, a quarter of its neighbours will
- * do, as one side of it is enough; where nobody looked, most of them must move. */
+ * do, as one side of it is enough; where nobody looked, it must lie as the surface of the thing
+ * would, or most of them must move. */
 int
-MovingClusters::ownerOf(std::size_t place) const
+MovingClusters::ownerOf(std::size_t place, bool is_near) const
 {
   std::size_t moving = 0, all = 0;
   unsigned stayed = 0;
@@ -216,11 +250,14 @@ MovingClusters::ownerOf(std::size_t place) const
     if (mover_[other] == kNobody)
       continue;
     ++moving;
-    stayed |= stayed_[static_cast<std::size_t>(mover_[other])];
+    stayed |= movers_[static_cast<std::size_t>(mover_[other])].stayed;
     owner = owner == kNobody ? mover_[other] : owner;
   }
   const unsigned hits = votes_[place].hits;
-  if (hits != 0 ? 4 * moving < all : 2 * moving <= all)
+  if (owner == kNobody || 4 * moving < all)
+    return kNobody;
+  if (!(is_near && (hits != 0 || 2 * moving > all)) &&
+      !isSideOf(movers_[static_cast<std::size_t>(owner)], place))
     return kNobody;
   if (votes_[place].misses != 0 && votes_[place].numMisses() >= votes_[place].numHits())
     return owner; // things passed there at several times
@@ -238,7 +275,7 @@ MovingClusters::grow()
   for (std::size_t place = 0; place < mover_.size(); ++place)
     if (mover_[place] != kNobody)
       front.push_back(place);
-  for (int round = 0; round < kGrowths && !front.empty(); ++round) {
+  for (int round = 0; !front.empty(); ++round) {
     std::vector<std::size_t> border;
     for (const std::size_t place : front)
       for (const Neighbour& n : near(place))
@@ -248,7 +285,7 @@ MovingClusters::grow()
     border.erase(std::unique(border.begin(), border.end()), border.end());
     std::vector<int> owners; // as all were before this round
     for (const std::size_t place : border)
-      owners.push_back(ownerOf(place));
+      owners.push_back(ownerOf(place, round < kGrowths));
     front.clear();
     for (std::size_t k = 0; k < border.size(); ++k)
       if (owners[k] != kNobody) {

@@ -31,6 +31,12 @@ public:
   decide();
 
 private:
+  struct Mover {
+    std::uint16_t stayed;   ///< who saw it while it stayed
+    Eigen::Vector3f middle; ///< [m] of the places that were seen through
+    float reach;            ///< [m] from there, that its surface may have
+  };
+
   float
   reachOf(std::size_t place) const;
   std::vector<Neighbour>
@@ -45,12 +51,16 @@ private:
   moves(const std::vector<std::size_t>& cluster) const;
   bool
   isPassedBeside(const std::vector<std::size_t>& cluster) const;
+  Eigen::Vector3d
+  middleOf(const std::vector<std::size_t>& cluster) const;
   std::uint16_t
   stayedFor(const std::vector<std::size_t>& cluster) const;
   void
   grow();
+  bool
+  isSideOf(const Mover& mover, std::size_t place) const;
   int
-  ownerOf(std::size_t place) const;
+  ownerOf(std::size_t place, bool is_near) const;
 
   const JudgedPlaces judged_;
   const Jury& jury_;
@@ -58,9 +68,9 @@ private:
   unsigned int num_threads_;
   PointTree tree_;
   std::vector<std::size_t> candidates_;
-  std::vector<int> mover_;            ///< of each place; -1: none
-  std::vector<std::uint16_t> stayed_; ///< of each mover: who saw it while it stayed
-  std::vector<int> excess_;           ///< misses less twice the lasting hits
+  std::vector<int> mover_; ///< of each place; -1: none
+  std::vector<Mover> movers_;
+  std::vector<int> excess_; ///< misses less twice the lasting hits
 };
 
 } // namespace pcl6d::moving_objects

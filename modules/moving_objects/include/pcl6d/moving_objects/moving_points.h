@@ -63,7 +63,7 @@ struct MovingPointsOptions {
  * but not if all who saw through the place did so before, or after, the thing stayed there. Places
  * that were missed more often make clusters; one with few misses, or strewn with places that were
  * hit, as foliage and fences are, stays. What remains takes in what is near it, on no surface of
- * others, and surrounded by it: the parts of the thing that nobody saw through.
+ * others, and surrounded by it, or before its middle: the parts of the thing that nobody saw through.
  *
  * Same bits for any number of threads; judge() may be called from several. Idea: J. Schauer,
  * A. Nuechter, "The Peopleremover: removing dynamic objects from 3-D point cloud data by

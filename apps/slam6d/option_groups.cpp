@@ -90,9 +90,9 @@ addInput(OptionTable& table, Settings& s, bool& joins)
   table.addAuto("knots SECONDS", &s.slam.motion.knots)
       .above(0, "> 0 s", kFinite)
       .help("[s] or auto: of --deskew estimate, a pose every so many seconds of a "
-            "scan; auto: "
-            "one at its begin and one at its end, which is enough for scans of a tenth "
-            "of a "
+            "scan; auto: a "
+            "third of a second, or one at its begin and one at its end if it is "
+            "shorter than half a "
             "second");
   table.add("continue RUN_DIR", &s.continued)
       .help("goes on with a finished run: its scans keep their place and its options "

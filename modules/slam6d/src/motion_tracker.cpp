@@ -21,6 +21,11 @@ constexpr double kVoxelsOfCell = 2.5; ///< so that six reduced points lie in a c
 /** [s] A scan whose points have all one time is taken to last so long. */
 constexpr double kLeastTime = 1e-3;
 
+/** [s] Unless it is told, a scan gets a pose about every so many seconds: a start or a bend takes
+ * a second or so (MotionNoise::usual()), and a third of it is near enough to constant velocity. A
+ * scan of less than half a second has two. */
+constexpr double kSteadyTime = 1.0 / 3;
+
 /** Scans follow each other without a stop if the time between is at most this share of the
  * time of a scan. */
 constexpr double kLargestGap = 0.5;
@@ -89,7 +94,7 @@ MotionTracker::restingKnots(const MovingScan& scan, const Eigen::Isometry3d& pos
   const auto [first, last] =
       std::minmax_element(scan.measured.times.begin(), scan.measured.times.end());
   const double steps =
-      knot_time_ ? std::max(1.0, std::round((*last - *first) / *knot_time_)) : 1;
+      std::max(1.0, std::round((*last - *first) / knot_time_.value_or(kSteadyTime)));
   const double end = std::max(*last, *first + kLeastTime);
   Trajectory knots;
   for (double k = 0; k <= steps; ++k) {

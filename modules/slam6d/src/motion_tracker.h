@@ -59,7 +59,8 @@ sampleSize(const Trajectory& knots);
 class PCL6D_EXPORTS MotionTracker { // shown to its test
 public:
   /** \param[in] voxel [m] of the reduction \param[in] noise [m] of the points across surfaces
-   * \param[in] knots [s] between the poses of a scan; none: its begin and its end */
+   * \param[in] knots [s] between the poses of a scan, of which at least two are found; none: a
+   * third of a second */
   MotionTracker(double voxel,
                 double noise,
                 std::optional<double> knots,

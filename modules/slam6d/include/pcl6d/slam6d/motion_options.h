@@ -11,8 +11,8 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief Knobs of the motion within scans, which Slam6D finds if scans come with the times
  * of their points. */
 struct MotionOptions {
-  /** [s] a pose about every so many seconds of a scan; none: one at its begin and one at its
-   * end, with constant velocity between. > 0 */
+  /** [s] a pose about every so many seconds of a scan, at least one at its begin and one at its
+   * end, with constant velocity between; none: every third of a second. > 0 */
   std::optional<double> knots;
   /** with InitialGuess::kGlobal: where scans have moved, each starts from the one before by
    * the motion that was found, in place of all being looked at together */

@@ -75,19 +75,6 @@ RunVerification::surfaces(const std::deque<IcpModel>& reduced) const
 }
 
 void
-RunVerification::leaveOut(std::deque<std::optional<IcpModel>> still,
-                          const std::deque<IcpModel>& reduced)
-{
-  still_ = std::move(still);
-  const auto whole = surfaces(reduced);
-  for (std::size_t i = 0; i < still_.size(); ++i) {
-    const IcpModel& surfaces = still_[i] ? *still_[i] : *whole[i];
-    if (&scans_[i].surfaces() != &surfaces)
-      scans_[i].exchangeSurfaces(surfaces);
-  }
-}
-
-void
 RunVerification::verify(const std::vector<std::string>& names,
                         Slam6DResult& result) const
 {

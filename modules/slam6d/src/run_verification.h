@@ -46,15 +46,9 @@ public:
     return scans_;
   }
 
-  /** \return the reduced points of each scan, with normals, all of them */
+  /** \return the reduced points of each scan, with normals */
   std::deque<const IcpModel*>
   surfaces(const std::deque<IcpModel>& reduced) const;
-
-  /** \brief What moved takes no part in the verdict. \param[in] still the surfaces without it;
-   * none: those of the scan are whole */
-  void
-  leaveOut(std::deque<std::optional<IcpModel>> still,
-           const std::deque<IcpModel>& reduced);
 
   /** \param[in] names of the scans
    * \param[in,out] result gets its verification, and the covariances of its scans */
@@ -67,7 +61,6 @@ private:
 
   unsigned int num_threads_;
   WorkSharing* sharing_ = nullptr;
-  std::deque<std::optional<IcpModel>> still_;    ///< without what moved
   std::deque<std::optional<IcpModel>> surfaces_; ///< where reduced ones have no normals
   std::deque<VerifiedScan> scans_;
 };

@@ -6,28 +6,25 @@
 
 namespace pcl6d::slam6d {
 
+/** Only relaxation does without what moved. The verdict is by whole scans: at a wrong pose rays go
+ * through what stands, which then seems to have moved, and is all that tells against the pose. */
 bool
 SlamRun::leaveOutMoving()
 {
   const auto whole = verification_.surfaces(scans_.reduced());
-  if (!moving_.judge(verification_.scans(), whole, result_))
+  if (!moving_.judge(verification_.scans(), whole, result_) || !moving_.isNoticeable())
     return true;
-  const IcpModel::Options with_normals = matcher_->matcher().modelOptions(true);
-  verification_.leaveOut(moving_.still(with_normals), scans_.reduced());
-  if (!moving_.isNoticeable())
-    return true;
+  const auto still = moving_.still(matcher_->matcher().modelOptions(true));
   GraphStage stage = makeGraphStage(sharing, result_.parameters);
-  for (const VerifiedScan& scan : verification_.scans())
-    stage.add(scan.surfaces());
+  for (std::size_t i = 0; i < still.size(); ++i)
+    stage.add(still[i] ? *still[i] : *whole[i]);
   Slam6DResult improved = result_;
   if (!stage.relaxAgain(improved, relaxing())) {
     moving_.forget(); // so that going on comes here again
     return false;
   }
   result_ = std::move(improved);
-  if (!moving_.judge(verification_.scans(), whole, result_))
-    return true;
-  verification_.leaveOut(moving_.still(with_normals), scans_.reduced());
+  moving_.judge(verification_.scans(), whole, result_);
   startAnew(result_.scans.size());
   return true;
 }

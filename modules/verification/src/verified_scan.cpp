@@ -52,17 +52,6 @@ VerifiedScan::VerifiedScan(const Points& measured,
   patches_ = patchesOf(surfaces.points(), verification::kPatchVoxels * voxel);
 }
 
-void
-VerifiedScan::exchangeSurfaces(const IcpModel& surfaces)
-{
-  require(surfaces.normals().size() == surfaces.points().size(),
-          "normals",
-          surfaces.normals().size(),
-          "one per point");
-  surfaces_ = &surfaces;
-  patches_ = patchesOf(surfaces.points(), verification::kPatchVoxels * voxel_);
-}
-
 bool
 VerifiedScan::abstains() const
 {

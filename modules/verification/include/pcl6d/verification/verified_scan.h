@@ -36,11 +36,6 @@ public:
     archive(scan.voxel_, scan.rays_, scan.self_contradiction_, scan.patches_);
   }
 
-  /** \brief Takes other surfaces of the same scan in their place, as those without what moved; its
-   * rays stay. \param[in] surfaces kept by reference \throws BadArgument they have no normals */
-  void
-  exchangeSurfaces(const IcpModel& surfaces);
-
   const IcpModel&
   surfaces() const
   {

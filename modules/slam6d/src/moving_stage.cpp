@@ -45,14 +45,14 @@ isSame(const std::vector<Eigen::Isometry3d>& poses,
 } // namespace
 
 bool
-MovingStage::judge(const std::deque<VerifiedScan>& scans,
-                   const std::deque<const IcpModel*>& surfaces,
-                   Slam6DResult& result)
+MovingStage::judge(const std::deque<VerifiedScan>& scans, Slam6DResult& result)
 {
   if (isSame(poses_, result.scans))
     return false;
   const std::size_t count = result.scans.size();
-  surfaces_ = surfaces;
+  surfaces_.clear();
+  for (const VerifiedScan& scan : scans)
+    surfaces_.push_back(&scan.surfaces());
   poses_.clear();
   std::vector<SeenScan> seen(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -61,9 +61,9 @@ MovingStage::judge(const std::deque<VerifiedScan>& scans,
     if (!isJudge(scans[i], result.scans[i]))
       continue;
     seen[i].rays = &scans[i].rays();
-    seen[i].surface = &surfaces[i]->points();
-    seen[i].normals = &surfaces[i]->normals();
-    seen[i].tree = &surfaces[i]->tree();
+    seen[i].surface = &surfaces_[i]->points();
+    seen[i].normals = &surfaces_[i]->normals();
+    seen[i].tree = &surfaces_[i]->tree();
     seen[i].voxel = scans[i].voxel();
     reach_ = kAround * scans[i].voxel();
   }

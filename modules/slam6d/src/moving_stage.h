@@ -20,13 +20,11 @@ public:
 
   /** \brief Judges the reduced points of all scans at the poses of a result. Scans that could not
    * be matched, or whose rays say nothing, neither judge nor are judged.
-   * \param[in] scans of the result, with their rays \param[in] surfaces theirs; both are kept by
-   * reference \param[in,out] result gets what was found \return whether the poses differ from
-   * those of the last call, so that anything was done */
+   * \param[in] scans of the result; their surfaces and rays are kept by reference
+   * \param[in,out] result gets what was found \return whether the poses differ from those of
+   * the last call, so that anything was done */
   bool
-  judge(const std::deque<VerifiedScan>& scans,
-        const std::deque<const IcpModel*>& surfaces,
-        Slam6DResult& result);
+  judge(const std::deque<VerifiedScan>& scans, Slam6DResult& result);
 
   /** \brief judge() does its work again, also at the same poses. */
   void

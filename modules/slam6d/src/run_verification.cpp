@@ -65,15 +65,6 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
   }
 }
 
-std::deque<const IcpModel*>
-RunVerification::surfaces(const std::deque<IcpModel>& reduced) const
-{
-  std::deque<const IcpModel*> all;
-  for (std::size_t i = 0; i < scans_.size(); ++i)
-    all.push_back(surfaces_[i] ? &*surfaces_[i] : &reduced[i]);
-  return all;
-}
-
 void
 RunVerification::verify(const std::vector<std::string>& names,
                         Slam6DResult& result) const

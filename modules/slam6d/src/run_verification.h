@@ -46,10 +46,6 @@ public:
     return scans_;
   }
 
-  /** \return the reduced points of each scan, with normals */
-  std::deque<const IcpModel*>
-  surfaces(const std::deque<IcpModel>& reduced) const;
-
   /** \param[in] names of the scans
    * \param[in,out] result gets its verification, and the covariances of its scans */
   void

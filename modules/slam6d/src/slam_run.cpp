@@ -104,8 +104,7 @@ SlamRun::optimize()
   verification_.verify(scans_.names(), result_);
   const bool is_whole = lookAgain();
   if (options_.leave_out_moving) // where poses were looked at again
-    moving_.judge(
-        verification_.scans(), verification_.surfaces(scans_.reduced()), result_);
+    moving_.judge(verification_.scans(), result_);
   motion_.describe(result_.scans);
   return is_whole;
 }

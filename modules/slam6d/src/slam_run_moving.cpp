@@ -11,20 +11,20 @@ namespace pcl6d::slam6d {
 bool
 SlamRun::leaveOutMoving()
 {
-  const auto whole = verification_.surfaces(scans_.reduced());
-  if (!moving_.judge(verification_.scans(), whole, result_) || !moving_.isNoticeable())
+  const auto& scans = verification_.scans();
+  if (!moving_.judge(scans, result_) || !moving_.isNoticeable())
     return true;
   const auto still = moving_.still(matcher_->matcher().modelOptions(true));
   GraphStage stage = makeGraphStage(sharing, result_.parameters);
   for (std::size_t i = 0; i < still.size(); ++i)
-    stage.add(still[i] ? *still[i] : *whole[i]);
+    stage.add(still[i] ? *still[i] : scans[i].surfaces());
   Slam6DResult improved = result_;
   if (!stage.relaxAgain(improved, relaxing())) {
     moving_.forget(); // so that going on comes here again
     return false;
   }
   result_ = std::move(improved);
-  moving_.judge(verification_.scans(), whole, result_);
+  moving_.judge(scans, result_);
   startAnew(result_.scans.size());
   return true;
 }

@@ -3,6 +3,7 @@
 #include "ray_buckets.h"
 
 #include <pcl6d/common/median.h>
+#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/moving_objects/moving_points.h>
@@ -31,8 +32,9 @@ constexpr std::size_t kFirst = 3;
 constexpr int kSettled = 2;
 
 /** So many scans, evenly over all, tell how far rays contradict scans that fit: each by so many
- * points, seen by so many others, of which the one that contradicts least counts. */
-constexpr std::size_t kLookedAt = 24, kPatchPoints = 4000, kFitting = 8;
+ * points, seen by so many others, of which the one that contradicts least counts. So many points
+ * tell a share of 5 % to 0.7 %. */
+constexpr std::size_t kLookedAt = 24, kPatchPoints = 1000, kFitting = 8;
 
 /** So many points that say something tell a share of 5 % to a half. */
 constexpr std::size_t kLeastSaid = 100;
@@ -114,10 +116,11 @@ MovingPoints::MovingPoints(std::vector<SeenScan> scans,
     by_place_.push_back(i);
   }
   places_ = PointTree(origins_, options_.num_threads);
-  std::vector<double> shares;
   const std::size_t step = std::max<std::size_t>(1, by_place_.size() / kLookedAt);
-  for (std::size_t k = 0; k < by_place_.size(); k += step)
-    shares.push_back(contradictionOf(by_place_[k]));
+  std::vector<double> shares((by_place_.size() + step - 1) / step);
+  parallelFor(shares.size(), options_.num_threads, [&](std::size_t k) {
+    shares[k] = contradictionOf(by_place_[k * step]);
+  });
   shares.erase(std::remove(shares.begin(), shares.end(), -1.0), shares.end());
   background_ = upperMedian(std::move(shares));
 }

@@ -2,17 +2,15 @@
 #include "moving_stage.h"
 #include "registered.h"
 
+#include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl6d::slam6d {
 
 namespace {
-/** If a larger share of a scan moved, it may have moved the scan's pose: of 100 pairs one that is
- * wrong by half the distance of pairs shifts a pose by a two-hundredth of it, as noise does. */
-constexpr double kNoticeable = 0.01;
-
 /** If a larger share moved, all points of a scan are worth looking at; if less, it is a few false
  * alarms, or one thing, and what is near it is enough. Static scans have up to 0.003. */
 constexpr double kWorthAll = 0.005;
@@ -24,73 +22,107 @@ constexpr std::size_t kLeastLeft = 3;
  * those around it. */
 constexpr double kAround = 3;
 
+/** Poses that move the points of a scan by less than such a share of the noise of its ranges, and
+ * so any two scans by less than that noise, tell the same: a judge allows for three times as much. */
+constexpr double kSamePlace = 0.5;
+
 bool
 isJudge(const VerifiedScan& scan, const ScanResult& result)
 {
   return isRegistered(result) && !scan.abstains();
 }
 
-bool
-isSame(const std::vector<Eigen::Isometry3d>& poses,
-       const std::vector<ScanResult>& scans)
+/** \return [m^2] the mean square of the distances that a change of pose moves points by */
+double
+meanSquareMoved(const Points& points,
+                const Eigen::Isometry3d& before,
+                const Eigen::Isometry3d& after)
 {
-  return poses.size() == scans.size() &&
-         std::equal(poses.begin(),
-                    poses.end(),
-                    scans.begin(),
-                    [](const Eigen::Isometry3d& pose, const ScanResult& scan) {
-                      return pose.matrix() == scan.T_world_scan.matrix();
-                    });
+  if (points.empty())
+    return 0;
+  const Eigen::Isometry3d change = before.inverse() * after;
+  double sum = 0;
+  for (const Eigen::Vector3f& p : points)
+    sum += (change * p.cast<double>() - p.cast<double>()).squaredNorm();
+  return sum / static_cast<double>(points.size());
 }
 } // namespace
+
+/** Whether the scans lie where they were judged, as far as their rays can tell. */
+bool
+MovingStage::isJudged(const std::deque<VerifiedScan>& scans,
+                      const std::vector<ScanResult>& results) const
+{
+  if (poses_.size() != scans.size())
+    return false;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const double nothing = kSamePlace * scans[i].rays().noise();
+    const Points& points = scans[i].surfaces().points();
+    if (scans_[i] != &scans[i] ||
+        meanSquareMoved(points, poses_[i], results[i].T_world_scan) > nothing * nothing)
+      return false;
+  }
+  return true;
+}
 
 bool
 MovingStage::judge(const std::deque<VerifiedScan>& scans, Slam6DResult& result)
 {
-  if (isSame(poses_, result.scans))
+  if (isJudged(scans, result.scans))
     return false;
   const std::size_t count = result.scans.size();
-  surfaces_.clear();
-  for (const VerifiedScan& scan : scans)
-    surfaces_.push_back(&scan.surfaces());
-  poses_.clear();
-  std::vector<SeenScan> seen(count);
+  empanel(scans, result.scans);
+  motion_.assign(count, {});
+  moving_.assign(count, {});
+  near_.assign(count, PointTree());
+  parallelFor(count, num_threads_, [&](std::size_t i) {
+    const Points& points = scans[i].surfaces().points();
+    motion_[i] = isJudge(scans[i], result.scans[i])
+                     ? judges_->judge(i, points)
+                     : std::vector<PointMotion>(points.size(), PointMotion::kUnknown);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      if (motion_[i][p] == PointMotion::kDynamic)
+        moving_[i].push_back(points[p]);
+    near_[i] = PointTree(moving_[i], num_threads_);
+  });
+  result.moving = MovingSummary();
+  result.moving->background = judges_->background();
+  result.moving->blind = judges_->isBlind();
   for (std::size_t i = 0; i < count; ++i) {
-    poses_.push_back(result.scans[i].T_world_scan);
+    const auto unknown =
+        std::count(motion_[i].begin(), motion_[i].end(), PointMotion::kUnknown);
+    result.moving->unknown += static_cast<std::size_t>(unknown);
+    result.moving->judged += motion_[i].size();
+    result.moving->moving += moving_[i].size();
+  }
+  return true;
+}
+
+/** The scans as judges, at their poses. */
+void
+MovingStage::empanel(const std::deque<VerifiedScan>& scans,
+                     const std::vector<ScanResult>& results)
+{
+  scans_.clear();
+  poses_.clear();
+  std::vector<SeenScan> seen(results.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const IcpModel& surfaces = scans[i].surfaces();
+    scans_.push_back(&scans[i]);
+    poses_.push_back(results[i].T_world_scan);
     seen[i].T_world_scan = poses_.back();
-    if (!isJudge(scans[i], result.scans[i]))
+    if (!isJudge(scans[i], results[i]))
       continue;
     seen[i].rays = &scans[i].rays();
-    seen[i].surface = &surfaces_[i]->points();
-    seen[i].normals = &surfaces_[i]->normals();
-    seen[i].tree = &surfaces_[i]->tree();
+    seen[i].surface = &surfaces.points();
+    seen[i].normals = &surfaces.normals();
+    seen[i].tree = &surfaces.tree();
     seen[i].voxel = scans[i].voxel();
     reach_ = kAround * scans[i].voxel();
   }
   MovingPointsOptions options;
   options.num_threads = num_threads_;
   judges_.emplace(std::move(seen), options);
-  motion_.assign(count, {});
-  moving_.assign(count, {});
-  near_.assign(count, PointTree());
-  result.moving = MovingSummary();
-  result.moving->background = judges_->background();
-  result.moving->blind = judges_->isBlind();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Points& points = surfaces_[i]->points();
-    motion_[i] = isJudge(scans[i], result.scans[i])
-                     ? judges_->judge(i, points)
-                     : std::vector<PointMotion>(points.size(), PointMotion::kUnknown);
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      if (motion_[i][p] == PointMotion::kDynamic)
-        moving_[i].push_back(points[p]);
-      result.moving->unknown += motion_[i][p] == PointMotion::kUnknown ? 1 : 0;
-    }
-    result.moving->judged += points.size();
-    result.moving->moving += moving_[i].size();
-    near_[i] = PointTree(moving_[i], num_threads_);
-  }
-  return true;
 }
 
 /** \return of its reduced points, those that moved */
@@ -102,11 +134,44 @@ MovingStage::shareOf(std::size_t scan) const
                                      static_cast<double>(motion_[scan].size());
 }
 
-bool
-MovingStage::isNoticeable() const
+/** \return [m] how far apart the pairs of what moved in one scan are, across the surface of another,
+ * all together */
+double
+MovingStage::sumOfPairs(std::size_t scan, std::size_t other, double max_distance) const
 {
-  for (std::size_t i = 0; i < moving_.size(); ++i)
-    if (shareOf(i) > kNoticeable)
+  const Eigen::Isometry3f T_other_scan =
+      (poses_[other].inverse() * poses_[scan]).cast<float>();
+  const IcpModel& surfaces = scans_[other]->surfaces();
+  const auto reach = static_cast<float>(max_distance * max_distance);
+  double sum = 0;
+  for (const Eigen::Vector3f& place : moving_[scan]) {
+    const Eigen::Vector3f seen = T_other_scan * place;
+    const Neighbour nearest = surfaces.tree().nearest(seen, reach);
+    if (nearest.index < 0)
+      continue;
+    const auto at = static_cast<std::size_t>(nearest.index);
+    sum += std::abs(surfaces.normals()[at].dot(seen - surfaces.points()[at]));
+  }
+  return sum;
+}
+
+/** Pairs of what moved pull a scan by how far they are apart, on average over all its pairs, if they
+ * all pull one way. */
+bool
+MovingStage::isNoticeable(const Slam6DResult& result) const
+{
+  const double reach = result.parameters.max_distance.value;
+  std::vector<double> wrong(scans_.size(), 0), pairs(scans_.size(), 0);
+  for (const ScanLink& link : result.links) {
+    const double sum =
+        sumOfPairs(link.from, link.to, reach) + sumOfPairs(link.to, link.from, reach);
+    for (const std::size_t scan : {link.from, link.to}) {
+      wrong[scan] += sum;
+      pairs[scan] += static_cast<double>(link.pairs);
+    }
+  }
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    if (wrong[i] > pairs[i] * scans_[i]->rays().noise())
       return true;
   return false;
 }
@@ -122,8 +187,8 @@ MovingStage::still(const IcpModel::Options& model) const
     Normals normals;
     for (std::size_t p = 0; p < motion_[i].size(); ++p)
       if (motion_[i][p] != PointMotion::kDynamic) {
-        points.push_back(surfaces_[i]->points()[p]);
-        normals.push_back(surfaces_[i]->normals()[p]);
+        points.push_back(scans_[i]->surfaces().points()[p]);
+        normals.push_back(scans_[i]->surfaces().normals()[p]);
       }
     still[i].emplace(std::move(points), std::move(normals), model);
   }

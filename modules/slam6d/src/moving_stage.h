@@ -20,9 +20,9 @@ public:
 
   /** \brief Judges the reduced points of all scans at the poses of a result. Scans that could not
    * be matched, or whose rays say nothing, neither judge nor are judged.
-   * \param[in] scans of the result; their surfaces and rays are kept by reference
-   * \param[in,out] result gets what was found \return whether the poses differ from those of
-   * the last call, so that anything was done */
+   * \param[in] scans of the result; they are kept by reference
+   * \param[in,out] result gets what was found \return whether the poses differ from those judged
+   * last by as much as rays can tell, so that anything was done */
   bool
   judge(const std::deque<VerifiedScan>& scans, Slam6DResult& result);
 
@@ -33,9 +33,10 @@ public:
     poses_.clear();
   }
 
-  /** \return whether so much of a scan moved that poses may follow it */
+  /** \return whether so much of a scan moved, and was matched, that it may pull the pose by more
+   * than ranges are exact. \param[in] result its links and parameters */
   bool
-  isNoticeable() const;
+  isNoticeable(const Slam6DResult& result) const;
 
   /** \brief The scans without what moved. \param[in] model how they are made ready for matching
    * \return one per scan; none where nothing moved, or too little would be left */
@@ -50,11 +51,19 @@ public:
 
 private:
   double
+  sumOfPairs(std::size_t scan, std::size_t other, double max_distance) const;
+  bool
+  isJudged(const std::deque<VerifiedScan>& scans,
+           const std::vector<ScanResult>& results) const;
+  void
+  empanel(const std::deque<VerifiedScan>& scans,
+          const std::vector<ScanResult>& results);
+  double
   shareOf(std::size_t scan) const;
 
   unsigned int num_threads_;
-  std::deque<const IcpModel*> surfaces_;
-  std::vector<Eigen::Isometry3d> poses_;
+  std::vector<const VerifiedScan*> scans_; ///< as judged
+  std::vector<Eigen::Isometry3d> poses_;   ///< of these
   std::optional<MovingPoints> judges_;
   std::vector<std::vector<PointMotion>> motion_; ///< of each scan, its reduced points
   std::vector<Points> moving_;                   ///< of each scan, those that moved

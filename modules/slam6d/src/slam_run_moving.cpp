@@ -12,7 +12,7 @@ bool
 SlamRun::leaveOutMoving()
 {
   const auto& scans = verification_.scans();
-  if (!moving_.judge(scans, result_) || !moving_.isNoticeable())
+  if (!moving_.judge(scans, result_) || !moving_.isNoticeable(result_))
     return true;
   const auto still = moving_.still(matcher_->matcher().modelOptions(true));
   GraphStage stage = makeGraphStage(sharing, result_.parameters);

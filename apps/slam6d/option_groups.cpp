@@ -256,12 +256,10 @@ addRun(OptionTable& table, Settings& s)
           "hulls.ply and a picture (more choice: pcl_slam6d_planes OUT_DIR)");
   table.add("moving", &s.moving, movingFromName, "label")
       .help("keep|label|remove: points that moved while scans were taken, as other "
-            "scans saw "
-            "through their places; label: field dynamic (0 or 1) in scans/, and they "
-            "are not in "
-            "the map; remove: in neither; keep: nobody asks. Unless kept they take no "
-            "part in "
-            "the last round of relaxation, in planes and in the verdict");
+            "scans saw through their places; label: field dynamic (0 or 1) in scans/, "
+            "and they are not in the map; remove: in neither; keep: nobody asks. Unless "
+            "kept they take no part in planes, nor in the last round of relaxation where "
+            "they may pull a scan");
   table.add("report", &s.report)
       .help("write report.html: verdict, map, plots and tables on one page for a "
             "browser");

@@ -1,37 +1,55 @@
 #!/usr/bin/env bash
 # Tests under a sanitizer: address and undefined behaviour (casts from floats too), or with
 # --thread races between threads. The first fault ends a program.
-# usage: test/sanitize.sh [--thread] [MODULE ...|all]   (default: common io run)
+# usage: test/sanitize.sh [--thread|--libraries] [--limit SECONDS] [MODULE ...|all]
 #   --thread, default: the modules whose code runs in several threads
+#   --libraries: only the libraries are built so, a tenth of the work, and run by the tests and
+#     programs that build/release holds; what these compile of templates and leaks stay unseen
+#   --limit SECONDS: tests that take longer are given up, and named as such
 #   all: every test but the slow ones and those of the installed package; hours on 2 cores
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-preset=asan
+preset=asan tests=build/asan limit=1500
 modules=(common io run)
-if [ "${1:-}" = --thread ]; then
-  preset=tsan
-  modules=(common search filters registration plane_segmentation verification graph_relaxation
-    scene_interpretation localisation slam6d)
+while [[ ${1:-} = --* ]]; do
+  case $1 in
+    --thread)
+      preset=tsan tests=build/tsan
+      modules=(common search filters registration plane_segmentation verification
+        graph_relaxation scene_interpretation localisation slam6d)
+      ;;
+    --libraries) tests=build/release ;;
+    --limit) limit=${2:?--limit needs seconds}; shift ;;
+    *) sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
+  esac
   shift
-fi
+done
 [ $# -eq 0 ] || modules=("$@")
+[ "$preset $tests" != "tsan build/release" ] ||
+  { echo "sanitize.sh: --thread takes no --libraries: races are seen in whole programs alone" >&2; exit 2; }
 echo "== sanitizers, preset $preset: ${modules[*]}"
 cmake --preset "$preset" --log-level=WARNING
-if [ "${modules[*]}" = all ]; then
-  cmake --build "build/$preset"
-  selection=(--label-exclude slow --exclude-regex '^(install|house)\.')
+targets=()
+selection=(--label-exclude slow --exclude-regex '^(install|house)\.')
+if [ "${modules[*]}" != all ]; then
+  targets=("${modules[@]/#/test_}")
+  selection=(--label-exclude slow --tests-regex "$(IFS='|'; echo "^(${targets[*]})\\.")")
+fi
+if [ "$tests" = build/release ]; then
+  ninja -C "build/$preset" modules/all
+  ninja -C "$tests" "${targets[@]}"
+  loaded=("LD_LIBRARY_PATH=$PWD/build/$preset/lib"
+    "LD_PRELOAD=$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libubsan.so)")
+  leaks=0 # of every program that a test starts, ours or not
 else
-  targets=()
-  for module in "${modules[@]}"; do
-    targets+=("test_$module")
-  done
-  cmake --build "build/$preset" --target "${targets[@]}"
-  selection=(--tests-regex "$(IFS='|'; echo "^(${targets[*]})\\.")")
+  ninja -C "build/$preset" "${targets[@]}"
+  loaded=() leaks=1
 fi
 # Faults of other people's libraries, each with its reason.
 suppressions=$PWD/test/suppressions
-export ASAN_OPTIONS=detect_stack_use_after_return=1
+export ASAN_OPTIONS=detect_stack_use_after_return=1:detect_leaks=$leaks
 export LSAN_OPTIONS=suppressions=$suppressions/leaks.txt:print_suppressions=0
 export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1:suppressions=$suppressions/threads.txt
-ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" "${selection[@]}"
+env "${loaded[@]}" ctest --test-dir "$tests" --output-on-failure -j "$(nproc)" \
+  --timeout "$limit" "${selection[@]}"

@@ -255,11 +255,12 @@ addRun(OptionTable& table, Settings& s)
           "find the planes of the map and say what they are: planes.json, planes.pcd, "
           "hulls.ply and a picture (more choice: pcl_slam6d_planes OUT_DIR)");
   table.add("moving", &s.moving, movingFromName, "label")
-      .help("keep|label|remove: points that moved while scans were taken, as other "
-            "scans saw through their places; label: field dynamic (0 or 1) in scans/, "
-            "and they are not in the map; remove: in neither; keep: nobody asks. Unless "
-            "kept they take no part in planes, nor in the last round of relaxation where "
-            "they may pull a scan");
+      .help(
+          "keep|label|remove: points that moved while scans were taken, as other "
+          "scans saw through their places; label: field dynamic (0 or 1) in scans/, "
+          "and they are not in the map; remove: in neither; keep: nobody asks. Unless "
+          "kept they take no part in planes, nor in the last round of relaxation where "
+          "they may pull a scan");
   table.add("report", &s.report)
       .help("write report.html: verdict, map, plots and tables on one page for a "
             "browser");

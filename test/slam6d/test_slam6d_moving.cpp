@@ -49,6 +49,15 @@ farthestOff(const Slam6D& slam, const WalkedRun& run)
         (scans[i].T_world_scan.translation() - run.truth[i].translation()).norm());
   return farthest;
 }
+
+std::ptrdiff_t
+numRelaxations(const Slam6D& slam)
+{
+  const auto& stages = slam.result().stages;
+  return std::count_if(stages.begin(), stages.end(), [](const auto& stage) {
+    return stage.kind == StageKind::kRelaxation;
+  });
+}
 } // namespace
 
 TEST(Slam6DMoving, FindsWhoWalksAndNothingElse)
@@ -77,15 +86,20 @@ TEST(Slam6DMoving, FindsWhoWalksAndNothingElse)
 TEST(Slam6DMoving, TakesNoPartInALastRoundOfRelaxation)
 {
   const Slam6D slam = optimized(walkedRun());
-  const auto& stages = slam.result().stages;
-  EXPECT_EQ(std::count_if(
-                stages.begin(),
-                stages.end(),
-                [](const auto& stage) { return stage.kind == StageKind::kRelaxation; }),
-            2);
-  EXPECT_EQ(stages.back().rounds, 1);
+  EXPECT_EQ(numRelaxations(slam), 2);
+  EXPECT_EQ(slam.result().stages.back().rounds, 1);
   EXPECT_LT(farthestOff(slam, walkedRun()), 0.01);
   EXPECT_TRUE(slam.result().trusted());
+}
+
+TEST(Slam6DMoving, WhatPullsNoScanIsFoundWithoutRelaxingAgain)
+{
+  const WalkedRun bird =
+      makeWalkedRun(0.3, 1); // far from all that it could be matched with
+  const Slam6D slam = optimized(bird);
+  EXPECT_GT(slam.result().moving->moving, 50U);
+  EXPECT_EQ(numRelaxations(slam), 1);
+  EXPECT_LT(farthestOff(slam, bird), 0.01);
 }
 
 TEST(Slam6DMoving, CancelledInTheLastRoundItGoesOnWithIt)
@@ -109,7 +123,7 @@ TEST(Slam6DMoving, CancelledInTheLastRoundItGoesOnWithIt)
 
 TEST(Slam6DMoving, ChangesNothingWhereNothingMoves)
 {
-  const WalkedRun still = makeWalkedRun(false);
+  const WalkedRun still = makeWalkedRun(0);
   Slam6DOptions nobody_asks;
   nobody_asks.leave_out_moving = false;
   const Slam6D asked = optimized(still);

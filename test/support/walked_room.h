@@ -16,19 +16,21 @@ struct WalkedRun : DriftingRun {
 };
 
 /** \brief Eight scans along a room in which somebody has gone on by 0.8 m before each of them.
- * \param[in] is_walked false: nobody is there */
+ * \param[in] height [m] of who walks; 0: nobody is there
+ * \param[in] above [m] the floor is who flies */
 inline WalkedRun
-makeWalkedRun(bool is_walked = true)
+makeWalkedRun(double height = 1.7, double above = 0)
 {
+  const bool is_walked = height > 0;
   constexpr double kSkin = 0.03, kFoot = 0.15; // [m] five deviations of a range
   WalkedRun run;
   Random random(11);
   for (int i = 0; i < 8; ++i) {
     PillarRoom room;
     const double floor = room.walls.min().z();
-    const Eigen::Vector3d at(-2.5 + 0.8 * i, 0.6, floor);
+    const Eigen::Vector3d at(-2.5 + 0.8 * i, 0.6, floor + above);
     Eigen::AlignedBox3d body(at - Eigen::Vector3d(0.25, 0.2, 0),
-                             at + Eigen::Vector3d(0.25, 0.2, 1.7));
+                             at + Eigen::Vector3d(0.25, 0.2, height));
     if (is_walked)
       room.pillars.push_back(body);
     run.truth.push_back(

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace pcl6d::slam6d {
 
@@ -156,7 +157,8 @@ MovingStage::sumOfPairs(std::size_t scan, std::size_t other, double max_distance
 }
 
 /** Pairs of what moved pull a scan by how far they are apart, on average over all its pairs, if they
- * all pull one way. */
+ * all pull one way. By the noise of its n points a scan is known to noise / sqrt(n / 3), as a third
+ * of them fixes each direction. */
 bool
 MovingStage::isNoticeable(const Slam6DResult& result) const
 {
@@ -165,14 +167,18 @@ MovingStage::isNoticeable(const Slam6DResult& result) const
   for (const ScanLink& link : result.links) {
     const double sum =
         sumOfPairs(link.from, link.to, reach) + sumOfPairs(link.to, link.from, reach);
+    const std::size_t points = motion_[link.from].size() + motion_[link.to].size();
     for (const std::size_t scan : {link.from, link.to}) {
       wrong[scan] += sum;
-      pairs[scan] += static_cast<double>(link.pairs);
+      pairs[scan] += link.overlap * static_cast<double>(points);
     }
   }
-  for (std::size_t i = 0; i < scans_.size(); ++i)
-    if (wrong[i] > pairs[i] * scans_[i]->rays().noise())
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    const double noise = scans_[i]->rays().noise();
+    if (wrong[i] * std::sqrt(static_cast<double>(motion_[i].size()) / 3) >
+        pairs[i] * noise)
       return true;
+  }
   return false;
 }
 

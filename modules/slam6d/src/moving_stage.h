@@ -34,7 +34,7 @@ public:
   }
 
   /** \return whether so much of a scan moved, and was matched, that it may pull the pose by more
-   * than ranges are exact. \param[in] result its links and parameters */
+   * than the noise of its points does. \param[in] result its links and parameters */
   bool
   isNoticeable(const Slam6DResult& result) const;
 

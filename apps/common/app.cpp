@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/option_words.h"
 #include "common/printable.h"
 
 #include <pcl6d/common/error.h>
@@ -168,8 +169,8 @@ try {
   return code;
 } catch (const UsageError& e) {
   return report(name, e.what(), kUsage);
-} catch (const boost::program_options::error& e) {
-  return report(name, e.what(), kUsage);
+} catch (boost::program_options::error& e) {
+  return report(name, wordsOf(e), kUsage);
 } catch (...) {
   return report(name, wordsOfCurrent(), kFailed);
 }

@@ -2,6 +2,7 @@
 // Options that do not come from the command line: each is told with its place.
 #include "common/app.h"
 #include "common/option_table.h"
+#include "common/option_words.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/text.h>
@@ -60,8 +61,8 @@ OptionTable::readConfig(const std::string& file)
                            " already");
       }
       store(parsed, place);
-    } catch (const po::error& e) {
-      throw UsageError(place.text + ": " + e.what());
+    } catch (po::error& e) {
+      throw UsageError(place.text + ": " + wordsOf(e));
     }
   }
 }
@@ -78,8 +79,8 @@ OptionTable::readBrought(const BroughtOptions& brought)
     parsed.options.emplace_back(name, std::vector<std::string>{value});
     try {
       store(parsed, place);
-    } catch (const po::error& e) {
-      throw IoFailed(place.text + ": " + e.what());
+    } catch (po::error& e) {
+      throw IoFailed(place.text + ": " + wordsOf(e));
     }
   }
 }

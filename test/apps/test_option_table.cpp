@@ -2,6 +2,7 @@
 // The table that binds the options of a program to its variables.
 #include "common/app.h"
 #include "common/option_table.h"
+#include "common/option_words.h"
 #include "common/printable.h"
 #include "support/temp_folder.h"
 
@@ -188,6 +189,27 @@ TEST(OptionTable, ErrorsOfAConfigFileNameFileAndLine)
             file + ".none: No such file or directory (config file)");
   EXPECT_EQ(parsed({"a", "--config", folder.path().string()}).title,
             folder.path().string() + ": Is a directory (config file)");
+}
+
+TEST(OptionTable, TextsThatBoostTakesForItsPlaceholdersAreToldAsTheyAre)
+{
+  for (const char* text : {"%value%", "%option%", "%canonical_option%", "%%prefix%%"})
+    for (const std::string& wrong :
+         {std::string("--count=") + text, std::string("--") + text}) {
+      Settings s;
+      try {
+        tableOf(s).parse({"a.pcd", wrong});
+        ADD_FAILURE() << wrong;
+      } catch (boost::program_options::error& e) {
+        EXPECT_NE(wordsOf(e).find(text), std::string::npos) << wordsOf(e);
+      }
+    }
+  const pcl6d::test::TempFolder folder;
+  const std::string file = (folder / "options.txt").string();
+  std::ofstream(file) << "range %canonical_option% = auto\n";
+  const std::string words = parsed({"a.pcd", "--config", file}).title;
+  EXPECT_NE(words.find("line 1"), std::string::npos) << words;
+  EXPECT_NE(words.find("range %canonical_option%"), std::string::npos) << words;
 }
 
 TEST(OptionTable, TheCommandLineHidesWhatIsWrongInTheConfigFile)

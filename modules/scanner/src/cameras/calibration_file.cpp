@@ -5,26 +5,43 @@
 #include <pcl6d/io/nesting.h>
 #include <pcl6d/io/text.h>
 
+#include <boost/property_tree/xml_parser.hpp>
+
 #include <cmath>
+#include <sstream>
 #include <string_view>
 
 namespace pcl6d::scanner {
 
 namespace {
-/** Fails where the text would be too deep for OpenCV's parsers, which go by its first
- * characters. */
+/** Fails where a text is no whole XML: OpenCV reads beyond the end of one that ends in a tag. */
 void
-checkNesting(std::string_view text, const std::string& name)
+requireXml(std::string_view text, const std::filesystem::path& path)
+try {
+  std::istringstream stream{std::string(text)};
+  boost::property_tree::ptree tree;
+  boost::property_tree::read_xml(stream, tree);
+} catch (const boost::property_tree::xml_parser_error& error) {
+  text::failAt(path, error.line(), error.message());
+}
+
+/** Fails where OpenCV's parsers, which go by the first characters of a text, would go astray: it is
+ * too deep, or breaks off. */
+void
+requireReadable(std::string_view text, const std::filesystem::path& path)
 {
   constexpr std::string_view kMark = "\xEF\xBB\xBF"; // of UTF-8
   if (text.substr(0, kMark.size()) == kMark)
     text.remove_prefix(kMark.size());
+  const std::string name = path.string();
   // A line ends for OpenCV where it does not for others.
   for (std::size_t i = 0; i < text.size(); ++i)
     if (text[i] == '\0' || (text[i] == '\r' && text.substr(i + 1, 1) != "\n"))
       throw IoFailed(name + ": holds a character that belongs in no text");
-  if (text.substr(0, 1) == "<")
+  if (text.substr(0, 1) == "<") {
     checkXmlNesting(text, name);
+    requireXml(text, path);
+  }
   else if (text.substr(0, 1) == "{")
     checkJsonNesting(text, name, JsonKeys::kPlain);
   else
@@ -47,7 +64,7 @@ hasAllNumbers(const cv::FileNode& matrix)
 CalibrationFile::CalibrationFile(const std::filesystem::path& path) : path_(path)
 {
   const std::string text = text::readFile(path);
-  checkNesting(text, path.string());
+  requireReadable(text, path);
   try {
     storage_.open(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
   } catch (const std::exception&) { // not only OpenCV's: some texts trip its parser

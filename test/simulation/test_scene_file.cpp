@@ -210,6 +210,22 @@ TEST_F(SceneFile, NamesWhatIsWrongAndWhere)
                 "/bodies/3/steps: 4.5 is not a whole number up to a million");
 }
 
+TEST_F(SceneFile, RefusesTerrainsThatTakeMoreMemoryThanTheFileIsWorth)
+{
+  const auto scene = [](const std::string& high) {
+    return R"({"bodies": [{"type": "terrain", "low": [0, 0], "high": [10, 10]},
+      {"type": "terrain", "low": [0, 0], "high": )" +
+           high + R"(}], "waypoints": [[0, 0], [1, 1]]})";
+  };
+  expectRefused(
+      scene("[100, 65535]"),
+      "/bodies/1: cell = 1, but must be larger: the rectangle would have more than "
+      "2 million cells");
+  expectRefused(scene("[1000, 2000]"),
+                "/bodies/1/cell: too small: all terrains together would have more "
+                "than 2 million");
+}
+
 TEST_F(SceneFile, NamesWhatIsNoDescriptionAtAll)
 {
   expectRefused("{\n\"bodies\": [\n}", "line 3: not the syntax of JSON");

@@ -217,6 +217,11 @@ BodyReader::readTerrain(JsonObject& json, TriangleScene& geometry)
   json.read("amplitude", options.amplitude);
   json.read("wavelength", options.wavelength);
   json.read("seed", options.seed);
+  options.validate();
+  cells_of_terrains_ += options.numCells();
+  if (cells_of_terrains_ > TerrainOptions::kMostCells)
+    json.fail("cell",
+              "too small: all terrains together would have more than 2 million");
   terrains_.emplace_back(options);
   terrains_.back().addTo(geometry, material(json));
 }

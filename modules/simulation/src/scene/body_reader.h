@@ -62,6 +62,7 @@ private:
   const std::filesystem::path& file_;
   std::map<std::string, Surface> materials_;
   std::vector<Terrain> terrains_;
+  double cells_of_terrains_ = 0; ///< together
 };
 
 } // namespace pcl6d::simulation

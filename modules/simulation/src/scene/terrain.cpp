@@ -11,21 +11,25 @@
 namespace pcl6d {
 using namespace simulation;
 
+double
+TerrainOptions::numCells() const
+{
+  return ((high - low).array() / cell).ceil().prod();
+}
+
 void
 TerrainOptions::validate() const
 {
-  constexpr double kMostCells = 25e6;
   require(low.allFinite(), "low", low.transpose(), "finite");
   require(high.allFinite() && (high.array() > low.array()).all(),
           "high",
           high.transpose(),
           "> low in x and y");
   require(cell > 0 && std::isfinite(cell), "cell", cell, "> 0");
-  const Eigen::Array2d cells = ((high - low).array() / cell).ceil();
-  require(cells.prod() <= kMostCells,
+  require(numCells() <= kMostCells,
           "cell",
           cell,
-          "larger: the rectangle would have more than 25 million cells");
+          "larger: the rectangle would have more than 2 million cells");
   require(std::isfinite(height), "height", height, "finite");
   require(slope.allFinite(), "slope", slope.transpose(), "finite");
   require(amplitude >= 0 && std::isfinite(amplitude), "amplitude", amplitude, ">= 0");

@@ -21,8 +21,16 @@ struct TerrainOptions {
   double amplitude = 1;             ///< [m] hills reach at most so far up and down
   double wavelength = 40;           ///< [m] of the largest hills, > 0
   std::uint64_t seed = 1;           ///< same seed, same hills
+
+  /** A terrain, or all of a scene file, may have so many cells: 190 MB; 1.4 km x 1.4 km of 1 m. */
+  static constexpr double kMostCells = 2e6;
+
+  /** \return of how many cells its grid is; infinite, or NaN, for options that break a rule */
+  double
+  numCells() const;
+
   /** \throws BadArgument naming the first field that breaks its rule, with its value;
-   * more than 25 million cells are refused before memory is taken */
+   * more than kMostCells are refused before memory is taken */
   void
   validate() const;
 };

@@ -5,6 +5,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/scan_fields.h>
 
+#include <algorithm>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -102,7 +103,7 @@ addField(pcl::PCLPointCloud2& cloud,
     std::vector<std::uint8_t> data(values.size() * step);
     for (std::size_t i = 0; i < values.size(); ++i) {
       value = valueAs<decltype(value)>(values[i]);
-      std::memcpy(&data[i * step], cloud.data.data() + i * before, before);
+      std::copy_n(cloud.data.data() + i * before, before, &data[i * step]); // or none
       std::memcpy(&data[i * step + before], &value, sizeof value);
     }
     cloud.data = std::move(data);

@@ -28,7 +28,7 @@ constexpr std::size_t kSpread = 8;
 constexpr double kReachShare = 0.9;
 /** So many judges look at all places: what two of them hit and none saw through stands, as most
  * places do. */
-constexpr std::size_t kFirst = 2;
+constexpr std::size_t kFirst = 3;
 constexpr int kSettled = 2;
 
 /** So many scans, evenly over all, tell how far rays contradict scans that fit: each by so many

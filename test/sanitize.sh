@@ -31,7 +31,7 @@ targets=()
 selection=(--label-exclude slow --exclude-regex '^(install|house)\.')
 if [ "${modules[*]}" != all ]; then
   targets=("${modules[@]/#/test_}")
-  selection=(--label-exclude slow --tests-regex "$(IFS='|'; echo "^(${targets[*]})\\.")")
+  selection=(--tests-regex "$(IFS='|'; echo "^(${targets[*]})\\.")")
 fi
 if [ "$tests" = build/release ]; then
   ninja -C "build/$preset" modules/all

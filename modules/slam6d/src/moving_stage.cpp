@@ -49,7 +49,7 @@ meanSquareMoved(const Points& points,
 }
 } // namespace
 
-/** Whether the scans lie where they were judged, as far as their rays can tell. */
+/** Whether the scans lie where they were judged, as far as their rays can tell, and the same ones judge. */
 bool
 MovingStage::isJudged(const std::deque<VerifiedScan>& scans,
                       const std::vector<ScanResult>& results) const
@@ -59,7 +59,7 @@ MovingStage::isJudged(const std::deque<VerifiedScan>& scans,
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const double nothing = kSamePlace * scans[i].rays().noise();
     const Points& points = scans[i].surfaces().points();
-    if (scans_[i] != &scans[i] ||
+    if (scans_[i] != &scans[i] || is_judge_[i] != isJudge(scans[i], results[i]) ||
         meanSquareMoved(points, poses_[i], results[i].T_world_scan) > nothing * nothing)
       return false;
   }
@@ -78,7 +78,7 @@ MovingStage::judge(const std::deque<VerifiedScan>& scans, Slam6DResult& result)
   near_.assign(count, PointTree());
   parallelFor(count, num_threads_, [&](std::size_t i) {
     const Points& points = scans[i].surfaces().points();
-    motion_[i] = isJudge(scans[i], result.scans[i])
+    motion_[i] = is_judge_[i]
                      ? judges_->judge(i, points)
                      : std::vector<PointMotion>(points.size(), PointMotion::kUnknown);
     for (std::size_t p = 0; p < points.size(); ++p)
@@ -105,6 +105,7 @@ MovingStage::empanel(const std::deque<VerifiedScan>& scans,
                      const std::vector<ScanResult>& results)
 {
   scans_.clear();
+  is_judge_.clear();
   poses_.clear();
   std::vector<SeenScan> seen(results.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -112,7 +113,8 @@ MovingStage::empanel(const std::deque<VerifiedScan>& scans,
     scans_.push_back(&scans[i]);
     poses_.push_back(results[i].T_world_scan);
     seen[i].T_world_scan = poses_.back();
-    if (!isJudge(scans[i], results[i]))
+    is_judge_.push_back(isJudge(scans[i], results[i]));
+    if (!is_judge_[i])
       continue;
     seen[i].rays = &scans[i].rays();
     seen[i].surface = &surfaces.points();

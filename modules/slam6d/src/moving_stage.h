@@ -63,6 +63,7 @@ private:
 
   unsigned int num_threads_;
   std::vector<const VerifiedScan*> scans_; ///< as judged
+  std::vector<bool> is_judge_;             ///< which of these judge, and are judged
   std::vector<Eigen::Isometry3d> poses_;   ///< of these
   std::optional<MovingPoints> judges_;
   std::vector<std::vector<PointMotion>> motion_; ///< of each scan, its reduced points

@@ -27,6 +27,10 @@ constexpr double kAround = 3;
  * so any two scans by less than that noise, tell the same: a judge allows for three times as much. */
 constexpr double kSamePlace = 0.5;
 
+/** A scan that what moved pulls by less than so many standard deviations of its place lies where it
+ * would without. */
+constexpr double kNoticedSigmas = 3;
+
 bool
 isJudge(const VerifiedScan& scan, const ScanResult& result)
 {
@@ -176,9 +180,9 @@ MovingStage::isNoticeable(const Slam6DResult& result) const
     }
   }
   for (std::size_t i = 0; i < scans_.size(); ++i) {
-    const double noise = scans_[i]->rays().noise();
-    if (wrong[i] * std::sqrt(static_cast<double>(motion_[i].size()) / 3) >
-        pairs[i] * noise)
+    const double share = static_cast<double>(motion_[i].size()) / 3;
+    const double sigma = scans_[i]->rays().noise() / std::sqrt(share);
+    if (wrong[i] > pairs[i] * kNoticedSigmas * sigma)
       return true;
   }
   return false;

@@ -33,8 +33,8 @@ public:
     poses_.clear();
   }
 
-  /** \return whether so much of a scan moved, and was matched, that it may pull the pose by more
-   * than the noise of its points does. \param[in] result its links and parameters */
+  /** \return whether so much of a scan moved, and was matched, that it may pull the pose significantly
+   * farther than the noise of its points does. \param[in] result its links and parameters */
   bool
   isNoticeable(const Slam6DResult& result) const;
 

@@ -79,8 +79,8 @@ struct Slam6DOptions {
    * after them, are looked for elsewhere; points and rays decide */
   bool recover = true;
   /** points that moved, as the rays of other scans tell, take no part in the last round of
-   * relaxation where they may pull a scan by more than the noise of its points; in the verification they do, as
-   * at wrong poses all seems to move */
+   * relaxation where they may pull a scan by more than three standard deviations of its place, as the
+   * noise of its points leaves it; in the verification they do, as at wrong poses all seems to move */
   bool leave_out_moving = true;
   MotionOptions motion; ///< within scans that come with the times of their points
   bool verify = true; ///< judge the map by the points and rays of its scans, in the end

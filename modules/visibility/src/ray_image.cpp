@@ -161,16 +161,17 @@ RayImage::aim(const Eigen::Vector3f& place) const
   return {visibility::onCube(ray), range};
 }
 
-/** Asks for the cell that is likely to answer. */
+/** Asks for the cells that are likely to answer: where the finest is empty, the next one does. */
 void
 RayImage::fetch(const Aim& aim) const
 {
   if (aim.range == 0)
     return;
-  const Level& finest = levels_.front();
-  const auto& face = finest.faces[aim.direction.face];
-  if (!face.empty())
-    __builtin_prefetch(&face[visibility::cellOf(aim.direction, finest.side)]);
+  for (const Level& level : levels_) {
+    const auto& face = level.faces[aim.direction.face];
+    if (!face.empty())
+      __builtin_prefetch(&face[visibility::cellOf(aim.direction, level.side)]);
+  }
 }
 
 SightOfPlace

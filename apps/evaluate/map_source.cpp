@@ -50,10 +50,7 @@ filesOfRun(const fs::path& path)
   result.map.poses = run.trajectory().poses;
   result.world_offset = run.summary().world_offset;
   for (std::size_t i = 0; i < run.summary().scans.size(); ++i) {
-    result.files.push_back(run.scanFile(i));
-    if (!fs::exists(result.files.back()))
-      throw IoFailed(result.files.back().string() + ": is missing, though " +
-                     summary.string() + " tells of it");
+    result.files.push_back(run.presentScanFile(i));
     result.map.names.push_back(run.summary().scans[i].file);
   }
   result.moved = run.summary().moved;

@@ -157,11 +157,7 @@ joinedFolder(const EarlierRuns& runs)
       if (one.run != r)
         continue;
       const ScanResult& scan = run.summary().scans[one.place];
-      const fs::path file = run.path() / "scans" / (scanName(scan.index) + ".pcd");
-      if (!text::isThere(file))
-        text::fail(file,
-                   "is missing, though " + (run.path() / "summary.json").string() +
-                       " tells of it");
+      const fs::path file = run.presentScanFile(one.place);
       names.push_back(scan.file);
       scans.push_back({file, "", r == 0 ? scan.index : next, scan.initial_pose});
       next = std::max(next, scans.back().index + 1);

@@ -284,6 +284,10 @@ TEST(SemanticMap, NamesWhatIsWrongWithTheData)
               std::string("from,to,kind,verdict,pairs,rms\n") + row + "\n");
     expectError(program({"build", broken.string()}), 1, {"links.csv", "line 2"});
   }
+  const auto gone = map / "gone";
+  std::filesystem::copy(map.run(), gone, std::filesystem::copy_options::recursive);
+  std::filesystem::remove(gone / "scans/scan001.pcd");
+  expectError(program({"build", gone.string()}), 1, {"scan001.pcd", "is missing"});
   writeText(map / "cut.json", readText(map.run() / "semantic_map.json").substr(0, 999));
   expectError(program({"info", (map / "cut.json").string()}), 1, {"cut.json", "line"});
 }

@@ -175,6 +175,17 @@ RunFolder::scanFile(std::size_t place) const
 }
 
 fs::path
+RunFolder::presentScanFile(std::size_t place) const
+{
+  const fs::path file = scanFile(place);
+  if (!text::isThere(file))
+    text::fail(file,
+               "is missing, though " + (path_ / "summary.json").string() +
+                   " tells of it");
+  return file;
+}
+
+fs::path
 RunFolder::mapFile() const
 {
   return asWritten(path_ / kMap);

@@ -101,6 +101,9 @@ public:
    * all fields of the points \throws IoFailed it does not hold what the run wrote */
   std::filesystem::path
   scanFile(std::size_t place) const;
+  /** \return scanFile() \throws IoFailed also if there is none */
+  std::filesystem::path
+  presentScanFile(std::size_t place) const;
   std::filesystem::path
   mapFile() const;
 

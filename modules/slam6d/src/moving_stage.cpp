@@ -180,8 +180,8 @@ MovingStage::isNoticeable(const Slam6DResult& result) const
     }
   }
   for (std::size_t i = 0; i < scans_.size(); ++i) {
-    const double share = static_cast<double>(motion_[i].size()) / 3;
-    const double sigma = scans_[i]->rays().noise() / std::sqrt(share);
+    const double a_third = static_cast<double>(motion_[i].size()) / 3;
+    const double sigma = scans_[i]->rays().noise() / std::sqrt(a_third);
     if (wrong[i] > pairs[i] * kNoticedSigmas * sigma)
       return true;
   }

@@ -101,11 +101,11 @@ public:
    * all fields of the points \throws IoFailed it does not hold what the run wrote */
   std::filesystem::path
   scanFile(std::size_t place) const;
+  std::filesystem::path
+  mapFile() const;
   /** \return scanFile() \throws IoFailed also if there is none */
   std::filesystem::path
   presentScanFile(std::size_t place) const;
-  std::filesystem::path
-  mapFile() const;
 
   /** \return the poses of the scans, relative to the world offset */
   Trajectory

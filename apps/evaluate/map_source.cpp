@@ -50,7 +50,8 @@ filesOfRun(const fs::path& path)
   result.map.poses = run.trajectory().poses;
   result.world_offset = run.summary().world_offset;
   for (std::size_t i = 0; i < run.summary().scans.size(); ++i) {
-    result.files.push_back(run.presentScanFile(i));
+    run.requireScan(i);
+    result.files.push_back(run.scanFile(i));
     result.map.names.push_back(run.summary().scans[i].file);
   }
   result.moved = run.summary().moved;

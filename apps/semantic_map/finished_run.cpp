@@ -89,7 +89,7 @@ FinishedRun::readMap() const
 Scan
 FinishedRun::readScan(std::size_t place) const
 {
-  run_.presentScanFile(places_[place]);
+  run_.requireScan(places_[place]);
   return run_.readStandingScan(places_[place]);
 }
 

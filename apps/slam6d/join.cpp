@@ -157,7 +157,8 @@ joinedFolder(const EarlierRuns& runs)
       if (one.run != r)
         continue;
       const ScanResult& scan = run.summary().scans[one.place];
-      const fs::path file = run.presentScanFile(one.place);
+      run.requireScan(one.place);
+      const fs::path file = run.path() / "scans" / (scanName(scan.index) + ".pcd");
       names.push_back(scan.file);
       scans.push_back({file, "", r == 0 ? scan.index : next, scan.initial_pose});
       next = std::max(next, scans.back().index + 1);

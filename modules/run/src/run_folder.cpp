@@ -174,15 +174,14 @@ RunFolder::scanFile(std::size_t place) const
   return asWritten(scanPath(place));
 }
 
-fs::path
-RunFolder::presentScanFile(std::size_t place) const
+void
+RunFolder::requireScan(std::size_t place) const
 {
-  const fs::path file = scanFile(place);
+  const fs::path file = scanPath(place);
   if (!text::isThere(file))
     text::fail(file,
                "is missing, though " + (path_ / "summary.json").string() +
                    " tells of it");
-  return file;
 }
 
 fs::path

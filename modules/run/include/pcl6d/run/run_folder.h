@@ -103,9 +103,10 @@ public:
   scanFile(std::size_t place) const;
   std::filesystem::path
   mapFile() const;
-  /** \return scanFile() \throws IoFailed also if there is none */
-  std::filesystem::path
-  presentScanFile(std::size_t place) const;
+  /** \brief Makes sure that the file of a scan is there; its content is not looked at.
+   * \throws IoFailed it is missing */
+  void
+  requireScan(std::size_t place) const;
 
   /** \return the poses of the scans, relative to the world offset */
   Trajectory

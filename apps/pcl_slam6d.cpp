@@ -65,6 +65,21 @@ public:
   int
   run()
   {
+    try {
+      return workThrough();
+    } catch (const BadArgument&) { // as the same command would end again; another one
+      dropJournal();               // would be refused because of what this one has kept
+      throw;
+    } catch (const ComputeFailed&) {
+      dropJournal();
+      throw;
+    }
+  }
+
+private:
+  int
+  workThrough()
+  {
     for (const auto& line : app::describeInput(
              settings_, scans_, earlier_, ranks_ ? ranks_->numRanks() : 1))
       bar_.say(line);
@@ -103,7 +118,13 @@ public:
     return summary.trusted && !drawing.is_missing ? app::kDone : app::kDoubtful;
   }
 
-private:
+  void
+  dropJournal()
+  {
+    if (journal_)
+      journal_->remove();
+  }
+
   /** A part of a joined run would have scans in several worlds. */
   int
   stopJoining()
@@ -119,8 +140,7 @@ private:
     published_ = out_.folder();
     if (summary.complete) {
       auto written = out_.publish(app::Journal::kDrop);
-      if (journal_)
-        journal_->remove();
+      dropJournal();
       return written;
     }
     bar_.say(

@@ -114,6 +114,9 @@ TEST_F(Train, NamesWhatIsWrong)
   refused(with({"--scanner", "radar"}), 2, {"--scanner = radar"});
   refused(with({"--max-false-alarm", "1"}), 2, {"--max-false-alarm = 1"});
   refused(with({"--max-range", "1e10"}), 2, {"--max-range = 1e+10", "5000 times"});
+  refused({"--background", name("scans"), "-o", name("x.xml"), "--positives", "16384"},
+          2,
+          {"--positives = 16384", "16383"});
   refused(with({"--min-distance", "4"}), 2, {"--max-distance = 3"});
   pcl6d::test::expectError(
       pcl6d::test::runProgram(kName, {"find"}), kName, 2, {"'find'", "train"});

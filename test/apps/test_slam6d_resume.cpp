@@ -114,6 +114,14 @@ TEST_F(Resume, OtherOptionsAreRefusedAndFreshDropsWhatWasDone)
   EXPECT_EQ(fresh.err.find("going on"), std::string::npos) << fresh.err;
 }
 
+TEST_F(Resume, WhatFailedForItsOptionsLeavesNothingThatRefusesBetterOnes)
+{
+  const Outcome failed = again({"--voxel", "1e100"});
+  EXPECT_EQ(failed.exit_code, 1) << failed.err;
+  EXPECT_FALSE(fs::exists(out)) << "the folder was not there before";
+  EXPECT_EQ(again().exit_code, 0);
+}
+
 TEST_F(Resume, NothingToGoOnWithIsSaid)
 {
   const Outcome outcome = again({"--resume"});

@@ -171,10 +171,10 @@ trainCascade(const std::vector<GrayImage>& positives,
 {
   options.validate();
   checkPositives(positives, options);
-  require(positives.size() <= SortedFeatures::kMostWindows / 2,
+  require(positives.size() <= SortedFeatures::kMostPositives,
           "number of positives",
           positives.size(),
-          "<= " + std::to_string(SortedFeatures::kMostWindows / 2));
+          "<= " + std::to_string(SortedFeatures::kMostPositives));
   CascadeTraining training;
   training.cascade.width = options.width;
   training.cascade.height = options.height;

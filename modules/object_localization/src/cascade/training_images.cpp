@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/object_localization/boosting.h>
 #include <pcl6d/object_localization/haar_features.h>
 
 #include <algorithm>
@@ -209,7 +210,10 @@ makeBackgrounds(const std::vector<BackgroundScan>& scans,
 void
 TrainingImageOptions::validate() const
 {
-  require(positives > 0, "positives", positives, "> 0");
+  require(positives > 0 && positives <= SortedFeatures::kMostPositives,
+          "positives",
+          positives,
+          "in [1, " + std::to_string(SortedFeatures::kMostPositives) + "]");
   require(min_distance > 0, "min_distance", min_distance, "> 0");
   require(max_distance > min_distance && std::isfinite(max_distance),
           "max_distance",

@@ -37,7 +37,8 @@ private:
  * threshold takes one sweep over them. */
 class SortedFeatures {
 public:
-  static constexpr std::size_t kMostWindows = 0x7fff; ///< 15 bits each
+  static constexpr std::size_t kMostWindows = 0x7fff;             ///< 15 bits each
+  static constexpr std::size_t kMostPositives = kMostWindows / 2; ///< of them
 
   /** \param[in] features what trees may choose from; kept by reference, like windows
    * \throws BadArgument more than kMostWindows windows, or no feature */

@@ -44,7 +44,7 @@ struct BackgroundScan {
 /** \brief Knobs of makeTrainingImages(). */
 struct TrainingImageOptions {
   ImageChannel channel = ImageChannel::kRange;
-  std::size_t positives = 1000; ///< > 0
+  std::size_t positives = 1000; ///< in [1, SortedFeatures::kMostPositives]
   double min_distance = 1.5;    ///< [m] in plan, > 0
   double max_distance = 5;      ///< [m] > min_distance
   double min_visible = 0.4;     ///< share of the samples on the object, in (0, 1]

@@ -119,23 +119,30 @@ TEST_F(Join, RefusesACommandLineThatMakesNoSense)
 
 TEST_F(Join, InterruptedItWritesNothing)
 {
-  const std::string err = rooms() / "err";
-  bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
-                    bp::args = {"--join",
-                                (rooms() / "monday").string(),
-                                (rooms() / "tuesday").string(),
-                                "-o",
-                                (rooms() / "nothing").string(),
-                                "--threads",
-                                "1"},
-                    bp::std_out > bp::null,
-                    bp::std_err > err);
-  while (program.running() && readText(err).find("comparing") == std::string::npos)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  ::kill(program.id(), SIGINT);
-  program.wait();
-  EXPECT_EQ(program.exit_code(), 130) << readText(err);
+  const std::string err = rooms() / "err", out = rooms() / "nothing";
+  const auto interrupted = [&] {
+    fs::remove_all(out);
+    bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
+                      bp::args = {"--join",
+                                  (rooms() / "monday").string(),
+                                  (rooms() / "tuesday").string(),
+                                  "-o",
+                                  out,
+                                  "--threads",
+                                  "1"},
+                      bp::std_out > bp::null,
+                      bp::std_err > err);
+    while (program.running() && readText(err).find("comparing") == std::string::npos)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ::kill(program.id(), SIGINT);
+    program.wait();
+    return program.exit_code();
+  };
+  int code = interrupted(); // on a busy machine the signal may come when all is done
+  for (int i = 0; i < 10 && (code == 0 || code == 3); ++i)
+    code = interrupted();
+  EXPECT_EQ(code, 130) << readText(err);
   EXPECT_NE(readText(err).find("nothing is written"), std::string::npos)
       << readText(err);
-  EXPECT_FALSE(fs::exists(rooms() / "nothing"));
+  EXPECT_FALSE(fs::exists(out));
 }

@@ -2,6 +2,7 @@
 // pcl_slam6d_convert scans --full: runs and folders joined.
 #include "convert_test.h"
 #include "support/poses.h"
+#include "support/sanitizer.h"
 
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/io/trajectory_io.h>
@@ -208,9 +209,8 @@ TEST(ConvertFull, RunsThatHoldNoScansAreNamed)
 
 TEST(ConvertFull, TakesTheMemoryOfOneScan)
 {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the address sanitizer keeps freed memory";
-#endif
+  if (pcl6d::test::isUnderAddressSanitizer())
+    GTEST_SKIP() << "the address sanitizer keeps freed memory";
   const TempFolder folder;
   fs::create_directory(folder / "in");
   const std::vector<float> values(4 * 250000, 1.5f); // 4 MB

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the end of a program says, whatever ended it.
 #include "common/app.h"
+#include "support/sanitizer.h"
 
 #include <pcl6d/common/error.h>
 
@@ -109,9 +110,8 @@ askForMemory() noexcept
 
 TEST(RunMain, TellsOfMemoryThatEndsWhereNothingCanBeThrown)
 {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "its operator new ends the process itself";
-#endif
+  if (pcl6d::test::isUnderAddressSanitizer())
+    GTEST_SKIP() << "its operator new ends the process itself";
   const auto body = [](const std::vector<std::string>&) {
     askForMemory();
     return 0;

@@ -89,11 +89,13 @@ TEST(ScanNetwork, NormsAreInTheAxesOfTheWorld)
   options.metric = Metric::kPlane;
   ScanNetwork plane(scans.scans, {true, true}, options);
   const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
-  for (const Eigen::Matrix3d& norm : plane.pairs(scans.truth).at(0).norms)
+  const auto plane_pairs = plane.pairs(scans.truth);
+  for (const Eigen::Matrix3d& norm : plane_pairs.at(0).norms)
     EXPECT_TRUE(norm.isApprox(y * y.transpose(), 1e-5));
   options.metric = Metric::kGicp;
   ScanNetwork gicp(scans.scans, {true, true}, options);
-  for (const Eigen::Matrix3d& norm : gicp.pairs(scans.truth).at(0).norms) {
+  const auto gicp_pairs = gicp.pairs(scans.truth);
+  for (const Eigen::Matrix3d& norm : gicp_pairs.at(0).norms) {
     EXPECT_NEAR(norm(1, 1), 1, 1e-4);
     EXPECT_NEAR(norm(0, 0), options.gicp_epsilon, 1e-4);
     EXPECT_NEAR(norm(2, 2), options.gicp_epsilon, 1e-4);

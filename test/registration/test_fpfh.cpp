@@ -42,9 +42,10 @@ hillsAndBall(std::size_t count = 2000)
     if (i % 2 == 0) {
       points.emplace_back(x, y, 0.2f * std::sin(2 * x));
       normals.push_back(Eigen::Vector3f(-0.4f * std::cos(2 * x), 0, 1).normalized());
-    } else {
-      normals.push_back(
-          Eigen::Vector3f(x, y, static_cast<float>(random.uniform(-3, 3))).normalized());
+    }
+    else {
+      normals.push_back(Eigen::Vector3f(x, y, static_cast<float>(random.uniform(-3, 3)))
+                            .normalized());
       points.push_back(Eigen::Vector3f(0.2f, 0.4f, 1.1f) + normals.back());
     }
   }
@@ -75,7 +76,8 @@ TEST(Fpfh, AreThoseOfPcl)
   const auto normals = std::make_shared<pcl::PointCloud<pcl::Normal>>();
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     cloud->emplace_back(scan.points[i].x(), scan.points[i].y(), scan.points[i].z());
-    normals->emplace_back(scan.normals[i].x(), scan.normals[i].y(), scan.normals[i].z());
+    normals->emplace_back(
+        scan.normals[i].x(), scan.normals[i].y(), scan.normals[i].z());
   }
   pcl::FPFHEstimation<pcl::PointXYZ, pcl::Normal> peer;
   peer.setInputCloud(cloud);
@@ -135,7 +137,8 @@ TEST(Fpfh, WhatHasNoSurroundingsIsZero)
   EXPECT_TRUE(features({}, {}).empty());
   EXPECT_EQ(features({{1, 2, 3}}, {up}), std::vector<Fpfh>{zero});
   EXPECT_EQ(features({{1, 2, 3}, {1, 2, 3}}, {up, up}), std::vector<Fpfh>(2, zero));
-  EXPECT_EQ(features({{0, 0, 0}, {0.1f, 0, 0}}, {up, none}), std::vector<Fpfh>(2, zero));
+  EXPECT_EQ(features({{0, 0, 0}, {0.1f, 0, 0}}, {up, none}),
+            std::vector<Fpfh>(2, zero));
   // both normals along the line between the points: no frame
   EXPECT_EQ(features({{0, 0, 0}, {0, 0, 0.1f}}, {up, up}), std::vector<Fpfh>(2, zero));
 }

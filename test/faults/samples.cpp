@@ -124,8 +124,8 @@ makeScans(const Maker& run, const fs::path& folder)
   test::writeText(folder / "scans/odometry.txt", poses);
   test::writeText(folder / "path.kitti", poses);
   fs::remove_all(folder / "drive");
-  run("pcl_slam6d_simulate", // denser: what a detector is trained on
-      "rooms -o background --scans 1 --resolution 3 --labels no --quiet");
+  run("pcl_slam6d_simulate", // denser: for a detector's training, and room for a person
+      "rooms -o background --scans 3 --resolution 3 --labels no --quiet");
   const std::string convert = "scans scans/scan000.pcd -o scan";
   run("pcl_slam6d_convert", convert + "_ascii.pcd --encoding ascii");
   run("pcl_slam6d_convert", convert + "_binary.pcd --encoding binary");

@@ -48,7 +48,8 @@ fi
 # EIGEN_MALLOC_ALREADY_ALIGNED (preset): Eigen aligns memory in its own way where it sees the
 # sanitizer, and PCL's libraries, which were built without, could not free it.
 # alloc_dealloc_mismatch: PCL's libraries, built for C++14, take clouds from malloc by an
-# operator of the class, which C++17 has no more: a cloud of theirs is freed by delete.
+# operator of the class, which C++17 has no more: a cloud of theirs is freed by delete. And the
+# programs have an operator new of their own, but for the one that does not throw.
 # Faults of other people's libraries, each with its reason.
 suppressions=$PWD/test/suppressions
 export ASAN_OPTIONS=detect_stack_use_after_return=1:alloc_dealloc_mismatch=0:detect_leaks=$leaks

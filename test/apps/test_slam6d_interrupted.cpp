@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d when it cannot do all: interrupted, without a display, without poses.
 #include "corridor_run.h"
+#include "support/signalled_program.h"
 
 #include <pcl6d/io/trajectory_io.h>
 
@@ -80,15 +81,13 @@ TEST(PclSlam6d, InterruptedItGoesBesideACompleteRun)
   ASSERT_EQ(first.exit_code, 0) << first.err;
   const auto before = contentOf(out);
   const std::string err = folder / "err";
-  bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
-                    bp::args = {scans().string(), "-o", out.string(), "--last", "17"},
-                    bp::std_out > bp::null,
-                    bp::std_err > err);
-  while (program.running() && readText(err).find("matching") == std::string::npos)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  ::kill(program.id(), SIGINT);
-  program.wait();
-  EXPECT_EQ(program.exit_code(), 130) << readText(err);
+  const int code =
+      pcl6d::test::signalledAt("matching",
+                               SIGINT,
+                               "pcl_slam6d",
+                               {scans().string(), "-o", out.string(), "--last", "17"},
+                               err);
+  EXPECT_EQ(code, 130) << readText(err);
   auto after = contentOf(out);
   after.erase(".pcl6d-journal");
   EXPECT_EQ(after, before);

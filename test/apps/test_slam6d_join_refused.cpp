@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --join: what cannot be joined is refused in words, and nothing is written.
 #include "joined_rooms.h"
+#include "support/signalled_program.h"
 
 #include <csignal>
 #include <thread>
@@ -122,21 +123,17 @@ TEST_F(Join, InterruptedItWritesNothing)
   const std::string err = rooms() / "err", out = rooms() / "nothing";
   const auto interrupted = [&] {
     fs::remove_all(out);
-    bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
-                      bp::args = {"--join",
-                                  (rooms() / "monday").string(),
-                                  (rooms() / "tuesday").string(),
-                                  "-o",
-                                  out,
-                                  "--threads",
-                                  "1"},
-                      bp::std_out > bp::null,
-                      bp::std_err > err);
-    while (program.running() && readText(err).find("comparing") == std::string::npos)
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ::kill(program.id(), SIGINT);
-    program.wait();
-    return program.exit_code();
+    return pcl6d::test::signalledAt("comparing",
+                                    SIGINT,
+                                    kName,
+                                    {"--join",
+                                     rooms() / "monday",
+                                     rooms() / "tuesday",
+                                     "-o",
+                                     out,
+                                     "--threads",
+                                     "1"},
+                                    err);
   };
   int code = interrupted(); // on a busy machine the signal may come when all is done
   for (int i = 0; i < 10 && (code == 0 || code == 3); ++i)

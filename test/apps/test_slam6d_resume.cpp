@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d that is killed, and started again.
 #include "corridor_run.h"
+#include "support/signalled_program.h"
 
 #include <gtest/gtest.h>
 
@@ -39,15 +40,7 @@ protected:
     std::vector<std::string> arguments = {scans().string(), "-o", out.string()};
     arguments.insert(arguments.end(), kOptions.begin(), kOptions.end());
     const std::string err = folder / "err";
-    bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
-                      bp::args = arguments,
-                      bp::std_out > bp::null,
-                      bp::std_err > err);
-    while (program.running() && readText(err).find(line) == std::string::npos)
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ::kill(program.id(), signal);
-    program.wait();
-    return program.exit_code();
+    return pcl6d::test::signalledAt(line, signal, "pcl_slam6d", arguments, err);
   }
 
   Outcome
@@ -164,15 +157,9 @@ TEST_F(Resume, ARunThatGoesOnInItsOwnFolderIsNotReplacedByAPart)
   const std::string err = folder / "err";
   const std::vector<std::string> arguments = {
       scans().string(), "--continue", out.string(), "--last", "30", "--no-picture"};
-  bp::child program(PCL6D_BIN_DIR "/pcl_slam6d",
-                    bp::args = arguments,
-                    bp::std_out > bp::null,
-                    bp::std_err > err);
-  while (program.running() && readText(err).find("matching") == std::string::npos)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  ::kill(program.id(), SIGINT);
-  program.wait();
-  EXPECT_EQ(program.exit_code(), 130) << readText(err);
+  const int code =
+      pcl6d::test::signalledAt("matching", SIGINT, "pcl_slam6d", arguments, err);
+  EXPECT_EQ(code, 130) << readText(err);
   auto after = contentOf(out);
   after.erase(".pcl6d-journal");
   EXPECT_EQ(after, before);

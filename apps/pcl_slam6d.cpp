@@ -332,9 +332,9 @@ main(int argc, char** argv)
           if (ranks)
             ranks->gather(""); // all have done their part
           return code;
-        } catch (const std::exception& e) {
+        } catch (const std::exception&) {
           if (ranks)
-            ranks->fail(app::ofRank(*ranks, e.what()));
+            ranks->fail(app::ofRank(*ranks, app::wordsOfCurrent()));
           throw;
         }
       });

@@ -245,19 +245,38 @@ OptionTable::answerQuestions() const
   return false;
 }
 
+namespace {
+/** \return whether a value, or one of several, is a text of no letters: it names nothing,
+ * mostly a variable of the shell that is not set */
+bool
+holdsEmptyText(const boost::any& value)
+{
+  if (const auto* const text = boost::any_cast<std::string>(&value))
+    return text->empty();
+  const auto* const texts = boost::any_cast<std::vector<std::string>>(&value);
+  return texts && std::find(texts->begin(), texts->end(), "") != texts->end();
+}
+} // namespace
+
 bool
 OptionTable::parse(const std::vector<std::string>& arguments)
 {
   readArguments(arguments);
   if (answerQuestions())
     return false;
-  if (values_.count("config"))
+  if (values_.count("config")) {
+    if (holdsEmptyText(values_["config"].value()))
+      throw UsageError("--config is empty");
     readConfig(values_["config"].as<std::string>());
+  }
   if (!bringing_option_.empty() && values_.count(bringing_option_))
     readBrought(brought_options_(values_[bringing_option_].as<std::string>()));
-  for (const auto& name : positional_names_)
+  for (const auto& name : positional_names_) {
     if (!values_.count(name))
       throw UsageError(name + " is missing");
+    if (holdsEmptyText(values_[name].value()))
+      throw UsageError(name + " is empty");
+  }
   po::notify(values_);
   takeValues();
   return true;
@@ -274,6 +293,8 @@ OptionTable::takeValues() const
       const boost::any& value = values_[name].value();
       const std::string text = row.text_(value);
       try {
+        if (holdsEmptyText(value))
+          throw UsageError("--" + name + " is empty");
         checkOption(name, [&] {
           const bool has_rule = row.obeys_ && text != "auto";
           require(!has_rule || row.obeys_(row.number_(value)), "it", text, row.rule_);

@@ -116,6 +116,10 @@ OutputFolder::OutputFolder(OutputRules rules)
             rules_.journal};
   if (error)
     throw IoFailed(place_.shown + ": " + error.message());
+  if (fs::is_symlink(place_.folder, error)) // one that leads somewhere is resolved
+    throw IoFailed(place_.shown + ": is a link to " +
+                   fs::read_symlink(place_.folder, error).string() +
+                   ", which does not exist");
   for (const auto& input : rules_.inputs)
     refuseInput(folder_, input, place_.shown);
   if (fs::exists(folder_, error) && !fs::is_directory(folder_))

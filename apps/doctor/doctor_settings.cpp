@@ -87,8 +87,8 @@ parseDoctorSettings(const std::vector<std::string>& arguments, DoctorSettings& s
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;
-  requireExtension("--output", s.html, {".html", ".htm"});
-  requireExtension("--json", s.json, {".json"});
+  requireResultFile("--output", s.html, {".html", ".htm"});
+  requireResultFile("--json", s.json, {".json"});
   for (const auto& [file, option] :
        {std::pair(s.html, "--output"), std::pair(s.json, "--json")})
     refuseInputs(file, {s.source, s.target, s.guess, s.indices}, "an input", option);

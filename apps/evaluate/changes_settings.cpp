@@ -66,7 +66,7 @@ parseChangesSettings(const std::vector<std::string>& arguments, ChangesSettings&
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;
-  requireExtension("--json", s.json, {".json"});
+  requireResultFile("--json", s.json, {".json"});
   refuseInputs(s.json, {s.run_a, s.run_b}, "an input", "--json");
   table.check([&] {
     s.parameters.validate();

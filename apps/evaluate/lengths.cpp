@@ -123,7 +123,7 @@ two points of each (12).
   table.add("output,o FILE", &output).help("write the numbers (.json)");
   if (!table.parse(arguments))
     return kDone;
-  requireExtension("--output", output, {".json"});
+  requireResultFile("--output", output, {".json"});
   refuseInputs(output, {file});
   const std::vector<LengthPair> lengths = readLengths(file);
   const LengthRatioErrors errors = lengthRatioErrors(lengths);

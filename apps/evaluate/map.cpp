@@ -71,7 +71,7 @@ parse(const std::vector<std::string>& arguments, MapSettings& s)
     return false;
   table.check([&] { s.options.validate(); });
   table.check([&] { validateSource(s.source); });
-  requireExtension("--output", s.output, {".json", ".csv"});
+  requireResultFile("--output", s.output, {".json", ".csv"});
   refuseInputs(s.output, {s.source.poses, s.source.reference});
   return true;
 }

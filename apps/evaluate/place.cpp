@@ -53,8 +53,8 @@ Exit code 0: one place, and no other nearly as good; 3: several, or none.
   table.add("quiet", &s.quiet).help("print the answer, warnings and errors only");
   if (!table.parse(arguments))
     return false;
-  requireExtension("--output", s.output, {".json"});
-  requireExtension("--picture", s.picture, {".png"});
+  requireResultFile("--output", s.output, {".json"});
+  requireResultFile("--picture", s.picture, {".png"});
   refuseInputs(s.output, {s.scan_a, s.scan_b});
   refuseInputs(s.picture, {s.scan_a, s.scan_b}, "an input", "--picture");
   table.check([&] {

@@ -2,6 +2,8 @@
 #include "common/app.h"
 #include "evaluate/result_file.h"
 
+#include <pcl6d/io/atomic_file.h>
+
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
@@ -15,17 +17,20 @@ hasExtension(const std::string& file, const std::string& extension)
 }
 
 void
-requireExtension(const std::string& option,
-                 const std::string& file,
-                 const std::vector<std::string>& extensions)
+requireResultFile(const std::string& option,
+                  const std::string& file,
+                  const std::vector<std::string>& extensions)
 {
   const bool known =
       std::any_of(extensions.begin(), extensions.end(), [&](const std::string& one) {
         return hasExtension(file, one);
       });
-  if (!file.empty() && !known)
+  if (file.empty())
+    return;
+  if (!known)
     throw UsageError(option + " = " + file + ", but must end with " +
                      boost::algorithm::join(extensions, " or "));
+  requireWritable(file);
 }
 
 } // namespace pcl6d::app

@@ -10,11 +10,13 @@ namespace pcl6d::app {
 bool
 hasExtension(const std::string& file, const std::string& extension);
 
-/** \throws UsageError the file of an option, unless it is empty, has none of the
- * extensions */
+/** \brief Before the work: looks whether the file of an option can be its result; empty: none
+ * is asked for.
+ * \throws UsageError it has none of the extensions
+ * \throws IoFailed it cannot be written */
 void
-requireExtension(const std::string& option,
-                 const std::string& file,
-                 const std::vector<std::string>& extensions);
+requireResultFile(const std::string& option,
+                  const std::string& file,
+                  const std::vector<std::string>& extensions);
 
 } // namespace pcl6d::app

@@ -25,8 +25,8 @@ faultOf(const SuiteOptions& options, const Trial& trial)
 try {
   trial(options);
   return "";
-} catch (const std::exception& e) {
-  return e.what();
+} catch (const std::exception&) {
+  return wordsOfCurrent();
 }
 
 /** Checks the options of one place in the file, on top of those that count there anyway.

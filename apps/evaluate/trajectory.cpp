@@ -95,7 +95,7 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
               std::isfinite(length) && length > 0, "lengths", length, "finite and > 0");
       },
       {{"radius", "loop-radius"}, {"min_path", "loop-path"}});
-  requireExtension("--output", s.output, {".json", ".csv"});
+  requireResultFile("--output", s.output, {".json", ".csv"});
   const std::vector<std::string> inputs{s.estimate, s.reference, s.loops, s.trusted};
   refuseInputs(s.json, inputs, "an input", "--json");
   refuseInputs(s.output, inputs);

@@ -4,6 +4,7 @@
 #include "graph/verbs.h"
 
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
+#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pose_graph_io.h>
 
 #include <algorithm>
@@ -96,6 +97,7 @@ runOptimize(const std::vector<std::string>& arguments)
   if (!parse(arguments, s))
     return kDone;
   PoseGraph graph = readPoseGraph(s.input);
+  requireWritable(s.output);
   const auto start = Clock::now();
   PoseGraphOptimizer optimizer(graph, s.options);
   const PoseGraphResult& result = optimizer.optimize();

@@ -5,8 +5,10 @@
 #include "objects/verbs.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/object_localization/cascade_file.h>
 #include <pcl6d/object_localization/model_store.h>
 
@@ -138,6 +140,9 @@ runTrain(const std::vector<std::string>& arguments)
   TrainSettings s;
   if (!parseTrain(arguments, s))
     return kDone;
+  const std::filesystem::path folder = std::filesystem::path(s.output).parent_path();
+  if (folder.empty() || text::isThere(folder)) // else --state may make it
+    requireWritable(s.output);
   const Interrupt interrupt;
   ProgressBar bar(s.quiet);
   try {

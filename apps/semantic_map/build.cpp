@@ -8,6 +8,7 @@
 #include "semantic_map/verbs.h"
 
 #include <pcl6d/common/require.h>
+#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/plane_io.h>
 #include <pcl6d/io/scan_writer.h>
 #include <pcl6d/io/text.h>
@@ -201,6 +202,8 @@ runMapBuild(const std::vector<std::string>& arguments)
     return kDone;
   ProgressBar bar(s.quiet);
   const FinishedRun run(s.run);
+  for (const auto& output : {s.output, s.cloud})
+    requireWritable(output);
   SemanticMap scans;
   scans.scans = run.scans();
   scans.links = run.readLinks();

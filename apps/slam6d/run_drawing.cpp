@@ -164,8 +164,8 @@ drawRun(const fs::path& folder)
   for (const std::string& name : wanted) {
     try {
       draw(run, name);
-    } catch (const std::exception& e) {
-      std::cerr << name << ": " << e.what() << std::endl;
+    } catch (const std::exception&) {
+      std::cerr << name << ": " << wordsOfCurrent() << std::endl;
       is_missing = true;
     }
   }

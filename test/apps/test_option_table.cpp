@@ -122,6 +122,20 @@ TEST(OptionTable, ErrorsNameTheOptionItsValueAndTheRule)
   EXPECT_THROW(parsed({"a", "--count", "many"}), boost::program_options::error);
 }
 
+TEST(OptionTable, EmptyTextsNameNothing)
+{
+  EXPECT_EQ(parsed({""}).title, "SCAN is empty");
+  EXPECT_EQ(parsed({"a.pcd", "--config", ""}).title, "--config is empty");
+  EXPECT_EQ(parsed({"a.pcd", "--title", ""}).title, "--title is empty");
+  EXPECT_EQ(parsed({"a.pcd", "--poses", ""}).title, "--poses is empty");
+  EXPECT_EQ(parsed({"a.pcd", "-m", "chair", "", "table"}).title, "--model is empty");
+  const pcl6d::test::TempFolder folder;
+  const std::string file = folder / "some.cfg";
+  pcl6d::test::writeText(file, "count = 2\nposes =\n");
+  EXPECT_EQ(parsed({"a.pcd", "--config", file}).title,
+            file + ": line 2: --poses is empty");
+}
+
 TEST(OptionTable, WordsAreAsGivenOrByDefault)
 {
   Settings s;

@@ -234,6 +234,22 @@ TEST_F(Output, AnOldFolderThatMayNotBeWrittenIsReplacedWhole)
   EXPECT_EQ(beside(), std::vector<std::string>());
 }
 
+TEST_F(Output, ALinkToNowhereIsNamed)
+{
+  fs::create_directory_symlink("nowhere", out);
+  try {
+    publish("new", 1);
+    ADD_FAILURE() << "published";
+  } catch (const pcl6d::IoFailed& e) {
+    EXPECT_NE(
+        std::string(e.what()).find(": is a link to nowhere, which does not exist"),
+        std::string::npos)
+        << e.what();
+  }
+  EXPECT_EQ(fs::read_symlink(out), "nowhere");
+  EXPECT_EQ(beside(), std::vector<std::string>());
+}
+
 TEST_F(Output, KeepsRightsJournalAndLinksOfTheFolder)
 {
   fs::create_directory(place / "real");

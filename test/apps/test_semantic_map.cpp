@@ -276,6 +276,10 @@ TEST(SemanticMap, NamesWhatIsWrongWithTheData)
               1,
               {"class"});
   EXPECT_FALSE(std::filesystem::exists(map / "out.json"));
+  const std::string cloud = (map / "out.pcd").string(), json = (map / "no/it").string();
+  expectError(
+      program({"build", run, "--cloud", cloud, "-o", json}), 1, {"no/it: No such"});
+  EXPECT_FALSE(std::filesystem::exists(cloud)); // not one without the other
   const auto broken = map / "broken";
   std::filesystem::copy(map.run(), broken, std::filesystem::copy_options::recursive);
   for (const char* const row :

@@ -2,6 +2,7 @@
 // Every program with a small real job where the surroundings are odd: a locale that is not
 // installed, one that writes 0,5, standard output that is full or closed.
 #include "support/run_program.h"
+#include "support/sanitizer.h"
 
 #include <gtest/gtest.h>
 
@@ -200,6 +201,56 @@ TEST_F(Surroundings, NumbersDoNotFollowTheLocale)
     GTEST_SKIP() << "localedef cannot make a German locale here";
   expectTheSame(environmentWith(
       {{"LOCPATH", locales.path().string()}, {"LC_ALL", "de_DE.UTF-8"}}));
+}
+
+TEST_F(Surroundings, WithoutADriverOfOpenGlWordsSayThatNothingCanBeDrawn)
+{
+  const TempFolder folder;
+  const auto no_driver = environmentWith({{"LIBGL_DRIVERS_PATH", "/nonexistent"}});
+  const fs::path run = usual_->folder / "run";
+  const fs::path scan = usual_->folder / "scans/scan000.pcd";
+  const auto draw = [&](const Job& job) {
+    return runIn(folder.path(), job, no_driver);
+  };
+  const std::string words = "cannot draw pictures: no OpenGL";
+  pcl6d::test::expectError(
+      draw({"pcl_slam6d_render",
+            {"picture", run.string(), "--view", "top", "-o", "picture.png"}}),
+      "pcl_slam6d_render",
+      1,
+      {words});
+  EXPECT_FALSE(fs::exists(folder / "picture.png"));
+  const Outcome planes =
+      draw({"pcl_slam6d_planes", {scan.string(), "-o", "planes", "--quiet"}});
+  EXPECT_EQ(planes.exit_code, 3);
+  EXPECT_NE(planes.err.find("warning: no planes.png: " + words), std::string::npos)
+      << planes.err;
+  EXPECT_TRUE(
+      fs::exists(folder / "planes/planes.json")); // what needs no driver is kept
+  const Outcome again = draw({"pcl_slam6d", {"--draw", run.string()}});
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_NE(again.err.find("top_view.png: " + words), std::string::npos) << again.err;
+}
+
+TEST_F(Surroundings, WithoutMemoryForPicturesWordsAreNotThoseOfALibrary)
+{
+  if (pcl6d::test::isUnderAddressSanitizer())
+    GTEST_SKIP() << "which takes more memory than there is";
+  const std::string err = (usual_->folder / "stderr").string();
+  bool is_short = false;
+  for (int megabytes = 120; megabytes <= 300; megabytes += 15) {
+    const std::string command = "ulimit -c 0; ulimit -v " +
+                                std::to_string(1000 * megabytes) + "; exec " +
+                                PCL6D_BIN_DIR + "/pcl_slam6d --draw run";
+    bp::system(bp::exe = "/bin/sh",
+               bp::args = {"-c", command},
+               bp::start_dir = usual_->folder.path().string(),
+               bp::std_err > err);
+    EXPECT_EQ(readText(err).find("std::"), std::string::npos) << readText(err);
+    is_short = is_short || readText(err).find("top_view.png: not enough memory") !=
+                               std::string::npos;
+  }
+  EXPECT_TRUE(is_short);
 }
 
 TEST_F(Surroundings, OutputThatDoesNotArriveIsAnError)

@@ -15,13 +15,15 @@ namespace pcl6d::faults {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPerNumber = 6, kPerWord = 2; // values of an option
+constexpr std::size_t kPerNumber = 6, kPerWord = 3; // values of an option, beside none
 
 struct Value {
   std::string name; ///< in the name of the case
   std::string text;
   bool hopeless; ///< no number option can take it
 };
+
+const Value kNothing = {"nothing", "", true}; // which no option can take
 
 const std::vector<Value>&
 extremeValues()
@@ -41,13 +43,15 @@ extremeValues()
                                             {"2^32", "4294967296", false},
                                             {"2^63", "9223372036854775808", false},
                                             {"2^64", "18446744073709551616", false},
-                                            {"nothing", "", true},
                                             {"blank", " ", true},
                                             {"1e", "1e", true},
                                             {"0x10", "0x10", false},
                                             {"1,5", "1,5", true},
                                             {"--", "--", true},
                                             {"10kB", std::string(10'000, '7'), true},
+                                            {"root", "/", true},
+                                            {"device", "/dev/null", true},
+                                            {"nowhere", "out/no/where", true},
                                             {"control", "1\x1b[31m", true},
                                             {"bad-utf8", "\xff\xfe", true}};
   return values;
@@ -97,16 +101,20 @@ addCases(const Case& call,
     const std::string name = "option/" + job_name + '/' + option.name;
     Random random(mixBits(seed) ^ hashOf(name));
     std::vector<Value> values = extremeValues();
-    for (std::size_t i = 0; i < (option.is_number ? kPerNumber : kPerWord); ++i) {
-      const auto one =
-          values.begin() + static_cast<std::ptrdiff_t>(pick(random, values.size()));
+    const auto add = [&](const Value& value) {
       Case extreme = call;
       extreme.arguments = without(call.arguments, option);
       extreme.arguments.push_back(option.name);
-      extreme.arguments.push_back(one->text);
-      extreme.name = name + '=' + one->name;
-      extreme.hopeless = one->hopeless && option.is_number;
+      extreme.arguments.push_back(value.text);
+      extreme.name = name + '=' + value.name;
+      extreme.hopeless = value.hopeless && (option.is_number || value.text.empty());
       cases.push_back(std::move(extreme));
+    };
+    add(kNothing);
+    for (std::size_t i = 0; i < (option.is_number ? kPerNumber : kPerWord); ++i) {
+      const auto one =
+          values.begin() + static_cast<std::ptrdiff_t>(pick(random, values.size()));
+      add(*one);
       values.erase(one);
     }
   }

@@ -83,6 +83,23 @@ TEST(AtomicFile, NamesTheFileAndTheReasonWhenItCannotBeWritten)
   EXPECT_EQ(namesIn(folder.path()).size(), 1u);
 }
 
+TEST(AtomicFile, WhetherItCanBeWrittenIsKnownBefore)
+{
+  const pcl6d::test::TempFolder folder;
+  writeText(folder / "old", "old");
+  pcl6d::requireWritable(folder / "old");
+  pcl6d::requireWritable(folder / "new");
+  pcl6d::requireWritable("/dev/null");
+  EXPECT_EQ(readText(folder / "old"), "old");
+  EXPECT_EQ(namesIn(folder.path()), std::vector<std::string>{"old"});
+  for (const auto& [path, reason] : std::vector<std::pair<fs::path, const char*>>{
+           {folder / "no/file", "No such file or directory"},
+           {folder / "old/file", "Not a directory"},
+           {folder.path(), "cannot be written: it is a folder"},
+           {"", "is not the name of a file"}})
+    expectIoFailed(path, reason, [path = path] { pcl6d::requireWritable(path); });
+}
+
 TEST(AtomicFile, ADeviceIsWrittenAndNotReplaced)
 {
   const pcl6d::test::TempFolder folder;

@@ -247,4 +247,12 @@ writeFileAtomicallyBy(const fs::path& path,
     target.fail(errno);
 }
 
+void
+requireWritable(const fs::path& path)
+{
+  const Target target(path);
+  if (!target.is_special)
+    UnfinishedFile{target}; // which goes as it came
+}
+
 } // namespace pcl6d

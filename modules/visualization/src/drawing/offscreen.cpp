@@ -5,6 +5,8 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/visualization/private_display.h>
 
+#include <vtkCallbackCommand.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
@@ -19,14 +21,21 @@
 namespace pcl6d::visualization {
 
 namespace {
-/** Catches what VTK has to say for the length of its scope. */
+/** Catches what VTK has to say for the length of its scope, its log on the terminal, too. */
 class CaughtMessages {
 public:
-  CaughtMessages() : before_(vtkOutputWindow::GetInstance())
+  CaughtMessages()
+  : before_(vtkOutputWindow::GetInstance())
+  , verbosity_(vtkLogger::GetCurrentVerbosityCutoff())
   {
     vtkOutputWindow::SetInstance(caught_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   }
-  ~CaughtMessages() { vtkOutputWindow::SetInstance(before_); }
+  ~CaughtMessages()
+  {
+    vtkLogger::SetStderrVerbosity(verbosity_);
+    vtkOutputWindow::SetInstance(before_);
+  }
   CaughtMessages(const CaughtMessages&) = delete;
   CaughtMessages&
   operator=(const CaughtMessages&) = delete;
@@ -47,7 +56,31 @@ public:
 private:
   vtkNew<vtkStringOutputWindow> caught_;
   vtkSmartPointer<vtkOutputWindow> before_;
+  vtkLogger::Verbosity verbosity_;
 };
+
+[[noreturn]] void
+failWithoutOpenGl()
+{
+  throw IoFailed(
+      "cannot draw pictures: no OpenGL here: is the driver of Mesa installed "
+      "(libgl1-mesa-dri), and is there memory for it?");
+}
+
+/** Throws where VTK would end the process: it finds no visual, or, later, gets no context
+ * while nobody listens. */
+void
+requireOpenGl(vtkXOpenGLRenderWindow* window)
+{
+  vtkNew<vtkCallbackCommand> listener;
+  listener->SetCallback(
+      [](vtkObject*, unsigned long, void*, void*) { failWithoutOpenGl(); });
+  window->AddObserver(vtkCommand::ExitEvent, listener);
+  auto* const visual = window->GetDesiredVisualInfo();
+  if (!visual)
+    failWithoutOpenGl();
+  ::XFree(visual);
+}
 
 PixelLayer
 readPixels(vtkRenderWindow* window, int width, int height)
@@ -77,9 +110,10 @@ try {
   window->SetSize(width, height);
   window->AddRenderer(renderer);
   const EndIsThrown scope;
-  // VTK ends the process if it finds no OpenGL, which a server that is gone has not.
-  waitForAnswer(static_cast<_XDisplay*>(display.connection()));
+  waitForAnswer(
+      static_cast<_XDisplay*>(display.connection())); // a dead one has no OpenGL
   display.requireAlive();
+  requireOpenGl(window);
   window->Render();
   PixelLayer layer = readPixels(window, width, height);
   window->RemoveRenderer(renderer);

@@ -31,4 +31,11 @@ void
 writeFileAtomicallyBy(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
 
+/** \brief Tries, before the work, whether its result can be written; nothing is changed.
+ * \param[in] path as for writeFileAtomically(); of a device or a pipe nothing is known
+ * \throws IoFailed it names no file, or the folder is missing or not writable
+ * \ingroup io */
+void
+requireWritable(const std::filesystem::path& path);
+
 } // namespace pcl6d

@@ -122,7 +122,9 @@ struct RayCaster::Impl {
         box.extend(scene.vertices[vertex]);
     boxes = {&scene, box.center(), box.diagonal().norm() / 2, 0};
     boxes.padding = kPadding * boxes.radius;
-    device = rtcNewDevice(nullptr);
+    // With more, a thread that the system refuses ends the process: TBB's exception passes
+    // Embree, whose destructors throw then. Trees of 300 000 triangles take half a second.
+    device = rtcNewDevice("threads=1");
     if (!device)
       throw ComputeFailed("Embree cannot start (error " +
                           std::to_string(rtcGetDeviceError(nullptr)) + ")");
@@ -152,7 +154,7 @@ struct RayCaster::Impl {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(tree, geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(tree);
+    rtcJoinCommitScene(tree); // in this thread; rtcCommitScene() wants another one
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE)
       return;

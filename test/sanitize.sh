@@ -35,26 +35,28 @@ if [ "${modules[*]}" != all ]; then
   targets=("${modules[@]/#/test_}")
   selection=(--tests-regex "$(IFS='|'; echo "^(${targets[*]})\\.")")
 fi
-if [ "$tests" = build/release ]; then
-  ninja -C "build/$preset" modules/all
-  ninja -C "$tests" "${targets[@]}"
-  loaded=("LD_LIBRARY_PATH=$PWD/build/$preset/lib"
-    "LD_PRELOAD=$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libubsan.so)")
-  leaks=0 # of every program that a test starts, ours or not
-else
-  ninja -C "build/$preset" "${targets[@]}"
-  loaded=() leaks=1
-fi
+leaks=1
+[ "$tests" != build/release ] || leaks=0 # of every program that a test starts, ours or not
 # EIGEN_MALLOC_ALREADY_ALIGNED (preset): Eigen aligns memory in its own way where it sees the
 # sanitizer, and PCL's libraries, which were built without, could not free it.
 # alloc_dealloc_mismatch: PCL's libraries, built for C++14, take clouds from malloc by an
 # operator of the class, which C++17 has no more: a cloud of theirs is freed by delete. And the
 # programs have an operator new of their own, but for the one that does not throw.
-# Faults of other people's libraries, each with its reason.
+# Faults of other people's libraries, each with its reason. All this is for the build as well,
+# which runs each test program once for the names of its tests.
 suppressions=$PWD/test/suppressions
 export ASAN_OPTIONS=detect_stack_use_after_return=1:alloc_dealloc_mismatch=0:detect_leaks=$leaks
 export LSAN_OPTIONS=suppressions=$suppressions/leaks.txt:print_suppressions=0
 export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1:suppressions=$suppressions/threads.txt
+if [ "$tests" = build/release ]; then
+  ninja -C "build/$preset" modules/all
+  ninja -C "$tests" "${targets[@]}"
+  loaded=("LD_LIBRARY_PATH=$PWD/build/$preset/lib"
+    "LD_PRELOAD=$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libubsan.so)")
+else
+  ninja -C "build/$preset" "${targets[@]}"
+  loaded=()
+fi
 env "${loaded[@]}" ctest --test-dir "$tests" --output-on-failure -j "$(nproc)" \
   "${selection[@]}" --exclude-regex "$excluded"

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sparse/dense_kernels.h"
 
+#include <pcl6d/common/simd_clones.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PCL6D_SIMD_CLONES                                                              \
-  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define PCL6D_SIMD_CLONES
-#endif
-#define PCL6D_INLINE __attribute__((always_inline)) inline
+#define PCL6D_SLAB_CLONES                                                              \
+  PCL6D_SIMD_CLONES_FOR("arch=x86-64-v4", "arch=x86-64-v3", "default")
 
 namespace pcl6d::graph_relaxation::slabs {
 
@@ -135,7 +132,7 @@ factorBlock(double* A,
 }
 } // namespace
 
-PCL6D_SIMD_CLONES bool
+PCL6D_SLAB_CLONES bool
 cholesky(double* A, std::size_t size, double* reciprocals, const double* floors)
 {
   const std::size_t num_slabs = count(size);
@@ -167,7 +164,7 @@ cholesky(double* A, std::size_t size, double* reciprocals, const double* floors)
   return true;
 }
 
-PCL6D_SIMD_CLONES void
+PCL6D_SLAB_CLONES void
 solveTransposed(const double* L,
                 std::size_t size,
                 const double* reciprocals,
@@ -185,7 +182,7 @@ solveTransposed(const double* L,
   }
 }
 
-PCL6D_SIMD_CLONES void
+PCL6D_SLAB_CLONES void
 solveFromRight(const double* L,
                std::size_t size,
                const double* reciprocals,
@@ -207,7 +204,7 @@ solveFromRight(const double* L,
   }
 }
 
-PCL6D_SIMD_CLONES void
+PCL6D_SLAB_CLONES void
 subtractSquare(const double* A,
                std::size_t rows,
                std::size_t columns,
@@ -222,7 +219,7 @@ subtractSquare(const double* A,
                  C + at(s * kRows, 0, rows));
 }
 
-PCL6D_SIMD_CLONES void
+PCL6D_SLAB_CLONES void
 subtractProduct(const double* A,
                 const double* B,
                 std::size_t b_rows,
@@ -238,7 +235,7 @@ subtractProduct(const double* A,
                  C + at(s * kRows, 0, b_rows));
 }
 
-PCL6D_SIMD_CLONES void
+PCL6D_SLAB_CLONES void
 subtractTimes(const double* A,
               std::size_t rows,
               std::size_t columns,
@@ -257,7 +254,7 @@ subtractTimes(const double* A,
   }
 }
 
-PCL6D_SIMD_CLONES void
+PCL6D_SLAB_CLONES void
 subtractTransposedTimes(const double* A,
                         std::size_t rows,
                         std::size_t columns,

@@ -3,6 +3,7 @@
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/simd_clones.h>
 #include <pcl6d/object_localization/boosting.h>
 
 #include <algorithm>
@@ -38,7 +39,7 @@ cornersOf(const HaarOffsets& offsets,
   return {at(0), at(1), at(2), at(3), offsets.weights[rect]};
 }
 
-__attribute__((target_clones("arch=x86-64-v3", "default"))) void
+PCL6D_SIMD_CLONES void
 sumOfTwo(const Corners& first,
          const Corners& second,
          const float* factors,
@@ -49,7 +50,7 @@ sumOfTwo(const Corners& first,
     values[i] = (first.weighted(i) + second.weighted(i)) * factors[i];
 }
 
-__attribute__((target_clones("arch=x86-64-v3", "default"))) void
+PCL6D_SIMD_CLONES void
 sumOfThree(const Corners& first,
            const Corners& second,
            const Corners& third,

@@ -14,8 +14,9 @@ while [[ ${1:-} = --* ]]; do
   case $1 in
     --thread)
       preset=tsan tests=build/tsan
-      modules=(common search filters registration plane_segmentation verification
-        graph_relaxation scene_interpretation localisation slam6d)
+      modules=(common search filters registration global_registration plane_segmentation
+        verification moving_objects graph_relaxation scanner scene_interpretation localisation
+        object_localization semantic_map simulation slam6d benchmarking)
       ;;
     --libraries) tests=build/release ;;
     *) sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;

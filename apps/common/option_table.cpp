@@ -8,6 +8,7 @@
 #include <pcl6d/io/text.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 namespace po = boost::program_options;
@@ -296,8 +297,13 @@ OptionTable::takeValues() const
         if (holdsEmptyText(value))
           throw UsageError("--" + name + " is empty");
         checkOption(name, [&] {
-          const bool has_rule = row.obeys_ && text != "auto";
-          require(!has_rule || row.obeys_(row.number_(value)), "it", text, row.rule_);
+          if (row.number_ && text != "auto") {
+            const double number = row.number_(value);
+            require(row.obeys_ ? row.obeys_(number) : std::isfinite(number),
+                    "it",
+                    text,
+                    row.obeys_ ? row.rule_ : "finite");
+          }
           row.take_(value);
         });
       } catch (const UsageError& e) {

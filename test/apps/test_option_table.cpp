@@ -25,6 +25,7 @@ struct Settings {
   bool quiet = false;
   bool labels = true;
   std::optional<double> voxel;
+  std::optional<double> height;
   std::optional<int> last;
   Colour colour = Colour::kBlue;
   std::string title = "map";
@@ -44,6 +45,7 @@ tableOf(Settings& s)
   table.add("quiet", &s.quiet).help("no progress");
   table.add("no-labels", &s.labels).help("planes only");
   table.addAuto("voxel", &s.voxel, 0.01).above(0, "> 0").help("[cm] edge");
+  table.addAuto("height", &s.height).help("[m] of anything");
   table.add("last", &s.last).otherwise("end").help("index");
   table.add("colour", &s.colour, {{"red", Colour::kRed}, {"blue", Colour::kBlue}})
       .help("red|blue");
@@ -112,6 +114,10 @@ TEST(OptionTable, ErrorsNameTheOptionItsValueAndTheRule)
   EXPECT_EQ(parsed({"a", "--count", "10"}).title, "--count = 10, but must be 1 to 9");
   EXPECT_EQ(parsed({"a", "--threads", "-1"}).title, "--threads = -1, but must be >= 0");
   EXPECT_EQ(parsed({"a", "--voxel", "nan"}).title, "--voxel = nan, but must be > 0");
+  for (const std::string number : {"nan", "inf", "-inf"})
+    EXPECT_EQ(parsed({"a", "--height", number}).title,
+              "--height = " + number + ", but must be finite");
+  EXPECT_EQ(parsed({"a", "--height", "-1e9"}).height, -1e9);
   EXPECT_EQ(parsed({"a", "--colour", "x"}).title,
             "--colour = x, but must be red or blue");
   EXPECT_EQ(parsed({}).title, "SCAN is missing");

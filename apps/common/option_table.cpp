@@ -299,10 +299,10 @@ OptionTable::takeValues() const
         checkOption(name, [&] {
           if (row.number_ && text != "auto") {
             const double number = row.number_(value);
-            require(row.obeys_ ? row.obeys_(number) : std::isfinite(number),
+            require(row.obeys_ ? row.obeys_(number) : !std::isnan(number),
                     "it",
                     text,
-                    row.obeys_ ? row.rule_ : "finite");
+                    row.obeys_ ? row.rule_ : "a number");
           }
           row.take_(value);
         });

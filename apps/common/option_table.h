@@ -22,7 +22,7 @@ constexpr double kNoBound = std::numeric_limits<double>::infinity();
 constexpr double kFinite = std::numeric_limits<double>::max(); ///< the largest one
 
 /** \brief A row of the table: an option and the variable that it sets. Rules count for what
- * the user gives, in the unit of the option; without one, a number must be finite. */
+ * the user gives, in the unit of the option; without one, any number will do, but nan. */
 class Option {
 public:
   /** \brief What --help says, with the unit: "[m] nearer points are dropped". */

@@ -106,6 +106,7 @@ addViews(OptionTable& table, PictureSettings& s)
   };
   table.group("Single views");
   table.addAuto("height Z", &s.slice_height)
+      .within(-kFinite, kFinite, "finite")
       .help("[m] slice: height in the world; auto: that of the nearest pose");
   table.add("thickness D", &s.slice_thickness).help("[m] slice: of the layer");
   table.addWord("scan N", "auto", takeScan)
@@ -115,6 +116,7 @@ addViews(OptionTable& table, PictureSettings& s)
       .within(1, 4, "1 to 4")
       .help("perspective, objects: the N-th best one, 1 to 4");
   table.addAuto("azimuth DEG", &s.azimuth, kDegree)
+      .within(-kFinite, kFinite, "finite")
       .help(
           "perspective, objects, planes: of the camera seen from the map, from x to y");
   table.addAuto("elevation DEG", &s.elevation, kDegree)
@@ -145,8 +147,6 @@ Views:)" + RunPictures::viewTable() +
   takeViews(views, settings);
   if (!(settings.slice_thickness > 0))
     throw UsageError("--thickness must be > 0");
-  if (settings.azimuth && !std::isfinite(*settings.azimuth))
-    throw UsageError("--azimuth must be a finite number");
   if (settings.elevation &&
       !(*settings.elevation > 0 && *settings.elevation < M_PI / 2))
     throw UsageError("--elevation must be between 0 and 90 degrees");

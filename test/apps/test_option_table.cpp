@@ -114,10 +114,9 @@ TEST(OptionTable, ErrorsNameTheOptionItsValueAndTheRule)
   EXPECT_EQ(parsed({"a", "--count", "10"}).title, "--count = 10, but must be 1 to 9");
   EXPECT_EQ(parsed({"a", "--threads", "-1"}).title, "--threads = -1, but must be >= 0");
   EXPECT_EQ(parsed({"a", "--voxel", "nan"}).title, "--voxel = nan, but must be > 0");
-  for (const std::string number : {"nan", "inf", "-inf"})
-    EXPECT_EQ(parsed({"a", "--height", number}).title,
-              "--height = " + number + ", but must be finite");
-  EXPECT_EQ(parsed({"a", "--height", "-1e9"}).height, -1e9);
+  EXPECT_EQ(parsed({"a", "--height", "nan"}).title,
+            "--height = nan, but must be a number");
+  EXPECT_EQ(parsed({"a", "--height", "-inf"}).height, -kNoBound);
   EXPECT_EQ(parsed({"a", "--colour", "x"}).title,
             "--colour = x, but must be red or blue");
   EXPECT_EQ(parsed({}).title, "SCAN is missing");

@@ -104,7 +104,8 @@ TEST(RenderPicture, TakesTitlesOfAnyBytesAndAnglesThatAreNumbers)
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   for (const char* const angle : {"nan", "inf"})
-    expectError(with("--azimuth", angle), 2, {"--azimuth", "finite"});
+    for (const char* const option : {"--azimuth", "--height"})
+      expectError(with(option, angle), 2, {option, "finite"});
 }
 
 TEST(RenderPicture, WritesIntoTheRunUnlessToldOtherwise)

@@ -252,7 +252,7 @@ requireWritable(const fs::path& path)
 {
   const Target target(path);
   if (!target.is_special)
-    UnfinishedFile{target}; // which goes as it came
+    const UnfinishedFile tried(target); // which goes as it came
 }
 
 } // namespace pcl6d

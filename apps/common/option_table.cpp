@@ -5,7 +5,6 @@
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/version.h>
-#include <pcl6d/io/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,64 +16,6 @@ namespace pcl6d::app {
 
 namespace fs = std::filesystem;
 
-Option&
-Option::help(const std::string& text)
-{
-  help_ = text;
-  return *this;
-}
-
-Option&
-Option::required()
-{
-  required_ = true;
-  return *this;
-}
-
-Option&
-Option::composing()
-{
-  composing_ = true;
-  return *this;
-}
-
-Option&
-Option::multitoken()
-{
-  multitoken_ = true;
-  return *this;
-}
-
-Option&
-Option::within(double low, double high, const std::string& rule)
-{
-  rule_ = rule;
-  obeys_ = [=](double value) { return value >= low && value <= high; };
-  return *this;
-}
-
-Option&
-Option::above(double low, const std::string& rule, double high)
-{
-  rule_ = rule;
-  obeys_ = [=](double value) { return value > low && value <= high; };
-  return *this;
-}
-
-Option&
-Option::otherwise(const std::string& word)
-{
-  otherwise_ = word;
-  return *this;
-}
-
-Option&
-Option::implied(const std::string& word)
-{
-  implied_ = word;
-  return *this;
-}
-
 OptionTable::OptionTable(const std::string& usage) : usage_(usage)
 {}
 
@@ -82,95 +23,6 @@ void
 OptionTable::group(const std::string& caption)
 {
   groups_.push_back({caption, {}});
-}
-
-Option&
-OptionTable::addRow(const std::string& name, const std::string& usual)
-{
-  const std::size_t blank = name.find(' ');
-  Option row;
-  row.name_ = name.substr(0, blank);
-  row.operand_ = blank == std::string::npos ? "" : name.substr(blank + 1);
-  row.usual_ = usual;
-  auto& rows = groups_.back().rows;
-  rows.push_back(row);
-  return rows.back();
-}
-
-Option&
-OptionTable::add(const std::string& name, bool* variable)
-{
-  const bool usual = *variable;
-  Option& row = addTyped<bool>(name, "no", [=](bool on) { *variable = usual != on; });
-  row.semantic_ = [](const Option&) { return po::bool_switch(); };
-  row.text_ = [](const boost::any& v) {
-    return boost::any_cast<bool>(v) ? "yes" : "no";
-  };
-  return row;
-}
-
-Option&
-OptionTable::add(const std::string& name, fs::path* variable)
-{
-  return addWord(
-      name, variable->string(), [=](const std::string& file) { *variable = file; });
-}
-
-Option&
-OptionTable::addAuto(const std::string& name,
-                     std::optional<double>* variable,
-                     double unit)
-{
-  Option& row = addTyped<AutoNumber>(name, "auto", [=](const AutoNumber& value) {
-    *variable = value.number ? std::make_optional(unit * *value.number) : std::nullopt;
-  });
-  row.number_ = [](const boost::any& v) { // auto obeys each rule
-    return boost::any_cast<AutoNumber>(v).number.value();
-  };
-  return row;
-}
-
-Option&
-OptionTable::addWord(const std::string& name,
-                     const std::string& usual,
-                     std::function<void(const std::string&)> take)
-{
-  return addTyped<std::string>(name, usual, std::move(take));
-}
-
-std::size_t
-OptionTable::placeOf(const std::string& word, const std::vector<std::string>& words)
-{
-  const auto place = std::find(words.begin(), words.end(), word);
-  if (place == words.end())
-    throw BadArgument("word = " + word + ", but must be " +
-                      joined({words.begin(), words.end() - 1}, ", ") + " or " +
-                      words.back());
-  return static_cast<std::size_t>(place - words.begin());
-}
-
-void
-OptionTable::positional(const std::string& name, std::string* value)
-{
-  hidden_.add_options()(name.c_str(), po::value(value));
-  positions_.add(name.c_str(), 1);
-  positional_names_.push_back(name);
-}
-
-void
-OptionTable::positionals(const std::string& name, std::vector<std::string>* values)
-{
-  hidden_.add_options()(name.c_str(), po::value(values));
-  positions_.add(name.c_str(), -1);
-  positional_names_.push_back(name);
-}
-
-void
-OptionTable::bringOptions(const std::string& option,
-                          std::function<BroughtOptions(const std::string&)> options)
-{
-  bringing_option_ = option;
-  brought_options_ = std::move(options);
 }
 
 po::options_description
@@ -259,25 +111,34 @@ holdsEmptyText(const boost::any& value)
 }
 } // namespace
 
+void
+OptionTable::refuseEmptyTexts() const
+{
+  for (const auto& [name, value] : values_) {
+    if (value.defaulted() || !holdsEmptyText(value.value()))
+      continue;
+    const bool is_option =
+        std::find(positional_names_.begin(), positional_names_.end(), name) ==
+        positional_names_.end();
+    blame(name, (is_option ? "--" : "") + name + " is empty");
+  }
+}
+
 bool
 OptionTable::parse(const std::vector<std::string>& arguments)
 {
   readArguments(arguments);
   if (answerQuestions())
     return false;
-  if (values_.count("config")) {
-    if (holdsEmptyText(values_["config"].value()))
-      throw UsageError("--config is empty");
+  refuseEmptyTexts(); // before what they name is opened
+  if (values_.count("config"))
     readConfig(values_["config"].as<std::string>());
-  }
   if (!bringing_option_.empty() && values_.count(bringing_option_))
     readBrought(brought_options_(values_[bringing_option_].as<std::string>()));
-  for (const auto& name : positional_names_) {
+  refuseEmptyTexts();
+  for (const auto& name : positional_names_)
     if (!values_.count(name))
       throw UsageError(name + " is missing");
-    if (holdsEmptyText(values_[name].value()))
-      throw UsageError(name + " is empty");
-  }
   po::notify(values_);
   takeValues();
   return true;
@@ -294,8 +155,6 @@ OptionTable::takeValues() const
       const boost::any& value = values_[name].value();
       const std::string text = row.text_(value);
       try {
-        if (holdsEmptyText(value))
-          throw UsageError("--" + name + " is empty");
         checkOption(name, [&] {
           if (row.number_ && text != "auto") {
             const double number = row.number_(value);
@@ -362,25 +221,6 @@ OptionTable::needFolder(const std::string& input,
   for (const auto& option : options)
     if (given(option))
       throw UsageError("--" + option + " needs a folder, but " + input + " is none");
-}
-
-std::istream&
-operator>>(std::istream& stream, AutoNumber& value)
-{
-  std::string word;
-  stream >> word;
-  value.number.reset();
-  if (word == "auto")
-    return stream;
-  if (!text::parseNumber(word, value.number.emplace())) // whatever the locale
-    stream.setstate(std::ios::failbit);
-  return stream;
-}
-
-std::ostream&
-operator<<(std::ostream& stream, const AutoNumber& value)
-{
-  return value.number ? stream << *value.number : stream << "auto";
 }
 
 std::string

@@ -348,6 +348,9 @@ private:
   blame(const std::string& option, const std::string& message) const;
   bool
   answerQuestions() const;
+  /** \throws UsageError, or IoFailed about data: one of the values so far is an empty text */
+  void
+  refuseEmptyTexts() const;
   void
   takeValues() const;
 

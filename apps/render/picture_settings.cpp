@@ -108,7 +108,9 @@ addViews(OptionTable& table, PictureSettings& s)
   table.addAuto("height Z", &s.slice_height)
       .within(-kFinite, kFinite, "finite")
       .help("[m] slice: height in the world; auto: that of the nearest pose");
-  table.add("thickness D", &s.slice_thickness).help("[m] slice: of the layer");
+  table.add("thickness D", &s.slice_thickness)
+      .above(0, "> 0")
+      .help("[m] slice: of the layer");
   table.addWord("scan N", "auto", takeScan)
       .help("panorama, convergence: index of the scan; auto: in the middle of the run, "
             "or the one that was corrected most");
@@ -145,8 +147,6 @@ Views:)" + RunPictures::viewTable() +
   if (!table.parse(arguments))
     return false;
   takeViews(views, settings);
-  if (!(settings.slice_thickness > 0))
-    throw UsageError("--thickness must be > 0");
   if (settings.elevation &&
       !(*settings.elevation > 0 && *settings.elevation < M_PI / 2))
     throw UsageError("--elevation must be between 0 and 90 degrees");

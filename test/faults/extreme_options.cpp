@@ -15,7 +15,7 @@ namespace pcl6d::faults {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPerNumber = 6, kPerWord = 3; // values of an option, beside none
+constexpr std::size_t kPerNumber = 6, kPerWord = 3; // beside the empty text
 
 struct Value {
   std::string name; ///< in the name of the case

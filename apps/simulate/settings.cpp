@@ -46,6 +46,7 @@ addDrive(OptionTable& table, SimulateSettings& s)
       .help("stop|continuous: stop for each scan, or drive on meanwhile; then points "
             "have the field t, and times.txt has the stamps");
   table.addAuto("speed", &s.simulation.speed)
+      .above(0, "in (0, 50]", 50)
       .help("[m/s] or auto: 1, slower if a scan takes longer than the way to the next");
   table.add("turns-in-place", &s.simulation.turns_in_place)
       .help("drive straight from waypoint to waypoint, stop there and turn; with "

@@ -24,6 +24,7 @@
 #include <new>
 #include <poll.h>
 #include <string_view>
+#include <system_error>
 #include <typeinfo>
 #include <unistd.h>
 
@@ -144,6 +145,10 @@ try {
          e.what() + ")";
 } catch (const std::filesystem::filesystem_error& e) {
   return wordsOf(e);
+} catch (const std::system_error& e) {
+  if (e.code() == std::errc::resource_unavailable_try_again)
+    return "no more threads, or no memory for one";
+  return std::string("the system says: ") + e.what();
 } catch (const std::exception& e) {
   return *e.what() ? e.what() : typeid(e).name();
 } catch (...) {

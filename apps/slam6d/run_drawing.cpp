@@ -137,12 +137,12 @@ reasonOf(const std::optional<ProcessEnd>& end, const std::string& said)
   return said.empty() ? "exit code " + std::to_string(end->exit_code) : said;
 }
 
-/** Starts what pictures need while the files are read. Failing, it is tried again when a picture
- * is drawn, where its error is told. */
+/** Starts what pictures need while the files are read. Failing, or without a thread for it, it
+ * is tried again when a picture is drawn, where its error is told. */
 std::future<void>
 startDisplay()
 {
-  return std::async(std::launch::async, [] {
+  return std::async(std::launch::async | std::launch::deferred, [] {
     try {
       PrivateDisplay::instance();
     } catch (const pcl::PCLException&) {}

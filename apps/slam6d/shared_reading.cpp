@@ -64,13 +64,14 @@ SharedReading::readAll(const Take& take)
   return ranks_ ? readTogether(take) : readAhead(take);
 }
 
-/** The next scan is read while this one is prepared. */
+/** The next scan is read while this one is prepared, or after it if there are no threads. */
 bool
 SharedReading::readAhead(const Take& take)
 {
   const std::size_t size = scans_.folder().size();
   const auto start = [this](std::size_t i) {
-    return std::async(std::launch::async, [this, i] { return read(i); });
+    return std::async(std::launch::async | std::launch::deferred,
+                      [this, i] { return read(i); });
   };
   std::future<Scan> next = start(0);
   for (std::size_t i = 0; i < size; ++i) {

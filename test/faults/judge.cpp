@@ -18,6 +18,8 @@ constexpr std::size_t kLongLine = 2000;          // [B]
 
 /** Words of libraries and of the language, which tell a user nothing. */
 const std::vector<std::string> kRawWords = {": Success",
+                                            "error: Invalid argument\n",
+                                            "error: Resource temporarily",
                                             "std::",
                                             "vector::",
                                             "basic_",

@@ -108,6 +108,8 @@ TEST_F(Faults, SeeRawTexts)
   EXPECT_EQ(kindsOf("echo 'program: error: in.txt: Success: Success'" + end),
             Kinds{"raw text"});
   EXPECT_EQ(kindsOf("echo 'program: error: vector::reserve'" + end), Kinds{"raw text"});
+  EXPECT_EQ(kindsOf("echo 'program: error: Invalid argument'" + end),
+            Kinds{"raw text"});
   EXPECT_EQ(kindsOf("printf 'program: error: a\\033[31m\\n'" + end), Kinds{"raw text"});
   EXPECT_EQ(kindsOf("printf 'program: error: %3000d\\n' 1" + end), Kinds{"raw text"});
   EXPECT_EQ(kindsOf("echo 'it did not work'" + end), Kinds{"raw text"});

@@ -9,6 +9,7 @@
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
+#include <vtkSMPTools.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringOutputWindow.h>
 #include <vtkUnsignedCharArray.h>
@@ -57,6 +58,22 @@ private:
   vtkNew<vtkStringOutputWindow> caught_;
   vtkSmartPointer<vtkOutputWindow> before_;
   vtkLogger::Verbosity verbosity_;
+};
+
+/** VTK works in one thread for the length of its scope: for lack of more it would end. */
+class OneThread {
+public:
+  OneThread() : before_(vtkSMPTools::GetBackend())
+  {
+    vtkSMPTools::SetBackend("Sequential");
+  }
+  ~OneThread() { vtkSMPTools::SetBackend(before_.c_str()); }
+  OneThread(const OneThread&) = delete;
+  OneThread&
+  operator=(const OneThread&) = delete;
+
+private:
+  std::string before_;
 };
 
 [[noreturn]] void
@@ -134,6 +151,7 @@ drawOffscreen(vtkRenderer* renderer, int width, int height)
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   CaughtMessages messages;
+  const OneThread one_thread;
   vtkNew<vtkXOpenGLRenderWindow> window;
   PixelLayer layer = render(renderer, window, width, height);
   const std::string error = messages.firstError();

@@ -147,21 +147,28 @@ public:
   {
     std::promise<bp::child> launched;
     auto child = launched.get_future();
-    thread_ = std::thread(
-        [&, launched = std::move(launched), over = over_.get_future()]() mutable {
-          try {
-            launched.set_value(launch(answer, cookie));
-          } catch (...) {
-            launched.set_exception(std::current_exception());
-          }
-          over.wait();
-        });
+    try {
+      thread_ = std::thread(
+          [&, launched = std::move(launched), over = over_.get_future()]() mutable {
+            try {
+              launched.set_value(launch(answer, cookie));
+            } catch (...) {
+              launched.set_exception(std::current_exception());
+            }
+            over.wait();
+          });
+    } catch (const std::system_error&) {
+      throw IoFailed("cannot draw pictures: no more threads, or no memory for the one "
+                     "that starts Xvfb");
+    }
     return child.get();
   }
 
   void
   finish()
   {
+    if (!thread_.joinable()) // it never began
+      return;
     over_.set_value();
     thread_.join();
   }

@@ -102,6 +102,25 @@ topmostMissing(const fs::path& folder)
     missing = p;
   return missing;
 }
+
+/** Removes a folder with one descriptor at a time, where fs::remove_all() takes one for each
+ * level: too few of them may be why it has to go. */
+void
+removeFolder(const fs::path& folder)
+{
+  std::error_code ignored;
+  std::vector<fs::path> entries;
+  for (fs::directory_iterator at(folder, ignored), end; at != end;
+       at.increment(ignored))
+    entries.push_back(at->path());
+  for (const auto& entry : entries) {
+    if (fs::is_directory(fs::symlink_status(entry, ignored)))
+      removeFolder(entry);
+    else
+      fs::remove(entry, ignored);
+  }
+  fs::remove(folder, ignored);
+}
 } // namespace
 
 OutputFolder::OutputFolder(OutputRules rules)
@@ -177,9 +196,10 @@ OutputFolder::removeMade()
 
 OutputFolder::~OutputFolder()
 {
-  std::error_code ignored;
-  if (staging_lock_.isAt(staging_))
-    fs::remove_all(staging_, ignored);
+  if (staging_lock_.isAt(staging_)) {
+    staging_lock_ = FolderLock(); // its descriptor may be the last one
+    removeFolder(staging_);
+  }
   removeMade();
 }
 

@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace {
 namespace fs = std::filesystem;
@@ -183,6 +185,22 @@ TEST_F(Output, IsNotThereIfItWasNotAndTheProgramFails)
   EXPECT_EQ(beside(), std::vector<std::string>());
 }
 
+TEST_F(Output, LeavesNothingWhereNoFileCanBeOpenedAnyMore)
+{
+  rlimit usual{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &usual), 0);
+  {
+    const OutputFolder folder(rulesOf(out));
+    write(folder, "lost", 2);
+    const int next = ::dup(STDERR_FILENO); // the lowest that is free
+    ::close(next);
+    const rlimit none{static_cast<rlim_t>(next), usual.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &usual), 0);
+  EXPECT_FALSE(fs::exists(out));
+  EXPECT_EQ(beside(), std::vector<std::string>());
+}
 TEST_F(Output, ASecondProgramIsRefusedInOneLineAndTakesNothing)
 {
   OutputFolder first(rulesOf(out));

@@ -106,6 +106,14 @@ onThePath(const std::string& program)
   return {};
 }
 
+bp::pipe
+makePipe()
+try {
+  return bp::pipe();
+} catch (const bp::process_error& e) {
+  throw IoFailed("cannot draw pictures: no pipe to Xvfb: " + e.code().message());
+}
+
 bp::child
 launch(bp::pipe& answer, const visualization::DisplayCookie& cookie)
 {
@@ -205,7 +213,7 @@ struct PrivateDisplay::Server {
 PrivateDisplay::Server::Server()
 {
   const auto deadline = Clock::now() + kStartLimit;
-  bp::pipe answer;
+  bp::pipe answer = makePipe();
   try {
     process = launcher.run(answer, cookie);
   } catch (...) {

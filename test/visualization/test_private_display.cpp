@@ -107,3 +107,25 @@ TEST(PrivateDisplay, ThatEndedBeforeUsIsAnError)
   EXPECT_EQ(drawing.wait(), 1);
   EXPECT_NE(message.find("has ended"), std::string::npos) << message;
 }
+
+TEST(PrivateDisplay, SaysThatItCannotStartForWantOfDescriptors)
+{
+  const TempFolder folder;
+  const std::string said = folder / "said";
+  for (int most = 5; most <= 9; ++most) {
+    const std::string command = "ulimit -n " + std::to_string(most) +
+                                "; exec " PCL6D_BUILD_DIR
+                                "/test/bin/draw_and_wait a.png end";
+    const int code = bp::system(bp::exe = "/bin/sh",
+                                bp::args = {"-c", command},
+                                bp::start_dir = folder.path().string(),
+                                bp::std_out > said);
+    std::ifstream file(said);
+    std::string line;
+    std::getline(file, line);
+    EXPECT_EQ(code, 1) << line;
+    EXPECT_TRUE(line.rfind("cannot draw pictures: ", 0) == 0 ||
+                line.rfind("cannot start ", 0) == 0)
+        << line;
+  }
+}

@@ -97,7 +97,8 @@ onThePath(const std::string& program)
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path ? path : "/usr/local/bin:/usr/bin:/bin");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string file = folder + '/' + program;
+    std::string file = folder;
+    file.append("/").append(program);
     struct stat status {};
     if (folder.rfind('/', 0) == 0 && ::stat(file.c_str(), &status) == 0 &&
         S_ISREG(status.st_mode) && ::access(file.c_str(), X_OK) == 0)

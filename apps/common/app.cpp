@@ -148,7 +148,7 @@ try {
 } catch (const std::system_error& e) {
   if (e.code() == std::errc::resource_unavailable_try_again)
     return "no more threads, or no memory for one";
-  return std::string("the system says: ") + e.what();
+  return e.what();
 } catch (const std::exception& e) {
   return *e.what() ? e.what() : typeid(e).name();
 } catch (...) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -56,6 +57,8 @@ TEST(RunMain, TellsEveryExceptionInWords)
   expectWords(std::length_error("vector::reserve"),
               "not enough memory: more was asked for than there can be "
               "(vector::reserve)");
+  expectWords(std::system_error(EAGAIN, std::generic_category()),
+              "no more threads, or no memory for one");
   expectWords(42, "an exception of an unknown kind was thrown: i");
   expectWords(std::runtime_error("a\nb\x1b[31m"), "a\\nb\\x1b[31m");
   expectWords(std::system_error(0, std::generic_category(), "x.pcd: cannot be read"),

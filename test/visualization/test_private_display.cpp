@@ -112,6 +112,7 @@ TEST(PrivateDisplay, SaysThatItCannotStartForWantOfDescriptors)
 {
   const TempFolder folder;
   const std::string said = folder / "said";
+  int times = 0;
   for (int most = 5; most <= 9; ++most) {
     const std::string command = "ulimit -n " + std::to_string(most) +
                                 "; exec " PCL6D_BUILD_DIR
@@ -120,6 +121,9 @@ TEST(PrivateDisplay, SaysThatItCannotStartForWantOfDescriptors)
                                 bp::args = {"-c", command},
                                 bp::start_dir = folder.path().string(),
                                 bp::std_out > said);
+    if (code == 127) // not even libraries can be opened
+      continue;
+    ++times;
     std::ifstream file(said);
     std::string line;
     std::getline(file, line);
@@ -128,4 +132,5 @@ TEST(PrivateDisplay, SaysThatItCannotStartForWantOfDescriptors)
                 line.rfind("cannot start ", 0) == 0)
         << line;
   }
+  EXPECT_GT(times, 0);
 }

@@ -20,6 +20,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <poll.h>
 #include <unistd.h>
 #include <utility>
 
@@ -146,24 +147,51 @@ differenceOf(const View& first, const View& other)
 struct Ending {
   std::array<char, 512> line{};
   std::size_t size = 0;
-  bool speaks = false; ///< without being asked
-  int first_pid =
-      0; ///< on this machine; speaks if it is there no more; 0: it is not here
+  std::size_t rank = 0;
+  std::array<int, 2> speakers{}; ///< processes of ranks 0 and 1; 0: not on this machine
 };
 Ending g_ending;
+
+bool
+isGone(int pid)
+{
+  return pid > 0 && ::kill(pid, 0) != 0 && errno == ESRCH;
+}
+
+/** Rank 1 speaks if it sees that rank 0 is there no more. */
+bool
+speaks()
+{
+  return g_ending.rank == 0 || (g_ending.rank == 1 && isGone(g_ending.speakers[0]));
+}
+
+/** mpirun sends SIGTERM to all, and kills all when one has ended or a second is over: who
+ * ends before another has spoken may end it without its words. Only calls what a signal
+ * may. */
+void
+letOthersSpeak()
+{
+  constexpr int kMostTimes = 100, kMilliseconds = 10;
+  int times = 0;
+  for (std::size_t r = 0; r < std::min(g_ending.rank, g_ending.speakers.size()); ++r)
+    while (g_ending.speakers[r] > 0 && !isGone(g_ending.speakers[r]) &&
+           times++ < kMostTimes)
+      ::poll(nullptr, 0, kMilliseconds);
+}
 
 extern "C" void
 endAtOnce(int)
 {
-  const bool is_alone =
-      g_ending.first_pid > 0 && ::kill(g_ending.first_pid, 0) != 0 && errno == ESRCH;
-  if (g_ending.speaks || is_alone) [[maybe_unused]]
+  if (speaks()) [[maybe_unused]]
     const auto written = ::write(STDERR_FILENO, g_ending.line.data(), g_ending.size);
+  letOthersSpeak();
   ::_exit(kInterrupted);
 }
 
 void
-endOnSignals(const WorkSharing& ranks, const std::string& name, const View& first)
+endOnSignals(const WorkSharing& ranks,
+             const std::string& name,
+             const std::vector<View>& views)
 {
   const std::string line =
       name +
@@ -171,9 +199,10 @@ endOnSignals(const WorkSharing& ranks, const std::string& name, const View& firs
       "what was done is kept: the same command goes on with it, --resume says so\n";
   g_ending.size = std::min(line.size(), g_ending.line.size());
   std::copy_n(line.begin(), g_ending.size, g_ending.line.begin());
-  g_ending.speaks = ranks.isFirst();
-  if (ranks.rank() == 1 && first.host == hostName())
-    g_ending.first_pid = first.pid;
+  g_ending.rank = ranks.rank();
+  for (std::size_t r = 0; r < std::min(views.size(), g_ending.speakers.size()); ++r)
+    if (views[r].host == views[g_ending.rank].host)
+      g_ending.speakers[r] = views[r].pid;
   struct sigaction action {};
   action.sa_handler = endAtOnce;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
@@ -229,7 +258,7 @@ agreeOnInput(WorkSharing& ranks,
       throw IoFailed("rank " + std::to_string(r) + " on " + views[r].host + " " +
                      difference);
   }
-  endOnSignals(ranks, name, views.front());
+  endOnSignals(ranks, name, views);
 }
 
 void

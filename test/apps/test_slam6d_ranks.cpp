@@ -6,7 +6,9 @@
 
 #include <csignal>
 #include <fstream>
+#include <iterator>
 #include <regex>
+#include <sstream>
 #include <thread>
 #include <unistd.h>
 
@@ -22,16 +24,14 @@ using pcl6d::test::TempFolder;
 using pcl6d::test::withoutTimes;
 
 const std::string kProgram = PCL6D_BIN_DIR "/pcl_slam6d";
-const std::vector<std::string> kOptions = {"--last",
-                                           "14",
-                                           "--no-picture",
-                                           "--threads",
-                                           "1"};
-const std::vector<std::string> kFewScans = {"--last",
-                                            "5",
-                                            "--no-picture",
-                                            "--threads",
-                                            "1"};
+/** Options of a run of the scans up to one. */
+std::vector<std::string>
+upTo(const std::string& last)
+{
+  return {"--last", last, "--no-picture", "--threads", "1"};
+}
+
+const std::vector<std::string> kOptions = upTo("14");
 
 /** Processes of one machine, however few cores it has, also as root in a container. */
 bp::environment
@@ -197,17 +197,12 @@ TEST_F(Ranks, OtherMethodsGiveTheSameBytes)
 
 TEST_F(Ranks, ARunGoesOnWithFurtherScans)
 {
-  ASSERT_EQ(slam(scans(), folder / "one", kFewScans).exit_code, 0);
+  ASSERT_EQ(slam(scans(), folder / "one", upTo("5")).exit_code, 0);
   fs::copy(folder / "one", folder / "two", fs::copy_options::recursive);
   const auto further = [&](const fs::path& run_folder) {
-    return std::vector<std::string>{scans().string(),
-                                    "--continue",
-                                    run_folder.string(),
-                                    "--last",
-                                    "9",
-                                    "--no-picture",
-                                    "--threads",
-                                    "1"};
+    auto all = upTo("9");
+    all.insert(all.begin(), {scans().string(), "--continue", run_folder.string()});
+    return all;
   };
   EXPECT_EQ(pcl6d::test::runProgram("pcl_slam6d", further(folder / "one")).exit_code,
             0);
@@ -263,6 +258,23 @@ TEST_F(Ranks, WhatRanksHaveDoneOneProcessGoesOnWith)
   EXPECT_NE(again.err.find("going on with an interrupted run"), std::string::npos)
       << again.err;
   EXPECT_EQ(withoutTimes(out), pcl6d::test::filesAlone(options));
+}
+
+TEST_F(Ranks, OneThatIsEndedLetsTheFirstSpeak)
+{
+  // mpirun kills all as soon as one has ended: the first would not come to its words.
+  bp::child ranks = start(words(2));
+  waitForJournal(ranks);
+  const int first = processOf(0, out), other = processOf(1, out);
+  ASSERT_GT(first, 0);
+  ASSERT_GT(other, 0);
+  ::kill(first, SIGSTOP); // as one that gets no core
+  ::kill(other, SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(processOf(1, out), other);
+  ::kill(ranks.id(), SIGTERM); // mpirun, which lets the first go on
+  ranks.wait();
+  expectOneLine({ranks.exit_code(), "", readText(folder / "stderr")}, {"goes on"});
 }
 
 TEST_F(Ranks, OtherBinariesAreRefused)
@@ -367,26 +379,16 @@ TEST_F(Ranks, BetweenTwoAddressesTheBytesAreTheSame)
   std::ofstream(agent) << "#!/bin/sh\nshift\nexec ip netns exec " + other +
                               " sh -c \"$*\"\n";
   fs::permissions(agent, fs::perms::owner_all);
-  auto arguments = words(2);
-  arguments.insert(arguments.begin(),
-                   {"netns",
-                    "exec",
-                    one,
-                    "mpirun",
-                    "--host",
-                    "10.77.0.1:1,10.77.0.2:1",
-                    "--mca",
-                    "plm_rsh_agent",
-                    agent.string(),
-                    "--mca",
-                    "btl",
-                    "tcp,self",
-                    "--mca",
-                    "btl_tcp_if_include",
-                    "10.77.0.0/24",
-                    "--mca",
-                    "oob_tcp_if_include",
-                    "10.77.0.0/24"});
+  std::istringstream launcher("netns exec " + one +
+                              " mpirun --host 10.77.0.1:1,10.77.0.2:1"
+                              " --mca btl tcp,self"
+                              " --mca btl_tcp_if_include 10.77.0.0/24"
+                              " --mca oob_tcp_if_include 10.77.0.0/24"
+                              " --mca plm_rsh_agent");
+  std::vector<std::string> arguments{std::istream_iterator<std::string>(launcher), {}};
+  arguments.push_back(agent.string());
+  const auto program = words(2);
+  arguments.insert(arguments.end(), program.begin(), program.end());
   const Outcome outcome = run(arguments, "ip");
   clean();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -103,22 +103,22 @@ topmostMissing(const fs::path& folder)
   return missing;
 }
 
-/** Removes a folder with one descriptor at a time, where fs::remove_all() takes one for each
- * level: too few of them may be why it has to go. */
+/** Removes a folder also where fs::remove_all(), which follows no link that somebody puts in
+ * meanwhile, has no descriptors left: it takes one for each level. */
 void
 removeFolder(const fs::path& folder)
 {
-  std::error_code ignored;
+  std::error_code error, ignored;
+  fs::remove_all(folder, error);
+  if (!error)
+    return;
   std::vector<fs::path> entries;
-  for (fs::directory_iterator at(folder, ignored), end; at != end;
-       at.increment(ignored))
-    entries.push_back(at->path());
-  for (const auto& entry : entries) {
-    if (fs::is_directory(fs::symlink_status(entry, ignored)))
-      removeFolder(entry);
-    else
-      fs::remove(entry, ignored);
-  }
+  if (fs::is_directory(fs::symlink_status(folder, ignored)))
+    for (fs::directory_iterator at(folder, ignored), end; at != end;
+         at.increment(ignored))
+      entries.push_back(at->path());
+  for (const auto& entry : entries)
+    removeFolder(entry);
   fs::remove(folder, ignored);
 }
 } // namespace

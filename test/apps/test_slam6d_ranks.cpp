@@ -15,7 +15,6 @@
 namespace {
 namespace bp = boost::process;
 namespace fs = std::filesystem;
-using pcl6d::test::contentOf;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
 using pcl6d::test::scans;

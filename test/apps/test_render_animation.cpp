@@ -113,6 +113,12 @@ animate(const fs::path& run,
   return pcl6d::test::runProgram("pcl_slam6d_render", more);
 }
 
+void
+expectDone(const Outcome& outcome)
+{
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
 cv::Mat
 frame(const fs::path& folder, std::size_t number)
 {
@@ -172,7 +178,7 @@ TEST_F(RenderAnimation, GrowthShowsOneScanMoreInEachFrame)
 
 TEST_F(RenderAnimation, RelaxationEndsWithThePictureOfTheFinalPoses)
 {
-  ASSERT_EQ(animate(run_, "relaxation", out_, {"--steps", "2"}).exit_code, 0);
+  expectDone(animate(run_, "relaxation", out_, {"--steps", "2"}));
   // As given, then two frames for each of three states.
   EXPECT_TRUE(fs::exists(out_ / "frame00007.png"));
   EXPECT_FALSE(fs::exists(out_ / "frame00008.png"));
@@ -208,7 +214,7 @@ TEST_F(RenderAnimation, RelaxationEndsWithThePictureOfTheFinalPoses)
 
 TEST_F(RenderAnimation, TurntableComesAroundAndTheMapIsAlwaysInSight)
 {
-  ASSERT_EQ(animate(run_, "turntable", out_, {"--frames", "4"}).exit_code, 0);
+  expectDone(animate(run_, "turntable", out_, {"--frames", "4"}));
   std::vector<cv::Mat> frames;
   for (std::size_t k = 1; k <= 4; ++k)
     frames.push_back(frame(out_, k));
@@ -219,7 +225,7 @@ TEST_F(RenderAnimation, TurntableComesAroundAndTheMapIsAlwaysInSight)
 
 TEST_F(RenderAnimation, FlyThroughMovesInEachFrame)
 {
-  ASSERT_EQ(animate(run_, "flythrough", out_, {"--frames", "6"}).exit_code, 0);
+  expectDone(animate(run_, "flythrough", out_, {"--frames", "6"}));
   for (std::size_t k = 1; k < 6; ++k)
     EXPECT_GT(cv::norm(frame(out_, k), frame(out_, k + 1), cv::NORM_L1), 1e5) << k;
 }
@@ -227,11 +233,11 @@ TEST_F(RenderAnimation, FlyThroughMovesInEachFrame)
 TEST_F(RenderAnimation, WritesVideosThatShowTheFrames)
 {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  ASSERT_EQ(animate(run_, "growth", out_).exit_code, 0);
+  expectDone(animate(run_, "growth", out_));
   if (!fs::exists(out_ / "animation.mp4"))
     GTEST_SKIP() << "this OpenCV has no codec for .mp4";
   const fs::path alone = folder_ / "film.avi";
-  ASSERT_EQ(animate(run_, "growth", alone).exit_code, 0);
+  expectDone(animate(run_, "growth", alone));
   for (const fs::path& path : {out_ / "animation.mp4", alone}) {
     cv::VideoCapture video(path.string());
     cv::Mat picture;

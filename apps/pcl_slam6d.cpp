@@ -49,7 +49,7 @@ public:
   , scans_(app::openScans(folder_, settings, earlier_))
   , settings_(app::resolved(settings, folder_, earlier_))
   , bar_(settings.quiet)
-  , out_(app::runFolderRules(settings))
+  , out_(app::runFolderRules(settings, folder_))
   , memory_(settings.memory, out_.staging())
   , clouds_(scans_, memory_.bytes() / 4)
   , window_(settings_.live_view,

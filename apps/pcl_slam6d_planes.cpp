@@ -114,7 +114,7 @@ outputRules(const PlaneSettings& settings)
 {
   app::OutputRules rules;
   rules.folder = settings.out;
-  rules.inputs = {settings.input, settings.folder.poses_file};
+  rules.inputs = {settings.input, settings.folder.poses_file, settings.rules_file};
   rules.program = app::kPlanes;
   rules.marker = "planes.json";
   rules.files = std::regex(app::planeFilePattern());

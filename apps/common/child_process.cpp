@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <memory>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -63,8 +64,13 @@ struct OwnGroup : bp::extend::handler {
 
 ChildProcess::ChildProcess(const ProcessStart& start) : time_limit_(start.time_limit)
 {
-  const std::unique_ptr<std::FILE, CloseFile> log(
-      std::fopen(start.log.c_str(), "we")); // 'e': not for other programs
+  const bool is_open = start.log.parent_path() == "/proc/self/fd"; // without a name
+  const int file =
+      ::open(start.log.c_str(),
+             O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | (is_open ? 0 : O_NOFOLLOW),
+             0666);
+  const std::unique_ptr<std::FILE, CloseFile> log(file < 0 ? nullptr
+                                                           : ::fdopen(file, "w"));
   if (!log)
     throw IoFailed(start.log.string() + ": cannot write: " + std::strerror(errno));
   begin_ = Clock::now();

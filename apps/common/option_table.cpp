@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
+#include <regex>
 
 namespace po = boost::program_options;
 
@@ -232,6 +234,23 @@ joined(const std::vector<std::string>& words, const std::string& between)
   return text;
 }
 
+namespace {
+/** \return whether a file is one that pcl_slam6d has written to a run, and that others read */
+bool
+isFileOfRun(const fs::path& file, const fs::path& run)
+{
+  static const std::regex kFiles(
+      "(scans|frames)/.*|(map|moving)\\.pcd|graph\\.g2o|(links|verification)\\.csv|"
+      "trajectory\\.(kitti|tum)|summary\\.json");
+  std::error_code error;
+  if (!fs::is_regular_file(run / "summary.json", error) || !fs::exists(file, error))
+    return false;
+  const fs::path within =
+      fs::canonical(file, error).lexically_relative(fs::canonical(run, error));
+  return std::regex_match(within.generic_string(), kFiles);
+}
+} // namespace
+
 void
 refuseInputs(const std::string& output,
              const std::vector<std::string>& inputs,
@@ -240,8 +259,22 @@ refuseInputs(const std::string& output,
 {
   std::error_code missing; // a missing file is no input
   for (const auto& file : inputs)
-    if (fs::equivalent(output, file, missing))
+    if (fs::equivalent(output, file, missing) || isFileOfRun(output, file))
       throw UsageError(option + " = " + output + ", but that is " + input);
+}
+
+void
+refuseSameOutput(const std::string& option,
+                 const std::string& output,
+                 const std::string& other_option,
+                 const std::string& other)
+{
+  std::error_code error;
+  const auto place = [&](const std::string& path) { // one that is not there, too
+    return fs::weakly_canonical(fs::absolute(path, error), error);
+  };
+  if (!output.empty() && !other.empty() && place(output) == place(other))
+    throw UsageError(option + " and " + other_option + " are both " + other);
 }
 
 } // namespace pcl6d::app

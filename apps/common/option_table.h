@@ -369,12 +369,20 @@ private:
 std::string
 joined(const std::vector<std::string>& words, const std::string& between = "|");
 
-/** \throws UsageError the file of --output is an input; empty paths are none
+/** \throws UsageError the file of --output is an input, or one that pcl_slam6d wrote to a
+ * run that is one; empty paths are none
  * \param[in] input what the message calls it */
 void
 refuseInputs(const std::string& output,
              const std::vector<std::string>& inputs,
              const std::string& input = "an input",
              const std::string& option = "--output");
+
+/** \throws UsageError two options name one file; an empty path names none */
+void
+refuseSameOutput(const std::string& option,
+                 const std::string& output,
+                 const std::string& other_option,
+                 const std::string& other);
 
 } // namespace pcl6d::app

@@ -9,6 +9,7 @@
 #include "convert/verbs.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 
@@ -34,18 +35,44 @@ isUos(ScanFormat format)
   return format == ScanFormat::kUos || format == ScanFormat::kUosr;
 }
 
+fs::path
+poseBeside(fs::path scan)
+{
+  return scan.replace_extension(".pose");
+}
+
+/** \return whether the pose of a scan is there as that of the input */
+bool
+isPoseOf(const fs::path& scan, const fs::path& input)
+{
+  std::error_code missing;
+  return fs::equivalent(poseBeside(scan), poseBeside(input), missing);
+}
+
 /** Writes 3DTK's pose of a scan beside it, unless it is there as an input. */
 void
 writePoseBeside(const fs::path& scan,
                 const Eigen::Isometry3d& pose,
                 const fs::path& input)
 {
-  fs::path file = scan, input_file = input;
-  file.replace_extension(".pose");
-  input_file.replace_extension(".pose");
+  if (!isPoseOf(scan, input))
+    writeUosPose(poseBeside(scan), pose);
+}
+
+/** Finds out before a scan is written whether its pose can be; one that is there without its
+ * scan is of something else. */
+void
+requirePoseBeside(const fs::path& scan, const fs::path& input)
+{
+  const fs::path file = poseBeside(scan);
   std::error_code missing;
-  if (!fs::equivalent(file, input_file, missing))
-    writeUosPose(file, pose);
+  if (isPoseOf(scan, input))
+    return;
+  if (fs::exists(file, missing) && !fs::exists(scan, missing))
+    throw IoFailed(file.string() +
+                   ": is there already, and would be replaced by the pose of " +
+                   scan.string() + "; use another name");
+  requireWritable(file);
 }
 
 /** \brief Writes the scans of a folder, and their poses where they belong. */
@@ -166,6 +193,9 @@ convertFile(const ScanSettings& settings)
                         ? findScanPose(settings.input, settings.folder.format)
                         : std::nullopt;
   const ScanFormat format = settings.writer.format;
+  const bool has_pose_file = pose && isUos(format) && !isStream(settings.output);
+  if (has_pose_file)
+    requirePoseBeside(settings.output, settings.input);
   LossTally losses;
   losses.addScan(settings.input,
                  scan,
@@ -175,7 +205,7 @@ convertFile(const ScanSettings& settings)
                                ? *pose
                                : Eigen::Isometry3d::Identity(),
                            settings.writer));
-  if (pose && isUos(format))
+  if (has_pose_file)
     writePoseBeside(settings.output, *pose, settings.input);
   else if (pose && format != ScanFormat::kPcd)
     losses.add("dropped the pose");

@@ -72,7 +72,7 @@ parse(const std::vector<std::string>& arguments, MapSettings& s)
   table.check([&] { s.options.validate(); });
   table.check([&] { validateSource(s.source); });
   requireResultFile("--output", s.output, {".json", ".csv"});
-  refuseInputs(s.output, {s.source.poses, s.source.reference});
+  refuseInputs(s.output, {s.source.folder, s.source.poses, s.source.reference});
   return true;
 }
 

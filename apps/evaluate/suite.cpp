@@ -27,7 +27,8 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* kMarker = "suite.json"; // only folders of ours have it
+constexpr const char* kMarker = "suite.json";      // only folders of ours have it
+constexpr const char* kParts[] = {"runs", "data"}; ///< what lies there may be removed
 
 struct SuiteSettings {
   std::string file;
@@ -120,6 +121,8 @@ public:
   HeldFolder(const SuiteSettings& s, const Suite& suite) : folder_(s.out)
   {
     refuseInputs(suite);
+    if (!s.document.empty())
+      requireDocument(s.document, suite);
     std::error_code error;
     if (fs::exists(folder_) && !fs::is_directory(folder_))
       throw IoFailed(s.out + ": output is a file, not a folder");
@@ -127,6 +130,12 @@ public:
       throw IoFailed(s.out +
                      ": folder is not empty and holds no results of a suite (no " +
                      kMarker + "); use another folder or --force");
+    if (!isOurs())
+      for (const char* part : kParts)
+        if (fs::exists(folder_ / part))
+          throw IoFailed(
+              (folder_ / part).string() +
+              ": is not of a suite, and would be replaced; use another folder");
     fs::create_directories(folder_, error);
     lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock_ < 0)
@@ -136,7 +145,7 @@ public:
       throw IoFailed(s.out + ": another call is writing here");
     writeMarker(suite);
     if (s.fresh)
-      for (const char* part : {"runs", "data"})
+      for (const char* part : kParts)
         fs::remove_all(folder_ / part);
   }
   ~HeldFolder() { ::close(lock_); }
@@ -155,7 +164,7 @@ private:
         if (!input.empty())
           inputs.push_back(fs::absolute(input));
     std::error_code none;
-    for (const char* part : {"runs", "data"}) {
+    for (const char* part : kParts) {
       const fs::path ours = fs::weakly_canonical(folder_ / part, none);
       for (const auto& input : inputs) {
         const fs::path path = fs::weakly_canonical(input, none);
@@ -165,6 +174,20 @@ private:
                          " lies where results are written");
       }
     }
+  }
+
+  /** Found out before the runs, not after them. */
+  static void
+  requireDocument(const fs::path& document, const Suite& suite)
+  {
+    std::vector<fs::path> inputs = {suite.file};
+    for (const SuiteData& data : suite.data)
+      inputs.insert(inputs.end(), {data.folder, data.reference, data.scene});
+    std::error_code missing;
+    for (const auto& input : inputs)
+      if (fs::equivalent(document, input, missing))
+        throw IoFailed(document.string() + ": is an input of the suite");
+    requireWritable(document);
   }
 
   bool

@@ -99,6 +99,8 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
   const std::vector<std::string> inputs{s.estimate, s.reference, s.loops, s.trusted};
   refuseInputs(s.json, inputs, "an input", "--json");
   refuseInputs(s.output, inputs);
+  if (s.json != "-")
+    refuseSameOutput("--json", s.json, "--output", s.output);
   return true;
 }
 

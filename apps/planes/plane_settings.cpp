@@ -126,8 +126,10 @@ A scan is taken in its own frame, a folder in that of its poses.
     settings.step.refinement.validate();
   });
   judgeUse(table, settings);
-  if (settings.step.labels && words.rules != "book")
+  if (settings.step.labels && words.rules != "book") {
+    settings.rules_file = words.rules;
     settings.step.rules = readLabelRules(words.rules);
+  }
   return true;
 }
 

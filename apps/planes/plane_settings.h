@@ -22,6 +22,7 @@ struct PlaneSettings {
   std::optional<double> max_range; ///< [m] none: derived
   std::optional<double> voxel;     ///< [m] of the map of a folder; none: derived
   PlaneFinderOptions step;
+  std::string rules_file; ///< that step.rules come from; empty: those of the book
   bool force = false;
   MemoryOption memory;
   bool quiet = false;

@@ -8,13 +8,13 @@
 #include "render/video_file.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/atomic_file.h>
 
 #include <functional>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <sstream>
-#include <unistd.h>
 
 namespace pcl6d::app {
 
@@ -48,54 +48,19 @@ play(const RunAnimation& animation,
   return true;
 }
 
-/** A file that takes its name when it is whole, and is gone if it never is. */
-class UnfinishedFile {
-public:
-  explicit UnfinishedFile(const fs::path& path)
-  : path_(path)
-  , unfinished_(path.parent_path() / (".pcl6d-writing-" + std::to_string(::getpid()) +
-                                      path.extension().string()))
-  {
-    if (fs::is_directory(path))
-      throw IoFailed(path.string() +
-                     ": is a folder, but a video is to be written there");
-  }
-  ~UnfinishedFile()
-  {
-    std::error_code ignored;
-    fs::remove(unfinished_, ignored);
-  }
-  UnfinishedFile(const UnfinishedFile&) = delete;
-  UnfinishedFile&
-  operator=(const UnfinishedFile&) = delete;
-
-  const fs::path&
-  path() const
-  {
-    return unfinished_;
-  }
-  void
-  finish() const
-  {
-    fs::rename(unfinished_, path_);
-  }
-
-private:
-  fs::path path_;
-  fs::path unfinished_;
-};
-
 int
 writeVideo(const RunAnimation& animation, const AnimationSettings& s)
-{
-  const UnfinishedFile file(s.output);
-  VideoFile video(file.path(), s.output, s.width, s.height, s.fps);
-  if (!play(animation, s, [&](std::size_t, const Image& image) { video.add(image); }))
-    return kInterrupted;
-  video.close();
-  file.finish();
+try {
+  writeFileAtomicallyBy(s.output, [&](const fs::path& path) {
+    VideoFile video(path, s.output, s.width, s.height, s.fps);
+    if (!play(animation, s, [&](std::size_t, const Image& image) { video.add(image); }))
+      throw Interrupted();
+    video.close();
+  });
   std::cout << s.output << '\n';
   return kDone;
+} catch (const Interrupted&) {
+  return kInterrupted;
 }
 
 /** A folder is of use without the video, too. */

@@ -44,6 +44,7 @@ What the run lacks is named on it; of a file that cannot be read the exit code i
   table.check([&] { s.options.validate(); });
   if (s.output.empty())
     s.output = (std::filesystem::path(s.run) / "report.html").string();
+  refuseInputs(s.output, {s.run});
   return true;
 }
 } // namespace

@@ -76,14 +76,15 @@ VideoFile::VideoFile(const fs::path& path,
     throw IoFailed(name + ": cannot be written");
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0); // quiet: what is wrong is told below
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  for (const auto& codec : codecsFor(path.extension()))
+  for (const auto& codec : codecsFor(fs::path(name).extension()))
     if (writer_->video.open(
             path.string(),
             cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]),
             fps,
             cv::Size(width, height)))
       return;
-  throw IoFailed(name + ": this OpenCV has no codec for " + path.extension().string());
+  throw IoFailed(name + ": this OpenCV has no codec for " +
+                 fs::path(name).extension().string());
 }
 
 VideoFile::~VideoFile() = default;

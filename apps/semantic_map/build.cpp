@@ -74,22 +74,13 @@ void
 checkOutputs(const BuildSettings& s)
 {
   const fs::path folder = s.run;
-  std::vector<fs::path> inputs{s.planes, s.objects, s.rules};
-  for (const char* const name : {"map.pcd",
-                                 "summary.json",
-                                 "links.csv",
-                                 "graph.g2o",
-                                 "planes.json",
-                                 "objects.json"})
-    inputs.push_back(folder / name);
-  std::error_code missing;
-  for (const auto& out : {s.output, s.cloud})
-    for (const auto& in : inputs)
-      if (fs::equivalent(out, in, missing))
-        throw UsageError(out + " is an input");
-  if (fs::absolute(s.output).lexically_normal() ==
-      fs::absolute(s.cloud).lexically_normal())
-    throw UsageError("--output and --cloud are both " + s.cloud);
+  std::vector<std::string> inputs{s.run, s.planes, s.objects, s.rules};
+  for (const char* const name :
+       {"planes.json", "objects.json"}) // also of other programs
+    inputs.push_back((folder / name).string());
+  refuseInputs(s.output, inputs);
+  refuseInputs(s.cloud, inputs, "an input", "--cloud");
+  refuseSameOutput("--output", s.output, "--cloud", s.cloud);
 }
 
 bool

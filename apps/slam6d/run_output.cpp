@@ -95,11 +95,14 @@ timingOf(const RunResult& run, double drawing)
 }
 
 OutputRules
-runFolderRules(const Settings& settings)
+runFolderRules(const Settings& settings, const ScanFolder& folder)
 {
   OutputRules rules;
   rules.folder = settings.out;
-  rules.inputs = {settings.input, settings.folder.poses_file};
+  rules.inputs = {settings.input, settings.folder.poses_file, settings.graph_in};
+  for (std::size_t i = 0; i < folder.size(); ++i)
+    if (std::error_code error; std::filesystem::is_symlink(folder.file(i), error))
+      rules.inputs.push_back(folder.file(i)); // what it leads to may be in OUT
   rules.inputs.insert(
       rules.inputs.end(), settings.joined.begin(), settings.joined.end());
   rules.program = kProgram;

@@ -21,7 +21,7 @@ namespace pcl6d::app {
 
 /** \return what pcl_slam6d may do to its output folder */
 OutputRules
-runFolderRules(const Settings& settings);
+runFolderRules(const Settings& settings, const ScanFolder& folder);
 
 /** \return whether a run that was not interrupted is in the folder, or one of which that
  * cannot be told */

@@ -153,6 +153,27 @@ TEST(ConvertScans, ASinglePoseGoesAlong)
   EXPECT_EQ(readText(scans / "a.pose"), "1 2 3\n4 5 6\n");
 }
 
+TEST(ConvertScans, APoseOfSomethingElseIsNotReplaced)
+{
+  const Scans scans;
+  const std::string pcd = scans.in / "scan ä1.pcd";
+  writeText(scans / "k.pose", "mine");
+  pcl6d::test::expectConvertError(
+      {"scans", pcd, "-o", scans.name("k.3d")}, 1, {"k.pose: is there already"});
+  EXPECT_EQ(readText(scans / "k.pose"), "mine");
+  EXPECT_FALSE(fs::exists(scans / "k.3d"));
+  fs::create_directory(scans / "k2.pose"); // cannot be written
+  writeText(scans / "k2.3d", "before");
+  pcl6d::test::expectConvertError(
+      {"scans", pcd, "-o", scans.name("k2.3d")}, 1, {"k2.pose"});
+  EXPECT_EQ(readText(scans / "k2.3d"), "before");
+  fs::rename(scans / "k.pose", scans / "a.pose"); // that of the input is no other
+  fs::copy_file(pcd, scans / "a.pcd");
+  writeText(scans / "a.pose", "1 2 3\n4 5 6\n");
+  converted({"scans", scans.name("a.pcd"), "-o", scans.name("a.3d")});
+  EXPECT_EQ(readText(scans / "a.pose"), "1 2 3\n4 5 6\n");
+}
+
 TEST(ConvertScans, StampsStayWhereTheFormatHasAPlace)
 {
   const Scans scans;

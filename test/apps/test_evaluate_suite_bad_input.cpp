@@ -239,3 +239,27 @@ TEST_F(SuiteBadInput, RefusesFoldersOfOthers)
   expectError(run(suite, {"--force"}), name, 1, {"data/mine lies where"});
   EXPECT_TRUE(fs::exists(out / "data" / "mine" / "scan000.pcd"));
 }
+
+TEST_F(SuiteBadInput, ForceRemovesNothingOfOthers)
+{
+  fs::create_directories(out / "runs");
+  writeText(out / "runs" / "notes.txt", "mine");
+  expectError(run(smallSuite(), {"--force", "--fresh"}),
+              "pcl_slam6d_evaluate",
+              1,
+              {"out/runs: is not of a suite"});
+  EXPECT_EQ(pcl6d::test::readText(out / "runs" / "notes.txt"), "mine");
+}
+
+TEST_F(SuiteBadInput, ADocumentThatCannotBeWrittenIsToldBeforeTheRuns)
+{
+  const std::string name = "pcl_slam6d_evaluate";
+  const std::string document = folder / "none" / "doc.md";
+  expectError(run(smallSuite(), {"--document", document}), name, 1, {document});
+  const std::string suite = folder / "small.json";
+  expectError(run(smallSuite(), {"--document", suite}),
+              name,
+              1,
+              {"small.json: is an input of the suite"});
+  EXPECT_FALSE(fs::exists(out));
+}

@@ -153,6 +153,8 @@ TEST_F(EvaluateDrive, RefusesWrongOptions)
   expectError(run({"--loop-path", "nan"}), 2, {"--loop-path = nan"});
   expectError(run({"-o", "errors.txt"}), 2, {"errors.txt", ".json", ".csv"});
   expectError(run({"--interpolate", "1", "--loops", "x"}), 2, {"--loops"});
+  const std::string both = folder / "both.csv";
+  expectError(run({"-o", both, "--json", both}), 2, {"--json and --output are both"});
   const std::string truth = folder / "truth.txt";
   EXPECT_EQ(pcl6d::test::readText(truth), square(1));
 }

@@ -314,6 +314,34 @@ TEST(CheckOption, RenamesFieldsWhateverTheLengthOfTheirValues)
   }
 }
 
+TEST(RefuseInputs, FilesOfARunAreInputs)
+{
+  const pcl6d::test::TempFolder folder;
+  const std::filesystem::path run = folder / "run";
+  std::filesystem::create_directories(run / "scans");
+  for (const char* const file : {"scans/scan000.pcd", "links.csv", "report.html"})
+    std::ofstream(run / file) << "content";
+  EXPECT_NO_THROW(refuseInputs(run / "links.csv", {run})) << "no run yet";
+  std::ofstream(run / "summary.json") << "{}";
+  for (const char* const file :
+       {"summary.json", "scans/scan000.pcd", "links.csv", "scans/../summary.json"})
+    EXPECT_THROW(refuseInputs(run / file, {run}), UsageError) << file;
+  for (const char* const file : {"report.html", "new.json"})
+    EXPECT_NO_THROW(refuseInputs(run / file, {run})) << file;
+  EXPECT_NO_THROW(refuseInputs(folder / "summary.json", {run, "", "none"}));
+}
+
+TEST(RefuseSameOutput, SeesThroughLinksAndDots)
+{
+  const pcl6d::test::TempFolder folder;
+  std::filesystem::create_directory(folder / "a");
+  std::filesystem::create_directory_symlink(folder / "a", folder / "b");
+  const std::string one = folder / "a/x.json", other = folder / "b/./x.json";
+  EXPECT_THROW(refuseSameOutput("--json", one, "--output", other), UsageError);
+  EXPECT_NO_THROW(refuseSameOutput("--json", one, "--output", folder / "x.json"));
+  EXPECT_NO_THROW(refuseSameOutput("--json", "", "--output", ""));
+}
+
 TEST(Printable, ShowsControlCharactersAndWhatIsNoText)
 {
   EXPECT_EQ(printable("s\xc3\xa4ule \xe2\x82\xac"), "s\xc3\xa4ule \xe2\x82\xac");

@@ -189,6 +189,11 @@ TEST(Planes, ExplainsItsLabelsAndTakesRulesOfAUser)
       planes({corridor() + "/scan000.pcd", "-o", out, "--rules", rules, "--verbose"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("plane 1: "), std::string::npos) << outcome.out;
+  const std::string within = out + "/labels.json";
+  fs::rename(rules, within);
+  expectError({corridor() + "/scan000.pcd", "-o", out, "--rules", within},
+              1,
+              {within, "inside the output folder"});
   writeText(rules,
             R"({"name": "mine", "labels": [{"name": "board", "wide": [0, 1]}]})");
   expectError({corridor() + "/scan000.pcd", "-o", out, "--rules", rules},

@@ -286,6 +286,22 @@ TEST_F(RenderAnimation, TellsOfAFilmThatIsCut)
   }
 }
 
+TEST_F(RenderAnimation, WritesNothingThroughALinkThatAnotherUserMayPutThere)
+{
+  // The name was once made of the number of the process, which `exec` keeps.
+  const fs::path film = folder_ / "film.avi", mine = folder_ / "mine";
+  pcl6d::test::writeText(mine, "mine");
+  const std::string command =
+      "ln -s '" + mine.string() + "' '" + folder_.path().string() +
+      "'/.pcl6d-writing-$$.avi && exec " PCL6D_BIN_DIR
+      "/pcl_slam6d_render animation '" +
+      run_.string() + "' --kind growth --size 640x360 --quiet -o '" + film.string() +
+      "'";
+  EXPECT_EQ(boost::process::system("/bin/sh", "-c", command), 0);
+  EXPECT_EQ(readText(mine), "mine");
+  EXPECT_TRUE(fs::exists(film));
+}
+
 TEST_F(RenderAnimation, SaysWhatTheRunLacks)
 {
   fs::remove_all(run_ / "scans");

@@ -227,3 +227,16 @@ TEST(RenderReport, TellsWhatIsWrong)
   writeText(run / "summary.json", "{\"schema_version\": 1}");
   expectError(report({run.path().string()}), kRender, 1, {"summary.json"});
 }
+
+TEST(RenderReport, ReplacesNoFileOfTheRun)
+{
+  const Copy run;
+  for (const char* const file : {"summary.json", "map.pcd"}) {
+    const std::string before = readText(run / file), path = run / file;
+    expectError(runProgram(kRender, {"report", run.path().string(), "-o", path}),
+                kRender,
+                2,
+                {path, "is an input"});
+    EXPECT_EQ(readText(path), before);
+  }
+}

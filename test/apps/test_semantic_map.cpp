@@ -232,11 +232,16 @@ TEST(SemanticMap, RefusesAWrongCommandLine)
       program({"build", run, "--cloud", "x.xyz"}), 2, {"x.xyz", ".pcd or .ply"});
   expectError(program({"build", run, "-o", run + "/summary.json"}),
               2,
-              {"summary.json is an input"});
-  expectError(
-      program({"build", run, "--cloud", run + "/map.pcd"}), 2, {"map.pcd is an input"});
-  expectError(
-      program({"build", run, "-o", run + "/links.csv"}), 2, {"links.csv is an input"});
+              {"summary.json, but that is an input"});
+  expectError(program({"build", run, "--cloud", run + "/map.pcd"}),
+              2,
+              {"map.pcd, but that is an input"});
+  expectError(program({"build", run, "-o", run + "/links.csv"}),
+              2,
+              {"links.csv, but that is an input"});
+  expectError(program({"build", run, "--cloud", run + "/scans/scan000.pcd"}),
+              2,
+              {"scan000.pcd, but that is an input"});
   expectError(program({"build", run, "-o", "one.ply", "--cloud", "./one.ply"}),
               2,
               {"both ./one.ply"});

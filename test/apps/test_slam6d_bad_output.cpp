@@ -82,6 +82,29 @@ TEST_F(BadInput, PosesInsideTheOutput)
   EXPECT_EQ(contentOf(out), before);
 }
 
+TEST_F(BadInput, LinksOfScansAndGivenLinksInsideTheOutput)
+{
+  ASSERT_EQ(pcl6d::test::runProgram(kName, {in.string(), "-o", out.string()}).exit_code,
+            0);
+  const auto before = contentOf(out);
+  const std::string graph = out / "graph.g2o";
+  pcl6d::test::expectError(
+      pcl6d::test::runProgram(kName,
+                              {in.string(), "-o", out.string(), "--graph-in", graph}),
+      kName,
+      1,
+      {graph, "inside"});
+  fs::create_directory(folder / "links");
+  for (const auto& entry : fs::directory_iterator(out / "scans"))
+    fs::create_symlink(entry.path(), folder / "links" / entry.path().filename());
+  pcl6d::test::expectError(
+      pcl6d::test::runProgram(kName, {folder / "links", "-o", out.string()}),
+      kName,
+      1,
+      {"links/scan000.pcd", "inside"});
+  EXPECT_EQ(contentOf(out), before);
+}
+
 TEST_F(BadInput, SomebodyElsesSummaryIsNoLicence)
 {
   fs::create_directories(out / "scans");

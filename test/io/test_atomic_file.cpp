@@ -6,11 +6,13 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <fcntl.h>
 #include <fstream>
 #include <ostream>
 #include <set>
 #include <stdexcept>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace fs = std::filesystem;
 using pcl6d::writeFileAtomically;
@@ -123,6 +125,43 @@ TEST(AtomicFile, APipeIsWrittenAndNotReplaced)
   if (fs::is_fifo(pipe))
     std::getline(keep_open, line);
   EXPECT_EQ(line, "content");
+}
+
+TEST(AtomicFile, AFileThatThisProcessHasOpenKeepsWhatItHolds)
+{
+  // As `program -o /dev/stdout >> FILE`: replacing FILE would take what it holds.
+  const pcl6d::test::TempFolder folder;
+  const int file =
+      ::open((folder / "log").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  ASSERT_EQ(::write(file, "before ", 7), 7);
+  for (const std::string place : {"/dev/fd/", "/proc/self/fd/"}) {
+    EXPECT_TRUE(pcl6d::isStream(place + std::to_string(file)));
+    writeFileAtomically(place + std::to_string(file),
+                        [](std::ostream& s) { s << "here "; });
+  }
+  ASSERT_EQ(::write(file, "after", 5), 5);
+  ::close(file);
+  EXPECT_EQ(readText(folder / "log"), "before here here after");
+  EXPECT_FALSE(pcl6d::isStream(folder / "log"));
+  expectIoFailed("/dev/fd/12345", "Bad file descriptor", [] {
+    writeFileAtomically("/dev/fd/12345", [](std::ostream& s) { s << "x"; });
+  });
+}
+
+TEST(AtomicFile, ALinkOfAnotherUserIsRefused)
+{
+  const pcl6d::test::TempFolder folder;
+  writeText(folder / "mine", "mine");
+  fs::create_symlink("mine", folder / "link");
+  constexpr uid_t kNobody = 65534;
+  if (::lchown((folder / "link").c_str(), kNobody, kNobody) != 0)
+    GTEST_SKIP() << "only root can make a link of another user";
+  const auto write = [&] {
+    writeFileAtomically(folder / "link", [](std::ostream& s) { s << "x"; });
+  };
+  expectIoFailed(
+      folder / "link", "is a link of another user, which is not followed", write);
+  EXPECT_EQ(readText(folder / "mine"), "mine");
 }
 
 TEST(AtomicFile, ALinkStaysALink)

@@ -130,6 +130,21 @@ TEST_F(RecordFileTest, OfAnotherKindOrVersionIsRefusedAndKept)
   }
 }
 
+TEST_F(RecordFileTest, ALinkIsRefusedAndWhatItLeadsToStaysAsItIs)
+{
+  const auto other = folder / "other";
+  for (const bool is_there : {false, true}) {
+    if (is_there)
+      std::ofstream(other) << "";
+    std::filesystem::remove(path);
+    std::filesystem::create_symlink(other, path);
+    EXPECT_THROW(RecordFile{path}, pcl6d::IoFailed);
+    EXPECT_EQ(std::filesystem::exists(other), is_there);
+    if (is_there)
+      EXPECT_EQ(std::filesystem::file_size(other), 0U);
+  }
+}
+
 TEST_F(RecordFileTest, IsForOneAtATime)
 {
   const RecordFile one(path);

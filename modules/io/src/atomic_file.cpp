@@ -43,12 +43,40 @@ folderOf(const fs::path& target)
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
+/** \return the number of the open file of this process that a path names, such as
+ * /dev/stdout; -1: it names none */
+int
+openFileOf(const fs::path& path)
+{
+  if (path == "/dev/stdout")
+    return STDOUT_FILENO;
+  if (path == "/dev/stderr")
+    return STDERR_FILENO;
+  const fs::path folder = path.parent_path();
+  const std::string name = path.filename();
+  const bool is_number = !name.empty() && name.size() < 9 &&
+                         name.find_first_not_of("0123456789") == std::string::npos;
+  return is_number && (folder == "/dev/fd" || folder == "/proc/self/fd")
+             ? std::stoi(name)
+             : -1;
+}
+
+/** \return whether a link was made by somebody else, who would choose what is replaced */
+bool
+isLinkOfAnother(const fs::path& path)
+{
+  struct stat found {};
+  return ::lstat(path.c_str(), &found) == 0 && S_ISLNK(found.st_mode) &&
+         found.st_uid != ::geteuid() && found.st_uid != 0;
+}
+
 /** \brief What is to be written, and what is there. */
 struct Target {
   fs::path asked; ///< for messages
   fs::path path;  ///< behind links
   std::optional<mode_t> mode;
-  bool is_special = false; ///< a device or a pipe
+  bool is_special = false; ///< a device, a pipe or an open file
+  int open_file = -1;      ///< its number
 
   explicit Target(const fs::path& asked_path);
 
@@ -63,6 +91,13 @@ Target::Target(const fs::path& asked_path) : asked(asked_path), path(asked_path)
 {
   if (asked.empty() || asked.filename().empty())
     text::fail(asked, "is not the name of a file");
+  open_file = openFileOf(asked);
+  if (open_file >= 0) { // a file there was opened by who started this process
+    is_special = true;
+    return;
+  }
+  if (isLinkOfAnother(asked))
+    text::fail(asked, "is a link of another user, which is not followed");
   std::error_code error;
   if (fs::is_symlink(asked, error)) { // a link stays a link
     const fs::path behind = fs::canonical(asked, error);
@@ -185,6 +220,18 @@ private:
   Descriptor file_;
 };
 
+/** \return the device, pipe or open file of a target, ready to be written */
+Descriptor
+opened(const Target& target)
+{
+  Descriptor file(target.open_file >= 0
+                      ? ::fcntl(target.open_file, F_DUPFD_CLOEXEC, 0)
+                      : ::open(target.path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (!file.isOpen())
+    target.fail(errno);
+  return file;
+}
+
 /** Writes to an open file. */
 void
 writeTo(int file, const Target& target, const std::function<void(std::ostream&)>& write)
@@ -215,9 +262,7 @@ writeFileAtomically(const fs::path& path,
 {
   const Target target(path);
   if (target.is_special) { // must not be replaced
-    Descriptor file(::open(target.path.c_str(), O_WRONLY | O_CLOEXEC));
-    if (!file.isOpen())
-      target.fail(errno);
+    Descriptor file = opened(target);
     writeTo(file.number(), target, write);
     if (!file.close())
       target.fail(errno);
@@ -245,6 +290,12 @@ writeFileAtomicallyBy(const fs::path& path,
   complete(target, written);
   if (::rename(written.c_str(), target.path.c_str()) != 0)
     target.fail(errno);
+}
+
+bool
+isStream(const fs::path& path)
+{
+  return Target(path).is_special;
 }
 
 void

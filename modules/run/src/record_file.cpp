@@ -69,7 +69,10 @@ syncFolder(const std::filesystem::path& file)
 
 RecordFile::RecordFile(const std::filesystem::path& path) : path_(path)
 {
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  // What a link leads to, or would be made there, is nobody's journal.
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+  if (file_ < 0 && errno == ELOOP)
+    throw IoFailed(path.string() + ": is a link, which is not followed");
   if (file_ < 0)
     failWithErrno(path, "cannot be opened");
   try {

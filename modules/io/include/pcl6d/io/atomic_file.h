@@ -14,11 +14,12 @@ namespace PCL6D_EXPORTS pcl6d {
  * random hidden name in the same folder, opened only if it is new), is brought to the disk
  * and then takes the place of the path. Whatever happens, nothing else stays behind. The
  * file has the permissions that an ordinary one gets, or those of the file it replaces. A
- * link stays a link, and what it names is replaced. A device or a pipe is written as it is.
+ * link stays a link, and what it names is replaced. A device or a pipe is written as it is,
+ * and so is a file that this process has open, such as /dev/stdout: what it holds stays.
  * \param[in] path an existing file there is replaced
  * \param[in] write puts the content into the (binary) stream; it cannot go back in it
- * \throws IoFailed the folder is missing or not writable, the disk is full, or the process
- * may not write so much (a program that wants words for this ignores SIGXFSZ)
+ * \throws IoFailed the folder is missing or not writable, the path is a link that another
+ * user (but root) has made, the disk is full, or the process may not write so much (a program that wants words for this ignores SIGXFSZ)
  * \ingroup io */
 void
 writeFileAtomically(const std::filesystem::path& path,
@@ -30,6 +31,12 @@ writeFileAtomically(const std::filesystem::path& path,
 void
 writeFileAtomicallyBy(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
+
+/** \return whether what is written to a path goes to a device, a pipe or a file that this
+ * process has open, such as /dev/stdout, and nothing can be put beside it
+ * \throws IoFailed as requireWritable() \ingroup io */
+bool
+isStream(const std::filesystem::path& path);
 
 /** \brief Tries, before the work, whether its result can be written; nothing is changed.
  * \param[in] path as for writeFileAtomically(); of a device or a pipe nothing is known

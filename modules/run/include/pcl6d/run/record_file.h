@@ -19,8 +19,8 @@ namespace PCL6D_EXPORTS pcl6d {
 class RecordFile {
 public:
   /** \brief Opens the file, or makes it.
-   * \throws IoFailed it cannot be opened or made, is of another kind or version, or another
-   * process has it open */
+   * \throws IoFailed it cannot be opened or made, is a link, is of another kind or version,
+   * or another process has it open */
   explicit RecordFile(const std::filesystem::path& path);
   ~RecordFile();
   RecordFile(const RecordFile&) = delete;

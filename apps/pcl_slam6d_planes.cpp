@@ -6,6 +6,7 @@
 #include "common/plane_files.h"
 #include "planes/plane_settings.h"
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/far_points.h>
 #include <pcl6d/io/pcd_io.h>
@@ -159,6 +160,17 @@ printTable(const FoundPlanes& found)
                 planes.size() - kMostRows);
 }
 
+/** Of fewer than three points there are no planes, but of none nothing was looked at. */
+void
+requirePoints(const PlaneSettings& s, const SceneCloud& cloud)
+{
+  if (std::none_of(cloud.points.begin(), cloud.points.end(), [](const auto& p) {
+        return p.allFinite();
+      }))
+    throw IoFailed(s.input +
+                   ": no point with finite coordinates within the range gate");
+}
+
 int
 run(const std::vector<std::string>& arguments)
 {
@@ -169,6 +181,7 @@ run(const std::vector<std::string>& arguments)
   const app::MemoryBudget memory(s.memory, job.out->staging());
   try {
     const SceneCloud cloud = readInput(s, job);
+    requirePoints(s, cloud);
     const PlaneFinder finder(s.step);
     const FoundPlanes found = finder.find(cloud);
     finder.write(job.out->staging(), cloud, found, app::kPlanes);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/printable.h"
 #include "evaluate/map_report.h"
 
 #include <algorithm>
@@ -94,7 +95,7 @@ printScans(const MapReport& report, std::size_t rows)
   for (std::size_t k = 0; k < std::min(rows, order.size()); ++k) {
     const ScanQuality& scan = quality.scans[order[k]];
     std::printf("  %-18s%s%s%s%s%s%s  %s\n",
-                report.names[order[k]].c_str(),
+                printable(report.names[order[k]]).c_str(),
                 cell(scan.worst_score, 9, 1).c_str(),
                 cell(scan.agreement, 11, 4).c_str(),
                 cell(scan.entropy, 10, 3).c_str(),
@@ -112,16 +113,16 @@ printTable(const MapReport& report, std::size_t rows)
   const MapQuality& quality = report.quality;
   std::printf("%s: %zu scans (poses: %s), voxel %.3g m\n"
               "%zu pairs of scans overlap, %zu of them revisits; %zu planes\n\n",
-              report.source.folder.c_str(),
+              printable(report.source.folder).c_str(),
               quality.scans.size(),
-              report.pose_source.c_str(),
+              printable(report.pose_source).c_str(),
               report.voxel,
               quality.pairs,
               quality.revisit_pairs,
               quality.thickness.planes.size());
   printMap(quality);
   printScans(report, rows);
-  std::printf("\n%s\n", quality.verdict(report.names).c_str());
+  std::printf("\n%s\n", printableLines(quality.verdict(report.names)).c_str());
 }
 
 } // namespace pcl6d::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/option_table.h"
+#include "common/progress_bar.h"
 #include "evaluate/result_file.h"
 #include "evaluate/trajectory_report.h"
 #include "evaluate/trusted_rows.h"
@@ -10,6 +11,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/link_list_io.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 
 #include <cmath>
@@ -149,7 +151,13 @@ runTrajectory(const std::vector<std::string>& arguments)
   TrajectoryReport report{s.estimate, s.reference, s.options, {}};
   report.evaluation = evaluate(s, estimate, reference);
   write(s, report);
-  return kDone;
+  constexpr std::size_t kLeastPairs = 3; // any two positions fit any others in distance
+  const std::size_t pairs = report.evaluation.matching.pairs.size();
+  if (pairs >= kLeastPairs)
+    return kDone;
+  ProgressBar(false).warn("only " + text::counted(pairs, "pair") +
+                          " of poses: errors after alignment say nothing");
+  return kDoubtful;
 }
 
 } // namespace pcl6d::app

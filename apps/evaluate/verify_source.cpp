@@ -118,7 +118,7 @@ listFolder(const VerifySettings& s, ProgressBar& bar)
   const ScanFolder& folder = scans.folder();
   if (!folder.coordinates().empty())
     bar.warn(folder.coordinates());
-  if (s.poses.empty() && !folder.hasPoses() && folder.size() > 1)
+  if (s.poses.empty() && !scans.summary() && !folder.hasPoses() && folder.size() > 1)
     throw IoFailed(path +
                    ": holds neither a run (no summary.json) nor scans with poses; "
                    "give --poses FILE");

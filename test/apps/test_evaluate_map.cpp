@@ -168,6 +168,19 @@ TEST(EvaluateMap, NamesWhatIsWrongWithTheMap)
   expectError(map({one / "in"}), 1, {"one scan"});
 }
 
+TEST(EvaluateMap, NamesWithEscapeCodesAreSafeForATerminal)
+{
+  const TempFolder folder;
+  fs::create_directory(folder / "in");
+  for (const char* const number : {"0", "1", "2"})
+    fs::copy_file(run() + "/scans/scan00" + number + ".pcd",
+                  folder / "in" / (std::string("x\x1b[31m\a") + number + ".pcd"));
+  const Outcome outcome = map({folder / "in"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find_first_of("\x1b\a"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("x\\x1b[31m"), std::string::npos) << outcome.out;
+}
+
 TEST(EvaluateMap, NamesWhatIsWrongWithTheScans)
 {
   const RunCopy copy;

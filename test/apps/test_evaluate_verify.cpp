@@ -257,6 +257,19 @@ TEST(EvaluateVerify, IsNeverGoodWithoutEvidence)
       verify({folder / "in", "--poses", folder / "poses.txt"}), 0, "unverified");
 }
 
+TEST(EvaluateVerify, TakesARunInWhichNothingMoved)
+{
+  const TempFolder folder;
+  fs::create_directory(folder / "in");
+  for (const char* name : {"in/scan000.xyz", "in/scan001.xyz"})
+    fs::copy_file(drive().scan(0), folder / name);
+  const std::string run = folder / "run";
+  const Outcome made = pcl6d::test::runProgram(
+      "pcl_slam6d", {folder / "in", "-o", run, "--no-picture", "--quiet"});
+  ASSERT_TRUE(fs::exists(run + "/summary.json")) << made.err;
+  expectVerdict(verify({run}), 0, "unverified");
+}
+
 TEST(EvaluateVerify, NamesWhatIsWrongWithTheInput)
 {
   const std::string a = drive().scan(0), b = drive().scan(1);

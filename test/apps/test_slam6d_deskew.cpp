@@ -274,3 +274,31 @@ TEST_F(DeskewInput, UnknownInterpolation)
       {in.string(), "-o", out.string(), "--deskew", "--interpolation", "magic"},
       {"--interpolation = magic", "linear or cubic"});
 }
+
+TEST(Deskew, GoesOnWithScansOfOneASecond)
+{
+  // The run's trajectory has 0, 1, 2, ... where it knows no stamps, too.
+  const TempFolder folder;
+  const fs::path in = folder / "in", run = folder / "run";
+  runProgram("pcl_slam6d_simulate",
+             {"corridor",
+              "--motion",
+              "continuous",
+              "--scans",
+              "8",
+              "--scanner",
+              "ouster",
+              "--period",
+              "1",
+              "--resolution",
+              "2",
+              "--quiet",
+              "-o",
+              in.string()});
+  slam(in, run, {"--last", "3", "--deskew", "--no-picture"});
+  ASSERT_TRUE(fs::exists(run / "summary.json"));
+  const Outcome outcome = runProgram(
+      kName, {in.string(), "--continue", run.string(), "--last", "5", "--no-picture"});
+  EXPECT_NE(outcome.exit_code, 1) << outcome.err;
+  EXPECT_TRUE(fs::exists(run / "scans" / "scan005.pcd"));
+}

@@ -120,3 +120,14 @@ TEST(SegmentMap, RefusesWhatIsNoMap)
     EXPECT_THROW(SegmentMap({{{0, 0}, {1, 0}}}, options), pcl6d::BadArgument);
   }
 }
+
+TEST(SegmentMap, HoldsEachSegmentOnce)
+{
+  const Segments once = {{{0, 0}, {4, 0}}, {{0, 0}, {0, 3}}};
+  Segments often = once;
+  for (int i = 0; i < 50000; ++i) // each would be asked for in each of its cells
+    often.push_back(i % 2 == 0 ? once[0] : pcl6d::Segment{once[0].b, once[0].a});
+  const SegmentMap map(often), same(once);
+  EXPECT_EQ(map.segments().size(), 2U);
+  EXPECT_EQ(map.distance({2, 1}), same.distance({2, 1}));
+}

@@ -285,6 +285,31 @@ TEST_F(MotionWithinScans, GoesOnBehindRegisteredScans)
   }
 }
 
+TEST_F(MotionWithinScans, ALongScanHasItsPosesFartherApart)
+{
+  drive(3);
+  constexpr double kSlower = 10000; // scans of more than ten minutes
+  period *= kSlower;
+  for (auto& sweep : sweeps)
+    for (double& time : sweep.times)
+      time *= kSlower;
+  Slam6D slam(options);
+  addTo(slam);
+  slam.optimize();
+  for (const auto& scan : slam.result().scans) {
+    ASSERT_TRUE(scan.motion);
+    EXPECT_LE(scan.motion->knots, 41U);
+  }
+  options.motion.knots = 0.1;
+  Slam6D finer(options);
+  EXPECT_THROW(
+      {
+        addTo(finer);
+        finer.optimize();
+      },
+      pcl6d::BadArgument);
+}
+
 TEST_F(MotionWithinScans, BadInputIsRefusedAndNamed)
 {
   drive(1);

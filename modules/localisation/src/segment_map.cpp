@@ -5,8 +5,11 @@
 #include <pcl6d/localisation/segment_map.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace pcl6d {
 
@@ -19,6 +22,23 @@ requireFinite(const Segments& segments)
       throw BadArgument("segment " + std::to_string(i) +
                         " of the map has a coordinate that is not finite, or 1e9 m or "
                         "farther from the origin");
+}
+
+/** \return the segments that have a length, each once, in their order; direction does not
+ * matter */
+Segments
+withoutRepetitions(const Segments& segments)
+{
+  std::set<std::array<double, 4>> known;
+  Segments once;
+  for (const Segment& s : segments) {
+    std::array<double, 2> a{s.a.x(), s.a.y()}, b{s.b.x(), s.b.y()};
+    if (b < a)
+      std::swap(a, b);
+    if (a != b && known.insert({a[0], a[1], b[0], b[1]}).second)
+      once.push_back(s);
+  }
+  return once;
 }
 
 Eigen::Vector2d
@@ -44,10 +64,7 @@ SegmentMap::SegmentMap(const Segments& segments, const SegmentMapOptions& option
 {
   options.validate();
   requireFinite(segments);
-  std::copy_if(segments.begin(),
-               segments.end(),
-               std::back_inserter(segments_),
-               [](const Segment& s) { return s.a != s.b; });
+  segments_ = withoutRepetitions(segments);
   if (segments_.empty())
     throw BadArgument("the map has no line segment");
   offset_ = offsetOf(segments_);

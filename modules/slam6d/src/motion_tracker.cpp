@@ -5,6 +5,7 @@
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/random.h>
+#include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/filters/motion_correction.h>
 
@@ -26,6 +27,11 @@ constexpr double kLeastTime = 1e-3;
  * scan of less than half a second has two. */
 constexpr double kSteadyTime = 1.0 / 3;
 
+/** Poses of a scan at most, but for one. Their equations are dense and solved for each of many
+ * starts: with 120, each block of points has 4 MB of them. Unless it is told otherwise, a scan
+ * of more than 13 s has its poses farther apart. */
+constexpr double kMostSteps = 120, kMostUsualSteps = 40;
+
 /** Scans follow each other without a stop if the time between is at most this share of the
  * time of a scan. */
 constexpr double kLargestGap = 0.5;
@@ -33,6 +39,19 @@ constexpr double kLargestGap = 0.5;
 /** Points of a scan that go into the map: 20, as many as count, in each of a thousand cells
  * within reach. */
 constexpr std::size_t kPointsOfMap = 20000;
+
+/** \return how many parts the time of a scan [s] has, with a pose at each of their ends */
+double
+stepsOf(double duration, const std::optional<double>& knot_time)
+{
+  const double steps =
+      std::max(1.0, std::round(duration / knot_time.value_or(kSteadyTime)));
+  require(!knot_time || steps <= kMostSteps,
+          "knots",
+          knot_time.value_or(kSteadyTime),
+          "at least a 120th of the time [s] of each scan");
+  return knot_time ? steps : std::min(steps, kMostUsualSteps);
+}
 
 /** \return the range that one in ten points lies beyond */
 double
@@ -93,8 +112,7 @@ MotionTracker::restingKnots(const MovingScan& scan, const Eigen::Isometry3d& pos
 {
   const auto [first, last] =
       std::minmax_element(scan.measured.times.begin(), scan.measured.times.end());
-  const double steps =
-      std::max(1.0, std::round((*last - *first) / knot_time_.value_or(kSteadyTime)));
+  const double steps = stepsOf(*last - *first, knot_time_);
   const double end = std::max(*last, *first + kLeastTime);
   Trajectory knots;
   for (double k = 0; k <= steps; ++k) {

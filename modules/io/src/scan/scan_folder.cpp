@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 
 namespace pcl6d {
@@ -23,6 +24,21 @@ using namespace io;
 namespace fs = std::filesystem;
 
 namespace {
+
+/** \return whether the stamps [s] of scans that a run has, too, are their numbers: as those of
+ * one scan a second, which stampsOfRun() takes for none */
+bool
+areNumbers(const std::map<std::string, double>& stamps, const RunResult& summary)
+{
+  std::size_t count = 0;
+  for (const auto& scan : summary.scans)
+    if (const auto found = stamps.find(scan.file); found != stamps.end()) {
+      if (found->second != scan.index)
+        return false;
+      ++count;
+    }
+  return count > 0;
+}
 
 /** \brief The scans of a folder, all of one format. */
 struct FoundScans {
@@ -249,6 +265,12 @@ ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
     next = std::max(next, scan.index + 1);
   }
   std::vector<double> stamps = stampsOfRun(run, summary);
+  std::map<std::string, double> found;
+  for (std::size_t i = 0; i < stamps_.size(); ++i)
+    found[entries_[i].name] = stamps_[i];
+  if (stamps.empty() && areNumbers(found, summary))
+    for (const auto& scan : summary.scans)
+      stamps.push_back(scan.index);
   for (std::size_t i = 0; i < entries_.size(); ++i)
     if (known.count(entries_[i].name) == 0) {
       entries.push_back(entries_[i]);

@@ -12,7 +12,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * of their points. */
 struct MotionOptions {
   /** [s] a pose about every so many seconds of a scan, at least one at its begin and one at its
-   * end, with constant velocity between; none: every third of a second. > 0 */
+   * end, with constant velocity between; none: every third of a second, at
+   * most 41 in all. > 0, and at least a 120th of the time of each scan */
   std::optional<double> knots;
   /** with InitialGuess::kGlobal: where scans have moved, each starts from the one before by
    * the motion that was found, in place of all being looked at together */

@@ -153,11 +153,10 @@ runTrajectory(const std::vector<std::string>& arguments)
   write(s, report);
   constexpr std::size_t kLeastPairs = 3; // any two positions fit any others in distance
   const std::size_t pairs = report.evaluation.matching.pairs.size();
-  if (pairs >= kLeastPairs)
-    return kDone;
-  ProgressBar(false).warn("only " + text::counted(pairs, "pair") +
-                          " of poses: errors after alignment say nothing");
-  return kDoubtful;
+  if (pairs < kLeastPairs)
+    ProgressBar(false).warn("only " + text::counted(pairs, "pair") +
+                            " of poses: errors after alignment say nothing");
+  return kDone;
 }
 
 } // namespace pcl6d::app

@@ -2,6 +2,7 @@
 #include "common/app.h"
 #include "common/help_text.h"
 #include "common/option_table.h"
+#include "common/run_files.h"
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/version.h>
@@ -239,9 +240,7 @@ namespace {
 bool
 isFileOfRun(const fs::path& file, const fs::path& run)
 {
-  static const std::regex kFiles(
-      "(scans|frames)/.*|(map|moving)\\.pcd|graph\\.g2o|(links|verification)\\.csv|"
-      "trajectory\\.(kitti|tum)|summary\\.json");
+  static const std::regex kFiles(runFilePattern());
   std::error_code error;
   if (!fs::is_regular_file(run / "summary.json", error) || !fs::exists(file, error))
     return false;

@@ -154,15 +154,24 @@ public:
   operator=(const HeldFolder&) = delete;
 
 private:
+  /** The suite and what it names; the name of a scene that is no file is none. */
+  static std::vector<fs::path>
+  inputsOf(const Suite& suite)
+  {
+    std::vector<fs::path> inputs = {suite.file};
+    std::error_code missing;
+    for (const SuiteData& data : suite.data)
+      for (const auto& input : {data.folder, data.reference, data.scene})
+        if (fs::exists(input, missing))
+          inputs.push_back(fs::absolute(input));
+    return inputs;
+  }
+
   /** What lies in our parts of the folder may be removed. */
   void
   refuseInputs(const Suite& suite) const
   {
-    std::vector<fs::path> inputs = {suite.file};
-    for (const SuiteData& data : suite.data)
-      for (const auto& input : {data.folder, data.reference})
-        if (!input.empty())
-          inputs.push_back(fs::absolute(input));
+    const std::vector<fs::path> inputs = inputsOf(suite);
     std::error_code none;
     for (const char* part : kParts) {
       const fs::path ours = fs::weakly_canonical(folder_ / part, none);
@@ -180,11 +189,8 @@ private:
   static void
   requireDocument(const fs::path& document, const Suite& suite)
   {
-    std::vector<fs::path> inputs = {suite.file};
-    for (const SuiteData& data : suite.data)
-      inputs.insert(inputs.end(), {data.folder, data.reference, data.scene});
     std::error_code missing;
-    for (const auto& input : inputs)
+    for (const auto& input : inputsOf(suite))
       if (fs::equivalent(document, input, missing))
         throw IoFailed(document.string() + ": is an input of the suite");
     requireWritable(document);

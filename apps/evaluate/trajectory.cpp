@@ -151,10 +151,10 @@ runTrajectory(const std::vector<std::string>& arguments)
   TrajectoryReport report{s.estimate, s.reference, s.options, {}};
   report.evaluation = evaluate(s, estimate, reference);
   write(s, report);
-  constexpr std::size_t kLeastPairs = 3; // any two positions fit any others in distance
-  const std::size_t pairs = report.evaluation.matching.pairs.size();
-  if (pairs < kLeastPairs)
-    ProgressBar(false).warn("only " + text::counted(pairs, "pair") +
+  const TrajectoryEvaluation& found = report.evaluation;
+  if (found.alignment.status == Status::kTooFewPairs)
+    ProgressBar(false).warn("only " +
+                            text::counted(found.matching.pairs.size(), "pair") +
                             " of poses: errors after alignment say nothing");
   return kDone;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/plane_files.h"
+#include "common/run_files.h"
 #include "slam6d/run_output.h"
 
 #include <pcl6d/common/error.h>
@@ -107,14 +108,11 @@ runFolderRules(const Settings& settings, const ScanFolder& folder)
       rules.inputs.end(), settings.joined.begin(), settings.joined.end());
   rules.program = kProgram;
   rules.marker = "summary.json";
-  rules.files = std::regex(
-      "trajectory\\.(kitti|tum)|frames/scan[0-9]+\\.frames|"
-      "scans/"
-      "scan[0-9]+\\.pcd|(map|moving)\\.pcd|graph\\.g2o|(links|verification)\\.csv|"
-      "(summary|objects|semantic_map)\\.json|"
-      "semantic_map\\.(pcd|ply)|"
-      "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
-      planeFilePattern());
+  rules.files = std::regex(runFilePattern() +
+                           "|(objects|semantic_map)\\.json|"
+                           "semantic_map\\.(pcd|ply)|"
+                           "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
+                           planeFilePattern());
   rules.force = settings.force;
   rules.journal = ".pcl6d-journal";
   return rules;

@@ -265,12 +265,14 @@ ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
     next = std::max(next, scan.index + 1);
   }
   std::vector<double> stamps = stampsOfRun(run, summary);
-  std::map<std::string, double> found;
-  for (std::size_t i = 0; i < stamps_.size(); ++i)
-    found[entries_[i].name] = stamps_[i];
-  if (stamps.empty() && areNumbers(found, summary))
-    for (const auto& scan : summary.scans)
-      stamps.push_back(scan.index);
+  if (stamps.empty()) {
+    std::map<std::string, double> found;
+    for (std::size_t i = 0; i < stamps_.size(); ++i)
+      found[entries_[i].name] = stamps_[i];
+    if (areNumbers(found, summary))
+      for (const auto& scan : summary.scans)
+        stamps.push_back(scan.index);
+  }
   for (std::size_t i = 0; i < entries_.size(); ++i)
     if (known.count(entries_[i].name) == 0) {
       entries.push_back(entries_[i]);

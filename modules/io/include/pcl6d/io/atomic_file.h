@@ -19,7 +19,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * \param[in] path an existing file there is replaced
  * \param[in] write puts the content into the (binary) stream; it cannot go back in it
  * \throws IoFailed the folder is missing or not writable, the path is a link that another
- * user (but root) has made, the disk is full, or the process may not write so much (a program that wants words for this ignores SIGXFSZ)
+ * user (but root) has made, the disk is full, or the process may not write so much (a
+ * program that wants words for this ignores SIGXFSZ)
  * \ingroup io */
 void
 writeFileAtomically(const std::filesystem::path& path,

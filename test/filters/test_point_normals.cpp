@@ -303,3 +303,88 @@ TEST(PointNormalsDeathTest, OfOnePlaceNeedThemToo)
         "")
         << k;
 }
+
+namespace {
+/** \return rings on a floor 1 m below the scanner, dense along each ring */
+Points
+ringsOnFloor(const std::vector<double>& radii)
+{
+  Random random(11);
+  Points points;
+  for (const double radius : radii)
+    for (double angle = 0; angle < 6.28; angle += 0.02 / radius)
+      points.push_back({static_cast<float>(radius * std::cos(angle)),
+                        static_cast<float>(radius * std::sin(angle)),
+                        static_cast<float>(-1 + 0.005 * random.normal())});
+  return points;
+}
+
+Normals
+surfaceNormalsOf(const Points& points, double spacing)
+{
+  return pcl6d::estimateSurfaceNormals(
+      points, PointTree(points), points, {10, spacing, 1});
+}
+} // namespace
+
+TEST(SurfaceNormals, GrowAcrossLines)
+{
+  const Points points = ringsOnFloor({1.5, 1.7, 1.9, 2.1});
+  const Normals nearest = normalsOf(points, 10);
+  const Normals grown = surfaceNormalsOf(points, 0.03);
+  std::size_t turned = 0, with_normal = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    turned += nearest[i].z() < 0.9F ? 1 : 0;
+    if (grown[i].isZero(0))
+      continue;
+    ++with_normal;
+    EXPECT_GT(grown[i].z(), 0.98F) << points[i].transpose();
+  }
+  EXPECT_GT(turned, points.size() / 4) << "of the ten nearest, all on one ring";
+  EXPECT_GT(with_normal, points.size() * 9 / 10);
+}
+
+TEST(SurfaceNormals, ClaimNoPlaneOfASingleLine)
+{
+  for (const auto& normal : surfaceNormalsOf(ringsOnFloor({1.5}), 0.03))
+    EXPECT_TRUE(normal.isZero(0)) << normal.transpose();
+}
+
+TEST(SurfaceNormals, OfEvenPointsAreThoseOfTheNearest)
+{
+  Random random(3);
+  Points points;
+  for (int i = 0; i < 4000; ++i)
+    points.push_back({static_cast<float>(random.uniform(-1, 1)),
+                      static_cast<float>(random.uniform(-1, 1)),
+                      static_cast<float>(-1 + 0.003 * random.normal())});
+  const Normals nearest = normalsOf(points, 10), grown = surfaceNormalsOf(points, 0.03);
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    equal += grown[i] == nearest[i] ? 1 : 0;
+  EXPECT_GT(equal, points.size() * 9 / 10);
+}
+
+TEST(SurfaceNormals, HaveTheSameBitsForAnyNumberOfThreads)
+{
+  const Points points = ringsOnFloor({1.5, 1.7, 1.9, 2.1});
+  const PointTree tree(points);
+  const Normals one =
+      pcl6d::estimateSurfaceNormals(points, tree, points, {10, 0.03, 1});
+  for (const unsigned int threads : {2u, 5u})
+    EXPECT_TRUE(pcl6d::estimateSurfaceNormals(
+                    points, tree, points, {10, 0.03, threads}) == one);
+}
+
+TEST(SurfaceNormals, OfWhatIsNoSurfaceAreZero)
+{
+  EXPECT_TRUE(surfaceNormalsOf({}, 0.1).empty());
+  const Points odd = {
+      {static_cast<float>(kNan), 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  for (const auto& normal : surfaceNormalsOf(odd, 0.1))
+    EXPECT_TRUE(normal.isZero(0));
+  EXPECT_NE(badArgumentOf([] {
+              pcl6d::estimateSurfaceNormals({}, PointTree(), {}, {2, 0.1, 1});
+            }).find("neighbours"),
+            std::string::npos);
+}

@@ -6,6 +6,8 @@
 #include <pcl6d/simulation/ray_caster.h>
 #include <pcl6d/simulation/scene_builder.h>
 
+#include <gtest/gtest.h>
+
 namespace pcl6d::test {
 
 inline CameraIntrinsics
@@ -39,6 +41,16 @@ plateAndWall()
   addBox(scene, {2, -kPlate, -kPlate}, {2.1, kPlate, kPlate}, {"plate", 0.6});
   addBox(scene, {5, -9, -9}, {5.1, 9, 9}, {"wall", 0.6});
   return RayCaster(scene);
+}
+
+inline void
+expectSame(const CameraIntrinsics& a, const CameraIntrinsics& b)
+{
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  EXPECT_EQ(a.matrix(), b.matrix());
+  EXPECT_EQ(a.k, b.k);
+  EXPECT_EQ(a.p, b.p);
 }
 
 } // namespace pcl6d::test

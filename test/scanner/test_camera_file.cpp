@@ -3,6 +3,7 @@
 #include "scanner/expect_refused.h"
 #include "scanner/rendered_board.h"
 #include "scanner/stereo_rig.h"
+#include "small_camera.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>
@@ -24,19 +25,10 @@ using pcl6d::Status;
 using pcl6d::test::boardCamera;
 using pcl6d::test::boardPoses;
 using pcl6d::test::expectRefused;
+using pcl6d::test::expectSame;
 using pcl6d::test::realRig;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
-
-void
-expectSame(const CameraIntrinsics& a, const CameraIntrinsics& b)
-{
-  EXPECT_EQ(a.width, b.width);
-  EXPECT_EQ(a.height, b.height);
-  EXPECT_EQ(a.matrix(), b.matrix());
-  EXPECT_EQ(a.k, b.k);
-  EXPECT_EQ(a.p, b.p);
-}
 
 /** A camera whose numbers take all digits. */
 CameraIntrinsics

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scanner/expect_refused.h"
+#include "support/constants.h"
 
 #include <pcl6d/scanner/driven_scanner_projection.h>
 
@@ -12,8 +13,7 @@ using pcl6d::DrivenScannerOptions;
 using pcl6d::DrivenScannerProjection;
 using pcl6d::Pixel;
 using pcl6d::test::expectRefused;
-
-constexpr double kDegree = M_PI / 180;
+using pcl6d::test::kDegree;
 
 // Scanners of all drives, each with a lever arm, so that nothing cancels.
 std::vector<DrivenScannerOptions>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/constants.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/random.h>
 #include <pcl6d/scanner/measurement_principles.h>
@@ -7,10 +9,10 @@
 
 #include <cmath>
 
+using pcl6d::test::kDegree;
+
 namespace {
 using namespace pcl6d;
-
-constexpr double kDegree = M_PI / 180;
 
 // The instrument's side of triangulation: the image of a spot at (x, z).
 double

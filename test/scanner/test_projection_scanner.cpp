@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "small_camera.h"
+#include "support/constants.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/random.h>
@@ -15,12 +16,11 @@
 namespace {
 using namespace pcl6d;
 using pcl6d::test::exactRanges;
+using pcl6d::test::kDegree;
+using pcl6d::test::kIdentity;
 using pcl6d::test::kPlate;
 using pcl6d::test::plateAndWall;
 using pcl6d::test::smallCamera;
-
-constexpr double kDegree = M_PI / 180;
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 
 StripeProjectorOptions
 smallProjector()

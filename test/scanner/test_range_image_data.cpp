@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Kurt3D's recorded scans: 226 lines of 360 values, in the order of acquisition.
+#include "support/constants.h"
 #include "support/data_folder.h"
 
 #include <pcl6d/io/scan_reader.h>
@@ -13,8 +14,8 @@ namespace {
 using pcl6d::Pixel;
 using pcl6d::Points;
 using pcl6d::RangeImage;
+using pcl6d::test::kDegree;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kNear = 0.15;      // [m] nearer: no return, or the robot itself
 constexpr double kFar = 32.7;       // [m] farther: no return
 constexpr double kTolerance = 1e-3; // [m]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scanner/expect_refused.h"
+#include "support/constants.h"
 
 #include <pcl6d/scanner/range_projection.h>
 
@@ -15,8 +16,7 @@ using pcl6d::Pixel;
 using pcl6d::RangeProjection;
 using pcl6d::SphericalProjection;
 using pcl6d::test::expectRefused;
-
-constexpr double kDegree = M_PI / 180;
+using pcl6d::test::kDegree;
 
 ImageView
 frontView()

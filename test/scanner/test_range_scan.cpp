@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/constants.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/measurement_principles.h>
@@ -14,8 +16,7 @@ namespace {
 using pcl6d::castScan;
 using pcl6d::RangeOptions;
 using pcl6d::RangeScan;
-
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
+using pcl6d::test::kIdentity;
 
 pcl6d::RayCaster
 boxRoom()

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/constants.h"
+
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/simulation/cast_scan.h>
@@ -12,13 +14,14 @@
 #include <map>
 #include <sstream>
 
+using pcl6d::test::kDegree;
+
 namespace {
 using namespace pcl6d;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kFit = 1e-6; // [m] what is asked for within 10 m
 
-// Looks into the corner that the box of boxRoom() has at (4, 3, 2).
+// Looks into the corner that the box of cornerRoom() has at (4, 3, 2).
 Eigen::Isometry3d
 towardsTheCorner()
 {
@@ -29,7 +32,7 @@ towardsTheCorner()
 }
 
 RayCaster
-boxRoom()
+cornerRoom()
 {
   TriangleScene scene;
   addBox(scene, {-4, -3, -1.5}, {4, 3, 2}, {"room", 0.8});
@@ -151,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Scanners,
 
 TEST_P(Accuracy, FitsACornerWithoutNoise)
 {
-  const RayCaster room = boxRoom();
+  const RayCaster room = cornerRoom();
   const Eigen::Isometry3d pose = towardsTheCorner();
   const RangeScan scan = exactScan(room, pose);
   const auto points = pointsOf(scan, *preset_.scanner, pose);
@@ -224,7 +227,7 @@ TEST_P(Accuracy, PutsPointsOnTheMeshOfASphere)
 
 TEST_P(Accuracy, HasTheNoiseOfItsModel)
 {
-  const RayCaster room = boxRoom();
+  const RayCaster room = cornerRoom();
   const Eigen::Isometry3d pose = towardsTheCorner();
   const RangeScan exact = exactScan(room, pose);
   RangeOptions options = preset_.range; // spots and steps have tests of their own
@@ -262,7 +265,7 @@ TEST_P(Accuracy, HasTheSameBytesForEveryThreadCount)
 {
   const auto coarse =
       GetParam() == "rangefinder" ? preset_ : scannerByName(GetParam(), 4 * kDegree);
-  const RayCaster room = boxRoom();
+  const RayCaster room = cornerRoom();
   RangeOptions options = coarse.range;
   options.num_threads = 1;
   const RangeScan expected =

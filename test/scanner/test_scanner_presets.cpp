@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/constants.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/scanner/scanner_presets.h>
 
@@ -6,10 +8,10 @@
 
 #include <cmath>
 
+using pcl6d::test::kDegree;
+
 namespace {
 using namespace pcl6d;
-
-constexpr double kDegree = M_PI / 180;
 
 class Preset : public testing::TestWithParam<std::string> {
 protected:

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/constants.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/scanner/spinning_lidar.h>
@@ -11,8 +13,8 @@
 namespace {
 using pcl6d::SpinningLidar;
 using pcl6d::SpinningLidarOptions;
+using pcl6d::test::kDegree;
 
-constexpr double kDegree = M_PI / 180;
 } // namespace
 
 TEST(SpinningLidar, FollowsTheClosedForm)
@@ -68,6 +70,35 @@ TEST(SpinningLidar, OusterHas64LinesOver45Degrees)
   for (const int line : {0, 31, 63}) // a column fires at once
     EXPECT_EQ(lidar->time(line, 512), 0.05);
   EXPECT_EQ(pcl6d::scannerByName("ouster", kDegree).scanner->samplesPerLine(), 360);
+}
+
+TEST(SpinningLidar, PresetsHaveTheLinesOfTheirDataSheets)
+{
+  struct Sheet {
+    const char* name;
+    int lines, columns;
+    double highest, lowest; // [deg]
+  };
+  for (const Sheet& sheet : {Sheet{"hdl32", 32, 2170, 10.67, -30.67},
+                             Sheet{"hdl64", 64, 2083, 2, -24.33},
+                             Sheet{"os0", 128, 1024, 45, -45},
+                             Sheet{"pandar", 64, 1800, 15, -25},
+                             Sheet{"vlp16", 16, 1800, 15, -15}}) {
+    SCOPED_TRACE(sheet.name);
+    const auto lidar = pcl6d::scannerByName(sheet.name).scanner;
+    ASSERT_EQ(lidar->numLines(), sheet.lines);
+    EXPECT_EQ(lidar->samplesPerLine(), sheet.columns);
+    EXPECT_NEAR(lidar->duration(), 0.1, 0.001);
+    double above = 90 * kDegree;
+    for (int line = 0; line < sheet.lines; ++line) {
+      const double elevation = std::asin(lidar->ray(line, 0).direction.z());
+      EXPECT_LT(elevation, above) << "line " << line;
+      above = elevation;
+    }
+    EXPECT_NEAR(
+        std::asin(lidar->ray(0, 0).direction.z()), sheet.highest * kDegree, 1e-9);
+    EXPECT_NEAR(above, sheet.lowest * kDegree, 0.1 * kDegree);
+  }
 }
 
 TEST(SpinningLidar, RefusesBrokenOptions)

@@ -2,6 +2,7 @@
 #include "scanner/calibration_text.h"
 #include "scanner/expect_refused.h"
 #include "scanner/stereo_rig.h"
+#include "small_camera.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/scanner/stereo_calibration_file.h>
@@ -13,22 +14,13 @@ using pcl6d::readStereoCalibration;
 using pcl6d::StereoCalibration;
 using pcl6d::test::calibrationText;
 using pcl6d::test::expectRefused;
+using pcl6d::test::expectSame;
 using pcl6d::test::intrinsicsText;
 using pcl6d::test::matrixEntry;
 using pcl6d::test::motionEntries;
 using pcl6d::test::realRig;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
-
-void
-expectSame(const CameraIntrinsics& a, const CameraIntrinsics& b)
-{
-  EXPECT_EQ(a.matrix(), b.matrix());
-  EXPECT_EQ(a.k, b.k);
-  EXPECT_EQ(a.p, b.p);
-  EXPECT_EQ(a.width, b.width);
-  EXPECT_EQ(a.height, b.height);
-}
 
 /** \return the text without the entry, up to the next one */
 std::string

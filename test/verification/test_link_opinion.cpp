@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "judged.h"
 #include "support/points.h"
 #include "verified_rooms.h"
 
@@ -14,11 +15,12 @@ using pcl6d::LinkEvidence;
 using pcl6d::LinkOpinion;
 using pcl6d::LinkTrust;
 using pcl6d::withThingsOnce;
+using pcl6d::test::judged;
+using pcl6d::test::kBackground;
 using pcl6d::test::kNan;
 using pcl6d::test::kVoxel;
 
 namespace {
-const double kBackground = contradictionBackground({});
 
 /** \return evidence of rays, and of surfaces that meet and stay where they are */
 LinkEvidence
@@ -45,11 +47,6 @@ leaving(double sigmas)
   return evidence;
 }
 
-LinkOpinion
-judged(const LinkEvidence& evidence)
-{
-  return judgeLink(evidence, kBackground);
-}
 } // namespace
 
 TEST(LinkOpinion, GetsWorseWithEachContradictedPatch)

@@ -17,13 +17,13 @@ using pcl6d::test::ScannedPair;
 using pcl6d::test::VerifiedScans;
 
 namespace {
-constexpr double kBackground = 0.006;
+constexpr double kErrorBackground = 0.006;
 
 std::optional<pcl6d::NoticedError>
 noticedAt(const VerifiedScans& scans, const Eigen::Isometry3d& T)
 {
   return noticedError(
-      scans[0], scans[1], linkEvidence(scans[0], scans[1], T), kBackground);
+      scans[0], scans[1], linkEvidence(scans[0], scans[1], T), kErrorBackground);
 }
 } // namespace
 
@@ -32,7 +32,7 @@ TEST(NoticedError, OfARoomIsAFewCentimetresEachWay)
   const ScannedPair pair;
   const VerifiedScans scans = pair.verified();
   const LinkEvidence evidence = linkEvidence(scans[0], scans[1], pair.T_first_second);
-  const auto noticed = noticedError(scans[0], scans[1], evidence, kBackground);
+  const auto noticed = noticedError(scans[0], scans[1], evidence, kErrorBackground);
   ASSERT_TRUE(noticed);
   EXPECT_GE(noticed->least, 3 * evidence.deviation());
   EXPECT_GE(noticed->most, noticed->least);
@@ -51,8 +51,9 @@ TEST(NoticedError, IsWhatTheJudgeNoticesIndeed)
     const Eigen::Isometry3d moved =
         Eigen::Translation3d(1.5 * sign * noticed->most * noticed->weakest) *
         pair.T_first_second;
-    EXPECT_NE(judgeLink(linkEvidence(scans[0], scans[1], moved), kBackground).trust,
-              LinkTrust::kGood);
+    EXPECT_NE(
+        judgeLink(linkEvidence(scans[0], scans[1], moved), kErrorBackground).trust,
+        LinkTrust::kGood);
   }
 }
 

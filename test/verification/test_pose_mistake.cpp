@@ -22,7 +22,7 @@ using Poses = std::vector<Eigen::Isometry3d>;
 
 /** A drive through a room with nothing alike in it. */
 Poses
-way()
+straightWay()
 {
   Poses poses;
   for (int i = 0; i < 5; ++i)
@@ -40,7 +40,7 @@ scansOf(bool is_mirrored = false)
   room.pillars.emplace_back(Eigen::Vector3d(0, 3.4, -1), Eigen::Vector3d(1.5, 4, 1));
   VerifiedScans scans;
   Random random(4);
-  for (const auto& pose : way()) {
+  for (const auto& pose : straightWay()) {
     Points points = room.scan(pose, random, 0.04, 0.005);
     if (is_mirrored)
       for (auto& p : points)
@@ -59,14 +59,14 @@ begins(const std::string& text, const std::string& with)
 
 TEST(PoseMistake, IsNoneOfPosesThatAgree)
 {
-  EXPECT_EQ(likelyPoseMistake(scansOf().all(), way()), "");
+  EXPECT_EQ(likelyPoseMistake(scansOf().all(), straightWay()), "");
 }
 
 TEST(PoseMistake, NamesTheUnit)
 {
   const VerifiedScans scans = scansOf();
   const auto with = [&](double scale) {
-    Poses poses = way();
+    Poses poses = straightWay();
     for (auto& pose : poses)
       pose.translation() *= scale;
     return likelyPoseMistake(scans.all(), poses);
@@ -83,7 +83,7 @@ TEST(PoseMistake, NamesTurnedAxes)
 {
   const Eigen::Isometry3d half_turn = pcl6d::poseFromEuler({0, 0, 0}, {0, 0, M_PI});
   Poses poses;
-  for (const auto& pose : way())
+  for (const auto& pose : straightWay())
     poses.push_back(half_turn * pose * half_turn.inverse());
   EXPECT_PRED2(
       begins,
@@ -96,14 +96,14 @@ TEST(PoseMistake, NamesMirroredScans)
 {
   EXPECT_PRED2(
       begins,
-      likelyPoseMistake(scansOf(true).all(), way()),
+      likelyPoseMistake(scansOf(true).all(), straightWay()),
       "scans are mirrored against the poses (left-handed coordinates read as "
       "right-handed?): x, y, z of the scans are (x, -y, z) of the poses? Then ");
 }
 
 TEST(PoseMistake, IsNoneWhereNothingExplains)
 {
-  Poses poses = way();
+  Poses poses = straightWay();
   for (std::size_t i = 0; i < poses.size(); ++i)
     poses[i].translation().x() += i % 2 == 0 ? 0.9 : -0.8;
   EXPECT_EQ(likelyPoseMistake(scansOf().all(), poses), "");
@@ -114,9 +114,9 @@ TEST(PoseMistake, OfFewOrEmptyScansIsNone)
   EXPECT_EQ(likelyPoseMistake({}, {}), "");
   VerifiedScans scans;
   scans.add({});
-  EXPECT_EQ(likelyPoseMistake(scans.all(), Poses(1, way()[0])), "");
+  EXPECT_EQ(likelyPoseMistake(scans.all(), Poses(1, straightWay()[0])), "");
   scans.add({{1, 2, 3}});
-  EXPECT_EQ(likelyPoseMistake(scans.all(), Poses(2, way()[0])), "");
+  EXPECT_EQ(likelyPoseMistake(scans.all(), Poses(2, straightWay()[0])), "");
   EXPECT_NE(pcl6d::test::badArgumentOf([&] {
               likelyPoseMistake(scans.all(), {});
             }).find("one per scan"),

@@ -103,6 +103,25 @@ TEST(SurfaceFit, StaysAtTheTruePose)
   EXPECT_EQ(fit.open_directions, 0);
 }
 
+TEST(SurfaceFit, HoldsARollAboutTheLongAxis)
+{
+  // A corridor that is ten times as long as wide: no point is far from the axis of a roll,
+  // and yet floor and walls hold it; only the motion along the corridor is open.
+  Random random(5);
+  VerifiedScans scans;
+  for (int i = 0; i < 2; ++i) {
+    Points points = channel(random);
+    for (auto& p : points)
+      p.x() *= 2;
+    scans.add(points, kVoxel);
+  }
+  const SurfaceFit fit =
+      fitSurfaces(scans[0], scans[1], Eigen::Isometry3d::Identity(), optionsOf());
+  EXPECT_EQ(fit.open_directions, 1);
+  EXPECT_GT(fit.covariance(0, 0), 1) << "along the corridor";
+  EXPECT_LT(std::sqrt(fit.covariance(3, 3)), 0.05) << "the roll [rad]";
+}
+
 TEST(SurfaceFit, StepsBackByTheWholeShift)
 {
   const Boxes boxes;

@@ -13,7 +13,7 @@ using pcl6d::verification::Ties;
 using pcl6d::verification::tiesOf;
 
 namespace {
-constexpr double kBackground = 0.002;
+constexpr double kTieBackground = 0.002;
 
 LinkCheck
 link(std::size_t from,
@@ -38,7 +38,7 @@ triangles(const std::vector<LinkCheck>& between)
   std::vector<LinkCheck> links = {
       link(0, 1), link(1, 2), link(0, 2), link(3, 4), link(4, 5), link(3, 5)};
   links.insert(links.end(), between.begin(), between.end());
-  return tiesOf(6, links, kBackground);
+  return tiesOf(6, links, kTieBackground);
 }
 
 const std::vector<bool> kAll(6, true);
@@ -74,7 +74,7 @@ TEST(Ties, DoNotCountLinksOfScansThatBelongToNeither)
                    {link(0, 1),
                     link(1, 2, LinkTrust::kWrong, 200, 300),
                     link(0, 2, LinkTrust::kWrong, 200, 300)},
-                   kBackground)
+                   kTieBackground)
                 .tied,
             (std::vector<bool>{true, true, false}));
 }
@@ -106,7 +106,7 @@ TEST(Ties, OfPartsInAnyOrderAreCutAtTheLinkThatHolds)
   for (std::size_t i = 0; i + 2 < 12; ++i)
     links.push_back(link(i, i + 2));
   links.push_back(link(4, 7, LinkTrust::kGood, 3, 98));
-  const Ties ties = tiesOf(12, links, kBackground);
+  const Ties ties = tiesOf(12, links, kTieBackground);
   for (std::size_t i = 0; i < 12; ++i)
     EXPECT_EQ(ties.tied[i], i % 2 == 0) << i;
 }
@@ -125,7 +125,7 @@ TEST(Ties, AreNotWeakOrWrongLinks)
 
 TEST(Ties, KeepTheLargerPart)
 {
-  const Ties ties = tiesOf(4, {link(1, 2), link(2, 3)}, kBackground);
+  const Ties ties = tiesOf(4, {link(1, 2), link(2, 3)}, kTieBackground);
   EXPECT_EQ(ties.tied, (std::vector<bool>{false, true, true, true}));
 }
 
@@ -135,8 +135,8 @@ TEST(Ties, OfALongChainAreFoundWithoutRecursion)
   for (std::size_t i = 0; i + 1 < 3000; ++i)
     links.push_back(link(i, i + 1));
   links[1000] = link(1000, 1001, LinkTrust::kGood, 3, 100);
-  const Ties ties = tiesOf(3000, links, kBackground);
+  const Ties ties = tiesOf(3000, links, kTieBackground);
   EXPECT_FALSE(ties.tied[1000]);
   EXPECT_TRUE(ties.tied[1001]);
-  EXPECT_TRUE(tiesOf(0, {}, kBackground).tied.empty());
+  EXPECT_TRUE(tiesOf(0, {}, kTieBackground).tied.empty());
 }

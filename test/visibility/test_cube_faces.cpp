@@ -58,10 +58,12 @@ expectedHalo(const std::map<Place, Interval>& cells,
              int row,
              int col,
              int side,
-             int filled)
+             int filled,
+             bool enclosed)
 {
   Interval around;
   int count = 0;
+  bool above = false, below = false, left = false, right = false; // measured there
   for (int r = row - 1; r <= row + 1; ++r)
     for (int c = col - 1; c <= col + 1; ++c) {
       const bool corner = (r < 0 || r >= side) && (c < 0 || c >= side);
@@ -69,12 +71,40 @@ expectedHalo(const std::map<Place, Interval>& cells,
       if (cell == cells.end() || cell->second.isEmpty())
         continue;
       ++count;
+      below |= r < row;
+      above |= r > row;
+      left |= c < col;
+      right |= c > col;
       around.add(cell->second.nearest);
       around.add(cell->second.farthest);
     }
-  return count >= filled ? around : Interval{};
+  const bool all_sides = above && below && left && right;
+  return count >= filled && (all_sides || !enclosed) ? around : Interval{};
 }
 } // namespace
+
+TEST(HaloOf, DoesNotAnswerBeyondTheLastLine)
+{
+  // Two rows of a face are measured: neither has anything on both of its sides.
+  constexpr int kSide = 8;
+  Faces faces;
+  faces[0].resize(kSide * kSide);
+  const auto measure = [&](int row) {
+    for (int col = 0; col < kSide; ++col)
+      faces[0][static_cast<std::size_t>(row * kSide + col)].add(100);
+  };
+  const auto answers = [&](int row) {
+    return !haloOf(faces, 0, kSide, 6, true)[static_cast<std::size_t>(row * kSide + 4)]
+                .isEmpty();
+  };
+  measure(3);
+  measure(4);
+  for (int row = 1; row < kSide - 1; ++row)
+    EXPECT_FALSE(answers(row)) << row;
+  measure(5);
+  for (int row = 1; row < kSide - 1; ++row)
+    EXPECT_EQ(answers(row), row == 4) << row;
+}
 
 TEST(HaloOf, IsThatOfAllNineCellsAcrossTheEdgesToo)
 {
@@ -88,17 +118,20 @@ TEST(HaloOf, IsThatOfAllNineCellsAcrossTheEdgesToo)
             cells[placeOf(
                 f, static_cast<int>(i) / side, static_cast<int>(i) % side, side)] =
                 faces[f][i];
-        for (std::size_t f = 0; f < faces.size(); ++f) {
-          const auto halo = haloOf(faces, f, side, 6);
-          ASSERT_EQ(halo.size(), faces[f].size());
-          for (std::size_t i = 0; i < halo.size(); ++i) {
-            const int row = static_cast<int>(i) / side,
-                      col = static_cast<int>(i) % side;
-            const Interval expected = expectedHalo(cells, f, row, col, side, 6);
-            ASSERT_EQ(halo[i].nearest, expected.nearest)
-                << "side " << side << " face " << f << " row " << row << " col " << col;
-            ASSERT_EQ(halo[i].farthest, expected.farthest);
+        for (std::size_t f = 0; f < faces.size(); ++f)
+          for (const bool enclosed : {false, true}) {
+            const auto halo = haloOf(faces, f, side, 6, enclosed);
+            ASSERT_EQ(halo.size(), faces[f].size());
+            for (std::size_t i = 0; i < halo.size(); ++i) {
+              const int row = static_cast<int>(i) / side,
+                        col = static_cast<int>(i) % side;
+              const Interval expected =
+                  expectedHalo(cells, f, row, col, side, 6, enclosed);
+              ASSERT_EQ(halo[i].nearest, expected.nearest)
+                  << "side " << side << " face " << f << " row " << row << " col "
+                  << col;
+              ASSERT_EQ(halo[i].farthest, expected.farthest);
+            }
           }
-        }
       }
 }

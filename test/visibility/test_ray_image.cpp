@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ray_spheres.h"
 #include "rays.h"
 #include "support/points.h"
 
@@ -16,40 +17,20 @@ using pcl6d::Sight;
 using pcl6d::SightOfPlace;
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::directionOf;
+using pcl6d::test::filledOptions;
+using pcl6d::test::kAsked;
 using pcl6d::test::kCodeTol;
 using pcl6d::test::kInfinity;
 using pcl6d::test::kNan;
+using pcl6d::test::kOrigin;
+using pcl6d::test::kRadius;
+using pcl6d::test::kRays;
+using pcl6d::test::placeAt;
 using pcl6d::test::scanAround;
+using pcl6d::test::sphere;
 
 namespace {
 using Vector = Eigen::Vector3d;
-constexpr std::size_t kRays = 30000; // 0.02 rad apart
-constexpr std::size_t kAsked = 997;  // directions asked for, between the rays
-constexpr double kRadius = 5;        // [m]
-const Vector kOrigin(1, 2, 3);       // [m]
-
-/** Cells that are all filled by kRays, so that the finest level answers everywhere. */
-RayImageOptions
-filledOptions(double noise = 0.01, const Vector& origin = kOrigin)
-{
-  RayImageOptions options;
-  options.origin = origin.cast<float>();
-  options.noise = noise;
-  options.finest = 0.05;
-  return options;
-}
-
-Points
-sphere(double radius = kRadius, const Vector& origin = kOrigin)
-{
-  return scanAround(kRays, origin, [&](const Vector&) { return radius; });
-}
-
-Eigen::Vector3f
-placeAt(double range, const Vector& direction, const Vector& origin = kOrigin)
-{
-  return (origin + range * direction).cast<float>();
-}
 
 /** \return a range that differs in each direction, without edges */
 double

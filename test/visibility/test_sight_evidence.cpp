@@ -30,10 +30,10 @@ using pcl6d::test::scanAround;
 namespace {
 using Isometry = Eigen::Isometry3d;
 using Vector = Eigen::Vector3d;
-constexpr std::size_t kRays = 30000;
-constexpr double kPatch = 0.5;    // [m]
-constexpr double kNoise = 0.01;   // [m]
-constexpr double kWallAway = 5.0; // [m]
+constexpr std::size_t kSightRays = 30000;
+constexpr double kSightPatch = 0.5; // [m]
+constexpr double kNoise = 0.01;     // [m]
+constexpr double kWallAway = 5.0;   // [m]
 
 RayImage
 imageOf(const Points& points, const Vector& origin = Vector::Zero())
@@ -92,7 +92,7 @@ TEST(SightEvidence, ConfirmsTheRightPoseAndContradictsWrongOnes)
   const RayImage image = imageOf(scans.a);
   const PlaceUncertainty known{kNoise, MotionCovariance::Zero()};
   const auto evidenceAt = [&](const Isometry& pose) {
-    return sightEvidence(image, scans.b, pose, known, kPatch);
+    return sightEvidence(image, scans.b, pose, known, kSightPatch);
   };
   const SightEvidence right = evidenceAt(scans.T_world_b);
   EXPECT_EQ(right.free, 0u);
@@ -113,7 +113,8 @@ TEST(SightEvidence, CountsEachFinitePointOnce)
       points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }));
   ASSERT_LT(finite, points.size());
   for (const Isometry& pose : {scans.T_world_b, scans.wrong, shift(100, 0, 0)}) {
-    const auto evidence = sightEvidence(imageOf(scans.a), points, pose, {}, kPatch);
+    const auto evidence =
+        sightEvidence(imageOf(scans.a), points, pose, {}, kSightPatch);
     EXPECT_EQ(evidence.points(), finite);
     EXPECT_LE(evidence.confirmed_patches + evidence.contradicted_patches,
               evidence.patches);
@@ -124,11 +125,12 @@ TEST(SightEvidence, IsNoneWithoutPointsOrRays)
 {
   const Points wall = wallAt(kWallAway);
   const auto nothing =
-      sightEvidence(imageOf(wall), {}, Isometry::Identity(), {}, kPatch);
+      sightEvidence(imageOf(wall), {}, Isometry::Identity(), {}, kSightPatch);
   expectSame(nothing, SightEvidence());
   EXPECT_EQ(nothing.contradiction(), 0);
   EXPECT_EQ(nothing.confirmation(), 0);
-  const auto unseen = sightEvidence(RayImage(), wall, Isometry::Identity(), {}, kPatch);
+  const auto unseen =
+      sightEvidence(RayImage(), wall, Isometry::Identity(), {}, kSightPatch);
   EXPECT_EQ(unseen.unseen, wall.size());
   EXPECT_EQ(unseen.contradiction(), 0);
 }
@@ -149,8 +151,8 @@ TEST(SightEvidence, DoesNotDependOnTheOrderOfThePoints)
   const TwoScans scans;
   Points reversed(scans.b.rbegin(), scans.b.rend());
   const RayImage image = imageOf(scans.a);
-  expectSame(sightEvidence(image, reversed, scans.wrong, {}, kPatch),
-             sightEvidence(image, scans.b, scans.wrong, {}, kPatch));
+  expectSame(sightEvidence(image, reversed, scans.wrong, {}, kSightPatch),
+             sightEvidence(image, scans.b, scans.wrong, {}, kSightPatch));
 }
 
 TEST(SightEvidence, ContradictsNearlyAllPatchesOfAWallInFrontOfTheMeasuredOne)
@@ -159,8 +161,8 @@ TEST(SightEvidence, ContradictsNearlyAllPatchesOfAWallInFrontOfTheMeasuredOne)
   const double tolerance = 3 * kNoise + image.resolution() * kWallAway;
   std::vector<Contradiction> list;
   const double pushed = 10 * tolerance;
-  const SightEvidence evidence =
-      sightEvidence(image, wallAt(kWallAway), shift(-pushed, 0, 0), {}, kPatch, &list);
+  const SightEvidence evidence = sightEvidence(
+      image, wallAt(kWallAway), shift(-pushed, 0, 0), {}, kSightPatch, &list);
   EXPECT_EQ(evidence.confirmed, 0u);
   EXPECT_EQ(evidence.contradiction(), 1);
   EXPECT_GT(evidence.patches, 50u);
@@ -181,9 +183,9 @@ TEST(SightEvidence, ContradictsNearlyAllPatchesOfAWallInFrontOfTheMeasuredOne)
   EXPECT_GT(clear, 0.95 * list.size());
   // The wall behind is hidden, the wall itself confirmed.
   const Points wall = wallAt(kWallAway);
-  const auto behind = sightEvidence(image, wall, shift(pushed, 0, 0), {}, kPatch);
+  const auto behind = sightEvidence(image, wall, shift(pushed, 0, 0), {}, kSightPatch);
   EXPECT_EQ(behind.free + behind.confirmed, 0u);
-  const auto right = sightEvidence(image, wall, Isometry::Identity(), {}, kPatch);
+  const auto right = sightEvidence(image, wall, Isometry::Identity(), {}, kSightPatch);
   EXPECT_EQ(right.free, 0u);
   EXPECT_EQ(right.confirmed_patches, right.patches);
 }
@@ -198,7 +200,7 @@ TEST(SightEvidence, ContradictsNoPatchForSingleOutliers)
     points.push_back({3, static_cast<float>(y), 0.3F}); // alone in its patch
   std::vector<Contradiction> list;
   const auto evidence =
-      sightEvidence(image, points, Isometry::Identity(), {}, kPatch, &list);
+      sightEvidence(image, points, Isometry::Identity(), {}, kSightPatch, &list);
   EXPECT_GT(evidence.free, 500u);
   EXPECT_EQ(evidence.contradicted_patches, 0u);
   for (const Contradiction& one : list)
@@ -215,7 +217,7 @@ TEST(SightEvidence, MarksWhichContradictionsAreClearAndKeepsTheList)
   std::vector<Contradiction> list(2);
   list[0].beyond = 42;
   const auto evidence =
-      sightEvidence(image, points, Isometry::Identity(), {}, kPatch, &list);
+      sightEvidence(image, points, Isometry::Identity(), {}, kSightPatch, &list);
   EXPECT_EQ(evidence.free, 5u);
   EXPECT_EQ(evidence.contradicted_patches, 1u);
   ASSERT_EQ(list.size(), 7u);
@@ -225,7 +227,8 @@ TEST(SightEvidence, MarksWhichContradictionsAreClearAndKeepsTheList)
     EXPECT_TRUE(list[i].clear) << i;
   EXPECT_FALSE(list[6].clear);
   EXPECT_EQ(list[6].place, points.back());
-  expectSame(sightEvidence(image, points, Isometry::Identity(), {}, kPatch), evidence);
+  expectSame(sightEvidence(image, points, Isometry::Identity(), {}, kSightPatch),
+             evidence);
 }
 
 TEST(SightEvidence, AsksAPatchForFourPointsAndHalfOfThem)
@@ -238,7 +241,7 @@ TEST(SightEvidence, AsksAPatchForFourPointsAndHalfOfThem)
       points.push_back({4.55F, 0.05F * static_cast<float>(i + 1), 0.2F});
     for (int i = 0; i < confirmed; ++i)
       points.push_back({4.95F, 0.05F * static_cast<float>(i + 1), 0.2F});
-    const auto e = sightEvidence(image, points, Isometry::Identity(), {}, kPatch);
+    const auto e = sightEvidence(image, points, Isometry::Identity(), {}, kSightPatch);
     EXPECT_EQ(e.free, static_cast<std::size_t>(free));
     EXPECT_EQ(e.confirmed, static_cast<std::size_t>(confirmed));
     return std::to_string(e.patches) + std::to_string(e.contradicted_patches) +
@@ -256,14 +259,15 @@ TEST(SightEvidence, AsksAPatchForFourPointsAndHalfOfThem)
 
 TEST(PlaceUncertainty, WidensTheToleranceAlongTheRay)
 {
-  constexpr double kRadius = 5;
+  constexpr double kBallRadius = 5;
   const Vector origin(0.5, -1, 0.3); // not of the frame: turns lever it, too
   const RayImage image =
-      imageOf(scanAround(kRays, origin, [](const Vector&) { return kRadius; }), origin);
+      imageOf(scanAround(kSightRays, origin, [](const Vector&) { return kBallRadius; }),
+              origin);
   Random random(11);
   for (int trial = 0; trial < 200; ++trial) {
     const Vector d = directionOf(static_cast<std::size_t>(trial), 200);
-    const Eigen::Vector3f p = (origin + 0.85 * kRadius * d).cast<float>();
+    const Eigen::Vector3f p = (origin + 0.85 * kBallRadius * d).cast<float>();
     const Vector place = p.cast<double>();
     // How the range answers to a small motion of the place: velocity, then rotation.
     Eigen::Matrix<double, 6, 1> slope;
@@ -285,14 +289,14 @@ TEST(PlaceUncertainty, WidensTheToleranceAlongTheRay)
     PlaceUncertainty uncertainty;
     uncertainty.noise = 0.02;
     // The deviation from which on the place is confirmed, by the formula of tolerance.
-    const double range = 0.85 * kRadius;
-    const double needed = (kRadius - range - image.resolution() * range) / 3;
+    const double range = 0.85 * kBallRadius;
+    const double needed = (kBallRadius - range - image.resolution() * range) / 3;
     const double motion =
         needed * needed - kNoise * kNoise - uncertainty.noise * uncertainty.noise;
     const MotionCovariance any = root * root.transpose();
     const auto sightOf = [&](double share) {
       uncertainty.motion = any * (share * motion / slope.dot(any * slope));
-      return sightEvidence(image, {p}, Isometry::Identity(), uncertainty, kPatch);
+      return sightEvidence(image, {p}, Isometry::Identity(), uncertainty, kSightPatch);
     };
     EXPECT_EQ(sightOf(0.97).free, 1u) << d.transpose();
     EXPECT_EQ(sightOf(1.03).confirmed, 1u) << d.transpose();
@@ -301,23 +305,23 @@ TEST(PlaceUncertainty, WidensTheToleranceAlongTheRay)
 
 TEST(PlaceUncertainty, DoesNotCountAcrossTheRay)
 {
-  const RayImage image =
-      imageOf(scanAround(kRays, Vector::Zero(), [](const Vector&) { return 5.0; }));
+  const RayImage image = imageOf(
+      scanAround(kSightRays, Vector::Zero(), [](const Vector&) { return 5.0; }));
   PlaceUncertainty uncertainty;
   uncertainty.motion.diagonal() << 0, 9, 9, 1, 1, 1; // a turn moves it across, too
   const auto evidence =
-      sightEvidence(image, {{3, 0, 0}}, Isometry::Identity(), uncertainty, kPatch);
+      sightEvidence(image, {{3, 0, 0}}, Isometry::Identity(), uncertainty, kSightPatch);
   EXPECT_EQ(evidence.free, 1u);
 }
 
 TEST(PlaceUncertainty, IsNotLostToACovarianceNegativeByRounding)
 {
-  const RayImage image =
-      imageOf(scanAround(kRays, Vector::Zero(), [](const Vector&) { return 5.0; }));
+  const RayImage image = imageOf(
+      scanAround(kSightRays, Vector::Zero(), [](const Vector&) { return 5.0; }));
   PlaceUncertainty uncertainty;
   uncertainty.motion(0, 0) = -1e-18;
   const auto evidence =
-      sightEvidence(image, {{3, 0, 0}}, Isometry::Identity(), uncertainty, kPatch);
+      sightEvidence(image, {{3, 0, 0}}, Isometry::Identity(), uncertainty, kSightPatch);
   EXPECT_EQ(evidence.free, 1u);
 }
 
@@ -336,6 +340,6 @@ TEST(SightEvidence, RefusesPatchesWithoutASizeAndPointsTooFarForThem)
   EXPECT_EQ(messageOf(kInfinity, before), "patch = inf, but must be finite and > 0");
   EXPECT_NE(messageOf(3.5e-6, before), "") << "4 m are more than 2^20 patches";
   EXPECT_EQ(list.size(), 1u) << "after a throw as before the call";
-  EXPECT_EQ(messageOf(kPatch, before), "");
+  EXPECT_EQ(messageOf(kSightPatch, before), "");
   EXPECT_EQ(list.size(), 3u);
 }

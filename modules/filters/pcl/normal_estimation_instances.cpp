@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/filters/pcl/normal_estimation.h>
 
+#include <pcl/point_types.h>
+
 #define PCL6D_DEFINE_NORMALS_(Class, PointT)                                           \
   template class Class<PointT, pcl::Normal>;                                           \
   template class Class<PointT, pcl::PointNormal>;

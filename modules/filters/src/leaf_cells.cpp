@@ -5,6 +5,8 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/leaf_cells.h>
 
+#include <pcl/types.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -82,16 +82,18 @@ spreadOf(const Symmetric<Real>& scatter)
 
 /** \return the direction of least spread; zero for points on a line. It is orthogonal to two
  * rows of S - root. Several times as fast as a general solver, which is left what this cannot
- * decide: patches that are nearly as thick as they are wide in some direction. */
+ * decide: patches that are nearly as thick as they are wide in some direction.
+ * \param[in] line points lie on one if their second largest squared spread is at most this
+ * share of the largest */
 inline Eigen::Vector3d
-leastSpread(const Spread<double>& of)
+leastSpread(const Spread<double>& of, double line = kLineTolerance)
 {
   if (!(of.trace > 0))
     return Eigen::Vector3d::Zero();
   const double others = 1 - of.root, product = of.c1 - of.root * others;
   const double largest =
       (others + std::sqrt(std::max(0.0, others * others - 4 * product))) / 2;
-  if (!(product > kLineTolerance * largest * largest))
+  if (!(product > line * largest * largest))
     return Eigen::Vector3d::Zero();
   Eigen::Matrix3d S;
   S << of.S.xx, of.S.xy, of.S.xz, of.S.xy, of.S.yy, of.S.yz, of.S.xz, of.S.yz, of.S.zz;

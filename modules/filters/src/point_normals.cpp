@@ -93,9 +93,11 @@ scatterOf(const Offsets& offsets, std::size_t size)
 
 /** \return towards the origin */
 Eigen::Vector3f
-normalFrom(const Spread<double>& spread, const Eigen::Vector3f& place)
+normalFrom(const Spread<double>& spread,
+           const Eigen::Vector3f& place,
+           double line = filters::kLineTolerance)
 {
-  const Eigen::Vector3f normal = leastSpread(spread).cast<float>();
+  const Eigen::Vector3f normal = leastSpread(spread, line).cast<float>();
   return normal.dot(place) > 0 ? Eigen::Vector3f(-normal) : normal;
 }
 
@@ -128,12 +130,13 @@ Eigen::Vector3f
 normalOfPatch(const Eigen::Vector3f& place,
               const Patch& patch,
               std::size_t size,
-              const Points& points)
+              const Points& points,
+              double line = filters::kLineTolerance)
 {
   if (size < 3)
     return Eigen::Vector3f::Zero();
-  return normalFrom(spreadOf(scatterOf(PatchOffsets{patch, points, place}, size)),
-                    place);
+  return normalFrom(
+      spreadOf(scatterOf(PatchOffsets{patch, points, place}, size)), place, line);
 }
 
 /** kLanes normals. \return whether all patches had the same size, of 3 or more; if not,
@@ -143,6 +146,7 @@ normalsOfLanes(const Eigen::Vector3f* places,
                const PointTree& tree,
                const Points& points,
                std::size_t neighbours,
+               double line,
                Eigen::Vector3f* normals)
 {
   std::array<Patch, kLanes> patches;
@@ -157,7 +161,7 @@ normalsOfLanes(const Eigen::Vector3f* places,
   Spread<Lanes> spread;
   spreadOfLanes({patches.data(), points, places}, size, spread);
   for (std::size_t lane = 0; lane < kLanes; ++lane)
-    normals[lane] = normalFrom(laneOf(spread, lane), places[lane]);
+    normals[lane] = normalFrom(laneOf(spread, lane), places[lane], line);
   return true;
 }
 } // namespace
@@ -185,12 +189,15 @@ normalOf(const Eigen::Vector3f& place,
   return normalOfPatch(place, patch, size, points);
 }
 
+namespace {
+/** \param[in] line as leastSpread() has it */
 Normals
-estimateNormals(const Points& places,
-                const Points& points,
-                const PointTree& tree,
-                std::size_t neighbours,
-                unsigned int num_threads)
+normalsOfPatches(const Points& places,
+                 const Points& points,
+                 const PointTree& tree,
+                 std::size_t neighbours,
+                 double line,
+                 unsigned int num_threads)
 {
   requireNeighbours(neighbours);
   Normals normals(places.size());
@@ -199,12 +206,80 @@ estimateNormals(const Points& places,
     while (i < block.end) {
       const std::size_t lanes_end = std::min(i + kLanes, block.end);
       if (lanes_end - i == kLanes &&
-          normalsOfLanes(&places[i], tree, points, neighbours, &normals[i]))
+          normalsOfLanes(&places[i], tree, points, neighbours, line, &normals[i]))
         i = lanes_end;
-      for (; i < lanes_end; ++i)
-        normals[i] = normalAt(places[i], tree, points, neighbours);
+      for (; i < lanes_end; ++i) {
+        Patch patch;
+        const std::size_t size = tree.nearestK(places[i], neighbours, patch.data());
+        normals[i] = normalOfPatch(places[i], patch, size, points, line);
+      }
     }
   });
+  return normals;
+}
+
+/** Standard deviations of a patch, the second by the first, up to which its points lie on a
+ * line whose width may be noise (algorithms.md S.2, rule A). */
+constexpr double kLine = 0.3;
+/** The same above which a patch that was grown is a surface: half as wide as long
+ * (algorithms.md S.3, "grow 0.5"). */
+constexpr double kFlat = 0.5;
+/** Sizes of the patches that are tried one after another. */
+constexpr std::size_t kGrown[] = {16, 24, 40, kMostNeighbours};
+/** A patch wider than this share of its range, or than so many spacings, shows more than one
+ * surface. */
+constexpr double kWidestOfRange = 0.15, kWidestSpacings = 8;
+
+Eigen::Vector3f
+grownNormal(const Eigen::Vector3f& place,
+            const Points& points,
+            const PointTree& tree,
+            double spacing)
+{
+  const double widest =
+      std::max(kWidestOfRange * place.norm(), kWidestSpacings * spacing);
+  Patch patch;
+  const std::size_t found = tree.nearestK(place, kMostNeighbours, patch.data());
+  for (const std::size_t size : kGrown) {
+    if (size > found || patch[size - 1].distance_sq > widest * widest)
+      break;
+    Eigen::Vector3f normal = normalOfPatch(place, patch, size, points, kFlat * kFlat);
+    if (!normal.isZero(0))
+      return normal;
+  }
+  return Eigen::Vector3f::Zero();
+}
+} // namespace
+
+Normals
+estimateNormals(const Points& places,
+                const Points& points,
+                const PointTree& tree,
+                std::size_t neighbours,
+                unsigned int num_threads)
+{
+  return normalsOfPatches(
+      places, points, tree, neighbours, filters::kLineTolerance, num_threads);
+}
+
+Normals
+estimateSurfaceNormals(const Points& points,
+                       const PointTree& tree,
+                       const Points& patches,
+                       const PatchNormals& options)
+{
+  Normals normals = normalsOfPatches(points,
+                                     patches,
+                                     PointTree(patches, options.num_threads),
+                                     options.neighbours,
+                                     kLine * kLine,
+                                     options.num_threads);
+  parallelBlocks(
+      points.size(), kBlockSize, options.num_threads, [&](const Block& block) {
+        for (std::size_t i = block.begin; i < block.end; ++i)
+          if (normals[i].isZero(0) && points[i].allFinite())
+            normals[i] = grownNormal(points[i], points, tree, options.spacing);
+      });
   return normals;
 }
 

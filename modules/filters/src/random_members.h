@@ -4,6 +4,8 @@
 #include <pcl6d/common/random.h>
 #include <pcl6d/filters/voxel_reduction.h>
 
+#include <pcl/types.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <utility>

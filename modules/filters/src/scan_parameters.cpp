@@ -3,12 +3,14 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/filters/scan_parameters.h>
+#include <pcl6d/filters/scan_sampling.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace pcl6d {
 
@@ -54,6 +56,24 @@ gateBelowCode(const std::vector<Points>& scans)
   return {rounded(0.999 * smallest, 4), false, "no-return code at " + metres(smallest)};
 }
 
+/** Voxels of this many line spacings hold points of two lines wherever the surface faces the
+ * scanner, at up to 1.4 times the median range (algorithms.md S.2, rule C: 1.4 and more lose
+ * detail of narrow corridors, below 1 registration of rooms fails). */
+constexpr double kVoxelOfLines = 1.3;
+
+/** \return the sampling whose line spacing is the (upper) median of all */
+ScanSampling
+medianSampling(std::vector<ScanSampling> all)
+{
+  if (all.empty())
+    return {};
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end(), [](const auto& a, const auto& b) {
+    return a.lineSpacing() < b.lineSpacing();
+  });
+  return *middle;
+}
+
 /** One wild return must not end the run: a point beyond could not be numbered. The
  * grid of the metascan, half as wide, reaches 2^19 voxels; half of these are left for
  * the way from its origin to the scan. */
@@ -97,11 +117,13 @@ deriveScanParameters(const ScanParameterOptions& options,
   ScanParameters p;
   p.max_range = orDerived(options.max_range, gateBelowCode(scans));
   std::vector<double> ranges, spreads, spacings;
+  std::vector<ScanSampling> samplings;
   for (const auto& scan : scans) {
     const Points seen = gateByRange(scan, 0, p.max_range.value);
     ranges.push_back(medianRange(seen));
     spreads.push_back(medianSpread(seen));
     spacings.push_back(medianSpacing(seen));
+    samplings.push_back(samplingOf(seen));
   }
   const double range = upperMedian(ranges), spacing = upperMedian(spacings);
   p.median_range = range;
@@ -124,6 +146,13 @@ deriveScanParameters(const ScanParameterOptions& options,
                 derivedParameter(std::max(voxel, 1e-6),
                                  "larger of 2.5 x median spacing " + metres(spacing) +
                                      " and " + scale + " / 60"));
+  const ScanSampling sampling = medianSampling(std::move(samplings));
+  p.line_spacing = derivedParameter(sampling.lineSpacing(), sampling.text());
+  const double of_lines = kVoxelOfLines * sampling.lineSpacing();
+  if (!options.voxel && of_lines > voxel)
+    p.voxel = derivedParameter(of_lines,
+                               "1.3 x line-spacing " + metres(sampling.lineSpacing()) +
+                                   " (" + sampling.text() + ")");
   const Parameter grid = gateAtGrid(p.voxel.value);
   if (!options.max_range && grid.value < p.max_range.value)
     p.max_range = grid;

@@ -7,6 +7,8 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/voxel_reduction.h>
 
+#include <pcl/types.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

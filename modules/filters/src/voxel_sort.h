@@ -4,6 +4,8 @@
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/voxel_key.h>
 
+#include <pcl/types.h>
+
 #include <optional>
 #include <vector>
 

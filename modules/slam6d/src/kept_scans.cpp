@@ -24,6 +24,7 @@ packFields(Archive& archive, Slam6DParameters& p)
 {
   archive(p.min_range, p.max_range, p.voxel, p.max_distance, p.max_distance_start);
   archive(p.loop_distance, p.link_distance, p.loop_gap, p.loop_pairs, p.median_range);
+  archive(p.line_spacing);
 }
 } // namespace pcl6d
 

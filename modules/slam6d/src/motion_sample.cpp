@@ -5,6 +5,8 @@
 #include <pcl6d/common/voxel_key.h>
 #include <pcl6d/filters/voxel_reduction.h>
 
+#include <pcl/types.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -212,24 +212,33 @@ RecoveryStage::takePlace(std::size_t i,
   scan.recovered = by;
 }
 
-/** A piece that has no place in the map follows the odometry, as a whole. */
+/** A piece that is not accepted anywhere in the map follows the odometry, scan by scan: the
+ * matches within it have no other scan that confirms them, and one wrong match would carry all
+ * later scans away. Without odometry the matches within the piece are all that there is. */
 void
 RecoveryStage::layBeside(const Piece& piece,
                          const std::string& why,
                          Slam6DResult& result) const
 {
   const std::size_t first = piece.front();
-  ScanResult& scan = result.scans[first];
-  if (first > 0) {
-    const ScanResult& before = result.scans[first - 1];
-    scan.T_world_scan = extrapolateOdometry(
-        before.T_world_scan, before.initial_pose, scan.initial_pose);
-  }
+  const auto follow = [&](std::size_t i) {
+    const ScanResult& before = result.scans[i - 1];
+    result.scans[i].T_world_scan = extrapolateOdometry(
+        before.T_world_scan, before.initial_pose, result.scans[i].initial_pose);
+  };
+  if (first > 0)
+    follow(first);
+  const bool has_odometry = std::any_of(piece.begin(), piece.end(), [&](std::size_t i) {
+    return !result.scans[i].initial_pose.isApprox(result.scans[first].initial_pose);
+  });
   const Eigen::Isometry3d T_world_piece =
-      scan.T_world_scan * own_[first].T_world_scan.inverse();
+      result.scans[first].T_world_scan * own_[first].T_world_scan.inverse();
   for (const std::size_t i : piece) {
     ScanResult& one = result.scans[i];
-    one.T_world_scan = T_world_piece * own_[i].T_world_scan;
+    if (i > first && has_odometry)
+      follow(i);
+    else
+      one.T_world_scan = T_world_piece * own_[i].T_world_scan;
     one.matched_pose = one.T_world_scan;
     one.state = ScanState::kPredicted;
     if (piece.size() > 1)

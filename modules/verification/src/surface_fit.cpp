@@ -151,6 +151,27 @@ sharedVariances(const std::vector<SurfacePair>& pairs,
   return (size * inverse.cwiseProduct(pull)).cwiseAbs2();
 }
 
+/** \return B^-1/2: from turns in which the pairs move by 1 m (rms) to turns [rad], as
+ * localizabilityOf() has it. By the spread of all pairs alone, a roll about the long axis of
+ * an elongated scan, whose levers are short, would count as unobserved. Turns about a line
+ * of pairs count as if it had a thickness of a thousandth of its length. */
+Eigen::Matrix3d
+unitTurns(const std::vector<SurfacePair>& pairs, const SurfaceFit& fit)
+{
+  if (!(fit.spread > 0))
+    return Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const SurfacePair& pair : pairs) {
+    const Eigen::Vector3d lever = pair.place - fit.centroid;
+    scatter += lever * lever.transpose() / static_cast<double>(pairs.size());
+  }
+  const auto eigen = symmetricEigen<3>(
+      Eigen::Matrix3d(scatter.trace() * Eigen::Matrix3d::Identity() - scatter));
+  const Eigen::Vector3d squares =
+      eigen.values.cwiseMax(1e-6 * eigen.values(2)).cwiseSqrt().cwiseInverse();
+  return eigen.vectors * squares.asDiagonal() * eigen.vectors.transpose();
+}
+
 /** Solves for the step, and gives the covariance of the pose. */
 void
 solve(const std::vector<SurfacePair>& pairs,
@@ -165,11 +186,10 @@ solve(const std::vector<SurfacePair>& pairs,
     H += j * j.transpose();
     b += pair.residual * j;
   }
-  Twist unit = Twist::Ones(); // rotations as motions of the pairs
-  unit.tail<3>().setConstant(fit.spread > 0 ? 1 / fit.spread : 1);
+  Matrix6 unit = Matrix6::Identity(); // turns as motions of the pairs
+  unit.bottomRightCorner<3, 3>() = unitTurns(pairs, fit);
   const auto count = static_cast<double>(pairs.size());
-  const auto eigen =
-      symmetricEigen<6>(unit.asDiagonal() * H * unit.asDiagonal() / count);
+  const auto eigen = symmetricEigen<6>(Matrix6(unit * H * unit / count));
   // An open direction takes no step and is as uncertain as the pairs are spread.
   Twist inverse = Twist::Zero(), open = Twist::Zero();
   for (int k = 0; k < 6; ++k)
@@ -179,7 +199,7 @@ solve(const std::vector<SurfacePair>& pairs,
     }
     else
       inverse(k) = 1 / (eigen.values(k) * count);
-  const Matrix6 V = unit.asDiagonal() * eigen.vectors;
+  const Matrix6 V = unit * eigen.vectors;
   const Matrix6 H_inverse = V * inverse.asDiagonal() * V.transpose();
   fit.step = H_inverse * b;
   if (!options.covariance)

@@ -3,6 +3,7 @@
 #include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/icp.h>
 #include <pcl6d/verification/twin_search.h>
 
@@ -82,8 +83,8 @@ votedShifts(const Plan& fixed, const Plan& moved)
   constexpr int kSide = 4 * kMostCells;
   std::vector<std::uint32_t> votes(static_cast<std::size_t>(kSide) * kSide, 0);
   const auto at = [](const Eigen::Vector2i& shift) {
-    return static_cast<std::size_t>((shift.y() + kSide / 2) * kSide + shift.x() +
-                                    kSide / 2);
+    const int cell = (shift.y() + kSide / 2) * kSide + shift.x() + kSide / 2;
+    return static_cast<std::size_t>(cell);
   };
   for (const auto& f : fixed)
     for (const auto& m : moved) {
@@ -172,7 +173,7 @@ findTwins(const VerifiedScan& first,
     throw BadArgument("T_first_second is not a rigid motion");
   require(std::abs(up.norm() - 1) < kUnitLength, "up", up.transpose(), "a unit vector");
   const double voxel = std::max(first.voxel(), second.voxel());
-  const auto level = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+  const auto level = shortestRotation(up, Eigen::Vector3d::UnitZ());
   std::vector<Eigen::Isometry3d> twins;
   for (const auto& start : votedStarts(first, second, level, T_first_second)) {
     const auto place = matchedFrom(first, second, level.inverse() * start);

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/voxel_numbers.h>
+#include <pcl6d/filters/scan_sampling.h>
 #include <pcl6d/verification/verified_scan.h>
 #include <pcl6d/visibility/range_noise.h>
 #include <pcl6d/visibility/sight_evidence.h>
@@ -47,6 +48,8 @@ VerifiedScan::VerifiedScan(const Points& measured,
   RayImageOptions options;
   options.origin = origin;
   options.noise = rangeNoise(measured);
+  options.between_lines =
+      samplingOf(measured, origin).structure != ScanStructure::kEven;
   rays_ = RayImage(measured, options);
   self_contradiction_ = pcl6d::selfContradiction(measured, origin, options.noise);
   patches_ = patchesOf(surfaces.points(), verification::kPatchVoxels * voxel);

@@ -8,6 +8,14 @@
 namespace pcl6d::visibility {
 
 namespace {
+/** \return the place of a cell of a face of so many rows and columns */
+std::size_t
+indexOf(int row, int col, int side)
+{
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(side) +
+         static_cast<std::size_t>(col);
+}
+
 constexpr std::uint16_t kNone = std::numeric_limits<std::uint16_t>::max();
 
 /** Spreads equal angles over about equal lengths: within 14 % of the mean, where the
@@ -57,10 +65,11 @@ public:
   , nearest_(width_ * width_, kNone)
   , farthest_(width_ * width_, 0)
   , filled_(width_ * width_, 0)
+  , around_(width_ * width_, 0)
   {
     for (int row = 0; row < side; ++row)
       for (int col = 0; col < side; ++col)
-        set(row, col, measured[face][static_cast<std::size_t>(row * side + col)]);
+        set(row, col, measured[face][indexOf(row, col, side)]);
     for (int k = 0; k < side; ++k)
       for (const auto& [row, col] : {std::pair(-1, k),
                                      std::pair(side, k),
@@ -68,9 +77,7 @@ public:
                                      std::pair(k, side)}) {
         const CellOnCube at = acrossEdge({face, row, col}, side);
         if (!measured[at.face].empty())
-          set(row,
-              col,
-              measured[at.face][static_cast<std::size_t>(at.row * side + at.col)]);
+          set(row, col, measured[at.face][indexOf(at.row, at.col, side)]);
       }
   }
 
@@ -80,7 +87,7 @@ public:
   {
     join(nearest_, step, [](auto a, auto b) { return std::min(a, b); });
     join(farthest_, step, [](auto a, auto b) { return std::max(a, b); });
-    join(filled_, step, [](auto a, auto b) {
+    join(around_, step, [](auto a, auto b) {
       return static_cast<std::uint16_t>(a + b);
     });
   }
@@ -92,14 +99,15 @@ public:
   }
 
   std::vector<Interval>
-  cells(int filled) const
+  cells(int filled, bool enclosed) const
   {
     std::vector<Interval> cells(static_cast<std::size_t>(side_) *
                                 static_cast<std::size_t>(side_));
     auto* cell = cells.data();
     for (int row = 0; row < side_; ++row)
       for (int col = 0; col < side_; ++col, ++cell)
-        if (const std::size_t i = place(row, col); filled_[i] >= filled)
+        if (const std::size_t i = place(row, col);
+            around_[i] >= filled && (!enclosed || isEnclosed(i)))
           *cell = {nearest_[i], farthest_[i]};
     return cells;
   }
@@ -112,6 +120,20 @@ private:
            static_cast<std::size_t>(col + 1);
   }
 
+  /** \return whether something was measured on each of the four sides of a cell: beyond the
+   * last line of a scan its six filled neighbours would else answer for what no ray met */
+  bool
+  isEnclosed(std::size_t i) const
+  {
+    const auto row = [&](std::size_t k) {
+      return filled_[k - 1] + filled_[k] + filled_[k + 1] > 0;
+    };
+    const auto column = [&](std::size_t k) {
+      return filled_[k - width_] + filled_[k] + filled_[k + width_] > 0;
+    };
+    return row(i - width_) && row(i + width_) && column(i - 1) && column(i + 1);
+  }
+
   void
   set(int row, int col, const Interval& interval)
   {
@@ -120,7 +142,7 @@ private:
     const std::size_t i = place(row, col);
     nearest_[i] = interval.nearest;
     farthest_[i] = interval.farthest;
-    filled_[i] = 1;
+    filled_[i] = around_[i] = 1;
   }
 
   template <typename Join>
@@ -136,7 +158,7 @@ private:
 
   int side_;
   std::size_t width_;
-  std::vector<std::uint16_t> nearest_, farthest_, filled_;
+  std::vector<std::uint16_t> nearest_, farthest_, filled_, around_;
 };
 } // namespace
 
@@ -153,19 +175,18 @@ onCube(const Eigen::Vector3f& ray)
 std::size_t
 cellOf(const OnCube& place, int side)
 {
-  return static_cast<std::size_t>(cellAlong(place.v, side) * side +
-                                  cellAlong(place.u, side));
+  return indexOf(cellAlong(place.v, side), cellAlong(place.u, side), side);
 }
 
 std::vector<Interval>
-haloOf(const Faces& measured, std::size_t face, int side, int filled)
+haloOf(const Faces& measured, std::size_t face, int side, int filled, bool enclosed)
 {
   if (measured[face].empty())
     return {};
   BorderedFace bordered(measured, face, side);
   bordered.dilate(1); // wraps around at the borders only, which are not asked for
   bordered.dilate(bordered.width());
-  return bordered.cells(filled);
+  return bordered.cells(filled, enclosed);
 }
 
 } // namespace pcl6d::visibility

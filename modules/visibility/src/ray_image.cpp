@@ -121,13 +121,15 @@ RayImage::RayImage(const Points& measured, const RayImageOptions& options)
     Level level;
     level.side = std::max(1, static_cast<int>(std::lround(kFace / cell)));
     level.cell = kFace / level.side;
-    if (fill(rays, level) >= kUsefulShare)
+    if (fill(rays, level, options.between_lines) >= kUsefulShare)
       levels_.push_back(std::move(level));
   }
 }
 
 double
-RayImage::fill(const std::vector<visibility::CodedRay>& rays, Level& level)
+RayImage::fill(const std::vector<visibility::CodedRay>& rays,
+               Level& level,
+               bool enclosed)
 {
   const int side = level.side;
   const auto cells = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
@@ -140,7 +142,7 @@ RayImage::fill(const std::vector<visibility::CodedRay>& rays, Level& level)
   }
   std::size_t occupied = 0, answering = 0;
   for (std::size_t f = 0; f < measured.size(); ++f) {
-    level.faces[f] = visibility::haloOf(measured, f, side, kFilled);
+    level.faces[f] = visibility::haloOf(measured, f, side, kFilled, enclosed);
     for (std::size_t cell = 0; cell < measured[f].size(); ++cell)
       if (!measured[f][cell].isEmpty()) {
         ++occupied;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "lidar_presets.h"
 #include "size_limits.h"
 
 #include <pcl6d/common/angle.h>
@@ -7,7 +8,6 @@
 #include <pcl6d/scanner/measurement_principles.h>
 #include <pcl6d/scanner/projection_scanner.h>
 #include <pcl6d/scanner/scanner_presets.h>
-#include <pcl6d/scanner/spinning_lidar.h>
 #include <pcl6d/scanner/tof_camera.h>
 
 #include <cmath>
@@ -16,7 +16,6 @@ namespace pcl6d {
 using namespace scanner;
 
 namespace {
-using Resolution = std::optional<double>; // [rad]
 struct Entry {
   const char* name;
   const char* description;
@@ -180,50 +179,42 @@ terrestrial(const Resolution& resolution)
   return driven(options, resolution, Ends::kFullTurn, range);
 }
 
+// Kinect of the first kind: 57 x 43 deg; K. Khoshelham, S. Oude Elberink, "Accuracy and
+// resolution of Kinect depth data", Sensors 12, 2012: random error 1.425 mm at 1 m, growing
+// with the square of the range.
 ScannerPreset
-vlp16(const Resolution& resolution)
+rgbd(const Resolution& resolution)
 {
-  SpinningLidarOptions options = vlp16Lidar();
-  if (resolution) {
-    const double columns = std::max(1.0, std::round(2 * M_PI / *resolution));
-    requireScanSize(static_cast<double>(options.elevations.size()), columns);
-    options.columns = static_cast<int>(columns);
-    // With many columns the turn takes longer: the lasers keep their pace.
-    options.turn_period = std::max(options.turn_period, columns * 16 * 2.304e-6);
-  }
+  const CameraIntrinsics camera = cameraOf(640, 480, 585, resolution);
   RangeOptions range;
-  range.noise = 0.01;
+  range.noise = 1e-4;
+  range.noise_per_range_sq = 1.425e-3;
   range.min_range = 0.5;
-  range.max_range = 100;
-  range.quantum = 0.002;
-  range.signal_range = 150;
-  range.beam = {0.01, 3e-3, 7, 1.0};
-  return {"", "", std::make_shared<SpinningLidar>(options), range};
+  range.max_range = 5;
+  const auto shutter = std::make_shared<TofCamera>(camera, 10e6, 1.0 / 30);
+  range.beam.divergence = 1 / camera.fx;
+  return {"", "", shutter, range};
 }
 
-// Ouster OS1 with 64 lines; their spacing is even. All lasers of a column fire at once.
+// Hand-held GeoSLAM ZEB Revo: a Hokuyo UTM-30LX-F (270 deg, 0.25 deg, 40 lines/s, up to 3 cm at
+// 30 m) that turns about its axis every 2 s; half a turn shows all directions.
 ScannerPreset
-ouster(const Resolution& resolution)
+zeb(const Resolution& resolution)
 {
-  constexpr int kLines = 64;
-  SpinningLidarOptions options;
-  const AngleRange elevations = {22.5 * kDegree, -22.5 * kDegree, kLines};
-  for (int i = 0; i < kLines; ++i)
-    options.elevations.push_back(elevations.angle(i));
-  options.columns = 1024;
-  if (resolution) {
-    const double columns = std::max(1.0, std::round(2 * M_PI / *resolution));
-    requireScanSize(kLines, columns);
-    options.columns = static_cast<int>(columns);
-  }
+  DrivenScannerOptions options;
+  options.drive = Drive::kRolling;
+  options.motion = DriveMotion::kContinuous;
+  options.beam = {-135 * kDegree, 135 * kDegree, 1081};
+  options.theta = {0, 175.5 * kDegree, 40};
+  options.line_period = 1.0 / 40;
   RangeOptions range;
   range.noise = 0.01;
-  range.min_range = 0.5;
-  range.max_range = 100;
-  range.quantum = 0.003;
-  range.signal_range = 150;
-  range.beam = {0.0095, 3e-3, 7, 1.0};
-  return {"", "", std::make_shared<SpinningLidar>(options), range};
+  range.noise_per_range = 5e-4;
+  range.min_range = 0.1;
+  range.max_range = 30;
+  range.quantum = 0.001;
+  range.beam = {0.006, 2e-3, 7, 0.5};
+  return driven(options, resolution, Ends::kFullTurn, range);
 }
 
 ScannerPreset
@@ -264,10 +255,15 @@ projection(const Resolution& resolution)
 }
 
 constexpr Entry kEntries[] = {
+    {"hdl32", "spinning lidar, 360 x 41 deg, 32 x 2170 in 0.1 s", hdl32},
+    {"hdl64", "spinning lidar, 360 x 26 deg, 64 x 2083 in 0.1 s", hdl64},
+    {"os0", "spinning lidar, 360 x 90 deg, 128 x 1024 in 0.1 s", os0},
     {"ouster", "spinning lidar, 360 x 45 deg, 64 x 1024 in 0.1 s", ouster},
+    {"pandar", "spinning lidar, 360 x 40 deg, uneven, 64 x 1800 in 0.1 s", pandar},
     {"pitching", "Kurt3D: nodding fan, 180 x 120 deg, 241 x 181 in 3.2 s", pitching},
     {"projection", "structured light, 44 x 33 deg, 480 x 640 in 0.23 s", projection},
     {"rangefinder", "1D: one beam straight ahead", rangefinder},
+    {"rgbd", "depth camera, 57 x 45 deg, 480 x 640 in 0.03 s", rgbd},
     {"rolling", "fan rolled about its axis, half sphere, 180 x 181 in 2.4 s", rolling},
     {"rotating", "upright fan turned, 360 x 120 deg, 360 x 121 in 4.8 s", rotating},
     {"scandrive",
@@ -279,6 +275,7 @@ constexpr Entry kEntries[] = {
      terrestrial},
     {"tof", "time-of-flight camera at 20 MHz, 47 x 40 deg, 144 x 176 in 0.04 s", tof},
     {"vlp16", "spinning lidar, 360 x 30 deg, 16 x 1800 in 0.1 s", vlp16},
+    {"zeb", "hand-held: fan of 270 deg rolled about its axis, 40 x 1081 in 1 s", zeb},
 };
 
 const Entry&

@@ -5,6 +5,8 @@
 #include <pcl6d/common/points.h>
 #include <pcl6d/filters/voxel_reduction.h>
 
+#include <pcl/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>

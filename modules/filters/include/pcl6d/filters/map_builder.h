@@ -15,6 +15,14 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+/** \return the edge [m] of the voxels in which a map keeps one point, for planes:
+ * matching needs few points, small planes more */
+inline double
+planeVoxel(double matching_voxel)
+{
+  return matching_voxel / 3;
+}
+
 /** \brief Joins registered scans into one reduced map: the first point in each voxel of
  * the world stays. Scans can be added one at a time, so that they need not be in memory
  * together. The voxels are counted from the whole metres of the first scan's position,

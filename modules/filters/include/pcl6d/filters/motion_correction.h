@@ -6,6 +6,8 @@
 #include <pcl6d/common/trajectory.h>
 #include <pcl6d/io/scan_fields.h>
 
+#include <pcl/point_cloud.h>
+
 #include <optional>
 #include <string>
 #include <vector>

@@ -56,4 +56,28 @@ estimateNormals(const Points& points,
   return estimateNormals(points, points, tree, neighbours, num_threads);
 }
 
+/** \brief How estimateSurfaceNormals() takes its patches. */
+struct PatchNormals {
+  std::size_t neighbours = 20;  ///< of a patch of the coarser points; in [3, 64]
+  double spacing = 0;           ///< [m] of the points
+  unsigned int num_threads = 0; ///< 0: one per core
+};
+
+/** \brief Normals that claim no plane that was not measured: where the nearest points lie
+ * along a line, as on a ring of a spinning lidar (their second standard deviation is below 0.3
+ * of the first), the patch grows across lines until it is half as wide as long. What stays a
+ * line has a normal of length zero.
+ *
+ * Patches are first taken from coarser points, whose neighbourhoods are larger, then from 16,
+ * 24, 40 and 64 of the points themselves, up to a width of 0.15 of the range or 8 spacings.
+ * \param[in] points [m] in the frame of the scanner
+ * \param[in] tree over the points
+ * \param[in] patches coarser points of the same surface
+ * \throws BadArgument neighbours is outside [3, 64] */
+Normals
+estimateSurfaceNormals(const Points& points,
+                       const PointTree& tree,
+                       const Points& patches,
+                       const PatchNormals& options);
+
 } // namespace pcl6d

@@ -40,6 +40,7 @@ struct ScanParameters {
   Parameter min_range;     ///< [m]
   Parameter max_range;     ///< [m] infinite only if given so
   Parameter voxel;         ///< [m]
+  Parameter line_spacing;  ///< [m] of the scans that they were derived from
   double median_range = 0; ///< [m] of the scans that they were derived from
 };
 

@@ -5,6 +5,8 @@
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/voxel_key.h>
 
+#include <pcl/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -10,6 +10,8 @@
 #include <pcl6d/slam6d/slam6d_result.h>
 #include <pcl6d/slam6d/task_memory.h>
 
+#include <pcl/point_cloud.h>
+
 #include <cstddef>
 #include <functional>
 #include <memory>

@@ -62,9 +62,15 @@ cellOf(const OnCube& place, int side);
  * \param[in] side cells along an edge of a face
  * \param[in] filled a cell is empty unless so many of the nine (at a corner of the cube of
  * the eight) are not
+ * \param[in] enclosed a cell is also empty unless something was measured on each of its four
+ * sides
  * \return for each cell of a face what was measured in it and around it; none for a face
  * without cells */
 PCL6D_EXPORTS std::vector<Interval>
-haloOf(const Faces& measured, std::size_t face, int side, int filled);
+haloOf(const Faces& measured,
+       std::size_t face,
+       int side,
+       int filled,
+       bool enclosed = false);
 
 } // namespace pcl6d::visibility

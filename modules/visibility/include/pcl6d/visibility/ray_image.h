@@ -37,6 +37,9 @@ struct RayImageOptions {
   double finest = 0.0061; ///< [rad] smallest cell, 0.35 deg: the halo of such a cell
                           ///< covers the beam of common scanners; >= 0.0005
   double coarsest = 0.07; ///< [rad] largest cell, 4 deg; in [finest, 0.5]
+  /** A cell answers only if something was measured on each of its four sides: for scans whose
+   * lines lie apart (ScanSampling), which would else claim free space beyond the last line. */
+  bool between_lines = false;
 
   /** \brief For places that are known by a fraction of a metre, as a placement or a link
    * that is yet to be believed, and for reduced points: cells from 1.1 to 9 deg, and no
@@ -135,7 +138,7 @@ private:
 
   /** \return the share of measured cells that have enough measured neighbours */
   static double
-  fill(const std::vector<visibility::CodedRay>& rays, Level& level);
+  fill(const std::vector<visibility::CodedRay>& rays, Level& level, bool enclosed);
 
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
   double noise_ = 0;

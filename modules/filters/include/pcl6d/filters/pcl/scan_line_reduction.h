@@ -51,6 +51,8 @@ private:
 
 } // namespace pcl6d
 #include <pcl6d/filters/pcl/impl/scan_line_reduction.hpp>
+
+#include <pcl/point_types.h>
 namespace PCL6D_EXPORTS pcl6d {
 PCL6D_DECLARE_INSTANCES(ScanLineReduction)
 } // namespace pcl6d

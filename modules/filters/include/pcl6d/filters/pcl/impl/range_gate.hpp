@@ -6,6 +6,8 @@
 #include <pcl6d/filters/pcl/range_gate.h>
 #include <pcl6d/filters/range_statistics.h>
 
+#include <pcl/types.h>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 template <typename PointT>

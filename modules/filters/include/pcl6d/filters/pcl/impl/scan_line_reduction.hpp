@@ -5,6 +5,8 @@
 #include <pcl6d/filters/pcl/impl/average_fields.hpp>
 #include <pcl6d/filters/pcl/scan_line_reduction.h>
 
+#include <pcl/types.h>
+
 #include <limits>
 
 namespace PCL6D_EXPORTS pcl6d {

@@ -5,6 +5,8 @@
 #include <pcl6d/filters/pcl/impl/chosen_points.hpp>
 #include <pcl6d/filters/pcl/uniform_sampling.h>
 
+#include <pcl/types.h>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 template <typename PointT>

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/scanner/scanner_presets.h>
+
+#include <optional>
+
+/** \file Spinning lidars, each after its data sheet. */
+namespace pcl6d::scanner {
+
+using Resolution = std::optional<double>; ///< [rad] between columns; none: as it is
+
+ScannerPreset
+hdl32(const Resolution& resolution);
+ScannerPreset
+hdl64(const Resolution& resolution);
+ScannerPreset
+os0(const Resolution& resolution);
+ScannerPreset
+ouster(const Resolution& resolution);
+ScannerPreset
+pandar(const Resolution& resolution);
+ScannerPreset
+vlp16(const Resolution& resolution);
+
+} // namespace pcl6d::scanner

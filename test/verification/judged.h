@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/verification/link_evidence.h>
+
+namespace pcl6d::test {
+
+inline const double kBackground = contradictionBackground({});
+
+inline LinkOpinion
+judged(const LinkEvidence& evidence)
+{
+  return judgeLink(evidence, kBackground);
+}
+
+} // namespace pcl6d::test

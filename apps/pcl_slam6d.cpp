@@ -11,6 +11,7 @@
 #include "common/progress_bar.h"
 #include "slam6d/join.h"
 #include "slam6d/live_window.h"
+#include "slam6d/planes_of_run.h"
 #include "slam6d/ranks.h"
 #include "slam6d/run_drawing.h"
 #include "slam6d/run_output.h"
@@ -317,6 +318,8 @@ main(int argc, char** argv)
       throw app::UsageError(
           "--deskew estimate follows one scan after the other, and is "
           "not shared by several processes: run it without mpirun");
+    if (settings.planes)
+      app::planesOfRun(); // if it is missing, say so before the work
     if (!ranks || ranks->isFirst())
       return Job(settings, ranks.get()).run();
     app::help(*ranks, kName, settings);

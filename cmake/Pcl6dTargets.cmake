@@ -13,13 +13,25 @@ macro(_pcl6d_check_arguments helper)
 endmacro()
 
 # Warnings and floating-point rules of every target; none of it reaches a user's code.
-# Headers that nearly every file needs are compiled once per kind of target
-# (cmake/Pcl6dPrecompiled.cmake).
 function(_pcl6d_compile_rules target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
     -ffp-contract=off # the same bits on every x86-64 CPU
+    ${PCL6D_FEWER_COLLECTIONS}
     $<$<BOOL:${PCL6D_WERROR}>:-Werror>)
+endfunction()
+
+# Several sources of a target as one: headers are parsed once for all of them. batch: how many,
+# PCL6D_BATCH if empty. ARGN: sources whose own names (of unnamed namespaces) are also names of
+# others beside them, or that take long enough alone.
+function(_pcl6d_unity target batch)
+  if(NOT batch)
+    set(batch ${PCL6D_BATCH})
+  endif()
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ${PCL6D_UNITY_BUILD}
+    UNITY_BUILD_BATCH_SIZE ${batch})
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # Gives a library of the suite its headers, name, version and installation.
@@ -31,8 +43,6 @@ function(_pcl6d_library_rules target module)
     POSITION_INDEPENDENT_CODE ON # static ones may become part of a user's shared one
     CXX_VISIBILITY_PRESET hidden # shown: what public headers declare (export.h)
     VISIBILITY_INLINES_HIDDEN ON
-    UNITY_BUILD ${PCL6D_UNITY_BUILD}
-    UNITY_BUILD_BATCH_SIZE 8
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(pcl6d_${target} PUBLIC cxx_std_17)
@@ -44,19 +54,22 @@ endfunction()
 
 # pcl6d_add_module(NAME BOOK chapters HOLDS text FLOOR n SOURCES ... [ALONE sources ...]
 #                  [DEPENDS module ...] [PCL_COMPONENTS ...] [LINK public targets ...]
-#                  [LINK_PRIVATE targets ...])
+#                  [LINK_PRIVATE targets ...] [COOL] [BATCH n])
 # makes the library pcl6d::NAME. A module may depend only on lower floors. BOOK and
-# HOLDS are for the map of the rooms (CONTRIBUTING.md).
+# HOLDS are for the map of the rooms (CONTRIBUTING.md). COOL: its work is not in loops over
+# points (files, text, pictures, the order of a run): it compiles with less optimisation. BATCH: how many
+# sources are compiled as one.
 function(pcl6d_add_module name)
-  cmake_parse_arguments(ARG "" "BOOK;HOLDS;FLOOR"
+  cmake_parse_arguments(ARG "COOL" "BOOK;HOLDS;FLOOR;BATCH"
     "SOURCES;ALONE;DEPENDS;PCL_COMPONENTS;LINK;LINK_PRIVATE" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_module(${name})")
   set(target pcl6d_${name})
   add_library(${target} ${ARG_SOURCES}) # BUILD_SHARED_LIBS says which kind
-  # Sources whose own names (of unnamed namespaces) are also names of others beside them.
-  set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   _pcl6d_library_rules(${name} ${name})
-  pcl6d_precompile(${target} library)
+  _pcl6d_unity(${target} "${ARG_BATCH}" ${ARG_ALONE})
+  if(ARG_COOL)
+    target_compile_options(${target} PRIVATE ${PCL6D_COOL_OPTIMISATION})
+  endif()
   set_target_properties(${target} PROPERTIES PCL6D_FLOOR ${ARG_FLOOR})
   target_include_directories(${target}
     PUBLIC
@@ -92,6 +105,35 @@ function(pcl6d_add_module name)
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl6d COMPONENT ${name})
 endfunction()
 
+# pcl6d_add_late_library(NAME SOURCES ... LINK_PRIVATE targets ... COMPONENT name)
+# makes a library that nothing is linked with, so that who needs none of it need not build
+# it: it is opened when it is asked for (late_library.h). For shared libraries only; where
+# the suite is static, what opens it has its sources.
+function(pcl6d_add_late_library name)
+  cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;LINK_PRIVATE" ${ARGN})
+  _pcl6d_check_arguments("pcl6d_add_late_library(${name})")
+  add_library(${name} MODULE ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON)
+  _pcl6d_compile_rules(${name})
+  _pcl6d_unity(${name} "")
+  target_compile_options(${name} PRIVATE ${PCL6D_COOL_OPTIMISATION})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY PCL6D_LATE_LIBRARIES ${name})
+  install(TARGETS ${name}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${ARG_COMPONENT})
+endfunction()
+
+# Whoever simulates may ask for any world, and no link brings the library that has them.
+function(_pcl6d_need_worlds target)
+  foreach(user IN ITEMS benchmarking simulation pcl_slam6d_evaluate pcl_slam6d_simulate)
+    if(user IN_LIST ARGN AND TARGET pcl6d_simulation_worlds)
+      add_dependencies(${target} pcl6d_simulation_worlds)
+    endif()
+  endforeach()
+endfunction()
+
 # pcl6d_add_pcl_classes(NAME SOURCES ... [PCL_COMPONENTS ...])
 # makes pcl6d::NAME_pcl: the PCL classes of the module NAME (its headers in .../pcl/) and
 # their explicit instances, so that the module's core compiles without PCL's templates.
@@ -105,8 +147,9 @@ function(pcl6d_add_pcl_classes name)
   # mark. So nothing is hidden here; there are no internals, and few, heavy sources.
   set_target_properties(${target} PROPERTIES
     CXX_VISIBILITY_PRESET default
-    VISIBILITY_INLINES_HIDDEN OFF
-    UNITY_BUILD OFF)
+    VISIBILITY_INLINES_HIDDEN OFF)
+  # They only convert; ten instances of each method take the optimiser most of the time.
+  target_compile_options(${target} PRIVATE ${PCL6D_COOL_OPTIMISATION})
   target_include_directories(${target} PRIVATE src)
   list(TRANSFORM ARG_PCL_COMPONENTS PREPEND pcl_ OUTPUT_VARIABLE pcl_targets)
   target_link_libraries(${target} PUBLIC pcl6d_${name} ${pcl_targets})
@@ -120,14 +163,22 @@ function(pcl6d_add_pcl_classes name)
     PCL6D_${name}_PCL_COMPONENTS ${ARG_PCL_COMPONENTS})
 endfunction()
 
-# pcl6d_add_app(NAME SOURCES ... [DEPENDS module ...] [LINK_PRIVATE targets ...])
+# pcl6d_app_rules(TARGET [sources that compile alone ...])
+# How the sources of programs are compiled, in a library of apps/ or in the program itself.
+function(pcl6d_app_rules target)
+  _pcl6d_compile_rules(${target})
+  _pcl6d_unity(${target} "" ${ARGN})
+  target_compile_options(${target} PRIVATE ${PCL6D_COOL_OPTIMISATION})
+endfunction()
+
+# pcl6d_add_app(NAME SOURCES ... [ALONE sources ...] [DEPENDS module ...]
+#               [LINK_PRIVATE targets ...])
 # makes the program NAME in bin/, with the plumbing of apps/common.
 function(pcl6d_add_app name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK_PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;DEPENDS;LINK_PRIVATE" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_app(${name})")
   add_executable(${name} ${ARG_SOURCES})
-  _pcl6d_compile_rules(${name})
-  pcl6d_precompile(${name} program)
+  pcl6d_app_rules(${name} ${ARG_ALONE})
   list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
   target_link_libraries(${name} PRIVATE pcl6d_apps_common ${modules} ${ARG_LINK_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY PCL6D_APPS ${name})
@@ -135,21 +186,35 @@ function(pcl6d_add_app name)
 endfunction()
 
 # pcl6d_add_test(NAME SOURCES ... [DEPENDS module ...] [LINK_PRIVATE targets ...]
-#                [PROGRAMS app ...] [LABELS data|slow ...] [LOCK name])
-# makes a GoogleTest program, each of whose tests is one test of ctest. The compile
+#                [PROGRAMS app ...] [LABELS data|slow ...] [LOCK name] [ALONE sources ...]
+#                [BATCH n])
+# makes a GoogleTest program, each of whose test suites is one test of ctest: what a suite sets
+# up for its tests is made once, and one test alone runs by --gtest_filter. The compile
 # definition PCL6D_BIN_DIR names the folder of the PROGRAMS, which are built before it.
-# Tests with the same LOCK never run at the same time.
+# Tests with the same LOCK never run at the same time. BATCH sources are compiled as one,
+# as the headers cost most of the time; ALONE are those that need a unit to themselves.
 function(pcl6d_add_test name)
-  cmake_parse_arguments(ARG "" "LOCK" "SOURCES;DEPENDS;LINK_PRIVATE;PROGRAMS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "LOCK;BATCH"
+    "SOURCES;DEPENDS;LINK_PRIVATE;PROGRAMS;LABELS;ALONE" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_test(${name})")
+  if(NOT ARG_BATCH)
+    set(ARG_BATCH 6)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
+  set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   _pcl6d_compile_rules(${name})
   # Some packages ask for -fPIC; all tests take it, so that they share a precompiled header.
-  target_compile_options(${name} PRIVATE -fPIC ${PCL6D_TEST_OPTIMISATION})
+  target_compile_options(${name} PRIVATE -fPIC ${PCL6D_COOL_OPTIMISATION})
+  if(PCL6D_UNITY_BUILD) # GCC takes fixtures of an included source for those of a header
+    target_compile_options(${name} PRIVATE
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
   if(ARG_DEPENDS) # tests of programs alone see no headers of the suite
-    pcl6d_precompile(${name} test)
+    pcl6d_precompile(${name})
   endif()
   set_target_properties(${name} PROPERTIES
+    UNITY_BUILD ${PCL6D_UNITY_BUILD}
+    UNITY_BUILD_BATCH_SIZE ${ARG_BATCH}
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test/bin)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_compile_definitions(${name} PRIVATE
@@ -157,19 +222,41 @@ function(pcl6d_add_test name)
     PCL6D_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     PCL6D_BUILD_DIR="${CMAKE_BINARY_DIR}")
   list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
-  target_link_libraries(${name} PRIVATE ${modules} ${ARG_LINK_PRIVATE} GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE
+    ${modules} ${ARG_LINK_PRIVATE} pcl6d_test_support GTest::gtest_main)
   if(ARG_PROGRAMS)
     add_dependencies(${name} ${ARG_PROGRAMS})
   endif()
-  set(labels "")
+  _pcl6d_need_worlds(${name} ${ARG_DEPENDS} ${ARG_PROGRAMS})
+  set(properties "TIMEOUT 1500")
   if(ARG_LABELS)
-    set(labels LABELS "${ARG_LABELS}")
+    string(APPEND properties " LABELS \"${ARG_LABELS}\"")
   endif()
   if(ARG_LOCK)
-    list(APPEND labels RESOURCE_LOCK ${ARG_LOCK})
+    string(APPEND properties " RESOURCE_LOCK ${ARG_LOCK}")
   endif()
-  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120
-    PROPERTIES TIMEOUT 900 ${labels})
+  _pcl6d_discover_suites(${name} "${properties}")
+endfunction()
+
+# Asks a test program, once it is linked, for its suites.
+function(_pcl6d_discover_suites name properties)
+  set(file ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/test_suites.cmake)
+  add_custom_command(TARGET ${name} POST_BUILD
+    BYPRODUCTS ${file}
+    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${name}> -D NAME=${name}
+      -D FILE=${file} -D "PROPERTIES=${properties}" -P ${script}
+    VERBATIM)
+  set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS ${script})
+  set(include ${CMAKE_CURRENT_BINARY_DIR}/${name}_include.cmake)
+  file(CONFIGURE OUTPUT ${include} @ONLY CONTENT
+"if(EXISTS \"@file@\")
+  include(\"@file@\")
+else()
+  add_test(@name@_NOT_BUILT @name@_NOT_BUILT)
+endif()
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})
 endfunction()
 
 # pcl6d_add_benchmark(NAME SOURCES ... [DEPENDS module ...] [LINK_PRIVATE targets ...])
@@ -183,6 +270,7 @@ function(pcl6d_add_benchmark name)
   list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
   target_link_libraries(${name} PRIVATE
     ${modules} ${ARG_LINK_PRIVATE} benchmark::benchmark)
+  _pcl6d_need_worlds(${name} ${ARG_DEPENDS})
 endfunction()
 
 # Headers that have moved keep their former path for one version, as a header that says so

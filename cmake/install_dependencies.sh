@@ -42,6 +42,7 @@ needs_of_tests=(
 needs_of_checks=(
   "clang-format-14 clang-format-14"
   "clang-tidy-14 clang-tidy-14"
+  "time /usr/bin/time"
   "clang clang++"
   "libclang-rt-14-dev /usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-x86_64.a"
 )

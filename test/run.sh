@@ -1,23 +1,35 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and runs the tests with ctest.
-# usage: test/run.sh [--all] [--werror] [--part modules|programs] [ctest options]
+# usage: test/run.sh [--all] [--werror] [--part modules|programs] [--only build|tests]
+#                    [ctest options]
 #   --all: the slow tests too; --werror: warnings of the compiler are errors
-#   --part: modules: all but the tests of programs (test/apps); programs: these alone
+#   --part: modules: all but the tests of programs (test/apps), which are not even built;
+#     programs: these alone
+#   --only build: no tests; --only tests: of what has been built
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 filter=(--label-exclude slow)
 werror=OFF
 programs=ON
-tests=build/release
+part=all
+only=all
 while true; do
   case ${1:-} in
     --all) filter=() ;;
     --werror) werror=ON ;;
     --part)
-      case ${2:-} in
+      part=${2:-}
+      case $part in
         modules) programs=OFF ;;
-        programs) tests=build/release/test/apps ;;
-        *) echo "run.sh: error: --part '${2:-}': must be modules or programs" >&2 && exit 2 ;;
+        programs) ;;
+        *) echo "run.sh: error: --part '$part': must be modules or programs" >&2 && exit 2 ;;
+      esac
+      shift ;;
+    --only)
+      only=${2:-}
+      case $only in
+        build | tests) ;;
+        *) echo "run.sh: error: --only '$only': must be build or tests" >&2 && exit 2 ;;
       esac
       shift ;;
     *) break ;;
@@ -25,10 +37,24 @@ while true; do
   shift
 done
 cd "$root"
-echo "== 1/3 dependencies"
-cmake/install_dependencies.sh --tests
-echo "== 2/3 build"
-cmake --preset release -D PCL6D_WERROR=$werror -D PCL6D_BUILD_PROGRAM_TESTS=$programs
-cmake --build build/release
+if [ $only != tests ]; then
+  echo "== 1/3 dependencies"
+  cmake/install_dependencies.sh --tests
+  echo "== 2/3 build"
+  cmake --preset release -D PCL6D_WERROR=$werror -D PCL6D_BUILD_PROGRAM_TESTS=$programs
+  cmake --build build/release
+fi
+[ $only != build ] || exit 0
+
+tests=build/release
+of_programs=build/release/test/apps
+if [ $part = programs ]; then
+  tests=$of_programs
+elif [ $part = modules ] && [ -f $of_programs/CTestTestfile.cmake ]; then
+  # Both are built: those of the programs are left out by the names of their test programs.
+  names=$(ctest --test-dir $of_programs --show-only |
+    sed -n 's/^ *Test *#[0-9]*: \([^.]*\)\..*/\1/p' | sort -u | paste -sd '|')
+  filter+=(--exclude-regex "^($names)\\.")
+fi
 echo "== 3/3 tests"
-ctest --test-dir $tests --output-on-failure -j "$(nproc)" "${filter[@]}" "$@"
+ctest --test-dir $tests --output-on-failure --no-tests=error -j "$(nproc)" "${filter[@]}" "$@"

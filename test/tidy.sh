@@ -1,11 +1,19 @@
 #!/usr/bin/env bash
 # clang-tidy (.clang-tidy) on the sources that differ from origin/main or, where nothing
-# does, from those of 24 hours ago: those with the most changed lines first, until the time is
-# up. What was not reached is counted, so that a large change can be run again with more.
-# usage: test/tidy.sh [FILE.cpp ...]     PCL6D_TIDY_SECONDS: time for it all (default 480)
+# does, from those of 24 hours ago: those with the most changed lines first. After N seconds no
+# source is begun any more, and what was not reached is counted, so that a large change can be
+# run again with more. Exit code 1: a source has faults, or none was reached.
+# usage: test/tidy.sh [--seconds N] [FILE.cpp ...]     (default: 480 s)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-seconds=${PCL6D_TIDY_SECONDS:-480}
+seconds=480
+while [[ ${1:-} = -* ]]; do
+  case $1 in
+    --seconds) seconds=${2:?--seconds needs a number}; shift ;;
+    *) sed -n '2,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
+  esac
+  shift
+done
 folder=build/tidy
 
 changed_sources() { # since: a commit
@@ -24,16 +32,23 @@ fi
 echo "== tidy: ${#files[@]} sources, at most $seconds s"
 [ ${#files[@]} -gt 0 ] || exit 0
 
-# clang cannot read what g++ precompiles.
-cmake --preset release -B "$folder" -D PCL6D_PRECOMPILED_HEADERS=OFF --log-level=ERROR
+# clang cannot read what g++ precompiles, and needs the command of each source by itself.
+cmake --preset release -B "$folder" -D PCL6D_PRECOMPILED_HEADERS=OFF \
+  -D PCL6D_UNITY_BUILD=OFF --log-level=ERROR
 log=$(mktemp -d)
 trap 'rm -rf "$log"' EXIT
-export folder log
-status=0
-printf '%s\0' "${files[@]}" | timeout "$seconds" xargs -0 -n 1 -P 2 bash -c '
-  clang-tidy-14 -p "$folder" --quiet --warnings-as-errors="*" "$1" 2>"$log/stderr" &&
-    echo "$1" >>"$log/clean" || { echo "$1" >>"$log/faulty"; exit 1; }' _ || status=$?
-clean=$(cat "$log/clean" 2>/dev/null | wc -l)
-faulty=$(cat "$log/faulty" 2>/dev/null | wc -l)
+end=$(($(date +%s) + seconds))
+export folder log end
+printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P 2 bash -c '
+  [ "$(date +%s)" -lt "$end" ] || exit 0
+  if clang-tidy-14 -p "$folder" --quiet --warnings-as-errors="*" "$1" 2>"$log/stderr.$$"; then
+    echo "$1" >>"$log/clean"
+  else
+    grep -v "warnings generated\|^Suppressed\|^Use -header" "$log/stderr.$$" | tail -n 5
+    echo "$1" >>"$log/faulty"
+  fi' _
+touch "$log/clean" "$log/faulty"
+clean=$(wc -l <"$log/clean")
+faulty=$(wc -l <"$log/faulty")
 echo "tidy: $clean clean, $faulty with faults, $((${#files[@]} - clean - faulty)) not reached"
-[ "$faulty" -eq 0 ] && { [ "$status" -eq 0 ] || [ "$status" -eq 124 ]; }
+[ "$faulty" -eq 0 ] && [ "$clean" -gt 0 ]

@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/plane_file_names.h"
+
 #include <pcl6d/scene_interpretation/labelled_files.h>
 #include <pcl6d/scene_interpretation/plane_finder.h>
 #include <pcl6d/visualization/plane_view.h>
 
 #include <filesystem>
-#include <string>
 
 namespace pcl6d::app {
-
-/** \return the names of the files that PlaneFinder::write() leaves, and that of their
- * picture, as a regular expression */
-inline std::string
-planeFilePattern()
-{
-  return "(planes\\.(json|pcd|png)|hulls\\.ply|labels\\.json|refined\\.pcd|"
-         "refinement\\.json)";
-}
 
 /** \brief Draws the planes that were found. \throws as PlaneView::write() */
 inline void

@@ -7,7 +7,7 @@
 namespace pcl6d::app {
 
 namespace {
-constexpr const char* kUsageText =
+constexpr const char* kScansUsage =
     R"( scans IN -o OUT [options]
 Writes scans in another format: a scan (OUT is a file), the scans of a folder (OUT
 is a new folder; the poses go along, as .pose files for uos and uosr, as VIEWPOINT
@@ -85,7 +85,7 @@ outputEncoding(const ScanSettings& s)
 bool
 parseScanSettings(const std::vector<std::string>& arguments, ScanSettings& s)
 {
-  OptionTable table(std::string("usage: ") + kConvert + kUsageText);
+  OptionTable table(std::string("usage: ") + kConvert + kScansUsage);
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;

@@ -25,7 +25,7 @@ struct TrajectorySettings {
   TrajectoryFormat input_format = TrajectoryFormat::kAuto;
 };
 
-constexpr const char* kUsageText =
+constexpr const char* kTrajectoryUsage =
     R"( trajectory IN -o OUT [options]
 Writes poses in another format: rows of KITTI (T_world_scan) or TUM (stamp, position,
 quaternion), the vertices of a g2o graph, or a folder with a 3DTK .pose or .frames
@@ -51,7 +51,7 @@ outputFormat(const TrajectorySettings& s)
 bool
 parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
 {
-  OptionTable table(std::string("usage: ") + kConvert + kUsageText);
+  OptionTable table(std::string("usage: ") + kConvert + kTrajectoryUsage);
   table.positional("IN", &s.input);
   table.group("Output");
   table.add("output,o OUT", &s.output)

@@ -3,6 +3,9 @@
 
 #include <pcl6d/filters/point_normals.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <numeric>
 
 namespace pcl6d::app {

@@ -3,6 +3,9 @@
 
 #include "doctor/experiments.h"
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 namespace pcl6d::app {
 
 /** \brief The clouds of a pair as a class gets them. */

@@ -4,6 +4,8 @@
 
 #include <pcl6d/io/text.h>
 
+#include <pcl/point_types.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -7,6 +7,7 @@
 #include <pcl6d/io/text.h>
 
 #include <pcl/conversions.h>
+#include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
 #include <algorithm>

@@ -5,6 +5,8 @@
 #include <pcl6d/filters/point_normals.h>
 #include <pcl6d/io/scan_reader.h>
 
+#include <pcl/point_types.h>
+
 #include <Eigen/Geometry>
 
 #include <cstddef>

@@ -9,53 +9,53 @@
 namespace pcl6d::app {
 
 namespace {
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json
+OrderedJson
 finiteOrNull(double value)
 {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
 }
 
-Json
+OrderedJson
 toJson(const DoctorCloud& cloud, const CloudMeasures& of)
 {
-  Json json{{"file", cloud.file},
-            {"rows", cloud.rows.size()},
-            {"points", of.points},
-            {"not_finite", of.not_finite + cloud.left_out},
-            {"fields", cloud.fields},
-            {"middle", rowByRow(of.middle)},
-            {"spread", of.spread},
-            {"spacing", of.spacing},
-            {"float_step", of.float_step},
-            {"duplicates", of.duplicates},
-            {"offset", rowByRow(cloud.offset)},
-            {"scanner", rowByRow(of.scanner.place)},
-            {"scanner_known", of.scanner.known}};
+  OrderedJson json{{"file", cloud.file},
+                   {"rows", cloud.rows.size()},
+                   {"points", of.points},
+                   {"not_finite", of.not_finite + cloud.left_out},
+                   {"fields", cloud.fields},
+                   {"middle", rowByRow(of.middle)},
+                   {"spread", of.spread},
+                   {"spacing", of.spacing},
+                   {"float_step", of.float_step},
+                   {"duplicates", of.duplicates},
+                   {"offset", rowByRow(cloud.offset)},
+                   {"scanner", rowByRow(of.scanner.place)},
+                   {"scanner_known", of.scanner.known}};
   if (of.no_return)
     json["no_return"] = *of.no_return;
   return json;
 }
 
-Json
+OrderedJson
 toJson(const ClassOutcome& out, const DoctorPair& pair)
 {
-  Json json{{"end", out.end == RunEnd::kDone ? "done" : endWords(out)},
-            {"converged", out.converged},
-            {"state", out.state},
-            {"at_limit", out.at_limit},
-            {"iterations", out.iterations},
-            {"limit", out.limit},
-            {"fitness", finiteOrNull(out.fitness)},
-            {"seconds", out.seconds},
-            {"said", out.said}};
+  OrderedJson json{{"end", out.end == RunEnd::kDone ? "done" : endWords(out)},
+                   {"converged", out.converged},
+                   {"state", out.state},
+                   {"at_limit", out.at_limit},
+                   {"iterations", out.iterations},
+                   {"limit", out.limit},
+                   {"fitness", finiteOrNull(out.fitness)},
+                   {"seconds", out.seconds},
+                   {"said", out.said}};
   json["pose"] =
-      out.hasPose() ? rowByRow(pair.toFull(out.pose).matrix()) : Json(nullptr);
+      out.hasPose() ? rowByRow(pair.toFull(out.pose).matrix()) : OrderedJson(nullptr);
   return json;
 }
 
-Json
+OrderedJson
 toJson(const PoseVerdict& verdict)
 {
   return {{"trust", verdict.trust},
@@ -67,10 +67,10 @@ toJson(const PoseVerdict& verdict)
           {"misfit", verdict.fit.misfit}};
 }
 
-Json
+OrderedJson
 toJson(const Experiment& row, const DoctorPair& pair)
 {
-  Json json{{"class", toString(row.method)}, {"settings", row.setting_words}};
+  OrderedJson json{{"class", toString(row.method)}, {"settings", row.setting_words}};
   json.update(toJson(row.outcome, pair));
   json["verdict"] = toJson(row.verdict);
   const std::pair<const char*, const std::optional<ClassOutcome>&> probes[] = {
@@ -91,25 +91,25 @@ nlohmann::ordered_json
 jsonReport(const Diagnosis& d)
 {
   const DoctorPair& pair = d.pair;
-  Json json{{"verified", d.isVerified()}, {"conclusion", conclusionOf(d)}};
+  OrderedJson json{{"verified", d.isVerified()}, {"conclusion", conclusionOf(d)}};
   json["source"] = toJson(pair.source, pair.of_source);
   json["target"] = toJson(pair.target, pair.of_target);
   json["guess"] = rowByRow(pair.guess_given.matrix());
   json["max_distance"] = pair.max_distance;
   json["resolution"] = pair.resolution;
   json["told_apart"] = pair.tolerance();
-  json["runs"] = Json::array();
+  json["runs"] = OrderedJson::array();
   for (const Experiment& row : d.rows)
     json["runs"].push_back(toJson(row, pair));
   if (d.best_of_ours)
     json["best_of_ours"] = *d.best_of_ours;
-  json["findings"] = Json::array();
+  json["findings"] = OrderedJson::array();
   for (const Finding& f : d.findings)
     json["findings"].push_back({{"severity", toString(f.severity)},
                                 {"what", f.what},
                                 {"measured", f.measured},
                                 {"advice", f.advice}});
-  json["advice"] = Json::array();
+  json["advice"] = OrderedJson::array();
   for (const Advice& advice : d.advice)
     json["advice"].push_back({{"what", advice.what}, {"why", advice.why}});
   return json;

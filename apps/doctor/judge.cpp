@@ -4,6 +4,7 @@
 #include <pcl6d/verification/pcl/registration_verifier.h>
 
 #include <pcl/memory.h>
+#include <pcl/point_cloud.h>
 
 #include <cmath>
 

@@ -4,6 +4,8 @@
 #include <pcl6d/registration/pcl/icp6d.h>
 #include <pcl6d/registration/pcl/ndt6d.h>
 
+#include <pcl/point_types.h>
+
 namespace pcl6d::app {
 
 namespace {

@@ -12,7 +12,7 @@ namespace pcl6d::app {
 
 namespace {
 /** Thrown out of a comparison that was interrupted. */
-struct Stopped {};
+struct ComparisonStopped {};
 
 /** \return which way is up in the world, by the surfaces of a run; expected is where its
  * scanners hold it */
@@ -56,7 +56,7 @@ compare(const ChangesSettings& s, FolderJob& job)
   const auto show = [&](const Progress& now) {
     job.bar.show(now);
     if (job.interrupt.requested())
-      throw Stopped();
+      throw ComparisonStopped();
   };
   const ComparedRuns runs(s, show);
   for (const std::string& note : runs.notes())
@@ -98,7 +98,7 @@ runChanges(const std::vector<std::string>& arguments)
   FolderJob job(s.quiet, s.without_effect, changesFolderRules(s));
   try {
     return compare(s, job);
-  } catch (const Stopped&) {
+  } catch (const ComparisonStopped&) {
     job.bar.warn("interrupted; nothing is written");
     return kInterrupted;
   }

@@ -10,6 +10,7 @@
 #include <pcl6d/visualization/top_view.h>
 
 #include <pcl/conversions.h>
+#include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
 #include <algorithm>

@@ -12,7 +12,7 @@ namespace pcl6d::app {
 
 namespace {
 std::string
-usage()
+usageOfChanges()
 {
   return std::string("usage: ") + kEvaluate +
          R"( changes RUN_A RUN_B [options]
@@ -62,7 +62,7 @@ addOptions(OptionTable& table, ChangesSettings& s)
 bool
 parseChangesSettings(const std::vector<std::string>& arguments, ChangesSettings& s)
 {
-  OptionTable table(usage());
+  OptionTable table(usageOfChanges());
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;

@@ -20,7 +20,7 @@ namespace pcl6d::app {
 
 namespace {
 RunFolder
-openRun(const std::string& path)
+openCompared(const std::string& path)
 {
   namespace fs = std::filesystem;
   if (fs::is_directory(path) && !fs::exists(fs::path(path) / "summary.json"))
@@ -71,7 +71,7 @@ coarserVoxel(const std::vector<RunFolder>& runs, const std::optional<double>& gi
 ComparedRuns::ComparedRuns(const ChangesSettings& s, const ProgressCallback& show)
 {
   for (const std::string& path : {s.run_a, s.run_b}) {
-    runs_.push_back(openRun(path));
+    runs_.push_back(openCompared(path));
     const RunResult& run = runs_.back().summary();
     places_.push_back(placedScans(run));
     if (places_.back().empty())

@@ -225,7 +225,7 @@ toJson(const IcpSettings& settings, const IcpEvaluation& e)
   return json;
 }
 
-using Rows = std::vector<const IcpBasinRow*>;
+using BasinRows = std::vector<const IcpBasinRow*>;
 
 /** \return the name of a file without its folder */
 std::string
@@ -234,10 +234,10 @@ nameOf(const std::string& scan)
   return std::filesystem::path(scan).filename().string();
 }
 
-Rows
+BasinRows
 rowsOf(Metric metric, const IcpBasin& basin)
 {
-  Rows rows;
+  BasinRows rows;
   for (const IcpBasinRow& row : basin.rows)
     if (row.variant.metric == metric)
       rows.push_back(&row);
@@ -267,7 +267,7 @@ ConvergenceMapScene
 sceneOfMethods(const IcpSettings& settings,
                const IcpEvaluation& e,
                Metric metric,
-               const Rows& rows)
+               const BasinRows& rows)
 {
   ConvergenceMapScene scene = emptyScene(settings, e, metric);
   const std::size_t places = scene.x.size() * scene.y.size();
@@ -290,7 +290,7 @@ ConvergenceMapScene
 sceneOfYaws(const IcpSettings& settings,
             const IcpEvaluation& e,
             Metric metric,
-            const Rows& rows)
+            const BasinRows& rows)
 {
   ConvergenceMapScene scene = emptyScene(settings, e, metric);
   const std::size_t places = scene.x.size() * scene.y.size();
@@ -373,7 +373,7 @@ drawIcpBasins(FolderJob& job, const IcpSettings& settings, const IcpEvaluation& 
     });
   };
   for (const IcpBestPose& best : e.basin.best) {
-    const Rows rows = rowsOf(best.metric, e.basin);
+    const BasinRows rows = rowsOf(best.metric, e.basin);
     if (rows.empty())
       continue;
     const std::string name = std::string("icp_basin_") + toString(best.metric);

@@ -28,7 +28,7 @@ struct Methods {
 constexpr char kScaleMinimiser[] = "scale-quaternion";
 
 std::string
-usage()
+usageOfIcp()
 {
   return std::string("usage: ") + kEvaluate +
          R"( icp SCAN_A SCAN_B [options]
@@ -213,7 +213,7 @@ withoutEffect(const OptionTable& table, const IcpSettings& s)
 bool
 parseIcpSettings(const std::vector<std::string>& arguments, IcpSettings& s)
 {
-  OptionTable table(usage());
+  OptionTable table(usageOfIcp());
   Methods methods;
   addInput(table, s);
   addMethods(table, methods, s.basin.icp.estimate_scale);

@@ -22,7 +22,7 @@ struct MapSettings {
   bool quiet = false;
 };
 
-constexpr const char* kUsageText =
+constexpr const char* kMapUsage =
     R"( map RUN_DIR [options]
 How good a map is, without a reference path: how well its scans agree, how sharp
 walls are, and which scans stand out. RUN_DIR is the output of pcl_slam6d, or a
@@ -65,7 +65,7 @@ addOptions(OptionTable& table, MapSettings& s)
 bool
 parse(const std::vector<std::string>& arguments, MapSettings& s)
 {
-  OptionTable table(std::string("usage: ") + kEvaluate + kUsageText);
+  OptionTable table(std::string("usage: ") + kEvaluate + kMapUsage);
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;

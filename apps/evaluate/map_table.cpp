@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/option_table.h"
 #include "common/printable.h"
 #include "evaluate/map_report.h"
 
@@ -69,15 +70,6 @@ printMap(const MapQuality& quality)
   printDistances("to the reference", quality.reference);
 }
 
-std::string
-joined(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const auto& word : words)
-    text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 void
 printScans(const MapReport& report, std::size_t rows)
 {
@@ -102,7 +94,7 @@ printScans(const MapReport& report, std::size_t rows)
                 cell(scan.thickness, 10, 4).c_str(),
                 cell(scan.others.plane.rms, 10, 4).c_str(),
                 reference ? cell(scan.reference.plane.rms, 10, 4).c_str() : "",
-                joined(scan.stands_out).c_str());
+                joined(scan.stands_out, ", ").c_str());
   }
 }
 } // namespace

@@ -18,7 +18,7 @@ constexpr int kMostParticles = 10000000;
 constexpr const char* kMoreThanParticles = "in [--particles, 10000000]";
 
 std::string
-usage()
+usageOfMcl()
 {
   return std::string("usage: ") + kEvaluate +
          R"( mcl SCAN_DIR --map FILE [-o OUT_DIR] [options]
@@ -157,7 +157,7 @@ addRun(OptionTable& table, MclSettings& s)
 bool
 parseMclSettings(const std::vector<std::string>& arguments, MclSettings& settings)
 {
-  OptionTable table(usage());
+  OptionTable table(usageOfMcl());
   addInput(table, settings);
   addLocalisation(table, settings);
   addRun(table, settings);

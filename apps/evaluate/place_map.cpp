@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kMeasured = 4;
 
 RunFolder
-openRun(const std::string& path)
+openMap(const std::string& path)
 {
   if (!std::filesystem::exists(std::filesystem::path(path) / "summary.json"))
     throw IoFailed(path + ": is a folder, but no run of pcl_slam6d (no summary.json)");
@@ -55,7 +55,7 @@ requireSameUnits(const PlaceSettings& s,
 PlaceMap::PlaceMap(const PlaceSettings& settings,
                    const NearScan& scan,
                    const ProgressCallback& show)
-: run_(openRun(settings.scan_b)), places_(placedScans(run_.summary()))
+: run_(openMap(settings.scan_b)), places_(placedScans(run_.summary()))
 {
   prepare(settings, scan, read(settings, scan, show));
 }

@@ -15,7 +15,7 @@ namespace pcl6d::app {
 
 namespace {
 /** Thrown out of a search that was interrupted. */
-struct Stopped {};
+struct SearchStopped {};
 
 /** \return the worst of what its links say against it, else the best for it */
 std::string
@@ -145,7 +145,7 @@ placeInRun(const PlaceSettings& s, ProgressBar& bar)
   const auto show = [&](const Progress& now) {
     bar.show(now);
     if (interrupt.requested())
-      throw Stopped();
+      throw SearchStopped();
   };
   try {
     const NearScan scan = readNear(s.scan_a, s.format, bar);
@@ -159,7 +159,7 @@ placeInRun(const PlaceSettings& s, ProgressBar& bar)
     options.num_threads = s.search.num_threads;
     options.progress = show;
     return reportOf(s, map, scan, placeInMap(map.scan(), known, options));
-  } catch (const Stopped&) {
+  } catch (const SearchStopped&) {
     return {};
   }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/option_table.h"
 #include "evaluate/suite_report.h"
 
 #include <pcl6d/common/error.h>
@@ -43,15 +44,6 @@ machine()
 }
 
 std::string
-joined(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const auto& word : words)
-    text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
-std::string
 nameForShell(const std::string& name)
 {
   return name.find(' ') == std::string::npos ? name : '"' + name + '"';
@@ -66,20 +58,20 @@ commandsOf(const Suite& suite)
   for (const SuiteData& data : suite.data) {
     if (!data.scene.empty() && told.insert(data.base).second)
       text += "pcl_slam6d_simulate " + data.scene + " -o " + nameForShell(data.base) +
-              ' ' + joined(wordsOf(data.simulation)) + '\n';
+              ' ' + joined(wordsOf(data.simulation), " ") + '\n';
     if (!data.options.empty() && told.insert('\n' + data.entry).second)
       options_of_data +=
-          "# on " + data.entry + " also: " + joined(wordsOf(data.options)) + '\n';
+          "# on " + data.entry + " also: " + joined(wordsOf(data.options), " ") + '\n';
   }
   for (const SuiteMethod& method : suite.methods) {
     const std::string options =
-        joined(wordsOf(overlaid(suite.defaults, method.options)));
+        joined(wordsOf(overlaid(suite.defaults, method.options)), " ");
     text += "pcl_slam6d SCANS -o OUT " + options + "   # " + method.name + '\n';
   }
   text += options_of_data;
   for (const SuiteDamage& damage : suite.damages)
     text += "# " + damage.name + ": " + damage.text.dump() + ' ' +
-            joined(wordsOf(damage.options)) + '\n';
+            joined(wordsOf(damage.options), " ") + '\n';
   return text;
 }
 

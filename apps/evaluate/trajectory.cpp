@@ -30,7 +30,7 @@ struct TrajectorySettings {
   TrajectoryEvaluationOptions options;
 };
 
-constexpr const char* kUsageText =
+constexpr const char* kTrajectoryUsage =
     R"( trajectory ESTIMATE REFERENCE [options]
 Position and orientation errors of a trajectory against a reference, first
 without alignment, then after the rigid motion that fits the positions best (ATE);
@@ -79,7 +79,7 @@ addOptions(OptionTable& table, TrajectorySettings& s)
 bool
 parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
 {
-  OptionTable table(std::string("usage: ") + kEvaluate + kUsageText);
+  OptionTable table(std::string("usage: ") + kEvaluate + kTrajectoryUsage);
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;

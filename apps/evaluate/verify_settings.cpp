@@ -9,7 +9,7 @@ namespace pcl6d::app {
 
 namespace {
 std::string
-usage()
+usageOfVerify()
 {
   return std::string("usage: ") + kEvaluate +
          R"( verify RUN|SCAN_DIR|SCAN_A SCAN_B [options]
@@ -70,7 +70,7 @@ addRest(OptionTable& table, VerifySettings& s)
 bool
 parseVerifySettings(const std::vector<std::string>& arguments, VerifySettings& s)
 {
-  OptionTable table(usage());
+  OptionTable table(usageOfVerify());
   addInput(table, s);
   addRest(table, s);
   if (!table.parse(arguments))

@@ -9,7 +9,7 @@
 namespace pcl6d::app {
 namespace {
 std::string
-usage()
+usageOfLocate()
 {
   return std::string("usage: ") + kObjects +
          R"( locate INPUT --model MODEL... -o OUT_DIR [options]
@@ -126,7 +126,7 @@ judgeUse(const OptionTable& table, LocateSettings& s)
 bool
 parseLocate(const std::vector<std::string>& arguments, LocateSettings& settings)
 {
-  OptionTable table(usage());
+  OptionTable table(usageOfLocate());
   table.positional("INPUT", &settings.input);
   addFiles(table, settings);
   addInput(table, settings);

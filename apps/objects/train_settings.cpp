@@ -23,7 +23,7 @@ radians(const std::optional<double>& degrees)
 }
 
 std::string
-usage()
+usageOfTrain()
 {
   return std::string("usage: ") + kObjects +
          R"( train MODEL... --background SCANS -o CASCADE.xml [options]
@@ -130,7 +130,7 @@ apply(const Words& words, TrainSettings& s)
 bool
 parseTrain(const std::vector<std::string>& arguments, TrainSettings& s)
 {
-  OptionTable table(usage());
+  OptionTable table(usageOfTrain());
   Words words;
   addFiles(table, s);
   addPictures(table, s, words);

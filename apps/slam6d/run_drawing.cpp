@@ -28,7 +28,7 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* kProgram = "pcl_slam6d";
+constexpr const char* kSlam6d = "pcl_slam6d";
 /** [s] Far more than a picture takes: 2 s of 2 million points on an old core. A run that
  * took longer may have larger pictures. */
 constexpr double kLeastTime = 120;
@@ -212,7 +212,7 @@ drawApart(const fs::path& folder,
   drawing.is_missing = !missing.empty();
   if (drawing.is_missing)
     drawing.warnings.push_back("not drawn: " + missing + " (" + reason +
-                               "); all else is written. To try again: " + kProgram +
+                               "); all else is written. To try again: " + kSlam6d +
                                ' ' + kDrawWord + ' ' + folder.string());
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   drawing.seconds = spent.count();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/plane_files.h"
+#include "common/plane_file_names.h"
 #include "common/run_files.h"
+#include "slam6d/planes_of_run.h"
 #include "slam6d/run_output.h"
 
 #include <pcl6d/common/error.h>
@@ -305,11 +306,12 @@ RunOutput::writePlanesOf(const MapBuilder& map)
   std::vector<Eigen::Isometry3d> poses;
   for (const ScanResult& scan : run_.scans)
     poses.push_back(scan.T_world_scan);
-  const SceneCloud cloud = sceneCloudOf(map, poses, run_.world_offset);
-  PlaneFinderOptions options;
-  options.num_threads = settings_.slam.num_threads;
-  const PlaneFinder finder(options);
-  finder.write(out_.staging(), cloud, finder.find(cloud), run_.generator);
+  planesOfRun()({map,
+                 poses,
+                 run_.world_offset,
+                 settings_.slam.num_threads,
+                 out_.staging(),
+                 run_.generator});
 }
 
 } // namespace pcl6d::app

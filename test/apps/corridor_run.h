@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/run_program.h"
+#include "support/shared_run.h"
 
 #include <gtest/gtest.h>
 
@@ -15,16 +16,12 @@ namespace pcl6d::test {
 
 inline constexpr int kScans = 16; // 1.3 m apart over a part of the corridor's loop
 
-/** Simulated scans, made once for all tests. */
+/** Simulated scans, made once for all tests, which only read them. */
 inline const std::filesystem::path&
 scans()
 {
-  static const TempFolder folder;
-  static const std::filesystem::path path = folder / "scans";
-  if (!std::filesystem::exists(path))
-    runProgram(
-        "pcl_slam6d_simulate",
-        {"corridor", "-o", path.string(), "--seed", "3", "--scans", "40", "--quiet"});
+  static const std::filesystem::path path = sharedOutput(
+      "pcl_slam6d_simulate", {"corridor", "--seed", "3", "--scans", "40", "--quiet"});
   return path;
 }
 

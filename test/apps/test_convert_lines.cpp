@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_convert lines as a user runs it.
+#include "support/constants.h"
 #include "support/run_program.h"
 
 #include <pcl6d/io/pcd_io.h>
@@ -14,12 +15,12 @@
 #include <sstream>
 
 namespace {
+using pcl6d::test::kDegree;
 using pcl6d::test::Outcome;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
 
 constexpr const char* kName = "pcl_slam6d_convert";
-constexpr double kDegree = M_PI / 180;
 
 Outcome
 convert(std::vector<std::string> arguments)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_doctor as a user runs it.
 #include "doctor_test.h"
+#include "support/points.h"
 
 #include <cmath>
 #include <limits>
@@ -9,12 +10,11 @@ namespace {
 using pcl6d::test::consult;
 using pcl6d::test::Consultation;
 using pcl6d::test::DoctorRoom;
+using pcl6d::test::kNan;
 using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
 using Json = nlohmann::json;
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Isometry3d
 poseOf(const Json& run)
@@ -147,9 +147,9 @@ TEST(Doctor, SaysWhichClassesNanAndIndicesChange)
     else // what the indices leave out is elsewhere
       room.source[i].z() += 1.5;
     if (i % 10 == 0)
-      room.source[i].setConstant(kNone);
+      room.source[i].setConstant(kNan);
   }
-  room.target[5].setConstant(kNone);
+  room.target[5].setConstant(kNan);
   auto arguments = room.write();
   writeText(room / "numbers", numbers);
   arguments.insert(arguments.end(), {"--indices", room / "numbers"});

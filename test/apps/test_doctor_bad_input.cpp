@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_doctor on what is no pair of scans.
 #include "doctor_test.h"
+#include "support/points.h"
+
+#include <boost/process.hpp>
 
 #include <chrono>
 #include <csignal>
@@ -13,11 +16,10 @@ using pcl6d::test::consult;
 using pcl6d::test::Consultation;
 using pcl6d::test::DoctorRoom;
 using pcl6d::test::kDoctorName;
+using pcl6d::test::kNan;
 using pcl6d::test::pcdOf;
 using pcl6d::test::runProgram;
 using pcl6d::test::writeText;
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void
 expectError(const std::vector<std::string>& arguments,
@@ -72,7 +74,7 @@ TEST_F(DoctorBadInput, ReportsOnAnEmptyCloud)
 TEST_F(DoctorBadInput, ReportsOnNanAlone)
 {
   writeText(files[1],
-            pcdOf(std::vector<Eigen::Vector3d>(50, Eigen::Vector3d::Constant(kNone))));
+            pcdOf(std::vector<Eigen::Vector3d>(50, Eigen::Vector3d::Constant(kNan))));
   const Consultation said = consult(with({"-o", room / "report.html"}));
   EXPECT_EQ(said.exit_code, 3) << said.err;
   EXPECT_NE(said.measured("TARGET has no points").find("50 rows"), std::string::npos);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate as a user runs it.
+#include "evaluate_program.h"
+#include "program_names.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>
@@ -10,23 +12,18 @@
 #include <vector>
 
 namespace fs = std::filesystem;
+using pcl6d::test::expectError;
+using pcl6d::test::kEvaluate;
 using pcl6d::test::Outcome;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
 
 namespace {
-constexpr const char* kName = "pcl_slam6d_evaluate";
 
 Outcome
 evaluate(const std::vector<std::string>& arguments)
 {
-  return pcl6d::test::runProgram(kName, arguments);
-}
-
-void
-expectError(const Outcome& outcome, int code, const std::vector<std::string>& words)
-{
-  pcl6d::test::expectError(outcome, kName, code, words);
+  return pcl6d::test::runProgram(kEvaluate, arguments);
 }
 
 constexpr const char* kPath = "1 0 0 0 0 1 0 0 0 0 1 0\n"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate icp when something is wrong.
+#include "evaluate_program.h"
 #include "room_pair.h"
 
 #include <gtest/gtest.h>
@@ -10,16 +11,12 @@
 namespace {
 namespace fs = std::filesystem;
 using pcl6d::test::evaluateIcp;
+using pcl6d::test::expectError;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
 using pcl6d::test::RoomPair;
 using pcl6d::test::writeText;
 
-void
-expectError(const Outcome& outcome, int code, const std::vector<std::string>& words)
-{
-  pcl6d::test::expectError(outcome, "pcl_slam6d_evaluate", code, words);
-}
 } // namespace
 
 TEST(EvaluateIcp, SaysThatScansCannotBeMatched)

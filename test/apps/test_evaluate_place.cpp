@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate place as a user runs it.
+#include "program_names.h"
 #include "room_pair.h"
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@ using pcl6d::Points;
 using pcl6d::poseFromEuler;
 using pcl6d::Random;
 using pcl6d::test::expectError;
+using pcl6d::test::kEvaluate;
 using pcl6d::test::Outcome;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::readText;
@@ -24,8 +26,6 @@ using pcl6d::test::RoomPair;
 using pcl6d::test::runProgram;
 using pcl6d::test::writeText;
 using Vector = Eigen::Vector3d;
-
-constexpr const char* kName = "pcl_slam6d_evaluate";
 
 // A third of a voxel of 0.1 m, and the turn that moves walls 5 m away by as much.
 constexpr double kPlaceTol = 0.035, kTurnTol = 0.007;
@@ -47,12 +47,12 @@ struct TurnedPair : RoomPair {
     std::vector<std::string> all = {
         "place", *this / "a.xyz", *this / "b.xyz", "--voxel", "0.1"};
     all.insert(all.end(), more.begin(), more.end());
-    return runProgram(kName, all);
+    return runProgram(kEvaluate, all);
   }
 };
 
 Eigen::Isometry3d
-poseIn(const Json& candidate)
+poseOfPair(const Json& candidate)
 {
   Eigen::Isometry3d pose;
   for (int k = 0; k < 16; ++k)
@@ -70,7 +70,7 @@ TEST(EvaluatePlace, FindsTheOnePlace)
   const Json json = Json::parse(readText(pair / "out.json"));
   EXPECT_EQ(json["answer"], "unique");
   EXPECT_EQ(json["candidates"][0]["trust"], "good");
-  const MotionSize off = distanceBetween(pair.truth, poseIn(json["candidates"][0]));
+  const MotionSize off = distanceBetween(pair.truth, poseOfPair(json["candidates"][0]));
   EXPECT_LT(off.translation, kPlaceTol);
   EXPECT_LT(off.rotation, kTurnTol);
 }
@@ -81,7 +81,7 @@ TEST(EvaluatePlace, ItsAnswerIsAPoseForVerify)
   const std::string out = pair.place({"--quiet"}).out;
   ASSERT_EQ(out.rfind("unique: ", 0), 0u) << out;
   const std::string pose = out.substr(8, out.find('\n') - 8);
-  const Outcome verdict = runProgram(kName,
+  const Outcome verdict = runProgram(kEvaluate,
                                      {"verify",
                                       pair / "a.xyz",
                                       pair / "b.xyz",
@@ -115,7 +115,7 @@ TEST(EvaluatePlace, OfTheSamePointsSaysNothing)
 {
   const TurnedPair pair;
   const Outcome outcome =
-      runProgram(kName, {"place", pair / "a.xyz", pair / "a.xyz", "--quiet"});
+      runProgram(kEvaluate, {"place", pair / "a.xyz", pair / "a.xyz", "--quiet"});
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out;
   EXPECT_NE(outcome.out.find("the very same points"), std::string::npos) << outcome.out;
 }
@@ -136,13 +136,15 @@ TEST(EvaluatePlace, RefusesWhatItCannotRead)
   const TurnedPair pair;
   const auto place = [](std::vector<std::string> words) {
     words.insert(words.begin(), "place");
-    return runProgram(kName, words);
+    return runProgram(kEvaluate, words);
   };
-  expectError(place({pair / "a.xyz", pair / "none.xyz"}), kName, 1, {"none.xyz"});
+  expectError(place({pair / "a.xyz", pair / "none.xyz"}), kEvaluate, 1, {"none.xyz"});
   writeText(pair / "two.xyz", "1 2 3\n4 5 6\n");
-  expectError(place({pair / "a.xyz", pair / "two.xyz"}), kName, 1, {"two.xyz", "3"});
-  expectError(place({pair / "a.xyz"}), kName, 2, {"SCAN_B"});
-  expectError(pair.place({"--candidates", "0"}), kName, 2, {"--candidates", "[1, 30]"});
-  expectError(pair.place({"--max-ambiguity", "2"}), kName, 2, {"--max-ambiguity"});
-  expectError(pair.place({"-o", "x.csv"}), kName, 2, {".json"});
+  expectError(
+      place({pair / "a.xyz", pair / "two.xyz"}), kEvaluate, 1, {"two.xyz", "3"});
+  expectError(place({pair / "a.xyz"}), kEvaluate, 2, {"SCAN_B"});
+  expectError(
+      pair.place({"--candidates", "0"}), kEvaluate, 2, {"--candidates", "[1, 30]"});
+  expectError(pair.place({"--max-ambiguity", "2"}), kEvaluate, 2, {"--max-ambiguity"});
+  expectError(pair.place({"-o", "x.csv"}), kEvaluate, 2, {".json"});
 }

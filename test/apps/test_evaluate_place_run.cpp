@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate place SCAN RUN as a user runs it: where in a map was this scan taken?
 #include "joined_rooms.h"
+#include "program_names.h"
 #include "room_run.h"
 
 #include <string>
@@ -13,6 +14,7 @@ using pcl6d::MotionSize;
 using pcl6d::poseFromEuler;
 using pcl6d::test::expectError;
 using pcl6d::test::JoinedRooms;
+using pcl6d::test::kEvaluate;
 using pcl6d::test::kPlaceTol;
 using pcl6d::test::kTurnTol;
 using pcl6d::test::Outcome;
@@ -22,8 +24,6 @@ using pcl6d::test::runProgram;
 using pcl6d::test::writeText;
 using Json = nlohmann::json;
 using Drive = JoinedRooms::Drive;
-
-constexpr const char* kName = "pcl_slam6d_evaluate";
 
 const Eigen::Isometry3d kWorld = poseFromEuler({20, -3, 1}, {0.1, -0.2, 2});
 
@@ -57,7 +57,7 @@ protected:
         std::vector<std::string> more = {"--quiet"})
   {
     more.insert(more.begin(), {"place", at(scan), at(run)});
-    return runProgram(kName, more);
+    return runProgram(kEvaluate, more);
   }
   static Json
   json(const std::string& name)
@@ -65,7 +65,7 @@ protected:
     return Json::parse(readText(at(name)));
   }
   static Eigen::Isometry3d
-  poseIn(const Json& candidate)
+  poseInWorld(const Json& candidate)
   {
     Eigen::Isometry3d pose;
     for (int k = 0; k < 16; ++k)
@@ -102,7 +102,7 @@ TEST_F(PlaceInRun, FindsAScanThatWasLeftOut)
   const Json& best = found["candidates"][0];
   EXPECT_EQ(best["trust"], "good");
   EXPECT_EQ(best["links"].size(), 4u);
-  const MotionSize off = distanceBetween(truth("map", 0, 4), poseIn(best));
+  const MotionSize off = distanceBetween(truth("map", 0, 4), poseInWorld(best));
   EXPECT_LT(off.translation, kPlaceTol);
   EXPECT_LT(off.rotation, kTurnTol);
 }
@@ -118,7 +118,7 @@ TEST_F(PlaceInRun, SaysHowExactlyThePlaceIsKnown)
   EXPECT_TRUE(covariance.isApprox(covariance.transpose(), 1e-9));
   EXPECT_GT(covariance.ldlt().vectorD().minCoeff(), 0);
   const MotionSize off =
-      distanceBetween(truth("map", 0, 1), poseIn(found["candidates"][0]));
+      distanceBetween(truth("map", 0, 1), poseInWorld(found["candidates"][0]));
   const double bound = found["bound"];
   EXPECT_LT(off.translation, 2 * bound) << "as the map itself is off, too";
   EXPECT_LT(bound, 0.2);
@@ -146,12 +146,13 @@ TEST_F(PlaceInRun, AScanOfTheRunIsNamedAndLookedForByTheOthers)
   EXPECT_EQ(found["same_as"], "scan002.xyz");
   EXPECT_EQ(found["scans_compared"], 3);
   const MotionSize off =
-      distanceBetween(rooms_->poses("map")[2], poseIn(found["candidates"][0]));
+      distanceBetween(rooms_->poses("map")[2], poseInWorld(found["candidates"][0]));
   EXPECT_LT(off.translation, kPlaceTol);
   EXPECT_LT(off.rotation, kTurnTol);
   // A run of this scan alone has nothing to say of it.
   rooms_->run("alone", {{4}, kWorld});
-  expectError(place("alone.scans/scan000.xyz", "alone"), kName, 1, {"but this one"});
+  expectError(
+      place("alone.scans/scan000.xyz", "alone"), kEvaluate, 1, {"but this one"});
 }
 
 TEST_F(PlaceInRun, AnswersInFullCoordinates)
@@ -161,8 +162,8 @@ TEST_F(PlaceInRun, AnswersInFullCoordinates)
   const Outcome outcome =
       place("left_out.scans/scan001.xyz", "far", {"-o", at("far.json"), "--quiet"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const MotionSize off =
-      distanceBetween(truth("far", 0, 1), poseIn(json("far.json")["candidates"][0]));
+  const MotionSize off = distanceBetween(
+      truth("far", 0, 1), poseInWorld(json("far.json")["candidates"][0]));
   EXPECT_LT(off.translation, kPlaceTol);
   EXPECT_LT(off.rotation, kTurnTol);
 }
@@ -221,7 +222,7 @@ TEST_F(PlaceInRun, DrawsTheCandidatesSideBySide)
   const auto [width, height] = pcl6d::test::sizeOfPng(picture);
   EXPECT_EQ(width, 1600u);
   EXPECT_GT(height, 300u);
-  const Outcome pair = runProgram(kName,
+  const Outcome pair = runProgram(kEvaluate,
                                   {"place",
                                    at("map.scans/scan000.xyz"),
                                    at("left_out.scans/scan000.xyz"),
@@ -236,22 +237,22 @@ TEST_F(PlaceInRun, RefusesWhatItCannotUse)
 {
   const std::string scan = "left_out.scans/scan000.xyz";
   expectError(
-      place(scan, "map.scans"), kName, 1, {"map.scans", "no run", "summary.json"});
-  expectError(place("none.xyz", "map"), kName, 1, {"none.xyz"});
+      place(scan, "map.scans"), kEvaluate, 1, {"map.scans", "no run", "summary.json"});
+  expectError(place("none.xyz", "map"), kEvaluate, 1, {"none.xyz"});
   expectError(
-      place(scan, "map", {"--picture", "x.jpg"}), kName, 2, {"--picture", ".png"});
+      place(scan, "map", {"--picture", "x.jpg"}), kEvaluate, 2, {"--picture", ".png"});
   expectError(
-      place(scan, "map", {"--picture", at(scan)}), kName, 2, {"--picture", ".png"});
+      place(scan, "map", {"--picture", at(scan)}), kEvaluate, 2, {"--picture", ".png"});
   fs::copy(at("map"), at("stopped"), fs::copy_options::recursive);
   Json summary = json("stopped/summary.json");
   summary["verdict"]["complete"] = false;
   writeText(at("stopped/summary.json"), summary.dump());
-  expectError(place(scan, "stopped"), kName, 1, {"interrupted"});
+  expectError(place(scan, "stopped"), kEvaluate, 1, {"interrupted"});
   fs::copy(at("map"), at("damaged"), fs::copy_options::recursive);
   std::string bytes = readText(at("damaged/scans/scan001.pcd"));
   bytes[bytes.size() / 2] ^= 1;
   writeText(at("damaged/scans/scan001.pcd"), bytes);
-  expectError(place(scan, "damaged"), kName, 1, {"scan001.pcd"});
+  expectError(place(scan, "damaged"), kEvaluate, 1, {"scan001.pcd"});
 }
 
 TEST_F(PlaceInRun, RefusesOtherUnitsAndNamesThem)
@@ -260,7 +261,7 @@ TEST_F(PlaceInRun, RefusesOtherUnitsAndNamesThem)
   millimetres.unit = 1e-3;
   rooms_->writeScans("millimetres", millimetres);
   expectError(place("millimetres.scans/scan000.xyz", "map"),
-              kName,
+              kEvaluate,
               1,
               {"scan000.xyz: its scans reach", "as if they were in millimetres"});
 }

@@ -7,6 +7,8 @@
 #include <pcl6d/benchmarking/trajectory_error.h>
 #include <pcl6d/io/trajectory_io.h>
 
+#include <boost/process.hpp>
+
 #include <csignal>
 #include <fstream>
 #include <set>

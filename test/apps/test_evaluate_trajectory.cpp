@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate trajectory: RPE, drift, loops, other times; and lengths.
+#include "program_names.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>
@@ -9,10 +10,9 @@
 
 namespace {
 using Json = nlohmann::json;
+using pcl6d::test::kEvaluate;
 using pcl6d::test::Outcome;
 using pcl6d::test::writeText;
-
-constexpr const char* kName = "pcl_slam6d_evaluate";
 
 /** KITTI rows of a drive around a square of 10 m with a pose per metre, back to the
  * start; without turning. */
@@ -43,7 +43,7 @@ protected:
   {
     more.insert(more.begin(),
                 {"trajectory", (folder / estimate).string(), folder / "truth.txt"});
-    return pcl6d::test::runProgram(kName, more);
+    return pcl6d::test::runProgram(kEvaluate, more);
   }
 
   Json
@@ -58,7 +58,7 @@ protected:
   void
   expectError(const Outcome& outcome, int code, const std::vector<std::string>& words)
   {
-    pcl6d::test::expectError(outcome, kName, code, words);
+    pcl6d::test::expectError(outcome, kEvaluate, code, words);
   }
 
   pcl6d::test::TempFolder folder;
@@ -175,7 +175,7 @@ TEST_F(EvaluateDrive, ComparesRatiosOfLengths)
                            std::vector<std::string> more = {}) {
     writeText(folder / "lengths.txt", text);
     more.insert(more.begin(), {"lengths", (folder / "lengths.txt").string()});
-    return pcl6d::test::runProgram(kName, more);
+    return pcl6d::test::runProgram(kEvaluate, more);
   };
   const std::string file = folder / "ratios.json";
   const Outcome outcome = lengths("# map and plan\n10 5\n"

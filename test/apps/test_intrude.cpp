@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_simulate intrude: people and cars in recorded scans.
+#include "program_names.h"
 #include "support/run_program.h"
 
 #include <pcl6d/io/pcd_io.h>
@@ -18,17 +19,16 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using pcl6d::test::contentOf;
 using pcl6d::test::expectError;
+using pcl6d::test::kSimulate;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
 
-constexpr const char* kName = "pcl_slam6d_simulate";
-
 Outcome
 run(const std::vector<std::string>& arguments)
 {
-  return pcl6d::test::runProgram(kName, arguments);
+  return pcl6d::test::runProgram(kSimulate, arguments);
 }
 
 // "Recorded" scans: 6 of a drive on a square, without labels, with exact poses.
@@ -131,7 +131,7 @@ TEST_F(Intrude, KeepsInitialPosesAndTruthAndTellsWhoWalksWhere)
   EXPECT_EQ(readText(folder_ / "out/groundtruth.txt"),
             readText(*scans_ / "groundtruth.txt"));
   const json scene = json::parse(readText(folder_ / "out/scene.json"));
-  EXPECT_EQ(scene["generator"], kName);
+  EXPECT_EQ(scene["generator"], kSimulate);
   EXPECT_EQ(scene["scene"], "intrude");
   ASSERT_EQ(scene["bodies"].size(), 2u);
   for (const auto& body : scene["bodies"]) {
@@ -189,7 +189,7 @@ TEST_F(Intrude, NamesWhatCannotBe)
   const auto expectRefused = [&](const std::vector<std::string>& arguments,
                                  int code,
                                  const std::vector<std::string>& words) {
-    expectError(run(arguments), kName, code, words);
+    expectError(run(arguments), kSimulate, code, words);
     EXPECT_FALSE(fs::exists(out));
   };
   const std::string in = scans_->path().string();
@@ -227,7 +227,7 @@ TEST_F(Intrude, WantsPosesAndGroundAndScansOfItsOwn)
   pcl6d::writePcd(folder_ / "bare/scan000.pcd", pcl6d::readPcd(*scans_ / scanFile(0)));
   const std::string bare = folder_ / "bare";
   expectError(
-      run({"intrude", bare, "-o", out, "--people", "1"}), kName, 1, {"no poses"});
+      run({"intrude", bare, "-o", out, "--people", "1"}), kSimulate, 1, {"no poses"});
   // With a pose, but the scan shows a wall only.
   std::string wall = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
                      "WIDTH 400\nHEIGHT 1\nVIEWPOINT 1 0 0 1 0 0 0\nPOINTS 400\nDATA "
@@ -237,12 +237,12 @@ TEST_F(Intrude, WantsPosesAndGroundAndScansOfItsOwn)
             std::to_string(1 + 0.1 * (i / 20)) + "\n";
   writeText(folder_ / "bare/scan000.pcd", wall);
   expectError(run({"intrude", bare, "-o", out, "--people", "1"}),
-              kName,
+              kSimulate,
               1,
               {"no ground found"});
   ASSERT_EQ(intrude(out, {"--people", "1"}).exit_code, 0);
   expectError(run({"intrude", out, "-o", folder_ / "again", "--people", "1"}),
-              kName,
+              kSimulate,
               1,
               {"has a field dynamic already"});
   expectError(run({"intrude",
@@ -252,7 +252,7 @@ TEST_F(Intrude, WantsPosesAndGroundAndScansOfItsOwn)
                    "--people",
                    "1",
                    "--force"}),
-              kName,
+              kSimulate,
               1,
               {"output folder is the input folder"});
   writeText(folder_ / "other/scan000.pcd", "a recording");
@@ -260,7 +260,7 @@ TEST_F(Intrude, WantsPosesAndGroundAndScansOfItsOwn)
     std::vector<std::string> arguments = {"--people", "1"};
     if (force)
       arguments.emplace_back("--force");
-    expectError(intrude(folder_ / "other", arguments), kName, 1, {"other"});
+    expectError(intrude(folder_ / "other", arguments), kSimulate, 1, {"other"});
     EXPECT_EQ(readText(folder_ / "other/scan000.pcd"), "a recording");
   }
   EXPECT_FALSE(pcl6d::fieldValues(pcl6d::readPcd(*scans_ / scanFile(0)), "dynamic"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_objects locate as a user runs it, against the truth of a simulation.
 #include "located_room.h"
+#include "support/constants.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/mesh_io.h>
@@ -18,11 +19,10 @@
 
 namespace {
 using namespace pcl6d;
+using pcl6d::test::kDegree;
 using test::Outcome;
 using test::readText;
 using test::writeText;
-
-constexpr double kDegree = M_PI / 180;
 
 /** \return the angle between two poses of an object with a symmetry */
 double

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_planes, and the same step of pcl_slam6d, as a user runs them.
 #include "corridor_run.h"
+#include "without_late_libraries.h"
 
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/plane_io.h>
@@ -176,6 +177,23 @@ TEST(Planes, OfARunAreThoseThatItFindsItself)
   ASSERT_EQ(pcl6d::test::slam(corridor(), run, {"--last", "3"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(run + "/planes.json"));
   EXPECT_FALSE(fs::exists(run + "/hulls.ply"));
+}
+
+TEST(Planes, OfARunNeedALibraryWhoseAbsenceIsToldBeforeTheWork)
+{
+  if (!pcl6d::test::WithoutLateLibraries::areUsed())
+    GTEST_SKIP() << "static libraries";
+  const TempFolder folder;
+  const std::string run = folder / "run";
+  const pcl6d::test::WithoutLateLibraries without;
+  pcl6d::test::expectError(
+      pcl6d::test::slam(folder / "no scans", run, {"--planes"}),
+      "pcl_slam6d",
+      1,
+      {"--planes: ", "libpcl6d_planes_of_run.so is not there", "builds it"});
+  EXPECT_FALSE(fs::exists(run));
+  const auto outcome = pcl6d::test::slam(corridor(), run, {"--last", "1"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
 TEST(Planes, ExplainsItsLabelsAndTakesRulesOfAUser)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_render picture as a user runs it, on a small run that is made here.
+#include "program_names.h"
 #include "room_run.h"
 
 #include <boost/process.hpp>
@@ -9,6 +10,7 @@
 
 namespace {
 namespace fs = std::filesystem;
+using pcl6d::test::kRender;
 using pcl6d::test::Outcome;
 using pcl6d::test::room;
 using pcl6d::test::roomCloud;
@@ -16,19 +18,17 @@ using pcl6d::test::sizeOfPng;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
 
-constexpr const char* kName = "pcl_slam6d_render";
-
 Outcome
 picture(const fs::path& run, std::vector<std::string> more)
 {
   more.insert(more.begin(), {"picture", run.string()});
-  return pcl6d::test::runProgram(kName, more);
+  return pcl6d::test::runProgram(kRender, more);
 }
 
 void
 expectError(const Outcome& outcome, int code, const std::vector<std::string>& words)
 {
-  pcl6d::test::expectError(outcome, kName, code, words);
+  pcl6d::test::expectError(outcome, kRender, code, words);
 }
 
 constexpr const char* kAllViews[] = {"top",
@@ -219,7 +219,7 @@ TEST(RenderPicture, RefusesWordsAndNumbersThatMakeNoSense)
       1,
       {"no scan 77"});
   const auto job = [](const std::vector<std::string>& arguments) {
-    return pcl6d::test::runProgram(kName, arguments);
+    return pcl6d::test::runProgram(kRender, arguments);
   };
   expectError(job({}), 2, {"the first argument"});
   expectError(job({"paint"}), 2, {"'paint'", "picture"});
@@ -231,7 +231,7 @@ TEST(RenderPicture, NeedsNoDisplayAndTellsWhenXvfbIsMissing)
   namespace bp = boost::process;
   const TempFolder folder;
   const auto start = [&](const std::string& name, bp::environment environment) {
-    return bp::child(PCL6D_BIN_DIR "/" + std::string(kName),
+    return bp::child(PCL6D_BIN_DIR "/" + std::string(kRender),
                      bp::args({"picture",
                                room().run().string(),
                                "--view",

@@ -10,6 +10,7 @@
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
 
+#include <boost/process.hpp>
 #include <gtest/gtest.h>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_render picture of what a map means: objects with their shapes, labels, rooms.
+#include "program_names.h"
 #include "room_run.h"
 
 #include <pcl6d/semantic_map/semantic_map_io.h>
@@ -8,13 +9,12 @@
 
 namespace {
 namespace fs = std::filesystem;
+using pcl6d::test::kRender;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
 using pcl6d::test::roomCloud;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
-
-constexpr const char* kName = "pcl_slam6d_render";
 
 /** A copy of the run of a room, to which things are added. */
 struct Copy : TempFolder {
@@ -38,7 +38,7 @@ struct Copy : TempFolder {
                  "400x300",
                  "-o",
                  (*this / "a.png").string()});
-    return pcl6d::test::runProgram(kName, more);
+    return pcl6d::test::runProgram(kRender, more);
   }
 
   /** \return the bytes of the picture */
@@ -114,7 +114,7 @@ TEST(RenderObjects, TakesWhatPclSlam6dObjectsWrites)
               [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], )") +
                   box + "}]}");
     pcl6d::test::expectError(
-        copy.draw("objects", {}), kName, 1, {"objects.json", "/objects/0", words});
+        copy.draw("objects", {}), kRender, 1, {"objects.json", "/objects/0", words});
   }
 }
 
@@ -124,7 +124,7 @@ TEST(RenderObjects, RefusesModelsThatAreNone)
   const auto refuses = [&](const std::string& models,
                            const std::vector<std::string>& words) {
     pcl6d::test::expectError(
-        copy.draw("objects", {"--models", models}), kName, 1, words);
+        copy.draw("objects", {"--models", models}), kRender, 1, words);
     EXPECT_FALSE(fs::exists(copy / "a.png"));
   };
   refuses(copy / "nowhere", {"nowhere", "no such folder"});
@@ -150,7 +150,7 @@ TEST(RenderSemanticMap, GivesLabelsObjectsAndRooms)
   EXPECT_EQ(copy.drawn("objects"), objects);
   fs::remove(copy.run() / "semantic_map.pcd");
   pcl6d::test::expectError(
-      copy.draw("top", labels), kName, 1, {"colour label needs", "semantic map"});
+      copy.draw("top", labels), kRender, 1, {"colour label needs", "semantic map"});
   fs::remove(copy.run() / "semantic_map.json");
   EXPECT_EQ(copy.drawn("slice", above), upstairs) << "the room ends at 1.5 m";
 }
@@ -162,7 +162,8 @@ TEST(RenderSemanticMap, ThatIsBrokenIsAnError)
   pcl::PCLPointCloud2 cloud = roomCloud({0});
   pcl6d::writePcd(copy.run() / "semantic_map.pcd", cloud);
   const auto refuses = [&](const std::vector<std::string>& words) {
-    pcl6d::test::expectError(copy.draw("top", {"--colour", "label"}), kName, 1, words);
+    pcl6d::test::expectError(
+        copy.draw("top", {"--colour", "label"}), kRender, 1, words);
   };
   refuses({"semantic_map.pcd", "no field label"});
   pcl6d::addField(

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "program_names.h"
+#include "simulate_program.h"
 #include "support/run_program.h"
 
 #include <pcl6d/common/pose.h>
@@ -19,17 +21,11 @@ namespace {
 namespace bp = boost::process;
 namespace fs = std::filesystem;
 using pcl6d::test::contentOf;
+using pcl6d::test::kSimulate;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
+using pcl6d::test::simulate;
 using pcl6d::test::TempFolder;
-
-constexpr const char* kName = "pcl_slam6d_simulate";
-
-Outcome
-simulate(const std::vector<std::string>& arguments)
-{
-  return pcl6d::test::runProgram(kName, arguments);
-}
 
 std::set<std::string>
 namesIn(const fs::path& folder)
@@ -43,7 +39,7 @@ namesIn(const fs::path& folder)
 void
 expectOneErrorLine(const Outcome& outcome, int exit_code, const std::string& part)
 {
-  pcl6d::test::expectError(outcome, kName, exit_code, {part});
+  pcl6d::test::expectError(outcome, kSimulate, exit_code, {part});
 }
 } // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_simulate --motion continuous and the odometry models.
+#include "program_names.h"
 #include "support/run_program.h"
 
 #include <pcl6d/common/pose.h>
@@ -13,17 +14,16 @@
 namespace {
 namespace fs = std::filesystem;
 using pcl6d::test::contentOf;
+using pcl6d::test::kSimulate;
 using pcl6d::test::Outcome;
 using pcl6d::test::TempFolder;
 
-constexpr const char* kName = "pcl_slam6d_simulate";
-
 Outcome
-simulate(const fs::path& out, const std::vector<std::string>& more)
+simulateCorridor(const fs::path& out, const std::vector<std::string>& more)
 {
   std::vector<std::string> arguments = {"corridor", "-o", out.string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return pcl6d::test::runProgram(kName, arguments);
+  return pcl6d::test::runProgram(kSimulate, arguments);
 }
 
 // Coarse, as a scan then takes less time and more of them fit on the way.
@@ -41,7 +41,8 @@ onTheMoveWith(std::vector<std::string> more)
 TEST(SimulateMotion, ScansOnTheMoveCarryTimesAndStamps)
 {
   const TempFolder folder;
-  const Outcome outcome = simulate(folder.path(), onTheMoveWith({"--speed", "0.5"}));
+  const Outcome outcome =
+      simulateCorridor(folder.path(), onTheMoveWith({"--speed", "0.5"}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("times.txt"), std::string::npos) << outcome.out;
   const pcl6d::ScanFolder scans(folder.path());
@@ -66,24 +67,24 @@ TEST(SimulateMotion, ScansOnTheMoveCarryTimesAndStamps)
 TEST(SimulateMotion, SweepsTellTheTrueMotionWithinThem)
 {
   const TempFolder folder;
-  const Outcome outcome = simulate(folder.path(),
-                                   {"--motion",
-                                    "continuous",
-                                    "--scanner",
-                                    "ouster",
-                                    "--resolution",
-                                    "6",
-                                    "--scans",
-                                    "12",
-                                    "--period",
-                                    "0.1",
-                                    "--speed",
-                                    "0.5",
-                                    "--turns-in-place",
-                                    "--turn-rate",
-                                    "30",
-                                    "--vibration",
-                                    "0.002"});
+  const Outcome outcome = simulateCorridor(folder.path(),
+                                           {"--motion",
+                                            "continuous",
+                                            "--scanner",
+                                            "ouster",
+                                            "--resolution",
+                                            "6",
+                                            "--scans",
+                                            "12",
+                                            "--period",
+                                            "0.1",
+                                            "--speed",
+                                            "0.5",
+                                            "--turns-in-place",
+                                            "--turn-rate",
+                                            "30",
+                                            "--vibration",
+                                            "0.002"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto truth = pcl6d::readTrajectory(folder / "groundtruth.txt");
   const auto motion = pcl6d::readTrajectory(folder / "groundtruth_motion.txt");
@@ -98,16 +99,16 @@ TEST(SimulateMotion, SweepsTellTheTrueMotionWithinThem)
   for (const char* word :
        {"turns_in_place", "turn_rate", "\"vibration\": 0.002", "period"})
     EXPECT_NE(scene.find(word), std::string::npos) << word;
-  ASSERT_EQ(simulate(folder.path(), {"--scans", "1"}).exit_code, 0);
+  ASSERT_EQ(simulateCorridor(folder.path(), {"--scans", "1"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder / "groundtruth_motion.txt"));
 }
 
 TEST(SimulateMotion, StoppingLeavesNoTimes)
 {
   const TempFolder folder;
-  ASSERT_EQ(simulate(folder.path(), kOnTheMove).exit_code, 0);
+  ASSERT_EQ(simulateCorridor(folder.path(), kOnTheMove).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "times.txt"));
-  ASSERT_EQ(simulate(folder.path(), {"--scans", "2"}).exit_code, 0);
+  ASSERT_EQ(simulateCorridor(folder.path(), {"--scans", "2"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder / "times.txt")) << "left over from the earlier run";
   EXPECT_FALSE(pcl6d::fieldValues(pcl6d::readScan(folder / "scan000.pcd").cloud, "t"));
   EXPECT_EQ(pcl6d::test::readText(folder / "scene.json").find("motion"),
@@ -119,7 +120,8 @@ TEST(SimulateMotion, HasTheSameBytesForTheSameSeed)
   const TempFolder folder;
   const auto bytes = [&](const std::string& threads) {
     const auto out = folder / threads;
-    EXPECT_EQ(simulate(out, onTheMoveWith({"--threads", threads})).exit_code, 0);
+    EXPECT_EQ(simulateCorridor(out, onTheMoveWith({"--threads", threads})).exit_code,
+              0);
     return contentOf(out);
   };
   const auto expected = bytes("1");
@@ -132,7 +134,7 @@ TEST(SimulateMotion, OdometryIsOfTheKindAskedFor)
   const TempFolder folder;
   const auto farthest = [&](const std::string& kind) {
     const auto out = folder / kind;
-    EXPECT_EQ(simulate(out, onTheMoveWith({"--odometry", kind})).exit_code, 0);
+    EXPECT_EQ(simulateCorridor(out, onTheMoveWith({"--odometry", kind})).exit_code, 0);
     const auto odometry = pcl6d::readTrajectory(out / "odometry.txt").poses;
     const auto truth = pcl6d::readTrajectory(out / "groundtruth.txt").poses;
     double largest = 0;
@@ -155,7 +157,7 @@ TEST(SimulateMotion, NamesWhatCannotBe)
   const fs::path out = folder / "out";
   const auto expectUsage = [&](const std::vector<std::string>& more,
                                const std::vector<std::string>& words) {
-    pcl6d::test::expectError(simulate(out, more), kName, 2, words);
+    pcl6d::test::expectError(simulateCorridor(out, more), kSimulate, 2, words);
     EXPECT_FALSE(fs::exists(out));
   };
   expectUsage({"--motion", "hopping"}, {"--motion = hopping", "stop or continuous"});

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "program_names.h"
+#include "simulate_program.h"
 #include "support/run_program.h"
+#include "without_late_libraries.h"
 
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/trajectory_io.h>
@@ -17,18 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using pcl6d::test::contentOf;
+using pcl6d::test::kSimulate;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
+using pcl6d::test::simulate;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
-
-constexpr const char* kName = "pcl_slam6d_simulate";
-
-Outcome
-simulate(const std::vector<std::string>& arguments)
-{
-  return pcl6d::test::runProgram(kName, arguments);
-}
 
 template <typename T>
 T
@@ -170,7 +167,7 @@ TEST(SimulateScenes, AreListedInTheHelpAndInTheError)
                             "glass",
                             "crowd"}) {
     EXPECT_NE(help.find("\n  " + std::string(scene) + ": "), std::string::npos);
-    pcl6d::test::expectError(simulate({"car park", "-o", "x"}), kName, 2, {scene});
+    pcl6d::test::expectError(simulate({"car park", "-o", "x"}), kSimulate, 2, {scene});
   }
 }
 
@@ -256,7 +253,7 @@ TEST(SimulateScenes, NameWhatIsWrongWithADescription)
     writeText(file, text);
     const fs::path out = folder / "out";
     pcl6d::test::expectError(
-        simulate({file.string(), "-o", out.string()}), kName, 1, words);
+        simulate({file.string(), "-o", out.string()}), kSimulate, 1, words);
     EXPECT_FALSE(fs::exists(out));
   };
   expectRefused(
@@ -265,8 +262,10 @@ TEST(SimulateScenes, NameWhatIsWrongWithADescription)
   expectRefused("\"position\": [0, 0, 0.5]",
                 "\"position\": [4, 0, 1]",
                 {"scan ", "crate", "x = 4", "of the scene"});
-  pcl6d::test::expectError(
-      simulate({(folder / "none.json").string(), "-o", "x"}), kName, 1, {"none.json"});
+  pcl6d::test::expectError(simulate({(folder / "none.json").string(), "-o", "x"}),
+                           kSimulate,
+                           1,
+                           {"none.json"});
 }
 
 TEST(SimulateScenes, DriveThroughAMesh)
@@ -296,7 +295,7 @@ TEST(SimulateScenes, DriveThroughAMesh)
   const auto expectRefused =
       [&](std::vector<std::string> arguments, int exit_code, const std::string& word) {
         arguments.insert(arguments.end(), {"-o", other});
-        pcl6d::test::expectError(simulate(arguments), kName, exit_code, {word});
+        pcl6d::test::expectError(simulate(arguments), kSimulate, exit_code, {word});
         EXPECT_FALSE(fs::exists(other));
       };
   expectRefused({mesh}, 2, "--path");
@@ -309,4 +308,21 @@ TEST(SimulateScenes, DriveThroughAMesh)
   writeText(path, "0 0 0\n1 0 0\n1 1 0\n");
   writeText(mesh, "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   expectRefused({mesh, "--path", path}, 1, "triangle 1: area is zero");
+}
+
+TEST(SimulateScenes, OtherWorldsNeedALibraryWhoseAbsenceIsTold)
+{
+  if (!pcl6d::test::WithoutLateLibraries::areUsed())
+    GTEST_SKIP() << "static libraries";
+  const TempFolder folder;
+  const std::string out = folder / "out";
+  const pcl6d::test::WithoutLateLibraries without;
+  pcl6d::test::expectError(
+      simulate({"rooms", "-o", out}),
+      kSimulate,
+      1,
+      {"world 'rooms': ", "libpcl6d_simulation_worlds.so is not there", "builds it"});
+  EXPECT_FALSE(fs::exists(out));
+  const auto outcome = simulate({"corridor", "-o", out, "--scans", "1", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_simulate --people, --traffic: what moves, and its labels.
+#include "program_names.h"
 #include "support/run_program.h"
 
 #include <pcl6d/io/pcd_io.h>
@@ -16,17 +17,16 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using pcl6d::test::contentOf;
 using pcl6d::test::expectError;
+using pcl6d::test::kSimulate;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
 
-constexpr const char* kName = "pcl_slam6d_simulate";
-
 Outcome
-simulate(const fs::path& out, std::vector<std::string> arguments)
+simulateInto(const fs::path& out, std::vector<std::string> arguments)
 {
   arguments.insert(arguments.end(), {"-o", out.string()});
-  return pcl6d::test::runProgram(kName, arguments);
+  return pcl6d::test::runProgram(kSimulate, arguments);
 }
 
 std::size_t
@@ -48,8 +48,8 @@ TEST(SimulateTraffic, PeopleWalkInTheCorridorAndAreLabelled)
 {
   const TempFolder folder;
   const Outcome outcome =
-      simulate(folder.path(),
-               {"corridor", "--people", "3", "--scans", "8", "--resolution", "2"});
+      simulateInto(folder.path(),
+                   {"corridor", "--people", "3", "--scans", "8", "--resolution", "2"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::size_t moving = 0;
   for (int i = 0; i < 8; ++i)
@@ -74,8 +74,8 @@ TEST(SimulateTraffic, WhatStandsStillIsTheSameWithAndWithoutPeople)
       "rooms", "--scans", "3", "--resolution", "4", "--seed", "3"};
   auto busy = plain;
   busy.insert(busy.end(), {"--people", "4"});
-  ASSERT_EQ(simulate(folder / "plain", plain).exit_code, 0);
-  ASSERT_EQ(simulate(folder / "busy", busy).exit_code, 0);
+  ASSERT_EQ(simulateInto(folder / "plain", plain).exit_code, 0);
+  ASSERT_EQ(simulateInto(folder / "busy", busy).exit_code, 0);
   EXPECT_EQ(readText(folder / "plain/groundtruth.txt"),
             readText(folder / "busy/groundtruth.txt"));
   EXPECT_EQ(readText(folder / "plain/odometry.txt"),
@@ -106,16 +106,17 @@ TEST(SimulateTraffic, ACrowdIsLabelledTooUnlessLabelsAreNotWanted)
 {
   const TempFolder folder;
   const std::vector<std::string> crowd = {"crowd", "--scans", "2", "--resolution", "2"};
-  ASSERT_EQ(simulate(folder / "with", crowd).exit_code, 0);
+  ASSERT_EQ(simulateInto(folder / "with", crowd).exit_code, 0);
   EXPECT_GT(dynamicPoints(folder / "with/scan000.pcd"), 10u);
   auto without = crowd;
   without.insert(without.end(), {"--labels", "no"});
-  ASSERT_EQ(simulate(folder / "without", without).exit_code, 0);
+  ASSERT_EQ(simulateInto(folder / "without", without).exit_code, 0);
   EXPECT_FALSE(
       pcl6d::fieldValues(pcl6d::readPcd(folder / "without/scan000.pcd"), "dynamic"));
-  ASSERT_EQ(simulate(folder / "still", {"rooms", "--scans", "1", "--resolution", "9"})
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      simulateInto(folder / "still", {"rooms", "--scans", "1", "--resolution", "9"})
+          .exit_code,
+      0);
   EXPECT_FALSE(
       pcl6d::fieldValues(pcl6d::readPcd(folder / "still/scan000.pcd"), "dynamic"));
 }
@@ -135,7 +136,7 @@ TEST(SimulateTraffic, HasTheSameBytesForTheSameSeed)
                                           "--resolution",
                                           "6"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    EXPECT_EQ(simulate(folder / name, arguments).exit_code, 0);
+    EXPECT_EQ(simulateInto(folder / name, arguments).exit_code, 0);
     return contentOf(folder / name);
   };
   const auto expected = bytes("one", {"--threads", "1"});
@@ -151,7 +152,7 @@ TEST(SimulateTraffic, NamesWhatCannotBe)
   const auto expectRefused = [&](const std::vector<std::string>& arguments,
                                  int code,
                                  const std::vector<std::string>& words) {
-    expectError(simulate(out, arguments), kName, code, words);
+    expectError(simulateInto(out, arguments), kSimulate, code, words);
     EXPECT_FALSE(fs::exists(out));
   };
   expectRefused({"corridor", "--people", "-1"}, 2, {"--people", "in [0, 200]"});

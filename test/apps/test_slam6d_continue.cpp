@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --continue: further scans for a finished run.
 #include "support/run_program.h"
+#include "support/temp_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,15 +11,9 @@
 namespace {
 namespace fs = std::filesystem;
 using pcl6d::test::Outcome;
+using pcl6d::test::readText;
 using pcl6d::test::runProgram;
 using pcl6d::test::TempFolder;
-
-std::string
-contentOf(const fs::path& file)
-{
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /** A drive of 24 scans, and runs over it without moving all scans at once, so that what
  * is matched stays. */
@@ -93,9 +88,9 @@ TEST_F(Continue, GivesTheBytesOfOneRunOverAllScans)
       << outcome.err;
   for (const char* file :
        {"trajectory.kitti", "trajectory.tum", "map.pcd", "scans/scan003.pcd"})
-    EXPECT_EQ(contentOf(at("grown") / file), contentOf(at("whole") / file)) << file;
-  const auto grown = nlohmann::json::parse(contentOf(at("grown") / "summary.json"));
-  const auto whole = nlohmann::json::parse(contentOf(at("whole") / "summary.json"));
+    EXPECT_EQ(readText(at("grown") / file), readText(at("whole") / file)) << file;
+  const auto grown = nlohmann::json::parse(readText(at("grown") / "summary.json"));
+  const auto whole = nlohmann::json::parse(readText(at("whole") / "summary.json"));
   EXPECT_EQ(grown["scans"], whole["scans"]);
   EXPECT_EQ(grown["options"]["relaxation"]["value"], "none") << "as it was given";
 }
@@ -118,10 +113,10 @@ TEST_F(Continue, TakesAFolderOfTheFurtherScansAlone)
   const Outcome outcome = goOn(
       at("further").string(), "joined", {"-o", at("elsewhere").string(), "--quiet"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(contentOf(at("elsewhere") / "trajectory.kitti"),
-            contentOf(at("whole") / "trajectory.kitti"));
-  EXPECT_EQ(contentOf(at("joined") / "trajectory.kitti"),
-            contentOf(at("part") / "trajectory.kitti"))
+  EXPECT_EQ(readText(at("elsewhere") / "trajectory.kitti"),
+            readText(at("whole") / "trajectory.kitti"));
+  EXPECT_EQ(readText(at("joined") / "trajectory.kitti"),
+            readText(at("part") / "trajectory.kitti"))
       << "with -o the run itself stays";
 }
 
@@ -130,7 +125,7 @@ TEST_F(Continue, MovesAllScansAtOnceIfAskedTo)
   const Outcome outcome =
       goOn(scans(), "relaxed", {"--loop-closing", "elch", "--relaxation", "helix"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto summary = nlohmann::json::parse(contentOf(at("relaxed") / "summary.json"));
+  const auto summary = nlohmann::json::parse(readText(at("relaxed") / "summary.json"));
   EXPECT_EQ(summary["graph"]["stages"].back()["name"], "relaxation");
   EXPECT_EQ(summary["scans"].size(), 24u);
 }
@@ -156,7 +151,7 @@ TEST_F(Continue, RefusesWhatIsNoFinishedRun)
   names(errorOf(goOn(scans(), "scans")), "summary.json: No such file");
   const fs::path file = at("broken") / "summary.json";
   fs::copy(at("part"), at("broken"), fs::copy_options::recursive);
-  auto summary = nlohmann::json::parse(contentOf(file));
+  auto summary = nlohmann::json::parse(readText(file));
   summary["verdict"]["complete"] = false;
   std::ofstream(file) << summary;
   names(errorOf(goOn(scans(), "broken")), "the run was interrupted");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loops, relaxation and given links of pcl_slam6d.
 #include "support/run_program.h"
+#include "support/temp_folder.h"
 
 #include <pcl6d/io/pose_graph_io.h>
 #include <pcl6d/io/trajectory_io.h>
@@ -13,6 +14,7 @@
 
 namespace {
 namespace fs = std::filesystem;
+using pcl6d::test::readText;
 using pcl6d::test::runProgram;
 using pcl6d::test::TempFolder;
 
@@ -60,12 +62,6 @@ protected:
 };
 TempFolder* Graph::folder_ = nullptr;
 
-std::string
-contentOf(const fs::path& file)
-{
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 } // namespace
 
 TEST_F(Graph, RelaxationBringsTheLoopTogether)
@@ -83,11 +79,11 @@ TEST_F(Graph, RelaxationBringsTheLoopTogether)
   const pcl6d::PoseGraph graph = pcl6d::readPoseGraph(out / "graph.g2o");
   EXPECT_EQ(graph.poses.size(), 40u);
   EXPECT_GE(graph.links.size(), 40u);
-  const auto summary = nlohmann::json::parse(contentOf(out / "summary.json"));
+  const auto summary = nlohmann::json::parse(readText(out / "summary.json"));
   EXPECT_EQ(summary["graph"]["stages"].back()["name"], "relaxation");
   EXPECT_FALSE(summary["graph"]["stages"].back()["undone"].get<bool>());
   EXPECT_TRUE(summary["graph"]["floating"].empty());
-  EXPECT_EQ(contentOf(out / "links.csv").substr(0, 27), "from,to,kind,verdict,reason");
+  EXPECT_EQ(readText(out / "links.csv").substr(0, 27), "from,to,kind,verdict,reason");
 }
 
 TEST_F(Graph, TheSameBytesForAnyNumberOfThreads)
@@ -96,8 +92,8 @@ TEST_F(Graph, TheSameBytesForAnyNumberOfThreads)
   for (const char* threads : {"1", "2", "8"}) {
     const auto outcome = run("threads", {"--force", "--threads", threads});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const std::string poses = contentOf(*folder_ / "threads" / "trajectory.kitti") +
-                              contentOf(*folder_ / "threads" / "links.csv");
+    const std::string poses = readText(*folder_ / "threads" / "trajectory.kitti") +
+                              readText(*folder_ / "threads" / "links.csv");
     if (first.empty())
       first = poses;
     EXPECT_EQ(poses, first) << threads;
@@ -111,7 +107,7 @@ TEST_F(Graph, AWrongGivenLinkMovesNothing)
   const auto outcome = run("wrong", {"--graph-in", (*folder_ / "wrong.txt").string()});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NEAR(positionRms("wrong"), positionRms("plain"), 0.01);
-  EXPECT_NE(contentOf(*folder_ / "wrong" / "links.csv").find("0,20,given,refused"),
+  EXPECT_NE(readText(*folder_ / "wrong" / "links.csv").find("0,20,given,refused"),
             std::string::npos);
 }
 

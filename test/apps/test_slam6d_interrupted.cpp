@@ -5,6 +5,7 @@
 
 #include <pcl6d/io/trajectory_io.h>
 
+#include <boost/process.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --join: two maps of one site, without common poses, become one.
 #include "joined_rooms.h"
+#include "program_names.h"
 
 #include <pcl6d/io/scan_reader.h>
 
@@ -11,6 +12,7 @@ namespace fs = std::filesystem;
 using pcl6d::poseFromEuler;
 using pcl6d::test::Join;
 using pcl6d::test::kMonday;
+using pcl6d::test::kSlam6d;
 using pcl6d::test::kTuesday;
 using pcl6d::test::Outcome;
 using pcl6d::test::placeInRoom;
@@ -18,7 +20,6 @@ using pcl6d::test::readText;
 using pcl6d::test::runProgram;
 using Drive = pcl6d::test::JoinedRooms::Drive;
 
-constexpr const char* kName = "pcl_slam6d";
 } // namespace
 
 TEST_F(Join, BringsTheSecondRunIntoTheWorldOfTheFirst)
@@ -145,7 +146,7 @@ TEST_F(Join, AJoinedRunGoesOnLikeAnyOther)
   Drive further{{2, 3}, T_world_room};
   further.name = "further";
   rooms().writeScans("further", further);
-  const Outcome outcome = runProgram(kName,
+  const Outcome outcome = runProgram(kSlam6d,
                                      {rooms() / "further.scans",
                                       "--continue",
                                       rooms() / "begun",
@@ -183,10 +184,10 @@ TEST_F(Join, ScansThatBothRunsHoldAreTakenOnce)
   for (const int place : {0, 4, 5})
     odometry.poses.push_back(kTuesday * placeInRoom(place));
   pcl6d::writeTrajectoryKitti(shared / "odometry.txt", odometry);
-  ASSERT_EQ(
-      runProgram(kName, {shared, "-o", rooms() / "sharing", "--no-picture", "--quiet"})
-          .exit_code,
-      0);
+  ASSERT_EQ(runProgram(kSlam6d,
+                       {shared, "-o", rooms() / "sharing", "--no-picture", "--quiet"})
+                .exit_code,
+            0);
   const Outcome outcome = rooms().join({"monday", "sharing"}, "once");
   EXPECT_NE(outcome.err.find("sharing: 1 scan with the very same points"),
             std::string::npos)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --join: what cannot be joined is refused in words, and nothing is written.
 #include "joined_rooms.h"
+#include "program_names.h"
 #include "support/signalled_program.h"
+
+#include <boost/process.hpp>
 
 #include <csignal>
 #include <thread>
@@ -13,6 +16,7 @@ using pcl6d::test::contentOf;
 using pcl6d::test::expectError;
 using pcl6d::test::Join;
 using pcl6d::test::kMonday;
+using pcl6d::test::kSlam6d;
 using pcl6d::test::kTuesday;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
@@ -20,7 +24,6 @@ using pcl6d::test::runProgram;
 using pcl6d::test::writeText;
 using Drive = pcl6d::test::JoinedRooms::Drive;
 
-constexpr const char* kName = "pcl_slam6d";
 } // namespace
 
 TEST_F(Join, RefusesRunsThatDoNotMeet)
@@ -106,10 +109,10 @@ TEST_F(Join, RefusesACommandLineThatMakesNoSense)
   const std::string a = rooms() / "monday", b = rooms() / "tuesday";
   const auto usage = [](std::vector<std::string> words) {
     words.insert(words.end(), {"-o", (rooms() / "nothing").string()});
-    return runProgram(kName, words);
+    return runProgram(kSlam6d, words);
   };
-  expectError(usage({a, b}), kName, 2, {"SCAN_DIR", "--join"});
-  expectError(usage({"--join", a, b, "--continue", a}), kName, 2, {"contradict"});
+  expectError(usage({a, b}), kSlam6d, 2, {"SCAN_DIR", "--join"});
+  expectError(usage({"--join", a, b, "--continue", a}), kSlam6d, 2, {"contradict"});
   EXPECT_FALSE(fs::exists(rooms() / "nothing"));
   const Outcome outcome =
       rooms().join({"monday", "tuesday"}, "extra", {"--first", "1", "--no-picture"});
@@ -125,7 +128,7 @@ TEST_F(Join, InterruptedItWritesNothing)
     fs::remove_all(out);
     return pcl6d::test::signalledAt("comparing",
                                     SIGINT,
-                                    kName,
+                                    kSlam6d,
                                     {"--join",
                                      rooms() / "monday",
                                      rooms() / "tuesday",

@@ -3,6 +3,7 @@
 #include "corridor_run.h"
 #include "support/x_server.h"
 
+#include <boost/process.hpp>
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The methods of pcl_slam6d as words of its command line, and what it does not believe.
 #include "slam6d/room_scans.h"
+#include "support/constants.h"
 #include "support/run_program.h"
 
 #include <pcl6d/io/trajectory_io.h>
@@ -14,13 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using pcl6d::Points;
+using pcl6d::test::kIdentity;
 using pcl6d::test::Outcome;
 using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
 using pcl6d::test::TurnedScans;
 using pcl6d::test::writeText;
-
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 
 /** A folder of scans, and what pcl_slam6d makes of it. */
 class Methods : public testing::Test {

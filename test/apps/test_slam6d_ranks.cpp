@@ -2,6 +2,7 @@
 // pcl_slam6d as several processes that MPI joins.
 #include "corridor_run.h"
 
+#include <boost/process.hpp>
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -4,6 +4,7 @@
 #include "support/run_program.h"
 #include "support/sanitizer.h"
 
+#include <boost/process.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>

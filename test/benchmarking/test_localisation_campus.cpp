@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole of book 6.4 on a part of the simulated campus, whose truth is known.
+#include "support/constants.h"
+
 #include <pcl6d/benchmarking/map_justification.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
@@ -11,10 +13,11 @@
 
 #include <gtest/gtest.h>
 
+using pcl6d::test::kDegree;
+
 using namespace pcl6d;
 
 namespace {
-constexpr double kDegree = M_PI / 180;
 
 /** The first 250 m of the drive through the campus, localised. */
 class Campus {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/fit_oracles.h"
 #include "support/points.h"
 #include "support/poses.h"
 
 #include <pcl6d/benchmarking/map_entropy.h>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ bruteForce(const Eigen::Vector3f& place, const Points& map, double radius)
   LocalSpread spread;
   spread.points = static_cast<std::size_t>(near.cols());
   spread.entropy = 0.5 * std::log((2 * M_PI * M_E * S).determinant());
-  spread.variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(S).eigenvalues()[0];
+  spread.variance = pcl6d::test::smallestEigenvalue(S);
   return spread;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/fit_oracles.h"
+
 #include <pcl6d/common/information.h>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,7 @@ coupled(double x)
 double
 leastEigenvalue(const Matrix6& information)
 {
-  return Eigen::SelfAdjointEigenSolver<Matrix6>(information).eigenvalues()(0);
+  return pcl6d::test::smallestEigenvalue(information);
 }
 } // namespace
 

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using pcl6d::test::kNan;
 
 namespace {
-constexpr int kTrials = 200;
+constexpr int kLines = 200;
 constexpr double kExtent = 10; // [m] largest coordinate
 // Products of coordinates: some tens of roundings of kExtent^2 and 1 / sine below.
 constexpr double kTol = 1e-12;
@@ -59,7 +59,7 @@ expectSame(const PlueckerLine& a, const PlueckerLine& b, double tolerance = kTol
 TEST(PlueckerLine, HoldsThePointsThatItJoins)
 {
   Random random(1);
-  for (int i = 0; i < kTrials; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     const Vector3d p = randomPoint(random), q = randomPoint(random);
     const PlueckerLine line = lineThrough(p, q).value();
     EXPECT_NEAR(line.direction.norm(), 1, kTol);
@@ -79,7 +79,7 @@ TEST(PlueckerLine, HoldsThePointsThatItJoins)
 TEST(PlueckerLine, MovesWithItsPoints)
 {
   Random random(2);
-  for (int i = 0; i < kTrials; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     const Vector3d p = randomPoint(random), q = randomPoint(random);
     const Eigen::Isometry3d T = test::randomPose(random, kExtent, 3);
     const PlueckerLine line = *lineThrough(p, q);
@@ -93,7 +93,7 @@ TEST(PlueckerLine, MovesWithItsPoints)
 TEST(PlueckerLine, MeetsPlanesAndPlanesMeetInIt)
 {
   Random random(3);
-  for (int i = 0; i < kTrials; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     const Vector3d p = randomPoint(random);
     const PlaneEquation a = planeAt(p, randomDirection(random));
     const PlaneEquation b = planeAt(p, randomDirection(random));
@@ -118,7 +118,7 @@ TEST(PlueckerLine, JoinAndMeetAreDual)
   // The line of two points is where the planes meet that join it with two others; the plane
   // of a line and a point meets another line through that point there.
   Random random(4);
-  for (int i = 0; i < kTrials; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     const Vector3d p = randomPoint(random), q = randomPoint(random);
     const Vector3d x = randomPoint(random), y = randomPoint(random);
     const PlueckerLine line = *lineThrough(p, q);
@@ -140,7 +140,7 @@ TEST(PlueckerLine, JoinAndMeetAreDual)
 TEST(PlueckerLines, AreAsFarApartAsTheirNearestPoints)
 {
   Random random(5);
-  for (int i = 0; i < kTrials; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     // By construction: u and v upright on the way between them.
     const Vector3d u = randomDirection(random), across = u.unitOrthogonal();
     const double angle = random.uniform(0.1, 3), apart = random.uniform(0, 5);
@@ -162,7 +162,7 @@ TEST(PlueckerLines, AreAsFarApartAsTheirNearestPoints)
 TEST(PlueckerLines, ThatAreParallelHaveADistanceAndNoMeet)
 {
   Random random(6);
-  for (int i = 0; i < kTrials; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     const Vector3d u = randomDirection(random), p = randomPoint(random);
     const double apart = random.uniform(0, 5);
     const PlueckerLine a = lineAlong(p, u);
@@ -241,7 +241,7 @@ TEST(NearestPoint, IsTheMinimumOfTheSquares)
   const Vector3d to_planes = nearestPoint(planes).point;
   EXPECT_NEAR(nearestPoint(lines).rms, std::sqrt(ofLines(to_lines) / 9), 1e-12);
   EXPECT_NEAR(nearestPoint(planes).rms, std::sqrt(ofPlanes(to_planes) / 9), 1e-12);
-  for (int i = 0; i < kTrials; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     const Vector3d aside = 1e-3 * randomDirection(random);
     EXPECT_GT(ofLines(to_lines + aside), ofLines(to_lines));
     EXPECT_GT(ofPlanes(to_planes + aside), ofPlanes(to_planes));

@@ -22,7 +22,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 constexpr double kLargestAngle = 0x1p20; // [rad] the documented domain
-constexpr int kTrials = 200000;
+constexpr int kValues = 200000;
 
 // The distance to the reference in units of the last place of the reference.
 double
@@ -80,7 +80,7 @@ addTo(std::uint64_t& hash, double value)
 TEST(PortableSinCos, IsWithinOneUlpOverItsDomain)
 {
   Random random(1);
-  for (int i = 0; i < kTrials; ++i) {
+  for (int i = 0; i < kValues; ++i) {
     expectSinCos(random.uniform(-7, 7));
     expectSinCos(random.uniform(-kLargestAngle, kLargestAngle));
     expectSinCos(std::ldexp(ofAnySize(random, 9), -10));
@@ -128,7 +128,7 @@ TEST(PortableSinCos, IsNanOutsideItsDomain)
 TEST(PortableAtan2, IsWithinOneAndAHalfUlpInAllDirections)
 {
   Random random(2);
-  for (int i = 0; i < kTrials; ++i) {
+  for (int i = 0; i < kValues; ++i) {
     expectAtan2(random.uniform(-1, 1), random.uniform(-1, 1));
     expectAtan2(ofAnySize(random, 60), ofAnySize(random, 60));
     expectAtan2(ofAnySize(random, 1000), ofAnySize(random, 1000));
@@ -175,7 +175,7 @@ TEST(PortableAtan2, AgreesWithTheCLibraryAtZerosInfinitiesAndLimits)
 TEST(PortableAcos, IsWithinThreeUlp)
 {
   Random random(3);
-  for (int i = 0; i < kTrials; ++i)
+  for (int i = 0; i < kValues; ++i)
     for (const double x :
          {random.uniform(-1, 1), 1 - std::abs(ofAnySize(random, 50)) * 0x1p-51}) {
       if (std::abs(x) > 1)
@@ -197,7 +197,7 @@ TEST(PortableAcos, IsExactAtTheEndsAndNanBeyond)
 TEST(PortableLog, IsWithinOneUlp)
 {
   Random random(4);
-  for (int i = 0; i < kTrials; ++i)
+  for (int i = 0; i < kValues; ++i)
     for (const double x : {std::abs(ofAnySize(random, 1022)),
                            random.uniform(0.5, 2),
                            1 + ofAnySize(random, 51) * 0x1p-52}) {
@@ -224,7 +224,7 @@ TEST(PortableLog, AgreesWithTheCLibraryAtTheEdges)
 TEST(PortableExp, IsWithinOneUlp)
 {
   Random random(6);
-  for (int i = 0; i < kTrials; ++i)
+  for (int i = 0; i < kValues; ++i)
     for (const double x : {random.uniform(-708, 709.7),
                            random.uniform(-1, 1),
                            random.uniform(-20, 20),

@@ -11,10 +11,14 @@
 
 #include <boost/program_options.hpp>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <random>
 #include <regex>
+#include <stdexcept>
 
 namespace {
 namespace fs = std::filesystem;
@@ -25,7 +29,8 @@ struct Settings {
   std::size_t sample = 0;
   std::uint64_t seed = 1;
   std::size_t jobs = 1;
-  double seconds = 20;
+  double time_limit = 20;
+  double seconds = 0;
   std::string keep, pattern, programs = PCL6D_BIN_DIR;
   bool list = false;
 };
@@ -38,7 +43,10 @@ describe(Settings& s)
   add("sample", po::value(&s.sample), "so many cases, spread over all; default: all");
   add("seed", po::value(&s.seed), "of what is broken where");
   add("jobs", po::value(&s.jobs), "programs at once");
-  add("time-limit", po::value(&s.seconds), "[s] of a program");
+  add("time-limit", po::value(&s.time_limit), "[s] of a program");
+  add("seconds",
+      po::value(&s.seconds),
+      "[s] after which no case is begun, in a mixed order; default: no end");
   add("keep", po::value(&s.keep), "folder that gets the inputs of each finding");
   add("pattern",
       po::value(&s.pattern),
@@ -63,11 +71,13 @@ casesOf(const Settings& s, const fs::path& samples, const fs::path& scratch)
   for (Case& one : all)
     if (s.pattern.empty() || std::regex_search(one.name, pattern))
       chosen.push_back(std::move(one));
-  if (s.sample == 0 || s.sample >= chosen.size())
-    return chosen;
   std::vector<Case> spread;
-  for (std::size_t i = 0; i < s.sample; ++i)
-    spread.push_back(chosen[i * chosen.size() / s.sample]);
+  const std::size_t count =
+      s.sample == 0 ? chosen.size() : std::min(s.sample, chosen.size());
+  for (std::size_t i = 0; i < count; ++i)
+    spread.push_back(std::move(chosen[i * chosen.size() / count]));
+  if (s.seconds > 0) // so that what is left out is not always the last programs
+    std::shuffle(spread.begin(), spread.end(), std::mt19937_64(s.seed));
   return spread;
 }
 
@@ -91,6 +101,7 @@ keep(const Case& one, const Trace& trace, const Settings& s, const fs::path& sam
 int
 run(const Settings& s)
 {
+  const auto begin = std::chrono::steady_clock::now();
   const pcl6d::test::TempFolder folder;
   const fs::path samples = folder / "samples";
   std::cerr << "samples ..." << std::endl;
@@ -108,7 +119,10 @@ run(const Settings& s)
   options.samples = samples;
   options.scratch = folder / "scratch";
   options.jobs = s.jobs;
-  options.limits.seconds = s.seconds;
+  options.limits.seconds = s.time_limit;
+  if (s.seconds > 0)
+    options.last_start =
+        begin + std::chrono::milliseconds(static_cast<std::int64_t>(1000 * s.seconds));
   runCases(cases, options, [&](const Case& one, const Trace& trace) {
     std::vector<Finding> findings;
     for (const Finding& finding : judge(one, trace))
@@ -122,6 +136,9 @@ run(const Settings& s)
                 << report.findings() << " findings" << std::endl;
   });
   std::cout << report.table(acceptances);
+  std::cout << "faults: " << report.cases() << " of " << cases.size() << " cases\n";
+  if (report.cases() == 0)
+    throw std::runtime_error("no case was run: none has such a name");
   return report.findings() == 0 ? 0 : 1;
 }
 } // namespace

@@ -181,10 +181,13 @@ runCases(const std::vector<Case>& cases,
   std::vector<Slot> slots;
   for (std::size_t i = 0; i < std::max<std::size_t>(1, options.jobs); ++i)
     slots.emplace_back(options, i);
-  for (std::size_t next = 0, over = 0; over < cases.size();) {
+  for (std::size_t next = 0, over = 0;;) {
+    const bool may_start = next == 0 || Clock::now() < options.last_start;
     for (Slot& slot : slots)
-      if (slot.isFree() && next < cases.size())
+      if (slot.isFree() && may_start && next < cases.size())
         slot.start(cases[next++]);
+    if (over == next)
+      return;
     waitForEnds(slots);
     for (Slot& slot : slots)
       if (slot.look()) {

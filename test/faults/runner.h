@@ -3,6 +3,8 @@
 
 #include "judge.h"
 
+#include <chrono>
+
 namespace pcl6d::faults {
 
 struct RunnerOptions {
@@ -11,6 +13,9 @@ struct RunnerOptions {
   std::filesystem::path scratch;  ///< a folder of its own, which is emptied
   std::size_t jobs = 1;           ///< processes at once
   Limits limits;
+  /** No case is begun later, but for the first ones, so that some are run in any case. */
+  std::chrono::steady_clock::time_point last_start =
+      std::chrono::steady_clock::time_point::max();
 };
 
 /** \return the command of a case whose files lie in a folder */
@@ -27,7 +32,7 @@ prepare(const Case& one,
         const std::filesystem::path& folder);
 
 /** \brief Runs each case in a folder of its own, several at once, and tells how it went.
- * \param[in] told called once for each case, in the order in which they end */
+ * \param[in] told called once for each case that was run, in the order in which they end */
 void
 runCases(const std::vector<Case>& cases,
          const RunnerOptions& options,

@@ -102,6 +102,27 @@ TEST_F(Faults, SeeCrashesHangsAndMemory)
       << "tail keeps its only line";
 }
 
+TEST_F(Faults, BeginNothingAfterTheirTimeButTheFirst)
+{
+  writeText(folder / "bin/program", "#!/bin/sh\ncp in.txt out.txt\n");
+  fs::permissions(folder / "bin/program", fs::perms::owner_all);
+  std::vector<Case> cases(3);
+  for (Case& one : cases)
+    setCall(one, "in.txt", "program in.txt -o out.txt");
+  RunnerOptions options;
+  options.programs = folder / "bin";
+  options.samples = folder / "samples";
+  options.scratch = folder / "scratch";
+  std::size_t run = 0;
+  const auto count = [&](const Case&, const Trace&) { ++run; };
+  runCases(cases, options, count);
+  EXPECT_EQ(run, 3u);
+  run = 0;
+  options.last_start = std::chrono::steady_clock::time_point::min();
+  runCases(cases, options, count);
+  EXPECT_EQ(run, 1u);
+}
+
 TEST_F(Faults, SeeRawTexts)
 {
   const std::string end = " >&2; exit 1";

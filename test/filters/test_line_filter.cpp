@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters along the lines of scans as they come from files of rows.
+#include "support/points.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>
@@ -18,9 +19,8 @@
 namespace {
 using pcl6d::Points;
 using pcl6d::Scan;
+using pcl6d::test::kNan;
 using pcl6d::test::TempFolder;
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /** Rows of a wall 5 m ahead, points 0.2 m apart, as a file and read again. */
 class LineFilters : public testing::Test {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/constants.h"
 #include "support/points.h"
 #include "support/poses.h"
 
@@ -13,12 +14,9 @@
 using pcl6d::MapBuilder;
 using pcl6d::Points;
 using pcl6d::test::badArgumentOf;
+using pcl6d::test::kIdentity;
 using pcl6d::test::kInfinity;
 using pcl6d::test::kNan;
-
-namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
-} // namespace
 
 TEST(MapBuilder, KeepsTheFirstPointOfEachVoxel)
 {

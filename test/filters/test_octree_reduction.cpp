@@ -13,7 +13,7 @@ using pcl6d::test::kNan;
 using pcl6d::test::toCloud;
 
 namespace {
-constexpr double kVoxel = 0.5; // [m]
+constexpr double kOctreeVoxel = 0.5; // [m]
 
 Points
 samplePoints()
@@ -27,7 +27,7 @@ pcl::PointCloud<PointT>
 reduced(const typename pcl::PointCloud<PointT>::ConstPtr& cloud, ReductionMethod method)
 {
   OctreeReduction<PointT> reduction;
-  reduction.options().voxel = kVoxel;
+  reduction.options().voxel = kOctreeVoxel;
   reduction.options().method = method;
   reduction.setInputCloud(cloud);
   pcl::PointCloud<PointT> output;
@@ -52,7 +52,7 @@ TYPED_TEST(OctreeReductionOf, GivesThePointsOfTheCore)
        {ReductionMethod::kCentre, ReductionMethod::kMean, ReductionMethod::kRandom}) {
     SCOPED_TRACE(static_cast<int>(method));
     pcl6d::ReductionOptions options;
-    options.voxel = kVoxel;
+    options.voxel = kOctreeVoxel;
     options.method = method;
     const Points expected = pcl6d::reducePoints(points, options);
     const Points found =
@@ -105,7 +105,7 @@ TEST(OctreeReduction, ReducesOnlyTheChosenPoints)
   for (const auto method :
        {ReductionMethod::kCentre, ReductionMethod::kMean, ReductionMethod::kRandom}) {
     OctreeReduction<pcl::PointXYZ> reduction;
-    reduction.options().voxel = kVoxel;
+    reduction.options().voxel = kOctreeVoxel;
     reduction.options().method = method;
     reduction.setInputCloud(toCloud<pcl::PointXYZ>(points));
     reduction.setIndices(indices);
@@ -140,7 +140,7 @@ TEST(OctreeReduction, FiltersInPlace)
   const auto cloud = toCloud<pcl::PointXYZ>(samplePoints());
   const auto expected = reduced<pcl::PointXYZ>(cloud, ReductionMethod::kMean);
   OctreeReduction<pcl::PointXYZ> reduction;
-  reduction.options().voxel = kVoxel;
+  reduction.options().voxel = kOctreeVoxel;
   reduction.setInputCloud(cloud);
   reduction.filter(*cloud);
   pcl6d::test::expectSamePoints(pcl6d::toPoints(*cloud), pcl6d::toPoints(expected));

@@ -11,7 +11,7 @@ using pcl6d::test::kNan;
 using pcl6d::test::toCloud;
 
 namespace {
-using Point = pcl::PointXYZ;
+using GatePoint = pcl::PointXYZ;
 /** Ranges 1, 5, 5 + 1 ulp, 10, none, none, 0: places 0 to 6. */
 const pcl6d::Points kPoints{{1, 0, 0},
                             {3, 0, -4},
@@ -22,9 +22,9 @@ const pcl6d::Points kPoints{{1, 0, 0},
                             {0, 0, 0}};
 
 pcl::Indices
-kept(RangeGate<Point>& gate)
+kept(RangeGate<GatePoint>& gate)
 {
-  gate.setInputCloud(toCloud<Point>(kPoints));
+  gate.setInputCloud(toCloud<GatePoint>(kPoints));
   pcl::Indices indices;
   gate.filter(indices);
   return indices;
@@ -33,7 +33,7 @@ kept(RangeGate<Point>& gate)
 
 TEST(RangeGate, KeepsPointsAtBothLimits)
 {
-  RangeGate<Point> gate;
+  RangeGate<GatePoint> gate;
   gate.setLimits(1, 5);
   EXPECT_EQ(kept(gate), (pcl::Indices{0, 1}));
   gate.setLimits(5, 10);
@@ -44,13 +44,13 @@ TEST(RangeGate, KeepsPointsAtBothLimits)
 
 TEST(RangeGate, KeepsAllFinitePointsUnlessToldOtherwise)
 {
-  RangeGate<Point> gate;
+  RangeGate<GatePoint> gate;
   EXPECT_EQ(kept(gate), (pcl::Indices{0, 1, 2, 3, 6}));
 }
 
 TEST(RangeGate, KeepsTheOthersWhenNegative)
 {
-  RangeGate<Point> gate;
+  RangeGate<GatePoint> gate;
   gate.setLimits(1, 5);
   gate.setNegative(true);
   // Points that are not finite never pass, as in pcl::PassThrough.
@@ -59,7 +59,7 @@ TEST(RangeGate, KeepsTheOthersWhenNegative)
 
 TEST(RangeGate, LooksOnlyAtTheChosenPoints)
 {
-  RangeGate<Point> gate;
+  RangeGate<GatePoint> gate;
   gate.setLimits(1, 5);
   gate.setIndices(pcl::make_shared<pcl::Indices>(pcl::Indices{3, 1, 4}));
   EXPECT_EQ(kept(gate), (pcl::Indices{1}));
@@ -67,7 +67,7 @@ TEST(RangeGate, LooksOnlyAtTheChosenPoints)
 
 TEST(RangeGate, ReportsWhatItRemoved)
 {
-  RangeGate<Point> gate(true);
+  RangeGate<GatePoint> gate(true);
   gate.setLimits(1, 5);
   EXPECT_EQ(kept(gate), (pcl::Indices{0, 1}));
   EXPECT_EQ(*gate.getRemovedIndices(), (pcl::Indices{2, 3, 4, 5, 6}));
@@ -77,22 +77,22 @@ TEST(RangeGate, ReportsWhatItRemoved)
 
 TEST(RangeGate, FiltersCloudsAsAPclFilter)
 {
-  RangeGate<Point> gate;
+  RangeGate<GatePoint> gate;
   gate.setLimits(1, 5);
-  pcl::Filter<Point>& filter = gate;
-  filter.setInputCloud(toCloud<Point>(kPoints));
-  pcl::PointCloud<Point> output;
+  pcl::Filter<GatePoint>& filter = gate;
+  filter.setInputCloud(toCloud<GatePoint>(kPoints));
+  pcl::PointCloud<GatePoint> output;
   filter.filter(output);
   EXPECT_EQ(pcl6d::toPoints(output), (pcl6d::Points{kPoints[0], kPoints[1]}));
 }
 
 TEST(RangeGate, KeepsCloudsOrganized)
 {
-  RangeGate<Point> gate(true);
+  RangeGate<GatePoint> gate(true);
   gate.setLimits(1, 5);
   gate.setKeepOrganized(true);
-  gate.setInputCloud(toCloud<Point>(kPoints));
-  pcl::PointCloud<Point> output;
+  gate.setInputCloud(toCloud<GatePoint>(kPoints));
+  pcl::PointCloud<GatePoint> output;
   gate.filter(output);
   ASSERT_EQ(output.size(), kPoints.size());
   EXPECT_EQ(output[1].z, -4);
@@ -101,7 +101,7 @@ TEST(RangeGate, KeepsCloudsOrganized)
 
 TEST(RangeGate, RefusesLimitsThatBreakTheirRule)
 {
-  RangeGate<Point> gate;
+  RangeGate<GatePoint> gate;
   gate.setLimits(1, 5);
   for (const double bad : {-0.1, double{kNan}})
     EXPECT_NE(badArgumentOf([&] { gate.setLimits(bad, 2); }).find("min_range = "),

@@ -10,6 +10,9 @@
 
 namespace pcl6d::test {
 
+constexpr double kPlaceTol = kVoxel / 3; ///< [m]
+constexpr double kTurnTol = 0.01;        ///< [rad] the same at walls 5 m away
+
 /** \brief Scans of one room, or of several, ready to be placed. */
 class Placeable {
 public:
@@ -34,5 +37,16 @@ private:
   VerifiedScans verified_;
   std::deque<PlaceableScan> scans_;
 };
+
+constexpr double kFineTol = 0.02; // [m] what the class promises in a room
+
+constexpr double kFineTurn = 0.004; // [rad] the same at walls 5 m away
+
+inline const ScannedPair&
+scannedPair()
+{
+  static const ScannedPair scans;
+  return scans;
+}
 
 } // namespace pcl6d::test

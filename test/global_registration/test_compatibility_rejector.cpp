@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rejector of pairs that one motion cannot bring together: exact truth, features, PCL's ICP.
+#include "support/pcl_peers.h"
 #include "support/points.h"
 #include "verification/verified_rooms.h"
 
@@ -10,9 +11,6 @@
 #include <pcl/features/normal_3d.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/point_types.h>
-#include <pcl/registration/correspondence_estimation.h>
-#include <pcl/registration/icp.h>
-#include <pcl/registration/transformation_estimation_svd.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // GlobalRegistration as a pcl::Registration.
+#include "placeable.h"
 #include "support/points.h"
 #include "verification/verified_rooms.h"
 
@@ -16,8 +17,11 @@ using pcl6d::Points;
 using pcl6d::poseFromEuler;
 using pcl6d::Random;
 using pcl6d::test::badArgumentOf;
+using pcl6d::test::kFineTol;
+using pcl6d::test::kFineTurn;
 using pcl6d::test::kNan;
 using pcl6d::test::PillarRoom;
+using pcl6d::test::scannedPair;
 using pcl6d::test::ScannedPair;
 using pcl6d::test::toCloud;
 using Vector = Eigen::Vector3d;
@@ -27,16 +31,6 @@ using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
 using Registration = pcl::Registration<Point, Point>;
 using Placing = pcl6d::GlobalRegistration<Point, Point>;
-
-constexpr double kFineTol = 0.02;   // [m] what the class promises in a room
-constexpr double kFineTurn = 0.004; // [rad] the same at walls 5 m away
-
-const ScannedPair&
-pair()
-{
-  static const ScannedPair scans;
-  return scans;
-}
 
 template <typename PointT, typename Scalar = float>
 using PlacingOf = pcl6d::GlobalRegistration<PointT, PointT, Scalar>;
@@ -61,7 +55,8 @@ errorOf(Class& placing, const Eigen::Isometry3d& truth)
 
 template <typename Class>
 void
-expectPlaced(Class& placing, const Eigen::Isometry3d& truth = pair().T_first_second)
+expectPlaced(Class& placing,
+             const Eigen::Isometry3d& truth = scannedPair().T_first_second)
 {
   EXPECT_TRUE(placing.hasConverged()) << placing.reason();
   EXPECT_EQ(placing.answer(), PlaceAnswer::kUnique);
@@ -73,8 +68,8 @@ expectPlaced(Class& placing, const Eigen::Isometry3d& truth = pair().T_first_sec
 void
 setInput(Placing& placing)
 {
-  placing.setInputTarget(toCloud<Point>(pair().first));
-  placing.setInputSource(toCloud<Point>(pair().second));
+  placing.setInputTarget(toCloud<Point>(scannedPair().first));
+  placing.setInputSource(toCloud<Point>(scannedPair().second));
 }
 
 /** Half a turn about its middle changes nothing in it. */
@@ -93,14 +88,14 @@ TEST(GlobalRegistration, PlacesAScanFinelyWithoutAGuess)
 {
   Placing placing;
   Registration& registration = placing; // as code that takes any
-  registration.setInputTarget(toCloud<Point>(pair().first));
-  const Cloud::Ptr source = toCloud<Point>(pair().second);
+  registration.setInputTarget(toCloud<Point>(scannedPair().first));
+  const Cloud::Ptr source = toCloud<Point>(scannedPair().second);
   registration.setInputSource(source);
   const Cloud moved = aligned(registration);
   expectPlaced(placing);
   EXPECT_EQ(placing.reason(), "");
   ASSERT_FALSE(placing.candidates().empty());
-  EXPECT_LT(distanceBetween(pair().T_first_second,
+  EXPECT_LT(distanceBetween(scannedPair().T_first_second,
                             placing.candidates().front().T_first_second)
                 .translation,
             0.1);
@@ -132,10 +127,10 @@ TEST(GlobalRegistration, KnowsWhereTheScannersStood)
     return cloud;
   };
   Placing placing;
-  placing.setInputTarget(shifted(pair().first, to));
-  placing.setInputSource(shifted(pair().second, from));
+  placing.setInputTarget(shifted(scannedPair().first, to));
+  placing.setInputSource(shifted(scannedPair().second, from));
   aligned(placing);
-  Eigen::Isometry3d truth = pair().T_first_second;
+  Eigen::Isometry3d truth = scannedPair().T_first_second;
   truth.translate(-from.cast<double>());
   truth.pretranslate(to.cast<double>());
   expectPlaced(placing, truth);
@@ -147,8 +142,8 @@ TEST(GlobalRegistration, KnowsWhereTheScannersStood)
 TEST(GlobalRegistration, WorksWithOtherPointsAndInDouble)
 {
   PlacingOf<pcl::PointXYZINormal, double> placing;
-  placing.setInputTarget(toCloud<pcl::PointXYZINormal>(pair().first));
-  placing.setInputSource(toCloud<pcl::PointXYZINormal>(pair().second));
+  placing.setInputTarget(toCloud<pcl::PointXYZINormal>(scannedPair().first));
+  placing.setInputSource(toCloud<pcl::PointXYZINormal>(scannedPair().second));
   pcl::PointCloud<pcl::PointXYZINormal> cloud;
   placing.align(cloud);
   expectPlaced(placing);
@@ -157,17 +152,17 @@ TEST(GlobalRegistration, WorksWithOtherPointsAndInDouble)
 TEST(GlobalRegistration, OneTargetServesManySources)
 {
   Placing one;
-  one.setInputTarget(toCloud<Point>(pair().first));
+  one.setInputTarget(toCloud<Point>(scannedPair().first));
   Random random(21);
   for (const double yaw : {-2.0, 0.4, 2.9}) {
     const Eigen::Isometry3d truth = poseFromEuler({0.9, -0.6, 0.05}, {0, 0.02, yaw});
-    const auto source =
-        toCloud<Point>(PillarRoom().scan(pair().T_world_first * truth, random, 0.025));
+    const auto source = toCloud<Point>(
+        PillarRoom().scan(scannedPair().T_world_first * truth, random, 0.025));
     one.setInputSource(source);
     aligned(one);
     expectPlaced(one, truth);
     Placing fresh; // what was placed before changes nothing
-    fresh.setInputTarget(toCloud<Point>(pair().first));
+    fresh.setInputTarget(toCloud<Point>(scannedPair().first));
     fresh.setInputSource(source);
     aligned(fresh);
     EXPECT_EQ(fresh.getFinalTransformation(), one.getFinalTransformation());
@@ -176,7 +171,7 @@ TEST(GlobalRegistration, OneTargetServesManySources)
 
 TEST(GlobalRegistration, HonoursTheIndices)
 {
-  auto disturbed = toCloud<Point>(pair().second);
+  auto disturbed = toCloud<Point>(scannedPair().second);
   const auto chosen = pcl::make_shared<pcl::Indices>();
   for (std::size_t i = 0; i < disturbed->size(); ++i)
     if (i % 10 < 9)
@@ -184,7 +179,7 @@ TEST(GlobalRegistration, HonoursTheIndices)
     else
       (*disturbed)[i].getVector3fMap() *= 0.5f;
   Placing placing;
-  placing.setInputTarget(toCloud<Point>(pair().first));
+  placing.setInputTarget(toCloud<Point>(scannedPair().first));
   placing.setInputSource(disturbed);
   placing.setIndices(chosen);
   EXPECT_EQ(aligned(placing).size(), chosen->size());
@@ -193,11 +188,11 @@ TEST(GlobalRegistration, HonoursTheIndices)
 
 TEST(GlobalRegistration, LeavesOutWhatIsNotFinite)
 {
-  Points first = pair().first, second = pair().second;
-  for (std::size_t i = 0; i < second.size(); i += 50) {
+  Points first = scannedPair().first, second = scannedPair().second;
+  for (std::size_t i = 0; i < second.size(); i += 50)
     second[i].setConstant(kNan);
+  for (std::size_t i = 0; i < first.size(); i += 50)
     first[i].y() = pcl6d::test::kInfinity;
-  }
   Placing placing;
   placing.setInputTarget(toCloud<Point>(first));
   placing.setInputSource(toCloud<Point>(second));
@@ -222,8 +217,8 @@ TEST(GlobalRegistration, DoesNotConvergeWhereTwoPlacesAreAsGood)
 TEST(GlobalRegistration, GivesBackTheGuessWhereThereIsNoPlace)
 {
   const Eigen::Isometry3d guess = poseFromEuler({1, 2, 0}, {0, 0, 1});
-  const auto few =
-      toCloud<Point>(Points(pair().second.begin(), pair().second.begin() + 40));
+  const auto few = toCloud<Point>(
+      Points(scannedPair().second.begin(), scannedPair().second.begin() + 40));
   const auto nan = toCloud<Point>({{kNan, 0, 0}, {0, pcl6d::test::kInfinity, 0}});
   const auto same = toCloud<Point>(Points(1000, {1, 2, 3}));
   const auto far =
@@ -231,7 +226,7 @@ TEST(GlobalRegistration, GivesBackTheGuessWhereThereIsNoPlace)
   const auto none = pcl::make_shared<Cloud>();
   for (const auto& cloud : {few, nan, same, far, none}) {
     Placing placing;
-    placing.setInputTarget(toCloud<Point>(pair().first));
+    placing.setInputTarget(toCloud<Point>(scannedPair().first));
     placing.setInputSource(cloud);
     aligned(placing, guess);
     EXPECT_FALSE(placing.hasConverged());
@@ -239,7 +234,7 @@ TEST(GlobalRegistration, GivesBackTheGuessWhereThereIsNoPlace)
     EXPECT_EQ(placing.answer(), PlaceAnswer::kNone);
     EXPECT_NE(placing.reason(), "");
     placing.setInputTarget(cloud);
-    placing.setInputSource(toCloud<Point>(pair().first));
+    placing.setInputSource(toCloud<Point>(scannedPair().first));
     aligned(placing, guess);
     EXPECT_FALSE(placing.hasConverged());
     EXPECT_EQ(placing.answer(), PlaceAnswer::kNone);
@@ -268,10 +263,10 @@ TEST(GlobalRegistration, TakesWhatIsUpFromTheCaller)
   Placing placing;
   placing.setAnyAxis(false);
   placing.setExpectedUp(-Vector::UnitY(), -Vector::UnitY());
-  placing.setInputTarget(turned(pair().first));
-  placing.setInputSource(turned(pair().second));
+  placing.setInputTarget(turned(scannedPair().first));
+  placing.setInputSource(turned(scannedPair().second));
   aligned(placing);
-  expectPlaced(placing, camera.inverse() * pair().T_first_second * camera);
+  expectPlaced(placing, camera.inverse() * scannedPair().T_first_second * camera);
 }
 
 TEST(GlobalRegistration, GivesBackWhatWasSet)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two scans made ready, placed and matched finely: the compiled core of GlobalRegistration.
+#include "placeable.h"
 #include "support/bits.h"
 #include "support/points.h"
 #include "verification/verified_rooms.h"
@@ -17,20 +18,15 @@ using pcl6d::PairPlacerOptions;
 using pcl6d::PlaceAnswer;
 using pcl6d::poseFromEuler;
 using pcl6d::test::badArgumentOf;
+using pcl6d::test::kFineTol;
+using pcl6d::test::kFineTurn;
 using pcl6d::test::sameBits;
+using pcl6d::test::scannedPair;
 using pcl6d::test::ScannedPair;
 
 namespace {
 // Matching leaves a twentieth of a voxel of 0.15 m, and the same at walls 5 m away.
-constexpr double kFineTol = 0.02;   // [m]
-constexpr double kFineTurn = 0.004; // [rad]
 
-const ScannedPair&
-pair()
-{
-  static const ScannedPair scans;
-  return scans;
-}
 } // namespace
 
 TEST(PairPlacer, GivesTheSameBitsForAnyNumberOfThreads)
@@ -39,12 +35,12 @@ TEST(PairPlacer, GivesTheSameBitsForAnyNumberOfThreads)
   options.search.num_threads = 1;
   PairPlacer alone;
   alone.setOptions(options);
-  const PairPlacement one = alone.place(pair().first, pair().second);
+  const PairPlacement one = alone.place(scannedPair().first, scannedPair().second);
   for (const unsigned int threads : {2u, 8u}) {
     options.search.num_threads = threads;
     PairPlacer several;
     several.setOptions(options);
-    const PairPlacement many = several.place(pair().first, pair().second);
+    const PairPlacement many = several.place(scannedPair().first, scannedPair().second);
     EXPECT_TRUE(sameBits(many.T_target_source, one.T_target_source));
   }
 }
@@ -52,27 +48,27 @@ TEST(PairPlacer, GivesTheSameBitsForAnyNumberOfThreads)
 TEST(PairPlacer, SaysWhichScanHasTooFewPoints)
 {
   PairPlacer placer;
-  const PairPlacement found = placer.place(pair().first, {{1, 2, 3}});
+  const PairPlacement found = placer.place(scannedPair().first, {{1, 2, 3}});
   EXPECT_EQ(found.result.answer, PlaceAnswer::kNone);
   EXPECT_NE(found.result.reason.find("the source"), std::string::npos)
       << found.result.reason;
-  EXPECT_EQ(placer.place(pair().first, pair().second).result.answer,
+  EXPECT_EQ(placer.place(scannedPair().first, scannedPair().second).result.answer,
             PlaceAnswer::kUnique)
       << "the next one is placed";
 }
 
 TEST(RefinePlace, StaysWhereMatchingFails)
 {
-  pcl6d::PreparedScans scans(2, pcl6d::deriveScanParameters({}, {pair().first}));
-  scans.set(0, pair().first, "first");
-  scans.set(1, pair().second, "second");
+  pcl6d::PreparedScans scans(2, pcl6d::deriveScanParameters({}, {scannedPair().first}));
+  scans.set(0, scannedPair().first, "first");
+  scans.set(1, scannedPair().second, "second");
   const pcl6d::PlaceableScan first(scans.scans()[0]), second(scans.scans()[1]);
   const Eigen::Isometry3d far = poseFromEuler({300, 0, 0}, {0, 0, 1});
   EXPECT_TRUE(sameBits(refinePlace(first, second, far), far));
   const Eigen::Isometry3d near =
-      pair().T_first_second * poseFromEuler({0.03, -0.02, 0.01}, {0, 0, 0.01});
+      scannedPair().T_first_second * poseFromEuler({0.03, -0.02, 0.01}, {0, 0, 0.01});
   const MotionSize off =
-      distanceBetween(pair().T_first_second, refinePlace(first, second, near));
+      distanceBetween(scannedPair().T_first_second, refinePlace(first, second, near));
   EXPECT_LT(off.translation, kFineTol);
   EXPECT_LT(off.rotation, kFineTurn);
   Eigen::Isometry3d stretched = near;

@@ -21,6 +21,7 @@ using pcl6d::RunPlace;
 using pcl6d::RunPlaceOptions;
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::kRayStep;
+using pcl6d::test::kTurnTol;
 using pcl6d::test::kVoxel;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::Placeable;
@@ -29,8 +30,7 @@ using Vector = Eigen::Vector3d;
 
 namespace {
 // A scan is placed within a third of a voxel, and stands up to 3 m from the origin.
-constexpr double kPlaceTol = kVoxel; // [m]
-constexpr double kTurnTol = 0.01;    // [rad]
+constexpr double kPlaceInRunTol = kVoxel; // [m]
 
 /** A run through a room, with exact poses in a world of its own. */
 struct RunOfRoom {
@@ -77,7 +77,7 @@ TEST(PlaceRun, FindsTheWorldOfARunInTheMap)
   for (std::size_t i = 0; i < 3; ++i) {
     const auto off = distanceBetween(kMap * kRun.inverse() * run.poses[i],
                                      place.T_map_run * run.poses[i]);
-    EXPECT_LT(off.translation, kPlaceTol);
+    EXPECT_LT(off.translation, kPlaceInRunTol);
     EXPECT_LT(off.rotation, kTurnTol);
   }
 }

@@ -23,6 +23,8 @@ using pcl6d::Points;
 using pcl6d::poseFromEuler;
 using pcl6d::Random;
 using pcl6d::test::badArgumentOf;
+using pcl6d::test::kPlaceTol;
+using pcl6d::test::kTurnTol;
 using pcl6d::test::kVoxel;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::Placeable;
@@ -32,8 +34,6 @@ using Vector = Eigen::Vector3d;
 
 namespace {
 // Surfaces of points with 5 mm of noise, a voxel apart: matching leaves a third of it.
-constexpr double kPlaceTol = kVoxel / 3; // [m]
-constexpr double kTurnTol = 0.01;        // [rad] the same at walls 5 m away
 
 PlaceResult
 placed(const ScannedPair& pair, unsigned int num_threads = 2)

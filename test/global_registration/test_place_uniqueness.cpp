@@ -16,6 +16,8 @@ using pcl6d::placeScan;
 using pcl6d::PlaceSearchOptions;
 using pcl6d::poseFromEuler;
 using pcl6d::Random;
+using pcl6d::test::kPlaceTol;
+using pcl6d::test::kTurnTol;
 using pcl6d::test::kVoxel;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::Placeable;
@@ -24,11 +26,9 @@ using Vector = Eigen::Vector3d;
 
 namespace {
 // As in test_place_search.cpp: points with 5 mm of noise, a voxel apart.
-constexpr double kPlaceTol = kVoxel / 3; // [m]
-constexpr double kTurnTol = 0.01;        // [rad]
 
 void
-expectNear(const Eigen::Isometry3d& found, const Eigen::Isometry3d& truth)
+expectNearTruth(const Eigen::Isometry3d& found, const Eigen::Isometry3d& truth)
 {
   const MotionSize off = distanceBetween(truth, found);
   EXPECT_LT(off.translation, kPlaceTol);
@@ -68,7 +68,7 @@ TEST(PlaceUniqueness, WhatMovedMakesItNoUniquePlaceOfTwoScansAlone)
   const PlaceResult strict =
       placeScan(scans[0], scans[1], PlaceSearchOptions::forTwoScans());
   ASSERT_FALSE(strict.candidates.empty());
-  expectNear(strict.candidates[0].T_first_second, pair.T_first_second);
+  expectNearTruth(strict.candidates[0].T_first_second, pair.T_first_second);
   EXPECT_GT(strict.candidates[0].contradiction, 0.01);
   EXPECT_EQ(strict.answer, PlaceAnswer::kNone);
   EXPECT_NE(strict.reason.find("rays go through"), std::string::npos) << strict.reason;
@@ -94,5 +94,5 @@ TEST(PlaceUniqueness, ACorridorThatPillarsHoldIsUniqueAndABareOneIsNot)
   const PlaceResult held = placedIn(corridor);
   EXPECT_EQ(held.answer, PlaceAnswer::kUnique) << held.reason;
   EXPECT_GT(held.candidates[0].evidence.fit.open_directions, 0);
-  expectNear(held.candidates[0].T_first_second, T);
+  expectNearTruth(held.candidates[0].T_first_second, T);
 }

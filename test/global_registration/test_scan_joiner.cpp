@@ -24,7 +24,9 @@ using pcl6d::Points;
 using pcl6d::poseFromEuler;
 using pcl6d::Random;
 using pcl6d::test::badArgumentOf;
+using pcl6d::test::kPlaceTol;
 using pcl6d::test::kRayStep;
+using pcl6d::test::kTurnTol;
 using pcl6d::test::kVoxel;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::Placeable;
@@ -33,8 +35,6 @@ using Vector = Eigen::Vector3d;
 
 namespace {
 // Surfaces of points with 5 mm of noise, a voxel apart: matching leaves a third of it.
-constexpr double kPlaceTol = kVoxel / 3; // [m]
-constexpr double kTurnTol = 0.01;        // [rad]
 
 /** Scans of a room from places all over it, which look all ways. */
 struct RoomScans {

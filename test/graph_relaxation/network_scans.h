@@ -3,6 +3,7 @@
 
 #include "support/room.h"
 
+#include <pcl6d/common/pose.h>
 #include <pcl6d/graph_relaxation/network_scan.h>
 
 #include <deque>
@@ -96,6 +97,12 @@ largestError(const Poses& a, const Poses& b)
   for (std::size_t i = 0; i < a.size(); ++i)
     largest = std::max(largest, (a[i].translation() - b[i].translation()).norm());
   return largest;
+}
+
+inline Eigen::Isometry3d
+shifted(double x)
+{
+  return poseFromEuler({x, 0, 0}, {0, 0, 0});
 }
 
 } // namespace pcl6d::test

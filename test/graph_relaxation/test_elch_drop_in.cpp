@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compiled twice: what holds for pcl::registration::ELCH holds for ours. Headings are near
 // zero, and results are read from the graph, where both put them.
+#include "support/pcl_peers.h"
 #include "support/points.h"
 #include "support/room.h"
 
@@ -20,13 +21,11 @@ __asan_default_options()
 namespace under_test = pcl6d;
 #endif
 
-#include <pcl/registration/icp.h>
-
 namespace pcl6d::test {
 
 namespace {
 using Point = pcl::PointXYZ;
-using Elch = under_test::ELCH<Point>;
+using ElchUnderTest = under_test::ELCH<Point>;
 constexpr float kTol = 1e-6f; // [m], float, a few metres
 
 pcl::PointCloud<Point>::Ptr
@@ -43,10 +42,10 @@ cubeAt(const Eigen::Vector3d& centre)
 }
 
 /** Five clouds a metre apart. */
-Elch
+ElchUnderTest
 makeRow()
 {
-  Elch elch;
+  ElchUnderTest elch;
   for (int i = 0; i < 5; ++i)
     elch.addPointCloud(cubeAt({1.0 * i, 0, 0}));
   elch.setLoopStart(0);
@@ -57,7 +56,7 @@ makeRow()
 
 TEST(ElchDropIn, SharesATranslationEvenly)
 {
-  Elch elch = makeRow();
+  ElchUnderTest elch = makeRow();
   Eigen::Matrix4f motion = Eigen::Matrix4f::Identity();
   motion.topRightCorner<3, 1>() = Eigen::Vector3f(0.4f, -0.2f, 0.1f);
   elch.setLoopTransform(motion);
@@ -78,7 +77,7 @@ TEST(ElchDropIn, SharesATranslationEvenly)
 
 TEST(ElchDropIn, MovesTheEndByTheLoopTransformAndTheStartNotAtAll)
 {
-  Elch elch = makeRow();
+  ElchUnderTest elch = makeRow();
   const Eigen::Matrix4f motion =
       poseFromEuler({0.1, 0.2, -0.1}, {0.02, -0.01, 0.03}).matrix().cast<float>();
   elch.setLoopTransform(motion);
@@ -92,7 +91,7 @@ TEST(ElchDropIn, MovesTheEndByTheLoopTransformAndTheStartNotAtAll)
 
 TEST(ElchDropIn, GivesABranchTheWeightOfItsRoot)
 {
-  Elch elch = makeRow();
+  ElchUnderTest elch = makeRow();
   const auto graph = elch.getLoopGraph();
   const auto branch = add_vertex(*graph);
   (*graph)[branch].cloud = cubeAt({1, 1, 0});
@@ -109,7 +108,7 @@ TEST(ElchDropIn, GivesABranchTheWeightOfItsRoot)
 TEST(ElchDropIn, RegistersTheLoopAndSpreadsItsError)
 {
   // Scans of a corner that drift by 2 cm and 2 mrad each; the last sees the first again.
-  Elch elch;
+  ElchUnderTest elch;
   Random random(10);
   std::vector<Eigen::Isometry3d> drift;
   for (int i = 0; i < 6; ++i) {
@@ -137,7 +136,7 @@ TEST(ElchDropIn, RegistersTheLoopAndSpreadsItsError)
 
 TEST(ElchDropIn, ClosesTheLoopAtTheIterationLimitAndSaysSo)
 {
-  Elch elch;
+  ElchUnderTest elch;
   Random random(10);
   std::vector<pcl::PointCloud<Point>::Ptr> clouds;
   for (int i = 0; i < 4; ++i) {
@@ -158,13 +157,14 @@ TEST(ElchDropIn, ClosesTheLoopAtTheIterationLimitAndSaysSo)
 
 TEST(ElchDropIn, GivesBackWhatWasSet)
 {
-  Elch elch = makeRow();
+  ElchUnderTest elch = makeRow();
   EXPECT_EQ(elch.getLoopStart(), 0u);
   EXPECT_EQ(elch.getLoopEnd(), 4u);
-  const Elch::RegistrationPtr reg(new pcl::IterativeClosestPoint<Point, Point>);
+  const ElchUnderTest::RegistrationPtr reg(
+      new pcl::IterativeClosestPoint<Point, Point>);
   elch.setReg(reg);
   EXPECT_EQ(elch.getReg(), reg);
-  const Elch::LoopGraphPtr graph(new Elch::LoopGraph);
+  const ElchUnderTest::LoopGraphPtr graph(new ElchUnderTest::LoopGraph);
   elch.setLoopGraph(graph);
   EXPECT_EQ(elch.getLoopGraph(), graph);
   const Eigen::Matrix4f motion =

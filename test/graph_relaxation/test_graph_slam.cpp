@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ceres_oracle.h"
+#include "graph_cases.h"
 
 #include <pcl6d/common/error.h>
 
@@ -9,27 +10,14 @@ using namespace pcl6d;
 using namespace pcl6d::test;
 
 namespace {
-// Ours and Ceres both come to rest where doubles end; poses of 10 m then agree to far below
-// this, which is what the user is promised.
-constexpr double kOptimumTol = 1e-6; // [m], [rad]
 // Float points at 16 m are rounded by 1e-6; 60 of them average.
 constexpr double kFloatTol = 1e-6; // [m], [rad]
 
-const Relaxation kJoint[] = {Relaxation::kHelix,
-                             Relaxation::kEuler,
-                             Relaxation::kQuaternion};
 const Relaxation kAll[] = {Relaxation::kHelix,
                            Relaxation::kEuler,
                            Relaxation::kQuaternion,
                            Relaxation::kQuaternionPublished,
                            Relaxation::kSmallAngle};
-
-void
-expectSame(const Poses& a, const Poses& b, double tolerance)
-{
-  EXPECT_LT(largestDistance(a, b), tolerance);
-  EXPECT_LT(largestTurn(a, b), tolerance);
-}
 
 class JointMethods : public testing::TestWithParam<Relaxation> {};
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ceres_oracle.h"
+#include "graph_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -7,18 +8,6 @@ using namespace pcl6d;
 using namespace pcl6d::test;
 
 namespace {
-constexpr double kOptimumTol = 1e-6; // [m], [rad]
-
-const Relaxation kJoint[] = {Relaxation::kHelix,
-                             Relaxation::kEuler,
-                             Relaxation::kQuaternion};
-
-void
-expectSame(const Poses& a, const Poses& b, double tolerance)
-{
-  EXPECT_LT(largestDistance(a, b), tolerance);
-  EXPECT_LT(largestTurn(a, b), tolerance);
-}
 
 /** A ring in which 3 and 4 are joined by a measurement instead of pairs. */
 GraphCase

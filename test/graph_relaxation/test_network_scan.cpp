@@ -12,15 +12,10 @@ using pcl6d::PointVotes;
 using pcl6d::Poses;
 using pcl6d::ScanPair;
 using pcl6d::test::NetworkScans;
+using pcl6d::test::shifted;
 
 namespace {
 const Eigen::Isometry3d kHere = Eigen::Isometry3d::Identity();
-
-Eigen::Isometry3d
-shifted(double x)
-{
-  return pcl6d::poseFromEuler({x, 0, 0}, {0, 0, 0});
-}
 
 /** A sphere of points about the origin: range [m] in all directions. */
 Points

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Graphs and options at the edge of what can be solved, and beyond.
 #include "graph_cases.h"
+#include "optimized.h"
 #include "support/bits.h"
 
 #include <pcl6d/common/error.h>
@@ -15,15 +16,11 @@ using pcl6d::PoseGraphOptimizer;
 using pcl6d::PoseGraphOptions;
 using pcl6d::PoseGraphResult;
 using pcl6d::Status;
+using pcl6d::test::optimized;
 using pcl6d::test::ringGraph;
 using pcl6d::test::startFromChain;
 
 namespace {
-PoseGraphResult
-optimized(const PoseGraph& graph, const PoseGraphOptions& options = {})
-{
-  return PoseGraphOptimizer(graph, options).optimize();
-}
 
 /** Pose 1 was measured 1 m ahead of pose 0, with this information. */
 PoseGraph

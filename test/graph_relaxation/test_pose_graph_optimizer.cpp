@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_cases.h"
+#include "optimized.h"
 #include "support/bits.h"
 
 #include <pcl6d/graph_relaxation/merge_links.h>
@@ -15,16 +16,12 @@ using pcl6d::PoseGraphOptions;
 using pcl6d::PoseGraphResult;
 using pcl6d::Status;
 using pcl6d::test::largestDifference;
+using pcl6d::test::optimized;
 using pcl6d::test::ringGraph;
 using pcl6d::test::startFromChain;
 using pcl6d::test::twoRings;
 
 namespace {
-PoseGraphResult
-optimized(const PoseGraph& graph, const PoseGraphOptions& options = {})
-{
-  return PoseGraphOptimizer(graph, options).optimize();
-}
 
 class Methods : public testing::TestWithParam<GraphMethod> {};
 } // namespace

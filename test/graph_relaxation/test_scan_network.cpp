@@ -20,13 +20,9 @@ using pcl6d::ScanNetworkOptions;
 using pcl6d::ScanPair;
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::NetworkScans;
+using pcl6d::test::shifted;
 
 namespace {
-Eigen::Isometry3d
-shifted(double x)
-{
-  return pcl6d::poseFromEuler({x, 0, 0}, {0, 0, 0});
-}
 
 /** Copies of a row of 100 points along x, a metre apart: shifted by k metres, two of them
  * share 100 - k points. */

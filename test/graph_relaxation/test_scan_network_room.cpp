@@ -19,17 +19,18 @@ using pcl6d::test::NetworkScans;
 
 namespace {
 const NetworkScans&
-ring()
+smallRing()
 {
   static const NetworkScans scans = pcl6d::test::scansFrom(pcl6d::test::ringPoses(10));
   return scans;
 }
 
 const Poses&
-driftedRing()
+turnedRing()
 {
   static const Poses poses = pcl6d::test::drifted(
-      ring().truth, pcl6d::poseFromEuler({0.02, -0.01, 0.01}, {0.003, -0.003, 0.006}));
+      smallRing().truth,
+      pcl6d::poseFromEuler({0.02, -0.01, 0.01}, {0.003, -0.003, 0.006}));
   return poses;
 }
 
@@ -40,28 +41,29 @@ networkOf(Metric metric, unsigned int num_threads = 0)
   options.metric = metric;
   options.max_distance = 0.4;
   options.num_threads = num_threads;
-  return {ring().scans, std::vector<bool>(ring().scans.size(), true), options};
+  return {
+      smallRing().scans, std::vector<bool>(smallRing().scans.size(), true), options};
 }
 
 GraphSlamResult
 relaxed(Metric metric, unsigned int num_threads = 0)
 {
   ScanNetwork network = networkOf(metric, num_threads);
-  return GraphSlam().relax(driftedRing(),
+  return GraphSlam().relax(turnedRing(),
                            [&](const Poses& now) { return network.pairs(now); });
 }
 } // namespace
 
 TEST(ScanNetwork, GivesNormsByTheMetric)
 {
-  for (const LinkPairs& link : networkOf(Metric::kPlane).pairs(ring().truth)) {
+  for (const LinkPairs& link : networkOf(Metric::kPlane).pairs(smallRing().truth)) {
     ASSERT_EQ(link.norms.size(), link.points_from.size());
     for (const Eigen::Matrix3d& norm : link.norms) {
       EXPECT_TRUE((norm * norm).isApprox(norm, 1e-5)) << "a projection";
       EXPECT_NEAR(norm.trace(), 1, 1e-5) << "on a line";
     }
   }
-  for (const LinkPairs& link : networkOf(Metric::kGicp).pairs(ring().truth)) {
+  for (const LinkPairs& link : networkOf(Metric::kGicp).pairs(smallRing().truth)) {
     ASSERT_EQ(link.norms.size(), link.points_from.size());
     for (const Eigen::Matrix3d& norm : link.norms) {
       const Eigen::Vector3d values =
@@ -104,11 +106,11 @@ TEST(ScanNetwork, NormsAreInTheAxesOfTheWorld)
 
 TEST(ScanNetwork, WithGraphSlamBringsADriftedRingToTheTruth)
 {
-  const double before = pcl6d::test::largestError(driftedRing(), ring().truth);
+  const double before = pcl6d::test::largestError(turnedRing(), smallRing().truth);
   EXPECT_GT(before, 0.1);
   for (const Metric metric : {Metric::kPoint, Metric::kPlane, Metric::kGicp}) {
     const GraphSlamResult result = relaxed(metric);
-    const double after = pcl6d::test::largestError(result.poses, ring().truth);
+    const double after = pcl6d::test::largestError(result.poses, smallRing().truth);
     EXPECT_LT(after, metric == Metric::kPoint ? 0.5 * before : 0.02)
         << toString(metric);
   }
@@ -127,8 +129,8 @@ TEST(ScanNetwork, GivesTheSameBitsForAnyNumberOfThreads)
 TEST(ScanNetwork, DescribesHowWellTheSurfacesFixALink)
 {
   ScanNetwork room = networkOf(Metric::kPlane);
-  room.pairs(ring().truth);
-  for (const pcl6d::ScanLink& link : room.describe(ring().truth)) {
+  room.pairs(smallRing().truth);
+  for (const pcl6d::ScanLink& link : room.describe(smallRing().truth)) {
     EXPECT_GT(link.condition, 0.01);
     EXPECT_LE(link.condition, 1);
     EXPECT_GE(link.overlap, 0.54);

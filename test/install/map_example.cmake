@@ -4,6 +4,14 @@ include(${SETTINGS})
 file(REMOVE_RECURSE ${work}/scans ${work}/map.pcd)
 run(COMMAND env -i ${prefix}/bin/pcl_slam6d_simulate corridor -o ${work}/scans --scans 14
   --quiet)
+# The libraries that are opened when they are asked for.
+run(COMMAND env -i ${prefix}/bin/pcl_slam6d ${work}/scans -o ${work}/planes --last 0 --planes
+  --no-picture --force)
+if(NOT EXISTS ${work}/planes/planes.json)
+  message(FATAL_ERROR "--planes leaves no planes.json")
+endif()
+run(COMMAND env -i ${prefix}/bin/pcl_slam6d_simulate rooms -o ${work}/rooms --scans 2 --force
+  --quiet)
 set(example ${work}/examples_build/map_in_20_lines)
 run(COMMAND ${example} ${work}/scans ${work}/map.pcd OUTPUT text
   PRINTS "13 of 13 scans matched to the first, [1-9][0-9]+ points in")

@@ -134,4 +134,9 @@ private:
   std::locale before_;
 };
 
+inline const std::string kUnitInformation =
+    " 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
+
+constexpr double kRotationTolerance = 1e-14; // [rad]
+
 } // namespace pcl6d::test

@@ -106,7 +106,11 @@ TEST(RecordedPcd, IsReadBitByBitAsByPcl)
   PCL6D_DATA_OR_SKIP(folder, "pcl");
   const fs::path root = folder.parent_path();
   int files = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+  for (auto it = fs::recursive_directory_iterator(root); it != fs::end(it); ++it) {
+    const auto& entry = *it;
+    // Files that are odd or broken on purpose, in which PCL is no model.
+    if (entry.path() == root / "cases" || entry.path() == root / "formats")
+      it.disable_recursion_pending();
     if (entry.path().extension() != ".pcd")
       continue;
     ++files;

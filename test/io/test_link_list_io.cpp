@@ -11,8 +11,6 @@ using pcl6d::readLinkList;
 namespace {
 using Links = std::vector<std::pair<std::size_t, std::size_t>>;
 
-const std::string kUnit = " 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
-
 Links
 readText(const TempFolder& folder, const std::string& name, const std::string& content)
 {
@@ -32,11 +30,11 @@ TEST(LinkListIo, ReadsPairsOfIndices)
 TEST(LinkListIo, KnowsAPoseGraphByItsFirstWord)
 {
   const TempFolder folder;
-  const std::string toro = "EDGE3 10 30 1 0 0 0 0 0" + kUnit;
+  const std::string toro = "EDGE3 10 30 1 0 0 0 0 0" + kUnitInformation;
   const std::string g2o = "# run\nVERTEX_SE3:QUAT 4 0 0 0 0 0 0 1\n"
                           "VERTEX_SE3:QUAT 2 0 0 0 0 0 0 1\n"
                           "EDGE_SE3:QUAT 4 2 0 0 0 0 0 0 1" +
-                          kUnit;
+                          kUnitInformation;
   for (const std::string name : {"graph.g2o", "graph.graph", "graph.txt"}) {
     EXPECT_EQ(readText(folder, name, toro), (Links{{10, 30}})) << name;
     EXPECT_EQ(readText(folder, name, g2o), (Links{{4, 2}})) << name;

@@ -134,6 +134,23 @@ TEST(PcdIo, OldHeadersAreUnderstood)
   EXPECT_TRUE(readPcdViewpoint(folder / "old.pcd").isApprox(kNoMotion, 0));
 }
 
+// Drivers write padding of no bytes; PCL drops such fields.
+TEST(PcdIo, AGapOfNoBytesIsNoField)
+{
+  const TempFolder folder;
+  writeText(folder / "a.pcd",
+            "FIELDS x y z _ ring _\nSIZE 4 4 4 1 1 1\nTYPE F F F U U U\n"
+            "COUNT 1 1 1 2 1 0\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA binary\n"
+            "123412341234..5");
+  const auto cloud = readPcd(folder / "a.pcd");
+  pcl::PCLPointCloud2 expected;
+  ASSERT_EQ(pcl::io::loadPCDFile((folder / "a.pcd").string(), expected), 0);
+  EXPECT_EQ(cloud.point_step, 15u);
+  EXPECT_EQ(cloud.data, expected.data);
+  EXPECT_EQ(cloud.fields.back().name, "ring");
+  EXPECT_EQ(cloud.fields.back().offset, 14u);
+}
+
 TEST(PcdIo, NumbersOfATextBodyComeInAllSpellings)
 {
   const TempFolder folder;

@@ -11,13 +11,13 @@ using pcl6d::readPoseGraph;
 using pcl6d::writePoseGraphG2o;
 using pcl6d::writePoseGraphToro;
 using pcl6d::test::expectIoFailed;
+using pcl6d::test::kUnitInformation;
 using pcl6d::test::messageOf;
 using pcl6d::test::replaceText;
 using pcl6d::test::TempFolder;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 namespace {
-const std::string kUnit = " 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
 const std::string kTwo = "VERTEX3 0 0 0 0 0 0 0\nVERTEX3 1 0 0 0 0 0 0\n";
 const std::string kEdge = "EDGE3 0 1 0 0 0 0 0 0";
 
@@ -70,8 +70,9 @@ TEST(PoseGraphErrors, NameVerticesThatAreNone)
   expectMessage("VERTEX3 -1 0 0 0 0 0 0\n", "line 1: '-1' is not a vertex id");
   expectMessage("VERTEX3 1.5 0 0 0 0 0 0\n", "line 1: '1.5' is not a vertex id");
   expectMessage(kTwo + "VERTEX3 1 0 0 0 0 0 0\n", "line 3: vertex 1 is given twice");
-  expectMessage(kTwo + "EDGE3 0 2 0 0 0 0 0 0" + kUnit, "line 3: there is no vertex 2");
-  expectMessage(kTwo + "EDGE3 1 1 0 0 0 0 0 0" + kUnit,
+  expectMessage(kTwo + "EDGE3 0 2 0 0 0 0 0 0" + kUnitInformation,
+                "line 3: there is no vertex 2");
+  expectMessage(kTwo + "EDGE3 1 1 0 0 0 0 0 0" + kUnitInformation,
                 "line 3: a link from vertex 1 to itself");
   expectMessage(kTwo + "FIX 4\n", "line 3: there is no vertex 4");
   expectMessage(kTwo + "FIX\n", "line 3: expected a vertex id after FIX");
@@ -102,7 +103,7 @@ TEST(PoseGraphErrors, NameInformationThatIsNone)
 
 TEST(PoseGraphErrors, NameChainsThatLeaveAllPlaces)
 {
-  const std::string far = " 9e8 0 0 0 0 0" + kUnit;
+  const std::string far = " 9e8 0 0 0 0 0" + kUnitInformation;
   expectMessage("EDGE3 0 1" + far + "EDGE3 1 2" + far,
                 "the links to vertex 2 add up to a position 1e9 m or farther from the "
                 "origin");

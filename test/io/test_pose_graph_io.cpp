@@ -10,6 +10,8 @@ using pcl6d::PoseLink;
 using pcl6d::readPoseGraph;
 using pcl6d::writePoseGraphG2o;
 using pcl6d::writePoseGraphToro;
+using pcl6d::test::kRotationTolerance;
+using pcl6d::test::kUnitInformation;
 using pcl6d::test::replaceText;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
@@ -17,9 +19,6 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 namespace {
 // A rotation goes through its quaternion or angles and back: a few ulp.
-constexpr double kRotationTolerance = 1e-14; // [rad]
-
-const std::string kUnit = " 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
 
 Matrix6
 randomInformation(pcl6d::Random& random)
@@ -157,7 +156,7 @@ TEST(PoseGraphIo, VerticesMayStandInAnyOrderBehindTheirLinks)
   const TempFolder folder;
   const PoseGraph graph =
       readText(folder,
-               "# a graph\n\nEDGE_SE3:QUAT 7 3 1 0 0 0 0 0 1" + kUnit +
+               "# a graph\n\nEDGE_SE3:QUAT 7 3 1 0 0 0 0 0 1" + kUnitInformation +
                    "VERTEX_SE3:QUAT 7 1 0 0 0 0 0 1\r\nFIX 3 7\n"
                    "VERTEX_SE3:QUAT 3 2 0 0 0 0 0 1");
   EXPECT_EQ(graph.ids, (std::vector<std::size_t>{7, 3}));
@@ -174,8 +173,9 @@ TEST(PoseGraphIo, WithoutVerticesTheChainGivesThePoses)
   const TempFolder folder;
   const PoseGraph graph =
       readText(folder,
-               "EDGE3 1 2 0 2 0 0 0 0" + kUnit + "EDGE3 0 2 9 9 9 0 0 0" + kUnit +
-                   "EDGE3 0 1 1 0 0 0 0 1.5707963267948966" + kUnit);
+               "EDGE3 1 2 0 2 0 0 0 0" + kUnitInformation + "EDGE3 0 2 9 9 9 0 0 0" +
+                   kUnitInformation + "EDGE3 0 1 1 0 0 0 0 1.5707963267948966" +
+                   kUnitInformation);
   ASSERT_EQ(graph.poses.size(), 3u);
   EXPECT_TRUE(graph.poses[0].isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_TRUE(graph.poses[1].translation().isApprox(Eigen::Vector3d(1, 0, 0)));
@@ -185,10 +185,11 @@ TEST(PoseGraphIo, WithoutVerticesTheChainGivesThePoses)
 TEST(PoseGraphIo, WithoutVerticesAndChainATreeGivesThePoses)
 {
   const TempFolder folder;
-  const PoseGraph graph = readText(folder,
-                                   "EDGE3 30 10 1 0 0 0 0 1.5707963267948966" + kUnit +
-                                       "EDGE3 30 20 0 5 0 0 0 0" + kUnit +
-                                       "EDGE3 50 60 0 0 7 0 0 0" + kUnit);
+  const PoseGraph graph =
+      readText(folder,
+               "EDGE3 30 10 1 0 0 0 0 1.5707963267948966" + kUnitInformation +
+                   "EDGE3 30 20 0 5 0 0 0 0" + kUnitInformation +
+                   "EDGE3 50 60 0 0 7 0 0 0" + kUnitInformation);
   EXPECT_EQ(graph.ids, (std::vector<std::size_t>{10, 20, 30, 50, 60}));
   ASSERT_EQ(graph.poses.size(), 5u);
   for (const auto& link : graph.links)

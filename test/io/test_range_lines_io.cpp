@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io_test.h"
+#include "support/constants.h"
 
 #include <pcl6d/io/range_lines_io.h>
 
@@ -8,11 +9,11 @@
 using pcl6d::RangeLines;
 using pcl6d::readRangeLines;
 using pcl6d::test::expectIoFailed;
+using pcl6d::test::kDegree;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
 
 namespace {
-constexpr double kDegree = M_PI / 180;
 
 struct Csv : TempFolder {
   RangeLines

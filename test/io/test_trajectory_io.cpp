@@ -11,6 +11,7 @@ using pcl6d::writeTrajectoryKitti;
 using pcl6d::writeTrajectoryTum;
 using pcl6d::test::DecimalComma;
 using pcl6d::test::expectIoFailed;
+using pcl6d::test::kRotationTolerance;
 using pcl6d::test::messageOf;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
@@ -18,7 +19,6 @@ using pcl6d::test::writeText;
 namespace {
 
 // A rotation is re-normalised on reading: a few ulp of its entries.
-constexpr double kRotationTolerance = 1e-14; // [rad]
 
 Trajectory
 makeTrajectory()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/constants.h"
 #include "support/points.h"
 
 #include <pcl6d/common/random.h>
@@ -17,9 +18,9 @@
 
 using namespace pcl6d;
 using pcl6d::test::badArgumentOf;
+using pcl6d::test::kDegree;
 
 namespace {
-constexpr double kDegree = M_PI / 180;
 
 /** Points of a surface, seen in all directions of a grid of half degrees. \param[in]
  * range of the ray of an azimuth and an elevation; infinity if it meets nothing */

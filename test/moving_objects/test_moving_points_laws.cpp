@@ -11,9 +11,9 @@ namespace {
 using namespace test;
 using Motion = std::vector<std::vector<PointMotion>>;
 
-/** A small scene in which much happens. */
+/** A small busyScene in which much happens. */
 const std::vector<TrueScan>&
-scene()
+busyScene()
 {
   static const std::vector<TrueScan> scans = [] {
     MovingRoom room;
@@ -35,7 +35,7 @@ constexpr double kVoxel = 0.15; // [m]
 const Motion&
 answer()
 {
-  static const Motion motion = motionOf(scene(), {}, kVoxel);
+  static const Motion motion = motionOf(busyScene(), {}, kVoxel);
   return motion;
 }
 
@@ -69,7 +69,7 @@ TEST(MovingPointsLaws, TheSceneHasAllAnswers)
 {
   Told all;
   for (const Met met : {Met::kRoom, Met::kThing, Met::kMover}) {
-    const Told told = toldOf(scene(), answer(), met);
+    const Told told = toldOf(busyScene(), answer(), met);
     all.points += told.points;
     all.dynamic += told.dynamic;
     all.unknown += told.unknown;
@@ -82,7 +82,7 @@ TEST(MovingPointsLaws, TheSceneHasAllAnswers)
 TEST(MovingPointsLaws, MovingTheWorldChangesNothing)
 {
   const Eigen::Isometry3d motion = poseFromEuler({40, -70, 8}, {0.3, -0.2, 2.1});
-  std::vector<TrueScan> moved = scene();
+  std::vector<TrueScan> moved = busyScene();
   for (TrueScan& scan : moved)
     scan.T_world_scan = motion * scan.T_world_scan;
   EXPECT_LT(differing(motionOf(moved, {}, kVoxel), answer()), kRounded);
@@ -92,15 +92,17 @@ TEST(MovingPointsLaws, UnitsDoNotMatter)
 {
   // By a power of two all numbers keep their digits, and ranges that lie on the edge of a step
   // alone fall into another; by ten all of them do.
-  EXPECT_LT(differing(motionOf(scaled(scene(), 8), {}, 8 * kVoxel), answer()), 1e-4);
-  EXPECT_LT(differing(motionOf(scaled(scene(), 10), {}, 10 * kVoxel), answer()), 0.005);
+  EXPECT_LT(differing(motionOf(scaled(busyScene(), 8), {}, 8 * kVoxel), answer()),
+            1e-4);
+  EXPECT_LT(differing(motionOf(scaled(busyScene(), 10), {}, 10 * kVoxel), answer()),
+            0.005);
 }
 
 TEST(MovingPointsLaws, TheOrderOfTimeHardlyMatters)
 {
   // Judges as far in time on both sides take turns by who is earlier, and two that agree are
   // enough, so that a few places have other judges.
-  const std::vector<TrueScan> turned(scene().rbegin(), scene().rend());
+  const std::vector<TrueScan> turned(busyScene().rbegin(), busyScene().rend());
   Motion motion = motionOf(turned, {}, kVoxel);
   std::reverse(motion.begin(), motion.end());
   EXPECT_LT(differing(motion, answer()), 0.005);
@@ -111,7 +113,7 @@ TEST(MovingPointsLaws, TheSameBitsForAnyNumberOfThreads)
   for (const unsigned int threads : {1U, 2U, 8U}) {
     MovingPointsOptions options;
     options.num_threads = threads;
-    EXPECT_EQ(motionOf(scene(), options, kVoxel), answer()) << threads;
+    EXPECT_EQ(motionOf(busyScene(), options, kVoxel), answer()) << threads;
   }
 }
 
@@ -119,9 +121,9 @@ TEST(MovingPointsLaws, TheOrderOfPointsDoesNotMatter)
 {
   MovingScans judges;
   judges.setVoxel(kVoxel);
-  for (const TrueScan& scan : scene())
+  for (const TrueScan& scan : busyScene())
     judges.add(scan.points, scan.T_world_scan);
-  const Points& points = scene()[3].points;
+  const Points& points = busyScene()[3].points;
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   Random random(9);
@@ -141,13 +143,13 @@ TEST(MovingPointsLaws, AskingTwiceGivesTheSame)
 {
   MovingScans judges;
   judges.setVoxel(kVoxel);
-  for (const TrueScan& scan : scene())
+  for (const TrueScan& scan : busyScene())
     judges.add(scan.points, scan.T_world_scan);
   const MovingScans copy = judges;
-  EXPECT_EQ(judges.motion(2, scene()[2].points), answer()[2]);
-  EXPECT_EQ(judges.motion(2, scene()[2].points), answer()[2]);
+  EXPECT_EQ(judges.motion(2, busyScene()[2].points), answer()[2]);
+  EXPECT_EQ(judges.motion(2, busyScene()[2].points), answer()[2]);
   MovingScans again = copy;
-  EXPECT_EQ(again.motion(2, scene()[2].points), answer()[2])
+  EXPECT_EQ(again.motion(2, busyScene()[2].points), answer()[2])
       << "copies share the scans";
 }
 

@@ -9,7 +9,7 @@ using namespace test;
 
 /** Somebody who walks through a room. */
 const std::vector<TrueScan>&
-scene()
+walkerScene()
 {
   static const std::vector<TrueScan> scans = [] {
     MovingRoom room;
@@ -25,7 +25,7 @@ MovingScans
 added()
 {
   MovingScans scans;
-  for (const TrueScan& scan : scene())
+  for (const TrueScan& scan : walkerScene())
     scans.add(scan.points, scan.T_world_scan);
   return scans;
 }
@@ -34,22 +34,22 @@ TEST(MovingScans, NumberScansAsTheyCome)
 {
   MovingScans scans;
   EXPECT_EQ(scans.size(), 0u);
-  EXPECT_EQ(scans.add(scene()[0].points, scene()[0].T_world_scan), 0u);
-  EXPECT_EQ(scans.add(scene()[1].points, scene()[1].T_world_scan), 1u);
+  EXPECT_EQ(scans.add(walkerScene()[0].points, walkerScene()[0].T_world_scan), 0u);
+  EXPECT_EQ(scans.add(walkerScene()[1].points, walkerScene()[1].T_world_scan), 1u);
   EXPECT_EQ(scans.size(), 2u);
   EXPECT_EQ(scans.judges().size(), 2u);
-  scans.add(scene()[2].points, scene()[2].T_world_scan);
+  scans.add(walkerScene()[2].points, walkerScene()[2].T_world_scan);
   EXPECT_EQ(scans.judges().size(), 3u) << "also after they have judged";
 }
 
 TEST(MovingScans, DeriveTheVoxelUnlessItIsGiven)
 {
   MovingScans scans;
-  scans.add(scene()[0].points, scene()[0].T_world_scan);
+  scans.add(walkerScene()[0].points, walkerScene()[0].T_world_scan);
   scans.setVoxel(0.3);
-  scans.add(scene()[1].points, scene()[1].T_world_scan);
+  scans.add(walkerScene()[1].points, walkerScene()[1].T_world_scan);
   scans.setVoxel({});
-  scans.add(scene()[0].points, scene()[0].T_world_scan);
+  scans.add(walkerScene()[0].points, walkerScene()[0].T_world_scan);
   EXPECT_GT(scans.voxel(0), 0.05);
   EXPECT_LT(scans.voxel(0), 0.3);
   EXPECT_EQ(scans.voxel(1), 0.3);
@@ -61,7 +61,7 @@ TEST(MovingScans, TheScannerMayStandAnywhereInItsFrame)
   const Eigen::Vector3f origin(2, -1, 0.5);
   MovingScans shifted;
   std::vector<Points> points;
-  for (const TrueScan& scan : scene()) {
+  for (const TrueScan& scan : walkerScene()) {
     points.push_back(scan.points);
     for (Eigen::Vector3f& p : points.back())
       p += origin;
@@ -70,7 +70,7 @@ TEST(MovingScans, TheScannerMayStandAnywhereInItsFrame)
     shifted.add(points.back(), T, {}, origin);
   }
   MovingScans plain = added();
-  const auto expected = plain.motion(2, scene()[2].points);
+  const auto expected = plain.motion(2, walkerScene()[2].points);
   const auto found = shifted.motion(2, points[2]);
   std::size_t other = 0;
   for (std::size_t i = 0; i < found.size(); ++i)
@@ -83,7 +83,7 @@ TEST(MovingScans, NoReturnsAreNoRays)
 {
   // Of a black piece of the wall no echo comes back, which is written as 60 m but in one scan:
   // as rays, these would have passed where it stands.
-  std::vector<TrueScan> scans = scene();
+  std::vector<TrueScan> scans = walkerScene();
   MovingScans judges;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     for (Eigen::Vector3f& p : scans[i].points) {
@@ -108,9 +108,9 @@ TEST(MovingScans, JudgeAPartOfAScan)
   MovingScans judges = added();
   Points thinned;
   std::vector<Met> met;
-  for (std::size_t p = 0; p < scene()[2].points.size(); p += 3) {
-    thinned.push_back(scene()[2].points[p]);
-    met.push_back(scene()[2].met[p]);
+  for (std::size_t p = 0; p < walkerScene()[2].points.size(); p += 3) {
+    thinned.push_back(walkerScene()[2].points[p]);
+    met.push_back(walkerScene()[2].met[p]);
   }
   const auto motion = judges.motion(2, thinned);
   std::size_t mover = 0, told = 0;
@@ -125,7 +125,7 @@ TEST(MovingScans, JudgeAPartOfAScan)
 TEST(MovingScans, ScansOfNothingJudgeNobody)
 {
   MovingScans scans = added();
-  const Eigen::Isometry3d here = scene()[0].T_world_scan;
+  const Eigen::Isometry3d here = walkerScene()[0].T_world_scan;
   scans.add({}, here);
   scans.add({{kNan, 0, 0}, {kInfinity, 1, 1}}, here);
   scans.add({{1, 2, 0}}, here);
@@ -133,16 +133,17 @@ TEST(MovingScans, ScansOfNothingJudgeNobody)
   EXPECT_EQ(scans.motion(6, {{kNan, 0, 0}}),
             std::vector<PointMotion>{PointMotion::kUnknown});
   MovingScans plain = added();
-  EXPECT_EQ(scans.motion(2, scene()[2].points), plain.motion(2, scene()[2].points));
+  EXPECT_EQ(scans.motion(2, walkerScene()[2].points),
+            plain.motion(2, walkerScene()[2].points));
 }
 
 TEST(MovingScans, VoxelsTooSmallForTheRoomLeaveNoRays)
 {
   MovingScans scans;
   scans.setVoxel(1e-9);
-  for (const TrueScan& scan : scene())
+  for (const TrueScan& scan : walkerScene())
     scans.add(scan.points, scan.T_world_scan);
-  const Points& points = scene()[2].points;
+  const Points& points = walkerScene()[2].points;
   EXPECT_EQ(scans.motion(2, points),
             std::vector<PointMotion>(points.size(), PointMotion::kUnknown));
 }
@@ -150,7 +151,7 @@ TEST(MovingScans, VoxelsTooSmallForTheRoomLeaveNoRays)
 TEST(MovingScans, RefuseWhatBreaksARuleAndStayAsTheyWere)
 {
   MovingScans scans = added();
-  const Points& points = scene()[0].points;
+  const Points& points = walkerScene()[0].points;
   Eigen::Isometry3d bent = Eigen::Isometry3d::Identity();
   bent.linear() *= 1.1;
   EXPECT_NE(

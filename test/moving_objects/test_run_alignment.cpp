@@ -23,7 +23,7 @@ constexpr double kTurnTol = 0.0005;       // [rad] 2 mm at 4 m
 const Eigen::Isometry3d kOff = poseFromEuler({0.12, -0.09, 0.05}, {0.01, -0.008, 0.02});
 
 RunAlignmentOptions
-options()
+alignmentOptions()
 {
   RunAlignmentOptions o;
   o.voxel = kVoxel;
@@ -45,7 +45,7 @@ expectPoses(const ComparedRun& run, const std::vector<Eigen::Isometry3d>& truth)
 TEST(RunAlignment, BringsARunBack)
 {
   RoomRun a({}, driveThrough(0), 3), b({}, driveThrough(0.7), 4, kOff);
-  const RunAlignment found = alignRuns(a.run, b.run, options());
+  const RunAlignment found = alignRuns(a.run, b.run, alignmentOptions());
   expectPoses(a.run, driveThrough(0)); // it stays
   expectPoses(b.run, driveThrough(0.7));
   const MotionSize off = distanceBetween(found.T_new_old, kOff.inverse());
@@ -63,7 +63,7 @@ TEST(RunAlignment, IsNotPulledByWhatHasChanged)
   after.walls.max().y() -= 0.08; // a wall
   after.pillars.pop_back();      // and a thing
   RoomRun a({}, driveThrough(0), 3), b(after, driveThrough(0.7), 4, kOff);
-  alignRuns(a.run, b.run, options());
+  alignRuns(a.run, b.run, alignmentOptions());
   expectPoses(b.run, driveThrough(0.7));
 }
 
@@ -71,7 +71,7 @@ TEST(RunAlignment, StraightensARunThatIsBent)
 {
   RoomRun a({}, driveThrough(0), 3), b({}, driveThrough(0.7), 4);
   b.run[2].T_world_scan = planarPose(0.03, -0.02, 0.004) * b.run[2].T_world_scan;
-  const RunAlignment found = alignRuns(a.run, b.run, options());
+  const RunAlignment found = alignRuns(a.run, b.run, alignmentOptions());
   expectPoses(b.run, driveThrough(0.7));
   EXPECT_GT(found.bending, 0.01);
 }
@@ -79,7 +79,7 @@ TEST(RunAlignment, StraightensARunThatIsBent)
 TEST(RunAlignment, KnowsHowExactItIs)
 {
   RoomRun a({}, driveThrough(0), 3), b({}, driveThrough(0.7), 4, kOff);
-  alignRuns(a.run, b.run, options());
+  alignRuns(a.run, b.run, alignmentOptions());
   for (const ComparedRun* run : {&a.run, &b.run})
     for (const ComparedScan& scan : *run) {
       const double sigma = std::sqrt(scan.covariance.topLeftCorner<3, 3>().trace());
@@ -91,7 +91,7 @@ TEST(RunAlignment, KnowsHowExactItIs)
 TEST(RunAlignment, LeavesPosesThatAreGiven)
 {
   RoomRun a({}, driveThrough(0), 3), b({}, driveThrough(0.7), 4, kOff);
-  RunAlignmentOptions given = options();
+  RunAlignmentOptions given = alignmentOptions();
   given.move = false;
   const ComparedRun before = b.run;
   const RunAlignment found = alignRuns(a.run, b.run, given);
@@ -108,11 +108,11 @@ TEST(RunAlignment, OfRunsThatDoNotMeetIsNone)
   RoomRun a({}, driveThrough(0), 3);
   RoomRun b({}, driveThrough(0.7), 4, planarPose(100, 0, 0));
   const auto before = b.run[0].T_world_scan;
-  EXPECT_EQ(alignRuns(a.run, b.run, options()).pairs, 0u);
+  EXPECT_EQ(alignRuns(a.run, b.run, alignmentOptions()).pairs, 0u);
   EXPECT_TRUE(sameBits(b.run[0].T_world_scan, before));
   ComparedRun none;
-  EXPECT_EQ(alignRuns(a.run, none, options()).pairs, 0u);
-  EXPECT_EQ(alignRuns(none, b.run, options()).pairs, 0u);
+  EXPECT_EQ(alignRuns(a.run, none, alignmentOptions()).pairs, 0u);
+  EXPECT_EQ(alignRuns(none, b.run, alignmentOptions()).pairs, 0u);
 }
 
 TEST(RunAlignment, IsTheSameForAnyNumberOfThreads)
@@ -120,7 +120,7 @@ TEST(RunAlignment, IsTheSameForAnyNumberOfThreads)
   std::vector<Eigen::Isometry3d> poses;
   for (const unsigned int threads : {1U, 3U}) {
     RoomRun a({}, driveThrough(0, 2), 3), b({}, driveThrough(0.7, 2), 4, kOff);
-    RunAlignmentOptions o = options();
+    RunAlignmentOptions o = alignmentOptions();
     o.num_threads = threads;
     alignRuns(a.run, b.run, o);
     poses.push_back(b.run[1].T_world_scan);
@@ -131,23 +131,23 @@ TEST(RunAlignment, IsTheSameForAnyNumberOfThreads)
 TEST(RunAlignment, RefusesWrongInput)
 {
   RoomRun a({}, driveThrough(0, 1), 3), b({}, driveThrough(0.7, 1), 4);
-  RunAlignmentOptions wrong = options();
+  RunAlignmentOptions wrong = alignmentOptions();
   wrong.voxel = 0;
   EXPECT_EQ(badArgumentOf([&] { alignRuns(a.run, b.run, wrong); }),
             "voxel = 0, but must be finite and > 0");
-  wrong = options();
+  wrong = alignmentOptions();
   wrong.reach = -1;
   EXPECT_EQ(badArgumentOf([&] { alignRuns(a.run, b.run, wrong); }),
             "reach = -1, but must be finite and > 0");
   b.run[0].T_world_scan.linear() *= 2;
   EXPECT_EQ(
-      badArgumentOf([&] { alignRuns(a.run, b.run, options()); }),
+      badArgumentOf([&] { alignRuns(a.run, b.run, alignmentOptions()); }),
       "second run: scan 0 has a pose that is no rigid motion, or a covariance that "
       "is not finite");
   const Normals few(3, Eigen::Vector3f::UnitZ());
   a.run[0].normals = &few;
   EXPECT_NE(badArgumentOf([&] {
-              alignRuns(a.run, b.run, options());
+              alignRuns(a.run, b.run, alignmentOptions());
             }).find("first run: scan 0 has 3 normals, but must have one for each"),
             std::string::npos);
 }

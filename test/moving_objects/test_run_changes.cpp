@@ -17,7 +17,7 @@ using Vector = Eigen::Vector3d;
 // Points of a voxel lie up to its diagonal beside what they show, and rays of noise.
 constexpr double kBeside = 0.02; // [m] four standard deviations
 // Half a voxel at each end, and what of the foot is as near to the floor as a voxel.
-constexpr double kPlaceTol = 1.5 * kVoxel; // [m]
+constexpr double kChangeTol = 1.5 * kVoxel; // [m]
 
 /** A crate that stands free in the room. */
 const Box kCrate(Vector(-0.6, -2.2, -1), Vector(0.1, -1.6, -0.2));
@@ -65,8 +65,8 @@ TEST(RunChanges, TellWhatVanishedAndNothingElse)
   EXPECT_EQ(crate.kind, ChangeKind::kVanished);
   EXPECT_TRUE(isWithin(crate.points, kCrate, kBeside));
   EXPECT_LT((crate.box.T_world_box.translation() - kCrate.center()).norm(),
-            1.5 * kPlaceTol);
-  EXPECT_NEAR(crate.box.size.z(), kCrate.sizes().z(), 2 * kPlaceTol);
+            1.5 * kChangeTol);
+  EXPECT_NEAR(crate.box.size.z(), kCrate.sizes().z(), 2 * kChangeTol);
   EXPECT_GT(crate.confidence, 0.999);
   EXPECT_GE(crate.witnesses, 2u);
   EXPECT_EQ(found.second.changed, 0u);
@@ -106,7 +106,7 @@ TEST(RunChanges, KnowAThingAgainThatWasMoved)
   EXPECT_TRUE(isWithin(crate.points, moved, kBeside));
   EXPECT_TRUE(isWithin(crate.points_before, kCrate, kBeside));
   // A crate is itself again after half a turn, and nearly so after a quarter.
-  EXPECT_LT((crate.motion * kCrate.center() - moved.center()).norm(), 2 * kPlaceTol);
+  EXPECT_LT((crate.motion * kCrate.center() - moved.center()).norm(), 2 * kChangeTol);
   EXPECT_GT(crate.agreement, 0.7);
 }
 

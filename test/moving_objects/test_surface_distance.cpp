@@ -16,7 +16,7 @@ constexpr double kShift = 0.05;     // [m] of the wall
 constexpr double kShiftTol = 0.005; // [m] the noise of one point; means are better
 
 SurfaceDistanceOptions
-options()
+surfaceOptions()
 {
   SurfaceDistanceOptions o;
   o.voxel = kVoxel;
@@ -43,7 +43,7 @@ TEST(SurfaceDistance, OfAWallThatMovedIsItsWay)
   const RoomRun a({}, driveThrough(0), 3), b(roomWithMovedWall(), driveThrough(0.7), 4);
   std::vector<double> wall;
   std::size_t others = 0, false_alarms = 0, found = 0;
-  for (const SurfaceDistance& one : surfaceDistances(a.run, b.run, options())) {
+  for (const SurfaceDistance& one : surfaceDistances(a.run, b.run, surfaceOptions())) {
     if (isOnMovedWall(one)) {
       wall.push_back(one.distance);
       found += one.isSignificant() ? 1 : 0;
@@ -77,11 +77,11 @@ TEST(SurfaceDistance, IsToldOfAsASurface)
 TEST(SurfaceDistance, IsWithinItsLevelOfDetectionWhereNothingMoved)
 {
   const RoomRun a({}, driveThrough(0), 3), b({}, driveThrough(0.7), 4);
-  const auto distances = surfaceDistances(a.run, b.run, options());
+  const auto distances = surfaceDistances(a.run, b.run, surfaceOptions());
   std::size_t significant = 0;
   for (const SurfaceDistance& one : distances) {
     EXPECT_GT(one.lod, 0);
-    EXPECT_GE(one.points, options().least_points);
+    EXPECT_GE(one.points, surfaceOptions().least_points);
     EXPECT_NEAR(one.normal.norm(), 1, 1e-5);
     significant += one.isSignificant() ? 1 : 0;
   }
@@ -94,11 +94,11 @@ TEST(SurfaceDistance, IsLessSureWherePosesAre)
   const RoomRun a({}, driveThrough(0), 3);
   RoomRun b(roomWithMovedWall(), driveThrough(0.7), 4);
   constexpr double kSigma = 0.08; // [m] of all poses of B
-  const auto sure = surfaceDistances(a.run, b.run, options());
+  const auto sure = surfaceDistances(a.run, b.run, surfaceOptions());
   for (ComparedScan& scan : b.run)
     scan.covariance.topLeftCorner<3, 3>() =
         kSigma * kSigma * Eigen::Matrix3d::Identity();
-  const auto unsure = surfaceDistances(a.run, b.run, options());
+  const auto unsure = surfaceDistances(a.run, b.run, surfaceOptions());
   ASSERT_EQ(sure.size(), unsure.size());
   for (std::size_t i = 0; i < sure.size(); ++i) {
     EXPECT_EQ(sure[i].distance, unsure[i].distance);
@@ -115,14 +115,14 @@ TEST(SurfaceDistance, IsNotFoundBeyondTheDepth)
   PillarRoom far;
   far.walls.max().y() -= 0.6; // six voxels
   const RoomRun a({}, driveThrough(0), 3), b(far, driveThrough(0.7), 4);
-  for (const SurfaceDistance& one : surfaceDistances(a.run, b.run, options()))
+  for (const SurfaceDistance& one : surfaceDistances(a.run, b.run, surfaceOptions()))
     EXPECT_FALSE(isOnMovedWall(one)) << one.place.transpose();
 }
 
 TEST(SurfaceDistance, RefusesWrongOptions)
 {
   const auto refused = [](const auto& change) {
-    SurfaceDistanceOptions o = options();
+    SurfaceDistanceOptions o = surfaceOptions();
     change(o);
     return badArgumentOf([&] { surfaceDistances({}, {}, o); });
   };

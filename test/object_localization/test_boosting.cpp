@@ -11,7 +11,7 @@
 
 namespace pcl6d {
 namespace {
-constexpr int kSize = 12; // [px]
+constexpr int kWindow = 12; // [px]
 constexpr auto kAllTables = IntegralImage::Tables::kAll;
 
 /** Random windows; those with an even number have a brighter left half. */
@@ -20,15 +20,15 @@ struct Windows : testing::Test {
   {
     Random random(5);
     for (int i = 0; i < 300; ++i) {
-      GrayImage window(kSize, kSize);
-      for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x)
+      GrayImage window(kWindow, kWindow);
+      for (int y = 0; y < kWindow; ++y)
+        for (int x = 0; x < kWindow; ++x)
           window.at(y, x) = static_cast<std::uint8_t>(
-              test::drawn(random, 0, 180) + (i % 2 == 0 && x < kSize / 2 ? 25 : 0));
+              test::drawn(random, 0, 180) + (i % 2 == 0 && x < kWindow / 2 ? 25 : 0));
       windows.push_back(window);
       labels.push_back(i % 2 == 0 ? 1 : -1);
     }
-    const auto all = haarFeatures(kSize, kSize);
+    const auto all = haarFeatures(kWindow, kWindow);
     for (std::size_t i = 0; i < all.size(); i += 37)
       features.push_back(all[i]);
   }
@@ -63,24 +63,24 @@ smallestError(const std::vector<float>& values,
 
 TEST_F(Windows, HaveTheValuesOfTheEvaluator)
 {
-  const WindowBatch batch(windows, kSize, kSize, kAllTables);
+  const WindowBatch batch(windows, kWindow, kWindow, kAllTables);
   std::vector<float> values(windows.size());
   for (const auto& feature : features) {
     batch.valuesOf(feature, values.data());
-    const HaarOffsets offsets(feature, kSize + 1);
+    const HaarOffsets offsets(feature, kWindow + 1);
     for (std::size_t i = 0; i < windows.size(); i += 50) {
       const IntegralImage sums(windows[i]);
       const auto& table = feature.tilted ? sums.tilted() : sums.sums();
       ASSERT_EQ(values[i],
                 offsets.value(table.data()) *
-                    lightingOf(sums, 0, 0, kSize, kSize).factor);
+                    lightingOf(sums, 0, 0, kWindow, kWindow).factor);
     }
   }
 }
 
 TEST_F(Windows, AreSplitWhereTheErrorIsLeast)
 {
-  const WindowBatch batch(windows, kSize, kSize, kAllTables);
+  const WindowBatch batch(windows, kWindow, kWindow, kAllTables);
   const SortedFeatures sorted(batch, features);
   Random random(3);
   for (int round = 0; round < 3; ++round) {
@@ -115,7 +115,7 @@ TEST_F(Windows, AreSplitWhereTheErrorIsLeast)
 
 TEST_F(Windows, AreBoostedAsFriedmanEtAlDoIt)
 {
-  const WindowBatch batch(windows, kSize, kSize, kAllTables);
+  const WindowBatch batch(windows, kWindow, kWindow, kAllTables);
   const SortedFeatures sorted(batch, features);
   GentleBoost boost(sorted, labels);
   std::vector<double> weights(windows.size(), 1.0), sums(windows.size(), 0.0);
@@ -153,21 +153,21 @@ TEST_F(Windows, AreBoostedAsFriedmanEtAlDoIt)
 
 TEST_F(Windows, TakeTheWayThroughATreeThatTheEvaluatorTakes)
 {
-  const WindowBatch batch(windows, kSize, kSize, kAllTables);
+  const WindowBatch batch(windows, kWindow, kWindow, kAllTables);
   for (const int splits : {1, 2, 5}) {
     const SortedFeatures sorted(batch, features, 2);
     GentleBoost boost(sorted, labels, splits);
     for (int m = 0; m < 4; ++m)
       ASSERT_TRUE(boost.addTree());
     EXPECT_EQ(boost.trees().back().nodes.size(), static_cast<std::size_t>(splits));
-    HaarCascade cascade{kSize, kSize, features, {{boost.trees(), 0}}, {}};
+    HaarCascade cascade{kWindow, kWindow, features, {{boost.trees(), 0}}, {}};
     cascade.validate();
     for (std::size_t i = 0; i < windows.size(); ++i) {
       // The evaluator passes at a limit of the sum and fails just above it.
       const IntegralImage sums(windows[i]);
       const auto passes = [&](double threshold) {
         cascade.stages[0].threshold = static_cast<float>(threshold);
-        return CascadeEvaluator(cascade, kSize + 1).stagesPassed(sums, 0, 0) == 1u;
+        return CascadeEvaluator(cascade, kWindow + 1).stagesPassed(sums, 0, 0) == 1u;
       };
       ASSERT_TRUE(passes(boost.sums()[i] - 1e-6)) << splits << " splits, window " << i;
       ASSERT_FALSE(passes(boost.sums()[i] + 3e-5)) << splits << " splits, window " << i;
@@ -177,7 +177,7 @@ TEST_F(Windows, TakeTheWayThroughATreeThatTheEvaluatorTakes)
 
 TEST_F(Windows, GiveTheSameTreesForAnyNumberOfThreads)
 {
-  const WindowBatch batch(windows, kSize, kSize, kAllTables);
+  const WindowBatch batch(windows, kWindow, kWindow, kAllTables);
   const SortedFeatures one(batch, features, 1), three(batch, features, 3);
   GentleBoost a(one, labels, 2), b(three, labels, 2);
   for (int m = 0; m < 5; ++m) {
@@ -190,7 +190,7 @@ TEST_F(Windows, GiveTheSameTreesForAnyNumberOfThreads)
 TEST_F(Windows, ThatAreAllAlikeCannotBeTold)
 {
   const std::vector<GrayImage> same(20, windows[0]);
-  const WindowBatch batch(same, kSize, kSize, kAllTables);
+  const WindowBatch batch(same, kWindow, kWindow, kAllTables);
   const SortedFeatures sorted(batch, features);
   std::vector<int> half(20, 1);
   std::fill_n(half.begin(), 10, -1);
@@ -201,10 +201,10 @@ TEST_F(Windows, ThatAreAllAlikeCannotBeTold)
 
 TEST_F(Windows, AreRefusedIfTheyDoNotFit)
 {
-  windows.push_back(GrayImage(kSize, kSize + 1));
-  EXPECT_THROW(WindowBatch(windows, kSize, kSize, kAllTables), BadArgument);
+  windows.push_back(GrayImage(kWindow, kWindow + 1));
+  EXPECT_THROW(WindowBatch(windows, kWindow, kWindow, kAllTables), BadArgument);
   windows.pop_back();
-  const WindowBatch batch(windows, kSize, kSize, kAllTables);
+  const WindowBatch batch(windows, kWindow, kWindow, kAllTables);
   EXPECT_THROW(SortedFeatures(batch, {}), BadArgument);
   const SortedFeatures sorted(batch, features);
   EXPECT_THROW(GentleBoost(sorted, {1, -1}), BadArgument);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A thing without symmetry, tilted anyhow, in the view of a depth camera.
 #include "object_localization/localization_cases.h"
+#include "support/constants.h"
 
 #include <pcl6d/common/random.h>
 #include <pcl6d/object_localization/object_localizer.h>
@@ -10,9 +11,10 @@
 
 #include <cmath>
 
+using pcl6d::test::kDegree;
+
 namespace pcl6d {
 namespace {
-constexpr double kDegree = M_PI / 180;
 
 /** A board and a wall behind it, with some blocks on it. */
 TriangleScene

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A milk carton in a recorded scene of a depth camera (objects/): a moved copy of the
 // scene's own points, so that its pose is exact.
+#include "support/constants.h"
 #include "support/data_folder.h"
 
 #include <pcl6d/common/median.h>
@@ -14,11 +15,11 @@
 #include <cmath>
 #include <map>
 
+using pcl6d::test::kDegree;
+
 namespace {
 using namespace pcl6d;
 using Cell = std::pair<int, int>;
-
-constexpr double kDegree = M_PI / 180;
 
 Eigen::Isometry3d
 exactPose()

@@ -2,16 +2,18 @@
 // Upright objects of the store in a simulated room, at places that are known.
 #include "object_localization/placed_objects.h"
 #include "support/bits.h"
+#include "support/constants.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+using pcl6d::test::kDegree;
+
 namespace pcl6d {
 namespace {
 using namespace test;
-constexpr double kDegree = M_PI / 180;
 
 /** \return how far the middle of the model's box is from its true place [m] */
 double

@@ -10,7 +10,7 @@
 
 namespace pcl6d {
 namespace {
-const std::filesystem::path kStore = PCL6D_SOURCE_DIR "/share/models";
+const std::filesystem::path kShipped = PCL6D_SOURCE_DIR "/share/models";
 
 /** \return a scan with the model on the floor, 2.2 m from the scanner */
 BackgroundScan
@@ -44,7 +44,7 @@ class ShippedCascade : public testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedCascade, IsSmallAndReadByOpenCv)
 {
-  const StoredModel stored = readStoredModel(kStore / GetParam());
+  const StoredModel stored = readStoredModel(kShipped / GetParam());
   ASSERT_TRUE(stored.range_cascade && stored.reflectance_cascade);
   for (const auto& file : {*stored.range_cascade, *stored.reflectance_cascade}) {
     EXPECT_LT(std::filesystem::file_size(file), 300000u) << file;
@@ -58,7 +58,7 @@ TEST_P(ShippedCascade, IsSmallAndReadByOpenCv)
 // A room, and a floor below the scanner, that it was not trained on.
 TEST_P(ShippedCascade, FindsItsModelAllAroundTheScanner)
 {
-  const StoredModel stored = readStoredModel(kStore / GetParam());
+  const StoredModel stored = readStoredModel(kShipped / GetParam());
   DetectorOptions either;
   either.rule = DetectionRule::kOr;
   const ObjectDetector detector(readCascade(*stored.range_cascade),

@@ -7,7 +7,7 @@
 
 namespace pcl6d {
 namespace {
-constexpr double kSize = 2.2; // [m] of the window around the figure
+constexpr double kGateSize = 2.2; // [m] of the window around the figure
 
 /** The figure 3 m ahead of the scanner, and what a gate says of windows around it. */
 struct Gate : testing::Test {
@@ -22,14 +22,14 @@ struct Gate : testing::Test {
     const std::size_t view = views.viewOf(middle);
     image = std::make_unique<RangeImage>(views.image(view, scan.points));
     const auto place = views.place(view, middle);
-    height = static_cast<int>(views.pixelsOf(kSize, place.depth));
+    height = static_cast<int>(views.pixelsOf(kGateSize, place.depth));
     x = static_cast<int>(place.x);
     y = static_cast<int>(place.y);
   }
   WindowGate
   gateOf(const DepthSlice& slice) const
   {
-    return {views.options(), *image, slice, kSize, 1.3};
+    return {views.options(), *image, slice, kGateSize, 1.3};
   }
   ImageRect
   window(double factor) const
@@ -63,8 +63,8 @@ TEST_F(Gate, NamesTheSizesThatCanPass)
 {
   const auto grid = gateOf({4, 7}).grid(1.1);
   ASSERT_TRUE(grid);
-  EXPECT_LE(grid->min_height, views.pixelsOf(kSize, 7) / 1.3);
-  EXPECT_GE(grid->max_height, views.pixelsOf(kSize, 4) * 1.3);
+  EXPECT_LE(grid->min_height, views.pixelsOf(kGateSize, 7) / 1.3);
+  EXPECT_GE(grid->max_height, views.pixelsOf(kGateSize, 4) * 1.3);
   // Nothing of this size is that near and fits into the view.
   EXPECT_FALSE(WindowGate(views.options(), *image, {0.1, 0.5}, 5, 1.3).grid(1.1));
 }
@@ -73,7 +73,7 @@ TEST_F(Gate, SeesNothingWhereNothingIs)
 {
   const RangeImage empty = views.image(0, {});
   EXPECT_FALSE(
-      WindowGate(views.options(), empty, {0.5, 12}, kSize, 1.3).rangeIn(window(1)));
+      WindowGate(views.options(), empty, {0.5, 12}, kGateSize, 1.3).rangeIn(window(1)));
 }
 
 } // namespace pcl6d

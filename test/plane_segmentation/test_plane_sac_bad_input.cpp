@@ -13,7 +13,7 @@ namespace {
 using namespace pcl6d;
 using namespace pcl6d::test;
 using Point = pcl::PointXYZ;
-using Normals = pcl::PointCloud<pcl::Normal>;
+using NormalCloud = pcl::PointCloud<pcl::Normal>;
 } // namespace
 
 TEST(PlaneSacBadInput, TellsWhatIsWrong)
@@ -62,7 +62,7 @@ TEST(PlaneSacBadInput, TellsWhatIsWrongWithNormals)
   choose(segmentation, pcl::SACMODEL_NORMAL_PARALLEL_PLANE);
   segmentation.setInputCloud(cloud);
   EXPECT_THROW(segmented(segmentation), BadArgument); // none
-  const auto normals = pcl::make_shared<Normals>();
+  const auto normals = pcl::make_shared<NormalCloud>();
   segmentation.setInputNormals(normals);
   EXPECT_THROW(segmented(segmentation), BadArgument); // too few
   normals->resize(cloud->size());                     // all zero: no point has one

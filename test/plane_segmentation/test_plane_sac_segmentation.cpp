@@ -16,7 +16,7 @@ using namespace pcl6d;
 using namespace pcl6d::test;
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
-using Normals = pcl::PointCloud<pcl::Normal>;
+using NormalCloud = pcl::PointCloud<pcl::Normal>;
 template <typename Segmentation>
 class PlaneModels : public testing::Test {};
 using Classes =
@@ -166,7 +166,7 @@ TYPED_TEST(PlaneModels, GiveNothingForTooFewPointsOrALine)
 TYPED_TEST(PlaneModelsFromNormals, TakeNormalsIntoAccount)
 {
   const auto cloud = sacCloud(table());
-  const auto normals = pcl::make_shared<Normals>();
+  const auto normals = pcl::make_shared<NormalCloud>();
   for (std::size_t i = 0; i < cloud->size(); ++i) // the table's are wrong
     normals->push_back(pcl::Normal(i % 2 == 0 ? 1 : -1, 0, 0));
   for (const int model :

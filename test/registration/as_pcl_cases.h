@@ -4,6 +4,7 @@
 
 #include "icp6d_cases.h"
 #include "support/data_folder.h"
+#include "support/pcl_peers.h"
 
 #include <pcl6d/registration/pcl/correspondence_estimation.h>
 #include <pcl6d/registration/pcl/correspondence_rejector_one_to_one.h>
@@ -17,8 +18,6 @@
 #include <pcl/registration/correspondence_rejection_surface_normal.h>
 #include <pcl/registration/correspondence_rejection_trimmed.h>
 #include <pcl/registration/correspondence_rejection_var_trimmed.h>
-#include <pcl/registration/gicp.h>
-#include <pcl/registration/icp.h>
 #include <pcl/registration/joint_icp.h>
 
 namespace pcl6d::test {

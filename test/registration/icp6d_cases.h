@@ -5,6 +5,7 @@
 #include "support/points.h"
 #include "support/room.h"
 
+#include <pcl6d/common/pose.h>
 #include <pcl6d/registration/pcl/icp6d.h>
 
 #include <gtest/gtest.h>
@@ -156,5 +157,8 @@ named(const std::string& name, std::function<void(T&)> change = nullptr)
 }
 
 constexpr Metric kMetrics[] = {Metric::kPoint, Metric::kPlane, Metric::kGicp};
+
+inline const Eigen::Isometry3d kSmall =
+    poseFromEuler({0.01, -0.02, 0.015}, {0.01, -0.008, 0.012});
 
 } // namespace pcl6d::test

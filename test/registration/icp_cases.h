@@ -2,10 +2,14 @@
 #pragma once
 
 #include "support/bits.h"
+#include "support/constants.h"
 #include "support/points.h"
 #include "support/room.h"
 
+#include <pcl6d/common/pose.h>
+#include <pcl6d/registration/icp.h>
 #include <pcl6d/registration/icp_model.h>
+#include <pcl6d/registration/icp_options.h>
 #include <pcl6d/search/point_list.h>
 
 #include <gtest/gtest.h>
@@ -145,5 +149,35 @@ expectSameTrace(const Trace& found, const Trace& expected)
 
 constexpr Metric kAllMetrics[] = {Metric::kPoint, Metric::kPlane, Metric::kGicp};
 constexpr Metric kPlaneMetrics[] = {Metric::kPlane, Metric::kGicp};
+
+inline const Eigen::Isometry3d kTruth =
+    poseFromEuler({0.08, -0.06, 0.05}, {0.02, -0.01, 0.03});
+
+inline const Eigen::Isometry3d kNudge =
+    poseFromEuler({0.02, 0.01, -0.03}, {0.01, 0.01, -0.01});
+
+inline IcpOptions
+optionsOf(Metric metric)
+{
+  IcpOptions options;
+  options.metric = metric;
+  return options;
+}
+
+inline IcpResult
+run(const Surface& target,
+    const Surface& source,
+    const IcpOptions& options,
+    const Eigen::Isometry3d& guess = kIdentity)
+{
+  const IcpModel model = target.model(), data = source.model();
+  return icp({model.part()}, data.source(), guess, options);
+}
+
+constexpr SearchMethod kExactSearches[] = {SearchMethod::kKdTree,
+                                           SearchMethod::kCachedTree,
+                                           SearchMethod::kOctree,
+                                           SearchMethod::kBruteForce,
+                                           SearchMethod::kFlann};
 
 } // namespace pcl6d::test

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "estimations.h"
+#include "support/fit_oracles.h"
 #include "support/pairs.h"
 
 #include <Eigen/QR>
@@ -223,7 +224,7 @@ planeOracle(const Scene& scene)
       J.row(i) << p.cross(n).transpose(), n.transpose();
       distance(i) = n.dot(pairs.target[i] - origin - p);
     }
-    const Eigen::VectorXd x = J.colPivHouseholderQr().solve(distance);
+    const Eigen::VectorXd x = leastSquares(J, distance);
     Eigen::Isometry3d motion(Eigen::Translation3d(x.tail<3>()));
     motion.linear() = rotationFromVector(x.head<3>());
     T = motion * T;
@@ -240,7 +241,7 @@ scaleOracle(const Pairs& pairs)
     d.col(i) = pairs.source[i];
     m.col(i) = pairs.target[i];
   }
-  return std::cbrt(Eigen::umeyama(d, m, true).topLeftCorner<3, 3>().determinant());
+  return std::cbrt(umeyama(d, m, true).topLeftCorner<3, 3>().determinant());
 }
 
 } // namespace pcl6d::test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Starts without a guess, and from bad ones, on recorded scans.
+#include "support/constants.h"
 #include "support/data_folder.h"
 
 #include <pcl6d/common/pose.h>
@@ -11,10 +12,10 @@
 
 #include <gtest/gtest.h>
 
+using pcl6d::test::kDegree;
+
 namespace {
 using namespace pcl6d;
-
-constexpr double kDegree = M_PI / 180;
 
 Eigen::Isometry3d
 refined(const Points& target, const Points& source, const Eigen::Isometry3d& guess)

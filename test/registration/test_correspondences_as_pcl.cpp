@@ -16,7 +16,7 @@ using pcl6d::Random;
 namespace {
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
-using Ours = pcl6d::CorrespondenceEstimation<Point, Point>;
+using OurEstimation = pcl6d::CorrespondenceEstimation<Point, Point>;
 
 Cloud::Ptr
 cube(std::uint64_t seed, std::size_t count = 400)
@@ -182,7 +182,7 @@ TEST(OurCorrespondences, NoticeOtherIndicesOfTheSource)
   };
   EXPECT_EQ(run(pcl::registration::CorrespondenceEstimation<Point, Point>()), 0u)
       << "PCL searches the source points of the first indices for ever";
-  EXPECT_GT(run(Ours()), 20u);
+  EXPECT_GT(run(OurEstimation()), 20u);
 }
 
 TEST(OurCorrespondences, LeaveOutWhatIsNotFinite)
@@ -193,7 +193,7 @@ TEST(OurCorrespondences, LeaveOutWhatIsNotFinite)
     (*source)[9].z = kInfinity;
     (*target)[5].y = kNan;
     target->is_dense = source->is_dense = false;
-    Ours estimation;
+    OurEstimation estimation;
     if (flann)
       estimation.setSearchMethodTarget(pcl::make_shared<pcl::search::KdTree<Point>>());
     estimation.setInputSource(source);
@@ -226,7 +226,7 @@ TEST(OurCorrespondences, FindNothingInCloudsWithoutPoints)
       for (const auto& target : {nothing, nan, some}) {
         if (source == some && target == some)
           continue;
-        Ours estimation;
+        OurEstimation estimation;
         if (flann) {
           const auto tree = pcl::make_shared<pcl::search::KdTree<Point>>();
           estimation.setSearchMethodTarget(tree);
@@ -245,7 +245,7 @@ TEST(OurCorrespondences, AreTheSameForAnyNumberOfThreads)
 {
   pcl::Correspondences first;
   for (const unsigned int threads : {1u, 2u, 5u, 0u}) {
-    Ours estimation;
+    OurEstimation estimation;
     estimation.setNumberOfThreads(threads);
     estimation.setInputSource(cube(1, 5000));
     estimation.setInputTarget(cube(2, 6000));
@@ -276,7 +276,7 @@ TEST(OurCorrespondences, OfACloneDoNotDisturbTheOriginal)
   };
   EXPECT_LT(run(pcl::registration::CorrespondenceEstimation<Point, Point>()), 300u)
       << "PCL's copies share their tree";
-  EXPECT_EQ(run(Ours()), 400u);
+  EXPECT_EQ(run(OurEstimation()), 400u);
 }
 
 namespace {
@@ -293,7 +293,7 @@ struct Heights : pcl::PointRepresentation<Point> {
 
 TEST(OurCorrespondences, AreThoseOfThePointRepresentation)
 {
-  Ours estimation;
+  OurEstimation estimation;
   estimation.setInputSource(toCloud<Point>({{0, 0, 1.1f}}));
   estimation.setInputTarget(toCloud<Point>({{0, 0, 0.8f}, {9, 9, 1}}));
   pcl::Correspondences pairs;
@@ -323,7 +323,7 @@ TEST(OurCorrespondences, KeepTheirDigitsInUtmCoordinates)
                                               0));
   for (const auto& p : target)
     source.emplace_back(p + Eigen::Vector3f(0.25f, 0, 0));
-  Ours estimation;
+  OurEstimation estimation;
   estimation.setInputSource(toCloud<Point>(source));
   estimation.setInputTarget(toCloud<Point>(target));
   pcl::Correspondences pairs;
@@ -337,7 +337,7 @@ TEST(OurCorrespondences, KeepTheirDigitsInUtmCoordinates)
 
 TEST(OurCorrespondences, SayWhatIsWrong)
 {
-  Ours estimation;
+  OurEstimation estimation;
   pcl::Correspondences pairs(3);
   const auto words = [&](auto call) { return badArgumentOf(call); };
   const auto determine = [&] { estimation.determineCorrespondences(pairs, 1); };
@@ -376,7 +376,7 @@ TEST(OurCorrespondences, TakePartInIcp6D)
 {
   pcl6d::ICP6D<Point, Point> icp;
   setUpCorner(icp);
-  icp.setCorrespondenceEstimation(pcl::make_shared<Ours>());
+  icp.setCorrespondenceEstimation(pcl::make_shared<OurEstimation>());
   for (const bool reciprocal : {false, true}) {
     icp.setUseReciprocalCorrespondences(reciprocal);
     expectCorner(icp, 1e-5);

@@ -2,12 +2,11 @@
 // The table of scenes and estimations: alone, inside PCL's ICP, and inside ICP6D.
 #include "pair_scenes.h"
 #include "support/bits.h"
+#include "support/pcl_peers.h"
 #include "support/points.h"
 
 #include <pcl6d/registration/pcl/icp6d.h>
 #include <pcl6d/search/pcl/core_search.h>
-
-#include <pcl/registration/icp.h>
 
 #include <algorithm>
 #include <cmath>

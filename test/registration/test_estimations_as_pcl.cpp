@@ -2,6 +2,7 @@
 // Estimations of the motion: each of PCL's and what stands in its place, on exact pairs and
 // on pairs with noise.
 #include "as_pcl_cases.h"
+#include "support/pcl_peers.h"
 
 #include <pcl6d/registration/pcl/transformation_estimation_dual_quaternion.h>
 #include <pcl6d/registration/pcl/transformation_estimation_helix.h>
@@ -11,8 +12,6 @@
 
 #include <pcl/registration/transformation_estimation_dual_quaternion.h>
 #include <pcl/registration/transformation_estimation_lm.h>
-#include <pcl/registration/transformation_estimation_point_to_plane_lls.h>
-#include <pcl/registration/transformation_estimation_svd.h>
 #include <pcl/registration/transformation_estimation_svd_scale.h>
 
 #include <numeric>
@@ -21,8 +20,8 @@ namespace reg = pcl::registration;
 using namespace pcl6d::test;
 
 namespace {
-using Point = pcl::PointNormal;
-using Base = reg::TransformationEstimation<Point, Point, double>;
+using OrientedPoint = pcl::PointNormal;
+using Base = reg::TransformationEstimation<OrientedPoint, OrientedPoint, double>;
 
 struct Couple {
   std::string name;
@@ -42,8 +41,8 @@ Couple
 couple(const std::string& name)
 {
   return {name,
-          pcl::make_shared<Pcl<Point, Point, double>>(),
-          pcl::make_shared<Ours<Point, Point, double>>()};
+          pcl::make_shared<Pcl<OrientedPoint, OrientedPoint, double>>(),
+          pcl::make_shared<Ours<OrientedPoint, OrientedPoint, double>>()};
 }
 
 double
@@ -58,11 +57,11 @@ errorOfMatrix(const Eigen::Matrix4d& found, double scale)
 
 class EstimationsAsPcl : public testing::TestWithParam<Couple> {
 protected:
-  pcl::PointCloud<Point>
+  pcl::PointCloud<OrientedPoint>
   source(double sigma) const
   {
     pcl6d::Random random(3);
-    auto cloud = *cornerData<Point>();
+    auto cloud = *cornerData<OrientedPoint>();
     for (auto& p : cloud)
       for (int axis = 0; axis < 3; ++axis)
         p.getVector3fMap()[axis] += static_cast<float>(sigma * random.normal());
@@ -91,7 +90,7 @@ protected:
     return errorOfMatrix(found, 1);
   }
 
-  pcl::PointCloud<Point>::Ptr target_ = cornerModel<Point>();
+  pcl::PointCloud<OrientedPoint>::Ptr target_ = cornerModel<OrientedPoint>();
 };
 
 TEST_P(EstimationsAsPcl, FindTheMotionOfExactPairsByEachOverload)
@@ -127,15 +126,19 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(EstimationsOfScaleAsPcl, FindTheScale)
 {
-  auto source = *cornerData<Point>();
+  auto source = *cornerData<OrientedPoint>();
   for (auto& p : source)
     p.getVector3fMap() *= 0.8f;
-  const reg::TransformationEstimationSVDScale<Point, Point, double> pcls;
-  const pcl6d::TransformationEstimationScaleQuaternion<Point, Point, double> ours;
+  const reg::TransformationEstimationSVDScale<OrientedPoint, OrientedPoint, double>
+      pcls;
+  const pcl6d::
+      TransformationEstimationScaleQuaternion<OrientedPoint, OrientedPoint, double>
+          ours;
   for (const Base* estimation :
        {static_cast<const Base*>(&pcls), static_cast<const Base*>(&ours)}) {
     Eigen::Matrix4d found;
-    estimation->estimateRigidTransformation(source, *cornerModel<Point>(), found);
+    estimation->estimateRigidTransformation(
+        source, *cornerModel<OrientedPoint>(), found);
     EXPECT_NEAR(std::cbrt(found.topLeftCorner<3, 3>().determinant()), 1.25, 1e-5);
     EXPECT_LT(errorOfMatrix(found, 1.25), 1e-5);
   }

@@ -11,9 +11,9 @@ using pcl6d::Random;
 namespace {
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
-using Ours = pcl6d::GICP6D<Point, Point>;
+using OurGicp = pcl6d::GICP6D<Point, Point>;
 using Pcl = pcl::GeneralizedIterativeClosestPoint<Point, Point>;
-using Matrices = Ours::MatricesVector;
+using Matrices = OurGicp::MatricesVector;
 
 Cloud::Ptr
 noisyModel()
@@ -28,7 +28,7 @@ noisyData()
 }
 
 /** \return the covariances of the walls of a corner \param[in] across over along */
-Ours::MatricesVectorPtr
+OurGicp::MatricesVectorPtr
 wallCovariances(const Eigen::Isometry3d& T, double along, double across)
 {
   const auto covariances = pcl::make_shared<Matrices>();
@@ -42,7 +42,7 @@ wallCovariances(const Eigen::Isometry3d& T, double along, double across)
 
 template <typename Icp>
 void
-setUpNoisy(Icp& icp)
+setUpNoisyGicp(Icp& icp)
 {
   icp.setInputSource(noisyData());
   icp.setInputTarget(noisyModel());
@@ -71,7 +71,7 @@ TYPED_TEST(GicpAsPcl, HasPclsDefaults)
 
 TYPED_TEST(GicpAsPcl, FindsTheCorner)
 {
-  setUpNoisy(this->icp_);
+  setUpNoisyGicp(this->icp_);
   alignFrom(this->icp_);
   EXPECT_TRUE(this->icp_.hasConverged());
   EXPECT_LT(errorOf(this->icp_).translation,
@@ -83,7 +83,7 @@ TYPED_TEST(GicpAsPcl, UsesTheCovariancesThatAreGiven)
 {
   // With the true walls both come closer than with estimated ones; with walls that are turned
   // by a right angle each point is free to leave its wall, and neither finds the corner.
-  setUpNoisy(this->icp_);
+  setUpNoisyGicp(this->icp_);
   this->icp_.setSourceCovariances(wallCovariances(kCornerTruth.inverse(), 1, 1e-3));
   this->icp_.setTargetCovariances(
       wallCovariances(Eigen::Isometry3d::Identity(), 1, 1e-3));
@@ -100,12 +100,12 @@ TYPED_TEST(GicpAsPcl, UsesTheCovariancesThatAreGiven)
 
 TYPED_TEST(GicpAsPcl, ForgetsCovariancesWithTheirCloud)
 {
-  setUpNoisy(this->icp_);
+  setUpNoisyGicp(this->icp_);
   this->icp_.setSourceCovariances(
       pcl::make_shared<Matrices>(3, Eigen::Matrix3d::Zero()));
   this->icp_.setTargetCovariances(
       pcl::make_shared<Matrices>(3, Eigen::Matrix3d::Zero()));
-  setUpNoisy(this->icp_);
+  setUpNoisyGicp(this->icp_);
   alignFrom(this->icp_);
   EXPECT_LT(errorOf(this->icp_).translation, 2e-3);
 }
@@ -163,8 +163,8 @@ TEST(OurGicpCovariances, ThatArePlanesGiveWhatNormalsGive)
 
 TEST(OurGicpCovariances, ThatAreBallsGivePointsToPoints)
 {
-  Ours balls;
-  setUpNoisy(balls);
+  OurGicp balls;
+  setUpNoisyGicp(balls);
   balls.setMotionEpsilon(1e-6, 1e-6);
   for (const double variance : {1.0, 1e-4}) {
     balls.setSourceCovariances(
@@ -173,7 +173,7 @@ TEST(OurGicpCovariances, ThatAreBallsGivePointsToPoints)
         pcl::make_shared<Matrices>(3000, 3 * variance * Eigen::Matrix3d::Identity()));
     alignFrom(balls);
     pcl6d::ICP6D<Point, Point> points;
-    setUpNoisy(points);
+    setUpNoisyGicp(points);
     points.setMaximumIterations(200);
     points.setMotionEpsilon(1e-6, 1e-6);
     alignFrom(points);
@@ -189,10 +189,10 @@ TEST(OurGicpCovariances, InMetresGiveWhatPclGives)
   // Neither planes nor balls, as a sensor model makes them: 2 cm along, 5 mm across.
   const auto of_source = wallCovariances(kCornerTruth.inverse(), 4e-4, 2.5e-5);
   const auto of_target = wallCovariances(Eigen::Isometry3d::Identity(), 4e-4, 2.5e-5);
-  Ours ours;
+  OurGicp ours;
   Pcl pcls;
   const auto run = [&](auto& icp) {
-    setUpNoisy(icp);
+    setUpNoisyGicp(icp);
     icp.setSourceCovariances(of_source);
     icp.setTargetCovariances(of_target);
     icp.setTransformationEpsilon(1e-6);
@@ -211,8 +211,8 @@ TEST(OurGicpCovariances, InMetresGiveWhatPclGives)
 TEST(OurGicpCovariances, OfOneSideStandBesideEstimatedOnes)
 {
   for (const bool source : {true, false}) {
-    Ours icp;
-    setUpNoisy(icp);
+    OurGicp icp;
+    setUpNoisyGicp(icp);
     if (source)
       icp.setSourceCovariances(wallCovariances(kCornerTruth.inverse(), 1, 0.01));
     else
@@ -228,8 +228,8 @@ TEST(OurGicpCovariances, BelongToTheIndexAndNotToThePlaceInTheList)
   const auto chosen = pcl::make_shared<pcl::Indices>();
   for (int i = 1; i < 3000; i += 2)
     chosen->push_back(i);
-  Ours icp;
-  setUpNoisy(icp);
+  OurGicp icp;
+  setUpNoisyGicp(icp);
   icp.setIndices(chosen);
   auto covariances = wallCovariances(kCornerTruth.inverse(), 1, 1e-3);
   (*covariances)[0].setZero(); // of a point that is not chosen
@@ -244,9 +244,9 @@ TEST(OurGicpCovariances, GiveTheSameBitsForAnyNumberOfThreads)
 {
   Eigen::Matrix4f first = Eigen::Matrix4f::Zero();
   for (const unsigned int threads : {1u, 2u, 3u}) {
-    Ours icp;
+    OurGicp icp;
     icp.setNumberOfThreads(threads);
-    setUpNoisy(icp);
+    setUpNoisyGicp(icp);
     icp.setSourceCovariances(wallCovariances(kCornerTruth.inverse(), 1, 0.02));
     icp.setTargetCovariances(wallCovariances(Eigen::Isometry3d::Identity(), 2, 0.02));
     alignFrom(icp);
@@ -260,29 +260,30 @@ TEST(OurGicpCovariances, GiveTheSameBitsForAnyNumberOfThreads)
 TEST(OurGicpCovariances, SayWhatIsWrong)
 {
   const auto words = [](auto change) {
-    Ours icp;
-    setUpNoisy(icp);
+    OurGicp icp;
+    setUpNoisyGicp(icp);
     const auto covariances = wallCovariances(kCornerTruth.inverse(), 1, 0.01);
     change(icp, *covariances);
     icp.setSourceCovariances(covariances);
     return badArgumentOf([&] { alignFrom(icp); });
   };
-  EXPECT_EQ(words([](Ours&, Matrices&) {}), "");
-  EXPECT_NE(words([](Ours&, Matrices& c) { c.pop_back(); }).find("2999"),
+  EXPECT_EQ(words([](OurGicp&, Matrices&) {}), "");
+  EXPECT_NE(words([](OurGicp&, Matrices& c) { c.pop_back(); }).find("2999"),
             std::string::npos);
-  EXPECT_NE(words([](Ours&, Matrices& c) { c[7](0, 1) += 1; }).find("covariance 7"),
+  EXPECT_NE(words([](OurGicp&, Matrices& c) { c[7](0, 1) += 1; }).find("covariance 7"),
             std::string::npos);
-  EXPECT_NE(words([](Ours&, Matrices& c) { c[8].setZero(); }).find("covariance 8"),
+  EXPECT_NE(words([](OurGicp&, Matrices& c) { c[8].setZero(); }).find("covariance 8"),
             std::string::npos);
-  EXPECT_NE(words([](Ours&, Matrices& c) { c[9] = -c[9]; }).find("covariance 9"),
+  EXPECT_NE(words([](OurGicp&, Matrices& c) { c[9] = -c[9]; }).find("covariance 9"),
             std::string::npos);
-  EXPECT_NE(words([](Ours&, Matrices& c) { c[2](0, 0) = kNan; }).find("covariance 2"),
-            std::string::npos);
-  EXPECT_NE(words([](Ours& icp, Matrices&) {
+  EXPECT_NE(
+      words([](OurGicp&, Matrices& c) { c[2](0, 0) = kNan; }).find("covariance 2"),
+      std::string::npos);
+  EXPECT_NE(words([](OurGicp& icp, Matrices&) {
               icp.setRobustKernel(pcl6d::RobustKernel::kHuber);
             }).find("robust"),
             std::string::npos);
-  EXPECT_NE(words([](Ours& icp, Matrices&) {
+  EXPECT_NE(words([](OurGicp& icp, Matrices&) {
               icp.setMetric(pcl6d::Metric::kPoint);
             }).find("metric"),
             std::string::npos);
@@ -290,9 +291,9 @@ TEST(OurGicpCovariances, SayWhatIsWrong)
 
 TEST(OurGicpCovariances, MakeTheMahalanobisDistance)
 {
-  Ours icp;
+  OurGicp icp;
   EXPECT_FALSE(badArgumentOf([&] { icp.mahalanobis(0); }).empty()) << "not yet";
-  setUpNoisy(icp);
+  setUpNoisyGicp(icp);
   const auto source = wallCovariances(kCornerTruth.inverse(), 1, 1e-3);
   const auto target = wallCovariances(Eigen::Isometry3d::Identity(), 1, 1e-3);
   for (const bool given : {false, true}) {
@@ -324,7 +325,7 @@ TEST(OurGicpCovariances, MakeTheMahalanobisDistance)
 
 TEST(OurGicp, HasNoInnerOptimizerToCall)
 {
-  Ours icp;
+  OurGicp icp;
   Eigen::Matrix4f T = Eigen::Matrix4f::Identity();
   EXPECT_NE(badArgumentOf([&] {
               icp.estimateRigidTransformationBFGS({}, {}, {}, {}, T);

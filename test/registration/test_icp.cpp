@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "icp_cases.h"
 #include "support/bits.h"
+#include "support/constants.h"
 #include "support/points.h"
 #include "support/room.h"
 
@@ -14,14 +16,13 @@ using pcl6d::PointTree;
 using pcl6d::Random;
 using pcl6d::Status;
 using pcl6d::test::badArgumentOf;
+using pcl6d::test::kIdentity;
 using pcl6d::test::kNan;
+using pcl6d::test::kTruth;
 using pcl6d::test::roomCorner;
 using pcl6d::test::sameBits;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
-const Eigen::Isometry3d kTruth =
-    pcl6d::poseFromEuler({0.08, -0.06, 0.05}, {0.02, -0.01, 0.03});
 constexpr std::size_t kCount = 3000;
 constexpr double kSide = 4; // [m] of the walls; points lie about 13 cm apart
 

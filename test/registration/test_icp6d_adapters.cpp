@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCL's estimations of correspondences and transformations, plugged into ICP6D.
 #include "icp6d_cases.h"
+#include "support/pcl_peers.h"
 
 #include <pcl6d/registration/pcl/transformation_estimation_plane_helix.h>
 #include <pcl6d/registration/pcl/transformation_estimation_svd.h>
@@ -11,8 +12,6 @@
 #include <pcl/registration/transformation_estimation_dual_quaternion.h>
 #include <pcl/registration/transformation_estimation_lm.h>
 #include <pcl/registration/transformation_estimation_point_to_plane.h>
-#include <pcl/registration/transformation_estimation_point_to_plane_lls.h>
-#include <pcl/registration/transformation_estimation_svd.h>
 #include <pcl/registration/transformation_estimation_svd_scale.h>
 
 namespace reg = pcl::registration;
@@ -21,17 +20,17 @@ using pcl6d::Metric;
 using pcl6d::Status;
 
 namespace {
-using Point = pcl::PointNormal;
-using Icp = pcl6d::ICP6D<Point, Point, double>;
+using OrientedPoint = pcl::PointNormal;
+using OrientedDoubleIcp = pcl6d::ICP6D<OrientedPoint, OrientedPoint, double>;
 } // namespace
 
-using Estimation = NamedPart<Icp::Base::CorrespondenceEstimationPtr>;
+using Estimation = NamedPart<OrientedDoubleIcp::Base::CorrespondenceEstimationPtr>;
 
 class Icp6DCorrespondences : public testing::TestWithParam<Estimation> {};
 
 TEST_P(Icp6DCorrespondences, ComeFromPcl)
 {
-  Icp icp;
+  OrientedDoubleIcp icp;
   setUpCorner(icp);
   icp.setCorrespondenceEstimation(GetParam().make());
   for (const Metric metric : kMetrics) {
@@ -47,16 +46,16 @@ TEST_P(Icp6DCorrespondences, LeaveOutNan)
 {
   // With a tree of ours and with FLANN, which must not be asked for NaN.
   for (const bool flann : {false, true}) {
-    auto source = cornerData<Point>();
+    auto source = cornerData<OrientedPoint>();
     for (const std::size_t i : {0u, 7u, 1997u}) {
       (*source)[i].y = i == 7 ? kInfinity : kNan;
       source->is_dense = false;
     }
-    Icp icp;
+    OrientedDoubleIcp icp;
     setUpCorner(icp);
     icp.setInputSource(source);
     if (flann)
-      icp.setSearchMethodTarget(pcl::make_shared<pcl::search::KdTree<Point>>());
+      icp.setSearchMethodTarget(pcl::make_shared<pcl::search::KdTree<OrientedPoint>>());
     icp.setCorrespondenceEstimation(GetParam().make());
     expectCorner(icp);
     EXPECT_EQ(icp.result().pairs, 1995u);
@@ -67,12 +66,18 @@ INSTANTIATE_TEST_SUITE_P(
     Pcl,
     Icp6DCorrespondences,
     testing::Values(
-        named<reg::CorrespondenceEstimation<Point, Point, double>,
-              Icp::Base::CorrespondenceEstimationPtr>("Nearest"),
-        named<reg::CorrespondenceEstimationNormalShooting<Point, Point, Point, double>,
-              Icp::Base::CorrespondenceEstimationPtr>("NormalShooting"),
-        named<reg::CorrespondenceEstimationBackProjection<Point, Point, Point, double>,
-              Icp::Base::CorrespondenceEstimationPtr>("BackProjection")),
+        named<reg::CorrespondenceEstimation<OrientedPoint, OrientedPoint, double>,
+              OrientedDoubleIcp::Base::CorrespondenceEstimationPtr>("Nearest"),
+        named<reg::CorrespondenceEstimationNormalShooting<OrientedPoint,
+                                                          OrientedPoint,
+                                                          OrientedPoint,
+                                                          double>,
+              OrientedDoubleIcp::Base::CorrespondenceEstimationPtr>("NormalShooting"),
+        named<reg::CorrespondenceEstimationBackProjection<OrientedPoint,
+                                                          OrientedPoint,
+                                                          OrientedPoint,
+                                                          double>,
+              OrientedDoubleIcp::Base::CorrespondenceEstimationPtr>("BackProjection")),
     kNameOfPart);
 
 TEST(Icp6DCorrespondencesWithoutNormals, FindNoPairsWhereTheyNeedThem)
@@ -87,13 +92,13 @@ TEST(Icp6DCorrespondencesWithoutNormals, FindNoPairsWhereTheyNeedThem)
   EXPECT_EQ(icp.result().status, Status::kTooFewPairs);
 }
 
-using Minimiser = NamedPart<Icp::Base::TransformationEstimationPtr>;
+using Minimiser = NamedPart<OrientedDoubleIcp::Base::TransformationEstimationPtr>;
 
 class Icp6DEstimations : public testing::TestWithParam<Minimiser> {};
 
 TEST_P(Icp6DEstimations, OfPclTakeTheStep)
 {
-  Icp icp;
+  OrientedDoubleIcp icp;
   setUpCorner(icp);
   icp.setTransformationEstimation(GetParam().make());
   // Least squares by Levenberg-Marquardt stop at the root of the machine precision.
@@ -107,27 +112,35 @@ INSTANTIATE_TEST_SUITE_P(
     Pcl,
     Icp6DEstimations,
     testing::Values(
-        named<reg::TransformationEstimationSVD<Point, Point, double>,
-              Icp::Base::TransformationEstimationPtr>("Svd"),
-        named<reg::TransformationEstimationSVDScale<Point, Point, double>,
-              Icp::Base::TransformationEstimationPtr>("SvdScale"),
-        named<reg::TransformationEstimationDualQuaternion<Point, Point, double>,
-              Icp::Base::TransformationEstimationPtr>("DualQuaternion"),
-        named<reg::TransformationEstimationLM<Point, Point, double>,
-              Icp::Base::TransformationEstimationPtr>("Lm"),
-        named<reg::TransformationEstimationPointToPlane<Point, Point, double>,
-              Icp::Base::TransformationEstimationPtr>("PointToPlane"),
-        named<reg::TransformationEstimationPointToPlaneLLS<Point, Point, double>,
-              Icp::Base::TransformationEstimationPtr>("PointToPlaneLls")),
+        named<reg::TransformationEstimationSVD<OrientedPoint, OrientedPoint, double>,
+              OrientedDoubleIcp::Base::TransformationEstimationPtr>("Svd"),
+        named<
+            reg::TransformationEstimationSVDScale<OrientedPoint, OrientedPoint, double>,
+            OrientedDoubleIcp::Base::TransformationEstimationPtr>("SvdScale"),
+        named<reg::TransformationEstimationDualQuaternion<OrientedPoint,
+                                                          OrientedPoint,
+                                                          double>,
+              OrientedDoubleIcp::Base::TransformationEstimationPtr>("DualQuaternion"),
+        named<reg::TransformationEstimationLM<OrientedPoint, OrientedPoint, double>,
+              OrientedDoubleIcp::Base::TransformationEstimationPtr>("Lm"),
+        named<reg::TransformationEstimationPointToPlane<OrientedPoint,
+                                                        OrientedPoint,
+                                                        double>,
+              OrientedDoubleIcp::Base::TransformationEstimationPtr>("PointToPlane"),
+        named<reg::TransformationEstimationPointToPlaneLLS<OrientedPoint,
+                                                           OrientedPoint,
+                                                           double>,
+              OrientedDoubleIcp::Base::TransformationEstimationPtr>("PointToPlaneLls")),
     kNameOfPart);
 
 TEST(Icp6DEstimation, ThatLeavesTheMotionAsItWasIsNotConverged)
 {
   // It wants exactly three points, prints so, and returns.
-  Icp icp;
+  OrientedDoubleIcp icp;
   setUpCorner(icp);
   icp.setTransformationEstimation(
-      pcl::make_shared<reg::TransformationEstimation3Point<Point, Point, double>>());
+      pcl::make_shared<
+          reg::TransformationEstimation3Point<OrientedPoint, OrientedPoint, double>>());
   alignFrom(icp);
   EXPECT_FALSE(icp.hasConverged());
   EXPECT_EQ(icp.result().status, Status::kDiverged);
@@ -137,31 +150,39 @@ TEST(Icp6DOwnEstimations, SetTheMetric)
 {
   // Two samples of a corner, so that points and planes come to different poses.
   const auto found = [](auto change) {
-    Icp icp;
-    icp.setInputSource(cornerCloud<Point>(cornerPoints(7), kCornerTruth.inverse()));
-    icp.setInputTarget(cornerModel<Point>());
+    OrientedDoubleIcp icp;
+    icp.setInputSource(
+        cornerCloud<OrientedPoint>(cornerPoints(7), kCornerTruth.inverse()));
+    icp.setInputTarget(cornerModel<OrientedPoint>());
     icp.setMaxCorrespondenceDistance(0.5);
     change(icp);
     alignFrom(icp);
     return Eigen::Matrix4d(icp.getFinalTransformation());
   };
-  const auto helix = pcl::make_shared<
-      pcl6d::TransformationEstimationPlaneHelix<Point, Point, double>>();
-  const auto by_metric = found([](Icp& icp) { icp.setMetric(Metric::kPlane); });
-  const auto by_points = found([](Icp&) {});
+  const auto helix =
+      pcl::make_shared<pcl6d::TransformationEstimationPlaneHelix<OrientedPoint,
+                                                                 OrientedPoint,
+                                                                 double>>();
+  const auto by_metric =
+      found([](OrientedDoubleIcp& icp) { icp.setMetric(Metric::kPlane); });
+  const auto by_points = found([](OrientedDoubleIcp&) {});
   EXPECT_FALSE(sameBits(by_metric, by_points));
-  EXPECT_TRUE(sameBits(found([&](Icp& icp) { icp.setTransformationEstimation(helix); }),
-                       by_metric));
-  const auto by_gicp = found([](Icp& icp) { icp.setMetric(Metric::kGicp); });
-  EXPECT_TRUE(sameBits(found([&](Icp& icp) {
+  EXPECT_TRUE(sameBits(
+      found([&](OrientedDoubleIcp& icp) { icp.setTransformationEstimation(helix); }),
+      by_metric));
+  const auto by_gicp =
+      found([](OrientedDoubleIcp& icp) { icp.setMetric(Metric::kGicp); });
+  EXPECT_TRUE(sameBits(found([&](OrientedDoubleIcp& icp) {
                          icp.setMetric(Metric::kGicp);
                          icp.setTransformationEstimation(helix);
                        }),
                        by_gicp))
       << "not GICP's";
-  const auto svd =
-      pcl::make_shared<pcl6d::TransformationEstimationSVD<Point, Point, double>>();
-  EXPECT_LT((found([&](Icp& icp) { icp.setTransformationEstimation(svd); }) - by_points)
-                .norm(),
-            1e-9);
+  const auto svd = pcl::make_shared<
+      pcl6d::TransformationEstimationSVD<OrientedPoint, OrientedPoint, double>>();
+  EXPECT_LT(
+      (found([&](OrientedDoubleIcp& icp) { icp.setTransformationEstimation(svd); }) -
+       by_points)
+          .norm(),
+      1e-9);
 }

@@ -2,9 +2,9 @@
 // "Change one class name": what users of pcl::IterativeClosestPoint rely on, with PCL's class
 // beside ours where it shows what they expect.
 #include "icp6d_cases.h"
+#include "support/pcl_peers.h"
 
 #include <pcl/point_representation.h>
-#include <pcl/registration/icp.h>
 #include <pcl/registration/transformation_estimation_svd_scale.h>
 
 #include <functional>
@@ -22,9 +22,6 @@ using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
 using Icp = pcl6d::ICP6D<Point, Point>;
 using Pcl = pcl::IterativeClosestPoint<Point, Point>;
-
-const Eigen::Isometry3d kSmall =
-    pcl6d::poseFromEuler({0.01, -0.02, 0.015}, {0.01, -0.008, 0.012});
 
 Points
 randomPoints(Random& random, std::size_t count, const Eigen::Vector3d& size)

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What PCL's ICP comes to rest with, ours does: rejectors and estimations of PCL's.
 #include "icp6d_cases.h"
+#include "support/pcl_peers.h"
 
 #include <pcl/registration/correspondence_rejection_median_distance.h>
 #include <pcl/registration/correspondence_rejection_one_to_one.h>
 #include <pcl/registration/correspondence_rejection_trimmed.h>
 #include <pcl/registration/correspondence_rejection_var_trimmed.h>
-#include <pcl/registration/transformation_estimation_point_to_plane_lls.h>
-#include <pcl/registration/transformation_estimation_symmetric_point_to_plane_lls.h>
 
 using namespace pcl6d::test;
 using pcl6d::IcpStop;
 
 namespace {
 using Oriented = pcl::PointNormal;
-
-const Eigen::Isometry3d kSmall =
-    pcl6d::poseFromEuler({0.01, -0.02, 0.015}, {0.01, -0.008, 0.012});
 
 struct Plug {
   std::string name;

@@ -11,7 +11,7 @@ using pcl6d::Status;
 namespace {
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
-using Icp = pcl6d::ICP6D<Point, Point, double>;
+using DoubleIcp = pcl6d::ICP6D<Point, Point, double>;
 using Gicp = pcl6d::GICP6D<Point, Point, double>;
 
 /** Runs a cloud against itself with each metric. \return the statuses */
@@ -20,7 +20,7 @@ statusesOf(const Points& source, const Points& target)
 {
   std::vector<Status> statuses;
   for (const Metric metric : kMetrics) {
-    Icp icp;
+    DoubleIcp icp;
     icp.setInputSource(toCloud<Point>(source));
     icp.setInputTarget(toCloud<Point>(target));
     icp.setMaxCorrespondenceDistance(1);
@@ -59,7 +59,7 @@ refuses(std::function<void(Registration&)> change)
 
 TEST(Icp6DBadInput, WithoutCloudsNothingHappens)
 {
-  Icp icp;
+  DoubleIcp icp;
   alignFrom(icp); // PCL prints that clouds are missing
   EXPECT_FALSE(icp.hasConverged());
   icp.setInputTarget(cornerModel<Point>());
@@ -72,7 +72,7 @@ TEST(Icp6DBadInput, EmptyCloudsTakeThePlaceOfOthersAndAreTooFew)
 {
   const auto empty = pcl::make_shared<Cloud>();
   for (const bool source : {true, false}) {
-    Icp icp;
+    DoubleIcp icp;
     setUpCorner(icp);
     expectCorner(icp);
     if (source)
@@ -91,27 +91,27 @@ TEST(Icp6DBadInput, EmptyCloudsTakeThePlaceOfOthersAndAreTooFew)
 TEST(Icp6DBadInput, NullIsRefused)
 {
   const auto refused = [](auto change) {
-    Icp icp;
+    DoubleIcp icp;
     setUpCorner(icp);
     const std::string message = badArgumentOf([&] { change(icp); });
     EXPECT_NE(message.find("is null"), std::string::npos) << message;
     expectCorner(icp); // as if nothing had been said
   };
-  refused([](Icp& icp) { icp.setInputSource(nullptr); });
-  refused([](Icp& icp) { icp.setInputTarget(nullptr); });
-  refused([](Icp& icp) { icp.setIndices(pcl::IndicesPtr()); });
-  refused([](Icp& icp) { icp.setIndices(pcl::IndicesConstPtr()); });
-  refused([](Icp& icp) { icp.setIndices(pcl::PointIndicesConstPtr()); });
-  refused([](Icp& icp) { icp.setSearchMethodTarget(nullptr); });
-  refused([](Icp& icp) { icp.setTransformationEstimation(nullptr); });
-  refused([](Icp& icp) { icp.addCorrespondenceRejector(nullptr); });
+  refused([](DoubleIcp& icp) { icp.setInputSource(nullptr); });
+  refused([](DoubleIcp& icp) { icp.setInputTarget(nullptr); });
+  refused([](DoubleIcp& icp) { icp.setIndices(pcl::IndicesPtr()); });
+  refused([](DoubleIcp& icp) { icp.setIndices(pcl::IndicesConstPtr()); });
+  refused([](DoubleIcp& icp) { icp.setIndices(pcl::PointIndicesConstPtr()); });
+  refused([](DoubleIcp& icp) { icp.setSearchMethodTarget(nullptr); });
+  refused([](DoubleIcp& icp) { icp.setTransformationEstimation(nullptr); });
+  refused([](DoubleIcp& icp) { icp.addCorrespondenceRejector(nullptr); });
 }
 
 TEST(Icp6DBadInput, NullThatCameThroughTheBaseClassIsRefusedByAlign)
 {
-  Icp icp;
+  DoubleIcp icp;
   setUpCorner(icp);
-  Icp::Base& base = icp;
+  DoubleIcp::Base& base = icp;
   base.setTransformationEstimation(nullptr);
   EXPECT_THROW(alignFrom(icp), pcl6d::BadArgument);
 }
@@ -120,10 +120,10 @@ TEST(Icp6DBadInput, IndicesOfNoPointAreRefused)
 {
   for (const int bad : {-1, 1998, 999999999}) {
     const auto indices = pcl::make_shared<pcl::Indices>(pcl::Indices{0, 1, 2, bad});
-    Icp icp;
+    DoubleIcp icp;
     setUpCorner(icp);
     EXPECT_THROW(icp.setIndices(indices), pcl6d::BadArgument) << bad;
-    Icp other;
+    DoubleIcp other;
     other.setIndices(indices); // which points there are is known later
     other.setInputTarget(cornerModel<Point>());
     other.setInputSource(cornerData<Point>()); // nor now: they may be set anew
@@ -135,7 +135,7 @@ TEST(Icp6DBadInput, IndicesOfNoPointAreRefused)
 
 TEST(Icp6DBadInput, ARefusedSettingLeavesNoOldResult)
 {
-  Icp icp;
+  DoubleIcp icp;
   setUpCorner(icp);
   expectCorner(icp);
   icp.setKeptShare(-1);
@@ -149,7 +149,7 @@ TEST(Icp6DBadInput, AGuessOfNanIsTooFewPairs)
 {
   for (const Metric metric : kMetrics)
     for (const float bad : {kNan, kInfinity}) {
-      Icp icp;
+      DoubleIcp icp;
       setUpCorner(icp);
       icp.setMetric(metric);
       Eigen::Isometry3d guess = Eigen::Isometry3d::Identity();
@@ -163,7 +163,7 @@ TEST(Icp6DBadInput, AGuessOfNanIsTooFewPairs)
 
 TEST(Icp6DBadInput, AGuessThatIsNotRigidBecomesSo)
 {
-  Icp icp;
+  DoubleIcp icp;
   setUpCorner(icp);
   Eigen::Isometry3d guess = Eigen::Isometry3d::Identity();
   guess.linear() *= 1.001;
@@ -230,7 +230,7 @@ openCorridor(std::uint64_t seed)
 TEST(Icp6DBadInput, ACorridorIsOpenAlongItself)
 {
   for (const Metric metric : kMetrics) {
-    Icp icp;
+    DoubleIcp icp;
     icp.setInputSource(toCloud<Point>(openCorridor(10)));
     icp.setInputTarget(toCloud<Point>(openCorridor(9)));
     icp.setMaxCorrespondenceDistance(1);
@@ -248,19 +248,22 @@ TEST(Icp6DBadInput, ACorridorIsOpenAlongItself)
 
 TEST(Icp6DBadInput, SettingsThatBreakTheirRuleAreRefused)
 {
-  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMaxCorrespondenceDistance(kNan); }));
+  EXPECT_TRUE(
+      refuses<DoubleIcp>([](DoubleIcp& i) { i.setMaxCorrespondenceDistance(kNan); }));
   for (const double share : {0.0, -0.1, 1.1, static_cast<double>(kNan)})
-    EXPECT_TRUE(refuses<Icp>([&](Icp& i) { i.setKeptShare(share); })) << share;
-  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMaxCorrespondenceDistanceStart(-1); }));
-  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMotionEpsilon(-1, 1e-5); }));
-  EXPECT_TRUE(refuses<Icp>([](Icp& i) { i.setMotionEpsilon(1e-4, kNan); }));
+    EXPECT_TRUE(refuses<DoubleIcp>([&](DoubleIcp& i) { i.setKeptShare(share); }))
+        << share;
+  EXPECT_TRUE(refuses<DoubleIcp>(
+      [](DoubleIcp& i) { i.setMaxCorrespondenceDistanceStart(-1); }));
+  EXPECT_TRUE(refuses<DoubleIcp>([](DoubleIcp& i) { i.setMotionEpsilon(-1, 1e-5); }));
+  EXPECT_TRUE(refuses<DoubleIcp>([](DoubleIcp& i) { i.setMotionEpsilon(1e-4, kNan); }));
 }
 
 TEST(Icp6DBadInput, NeighboursOfANormalAreLimited)
 {
   for (const Metric metric : {Metric::kPlane, Metric::kGicp})
     for (const std::size_t neighbours : {0u, 2u, 65u})
-      EXPECT_TRUE(refuses<Icp>([&](Icp& i) {
+      EXPECT_TRUE(refuses<DoubleIcp>([&](DoubleIcp& i) {
         i.setMetric(metric);
         i.setNormalNeighbours(neighbours);
       })) << neighbours;
@@ -271,7 +274,7 @@ TEST(Icp6DBadInput, NeighboursOfANormalAreLimited)
 
 TEST(Icp6DBadInput, ARefusedRunLeavesTheNextOneAsItIs)
 {
-  Icp icp;
+  DoubleIcp icp;
   setUpCorner(icp);
   icp.setKeptShare(2);
   EXPECT_THROW(alignFrom(icp), pcl6d::BadArgument);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/data_folder.h"
+#include "support/pcl_peers.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/registration/pcl/icp6d.h>
 
 #include <pcl/io/pcd_io.h>
-#include <pcl/registration/icp.h>
 
 #include <gtest/gtest.h>
 

@@ -13,10 +13,10 @@ using pcl6d::transformed;
 
 namespace {
 using Point = pcl::PointXYZ;
-using Icp = pcl6d::ICP6D<Point, Point, double>;
+using DoubleIcp = pcl6d::ICP6D<Point, Point, double>;
 const Eigen::Vector3d kPlace(6.9e5, 5.3e6, 100); // [m]
 const Eigen::Isometry3d kOffset(Eigen::Translation3d{kPlace});
-const Eigen::Isometry3d kSmall =
+const Eigen::Isometry3d kFarStart =
     pcl6d::poseFromEuler({0.08, -0.06, 0.05}, {0.003, -0.004, 0.005});
 // Double holds the place to 1e-9 m; the poses are products of a few.
 constexpr double kTol = 2e-8; // [m], [rad]
@@ -38,7 +38,7 @@ grid()
 }
 
 void
-setUp(Icp& icp, const Points& source, const Points& target, Metric metric)
+setUp(DoubleIcp& icp, const Points& source, const Points& target, Metric metric)
 {
   icp.setInputSource(toCloud<Point>(source));
   icp.setInputTarget(toCloud<Point>(target));
@@ -60,14 +60,14 @@ expectSameMotion(const Eigen::Isometry3d& found,
 
 TEST(Icp6DFar, AScanFindsItsPlaceInAModelAsItDoesNearTheOrigin)
 {
-  const Points scan = transformed(grid(), kSmall.inverse());
+  const Points scan = transformed(grid(), kFarStart.inverse());
   for (const Metric metric : kMetrics) {
     SCOPED_TRACE(toString(metric));
-    Icp near, far;
+    DoubleIcp near, far;
     setUp(near, scan, grid(), metric);
     alignFrom(near);
     EXPECT_TRUE(near.hasConverged());
-    EXPECT_LT(errorOf(near, kSmall).translation, kExactTol);
+    EXPECT_LT(errorOf(near, kFarStart).translation, kExactTol);
     setUp(far, scan, transformed(grid(), kOffset), metric);
     alignFrom(far, kOffset);
     EXPECT_TRUE(far.hasConverged());
@@ -86,9 +86,9 @@ TEST(Icp6DFar, TwoCloudsMeetWhereTheyLie)
   const Points corner = transformed(grid(), kOffset);
   for (const Metric metric : kMetrics) {
     SCOPED_TRACE(toString(metric));
-    Icp icp;
+    DoubleIcp icp;
     setUp(icp, corner, corner, metric);
-    alignFrom(icp, kOffset * kSmall * kOffset.inverse());
+    alignFrom(icp, kOffset * kFarStart * kOffset.inverse());
     EXPECT_TRUE(icp.hasConverged());
     expectSameMotion(
         icp.result().T_target_source, Eigen::Isometry3d::Identity(), kPlace);
@@ -97,9 +97,9 @@ TEST(Icp6DFar, TwoCloudsMeetWhereTheyLie)
 
 TEST(Icp6DFar, ObserverAndResultSpeakInTheTargetsFrame)
 {
-  Icp icp;
+  DoubleIcp icp;
   setUp(icp,
-        transformed(grid(), kSmall.inverse()),
+        transformed(grid(), kFarStart.inverse()),
         transformed(grid(), kOffset),
         Metric::kPoint);
   IcpIteration last;
@@ -118,11 +118,11 @@ TEST(Icp6DFar, ObserverAndResultSpeakInTheTargetsFrame)
 TEST(Icp6DFar, ThePoseIsKnownAsWellAsNearTheOrigin)
 {
   pcl6d::Random noise(3);
-  Points scan = transformed(grid(), kSmall.inverse());
+  Points scan = transformed(grid(), kFarStart.inverse());
   for (auto& p : scan)
     p[static_cast<int>(noise.uniform(0, 3))] +=
         static_cast<float>(0.01 * noise.normal());
-  Icp near, far;
+  DoubleIcp near, far;
   setUp(near, scan, grid(), Metric::kPoint);
   setUp(far, scan, transformed(grid(), kOffset), Metric::kPoint);
   alignFrom(near);
@@ -151,31 +151,31 @@ TEST(Icp6DFar, ScalarFloatLosesNothingInTheResult)
 
 TEST(Icp6DFar, TheCachedTreeIsCentredToo)
 {
-  Icp icp;
+  DoubleIcp icp;
   icp.setSearchMethodTarget(pcl::make_shared<pcl6d::CachedKdTree<Point>>());
   setUp(icp,
-        transformed(grid(), kSmall.inverse()),
+        transformed(grid(), kFarStart.inverse()),
         transformed(grid(), kOffset),
         Metric::kPlane);
   alignFrom(icp, kOffset);
   EXPECT_LT((Eigen::Isometry3d(icp.getFinalTransformation()).translation() -
-             (kOffset * kSmall).translation())
+             (kOffset * kFarStart).translation())
                 .norm(),
             kExactTol);
 }
 
 TEST(Icp6DFar, ReciprocalPairsAreTheSame)
 {
-  Icp icp;
+  DoubleIcp icp;
   setUp(icp,
-        transformed(grid(), kSmall.inverse()),
+        transformed(grid(), kFarStart.inverse()),
         transformed(grid(), kOffset),
         Metric::kPoint);
   icp.setUseReciprocalCorrespondences(true);
   alignFrom(icp, kOffset);
   EXPECT_TRUE(icp.hasConverged());
   EXPECT_EQ(icp.result().pairs, grid().size());
-  EXPECT_LT(pcl6d::distanceBetween(kOffset * kSmall, icp.result().T_target_source)
+  EXPECT_LT(pcl6d::distanceBetween(kOffset * kFarStart, icp.result().T_target_source)
                 .translation,
             kExactTol);
 }

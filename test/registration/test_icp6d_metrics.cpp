@@ -9,20 +9,21 @@ using pcl6d::Status;
 using pcl6d::transformed;
 
 namespace {
-using Point = pcl::PointNormal;
-using Icp = pcl6d::ICP6D<Point, Point, double>;
+using OrientedPoint = pcl::PointNormal;
+using OrientedDoubleIcp = pcl6d::ICP6D<OrientedPoint, OrientedPoint, double>;
 
 /** \return the corner against another sample of it */
 void
-setUpSamples(Icp& icp)
+setUpSamples(OrientedDoubleIcp& icp)
 {
-  icp.setInputSource(cornerCloud<Point>(cornerPoints(7), kCornerTruth.inverse()));
-  icp.setInputTarget(cornerModel<Point>());
+  icp.setInputSource(
+      cornerCloud<OrientedPoint>(cornerPoints(7), kCornerTruth.inverse()));
+  icp.setInputTarget(cornerModel<OrientedPoint>());
   icp.setMaxCorrespondenceDistance(0.5);
 }
 
 void
-setNormals(pcl::PointCloud<Point>& cloud, const Eigen::Vector3f& normal)
+setNormals(pcl::PointCloud<OrientedPoint>& cloud, const Eigen::Vector3f& normal)
 {
   for (auto& p : cloud)
     p.getNormalVector3fMap() = normal;
@@ -33,10 +34,11 @@ template <typename Change>
 Eigen::Matrix4d
 found(Metric metric, Change change)
 {
-  const auto source = cornerCloud<Point>(cornerPoints(7), kCornerTruth.inverse());
-  const auto target = cornerModel<Point>();
+  const auto source =
+      cornerCloud<OrientedPoint>(cornerPoints(7), kCornerTruth.inverse());
+  const auto target = cornerModel<OrientedPoint>();
   change(*source, *target);
-  Icp icp;
+  OrientedDoubleIcp icp;
   icp.setInputSource(source);
   icp.setInputTarget(target);
   icp.setMaxCorrespondenceDistance(0.5);
@@ -49,7 +51,7 @@ found(Metric metric, Change change)
 
 TEST(Icp6DMetrics, PlanesHoldBetterThanPointsAcrossSamples)
 {
-  Icp icp;
+  OrientedDoubleIcp icp;
   setUpSamples(icp);
   double by_points = 0;
   for (const Metric metric : kMetrics) {
@@ -65,8 +67,8 @@ TEST(Icp6DMetrics, PlanesHoldBetterThanPointsAcrossSamples)
 
 TEST(Icp6DMetrics, GicpIsTheMetricOfGicp6D)
 {
-  Icp icp;
-  pcl6d::GICP6D<Point, Point, double> gicp;
+  OrientedDoubleIcp icp;
+  pcl6d::GICP6D<OrientedPoint, OrientedPoint, double> gicp;
   setUpSamples(icp);
   setUpSamples(gicp);
   icp.setMetric(Metric::kGicp);
@@ -83,9 +85,9 @@ TEST(Icp6DMetrics, NormalsThatAreGivenAreUsed)
 {
   // Wrong ones leave a motion open: all walls look along x.
   for (const Metric metric : {Metric::kPlane, Metric::kGicp}) {
-    Icp icp;
+    OrientedDoubleIcp icp;
     setUpSamples(icp);
-    const auto target = cornerModel<Point>();
+    const auto target = cornerModel<OrientedPoint>();
     setNormals(*target, Eigen::Vector3f::UnitX());
     icp.setInputTarget(target);
     icp.setMetric(metric);
@@ -142,12 +144,12 @@ TEST(Icp6DMetrics, TypesWithoutNormalsGetThem)
 {
   using Xyz = pcl::PointXYZ;
   pcl6d::ICP6D<Xyz, Xyz, double> icp;
-  Icp with_zeros;
+  OrientedDoubleIcp with_zeros;
   icp.setInputSource(cornerCloud<Xyz>(cornerPoints(7), kCornerTruth.inverse()));
   icp.setInputTarget(cornerModel<Xyz>());
   with_zeros.setInputSource(
-      toCloud<Point>(transformed(cornerPoints(7), kCornerTruth.inverse())));
-  with_zeros.setInputTarget(toCloud<Point>(cornerPoints()));
+      toCloud<OrientedPoint>(transformed(cornerPoints(7), kCornerTruth.inverse())));
+  with_zeros.setInputTarget(toCloud<OrientedPoint>(cornerPoints()));
   for (const Metric metric : kMetrics) {
     icp.setMetric(metric);
     with_zeros.setMetric(metric);
@@ -167,9 +169,9 @@ TEST(Icp6DMetrics, WeightsHoldAgainstOutliers)
 {
   for (const Metric metric : kMetrics) {
     SCOPED_TRACE(toString(metric));
-    Icp icp;
-    icp.setInputSource(outlierData<Point>());
-    icp.setInputTarget(cornerModel<Point>());
+    OrientedDoubleIcp icp;
+    icp.setInputSource(outlierData<OrientedPoint>());
+    icp.setInputTarget(cornerModel<OrientedPoint>());
     icp.setMaxCorrespondenceDistance(0.5);
     icp.setMotionEpsilon(1e-7, 1e-7);
     icp.setMetric(metric);
@@ -193,7 +195,7 @@ TEST(Icp6DMetrics, WeightsHoldAgainstOutliers)
 TEST(Icp6DMetrics, ReciprocalPairsAreEachOthersClosest)
 {
   for (const Metric metric : kMetrics) {
-    Icp icp;
+    OrientedDoubleIcp icp;
     setUpSamples(icp);
     icp.setMetric(metric);
     icp.setUseReciprocalCorrespondences(true);
@@ -223,7 +225,7 @@ TEST(Icp6DMetrics, ReciprocalPairsAreEachOthersClosest)
 
 TEST(Icp6DMetrics, TheSymmetricObjectiveIsThatOfIcpWithNormals)
 {
-  pcl6d::ICP6DWithNormals<Point, Point, double> plain, symmetric;
+  pcl6d::ICP6DWithNormals<OrientedPoint, OrientedPoint, double> plain, symmetric;
   setUpSamples(plain);
   setUpSamples(symmetric);
   symmetric.setUseSymmetricObjective(true);
@@ -235,7 +237,7 @@ TEST(Icp6DMetrics, TheSymmetricObjectiveIsThatOfIcpWithNormals)
   EXPECT_TRUE(symmetric.hasConverged());
   EXPECT_LE(symmetric.result().iterations, plain.result().iterations);
   EXPECT_LT(errorOf(symmetric).translation, 2 * errorOf(plain).translation + 1e-4);
-  Icp by_metric;
+  OrientedDoubleIcp by_metric;
   setUpSamples(by_metric);
   by_metric.setMetric(Metric::kPlane);
   alignFrom(by_metric);

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The registrations of PCL that ICP6D takes the place of, on the same clouds.
 #include "icp6d_cases.h"
-
-#include <pcl/registration/gicp.h>
-#include <pcl/registration/icp.h>
+#include "support/pcl_peers.h"
 
 using namespace pcl6d::test;
 using pcl6d::Metric;
 using pcl6d::MotionSize;
 
 namespace {
-using Point = pcl::PointNormal;
+using OrientedPoint = pcl::PointNormal;
 
 /** Registers two samples of a corner of 4 m, with noise of 5 mm and not the same part of
  * it, by a class of PCL and by ours. \return how far they are apart */
@@ -49,8 +47,8 @@ constexpr double kSamePairs = 2e-4; // [m], [rad]
 
 TEST(Icp6DPeers, IterativeClosestPoint)
 {
-  pcl::IterativeClosestPoint<Point, Point, double> theirs;
-  pcl6d::ICP6D<Point, Point, double> ours;
+  pcl::IterativeClosestPoint<OrientedPoint, OrientedPoint, double> theirs;
+  pcl6d::ICP6D<OrientedPoint, OrientedPoint, double> ours;
   const MotionSize error = difference(theirs, ours);
   EXPECT_LT(error.translation, kSamePairs);
   EXPECT_LT(error.rotation, kSamePairs);
@@ -58,16 +56,17 @@ TEST(Icp6DPeers, IterativeClosestPoint)
 
 TEST(Icp6DPeers, IterativeClosestPointWithReciprocalPairs)
 {
-  pcl::IterativeClosestPoint<Point, Point, double> theirs;
-  pcl6d::ICP6D<Point, Point, double> ours;
+  pcl::IterativeClosestPoint<OrientedPoint, OrientedPoint, double> theirs;
+  pcl6d::ICP6D<OrientedPoint, OrientedPoint, double> ours;
   theirs.setUseReciprocalCorrespondences(true);
   ours.setUseReciprocalCorrespondences(true);
   MotionSize error = difference(theirs, ours);
   EXPECT_LT(error.translation, kSamePairs);
   EXPECT_LT(error.rotation, kSamePairs);
   ours.setCorrespondenceEstimation(
-      pcl::make_shared<
-          pcl::registration::CorrespondenceEstimation<Point, Point, double>>());
+      pcl::make_shared<pcl::registration::CorrespondenceEstimation<OrientedPoint,
+                                                                   OrientedPoint,
+                                                                   double>>());
   error = difference(theirs, ours);
   EXPECT_LT(error.translation, kSamePairs);
   EXPECT_LT(error.rotation, kSamePairs);
@@ -75,8 +74,8 @@ TEST(Icp6DPeers, IterativeClosestPointWithReciprocalPairs)
 
 TEST(Icp6DPeers, IterativeClosestPointWithNormals)
 {
-  pcl::IterativeClosestPointWithNormals<Point, Point, double> theirs;
-  pcl6d::ICP6D<Point, Point, double> ours;
+  pcl::IterativeClosestPointWithNormals<OrientedPoint, OrientedPoint, double> theirs;
+  pcl6d::ICP6D<OrientedPoint, OrientedPoint, double> ours;
   ours.setMetric(Metric::kPlane);
   const MotionSize error = difference(theirs, ours);
   EXPECT_LT(error.translation, kSamePairs);

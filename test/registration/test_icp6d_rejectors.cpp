@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCL's rejectors of correspondences, plugged into ICP6D.
 #include "icp6d_cases.h"
+#include "support/pcl_peers.h"
 
 #include <pcl/registration/correspondence_rejection_distance.h>
 #include <pcl/registration/correspondence_rejection_median_distance.h>
 #include <pcl/registration/correspondence_rejection_one_to_one.h>
-#include <pcl/registration/correspondence_rejection_sample_consensus.h>
 #include <pcl/registration/correspondence_rejection_surface_normal.h>
 #include <pcl/registration/correspondence_rejection_trimmed.h>
 #include <pcl/registration/correspondence_rejection_var_trimmed.h>
@@ -15,8 +15,8 @@ using namespace pcl6d::test;
 using pcl6d::Metric;
 
 namespace {
-using Point = pcl::PointNormal;
-using Icp = pcl6d::ICP6D<Point, Point, double>;
+using OrientedPoint = pcl::PointNormal;
+using OrientedDoubleIcp = pcl6d::ICP6D<OrientedPoint, OrientedPoint, double>;
 } // namespace
 
 using Rejector = NamedPart<reg::CorrespondenceRejector::Ptr>;
@@ -25,12 +25,12 @@ class Icp6DRejectors : public testing::TestWithParam<Rejector> {
 protected:
   Icp6DRejectors()
   {
-    icp_.setInputSource(outlierData<Point>());
-    icp_.setInputTarget(cornerModel<Point>());
+    icp_.setInputSource(outlierData<OrientedPoint>());
+    icp_.setInputTarget(cornerModel<OrientedPoint>());
     icp_.setMaxCorrespondenceDistance(0.5);
     icp_.setMotionEpsilon(1e-7, 1e-7); // at rest only after the last outlier is gone
   }
-  Icp icp_;
+  OrientedDoubleIcp icp_;
 };
 
 TEST_P(Icp6DRejectors, LeaveOutWhatWouldPull)
@@ -60,7 +60,7 @@ TEST_P(Icp6DRejectors, GiveTheSameBitsAgain)
 
 TEST_P(Icp6DRejectors, SeeOnlyTheChosenPoints)
 {
-  auto source = cornerData<Point>();
+  auto source = cornerData<OrientedPoint>();
   const auto chosen = pcl::make_shared<pcl::Indices>();
   for (std::size_t i = 0; i < source->size(); ++i)
     if (i % 4 < 2)
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         named<reg::CorrespondenceRejectorMedianDistance,
               reg::CorrespondenceRejector::Ptr>("MedianDistance",
                                                 [](auto& r) { r.setMedianFactor(4); }),
-        named<reg::CorrespondenceRejectorSampleConsensus<Point>,
+        named<reg::CorrespondenceRejectorSampleConsensus<OrientedPoint>,
               reg::CorrespondenceRejector::Ptr>("SampleConsensus",
                                                 [](auto& r) {
                                                   r.setInlierThreshold(0.05);
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Icp6DRejectorOneToOne, LeavesTheClosestOfSeveral)
 {
   // Each point twice, the second time off by 3 cm.
-  auto source = cornerData<Point>();
+  auto source = cornerData<OrientedPoint>();
   const auto copy = *source;
   for (auto p : copy) {
     p.getVector3fMap().array() += 0.03f;
@@ -108,9 +108,9 @@ TEST(Icp6DRejectorOneToOne, LeavesTheClosestOfSeveral)
   }
   for (const Metric metric : kMetrics) {
     SCOPED_TRACE(toString(metric));
-    Icp icp;
+    OrientedDoubleIcp icp;
     icp.setInputSource(source);
-    icp.setInputTarget(cornerModel<Point>());
+    icp.setInputTarget(cornerModel<OrientedPoint>());
     icp.setMaxCorrespondenceDistance(0.06);
     icp.setMotionEpsilon(1e-7, 1e-7);
     icp.setMetric(metric);
@@ -127,9 +127,10 @@ TEST(Icp6DRejectorOneToOne, LeavesTheClosestOfSeveral)
 TEST(Icp6DRejectorVarTrimmed, ChoosesTheShareItself)
 {
   const auto rejector = pcl::make_shared<reg::CorrespondenceRejectorVarTrimmed>();
-  Icp icp;
-  icp.setInputSource(cornerCloud<Point>(cornerPoints(7), kCornerTruth.inverse()));
-  icp.setInputTarget(cornerModel<Point>());
+  OrientedDoubleIcp icp;
+  icp.setInputSource(
+      cornerCloud<OrientedPoint>(cornerPoints(7), kCornerTruth.inverse()));
+  icp.setInputTarget(cornerModel<OrientedPoint>());
   icp.setMaxCorrespondenceDistance(0.5);
   icp.addCorrespondenceRejector(rejector);
   alignFrom(icp);
@@ -153,7 +154,7 @@ TEST(Icp6DRejectorsInTurn, EachSeesWhatTheLastOneLeft)
   };
   const auto first = pcl::make_shared<Counting>();
   const auto second = pcl::make_shared<Counting>();
-  Icp icp;
+  OrientedDoubleIcp icp;
   setUpCorner(icp);
   for (const auto& rejector : {first, second}) {
     rejector->setOverlapRatio(0.5f);

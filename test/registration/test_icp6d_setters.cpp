@@ -17,9 +17,9 @@ namespace {
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
 using Icp = pcl6d::ICP6D<Point, Point>;
-const Eigen::Isometry3d kTruth =
+const Eigen::Isometry3d kCopyTruth =
     pcl6d::poseFromEuler({0.1, -0.06, 0.05}, {0.02, -0.01, 0.03});
-constexpr double kExactTol = 2e-6; // [m], [rad] copies, rounded to float once or twice
+constexpr double kCopiedTol = 2e-6; // [m], [rad] copies, rounded to float once or twice
 
 Cloud::Ptr
 model(std::uint64_t seed = 1)
@@ -32,11 +32,11 @@ Cloud::Ptr
 data(std::uint64_t seed = 1)
 {
   return toCloud<Point>(
-      pcl6d::transformed(pcl6d::toPoints(*model(seed)), kTruth.inverse()));
+      pcl6d::transformed(pcl6d::toPoints(*model(seed)), kCopyTruth.inverse()));
 }
 
 void
-setUp(Icp& icp)
+setUpCopies(Icp& icp)
 {
   icp.setInputSource(data());
   icp.setInputTarget(model());
@@ -55,9 +55,9 @@ expectTruth(Icp& icp)
 {
   align(icp);
   EXPECT_TRUE(icp.hasConverged());
-  const auto error = pcl6d::distanceBetween(kTruth, icp.result().T_target_source);
-  EXPECT_LT(error.translation, kExactTol);
-  EXPECT_LT(error.rotation, kExactTol);
+  const auto error = pcl6d::distanceBetween(kCopyTruth, icp.result().T_target_source);
+  EXPECT_LT(error.translation, kCopiedTol);
+  EXPECT_LT(error.rotation, kCopiedTol);
 }
 } // namespace
 
@@ -65,7 +65,7 @@ TEST(Icp6DSetters, RefuseValuesThatBreakTheirRule)
 {
   const auto refused = [](auto change) {
     Icp icp;
-    setUp(icp);
+    setUpCopies(icp);
     change(icp);
     EXPECT_THROW(align(icp), pcl6d::BadArgument);
   };
@@ -105,7 +105,7 @@ TEST(Icp6DSetters, StopAtTheEpsilonsInPclsUnits)
 {
   const auto lastStep = [](auto change) {
     Icp icp;
-    setUp(icp);
+    setUpCopies(icp);
     change(icp);
     IcpIteration last;
     icp.setObserver([&](const IcpIteration& i) {
@@ -133,7 +133,7 @@ TEST(Icp6DSetters, StopAtTheEpsilonsInPclsUnits)
 TEST(Icp6DSetters, LetAnObserverStopTheRun)
 {
   Icp icp;
-  setUp(icp);
+  setUpCopies(icp);
   int calls = 0;
   icp.setObserver([&](const IcpIteration& i) {
     EXPECT_EQ(i.number, ++calls);

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The search method of the target.
 #include "icp6d_cases.h"
+#include "support/pcl_peers.h"
 
 #include <pcl6d/search/pcl/approximate_kd_tree.h>
 #include <pcl6d/search/pcl/cached_kd_tree.h>
 
 #include <pcl/registration/correspondence_rejection_distance.h>
-#include <pcl/registration/icp.h>
-#include <pcl/registration/transformation_estimation_svd.h>
 
 using namespace pcl6d::test;
 using pcl6d::Metric;
 using pcl6d::Status;
 
 namespace {
-using Point = pcl::PointNormal;
-using Cloud = pcl::PointCloud<Point>;
-using Icp = pcl6d::ICP6D<Point, Point>;
+using OrientedPoint = pcl::PointNormal;
+using OrientedCloud = pcl::PointCloud<OrientedPoint>;
+using OrientedIcp = pcl6d::ICP6D<OrientedPoint, OrientedPoint>;
 
 pcl::registration::CorrespondenceRejector::Ptr
 rejectFar(float distance)
@@ -30,28 +29,28 @@ rejectFar(float distance)
 
 template <typename Tree>
 class Icp6DTrees : public testing::Test {};
-using Trees = testing::Types<pcl6d::KdTree<Point>,
-                             pcl6d::CachedKdTree<Point>,
-                             pcl6d::ApproximateKdTree<Point>,
-                             pcl::search::KdTree<Point>>;
+using Trees = testing::Types<pcl6d::KdTree<OrientedPoint>,
+                             pcl6d::CachedKdTree<OrientedPoint>,
+                             pcl6d::ApproximateKdTree<OrientedPoint>,
+                             pcl::search::KdTree<OrientedPoint>>;
 TYPED_TEST_SUITE(Icp6DTrees, Trees);
 
 TYPED_TEST(Icp6DTrees, AreBuiltOncePerTargetForAllMetrics)
 {
   const auto tree = pcl::make_shared<CountingTree<TypeParam>>();
-  Icp icp;
+  OrientedIcp icp;
   icp.setSearchMethodTarget(tree);
   setUpCorner(icp);
   for (const Metric metric : kMetrics) {
     icp.setMetric(metric);
     expectCorner(icp);
-    icp.setInputSource(cornerData<Point>());
+    icp.setInputSource(cornerData<OrientedPoint>());
     expectCorner(icp);
     icp.getFitnessScore();
   }
   EXPECT_EQ(tree->built, 1);
-  icp.setInputTarget(cornerModel<Point>(2));
-  icp.setInputSource(cornerData<Point>(2));
+  icp.setInputTarget(cornerModel<OrientedPoint>(2));
+  icp.setInputSource(cornerData<OrientedPoint>(2));
   expectCorner(icp);
   EXPECT_EQ(tree->built, 2);
 }
@@ -59,9 +58,9 @@ TYPED_TEST(Icp6DTrees, AreBuiltOncePerTargetForAllMetrics)
 TYPED_TEST(Icp6DTrees, MayBeBuiltBefore)
 {
   const auto tree = pcl::make_shared<CountingTree<TypeParam>>();
-  const auto target = cornerModel<Point>();
+  const auto target = cornerModel<OrientedPoint>();
   tree->setInputCloud(target);
-  Icp icp;
+  OrientedIcp icp;
   setUpCorner(icp);
   icp.setInputTarget(target);
   icp.setSearchMethodTarget(tree, true); // PCL: do not build again
@@ -71,7 +70,7 @@ TYPED_TEST(Icp6DTrees, MayBeBuiltBefore)
 
 TYPED_TEST(Icp6DTrees, MayBeEmptyAndNotToBeBuiltByPcl)
 {
-  Icp icp;
+  OrientedIcp icp;
   setUpCorner(icp);
   icp.setSearchMethodTarget(pcl::make_shared<TypeParam>(), true);
   expectCorner(icp);
@@ -80,11 +79,11 @@ TYPED_TEST(Icp6DTrees, MayBeEmptyAndNotToBeBuiltByPcl)
 TYPED_TEST(Icp6DTrees, MayHoldSomePointsOfTheTarget)
 {
   // The tree knows only every other point; the wrong partners stand in between.
-  const auto target = pcl::make_shared<Cloud>();
+  const auto target = pcl::make_shared<OrientedCloud>();
   const auto indices = pcl::make_shared<pcl::Indices>();
-  const auto model = cornerModel<Point>();
+  const auto model = cornerModel<OrientedPoint>();
   for (const auto& p : *model) {
-    Point wrong = p;
+    OrientedPoint wrong = p;
     wrong.getVector3fMap() += Eigen::Vector3f(0.1f, -0.05f, 0.03f);
     target->push_back(wrong);
     indices->push_back(static_cast<int>(target->size()));
@@ -96,7 +95,7 @@ TYPED_TEST(Icp6DTrees, MayHoldSomePointsOfTheTarget)
   for (const Metric metric : kMetrics)
     for (const int plugs : {0, 1, 2, 3}) { // none, a rejector, also the estimations
       SCOPED_TRACE(std::string(toString(metric)) + " " + std::to_string(plugs));
-      Icp icp;
+      OrientedIcp icp;
       setUpCorner(icp);
       icp.setInputTarget(target);
       icp.setSearchMethodTarget(tree, true);
@@ -106,11 +105,13 @@ TYPED_TEST(Icp6DTrees, MayHoldSomePointsOfTheTarget)
       if (plugs > 1)
         icp.setTransformationEstimation(
             pcl::make_shared<
-                pcl::registration::TransformationEstimationSVD<Point, Point>>());
+                pcl::registration::TransformationEstimationSVD<OrientedPoint,
+                                                               OrientedPoint>>());
       if (plugs > 2)
         icp.setCorrespondenceEstimation(
             pcl::make_shared<
-                pcl::registration::CorrespondenceEstimation<Point, Point>>());
+                pcl::registration::CorrespondenceEstimation<OrientedPoint,
+                                                            OrientedPoint>>());
       expectCorner(icp, plugs > 1 ? 1e-5 : kExactTol); // PCL's steps are of float
       EXPECT_EQ(icp.result().pairs, 1998u);
     }
@@ -118,10 +119,10 @@ TYPED_TEST(Icp6DTrees, MayHoldSomePointsOfTheTarget)
 
 TYPED_TEST(Icp6DTrees, MayHoldNan)
 {
-  auto target = cornerModel<Point>();
+  auto target = cornerModel<OrientedPoint>();
   (*target)[5].x = kNan;
   target->is_dense = false;
-  Icp icp;
+  OrientedIcp icp;
   icp.setSearchMethodTarget(pcl::make_shared<TypeParam>());
   setUpCorner(icp);
   icp.setInputTarget(target);
@@ -139,10 +140,10 @@ TYPED_TEST(Icp6DTrees, KnowThatAPlaneIsOpenButForItsPoints)
                        static_cast<float>(random.uniform(-2, 2)),
                        1.0f);
   for (const Metric metric : kMetrics) {
-    Icp icp;
+    OrientedIcp icp;
     icp.setSearchMethodTarget(pcl::make_shared<TypeParam>());
-    icp.setInputSource(toCloud<Point>(plane));
-    icp.setInputTarget(toCloud<Point>(plane));
+    icp.setInputSource(toCloud<OrientedPoint>(plane));
+    icp.setInputTarget(toCloud<OrientedPoint>(plane));
     icp.setMaxCorrespondenceDistance(0.5);
     icp.setMetric(metric);
     alignFrom(icp);
@@ -157,10 +158,10 @@ TEST(Icp6DTree, OfTheCachedKindStartsAtItsLeaves)
   std::vector<pcl6d::IcpIteration> seen[2];
   Eigen::Isometry3d found[2];
   for (const bool cached : {false, true}) {
-    Icp icp;
+    OrientedIcp icp;
     setUpCorner(icp);
     if (cached)
-      icp.setSearchMethodTarget(pcl::make_shared<pcl6d::CachedKdTree<Point>>());
+      icp.setSearchMethodTarget(pcl::make_shared<pcl6d::CachedKdTree<OrientedPoint>>());
     icp.setObserver([&](const pcl6d::IcpIteration& i) {
       seen[cached].push_back(i);
       return true;
@@ -175,34 +176,35 @@ TEST(Icp6DTree, OfTheCachedKindStartsAtItsLeaves)
   ASSERT_EQ(seen[0].size(), seen[1].size());
   EXPECT_EQ(seen[0].back().from_leaf, 0u);
   EXPECT_EQ(seen[1].front().from_leaf, 0u);
-  EXPECT_EQ(seen[1].back().searched, cornerData<Point>()->size());
-  EXPECT_GT(seen[1].back().from_leaf, cornerData<Point>()->size() * 9 / 10);
+  EXPECT_EQ(seen[1].back().searched, cornerData<OrientedPoint>()->size());
+  EXPECT_GT(seen[1].back().from_leaf, cornerData<OrientedPoint>()->size() * 9 / 10);
 }
 
 TEST(PclIcp, FindsTheSameFromTheLeavesOfTheCachedTree)
 {
-  const auto cached = pcl::make_shared<pcl6d::CachedKdTree<Point>>();
-  const auto align = [](const pcl::search::KdTree<Point>::Ptr& tree) {
-    pcl::IterativeClosestPoint<Point, Point> icp;
+  const auto cached = pcl::make_shared<pcl6d::CachedKdTree<OrientedPoint>>();
+  const auto align = [](const pcl::search::KdTree<OrientedPoint>::Ptr& tree) {
+    pcl::IterativeClosestPoint<OrientedPoint, OrientedPoint> icp;
     icp.setSearchMethodTarget(tree);
     setUpCorner(icp);
-    Cloud aligned;
+    OrientedCloud aligned;
     icp.align(aligned);
     EXPECT_TRUE(icp.hasConverged());
     return icp.getFinalTransformation();
   };
-  const Eigen::Matrix4f expected = align(pcl::make_shared<pcl6d::KdTree<Point>>());
+  const Eigen::Matrix4f expected =
+      align(pcl::make_shared<pcl6d::KdTree<OrientedPoint>>());
   EXPECT_TRUE(sameBits(align(cached), expected));
-  EXPECT_GE(cached->numRemembered(), cornerData<Point>()->size());
+  EXPECT_GE(cached->numRemembered(), cornerData<OrientedPoint>()->size());
 }
 
 TEST(Icp6DTree, OfAnotherCloudIsRefused)
 {
-  const auto tree = pcl::make_shared<pcl6d::KdTree<Point>>();
-  tree->setInputCloud(cornerModel<Point>(5));
-  Icp icp;
+  const auto tree = pcl::make_shared<pcl6d::KdTree<OrientedPoint>>();
+  tree->setInputCloud(cornerModel<OrientedPoint>(5));
+  OrientedIcp icp;
   setUpCorner(icp);
-  icp.setInputTarget(toCloud<Point>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  icp.setInputTarget(toCloud<OrientedPoint>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   icp.setSearchMethodTarget(tree, true);
   EXPECT_THROW(alignFrom(icp),
                pcl6d::BadArgument); // its indices lie outside the target

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ICP: the cases of PCL's registration tests, for PCL's classes and ours.
 #include "as_pcl_cases.h"
+#include "support/pcl_peers.h"
 
 #include <pcl/features/normal_3d.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/registration/correspondence_rejection_median_distance.h>
-#include <pcl/registration/correspondence_rejection_sample_consensus.h>
 
 #include <limits>
 

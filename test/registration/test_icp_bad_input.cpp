@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Input that allows no answer: ICP says so, and never calls a pose fixed that is not.
 #include "icp_cases.h"
+#include "support/constants.h"
 
 using namespace pcl6d; // NOLINT: the whole API of ICP
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::corner;
 using pcl6d::test::kAllMetrics;
+using pcl6d::test::kIdentity;
 using pcl6d::test::kInfinity;
 using pcl6d::test::kNan;
 using pcl6d::test::sameBits;
 using pcl6d::test::Surface;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 
 IcpResult
 run(const Surface& target,

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The two faces of a wall, seen from both its sides, are not one surface.
 #include "icp_cases.h"
+#include "support/constants.h"
 
 using namespace pcl6d; // NOLINT: the whole API of ICP
+using pcl6d::test::kIdentity;
 using pcl6d::test::rectangle;
 using pcl6d::test::Surface;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 
 /** \return a rectangle whose normals point along the axis across it */
 Surface

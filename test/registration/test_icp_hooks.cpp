@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Callers who take part in ICP, and callers who err.
 #include "icp_cases.h"
+#include "support/constants.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -10,8 +11,10 @@ using pcl6d::test::badArgumentOf;
 using pcl6d::test::corner;
 using pcl6d::test::expectSameTrace;
 using pcl6d::test::kAllMetrics;
+using pcl6d::test::kIdentity;
 using pcl6d::test::kInfinity;
 using pcl6d::test::kNan;
+using pcl6d::test::kTruth;
 using pcl6d::test::sameBits;
 using pcl6d::test::Surface;
 using pcl6d::test::Trace;
@@ -19,9 +22,6 @@ using pcl6d::test::traceOf;
 using Pairs = std::vector<IcpPair>;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
-const Eigen::Isometry3d kTruth =
-    poseFromEuler({0.08, -0.06, 0.05}, {0.02, -0.01, 0.03});
 
 class IcpHooksTest : public testing::Test {
 protected:

@@ -1,43 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Truth, convergence and honest refusal of the metrics of ICP.
 #include "icp_cases.h"
+#include "support/constants.h"
 
 using namespace pcl6d; // NOLINT: the whole API of ICP
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::corner;
 using pcl6d::test::kAllMetrics;
+using pcl6d::test::kIdentity;
 using pcl6d::test::kNan;
+using pcl6d::test::kNudge;
 using pcl6d::test::kPlaneMetrics;
+using pcl6d::test::kTruth;
+using pcl6d::test::optionsOf;
 using pcl6d::test::rectangle;
+using pcl6d::test::run;
 using pcl6d::test::sameBits;
 using pcl6d::test::Surface;
-
-namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
-const Eigen::Isometry3d kTruth =
-    poseFromEuler({0.08, -0.06, 0.05}, {0.02, -0.01, 0.03});
-
-IcpResult
-run(const Surface& target,
-    const Surface& source,
-    const IcpOptions& options,
-    const Eigen::Isometry3d& guess = kIdentity)
-{
-  const IcpModel model = target.model(), data = source.model();
-  return icp({model.part()}, data.source(), guess, options);
-}
-
-IcpOptions
-optionsOf(Metric metric)
-{
-  IcpOptions options;
-  options.metric = metric;
-  return options;
-}
-
-const Eigen::Isometry3d kNudge =
-    poseFromEuler({0.02, 0.01, -0.03}, {0.01, 0.01, -0.01});
-} // namespace
 
 TEST(IcpMetrics, FindTheMotionBetweenCopies)
 {

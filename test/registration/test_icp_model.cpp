@@ -9,28 +9,20 @@
 using namespace pcl6d; // NOLINT: the whole API of ICP
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::corner;
+using pcl6d::test::kExactSearches;
+using pcl6d::test::kTruth;
 using pcl6d::test::Surface;
-
-namespace {
-constexpr SearchMethod kExact[] = {SearchMethod::kKdTree,
-                                   SearchMethod::kCachedTree,
-                                   SearchMethod::kOctree,
-                                   SearchMethod::kBruteForce,
-                                   SearchMethod::kFlann};
-const Eigen::Isometry3d kStart =
-    poseFromEuler({0.08, -0.06, 0.05}, {0.02, -0.01, 0.03});
-} // namespace
 
 TEST(IcpModel, FindsTheSamePoseApproximately)
 {
   Random random(8);
   const Surface scene = corner(random, 3000, 2, 0.002);
   const IcpModel model = scene.model(SearchMethod::kApproximate);
-  const IcpModel data = scene.moved(kStart.inverse()).model();
+  const IcpModel data = scene.moved(kTruth.inverse()).model();
   const IcpResult result =
       icp({model.part()}, data.source(), Eigen::Isometry3d::Identity(), {});
   EXPECT_EQ(result.status, Status::kOk);
-  EXPECT_LT(distanceBetween(kStart, result.T_target_source).translation, 1e-3);
+  EXPECT_LT(distanceBetween(kTruth, result.T_target_source).translation, 1e-3);
 }
 
 TEST(IcpModel, EstimatesNormalsOrTakesThem)
@@ -70,8 +62,8 @@ TEST(IcpModel, OutlivesCopiesAndMoves)
 {
   Random random(10);
   const Surface scene = corner(random, 600, 2, 0.01);
-  const IcpModel data = scene.moved(kStart.inverse()).model();
-  for (const SearchMethod search : kExact) {
+  const IcpModel data = scene.moved(kTruth.inverse()).model();
+  for (const SearchMethod search : kExactSearches) {
     auto first = std::make_unique<IcpModel>(scene.model(search));
     const IcpModel copy = *first;
     const IcpResult expected =
@@ -90,7 +82,7 @@ TEST(IcpModel, TakesASearchOfTheCaller)
 {
   Random random(11);
   const Surface scene = corner(random, 900, 2, 0.01);
-  const IcpModel data = scene.moved(kStart.inverse()).model();
+  const IcpModel data = scene.moved(kTruth.inverse()).model();
   std::size_t made = 0;
   std::atomic<std::size_t> asked = 0; // by several threads
   IcpModel::Options options;

@@ -6,18 +6,15 @@ using namespace pcl6d; // NOLINT: the whole API of ICP
 using pcl6d::test::corner;
 using pcl6d::test::expectSameTrace;
 using pcl6d::test::kAllMetrics;
+using pcl6d::test::kExactSearches;
 using pcl6d::test::kNan;
+using pcl6d::test::kTruth;
 using pcl6d::test::pairsByForce;
 using pcl6d::test::Surface;
 using pcl6d::test::Trace;
 using pcl6d::test::traceOf;
 
 namespace {
-constexpr SearchMethod kExact[] = {SearchMethod::kKdTree,
-                                   SearchMethod::kCachedTree,
-                                   SearchMethod::kOctree,
-                                   SearchMethod::kBruteForce,
-                                   SearchMethod::kFlann};
 
 /** Expects the same way to the same pose from every exact search, and without memory.
  * \return the number of iterations */
@@ -31,7 +28,7 @@ expectOneTrace(const Surface& target,
   const IcpModel brute = target.model(SearchMethod::kBruteForce);
   options.remember_neighbours = false;
   const Trace expected = traceOf({brute.part()}, data.source(), options, guess);
-  for (const SearchMethod search : kExact) {
+  for (const SearchMethod search : kExactSearches) {
     SCOPED_TRACE(toString(search));
     const IcpModel model = target.model(search);
     expectSameTrace(traceOf({model.part()}, data.source(), options, guess), expected);
@@ -102,8 +99,6 @@ randomSteps(Random& random, std::size_t count, double length)
   return steps;
 }
 
-const Eigen::Isometry3d kStart =
-    poseFromEuler({0.08, -0.06, 0.05}, {0.02, -0.01, 0.03});
 } // namespace
 
 TEST(IcpNeighbours, AreThoseOfEverySearchOnTheWay)
@@ -115,7 +110,7 @@ TEST(IcpNeighbours, AreThoseOfEverySearchOnTheWay)
     SCOPED_TRACE(toString(metric));
     IcpOptions options;
     options.metric = metric;
-    EXPECT_GT(expectOneTrace(target, source, options, kStart), 3u);
+    EXPECT_GT(expectOneTrace(target, source, options, kTruth), 3u);
   }
 }
 
@@ -127,11 +122,11 @@ TEST(IcpNeighbours, StaySoWhileTheLimitShrinks)
   IcpOptions options;
   options.max_distance_start = 1;
   options.max_distance = 0.04; // below the spacing of the points
-  EXPECT_GT(expectOneTrace(target, source, options, kStart), 30u);
+  EXPECT_GT(expectOneTrace(target, source, options, kTruth), 30u);
   options.kept_share = 0.7;
-  expectOneTrace(target, source, options, kStart);
+  expectOneTrace(target, source, options, kTruth);
   options.robust = RobustKernel::kCauchy;
-  expectOneTrace(target, source, options, kStart);
+  expectOneTrace(target, source, options, kTruth);
 }
 
 TEST(IcpNeighbours, StaySoWithDuplicatesAndNan)
@@ -145,7 +140,7 @@ TEST(IcpNeighbours, StaySoWithDuplicatesAndNan)
     target.points[i].x() = kNan;
   for (std::size_t i = 0; i < source.points.size(); i += 5)
     source.points[i].z() = i % 2 ? kNan : test::kInfinity;
-  expectOneTrace(target, source, {}, kStart);
+  expectOneTrace(target, source, {}, kTruth);
 }
 
 TEST(IcpNeighbours, StaySoWithTiesOnGrids)
@@ -180,11 +175,11 @@ TEST(IcpNeighbours, AreRememberedNearTheEnd)
   const Surface source = corner(random, 3000, 4, 0.01);
   const IcpModel model = target.model(), data = source.model();
   IcpOptions options;
-  const Trace trace = traceOf({model.part()}, data.source(), options, kStart);
+  const Trace trace = traceOf({model.part()}, data.source(), options, kTruth);
   EXPECT_EQ(trace.seen.front().searched, source.points.size());
   EXPECT_LT(trace.seen.back().searched, source.points.size() / 5);
   options.remember_neighbours = false;
-  const Trace forgets = traceOf({model.part()}, data.source(), options, kStart);
+  const Trace forgets = traceOf({model.part()}, data.source(), options, kTruth);
   EXPECT_EQ(forgets.seen.back().searched, source.points.size());
 }
 
@@ -201,7 +196,7 @@ TEST(IcpNeighbours, AreSearchedFromTheirLeavesByTheCachedTree)
   for (const bool remember : {true, false}) { // another memory
     options.remember_neighbours = remember;
     const IcpModel model = target.model(SearchMethod::kCachedTree);
-    const Trace trace = traceOf({model.part()}, data.source(), options, kStart);
+    const Trace trace = traceOf({model.part()}, data.source(), options, kTruth);
     ASSERT_GT(trace.seen.size(), 3u);
     EXPECT_EQ(trace.seen.front().from_leaf, 0u);
     for (std::size_t i = 0; i < trace.seen.size(); ++i) {
@@ -214,7 +209,7 @@ TEST(IcpNeighbours, AreSearchedFromTheirLeavesByTheCachedTree)
   }
   for (const SearchMethod search : {SearchMethod::kKdTree, SearchMethod::kOctree}) {
     const IcpModel model = target.model(search);
-    const Trace trace = traceOf({model.part()}, data.source(), {}, kStart);
+    const Trace trace = traceOf({model.part()}, data.source(), {}, kTruth);
     EXPECT_EQ(trace.seen.back().searched, all) << "remembers nothing";
     EXPECT_EQ(trace.seen.back().from_leaf, 0u);
   }

@@ -1,33 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes that leave motions open: ICP must not call their pose fixed.
 #include "icp_cases.h"
+#include "support/constants.h"
 
 using namespace pcl6d; // NOLINT: the whole API of ICP
 using pcl6d::test::corner;
 using pcl6d::test::kAllMetrics;
+using pcl6d::test::kIdentity;
+using pcl6d::test::kNudge;
+using pcl6d::test::optionsOf;
 using pcl6d::test::rectangle;
+using pcl6d::test::run;
 using pcl6d::test::Surface;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
-
-IcpResult
-run(const Surface& target,
-    const Surface& source,
-    const IcpOptions& options,
-    const Eigen::Isometry3d& guess = kIdentity)
-{
-  const IcpModel model = target.model(), data = source.model();
-  return icp({model.part()}, data.source(), guess, options);
-}
-
-IcpOptions
-optionsOf(Metric metric)
-{
-  IcpOptions options;
-  options.metric = metric;
-  return options;
-}
 
 /** \return the surface with normals estimated from its points */
 Surface
@@ -74,8 +60,6 @@ sphere(Random& random, double sigma, const Eigen::Vector3d& centre)
 }
 
 const Eigen::Isometry3d kTilted = poseFromEuler({2, -3, 4}, {0.5, -0.4, 0.3});
-const Eigen::Isometry3d kNudge =
-    poseFromEuler({0.02, 0.01, -0.03}, {0.01, 0.01, -0.01});
 } // namespace
 
 class OpenScenes : public testing::TestWithParam<double> {

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A target of many parts is the union of the parts.
 #include "icp_cases.h"
+#include "support/constants.h"
 
 using namespace pcl6d; // NOLINT: the whole API of ICP
 using pcl6d::test::corner;
 using pcl6d::test::expectSameTrace;
 using pcl6d::test::kAllMetrics;
+using pcl6d::test::kIdentity;
 using pcl6d::test::kNan;
+using pcl6d::test::kTruth;
 using pcl6d::test::sameBits;
 using pcl6d::test::Surface;
 using pcl6d::test::Trace;
 using pcl6d::test::traceOf;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
-const Eigen::Isometry3d kStart =
-    poseFromEuler({0.08, -0.06, 0.05}, {0.02, -0.01, 0.03});
 
 /** A room corner, cut into parts, each in a frame of its own. */
 struct Puzzle {
@@ -71,8 +71,8 @@ TEST(IcpParts, AreTheirUnion)
       SCOPED_TRACE(testing::Message() << count << " parts, " << toString(metric));
       IcpOptions options;
       options.metric = metric;
-      expectNear(icp(puzzle.target(), data.source(), kStart, options),
-                 icp({whole.part()}, data.source(), kStart, options));
+      expectNear(icp(puzzle.target(), data.source(), kTruth, options),
+                 icp({whole.part()}, data.source(), kTruth, options));
     }
   }
 }
@@ -84,10 +84,10 @@ TEST(IcpParts, AreExactWithAndWithoutMemory)
   for (int trial = 0; trial < 10; ++trial) {
     const Puzzle puzzle(random, 5, 5);
     IcpOptions options;
-    const Trace remembers = traceOf(puzzle.target(), data.source(), options, kStart);
+    const Trace remembers = traceOf(puzzle.target(), data.source(), options, kTruth);
     options.remember_neighbours = false;
     expectSameTrace(remembers,
-                    traceOf(puzzle.target(), data.source(), options, kStart));
+                    traceOf(puzzle.target(), data.source(), options, kTruth));
     EXPECT_LT(remembers.seen.back().searched, 450u);
   }
 }
@@ -100,9 +100,9 @@ TEST(IcpParts, AreExactFarFromTheirOwnOrigins)
   for (int trial = 0; trial < 10; ++trial) {
     const Puzzle puzzle(random, 3, 2000);
     IcpOptions options;
-    const Trace remembers = traceOf(puzzle.target(), data.source(), options, kStart);
+    const Trace remembers = traceOf(puzzle.target(), data.source(), options, kTruth);
     options.remember_neighbours = false;
-    const Trace forgets = traceOf(puzzle.target(), data.source(), options, kStart);
+    const Trace forgets = traceOf(puzzle.target(), data.source(), options, kTruth);
     expectSameTrace(remembers, forgets);
   }
 }
@@ -114,7 +114,7 @@ TEST(IcpParts, MayBeSearchedInDifferentWays)
   const IcpModel data = corner(random, 900, 2, 0.01).model();
   const Puzzle puzzle(random, 3, 5);
   IcpOptions options;
-  const Trace expected = traceOf(puzzle.target(), data.source(), options, kStart);
+  const Trace expected = traceOf(puzzle.target(), data.source(), options, kTruth);
   for (std::size_t special = 0; special < 3; ++special)
     for (const SearchMethod search : {SearchMethod::kKdTree,
                                       SearchMethod::kCachedTree,
@@ -128,7 +128,7 @@ TEST(IcpParts, MayBeSearchedInDifferentWays)
       const IcpModel model(
           puzzle.models[special].points(), puzzle.models[special].normals(), of_model);
       mixed[special] = model.part(puzzle.poses[special]);
-      expectSameTrace(traceOf(mixed, data.source(), options, kStart), expected);
+      expectSameTrace(traceOf(mixed, data.source(), options, kTruth), expected);
     }
 }
 
@@ -144,8 +144,8 @@ TEST(IcpParts, OfOneAtAPoseAreTheMovedTarget)
     IcpOptions options;
     options.metric = metric;
     const IcpResult result =
-        icp({model.part(pose)}, data.source(), pose * kStart, options);
-    expectNear(result, icp({moved.part()}, data.source(), pose * kStart, options));
+        icp({model.part(pose)}, data.source(), pose * kTruth, options);
+    expectNear(result, icp({moved.part()}, data.source(), pose * kTruth, options));
     EXPECT_EQ(result.status, Status::kOk);
   }
 }
@@ -157,17 +157,17 @@ TEST(IcpParts, MayBeEmpty)
   const IcpModel model = corner(random, 1800, 2, 0.01).model();
   const IcpModel none(Points(), {});
   const IcpModel bad({{kNan, 0, 0}, {0, kNan, 0}, {0, 0, kNan}}, {});
-  const Trace expected = traceOf({model.part()}, data.source(), {}, kStart);
-  expectSameTrace(traceOf({none.part(), model.part(), bad.part(kStart), none.part()},
+  const Trace expected = traceOf({model.part()}, data.source(), {}, kTruth);
+  expectSameTrace(traceOf({none.part(), model.part(), bad.part(kTruth), none.part()},
                           data.source(),
                           {},
-                          kStart),
+                          kTruth),
                   expected);
   for (const IcpTarget& empty :
        {IcpTarget(), IcpTarget{none.part()}, IcpTarget{none.part(), bad.part()}}) {
-    const IcpResult result = icp(empty, data.source(), kStart, {});
+    const IcpResult result = icp(empty, data.source(), kTruth, {});
     EXPECT_EQ(result.status, Status::kTooFewPairs);
-    EXPECT_TRUE(sameBits(result.T_target_source, kStart));
+    EXPECT_TRUE(sameBits(result.T_target_source, kTruth));
     EXPECT_EQ(result.overlap, 0);
     EXPECT_FALSE(result.information);
     EXPECT_FALSE(result.localizability);
@@ -180,8 +180,8 @@ TEST(IcpParts, MayOverlapAndRepeat)
   Random random(7);
   const IcpModel data = corner(random, 900, 2, 0.01).model();
   const IcpModel model = corner(random, 1800, 2, 0.01).model();
-  expectNear(icp({model.part(), model.part(), model.part()}, data.source(), kStart, {}),
-             icp({model.part()}, data.source(), kStart, {}));
+  expectNear(icp({model.part(), model.part(), model.part()}, data.source(), kTruth, {}),
+             icp({model.part()}, data.source(), kTruth, {}));
 }
 
 TEST(IcpParts, GiveTheSameBitsForEveryNumberOfThreads)
@@ -198,10 +198,10 @@ TEST(IcpParts, GiveTheSameBitsForEveryNumberOfThreads)
       options.kept_share = robust == RobustKernel::kNone ? 1 : 0.8;
       options.max_distance_start = 0.5;
       options.num_threads = 1;
-      const Trace first = traceOf(puzzle.target(), data.source(), options, kStart);
+      const Trace first = traceOf(puzzle.target(), data.source(), options, kTruth);
       for (const unsigned int threads : {2u, 3u, 8u}) {
         options.num_threads = threads;
-        const Trace trace = traceOf(puzzle.target(), data.source(), options, kStart);
+        const Trace trace = traceOf(puzzle.target(), data.source(), options, kTruth);
         expectSameTrace(trace, first);
         EXPECT_EQ(trace.seen.back().searched, first.seen.back().searched);
         EXPECT_TRUE(sameBits(*trace.result.information, *first.result.information));
@@ -216,8 +216,8 @@ TEST(IcpParts, MayAllBeCachedTrees)
     const Puzzle puzzle(random, 5, 5);
     const Puzzle cached(again, 5, 5, SearchMethod::kCachedTree);
     const IcpModel data = corner(random, 900, 2, 0.01).model();
-    const Trace trace = traceOf(cached.target(), data.source(), {}, kStart);
-    expectSameTrace(trace, traceOf(puzzle.target(), data.source(), {}, kStart));
+    const Trace trace = traceOf(cached.target(), data.source(), {}, kTruth);
+    expectSameTrace(trace, traceOf(puzzle.target(), data.source(), {}, kTruth));
     EXPECT_EQ(trace.seen.back().searched, data.points().size());
     EXPECT_GT(trace.seen.back().from_leaf, data.points().size() / 2);
   }

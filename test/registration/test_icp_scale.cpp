@@ -3,11 +3,11 @@
 #include "icp6d_cases.h"
 #include "icp_cases.h"
 #include "support/pairs.h"
+#include "support/pcl_peers.h"
 
 #include <pcl6d/registration/minimisers.h>
 #include <pcl6d/registration/pcl/transformation_estimation_scale_quaternion.h>
 
-#include <pcl/registration/icp.h>
 #include <pcl/registration/transformation_estimation_svd_scale.h>
 
 #include <cmath>
@@ -26,12 +26,12 @@ namespace {
 // and more, times 5.
 constexpr double kScaleTol = 2e-8;
 constexpr double kPoseTol = 1e-7; // [m], [rad]
-const Eigen::Isometry3d kTruth =
+const Eigen::Isometry3d kSmallTruth =
     poseFromEuler({0.02, -0.015, 0.01}, {0.005, -0.004, 0.006});
 
 /** \return the source that a scale and a pose take to the target */
 Points
-sourceOf(const Points& target, double scale, const Eigen::Isometry3d& T = kTruth)
+sourceOf(const Points& target, double scale, const Eigen::Isometry3d& T = kSmallTruth)
 {
   Points source;
   for (const auto& m : target)
@@ -81,8 +81,9 @@ TEST(IcpScale, IsFoundAndAppliedExactly)
     const IcpResult found = match(target, sourceOf(target, scale), scaled());
     EXPECT_EQ(found.status, Status::kOk);
     EXPECT_NEAR(found.scale, scale, kScaleTol);
-    EXPECT_LT(distanceBetween(kTruth, found.T_target_source).translation, kPoseTol);
-    EXPECT_LT(distanceBetween(kTruth, found.T_target_source).rotation, kPoseTol);
+    EXPECT_LT(distanceBetween(kSmallTruth, found.T_target_source).translation,
+              kPoseTol);
+    EXPECT_LT(distanceBetween(kSmallTruth, found.T_target_source).rotation, kPoseTol);
     EXPECT_LT(found.rms, 5e-7) << "[m] the source lies on the target";
     EXPECT_EQ(found.pairs, target.size());
   }
@@ -202,7 +203,7 @@ TEST(Icp6DScale, IsInTheMatrixAndInTheOutput)
   icp.align(aligned);
   EXPECT_TRUE(icp.hasConverged());
   EXPECT_NEAR(icp.result().scale, scale, kScaleTol);
-  Eigen::Matrix4d expected = kTruth.matrix();
+  Eigen::Matrix4d expected = kSmallTruth.matrix();
   expected.topLeftCorner<3, 3>() *= scale;
   EXPECT_LT((icp.getFinalTransformation() - expected).norm(), 5 * kPoseTol);
   for (std::size_t i = 0; i < target.size(); ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trimmed and robust ICP: what each pair counts.
 #include "icp_cases.h"
+#include "support/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +10,12 @@ using namespace pcl6d; // NOLINT: the whole API of ICP
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::corner;
 using pcl6d::test::kAllMetrics;
+using pcl6d::test::kIdentity;
 using pcl6d::test::kNan;
 using pcl6d::test::rectangle;
 using pcl6d::test::Surface;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 
 /** \return the weight of the last of some pairs with known distances */
 double

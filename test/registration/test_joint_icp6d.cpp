@@ -14,7 +14,7 @@ using pcl6d::Status;
 namespace {
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
-using Ours = pcl6d::JointICP6D<Point, Point>;
+using Joint = pcl6d::JointICP6D<Point, Point>;
 
 /** \return a wall of 2 m, across an axis, in a frame of its own */
 Points
@@ -119,7 +119,7 @@ TEST(OurJoint, DoesNotMixThePairs)
   Points second;
   for (const auto& p : first)
     second.push_back(p + Eigen::Vector3f(0.04f, 0.04f, 0.04f));
-  Ours icp;
+  Joint icp;
   icp.addInputSource(moved(first));
   icp.addInputTarget(toCloud<Point>(first));
   icp.addInputSource(moved(second));
@@ -135,13 +135,13 @@ TEST(OurJoint, DoesNotMixThePairs)
 
 TEST(OurJoint, SaysOfEachPairAloneThatItIsNotEnough)
 {
-  Ours all;
+  Joint all;
   all.setMetric(Metric::kPlane);
   addWalls(all);
   alignFrom(all);
   EXPECT_TRUE(all.hasConverged());
   EXPECT_LT(errorOf(all).translation, 1e-3);
-  Ours one;
+  Joint one;
   one.setMetric(Metric::kPlane);
   one.addInputSource(moved(wall(0, 1)));
   one.addInputTarget(toCloud<Point>(wall(0, 2)));
@@ -155,7 +155,7 @@ TEST(OurJoint, TakesNormalsFromTheirOwnCloud)
 {
   // Walls across z and x that stand in one place: normals of the union would be wrong.
   for (const Metric metric : {Metric::kPlane, Metric::kGicp}) {
-    Ours icp;
+    Joint icp;
     icp.setMetric(metric);
     for (int axis = 0; axis < 3; ++axis)
       for (const std::uint64_t seed : {1u, 5u}) {
@@ -179,7 +179,7 @@ TEST(OurJoint, GivesTheSameBitsForAnyNumberOfThreads)
 {
   Eigen::Matrix4f first = Eigen::Matrix4f::Zero();
   for (const unsigned int threads : {1u, 2u, 3u}) {
-    Ours icp;
+    Joint icp;
     icp.setNumberOfThreads(threads);
     icp.setUseReciprocalCorrespondences(true);
     addWalls(icp);
@@ -225,7 +225,7 @@ TEST(OurJoint, KeepsItsDigitsInUtmCoordinates)
 
 TEST(OurJoint, OutputIsAllSourcesMoved)
 {
-  Ours icp;
+  Joint icp;
   addWalls(icp);
   Cloud aligned;
   icp.align(aligned);
@@ -239,7 +239,7 @@ TEST(OurJoint, OutputIsAllSourcesMoved)
 
 TEST(OurJoint, ShowsEachIterationAndKeepsTheState)
 {
-  Ours icp;
+  Joint icp;
   addWalls(icp);
   int calls = 0;
   std::function<void(
@@ -262,7 +262,7 @@ TEST(OurJoint, ShowsEachIterationAndKeepsTheState)
 
 TEST(OurJoint, SaysWhatIsWrong)
 {
-  Ours icp;
+  Joint icp;
   const auto align = [&] { alignFrom(icp); };
   EXPECT_FALSE(badArgumentOf([&] { icp.setInputSource(cornerData<Point>()); }).empty());
   EXPECT_FALSE(badArgumentOf([&] { icp.setInputTarget(cornerData<Point>()); }).empty());
@@ -292,7 +292,7 @@ TEST(OurJoint, FindsNothingInCloudsWithoutPoints)
 {
   const auto nan = toCloud<Point>({{kNan, 0, 0}, {kNan, 0, 0}});
   for (const auto& cloud : {pcl::make_shared<Cloud>(), nan}) {
-    Ours icp;
+    Joint icp;
     icp.addInputSource(cloud);
     icp.addInputTarget(cloud);
     alignFrom(icp);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rigid_cases.h"
+#include "support/fit_oracles.h"
 #include "support/pairs.h"
 
 #include <pcl6d/registration/linear_minimiser.h>
 #include <pcl6d/registration/twist.h>
 
-#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <unsupported/Eigen/MatrixFunctions>
@@ -15,14 +16,14 @@ using pcl6d::RigidMinimiser;
 using pcl6d::skew;
 using pcl6d::Status;
 using pcl6d::Twist;
+using pcl6d::test::kRigidHalf;
 using pcl6d::test::movedPairs;
 using pcl6d::test::Pairs;
 using pcl6d::test::randomPoints;
 using pcl6d::test::randomPose;
 
 namespace {
-constexpr std::size_t kPairs = 60;
-constexpr double kHalf = 10; // [m] half side of the cube that holds the points
+constexpr std::size_t kFewPairs = 60;
 // Central differences of width h: rounding 1e-16 / h and h^2 / 6 of a third derivative
 // near 1 balance at h = 1e-5, with 4e-11 in all; times 10.
 constexpr double kStep = 1e-5;
@@ -62,7 +63,7 @@ denseSolution(const Pairs& pairs)
     M.block<3, 3>(3 * i, 3) = -skew(pairs.source[i] - sums.mean_source);
     Z.segment<3>(3 * i) = pairs.target[i] - pairs.source[i];
   }
-  return M.colPivHouseholderQr().solve(Z);
+  return pcl6d::test::leastSquares(M, Z);
 }
 } // namespace
 
@@ -123,10 +124,10 @@ TEST(LinearSteps, SolveTheSameNormalEquations)
   const double angle = 1e-5;
   for (const double centre : {0.0, 1e3}) {
     const Pairs pairs = movedPairs(
-        randomPoints(random, kPairs, kHalf, Eigen::Vector3d::Constant(centre)),
+        randomPoints(random, kFewPairs, kRigidHalf, Eigen::Vector3d::Constant(centre)),
         Eigen::Isometry3d::Identity(),
         random,
-        angle * kHalf);
+        angle * kRigidHalf);
     const Twist expected = denseSolution(pairs);
     const auto sums = pairs.sums();
     for (const RigidMinimiser& step : {RigidMinimiser(pcl6d::stepByHelix),
@@ -139,7 +140,8 @@ TEST(LinearSteps, SolveTheSameNormalEquations)
       const Eigen::Vector3d shift =
           found.transform * sums.mean_source - sums.mean_source;
       EXPECT_LT((turn - expected.tail<3>()).norm(), angle * angle);
-      EXPECT_LT((shift - expected.head<3>()).norm(), angle * angle * kHalf + 1e-12);
+      EXPECT_LT((shift - expected.head<3>()).norm(),
+                angle * angle * kRigidHalf + 1e-12);
     }
   }
 }
@@ -148,7 +150,8 @@ TEST(LinearSteps, AreTheirOwnMotions)
 {
   Random random(5);
   const Eigen::Isometry3d truth = randomPose(random, 3, 0.4);
-  const Pairs pairs = movedPairs(randomPoints(random, kPairs, kHalf), truth, random);
+  const Pairs pairs =
+      movedPairs(randomPoints(random, kFewPairs, kRigidHalf), truth, random);
   const Twist u = denseSolution(pairs);
   const auto all = pairs.sums();
   const Eigen::Vector3d to = motionFromTwist(u).translation();
@@ -171,8 +174,10 @@ TEST(LinearMinimisers, ConvergeWhenTheTargetIsLarger)
 {
   // Plain steps would be three times too long and run away.
   Random random(6);
-  Pairs pairs = movedPairs(
-      randomPoints(random, kPairs, kHalf), randomPose(random, 1, 0.5), random, 0.05);
+  Pairs pairs = movedPairs(randomPoints(random, kFewPairs, kRigidHalf),
+                           randomPose(random, 1, 0.5),
+                           random,
+                           0.05);
   for (auto& m : pairs.target)
     m *= 3;
   const auto best = pcl6d::minimiseBySVD(pairs.sums());
@@ -204,7 +209,7 @@ TEST(LinearMinimisers, DoNotTakeAHalfTurnForTheMinimum)
 TEST(LinearMinimisers, GoThroughAPitchOfARightAngle)
 {
   Random random(7);
-  const auto source = randomPoints(random, kPairs, kHalf);
+  const auto source = randomPoints(random, kFewPairs, kRigidHalf);
   for (const double pitch : {M_PI / 2, M_PI / 2 - 1e-9, -M_PI / 2, 1.57}) {
     const Eigen::Isometry3d truth = pcl6d::poseFromEuler({1, 2, 3}, {0.3, pitch, -0.4});
     const auto found = pcl6d::minimiseByEuler(movedPairs(source, truth, random).sums());
@@ -217,7 +222,7 @@ TEST(QuaternionUnconstrained, IsOffByTheScaleTimesTheDistanceOfTheCentroid)
 {
   // The book's 4.1.3.4: the same problem, 5 cm of noise, at 0 to 300 m from the origin.
   Random random(8);
-  const auto points = randomPoints(random, kPairs, kHalf);
+  const auto points = randomPoints(random, kFewPairs, kRigidHalf);
   const Eigen::Isometry3d truth = randomPose(random, 1, 0.4);
   const Pairs near = movedPairs(points, truth, random, 0.05);
   double last = 0;
@@ -251,7 +256,7 @@ TEST(QuaternionUnconstrained, IsExactWithoutNoise)
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Isometry3d truth = randomPose(random, 20, 1);
     const auto found = pcl6d::minimiseByQuaternionUnconstrained(
-        movedPairs(randomPoints(random, kPairs, kHalf), truth, random).sums());
+        movedPairs(randomPoints(random, kFewPairs, kRigidHalf), truth, random).sums());
     EXPECT_EQ(found.status, Status::kOk);
     EXPECT_LT(pcl6d::distanceBetween(truth, found.transform).translation, 1e-11);
     EXPECT_LT(pcl6d::distanceBetween(truth, found.transform).rotation, 1e-12);

@@ -16,18 +16,19 @@ using pcl6d::Twist;
 using pcl6d::test::normalVector;
 
 namespace {
-constexpr int kCount = 3000;
-const Eigen::Isometry3d kPose = pcl6d::poseFromEuler({20, -10, 5}, {0.4, -0.3, 1.2});
+constexpr int kSamples = 3000;
+const Eigen::Isometry3d kScenePose =
+    pcl6d::poseFromEuler({20, -10, 5}, {0.4, -0.3, 1.2});
 
-/** Sums of pairs that touch, given by a place and a normal in a scene at kPose. */
+/** Sums of pairs that touch, given by a place and a normal in a scene at kScenePose. */
 template <typename Draw>
 PlaneSums
 sumsOf(Draw draw)
 {
   PlaneAccumulator sums;
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < kSamples; ++i) {
     const auto [place, normal] = draw(i);
-    sums.add(kPose * place, kPose * place, kPose.linear() * normal);
+    sums.add(kScenePose * place, kScenePose * place, kScenePose.linear() * normal);
   }
   return sums.sums();
 }
@@ -60,8 +61,9 @@ velocityAt(const Localizability& found, int i, const Eigen::Vector3d& place)
 {
   const Twist u = found.directions.col(i);
   const Eigen::Vector3d turn = u.tail<3>();
-  const Eigen::Vector3d v = u.head<3>() + turn.cross(kPose * place - found.centroid);
-  return kPose.linear().transpose() * v;
+  const Eigen::Vector3d v =
+      u.head<3>() + turn.cross(kScenePose * place - found.centroid);
+  return kScenePose.linear().transpose() * v;
 }
 } // namespace
 
@@ -77,7 +79,7 @@ TEST(Localizability, OfABoxIsFixedInAllDirections)
   EXPECT_NEAR(found.eigenvalues.sum(), 1 + 0.6, 0.02);
   EXPECT_NEAR(found.eigenvalues(5), 1.0 / 3, 0.02);
   EXPECT_NEAR(found.eigenvalues(0), 0.2, 0.02);
-  EXPECT_LT((found.centroid - kPose.translation()).norm(), 0.1);
+  EXPECT_LT((found.centroid - kScenePose.translation()).norm(), 0.1);
 }
 
 TEST(Localizability, OfACorridorIsOpenAlongIt)
@@ -93,7 +95,7 @@ TEST(Localizability, OfACorridorIsOpenAlongIt)
   expectSound(found);
   EXPECT_EQ(found.openDirections(), 1);
   EXPECT_LT(found.eigenvalues(0), 1e-12);
-  const Eigen::Vector3d along = kPose.linear().col(0);
+  const Eigen::Vector3d along = kScenePose.linear().col(0);
   EXPECT_NEAR(std::abs(found.directions.col(0).head<3>().dot(along)), 1, 1e-9);
   EXPECT_LT(found.directions.col(0).tail<3>().norm(), 1e-6);
 }
@@ -156,7 +158,7 @@ TEST(Localizability, DoesNotDependOnWhereTheSceneStandsNorOnItsUnit)
   const auto with = [](double unit, const Eigen::Vector3d& shift) {
     Random random(6);
     PlaneAccumulator sums;
-    for (int i = 0; i < kCount; ++i) {
+    for (int i = 0; i < kSamples; ++i) {
       const auto [p, n] = onCube(random, i, 2);
       const Eigen::Vector3d at = unit * (p + shift);
       sums.add(at, at, n);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCL's classes by the words of the command line.
 #include "icp_cases.h"
+#include "support/pcl_peers.h"
 #include "support/points.h"
 
 #include <pcl6d/registration/pcl/make.h>
-
-#include <pcl/registration/icp.h>
 
 #include <memory>
 

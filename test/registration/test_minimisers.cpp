@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rigid_cases.h"
 #include "support/pairs.h"
 
 #include <pcl6d/common/error.h>
@@ -22,6 +23,11 @@ using pcl6d::NamedMinimiser;
 using pcl6d::Random;
 using pcl6d::RigidEstimate;
 using pcl6d::Status;
+using pcl6d::test::kAngleTol;
+using pcl6d::test::kExtent;
+using pcl6d::test::kPositionTol;
+using pcl6d::test::kRigidHalf;
+using pcl6d::test::kRigidPairs;
 using pcl6d::test::movedPairs;
 using pcl6d::test::Pairs;
 using pcl6d::test::randomPoints;
@@ -29,13 +35,8 @@ using pcl6d::test::randomPose;
 using pcl6d::test::umeyamaOracle;
 
 namespace {
-constexpr std::size_t kPairs = 50;
-constexpr double kHalf = 10;   // [m] half side of the cube that holds the points
-constexpr double kExtent = 20; // [m] largest component of a translation
 // Checks C1 to C4 of algorithms.md: 1e-14 for general sets, 6e-14 for planar ones with
 // the orthonormal matrices; times 10 for the tail.
-constexpr double kAngleTol = 6e-13;             // [rad]
-constexpr double kPositionTol = kAngleTol * 60; // [m] lever arm of |d| + |t|
 
 void
 expectMotion(const RigidEstimate& found, const Eigen::Isometry3d& truth)
@@ -52,7 +53,7 @@ Pairs
 planarPairs(Random& random, double sigma)
 {
   const Eigen::Isometry3d plane = randomPose(random, kExtent, 2);
-  auto source = randomPoints(random, kPairs, kHalf);
+  auto source = randomPoints(random, kRigidPairs, kRigidHalf);
   for (auto& d : source)
     d = plane * Eigen::Vector3d(d.x(), d.y(), 0);
   return movedPairs(source, randomPose(random, kExtent, 1.5), random, sigma);
@@ -62,7 +63,7 @@ planarPairs(Random& random, double sigma)
 Pairs
 mirroredPairs(Random& random, double smallest)
 {
-  auto source = randomPoints(random, kPairs, kHalf);
+  auto source = randomPoints(random, kRigidPairs, kRigidHalf);
   for (auto& d : source)
     d = d.cwiseProduct(Eigen::Vector3d(1, 0.6, smallest));
   Pairs pairs = movedPairs(source, randomPose(random, kExtent, 1), random, 0.01);
@@ -110,9 +111,9 @@ TEST_P(Minimisers, GiveBackTheMotionThatMadeThePairs)
     for (int trial = 0; trial < 20; ++trial) {
       SCOPED_TRACE("rotation [rad] " + std::to_string(angle));
       const Eigen::Isometry3d truth = randomPose(random, kExtent, angle);
-      expectMotion(
-          minimise(movedPairs(randomPoints(random, 5 + trial, kHalf), truth, random)),
-          truth);
+      expectMotion(minimise(movedPairs(
+                       randomPoints(random, 5 + trial, kRigidHalf), truth, random)),
+                   truth);
     }
 }
 
@@ -122,7 +123,7 @@ TEST_P(Minimisers, AgreeWithTheSvdOnNoisyPairs)
   for (const double sigma : {0.01, 0.3, 3.0})
     for (int trial = 0; trial < 30; ++trial) {
       SCOPED_TRACE("sigma [m] " + std::to_string(sigma));
-      const Pairs pairs = movedPairs(randomPoints(random, kPairs, kHalf),
+      const Pairs pairs = movedPairs(randomPoints(random, kRigidPairs, kRigidHalf),
                                      randomPose(random, kExtent, 1.5),
                                      random,
                                      sigma);
@@ -133,7 +134,7 @@ TEST_P(Minimisers, AgreeWithTheSvdOnNoisyPairs)
 TEST_P(Minimisers, AreAMinimum)
 {
   Random random(3);
-  const auto sums = movedPairs(randomPoints(random, kPairs, kHalf),
+  const auto sums = movedPairs(randomPoints(random, kRigidPairs, kRigidHalf),
                                randomPose(random, kExtent, 1.5),
                                random,
                                0.3)
@@ -169,11 +170,13 @@ TEST_P(Minimisers, StayRotationsOnMirroredPairs)
 TEST_P(Minimisers, CountWeights)
 {
   Random random(6);
-  const Pairs pairs = movedPairs(
-      randomPoints(random, kPairs, kHalf), randomPose(random, kExtent, 1), random, 0.3);
+  const Pairs pairs = movedPairs(randomPoints(random, kRigidPairs, kRigidHalf),
+                                 randomPose(random, kExtent, 1),
+                                 random,
+                                 0.3);
   pcl6d::PairAccumulator weighted;
   Pairs repeated = pairs;
-  for (std::size_t i = 0; i < kPairs; ++i) {
+  for (std::size_t i = 0; i < kRigidPairs; ++i) {
     weighted.add(pairs.source[i], pairs.target[i], i < 10 ? 2 : 1);
     if (i < 10) {
       repeated.source.push_back(pairs.source[i]);
@@ -189,13 +192,13 @@ TEST_P(Minimisers, KeepTheirDigitsFarFromTheOrigin)
   const Eigen::Vector3d centre(1e6, -1e6, 1e6);
   const Eigen::Isometry3d truth = randomPose(random, 1e6, 0.3);
   const Pairs pairs =
-      movedPairs(randomPoints(random, kPairs, kHalf, centre), truth, random);
+      movedPairs(randomPoints(random, kRigidPairs, kRigidHalf, centre), truth, random);
   const auto found = minimise(pairs);
   ASSERT_EQ(found.status, Status::kOk);
   // Coordinates are rounded to 2e-10 m; over points 10 m apart that turns by 1e-10 rad,
   // at most, and moves the points by as much.
   EXPECT_LT(pcl6d::distanceBetween(truth, found.transform).rotation, 1e-10);
-  for (std::size_t i = 0; i < kPairs; ++i)
+  for (std::size_t i = 0; i < kRigidPairs; ++i)
     EXPECT_LT((found.transform * pairs.source[i] - pairs.target[i]).norm(), 2e-9);
 }
 
@@ -267,7 +270,7 @@ TEST_P(Minimisers, StepTowardsTheMinimum)
 {
   Random random(10);
   for (int trial = 0; trial < 30; ++trial) {
-    const Pairs pairs = movedPairs(randomPoints(random, kPairs, kHalf),
+    const Pairs pairs = movedPairs(randomPoints(random, kRigidPairs, kRigidHalf),
                                    randomPose(random, kExtent, 0.1),
                                    random,
                                    0.01);

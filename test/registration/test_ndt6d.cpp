@@ -19,12 +19,12 @@ namespace {
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
 using Ndt = pcl6d::NDT6D<Point, Point>;
-using Pcl = pcl::NormalDistributionsTransform<Point, Point>;
+using PclNdt = pcl::NormalDistributionsTransform<Point, Point>;
 
-const Eigen::Isometry3d kTruth =
+const Eigen::Isometry3d kRoomTruth =
     pcl6d::poseFromEuler({0.3, -0.2, 0.05}, {0.01, -0.02, 0.08});
 
-/** Two scans of a room with pillars from places kTruth apart. */
+/** Two scans of a room with pillars from places kRoomTruth apart. */
 struct RoomPair {
   Points target, source;
   RoomPair()
@@ -32,7 +32,7 @@ struct RoomPair {
     Random random(1);
     const PillarRoom room;
     target = room.scan(Eigen::Isometry3d::Identity(), random);
-    source = room.scan(kTruth, random);
+    source = room.scan(kRoomTruth, random);
   }
 };
 
@@ -61,7 +61,7 @@ align(Registration& registration,
 double
 errorOf(const Eigen::Isometry3d& found)
 {
-  return pcl6d::distanceBetween(found, kTruth).translation;
+  return pcl6d::distanceBetween(found, kRoomTruth).translation;
 }
 } // namespace
 
@@ -72,12 +72,12 @@ TEST(Ndt6D, IsAtLeastAsAccurateAsPcl)
     Random random(seed);
     const PillarRoom room;
     const Points target = room.scan(Eigen::Isometry3d::Identity(), random);
-    const Points source = room.scan(kTruth, random);
+    const Points source = room.scan(kRoomTruth, random);
     Ndt ours;
     error += errorOf(align(ours, target, source));
     EXPECT_TRUE(ours.hasConverged()) << toString(ours.result().status);
     EXPECT_EQ(ours.getFinalNumIteration(), ours.result().iterations);
-    Pcl of_pcl;
+    PclNdt of_pcl;
     of_pcl.setTransformationEpsilon(1e-6); // squared: as far as its line search comes
     of_pcl.setMaximumIterations(100);
     error_of_pcl += errorOf(align(of_pcl, target, source));
@@ -101,7 +101,7 @@ TEST(Ndt6D, IsADropInRegistration)
 TEST(Ndt6D, HoldsPclsSettings)
 {
   Ndt ours;
-  Pcl of_pcl;
+  PclNdt of_pcl;
   EXPECT_EQ(ours.getResolution(), of_pcl.getResolution());
   EXPECT_EQ(ours.getStepSize(), of_pcl.getStepSize());
   EXPECT_EQ(ours.getOulierRatio(), of_pcl.getOulierRatio());
@@ -147,7 +147,7 @@ TEST(Ndt6D, MovesWithTheWorld)
   Cloud aligned;
   ndt.align(aligned, far.matrix());
   const Eigen::Isometry3d found = far.inverse() * ndt.result().T_target_source;
-  EXPECT_LT(pcl6d::distanceBetween(found, kTruth).translation, 0.4)
+  EXPECT_LT(pcl6d::distanceBetween(found, kRoomTruth).translation, 0.4)
       << "float holds half a metre there";
 }
 

@@ -8,7 +8,7 @@ using namespace pcl6d::test;
 using pcl6d::Points;
 
 namespace {
-using Point = pcl::PointNormal;
+using OrientedPoint = pcl::PointNormal;
 
 pcl::Correspondences
 left(pcl6d::CorrespondenceRejectorOverlap& rejector, const pcl::Correspondences& pairs)
@@ -36,9 +36,9 @@ bentSheet(double from_x)
 
 TEST(OurOverlapRejector, FindsTheRimAndNotTheEdge)
 {
-  const auto target = toCloud<Point>(bentSheet(0));
+  const auto target = toCloud<OrientedPoint>(bentSheet(0));
   pcl6d::CorrespondenceRejectorOverlap rejector;
-  rejector.setInputTarget<Point>(target);
+  rejector.setInputTarget<OrientedPoint>(target);
   for (int i = 0; i <= 40; ++i)
     for (int j = 0; j <= 40; ++j) {
       const bool is_rim = i == 0 || i == 40 || j == 0 || j == 40;
@@ -58,9 +58,9 @@ TEST(OurOverlapRejector, KeepsTheSourceFromBeingPulledOverTheRim)
   for (const auto& p : bentSheet(0.617))
     moved.push_back((truth.inverse() * p.cast<double>()).cast<float>());
   const auto error = [&](bool with) {
-    pcl6d::ICP6D<Point, Point, double> icp;
-    icp.setInputTarget(toCloud<Point>(bentSheet(0)));
-    icp.setInputSource(toCloud<Point>(moved));
+    pcl6d::ICP6D<OrientedPoint, OrientedPoint, double> icp;
+    icp.setInputTarget(toCloud<OrientedPoint>(bentSheet(0)));
+    icp.setInputSource(toCloud<OrientedPoint>(moved));
     icp.setMaxCorrespondenceDistance(1);
     if (with)
       icp.addCorrespondenceRejector(
@@ -75,14 +75,14 @@ TEST(OurOverlapRejector, KeepsTheSourceFromBeingPulledOverTheRim)
 
 TEST(OurOverlapRejector, GivesTheSamePairsForAnyNumberOfThreads)
 {
-  const auto target = cornerModel<Point>();
+  const auto target = cornerModel<OrientedPoint>();
   pcl::Correspondences pairs, first;
   for (int i = 0; i < 1998; ++i)
     pairs.emplace_back(i, 1997 - i, 0.1f);
   for (const unsigned int threads : {1u, 3u, 0u}) {
     pcl6d::CorrespondenceRejectorOverlap rejector;
     rejector.setNumberOfThreads(threads);
-    rejector.setInputTarget<Point>(target);
+    rejector.setInputTarget<OrientedPoint>(target);
     const auto kept = left(rejector, pairs);
     if (first.empty())
       first = kept;
@@ -99,7 +99,8 @@ TEST(OurOverlapRejector, SaysWhatIsWrong)
   const pcl::Correspondences pairs = {{0, 5, 0.1f}};
   EXPECT_NE(badArgumentOf([&] { left(rejector, pairs); }).find("no target"),
             std::string::npos);
-  rejector.setInputTarget<Point>(toCloud<Point>({{0, 0, 0}, {kNan, 0, 0}}));
+  rejector.setInputTarget<OrientedPoint>(
+      toCloud<OrientedPoint>({{0, 0, 0}, {kNan, 0, 0}}));
   EXPECT_NE(badArgumentOf([&] { left(rejector, pairs); }).find("index"),
             std::string::npos);
   EXPECT_TRUE(rejector.isBoundary(0)) << "alone";
@@ -108,6 +109,7 @@ TEST(OurOverlapRejector, SaysWhatIsWrong)
     EXPECT_FALSE(badArgumentOf([&] { rejector.setBoundaryAngle(angle); }).empty());
   EXPECT_FALSE(badArgumentOf([&] { rejector.setKSearch(2); }).empty());
   EXPECT_FALSE(badArgumentOf([&] { rejector.setRadiusSearch(-1); }).empty());
-  EXPECT_FALSE(badArgumentOf([&] { rejector.setInputTarget<Point>(nullptr); }).empty());
+  EXPECT_FALSE(
+      badArgumentOf([&] { rejector.setInputTarget<OrientedPoint>(nullptr); }).empty());
   EXPECT_FALSE(badArgumentOf([&] { rejector.setTargetPoints(nullptr); }).empty());
 }

@@ -17,11 +17,11 @@ using namespace pcl6d::test;
 const Eigen::Isometry3d kNoGuess = Eigen::Isometry3d::Identity();
 
 // Two scans of one room from different places.
-struct TwoScans {
+struct OverlappingScans {
   Eigen::Isometry3d truth; // T_target_source
   Points target, source;
 
-  explicit TwoScans(double step = 0.03)
+  explicit OverlappingScans(double step = 0.03)
   {
     const PillarRoom room;
     Random random(7);
@@ -64,7 +64,7 @@ refusal(const OverlapSearchOptions& options)
 
 TEST(OverlapSearch, BringsBadGuessesIntoTheBasinOfIcp)
 {
-  const TwoScans scans;
+  const OverlappingScans scans;
   const PointTree tree(scans.target);
   OverlapSearchOptions options;
   options.translation_window = Eigen::Vector3d(1, 1, 0.3);
@@ -91,7 +91,7 @@ TEST(OverlapSearch, BringsBadGuessesIntoTheBasinOfIcp)
 
 TEST(OverlapSearch, LeavesAPerfectGuessWhereItIs)
 {
-  const TwoScans scans;
+  const OverlappingScans scans;
   const CoarseEstimate found = searchByOverlap(scans.target, scans.target, kNoGuess);
   EXPECT_EQ(found.status, Status::kOk);
   EXPECT_TRUE(sameBits(found.T_target_source, kNoGuess)); // ties: the smallest motion
@@ -101,7 +101,7 @@ TEST(OverlapSearch, LeavesAPerfectGuessWhereItIs)
 
 TEST(OverlapSearch, GivesTheSameBitsForAnyNumberOfThreads)
 {
-  const TwoScans scans(0.05);
+  const OverlappingScans scans(0.05);
   const Eigen::Isometry3d guess =
       scans.guess(Eigen::Vector3d(0.4, -0.3, 0.1), {0.05, -0.05, 0.2});
   OverlapSearchOptions options;
@@ -120,7 +120,7 @@ TEST(OverlapSearch, GivesTheSameBitsForAnyNumberOfThreads)
 
 TEST(OverlapSearch, MovesWithTheFrameOfTheTarget)
 {
-  TwoScans scans(0.05);
+  OverlappingScans scans(0.05);
   for (auto& p : scans.target) // so that float holds the moved points exactly
     p = (p * 4096).array().round() / 4096;
   const Eigen::Isometry3d guess =
@@ -167,7 +167,7 @@ TEST(OverlapSearch, DoesNotChooseAPlaceOnAPlane)
 
 TEST(OverlapSearch, RefusesScansThatDoNotMeet)
 {
-  const TwoScans scans(0.05);
+  const OverlappingScans scans(0.05);
   const Eigen::Isometry3d far(Eigen::Translation3d(50, 0, 0));
   const CoarseEstimate found = searchByOverlap(scans.target, scans.source, far);
   EXPECT_EQ(found.status, Status::kTooFewPairs);
@@ -179,7 +179,7 @@ TEST(OverlapSearch, ReturnsTheGuessWithoutEnoughPoints)
 {
   const Points none, one = {{1, 2, 3}}, not_finite(9, Eigen::Vector3f::Constant(kNan));
   const Points repeated(50, Eigen::Vector3f(1, 2, 3));
-  const TwoScans scans(0.1);
+  const OverlappingScans scans(0.1);
   const Eigen::Isometry3d guess = planarPose(1, 2, 0.3);
   for (const Points* few : {&none, &one, &not_finite, &repeated}) {
     for (const bool is_target : {true, false}) {
@@ -193,7 +193,7 @@ TEST(OverlapSearch, ReturnsTheGuessWithoutEnoughPoints)
 
 TEST(OverlapSearch, LeavesOutPointsThatAreNotFinite)
 {
-  const TwoScans scans(0.05);
+  const OverlappingScans scans(0.05);
   const Eigen::Isometry3d guess =
       scans.guess(Eigen::Vector3d(0.3, 0.2, 0), {0, 0, 0.1});
   Points target = scans.target, source = scans.source;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rigid_cases.h"
 #include "support/pairs.h"
 
 #include <pcl6d/common/parallel.h>
@@ -10,24 +11,25 @@
 using pcl6d::PairAccumulator;
 using pcl6d::PairSums;
 using pcl6d::Random;
+using pcl6d::test::kRigidHalf;
 using pcl6d::test::Pairs;
 
 namespace {
-constexpr double kHalf = 10; // [m] half side of the cube that holds the points
-constexpr std::size_t kPairs = 1000;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-/** Rounding of a sum of kPairs products of coordinates up to kHalf: it grows like the
+constexpr std::size_t kSummed = 1000;
+constexpr double kSumEpsilon = std::numeric_limits<double>::epsilon();
+/** Rounding of a sum of kSummed products of coordinates up to kRigidHalf: it grows like the
  * root of the number of terms (here bounded by 32) in units of the whole sum. */
-constexpr double kSumTol = 32 * kEpsilon * kPairs * 3 * kHalf * kHalf; // [m^2]
-constexpr double kMeanTol = 32 * kEpsilon * kHalf;                     // [m]
+constexpr double kPairSumTol =
+    32 * kSumEpsilon * kSummed * 3 * kRigidHalf * kRigidHalf; // [m^2]
+constexpr double kMeanTol = 32 * kSumEpsilon * kRigidHalf;    // [m]
 
 Pairs
 samplePairs(const Eigen::Vector3d& centre = Eigen::Vector3d::Zero())
 {
   Random random(1);
   Pairs pairs;
-  pairs.source = pcl6d::test::randomPoints(random, kPairs, kHalf, centre);
-  pairs.target = pcl6d::test::randomPoints(random, kPairs, kHalf, centre);
+  pairs.source = pcl6d::test::randomPoints(random, kSummed, kRigidHalf, centre);
+  pairs.target = pcl6d::test::randomPoints(random, kSummed, kRigidHalf, centre);
   return pairs;
 }
 
@@ -74,7 +76,7 @@ void
 expectNear(const PairSums& found,
            const PairSums& expected,
            double mean_tolerance = kMeanTol,
-           double sum_tolerance = kSumTol)
+           double sum_tolerance = kPairSumTol)
 {
   EXPECT_EQ(found.count, expected.count);
   EXPECT_EQ(found.weight, expected.weight);
@@ -88,10 +90,10 @@ expectNear(const PairSums& found,
 
 constexpr double kFar = 1e6; // [m]
 /** Far away a mean cannot be closer than the spacing of doubles there. */
-constexpr double kFarMeanTol = 4 * kEpsilon * kFar; // [m]
+constexpr double kFarMeanTol = 4 * kSumEpsilon * kFar; // [m]
 /** Merging uses the means: their rounding, times the distance between them. Sums of
  * coordinates that are not centred would be off by 0.2 m^2. */
-constexpr double kFarMergeTol = kPairs * kHalf * kFarMeanTol; // [m^2] 9e-6
+constexpr double kFarMergeTol = kSummed * kRigidHalf * kFarMeanTol; // [m^2] 9e-6
 } // namespace
 
 TEST(PairSums, EqualTheirDefinitions)
@@ -103,7 +105,7 @@ TEST(PairSums, EqualTheirDefinitions)
 TEST(PairSums, LoseNoDigitsFarFromTheOrigin)
 {
   const Pairs pairs = samplePairs({kFar, -kFar, kFar});
-  // Plain sums of squares would be off by kPairs 1e12 m^2 times epsilon: 0.2 m^2.
+  // Plain sums of squares would be off by kSummed 1e12 m^2 times epsilon: 0.2 m^2.
   expectNear(pairs.sums(), twoPass(pairs), kFarMeanTol);
 }
 
@@ -115,16 +117,16 @@ TEST(PairSums, MergeToTheSumsOfTheWholeForEverySplit)
     Random random(2);
     for (int trial = 0; trial < 50; ++trial) {
       std::vector<PairSums> parts;
-      for (std::size_t begin = 0; begin < kPairs;) {
+      for (std::size_t begin = 0; begin < kSummed;) {
         const auto length = 1 + static_cast<std::size_t>(random.uniform() * 200);
-        const std::size_t end = std::min(kPairs, begin + length);
+        const std::size_t end = std::min(kSummed, begin + length);
         parts.push_back(part(pairs, begin, end).sums());
         begin = end;
       }
       expectNear(pcl6d::mergeTree(parts, &PairSums::merge),
                  expected,
                  far > 0 ? kFarMeanTol : kMeanTol,
-                 far > 0 ? kFarMergeTol : kSumTol);
+                 far > 0 ? kFarMergeTol : kPairSumTol);
     }
   }
 }
@@ -132,7 +134,7 @@ TEST(PairSums, MergeToTheSumsOfTheWholeForEverySplit)
 TEST(PairSums, MergeInEitherOrder)
 {
   const Pairs pairs = samplePairs();
-  const PairSums a = part(pairs, 0, 17).sums(), b = part(pairs, 17, kPairs).sums();
+  const PairSums a = part(pairs, 0, 17).sums(), b = part(pairs, 17, kSummed).sums();
   expectNear(PairSums::merge(a, b), PairSums::merge(b, a), kMeanTol);
 }
 
@@ -171,11 +173,13 @@ TEST(PairSums, GiveTheErrorOfAnyMotion)
   Random random(3);
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Isometry3d T =
-        pcl6d::test::randomPose(random, kHalf, random.uniform(0, M_PI));
+        pcl6d::test::randomPose(random, kRigidHalf, random.uniform(0, M_PI));
     double expected = 0;
-    for (std::size_t i = 0; i < kPairs; ++i)
+    for (std::size_t i = 0; i < kSummed; ++i)
       expected += (pairs.target[i] - T * pairs.source[i]).squaredNorm();
-    EXPECT_NEAR(pairs.sums().errorSq(T), expected, 8 * kSumTol); // points up to 3 kHalf
+    EXPECT_NEAR(pairs.sums().errorSq(T),
+                expected,
+                8 * kPairSumTol); // points up to 3 kRigidHalf
   }
 }
 

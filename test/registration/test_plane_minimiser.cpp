@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plane_pairs.h"
+#include "support/fit_oracles.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/registration/plane_minimiser.h>
 
-#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -34,7 +34,7 @@ denseSolution(const Planes& planes, const Eigen::Vector3d& centroid)
     J.row(i) << n.transpose(), (planes.source[i] - centroid).cross(n).transpose();
     r(i) = n.dot(planes.target[i] - planes.source[i]);
   }
-  return J.colPivHouseholderQr().solve(r);
+  return pcl6d::test::leastSquares(J, r);
 }
 
 /** Steps until they rest. */

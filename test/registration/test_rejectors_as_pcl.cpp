@@ -12,8 +12,8 @@ using pcl6d::Points;
 using pcl6d::Random;
 
 namespace {
-using Point = pcl::PointNormal;
-using Cloud = pcl::PointCloud<Point>;
+using OrientedPoint = pcl::PointNormal;
+using OrientedCloud = pcl::PointCloud<OrientedPoint>;
 
 /** \return pairs with random targets and distances, some of which are equal */
 pcl::Correspondences
@@ -110,10 +110,11 @@ TYPED_TEST(RejectorsAsPcl, TrimmedLeavesTheShareThatIsClosest)
 TYPED_TEST(RejectorsAsPcl, SurfaceNormalLeavesWhatFacesTheSameWay)
 {
   Random random(3);
-  const auto source = pcl::make_shared<Cloud>(), target = pcl::make_shared<Cloud>();
+  const auto source = pcl::make_shared<OrientedCloud>(),
+             target = pcl::make_shared<OrientedCloud>();
   pcl::Correspondences pairs;
   for (int i = 0; i < 200; ++i) {
-    Point p;
+    OrientedPoint p;
     p.getNormalVector3fMap() =
         Eigen::Vector3d(random.normal(), random.normal(), random.normal())
             .normalized()
@@ -125,11 +126,11 @@ TYPED_TEST(RejectorsAsPcl, SurfaceNormalLeavesWhatFacesTheSameWay)
   }
   typename TypeParam::SurfaceNormal rejector;
   EXPECT_EQ(rejector.getThreshold(), 1.0);
-  rejector.template initializeDataContainer<Point, Point>();
-  rejector.template setInputSource<Point>(source);
-  rejector.template setInputTarget<Point>(target);
-  rejector.template setInputNormals<Point, Point>(source);
-  rejector.template setTargetNormals<Point, Point>(target);
+  rejector.template initializeDataContainer<OrientedPoint, OrientedPoint>();
+  rejector.template setInputSource<OrientedPoint>(source);
+  rejector.template setInputTarget<OrientedPoint>(target);
+  rejector.template setInputNormals<OrientedPoint, OrientedPoint>(source);
+  rejector.template setTargetNormals<OrientedPoint, OrientedPoint>(target);
   for (const double threshold : {-0.5, 0.0, 0.8}) {
     rejector.setThreshold(threshold);
     std::vector<int> expected;
@@ -178,9 +179,9 @@ TYPED_TEST(RejectorsAsPcl, WorkInPclsIcp)
   const auto one = pcl::make_shared<typename TypeParam::OneToOne>();
   for (const Base::Ptr& rejector :
        {Base::Ptr(trimmed), Base::Ptr(normals), Base::Ptr(one)}) {
-    pcl::IterativeClosestPoint<Point, Point> icp;
-    icp.setInputSource(outlierData<Point>());
-    icp.setInputTarget(cornerModel<Point>());
+    pcl::IterativeClosestPoint<OrientedPoint, OrientedPoint> icp;
+    icp.setInputSource(outlierData<OrientedPoint>());
+    icp.setInputTarget(cornerModel<OrientedPoint>());
     icp.setMaxCorrespondenceDistance(0.5);
     alignFrom(icp);
     const double all = errorOf(icp).translation;
@@ -266,8 +267,8 @@ TEST(OurRejectors, VarTrimmedMeasuresTheCloudsThatAreGiven)
     target.emplace_back(i, i < 6 ? 0.01f : 2.f, 0);
   }
   pcl6d::CorrespondenceRejectorVarTrimmed rejector;
-  rejector.setInputSource<Point>(toCloud<Point>(source));
-  rejector.setInputTarget<Point>(toCloud<Point>(target));
+  rejector.setInputSource<OrientedPoint>(toCloud<OrientedPoint>(source));
+  rejector.setInputTarget<OrientedPoint>(toCloud<OrientedPoint>(target));
   EXPECT_EQ(left(rejector, pairs).size(), 6u);
   pairs.emplace_back(99, 0, 1.f);
   EXPECT_NE(badArgumentOf([&] { left(rejector, pairs); }).find("index"),
@@ -276,7 +277,7 @@ TEST(OurRejectors, VarTrimmedMeasuresTheCloudsThatAreGiven)
 
 TEST(OurRejectors, SurfaceNormalTakesDirectionsAndSaysWhatIsMissing)
 {
-  auto cloud = pcl::make_shared<Cloud>(4, 1);
+  auto cloud = pcl::make_shared<OrientedCloud>(4, 1);
   (*cloud)[0].getNormalVector3fMap() = Eigen::Vector3f(0, 0, 20);
   (*cloud)[1].getNormalVector3fMap() = Eigen::Vector3f(0, 0, 0.1f);
   (*cloud)[2].getNormalVector3fMap().setZero();
@@ -286,19 +287,19 @@ TEST(OurRejectors, SurfaceNormalTakesDirectionsAndSaysWhatIsMissing)
   rejector.setThreshold(0.9);
   EXPECT_NE(badArgumentOf([&] { left(rejector, pairs); }).find("source"),
             std::string::npos);
-  rejector.setInputNormals<Point, Point>(cloud);
+  rejector.setInputNormals<OrientedPoint, OrientedPoint>(cloud);
   EXPECT_NE(badArgumentOf([&] { left(rejector, pairs); }).find("target"),
             std::string::npos);
-  rejector.setTargetNormals<Point, Point>(cloud);
+  rejector.setTargetNormals<OrientedPoint, OrientedPoint>(cloud);
   EXPECT_EQ(queriesOf(left(rejector, pairs)), (std::vector<int>{0, 1}));
   pairs.emplace_back(0, 4, 0.f);
   EXPECT_NE(badArgumentOf([&] { left(rejector, pairs); }).find("index"),
             std::string::npos);
   EXPECT_FALSE(badArgumentOf([&] { rejector.getInputNormals<pcl::Normal>(); }).empty());
-  rejector.setInputSource<Point>(cloud); // PCL's getters do not compile
-  EXPECT_EQ(rejector.getInputSource<Point>(), cloud);
-  EXPECT_EQ(rejector.getInputNormals<Point>(), cloud);
-  EXPECT_EQ(rejector.getInputTarget<Point>(), nullptr);
+  rejector.setInputSource<OrientedPoint>(cloud); // PCL's getters do not compile
+  EXPECT_EQ(rejector.getInputSource<OrientedPoint>(), cloud);
+  EXPECT_EQ(rejector.getInputNormals<OrientedPoint>(), cloud);
+  EXPECT_EQ(rejector.getInputTarget<OrientedPoint>(), nullptr);
   EXPECT_FALSE(badArgumentOf([&] { rejector.setThreshold(kNan); }).empty());
   EXPECT_FALSE(badArgumentOf([&] { rejector.setSourceNormals(nullptr); }).empty());
   const auto blob = pcl::make_shared<pcl::PCLPointCloud2>();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rigid_cases.h"
 #include "support/pairs.h"
 
 #include <pcl6d/registration/rigid_minimiser.h>
@@ -11,6 +12,9 @@ using pcl6d::minimiseByQuaternion;
 using pcl6d::Random;
 using pcl6d::rotationByQuaternion;
 using pcl6d::Status;
+using pcl6d::test::kExtent;
+using pcl6d::test::kRigidHalf;
+using pcl6d::test::kRigidPairs;
 using pcl6d::test::movedPairs;
 using pcl6d::test::Pairs;
 using pcl6d::test::randomPoints;
@@ -18,25 +22,22 @@ using pcl6d::test::randomPose;
 using pcl6d::test::umeyamaOracle;
 
 namespace {
-constexpr std::size_t kPairs = 50;
-constexpr double kHalf = 10;   // [m] half side of the cube that holds the points
-constexpr double kExtent = 20; // [m] largest component of a translation
 // Check C1 of algorithms.md: 1e-14 for sets up to 20 m off; times 10 for the tail.
-constexpr double kAngleTol = 1e-13; // [rad]
-constexpr double kPositionTol =
-    kAngleTol * 100; // [m] lever arm of |d| + |t| below 60 m
+constexpr double kQuaternionAngleTol = 1e-13; // [rad]
+constexpr double kQuaternionPlaceTol =
+    kQuaternionAngleTol * 100; // [m] lever arm of |d| + |t| below 60 m
 
 void
 expectMotion(const pcl6d::RigidEstimate& found,
              const Eigen::Isometry3d& truth,
-             double position_tolerance = kPositionTol,
-             double angle_tolerance = kAngleTol)
+             double position_tolerance = kQuaternionPlaceTol,
+             double angle_tolerance = kQuaternionAngleTol)
 {
   EXPECT_EQ(found.status, Status::kOk);
   const auto error = pcl6d::distanceBetween(truth, found.transform);
   EXPECT_LT(error.translation, position_tolerance);
   EXPECT_LT(error.rotation, angle_tolerance);
-  EXPECT_NEAR(found.transform.linear().determinant(), 1, kAngleTol);
+  EXPECT_NEAR(found.transform.linear().determinant(), 1, kQuaternionAngleTol);
 }
 
 } // namespace
@@ -49,7 +50,7 @@ TEST(MinimiseByQuaternion, GivesBackTheMotionThatMadeThePairs)
       SCOPED_TRACE("rotation [rad] " + std::to_string(angle));
       const Eigen::Isometry3d truth = randomPose(random, kExtent, angle);
       const Pairs pairs =
-          movedPairs(randomPoints(random, 4 + trial, kHalf), truth, random);
+          movedPairs(randomPoints(random, 4 + trial, kRigidHalf), truth, random);
       expectMotion(minimiseByQuaternion(pairs.sums()), truth);
     }
 }
@@ -60,13 +61,13 @@ TEST(MinimiseByQuaternion, KeepsItsDigitsFarFromTheOrigin)
   const Eigen::Vector3d centre(1e6, -1e6, 1e6);
   const Eigen::Isometry3d truth = randomPose(random, 1e6, 0.3);
   const Pairs pairs =
-      movedPairs(randomPoints(random, kPairs, kHalf, centre), truth, random);
+      movedPairs(randomPoints(random, kRigidPairs, kRigidHalf, centre), truth, random);
   const auto found = minimiseByQuaternion(pairs.sums());
   ASSERT_EQ(found.status, Status::kOk);
   // Coordinates are rounded to 2e-10 m; over points 10 m apart that turns by 1e-10 rad,
   // at most, and moves the points by as much.
   EXPECT_LT(pcl6d::distanceBetween(truth, found.transform).rotation, 1e-10);
-  for (std::size_t i = 0; i < kPairs; ++i)
+  for (std::size_t i = 0; i < kRigidPairs; ++i)
     EXPECT_LT((found.transform * pairs.source[i] - pairs.target[i]).norm(), 2e-9);
 }
 
@@ -77,8 +78,8 @@ TEST(MinimiseByQuaternion, AgreesWithTheSvdOnNoisyPairs)
     for (int trial = 0; trial < 30; ++trial) {
       SCOPED_TRACE("sigma [m] " + std::to_string(sigma));
       const Eigen::Isometry3d truth = randomPose(random, kExtent, 1.5);
-      const Pairs pairs =
-          movedPairs(randomPoints(random, kPairs, kHalf), truth, random, sigma);
+      const Pairs pairs = movedPairs(
+          randomPoints(random, kRigidPairs, kRigidHalf), truth, random, sigma);
       expectMotion(minimiseByQuaternion(pairs.sums()), umeyamaOracle(pairs));
     }
 }
@@ -86,7 +87,7 @@ TEST(MinimiseByQuaternion, AgreesWithTheSvdOnNoisyPairs)
 TEST(MinimiseByQuaternion, IsAMinimum)
 {
   Random random(4);
-  const Pairs pairs = movedPairs(randomPoints(random, kPairs, kHalf),
+  const Pairs pairs = movedPairs(randomPoints(random, kRigidPairs, kRigidHalf),
                                  randomPose(random, kExtent, 1.5),
                                  random,
                                  0.3);
@@ -102,7 +103,7 @@ TEST(MinimiseByQuaternion, IsFixedByAPlane)
   Random random(5);
   for (const double sigma : {0.0, 0.05})
     for (int trial = 0; trial < 30; ++trial) {
-      auto source = randomPoints(random, kPairs, kHalf);
+      auto source = randomPoints(random, kRigidPairs, kRigidHalf);
       for (auto& d : source)
         d.z() = 0;
       const Eigen::Isometry3d plane = randomPose(random, kExtent, 2.0);
@@ -119,7 +120,7 @@ TEST(MinimiseByQuaternion, StaysARotationOnMirroredPairs)
 {
   Random random(6);
   for (int trial = 0; trial < 30; ++trial) {
-    auto source = randomPoints(random, kPairs, kHalf);
+    auto source = randomPoints(random, kRigidPairs, kRigidHalf);
     for (auto& d : source)
       d = d.cwiseProduct(Eigen::Vector3d(1, 0.6, 0.2)); // three different spreads
     Pairs pairs = movedPairs(source, randomPose(random, kExtent, 1), random, 0.01);
@@ -141,7 +142,7 @@ TEST(MinimiseByQuaternion, SaysThatAMirroredCrossIsAmbiguous)
     }
   const auto found = minimiseByQuaternion(pairs.sums());
   EXPECT_EQ(found.status, Status::kRankDeficient);
-  EXPECT_NEAR(found.transform.linear().determinant(), 1, kAngleTol);
+  EXPECT_NEAR(found.transform.linear().determinant(), 1, kQuaternionAngleTol);
 }
 
 TEST(MinimiseByQuaternion, TurnsALineByTheSmallestRotation)
@@ -190,17 +191,17 @@ TEST(MinimiseByQuaternion, MovesEqualPointsWithoutTurning)
 {
   Random random(8);
   const std::vector<Eigen::Vector3d> same(5, {1, 2, 3});
-  const auto others = randomPoints(random, 5, kHalf);
+  const auto others = randomPoints(random, 5, kRigidHalf);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const auto& p : others)
     mean += p / 5;
   const auto a = minimiseByQuaternion(Pairs{same, others}.sums());
   EXPECT_EQ(a.status, Status::kRankDeficient);
   EXPECT_EQ(a.transform.linear(), Eigen::Matrix3d::Identity());
-  EXPECT_LT((a.transform.translation() - (mean - same[0])).norm(), kPositionTol);
+  EXPECT_LT((a.transform.translation() - (mean - same[0])).norm(), kQuaternionPlaceTol);
   const auto b = minimiseByQuaternion(Pairs{others, same}.sums());
   EXPECT_EQ(b.status, Status::kRankDeficient);
-  EXPECT_LT((b.transform.translation() - (same[0] - mean)).norm(), kPositionTol);
+  EXPECT_LT((b.transform.translation() - (same[0] - mean)).norm(), kQuaternionPlaceTol);
 }
 
 TEST(MinimiseByQuaternion, SaysThatThereAreTooFewPairs)
@@ -214,7 +215,8 @@ TEST(MinimiseByQuaternion, SkipsPairsThatAreNotFinite)
 {
   Random random(9);
   const Eigen::Isometry3d truth = randomPose(random, kExtent, 1.0);
-  Pairs pairs = movedPairs(randomPoints(random, kPairs, kHalf), truth, random);
+  Pairs pairs =
+      movedPairs(randomPoints(random, kRigidPairs, kRigidHalf), truth, random);
   pairs.source[0].x() = std::numeric_limits<double>::quiet_NaN();
   pairs.target[7].z() = std::numeric_limits<double>::infinity();
   expectMotion(minimiseByQuaternion(pairs.sums()), truth);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rigid_cases.h"
+#include "support/fit_oracles.h"
 #include "support/pairs.h"
 
 #include <pcl6d/registration/minimisers.h>
@@ -7,6 +9,11 @@
 
 using pcl6d::Random;
 using pcl6d::Status;
+using pcl6d::test::kAngleTol;
+using pcl6d::test::kExtent;
+using pcl6d::test::kPositionTol;
+using pcl6d::test::kRigidHalf;
+using pcl6d::test::kRigidPairs;
 using pcl6d::test::movedPairs;
 using pcl6d::test::Pairs;
 using pcl6d::test::randomPoints;
@@ -14,28 +21,24 @@ using pcl6d::test::randomPose;
 using pcl6d::test::umeyamaOracle;
 
 namespace {
-constexpr std::size_t kPairs = 50;
-constexpr double kHalf = 10;   // [m] half side of the cube that holds the points
-constexpr double kExtent = 20; // [m] largest component of a translation
 // As in test_minimisers.cpp.
-constexpr double kAngleTol = 6e-13;             // [rad]
-constexpr double kPositionTol = kAngleTol * 60; // [m] lever arm of |d| + |t|
 } // namespace
 
 TEST(Similarity, IsThatOfUmeyama)
 {
   Random random(12);
   for (const double scale : {0.3048, 1.0, 5.0}) {
-    Pairs pairs = movedPairs(
-        randomPoints(random, kPairs, kHalf), randomPose(random, kExtent, 2), random);
+    Pairs pairs = movedPairs(randomPoints(random, kRigidPairs, kRigidHalf),
+                             randomPose(random, kExtent, 2),
+                             random);
     for (auto& m : pairs.target)
       m = scale * m + pcl6d::test::normalVector(random, 0.05);
-    Eigen::Matrix3Xd d(3, kPairs), m(3, kPairs);
-    for (std::size_t i = 0; i < kPairs; ++i) {
+    Eigen::Matrix3Xd d(3, kRigidPairs), m(3, kRigidPairs);
+    for (std::size_t i = 0; i < kRigidPairs; ++i) {
       d.col(i) = pairs.source[i];
       m.col(i) = pairs.target[i];
     }
-    const Eigen::Matrix4d expected = Eigen::umeyama(d, m, true);
+    const Eigen::Matrix4d expected = pcl6d::test::umeyama(d, m, true);
     const auto sums = pairs.sums();
     const auto found = pcl6d::similarityByQuaternion(sums);
     EXPECT_EQ(found.rigid.status, Status::kOk);
@@ -60,7 +63,7 @@ TEST(Similarity, IsRigidWhereThePairsFixNoScale)
   Pairs one, same, line;
   one.source = one.target = {{1, 2, 3}};
   same.source.assign(5, Eigen::Vector3d(1, 2, 3));
-  same.target = randomPoints(random, 5, kHalf);
+  same.target = randomPoints(random, 5, kRigidHalf);
   for (int i = 0; i < 5; ++i) {
     line.source.emplace_back(i, 2 * i, 0);
     line.target.emplace_back(2 * i, 4 * i, 0);

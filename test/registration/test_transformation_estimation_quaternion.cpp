@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/bits.h"
+#include "support/pcl_peers.h"
 #include "support/points.h"
 #include "support/poses.h"
 
 #include <pcl6d/registration/pcl/transformation_estimation_quaternion.h>
 
 #include <pcl/common/transforms.h>
-#include <pcl/registration/icp.h>
-#include <pcl/registration/transformation_estimation_svd.h>
 
 using pcl6d::Random;
 using pcl6d::TransformationEstimationQuaternion;
@@ -16,18 +15,19 @@ using pcl6d::test::kNan;
 namespace {
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
-constexpr std::size_t kPairs = 200;
-constexpr double kExtent = 10; // [m] side of the cube that holds the points
-constexpr double kFloat = std::numeric_limits<float>::epsilon();
+constexpr std::size_t kCloudSize = 200;
+constexpr double kCubeEdge = 10; // [m] side of the cube that holds the points
+constexpr double kFloatEpsilon = std::numeric_limits<float>::epsilon();
 // Float storage: half an ulp per coordinate, averaged over the pairs; times 5.
-const double kAngleTol = 5 * 0.5 * kFloat / std::sqrt(kPairs); // [rad]
-const double kPositionTol = kAngleTol * kExtent;               // [m]
+const double kFloatAngleTol = 5 * 0.5 * kFloatEpsilon / std::sqrt(kCloudSize); // [rad]
+const double kFloatPlaceTol = kFloatAngleTol * kCubeEdge;                      // [m]
 
 Cloud
-randomCube(std::size_t count = kPairs)
+randomCube(std::size_t count = kCloudSize)
 {
   Random random(42);
-  return *pcl6d::test::toCloud<Point>(pcl6d::test::randomCube(random, count, kExtent));
+  return *pcl6d::test::toCloud<Point>(
+      pcl6d::test::randomCube(random, count, kCubeEdge));
 }
 
 Eigen::Isometry3d
@@ -38,7 +38,7 @@ makeMotion(double angle)
 }
 
 Cloud
-moved(const Cloud& cloud, const Eigen::Isometry3d& motion)
+movedCloud(const Cloud& cloud, const Eigen::Isometry3d& motion)
 {
   Cloud result;
   pcl::transformPointCloud(cloud, result, motion.matrix());
@@ -49,7 +49,7 @@ template <typename Scalar>
 double
 angleTol() // a float result adds its own rounding
 {
-  return kAngleTol + (std::is_same_v<Scalar, float> ? 4 * kFloat : 0);
+  return kFloatAngleTol + (std::is_same_v<Scalar, float> ? 4 * kFloatEpsilon : 0);
 }
 } // namespace
 
@@ -68,8 +68,8 @@ struct Names {
   }
 };
 // PCL's own in double is the control.
-using Estimations = testing::Types<Ours<float>, Ours<double>, PclSvd<double>>;
-TYPED_TEST_SUITE(ExactPairs, Estimations, Names);
+using ExactEstimations = testing::Types<Ours<float>, Ours<double>, PclSvd<double>>;
+TYPED_TEST_SUITE(ExactPairs, ExactEstimations, Names);
 
 TYPED_TEST(ExactPairs, GiveBackTheMotionThatMadeThem)
 {
@@ -79,10 +79,11 @@ TYPED_TEST(ExactPairs, GiveBackTheMotionThatMadeThem)
     SCOPED_TRACE("rotation [rad] " + std::to_string(angle));
     const Eigen::Isometry3d truth = makeMotion(angle);
     typename TypeParam::Matrix4 estimate;
-    TypeParam().estimateRigidTransformation(source, moved(source, truth), estimate);
+    TypeParam().estimateRigidTransformation(
+        source, movedCloud(source, truth), estimate);
     const Eigen::Isometry3d error(truth.inverse().matrix() *
                                   estimate.template cast<double>());
-    EXPECT_LT(error.translation().norm(), kExtent * angleTol<Scalar>());
+    EXPECT_LT(error.translation().norm(), kCubeEdge * angleTol<Scalar>());
     EXPECT_LT(2 * Eigen::Quaterniond(error.linear()).vec().norm(), angleTol<Scalar>());
   }
 }
@@ -90,7 +91,7 @@ TYPED_TEST(ExactPairs, GiveBackTheMotionThatMadeThem)
 TEST(TransformationEstimationQuaternion, GivesTheSameFromAllFourOverloads)
 {
   const Cloud source = randomCube();
-  const Cloud target = moved(source, makeMotion(0.3));
+  const Cloud target = movedCloud(source, makeMotion(0.3));
   const Ours<double> estimation;
   Eigen::Matrix4d all, chosen, both, correspondences;
   estimation.estimateRigidTransformation(source, target, all);
@@ -99,7 +100,7 @@ TEST(TransformationEstimationQuaternion, GivesTheSameFromAllFourOverloads)
   Cloud padded_source, padded_target;
   pcl::Indices source_indices, target_indices;
   pcl::Correspondences pairs;
-  for (std::size_t i = 0; i < kPairs; ++i) {
+  for (std::size_t i = 0; i < kCloudSize; ++i) {
     padded_source.push_back(Point(99, 99, 99));
     padded_target.push_back(target[i]);
     padded_target.push_back(Point(-99, 0, 99));
@@ -126,7 +127,7 @@ TEST(TransformationEstimationQuaternion, WorksInsidePclsIcp)
   pcl::IterativeClosestPoint<Point, Point, double> icp;
   icp.setTransformationEstimation(pcl::make_shared<Ours<double>>());
   icp.setInputSource(source);
-  icp.setInputTarget(pcl::make_shared<Cloud>(moved(*source, truth)));
+  icp.setInputTarget(pcl::make_shared<Cloud>(movedCloud(*source, truth)));
   icp.setMaximumIterations(100);
   Cloud aligned;
   icp.align(aligned);
@@ -141,14 +142,14 @@ TEST(TransformationEstimationQuaternion, SkipsPairsWithNan)
 {
   Cloud source = randomCube();
   const Eigen::Isometry3d truth = makeMotion(1);
-  Cloud target = moved(source, truth);
+  Cloud target = movedCloud(source, truth);
   source[0].x = kNan;
   target[5].y = kNan;
   Eigen::Matrix4d estimate;
   Ours<double>().estimateRigidTransformation(source, target, estimate);
   const auto error = pcl6d::distanceBetween(truth, Eigen::Isometry3d(estimate));
-  EXPECT_LT(error.translation, kPositionTol);
-  EXPECT_LT(error.rotation, kAngleTol);
+  EXPECT_LT(error.translation, kFloatPlaceTol);
+  EXPECT_LT(error.rotation, kFloatAngleTol);
 }
 
 TEST(TransformationEstimationQuaternion, RefusesSidesOfDifferentSize)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimations.h"
 #include "support/bits.h"
+#include "support/pcl_peers.h"
 #include "support/points.h"
 #include "support/poses.h"
 
 #include <pcl6d/registration/pcl/icp6d.h>
-
-#include <pcl/registration/icp.h>
 
 using namespace pcl6d;
 using namespace pcl6d::test;
@@ -14,22 +13,22 @@ using namespace pcl6d::test;
 namespace {
 using Point = NormalPoint;
 using Cloud = NormalCloud;
-constexpr std::size_t kPairs = 300;
-constexpr double kExtent = 10; // [m] side of the cube that holds the points
-constexpr double kFloat = std::numeric_limits<float>::epsilon();
+constexpr std::size_t kNamedPairs = 300;
+constexpr double kCubeSide = 10; // [m] side of the cube that holds the points
+constexpr double kUlp = std::numeric_limits<float>::epsilon();
 // Float storage: half an ulp per coordinate, averaged over the pairs; times 5.
-const double kAngleTol = 5 * 0.5 * kFloat / std::sqrt(kPairs); // [rad]
+const double kNamedAngleTol = 5 * 0.5 * kUlp / std::sqrt(kNamedPairs); // [rad]
 // One coordinate of a float cloud up to 8 m is rounded to 5e-7 m. ICP of PCL moves the
 // float points anew in each iteration, so rounding adds up.
 constexpr double kIcpTol = 1e-5; // [m], and [rad] times 10
 
 /** Points with normals in all directions. */
 Cloud
-randomCloud(std::size_t count = kPairs)
+randomCloud(std::size_t count = kNamedPairs)
 {
   Random random(42);
   Cloud cloud;
-  for (const auto& p : pcl6d::test::randomCube(random, count, kExtent)) {
+  for (const auto& p : pcl6d::test::randomCube(random, count, kCubeSide)) {
     Point point;
     point.getVector3fMap() = p;
     point.getNormalVector3fMap() =
@@ -68,9 +67,9 @@ TEST_P(Estimations, GiveBackTheMotionThatMadeThePairs)
     const auto error = pcl6d::distanceBetween(truth, Eigen::Isometry3d(estimate));
     // A plane holds one coordinate of three, so its average is over a third as many.
     const double tolerance =
-        GetParam().goal == Goal::kPlanes ? 3 * kAngleTol : kAngleTol;
+        GetParam().goal == Goal::kPlanes ? 3 * kNamedAngleTol : kNamedAngleTol;
     EXPECT_LT(error.rotation, tolerance);
-    EXPECT_LT(error.translation, tolerance * kExtent);
+    EXPECT_LT(error.translation, tolerance * kCubeSide);
   }
 }
 
@@ -84,7 +83,7 @@ TEST_P(Estimations, GiveTheSameFromAllFourOverloads)
   Cloud padded_source, padded_target; // the same pairs in other places
   pcl::Indices source_indices, target_indices;
   pcl::Correspondences pairs;
-  for (std::size_t i = 0; i < kPairs; ++i) {
+  for (std::size_t i = 0; i < kNamedPairs; ++i) {
     padded_source.push_back(source[0]);
     padded_target.push_back(target[i]);
     padded_target.push_back(target[1]);
@@ -149,8 +148,8 @@ TEST_P(Estimations, SkipPairsWithNan)
   Eigen::Matrix4d estimate;
   GetParam().make()->estimateRigidTransformation(source, target, estimate);
   const auto error = pcl6d::distanceBetween(kSmall, Eigen::Isometry3d(estimate));
-  EXPECT_LT(error.rotation, 3 * kAngleTol);
-  EXPECT_LT(error.translation, 3 * kAngleTol * kExtent);
+  EXPECT_LT(error.rotation, 3 * kNamedAngleTol);
+  EXPECT_LT(error.translation, 3 * kNamedAngleTol * kCubeSide);
 }
 
 TEST_P(Estimations, ThrowWithoutTouchingTheMatrix)
@@ -182,7 +181,7 @@ TEST(LinearEstimations, TakeOneStepInsideIcp6DAndAllForFixedPairs)
   Random random(44);
   PairAccumulator pairs;
   const Eigen::Isometry3d truth = pcl6d::test::randomPose(random, 2, 0.5);
-  for (const auto& p : pcl6d::test::randomCube(random, 20, kExtent))
+  for (const auto& p : pcl6d::test::randomCube(random, 20, kCubeSide))
     pairs.add(p.cast<double>(), truth * p.cast<double>());
   const auto sums = pairs.sums();
   EXPECT_LT(distanceBetween(truth, helix.minimise(sums).transform).rotation, 1e-12);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/io_test.h"
+#include "support/temp_folder.h"
 
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_folder.h>
@@ -20,6 +21,7 @@ using pcl6d::readRunSummary;
 using pcl6d::RunResult;
 using pcl6d::ScanFolder;
 using pcl6d::test::messageOf;
+using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
 
 namespace {
@@ -82,13 +84,6 @@ summaryOf(std::size_t scans)
   return summary;
 }
 
-std::string
-contentOf(const fs::path& file)
-{
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /** \return a run folder with its scans, at stamps that are no indices */
 RunResult
 writeRun(const fs::path& run, std::size_t scans, double first_stamp)
@@ -128,7 +123,7 @@ TEST(RunResult, ComesBackAsItWas)
   pcl6d::writeRunSummary(folder / "a.json", summary);
   const RunResult back = readRunSummary(folder / "a.json");
   pcl6d::writeRunSummary(folder / "b.json", back);
-  EXPECT_EQ(contentOf(folder / "a.json"), contentOf(folder / "b.json"));
+  EXPECT_EQ(readText(folder / "a.json"), readText(folder / "b.json"));
   ASSERT_EQ(back.scans.size(), 3u);
   EXPECT_EQ(back.scans[2].T_world_scan.matrix(),
             summary.scans[2].T_world_scan.matrix());
@@ -154,7 +149,7 @@ TEST(RunResult, BrokenFilesAreNamedWithWhatIsWrong)
   const TempFolder folder;
   const fs::path file = folder / "summary.json";
   pcl6d::writeRunSummary(file, summaryOf(2));
-  const std::string good = contentOf(file);
+  const std::string good = readText(file);
   const auto errorOf = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     EXPECT_NE(text.find(from), std::string::npos) << from;

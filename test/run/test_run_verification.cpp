@@ -27,6 +27,7 @@ using pcl6d::RunResult;
 using pcl6d::RunWriter;
 using pcl6d::verdictOf;
 using pcl6d::writeRunSummary;
+using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
 using pcl6d::test::writeText;
 
@@ -97,13 +98,6 @@ doubtful()
   return map;
 }
 
-std::string
-contentOf(const fs::path& file)
-{
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 bool
 has(const std::string& text, const std::string& part)
 {
@@ -166,7 +160,7 @@ TEST(RunVerification, EveryTrustComesBack)
     const RunResult back = readRunSummary(folder / "a.json");
     EXPECT_EQ(back.verification->trust, trust);
     writeRunSummary(folder / "b.json", back);
-    EXPECT_EQ(contentOf(folder / "a.json"), contentOf(folder / "b.json"));
+    EXPECT_EQ(readText(folder / "a.json"), readText(folder / "b.json"));
   }
 }
 
@@ -176,7 +170,7 @@ TEST(RunVerification, IsCountedInTheSummary)
   RunResult run = runOfThree();
   run.verification = doubtful();
   writeRunSummary(folder / "summary.json", run);
-  const std::string text = contentOf(folder / "summary.json");
+  const std::string text = readText(folder / "summary.json");
   for (const char* const part :
        {"\"trust\": \"doubtful\"", "\"links\": 2", "\"good\": 1", "\"wrong\": 1"})
     EXPECT_TRUE(has(text, part)) << part << '\n' << text;
@@ -186,7 +180,7 @@ TEST(RunVerification, IsMissingInOlderSummaries)
 {
   const TempFolder folder;
   writeRunSummary(folder / "summary.json", runOfThree());
-  EXPECT_FALSE(has(contentOf(folder / "summary.json"), "\"verification\""));
+  EXPECT_FALSE(has(readText(folder / "summary.json"), "\"verification\""));
   const RunResult back = readRunSummary(folder / "summary.json");
   EXPECT_FALSE(back.verification);
   EXPECT_EQ(back.scans.size(), 3u);
@@ -199,7 +193,7 @@ TEST(RunVerification, BrokenOnesAreNamedWithWhatIsWrong)
   RunResult run = runOfThree();
   run.verification = doubtful();
   writeRunSummary(file, run);
-  const std::string good = contentOf(file);
+  const std::string good = readText(file);
   const auto errorOf = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     EXPECT_TRUE(has(text, from)) << from;
@@ -231,7 +225,7 @@ TEST(RunVerification, IsATableOfLinksByTheNumbersOfTheirScans)
   run.verification = doubtful();
   RunWriter(folder.path(), run).writeVerification();
   EXPECT_EQ(
-      contentOf(folder / "verification.csv"),
+      readText(folder / "verification.csv"),
       "from,to,trust,probability_wrong,patches,contradicted,shift,deviation,"
       "open_directions,noticed_least,noticed_most,noticed_turn,reason\n"
       "0,2,good,3.33333e-08,320,2,0.0125,0.003,0,0.015,0.0625,0.01,\"\"\n"
@@ -243,7 +237,7 @@ TEST(RunVerification, IsATableWithoutRowsIfThereAreNoLinks)
 {
   const TempFolder folder;
   pcl6d::writeLinkChecks(folder / "verification.csv", {});
-  const std::string text = contentOf(folder / "verification.csv");
+  const std::string text = readText(folder / "verification.csv");
   EXPECT_EQ(text.find("from,to,trust,"), 0u);
   EXPECT_EQ(text.find('\n'), text.size() - 1);
 }

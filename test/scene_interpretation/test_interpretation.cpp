@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/box_room.h"
+#include "support/constants.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>
@@ -14,13 +15,12 @@
 namespace {
 using pcl6d::InterpretationOptions;
 using pcl6d::test::BoxRoom;
+using pcl6d::test::kUp;
+using pcl6d::test::kX;
+using pcl6d::test::kY;
 using pcl6d::test::rectangle;
 using pcl6d::test::TruePlane;
 using Labels = std::vector<std::string>;
-
-const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
-const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
-const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
 std::vector<TruePlane>
 house(double storeys)

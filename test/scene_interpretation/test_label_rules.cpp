@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/box_room.h"
+#include "support/constants.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>
@@ -9,12 +10,12 @@
 
 namespace {
 using pcl6d::parseLabelRules;
+using pcl6d::test::kUp;
+using pcl6d::test::kX;
+using pcl6d::test::kY;
 using pcl6d::test::rectangle;
 
 const std::filesystem::path kRules = PCL6D_SOURCE_DIR "/share/rules";
-const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
-const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
-const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
 // Two level labels a and b, one upright label w, and what is to be tried with them.
 std::string

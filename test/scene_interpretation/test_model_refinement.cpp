@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/bits.h"
 #include "support/box_room.h"
+#include "support/constants.h"
 #include "support/plane_model.h"
 
 #include <pcl6d/common/rotation.h>
@@ -18,16 +19,16 @@ using pcl6d::Random;
 using pcl6d::RefinedKind;
 using pcl6d::RefinementOptions;
 using pcl6d::test::BoxRoom;
+using pcl6d::test::kDegree;
+using pcl6d::test::kUp;
+using pcl6d::test::kX;
+using pcl6d::test::kY;
 using pcl6d::test::modelOf;
 using pcl6d::test::PlaneModel;
 using pcl6d::test::rectangle;
 using pcl6d::test::TruePlane;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kExact = 1e-9; // [rad] of directions that are to be exact
-const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
-const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
-const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
 // Root mean square distance [m] of the points of labelled planes to the true planes.
 double

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /* What refineModel() makes of little or wrong input, and its report. */
+#include "support/constants.h"
 #include "support/plane_model.h"
 #include "support/temp_folder.h"
 
@@ -15,14 +16,14 @@ namespace {
 using pcl6d::Random;
 using pcl6d::RefinementOptions;
 using pcl6d::test::BoxRoom;
+using pcl6d::test::kDegree;
+using pcl6d::test::kUp;
+using pcl6d::test::kX;
+using pcl6d::test::kY;
 using pcl6d::test::modelOf;
 using pcl6d::test::PlaneModel;
 using pcl6d::test::rectangle;
 
-constexpr double kDegree = M_PI / 180;
-const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
-const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
-const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 } // namespace
 
 TEST(RefineModel, OfOneFloorTurnsNothing)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/box_room.h"
+#include "support/constants.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
@@ -12,13 +13,12 @@
 namespace {
 using pcl6d::Relation;
 using pcl6d::ScenePlane;
+using pcl6d::test::kDegree;
+using pcl6d::test::kUp;
+using pcl6d::test::kX;
+using pcl6d::test::kY;
 using pcl6d::test::rectangle;
 using pcl6d::test::TruePlane;
-
-constexpr double kDegree = M_PI / 180;
-const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
-const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
-const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
 ScenePlane
 scene(const TruePlane& plane)

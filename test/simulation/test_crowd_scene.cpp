@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "exact_drive.h"
+
 #include <pcl6d/simulation/simulator.h>
 
 #include <gtest/gtest.h>
@@ -11,16 +13,7 @@ using pcl6d::builtInScene;
 using pcl6d::SimulationOptions;
 using pcl6d::SimulationScene;
 using pcl6d::Simulator;
-
-SimulationOptions
-exactDrive(const SimulationScene& scene)
-{
-  SimulationOptions options;
-  options.num_scans = scene.num_scans;
-  options.range.noise = 0;
-  options.range.max_range = scene.max_range;
-  return options;
-}
+using pcl6d::test::exactDrive;
 
 // In plan, from a place to a leg of a way.
 double

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The laws by which built-in scenes deceive: what looks the same, and what differs.
+#include "exact_drive.h"
+
 #include <pcl6d/common/random.h>
 #include <pcl6d/simulation/cast_scan.h>
 #include <pcl6d/simulation/simulator.h>
@@ -17,18 +19,9 @@ using pcl6d::RayCaster;
 using pcl6d::SimulationOptions;
 using pcl6d::SimulationScene;
 using pcl6d::Simulator;
+using pcl6d::test::exactDrive;
 
 constexpr double kSame = 1e-9; // [m] far above rounding, far below anything built
-
-SimulationOptions
-exactDrive(const SimulationScene& scene)
-{
-  SimulationOptions options;
-  options.num_scans = scene.num_scans;
-  options.range.noise = 0;
-  options.range.max_range = scene.max_range;
-  return options;
-}
 
 std::map<std::string, std::vector<Eigen::Isometry3d>>
 posesByClass(const SimulationScene& scene)

@@ -19,7 +19,7 @@ constexpr double kHeight = 0.9; // [m] of the scanner
 // A floor of 20 m x 20 m with a table, a pane that is 1 cm thick, a platform of 0.4 m, a
 // wall with a door of 1.2 m at x = 5, and a ramp of 10 % beyond it.
 pcl6d::TriangleScene
-hall()
+furnishedHall()
 {
   pcl6d::TriangleScene scene;
   pcl6d::addBox(scene, {-10, -10, -0.2}, {10, 10, 0}, {"floor", 0.4});
@@ -36,7 +36,7 @@ hall()
 GroundMap
 mapOfHall()
 {
-  const pcl6d::RayCaster caster(hall());
+  const pcl6d::RayCaster caster(furnishedHall());
   return pcl6d::groundOfScene(caster, {{-1, 0, kHeight}, {0, 0, kHeight}}, kHeight, 12);
 }
 } // namespace
@@ -78,7 +78,7 @@ TEST(GroundOfScene, FollowsARamp)
 
 TEST(GroundOfScene, RefusesWhatHasNoGround)
 {
-  const pcl6d::RayCaster caster(hall());
+  const pcl6d::RayCaster caster(furnishedHall());
   const std::vector<Eigen::Vector3d> places = {{0, 0, kHeight}};
   EXPECT_THROW(pcl6d::groundOfScene(caster, {}, kHeight, 5), BadArgument);
   for (const double reach : {0.0, -1.0, 1001.0, std::nan("")})

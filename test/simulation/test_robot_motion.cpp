@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ride.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/simulation/robot_motion.h>
@@ -13,8 +15,8 @@ namespace {
 using pcl6d::RayCaster;
 using pcl6d::RobotMotion;
 using pcl6d::RobotPath;
-
-constexpr double kSpeed = 0.5; // [m/s]
+using pcl6d::test::kSpeed;
+using pcl6d::test::ride;
 
 // A stair along x, up from x = 0 and down again behind a landing, 6 m wide.
 constexpr double kTread = 0.28; // [m]
@@ -57,13 +59,6 @@ overTheStair()
 }
 
 // At kSpeed, without further wishes.
-pcl6d::RobotMotionOptions
-ride()
-{
-  pcl6d::RobotMotionOptions options;
-  options.speed = kSpeed;
-  return options;
-}
 
 double
 pitchUp(const Eigen::Isometry3d& pose)

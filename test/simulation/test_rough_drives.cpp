@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Drives that slow down, turn in place, shake, and scan without a pause.
+#include "ride.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/scanner/scanner_presets.h>
@@ -18,16 +20,8 @@ using pcl6d::RobotPath;
 using pcl6d::ScanMotion;
 using pcl6d::SimulationOptions;
 using pcl6d::Simulator;
-
-constexpr double kSpeed = 0.5; // [m/s]
-
-pcl6d::RobotMotionOptions
-ride()
-{
-  pcl6d::RobotMotionOptions options;
-  options.speed = kSpeed;
-  return options;
-}
+using pcl6d::test::kSpeed;
+using pcl6d::test::ride;
 
 SimulationOptions
 sweeping()

@@ -34,7 +34,7 @@ onTheMove()
 // A box of 40 m x 26 m x 5 m seen from inside, and a way that starts with 8 m straight
 // along x.
 SimulationScene
-hall()
+closedHall()
 {
   SimulationScene scene;
   pcl6d::TriangleScene& walls = scene.geometry;
@@ -175,7 +175,7 @@ TEST(SimulatorOnTheMove, TheSameOfARoughDrive)
 
 TEST(SimulatorOnTheMove, BodiesMoveWhileItStandsToo)
 {
-  SimulationScene scene = hall();
+  SimulationScene scene = closedHall();
   scene.moving = {passerBy()};
   SimulationOptions options;
   options.range.noise = 0;
@@ -216,7 +216,7 @@ TEST(SimulatorOnTheMove, AWallIsFlatAgainAfterMotionCorrection)
   options.num_scans = 26;
   options.odometry_kind = OdometryKind::kExact;
   options.speed = 0.25; // [m/s]
-  const Simulator simulator(hall(), options);
+  const Simulator simulator(closedHall(), options);
   const MotionCorrection correction(simulator.odometry());
   for (const std::size_t i : {1, 2, 3}) { // on the straight leg
     WallPoints wall = pointsOn("west", simulator, i);

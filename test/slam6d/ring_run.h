@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "corridor_drive.h"
 #include "registered_run.h"
 
 namespace pcl6d::test {
@@ -114,6 +115,13 @@ stageOf(const Slam6DResult& result, const std::string& name)
     if (toString(stage.kind) == name)
       return &stage;
   return nullptr;
+}
+
+inline const DriftingRun&
+ring()
+{
+  static const DriftingRun run = makeRingRun(13);
+  return run;
 }
 
 } // namespace pcl6d::test

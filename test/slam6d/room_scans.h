@@ -87,4 +87,11 @@ heap(Random& random)
   return points;
 }
 
+inline const TurnedScans&
+turned()
+{
+  static const TurnedScans scans;
+  return scans;
+}
+
 } // namespace pcl6d::test

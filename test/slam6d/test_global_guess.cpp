@@ -3,6 +3,7 @@
 // belong to none, and runs that go on.
 #include "room_scans.h"
 #include "support/bits.h"
+#include "support/constants.h"
 #include "support/points.h"
 
 #include <pcl6d/common/error.h>
@@ -22,11 +23,12 @@ using pcl6d::ScanState;
 using pcl6d::Slam6D;
 using pcl6d::Slam6DOptions;
 using pcl6d::Slam6DResult;
+using pcl6d::test::kIdentity;
 using pcl6d::test::sameBits;
+using pcl6d::test::turned;
 using pcl6d::test::TurnedScans;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 
 Slam6DOptions
 globally(unsigned int num_threads = 2)
@@ -45,13 +47,6 @@ registered(const std::vector<Points>& scans, const Slam6DOptions& options = glob
     slam.addScan(scan, kIdentity);
   EXPECT_TRUE(slam.optimize());
   return slam.result();
-}
-
-const TurnedScans&
-turned()
-{
-  static const TurnedScans scans;
-  return scans;
 }
 
 /** \param[in] order of the scans of turned() in the result */

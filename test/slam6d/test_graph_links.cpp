@@ -16,7 +16,7 @@ using pcl6d::slam6d::costOf;
 using pcl6d::slam6d::driftOf;
 
 namespace {
-constexpr double kVoxel = 0.2; // [m]
+constexpr double kLinkVoxel = 0.2; // [m]
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
@@ -48,7 +48,7 @@ chain()
 
 TEST(ChainOf, CostsWhatTheMatchesLeaveOpen)
 {
-  const std::vector<LoopEdge> edges = chainOf(chain(), 4, kVoxel);
+  const std::vector<LoopEdge> edges = chainOf(chain(), 4, kLinkVoxel);
   ASSERT_EQ(edges.size(), 3u);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     EXPECT_EQ(edges[i].a, i);
@@ -59,8 +59,8 @@ TEST(ChainOf, CostsWhatTheMatchesLeaveOpen)
   const double sigma = 0.05 + 0.05 * 2; // of the odometry: a quarter voxel, 5 % of 2 m
   EXPECT_NEAR(edges[1].cost[0], sigma * sigma, 1e-12);
   EXPECT_NEAR(edges[1].cost[3], 3 * 0.03 * 0.03, 1e-12);
-  EXPECT_EQ(chainOf(chain(), 2, kVoxel).size(), 1u);
-  EXPECT_TRUE(chainOf({}, 0, kVoxel).empty());
+  EXPECT_EQ(chainOf(chain(), 2, kLinkVoxel).size(), 1u);
+  EXPECT_TRUE(chainOf({}, 0, kLinkVoxel).empty());
 }
 
 TEST(ChainOf, CostsOfPositionsFollowTheScale)
@@ -70,8 +70,8 @@ TEST(ChainOf, CostsOfPositionsFollowTheScale)
     scan.initial_pose.translation() *= 100;
     scan.covariance->topLeftCorner<3, 3>() *= 1e4;
   }
-  const std::vector<LoopEdge> here = chainOf(chain(), 4, kVoxel),
-                              there = chainOf(scaled, 4, 100 * kVoxel);
+  const std::vector<LoopEdge> here = chainOf(chain(), 4, kLinkVoxel),
+                              there = chainOf(scaled, 4, 100 * kLinkVoxel);
   for (std::size_t i = 0; i < here.size(); ++i) {
     EXPECT_TRUE(there[i].cost.head<3>().isApprox(1e4 * here[i].cost.head<3>()));
     EXPECT_DOUBLE_EQ(there[i].cost[3], here[i].cost[3]);
@@ -91,7 +91,7 @@ TEST(CostOf, IsThatOfTheLoopsCovarianceIfItIsKnown)
 
 TEST(DriftOf, AddsUpAlongTheWay)
 {
-  const auto drift = driftOf(chain(), 4, kVoxel);
+  const auto drift = driftOf(chain(), 4, kLinkVoxel);
   ASSERT_EQ(drift.size(), 4u);
   for (std::size_t i = 1; i < drift.size(); ++i)
     EXPECT_GT(drift[i].trace(), drift[i - 1].trace());

@@ -2,6 +2,7 @@
 // Where the registration of a scan starts: odometry, overlap, features.
 #include "room_scans.h"
 #include "support/bits.h"
+#include "support/constants.h"
 #include "support/points.h"
 
 #include <pcl6d/slam6d/slam6d.h>
@@ -17,10 +18,11 @@ using pcl6d::ScanState;
 using pcl6d::Slam6D;
 using pcl6d::Slam6DOptions;
 using pcl6d::Slam6DResult;
+using pcl6d::test::kIdentity;
+using pcl6d::test::turned;
 using pcl6d::test::TurnedScans;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 
 Slam6DResult
 registered(const std::vector<Points>& scans,
@@ -40,13 +42,6 @@ optionsOf(InitialGuess guess)
   Slam6DOptions options;
   options.initial_guess = guess;
   return options;
-}
-
-const TurnedScans&
-turned()
-{
-  static const TurnedScans scans;
-  return scans;
 }
 
 const std::vector<Eigen::Isometry3d> kNone(4, kIdentity); // no poses

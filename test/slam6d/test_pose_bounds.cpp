@@ -26,7 +26,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 constexpr double kChi2Of95 = 7.814727903251179;
 
 Matrix6
-diagonal(double metres, double radians)
+diagonalBound(double metres, double radians)
 {
   Twist deviations;
   deviations << metres, metres, metres, radians, radians, radians;
@@ -74,9 +74,10 @@ bounded(const Poses& poses, MapVerification map, unsigned int threads = 1)
 
 TEST(PoseBounds, AreUnknownWhereLinksAreTooUnlikeForTheirSum)
 {
-  const auto map = bounded(
-      line(3),
-      mapOf(3, {link(0, 1, diagonal(1e8, 1e8)), link(1, 2, diagonal(1e-12, 1e-12))}));
+  const auto map = bounded(line(3),
+                           mapOf(3,
+                                 {link(0, 1, diagonalBound(1e8, 1e8)),
+                                  link(1, 2, diagonalBound(1e-12, 1e-12))}));
   EXPECT_EQ(map.scans[0].bound, 0);
   EXPECT_FALSE(map.scans[1].bound);
   EXPECT_FALSE(map.scans[2].bound);
@@ -85,7 +86,7 @@ TEST(PoseBounds, AreUnknownWhereLinksAreTooUnlikeForTheirSum)
 
 TEST(PoseBounds, OfOneLinkAreThoseOfTheLink)
 {
-  Matrix6 covariance = diagonal(0.01, 0.001);
+  Matrix6 covariance = diagonalBound(0.01, 0.001);
   covariance(1, 1) = 0.03 * 0.03;
   const auto map = bounded(line(2), mapOf(2, {link(0, 1, covariance)}));
   EXPECT_EQ(map.scans[0].bound, 0);
@@ -101,7 +102,7 @@ TEST(PoseBounds, GrowAlongAChainAsItsErrorsAdd)
   const double shift = 0.01, turn = 0.002;
   std::vector<LinkCheck> links;
   for (std::size_t i = 0; i + 1 < 4; ++i)
-    links.push_back(link(i, i + 1, diagonal(shift, turn)));
+    links.push_back(link(i, i + 1, diagonalBound(shift, turn)));
   const auto map = bounded(line(4), mapOf(4, links));
   const double across = 3 * shift * shift + (2 * 2 + 4 * 4) * turn * turn;
   EXPECT_NEAR(map.scans[3].covariance->coeff(0, 0), 3 * shift * shift, 1e-9);
@@ -111,16 +112,17 @@ TEST(PoseBounds, GrowAlongAChainAsItsErrorsAdd)
 
 TEST(PoseBounds, ShrinkWithTheFourthRootOfTheLinksAsTheseShareErrors)
 {
-  const auto one = bounded(line(2), mapOf(2, {link(0, 1, diagonal(0.02, 0.01))}));
-  const auto two = bounded(
-      line(2),
-      mapOf(2, {link(0, 1, diagonal(0.02, 0.01)), link(0, 1, diagonal(0.02, 0.01))}));
+  const auto one = bounded(line(2), mapOf(2, {link(0, 1, diagonalBound(0.02, 0.01))}));
+  const auto two = bounded(line(2),
+                           mapOf(2,
+                                 {link(0, 1, diagonalBound(0.02, 0.01)),
+                                  link(0, 1, diagonalBound(0.02, 0.01))}));
   EXPECT_NEAR(*two.scans[1].bound, *one.scans[1].bound / std::pow(2.0, 0.25), 1e-9);
 }
 
 TEST(PoseBounds, CountTheWayThatTheLinksAskFor)
 {
-  LinkCheck pulled = link(0, 1, diagonal(0.01, 0.001));
+  LinkCheck pulled = link(0, 1, diagonalBound(0.01, 0.001));
   pulled.pull(0) = 0.2;
   const auto map = bounded(line(2), mapOf(2, {pulled}));
   EXPECT_NEAR(*map.scans[1].bound, std::sqrt(kChi2Of95 * (0.2 * 0.2 + 1e-4)), 1e-6);
@@ -129,9 +131,9 @@ TEST(PoseBounds, CountTheWayThatTheLinksAskFor)
 TEST(PoseBounds, GrowIfCyclesDoNotClose)
 {
   const auto triangle = [](double error) {
-    std::vector<LinkCheck> links = {link(0, 1, diagonal(0.01, 0.001)),
-                                    link(1, 2, diagonal(0.01, 0.001)),
-                                    link(0, 2, diagonal(0.01, 0.001))};
+    std::vector<LinkCheck> links = {link(0, 1, diagonalBound(0.01, 0.001)),
+                                    link(1, 2, diagonalBound(0.01, 0.001)),
+                                    link(0, 2, diagonalBound(0.01, 0.001))};
     links[2].pull(2) = error;
     return *bounded(line(3), mapOf(3, links)).scans[2].bound;
   };
@@ -141,9 +143,9 @@ TEST(PoseBounds, GrowIfCyclesDoNotClose)
 
 TEST(PoseBounds, AreNoneForScansThatNothingJoins)
 {
-  std::vector<LinkCheck> links = {link(0, 1, diagonal(0.01, 0.001)),
-                                  link(1, 2, diagonal(0.01, 0.001)),
-                                  link(2, 3, diagonal(0.01, 0.001))};
+  std::vector<LinkCheck> links = {link(0, 1, diagonalBound(0.01, 0.001)),
+                                  link(1, 2, diagonalBound(0.01, 0.001)),
+                                  link(2, 3, diagonalBound(0.01, 0.001))};
   links[1].trust = LinkTrust::kWeak;
   const auto map = bounded(line(4), mapOf(4, links));
   EXPECT_TRUE(map.scans[1].bound);
@@ -158,9 +160,9 @@ TEST(PoseBounds, CountLinksWhoseSurfacesAskForAShift)
   // A loop of chain links that is open by half a metre, as the link across it says.
   std::vector<LinkCheck> links;
   for (std::size_t i = 0; i + 1 < 6; ++i)
-    links.push_back(link(i, i + 1, diagonal(0.01, 0.001)));
+    links.push_back(link(i, i + 1, diagonalBound(0.01, 0.001)));
   const double chain = *bounded(line(6), mapOf(6, links)).scans[5].bound;
-  links.push_back(link(0, 5, diagonal(0.01, 0.001)));
+  links.push_back(link(0, 5, diagonalBound(0.01, 0.001)));
   links.back().trust = LinkTrust::kWrong;
   links.back().pull(1) = links.back().shift = 0.5;
   EXPECT_EQ(*bounded(line(6), mapOf(6, links)).scans[5].bound, chain)
@@ -171,7 +173,7 @@ TEST(PoseBounds, CountLinksWhoseSurfacesAskForAShift)
 
 TEST(PoseBounds, AreNoneIfTheFirstScanIsNotTied)
 {
-  MapVerification map = mapOf(2, {link(0, 1, diagonal(0.01, 0.001))});
+  MapVerification map = mapOf(2, {link(0, 1, diagonalBound(0.01, 0.001))});
   map.scans[0].tied = false;
   EXPECT_FALSE(bounded(line(2), map).scans[0].bound);
   EXPECT_FALSE(bounded(line(2), map).scans[1].bound);
@@ -185,7 +187,7 @@ TEST(PoseBounds, AreInTheUnitOfTheMap)
       pose.translation() *= scale;
     std::vector<LinkCheck> links;
     for (std::size_t i = 0; i < 2; ++i)
-      links.push_back(link(i, i + 1, diagonal(0.01 * scale, 0.002)));
+      links.push_back(link(i, i + 1, diagonalBound(0.01 * scale, 0.002)));
     links[1].pull(1) = 0.03 * scale;
     return *bounded(poses, mapOf(3, links)).scans[2].bound / scale;
   };
@@ -198,7 +200,7 @@ TEST(PoseBounds, CoverTheErrorsOfLinksThatAreAsExactAsTheySay)
   // A map at its true poses, whose links are off by their covariances: the way from it to
   // their optimum is the error that a map at this optimum would have.
   Random random(3);
-  const Matrix6 covariance = diagonal(0.02, 0.004);
+  const Matrix6 covariance = diagonalBound(0.02, 0.004);
   constexpr int kTrials = 400;
   constexpr std::size_t kLast = 5;
   std::vector<LinkCheck> links;
@@ -224,10 +226,10 @@ TEST(PoseBounds, HaveTheSameBitsForAnyNumberOfThreads)
 {
   std::vector<LinkCheck> links;
   for (std::size_t i = 0; i + 1 < 40; ++i) {
-    links.push_back(link(i, i + 1, diagonal(0.01, 0.002)));
+    links.push_back(link(i, i + 1, diagonalBound(0.01, 0.002)));
     links.back().pull(1) = 0.001 * static_cast<double>(i % 5);
     if (i >= 3)
-      links.push_back(link(i - 3, i, diagonal(0.02, 0.002)));
+      links.push_back(link(i - 3, i, diagonalBound(0.02, 0.002)));
   }
   const auto one = bounded(line(40), mapOf(40, links), 1);
   for (const unsigned int threads : {2u, 8u}) {

@@ -18,7 +18,7 @@ using pcl6d::test::expectSameBits;
 using pcl6d::test::sameBits;
 
 const DriftingRun&
-sampleRun()
+journalRun()
 {
   static const DriftingRun run = pcl6d::test::makeDriftingRun(7);
   return run;
@@ -27,7 +27,7 @@ sampleRun()
 const Slam6DResult&
 undisturbed()
 {
-  static const Slam6DResult result = pcl6d::test::registered(sampleRun());
+  static const Slam6DResult result = pcl6d::test::registered(journalRun());
   return result;
 }
 
@@ -64,7 +64,7 @@ protected:
   /** Runs until so many scans are matched, and then to the end if it is told no number. */
   Slam6DResult
   run(CountingJournal& journal,
-      const DriftingRun& scans = sampleRun(),
+      const DriftingRun& scans = journalRun(),
       std::size_t stop_after = 0,
       const Slam6DOptions& options = {}) const
   {
@@ -85,7 +85,7 @@ protected:
   interruptedRun(std::size_t stop_after) const
   {
     auto before = journal();
-    run(before, sampleRun(), stop_after);
+    run(before, journalRun(), stop_after);
   }
 
   pcl6d::test::TempFolder folder;
@@ -124,16 +124,16 @@ expectSameRun(const Slam6DResult& a, const Slam6DResult& b)
 
 TEST_F(RunJournalTest, InterruptedAfterAnyScanTheRunEndsWithTheSameBits)
 {
-  for (std::size_t stop = 1; stop < sampleRun().scans.size(); ++stop) {
+  for (std::size_t stop = 1; stop < journalRun().scans.size(); ++stop) {
     {
       auto first = journal();
-      run(first, sampleRun(), stop);
+      run(first, journalRun(), stop);
       EXPECT_EQ(first.matched_now, static_cast<int>(stop));
     }
     auto second = journal();
     EXPECT_EQ(second.numMatched(), stop);
     expectSameRun(run(second), undisturbed());
-    EXPECT_EQ(second.matched_now, static_cast<int>(sampleRun().scans.size() - stop));
+    EXPECT_EQ(second.matched_now, static_cast<int>(journalRun().scans.size() - stop));
     second.remove();
   }
 }
@@ -167,7 +167,7 @@ TEST_F(RunJournalTest, GivenLinksMakeAnotherRelaxation)
   auto second = journal();
   Slam6DOptions options;
   options.given_links = {{0, 5}};
-  run(second, sampleRun(), 0, options);
+  run(second, journalRun(), 0, options);
   EXPECT_EQ(second.matched_now, 0);
   EXPECT_EQ(second.relaxed_now, 1);
 }
@@ -175,7 +175,7 @@ TEST_F(RunJournalTest, GivenLinksMakeAnotherRelaxation)
 TEST_F(RunJournalTest, AChangedScanIsNamed)
 {
   interruptedRun(4);
-  DriftingRun changed = sampleRun();
+  DriftingRun changed = journalRun();
   changed.scans[2].front().x() += 0.001F;
   auto second = journal();
   try {
@@ -222,8 +222,8 @@ TEST_F(RunJournalTest, AResultThatCannotBeKeptIsNotComputedTwice)
   FullDisk disk(path, {{"version", "1"}});
   Slam6D slam;
   slam.setMemory(&disk);
-  for (std::size_t i = 0; i < sampleRun().scans.size(); ++i)
-    slam.addScan(sampleRun().scans[i], sampleRun().odometry[i]);
+  for (std::size_t i = 0; i < journalRun().scans.size(); ++i)
+    slam.addScan(journalRun().scans[i], journalRun().odometry[i]);
   EXPECT_THROW(slam.optimize(), IoFailed);
   EXPECT_TRUE(slam.optimize()); // there is room again
   expectSameRun(slam.result(), undisturbed());
@@ -233,7 +233,7 @@ TEST_F(RunJournalTest, MatchesAgainstRelaxedScansAreNotThoseOfOneGo)
 {
   const auto addTo = [](Slam6D& slam, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      slam.addScan(sampleRun().scans[i], sampleRun().odometry[i]);
+      slam.addScan(journalRun().scans[i], journalRun().odometry[i]);
   };
   {
     auto first = journal();

@@ -2,6 +2,7 @@
 // Matches that Slam6D must not believe, whatever ICP says.
 #include "agreement.h"
 #include "room_scans.h"
+#include "support/constants.h"
 #include "support/points.h"
 
 #include <pcl6d/slam6d/slam6d.h>
@@ -20,12 +21,12 @@ using pcl6d::ScanState;
 using pcl6d::Slam6D;
 using pcl6d::Slam6DOptions;
 using pcl6d::Status;
+using pcl6d::test::kIdentity;
 using pcl6d::test::parallelWalls;
 using pcl6d::test::smoothPipe;
 using pcl6d::test::TornPair;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 
 /** \return the second of two scans */
 ScanResult

@@ -16,16 +16,11 @@ using pcl6d::test::DriftingRun;
 using pcl6d::test::pairwise;
 using pcl6d::test::positionRms;
 using pcl6d::test::registered;
+using pcl6d::test::ring;
 using pcl6d::test::sameBits;
 using pcl6d::test::stageOf;
 
 namespace {
-const DriftingRun&
-ring()
-{
-  static const DriftingRun run = pcl6d::test::makeRingRun(13);
-  return run;
-}
 
 const Slam6DResult&
 relaxed()

@@ -8,15 +8,10 @@ using pcl6d::Slam6DResult;
 using pcl6d::test::DriftingRun;
 using pcl6d::test::pairwise;
 using pcl6d::test::positionRms;
+using pcl6d::test::ring;
 using pcl6d::test::stageOf;
 
 namespace {
-const DriftingRun&
-ring()
-{
-  static const DriftingRun run = pcl6d::test::makeRingRun(13);
-  return run;
-}
 
 void
 add(Slam6D& slam, std::size_t begin, std::size_t end)

@@ -45,9 +45,9 @@ whole()
   return result;
 }
 
-/** The scans as matched, before loops are closed. */
+/** The scans as matchedNearSighted, before loops are closed. */
 const Slam6DResult&
-matched()
+matchedNearSighted()
 {
   static const Slam6DResult result = [] {
     Slam6DOptions options = nearSighted();
@@ -69,7 +69,8 @@ TEST(Slam6DLoops, AreClosedBeforeRelaxing)
   // relaxation does it without.
   EXPECT_EQ(whole().stages[1].undone, !whole().stages[1].reason.empty());
   EXPECT_FALSE(whole().stages[2].undone) << whole().stages[2].reason;
-  EXPECT_LT(positionRms(whole(), block()), 0.7 * positionRms(matched(), block()));
+  EXPECT_LT(positionRms(whole(), block()),
+            0.7 * positionRms(matchedNearSighted(), block()));
 }
 
 TEST(Slam6DLoops, AreListedOnceWithTheirMatchedPose)
@@ -106,21 +107,22 @@ TEST(Slam6DLoops, AreClosedWhileScansAreMatchedIfAsked)
   for (const StageResult& stage : online.stages)
     closed += stage.kind == StageKind::kLoopClosing && !stage.undone ? 1 : 0;
   EXPECT_EQ(closed, 1u) << "what comes next sees the same loop";
-  EXPECT_LT(positionRms(online, block()), 0.95 * positionRms(matched(), block()));
-  // Scans after the closing are matched against the corrected map.
+  EXPECT_LT(positionRms(online, block()),
+            0.95 * positionRms(matchedNearSighted(), block()));
+  // Scans after the closing are matchedNearSighted against the corrected map.
   std::size_t first = block().scans.size();
   for (const ScanLink& link : online.links)
     if (link.verdict == LinkVerdict::kUsed)
       first = std::min(first, link.to);
   ASSERT_LT(first, block().scans.size() - 1);
   EXPECT_GT((online.scans.back().T_world_scan.translation() -
-             matched().scans.back().T_world_scan.translation())
+             matchedNearSighted().scans.back().T_world_scan.translation())
                 .norm(),
             0.01);
   EXPECT_LT((online.scans.back().T_world_scan.translation() -
              block().truth.back().translation())
                 .norm(),
-            0.5 * (matched().scans.back().T_world_scan.translation() -
+            0.5 * (matchedNearSighted().scans.back().T_world_scan.translation() -
                    block().truth.back().translation())
                       .norm());
   options.num_threads = 1;
@@ -175,8 +177,10 @@ TEST(Slam6DLoops, AreSpreadScanByScanBySimultaneousMatching)
   EXPECT_GT(stage.rounds, 0);
   EXPECT_FALSE(stage.undone) << stage.reason;
   EXPECT_GT(stage.agreement_after, stage.agreement_before - 0.01);
-  EXPECT_LT(positionRms(result, block()), 1.05 * positionRms(matched(), block()));
-  EXPECT_FALSE(sameBits(result.scans[9].T_world_scan, matched().scans[9].T_world_scan));
+  EXPECT_LT(positionRms(result, block()),
+            1.05 * positionRms(matchedNearSighted(), block()));
+  EXPECT_FALSE(sameBits(result.scans[9].T_world_scan,
+                        matchedNearSighted().scans[9].T_world_scan));
 }
 
 TEST(Slam6DLoops, ClosedBeforeACancelledRelaxationAreTakenBack)
@@ -191,7 +195,7 @@ TEST(Slam6DLoops, ClosedBeforeACancelledRelaxationAreTakenBack)
     }
   });
   EXPECT_FALSE(slam.optimize());
-  expectSameBits(slam.result(), matched());
+  expectSameBits(slam.result(), matchedNearSighted());
   EXPECT_TRUE(slam.optimize());
   expectSameBits(slam.result(), whole());
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every metric, robust kernel and search of Slam6D, and any number of threads.
+#include "registered_run.h"
 #include "support/bits.h"
 #include "support/drift.h"
 
@@ -19,19 +20,10 @@ using pcl6d::Slam6D;
 using pcl6d::Slam6DOptions;
 using pcl6d::Slam6DResult;
 using pcl6d::test::DriftingRun;
+using pcl6d::test::registered;
 
 namespace {
 constexpr double kVoxel = 0.3; // [m] coarse, for speed
-
-Slam6DResult
-registered(const DriftingRun& run, const Slam6DOptions& options)
-{
-  Slam6D slam(options);
-  for (std::size_t i = 0; i < run.scans.size(); ++i)
-    slam.addScan(run.scans[i], run.odometry[i]);
-  EXPECT_TRUE(slam.optimize());
-  return slam.result();
-}
 
 /** \return the first scan that differs in a bit; "" if none does */
 std::string

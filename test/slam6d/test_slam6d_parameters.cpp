@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "registered_run.h"
 #include "support/bits.h"
 #include "support/drift.h"
 #include "support/points.h"
@@ -16,6 +17,7 @@ using pcl6d::Slam6DParameters;
 using pcl6d::Slam6DResult;
 using pcl6d::test::DriftingRun;
 using pcl6d::test::makeDriftingRun;
+using pcl6d::test::registered;
 using pcl6d::test::sameBits;
 
 namespace {
@@ -31,16 +33,6 @@ runWithNoReturns(std::size_t count)
     for (std::size_t i = 0; i < scan.size(); i += 10)
       scan[i] = (kNoReturn * scan[i].normalized().cast<double>()).cast<float>();
   return run;
-}
-
-Slam6DResult
-registered(const DriftingRun& run, const Slam6DOptions& options = {})
-{
-  Slam6D slam(options);
-  for (std::size_t i = 0; i < run.scans.size(); ++i)
-    slam.addScan(run.scans[i], run.odometry[i]);
-  EXPECT_TRUE(slam.optimize());
-  return slam.result();
 }
 
 /** The value as a user reads it in a summary and types it again. */

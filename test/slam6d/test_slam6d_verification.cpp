@@ -3,6 +3,7 @@
 #include "agreement.h"
 #include "corridor_drive.h"
 #include "registered_run.h"
+#include "support/constants.h"
 #include "support/loose_scans.h"
 #include "support/points.h"
 
@@ -23,6 +24,7 @@ using pcl6d::Slam6DResult;
 using pcl6d::slam6d::agreementChange;
 using pcl6d::slam6d::MeasuredScan;
 using pcl6d::test::DriftingRun;
+using pcl6d::test::kIdentity;
 using pcl6d::test::kNan;
 using pcl6d::test::looseOf;
 using pcl6d::test::makeCorridorRun;
@@ -32,7 +34,6 @@ using pcl6d::test::PillarRoom;
 using pcl6d::test::registered;
 
 namespace {
-const Eigen::Isometry3d kIdentity = Eigen::Isometry3d::Identity();
 constexpr double kNear = 0.1; // [m]
 
 /** Scans that are lost stay so. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "support/fit_oracles.h"
 #include "support/poses.h"
 
 #include <pcl6d/registration/pair_sums.h>
@@ -78,7 +79,7 @@ umeyamaOracle(const Pairs& pairs)
     d.col(i) = pairs.source[i];
     m.col(i) = pairs.target[i];
   }
-  return Eigen::Isometry3d(Eigen::umeyama(d, m, false));
+  return Eigen::Isometry3d(umeyama(d, m, false));
 }
 
 } // namespace pcl6d::test

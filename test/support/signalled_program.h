@@ -4,6 +4,8 @@
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 
+#include <boost/process.hpp>
+
 #include <chrono>
 #include <csignal>
 #include <string>

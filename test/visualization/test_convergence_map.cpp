@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/points.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>
@@ -17,15 +18,15 @@ using pcl6d::ConvergenceMapOptions;
 using pcl6d::ConvergenceMapPicture;
 using pcl6d::ConvergenceMapScene;
 using pcl6d::PictureBox;
+using pcl6d::test::kNan;
 
 namespace {
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Colour kAll{253, 231, 37};    // the yellow end of viridis
 constexpr Colour kNothing{77, 52, 132}; // its violet end
 
 /** Three by two places; in the first panel only (x, y) = (0.5, -1) is correct. */
 ConvergenceMapScene
-makeScene()
+convergenceScene()
 {
   ConvergenceMapScene scene;
   scene.title = "b onto a";
@@ -65,7 +66,7 @@ darkPixels(const ConvergenceMapPicture& picture, const PictureBox& box)
 
 TEST(ConvergenceMap, ColoursEachPlaceByItsShare)
 {
-  const auto scene = makeScene();
+  const auto scene = convergenceScene();
   const auto picture = ConvergenceMap().draw(scene);
   for (const double x : scene.x)
     for (const double y : scene.y) {
@@ -81,7 +82,7 @@ TEST(ConvergenceMap, ColoursEachPlaceByItsShare)
 
 TEST(ConvergenceMap, HasXToTheRightAndYUpAtOneScale)
 {
-  const auto layout = ConvergenceMap().draw(makeScene()).layout;
+  const auto layout = ConvergenceMap().draw(convergenceScene()).layout;
   const Eigen::Vector2d zero = layout.toPixel(0, {0, 0});
   const Eigen::Vector2d right = layout.toPixel(0, {0.3, 0}) - zero;
   const Eigen::Vector2d up = layout.toPixel(0, {0, 0.3}) - zero;
@@ -94,7 +95,7 @@ TEST(ConvergenceMap, HasXToTheRightAndYUpAtOneScale)
 
 TEST(ConvergenceMap, MarksTheBestPoseIfItIsThere)
 {
-  auto scene = makeScene();
+  auto scene = convergenceScene();
   scene.y = {-0.5, 0};
   EXPECT_EQ(colourAt(ConvergenceMap().draw(scene), 1, 0, 0), (Colour{0, 0, 0}));
   EXPECT_EQ(colourAt(ConvergenceMap().draw(scene), 1, -0.5, 0), kAll);
@@ -102,10 +103,10 @@ TEST(ConvergenceMap, MarksTheBestPoseIfItIsThere)
 
 TEST(ConvergenceMap, PutsPanelsSideBySideThenBelow)
 {
-  auto scene = makeScene();
+  auto scene = convergenceScene();
   for (const std::size_t count : {1u, 2u, 5u, 6u, 12u, 23u}) {
     SCOPED_TRACE(count);
-    scene.panels.assign(count, makeScene().panels[0]);
+    scene.panels.assign(count, convergenceScene().panels[0]);
     const auto picture = ConvergenceMap().draw(scene);
     const auto& panels = picture.layout.panels;
     ASSERT_EQ(panels.size(), count);
@@ -124,7 +125,7 @@ TEST(ConvergenceMap, PutsPanelsSideBySideThenBelow)
 
 TEST(ConvergenceMap, WritesTitlesTicksAndColourBar)
 {
-  const auto picture = ConvergenceMap().draw(makeScene());
+  const auto picture = ConvergenceMap().draw(convergenceScene());
   const auto& layout = picture.layout;
   const PictureBox& panel = layout.panels[0];
   const auto above = [&](double from, double to) {
@@ -168,7 +169,8 @@ TEST(ConvergenceMap, WritesAPngFile)
   const pcl6d::test::TempFolder folder;
   ConvergenceMapOptions options;
   options.background = pcl6d::Background::kDark;
-  const auto layout = ConvergenceMap(options).write(folder / "map.png", makeScene());
+  const auto layout =
+      ConvergenceMap(options).write(folder / "map.png", convergenceScene());
   EXPECT_GT(layout.width, 0);
   EXPECT_EQ(pcl6d::test::readText(folder / "map.png").substr(1, 3), "PNG");
 }
@@ -189,7 +191,7 @@ TEST(ConvergenceMap, RefusesBadInput)
       [](auto& s) { s.panels[0].shares[0] = 1.01; },
       [](auto& s) { s.panels[0].shares[0] = -0.01; }};
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    auto scene = makeScene();
+    auto scene = convergenceScene();
     changes[i](scene);
     EXPECT_THROW(ConvergenceMap().draw(scene), BadArgument) << i;
   }
@@ -198,7 +200,7 @@ TEST(ConvergenceMap, RefusesBadInput)
   EXPECT_THROW(ConvergenceMap{options}, BadArgument);
   options.panel_width = 2000;
   options.columns = 5;
-  auto scene = makeScene();
+  auto scene = convergenceScene();
   scene.panels.assign(5, scene.panels[0]);
   EXPECT_THROW(ConvergenceMap(options).draw(scene), BadArgument) << "10000 pixels";
   options.columns = -1;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/points.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>
@@ -18,14 +19,14 @@ using pcl6d::LineChartOptions;
 using pcl6d::LineChartPicture;
 using pcl6d::LineChartScene;
 using pcl6d::PictureBox;
+using pcl6d::test::kNan;
 
 namespace {
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Colour kRed{200, 0, 0}, kBlue{0, 0, 200};
 
 /** A red line that rises from (0, 0) to (10, 20), and two blue dots. */
 LineChartScene
-makeScene()
+chartScene()
 {
   LineChartScene scene;
   scene.title = "numbers";
@@ -70,7 +71,7 @@ darkPixels(const LineChartPicture& picture, const PictureBox& box)
 
 TEST(LineChart, DrawsEverySeriesWhereItsPointsAre)
 {
-  const auto picture = LineChart().draw(makeScene());
+  const auto picture = LineChart().draw(chartScene());
   for (const double x : {0.5, 3.3, 5.3, 9.5}) {
     EXPECT_EQ(colourAt(picture, x, 2 * x), kRed) << x;
     EXPECT_EQ(colourAt(picture, x, 2 * x + 0.6), (Colour{255, 255, 255})) << x;
@@ -82,7 +83,7 @@ TEST(LineChart, DrawsEverySeriesWhereItsPointsAre)
 
 TEST(LineChart, HasXToTheRightAndYUpWithAllPointsInThePlot)
 {
-  const auto layout = LineChart().draw(makeScene()).layout;
+  const auto layout = LineChart().draw(chartScene()).layout;
   const Eigen::Vector2d low = layout.toPixel(0, 0), high = layout.toPixel(10, 20);
   EXPECT_GT(high.x(), low.x());
   EXPECT_LT(high.y(), low.y());
@@ -94,7 +95,7 @@ TEST(LineChart, HasXToTheRightAndYUpWithAllPointsInThePlot)
 
 TEST(LineChart, LeavesAGapWhereANumberIsMissing)
 {
-  auto scene = makeScene();
+  auto scene = chartScene();
   scene.series = {{"", {0, 4, 5, 6, 10}, {1, 1, kNan, 1, 1}, ChartMark::kLine, kRed},
                   {"", {0}, {2}}};
   const auto picture = LineChart().draw(scene);
@@ -105,7 +106,7 @@ TEST(LineChart, LeavesAGapWhereANumberIsMissing)
 
 TEST(LineChart, ALogarithmicAxisGivesEveryDecadeTheSameRoom)
 {
-  auto scene = makeScene();
+  auto scene = chartScene();
   scene.y.logarithmic = true;
   scene.series = {
       {"", {1, 2, 3, 4}, {0.01, 1, 100, -5}, ChartMark::kDots, kRed}}; // one left out
@@ -122,7 +123,7 @@ TEST(LineChart, ALogarithmicAxisGivesEveryDecadeTheSameRoom)
 
 TEST(LineChart, EqualAspectGivesAMetreTheSameLengthInXAndY)
 {
-  auto scene = makeScene();
+  auto scene = chartScene();
   for (const double stretch : {1.0, 30.0}) {
     scene.series[0].x = {0, 10 * stretch};
     scene.equal_aspect = true;
@@ -136,7 +137,7 @@ TEST(LineChart, EqualAspectGivesAMetreTheSameLengthInXAndY)
 
 TEST(LineChart, WritesTitlesLabelsAndALegendOutsideThePlot)
 {
-  auto scene = makeScene();
+  auto scene = chartScene();
   scene.series.push_back({"", {1, 2}, {1, 2}}); // not in the legend
   const auto picture = LineChart().draw(scene);
   const auto& layout = picture.layout;
@@ -159,7 +160,7 @@ TEST(LineChart, WritesTitlesLabelsAndALegendOutsideThePlot)
 TEST(LineChart, GivesEverySeriesAColourOfItsOwn)
 {
   for (const std::size_t number : {2u, 8u, 9u, 20u}) {
-    auto scene = makeScene();
+    auto scene = chartScene();
     scene.series.assign(number, {"", {0, 1}, {0, 1}});
     const auto colours = LineChart().draw(scene).layout.colours;
     ASSERT_EQ(colours.size(), number);
@@ -171,7 +172,7 @@ TEST(LineChart, GivesEverySeriesAColourOfItsOwn)
 
 TEST(LineChart, DrawsASinglePoint)
 {
-  auto scene = makeScene();
+  auto scene = chartScene();
   scene.series = {{"one", {3}, {1e6}, ChartMark::kDots, kRed}};
   EXPECT_EQ(colourAt(LineChart().draw(scene), 3, 1e6), kRed);
   scene.series[0].y = {0};
@@ -184,7 +185,7 @@ TEST(LineChart, WritesAPngFile)
   LineChartOptions options;
   options.background = pcl6d::Background::kDark;
   options.width = 400;
-  EXPECT_EQ(LineChart(options).write(folder / "chart.png", makeScene()).width, 400);
+  EXPECT_EQ(LineChart(options).write(folder / "chart.png", chartScene()).width, 400);
   EXPECT_EQ(pcl6d::test::readText(folder / "chart.png").substr(1, 3), "PNG");
 }
 
@@ -210,7 +211,7 @@ TEST(LineChart, RefusesBadInput)
       [](auto& s) { s.series[0].name = std::string(300, 'x'); },
       [](auto& s) { s.series.assign(50, s.series[0]); }};
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    auto scene = makeScene();
+    auto scene = chartScene();
     changes[i](scene);
     EXPECT_THROW(LineChart().draw(scene), BadArgument) << i;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "picture_checks.h"
+#include "support/points.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
@@ -25,9 +26,9 @@ using pcl6d::test::colourAt;
 using pcl6d::test::difference;
 using pcl6d::test::drawnPixels;
 using pcl6d::test::kDarkBackground;
+using pcl6d::test::kNan;
 using pcl6d::test::kWhite;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr int kTolerance = 3; // of a channel: rounding
 
 /** A patch of points 2 cm apart around a corner, spanned by two vectors, with a label. */

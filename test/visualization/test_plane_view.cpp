@@ -16,7 +16,7 @@ using pcl6d::PlaneView;
 using pcl6d::PlaneViewOptions;
 using pcl6d::PlaneViewScene;
 
-/** A face of the room from -2 to 2 m, 0 to 2.5 m high, seen from inside. */
+/** A face of the planeRoom from -2 to 2 m, 0 to 2.5 m high, seen from inside. */
 void
 addFace(PlaneViewScene& scene,
         const Vector3d& corner,
@@ -40,7 +40,7 @@ addFace(PlaneViewScene& scene,
 
 /** Floor, ceiling, and the walls at x = -2 and x = 2. */
 PlaneViewScene
-room()
+planeRoom()
 {
   PlaneViewScene scene;
   const Vector3d x(4, 0, 0), y(0, 4, 0), z(0, 0, 2.5);
@@ -81,7 +81,7 @@ difference(const Colour& a, const Colour& b)
 TEST(PlaneView, LeavesOutPointsThatAreTooFarForAnyMap)
 {
   const PlaneView view(fromPositiveX());
-  PlaneViewScene scene = room();
+  PlaneViewScene scene = planeRoom();
   Image plain, spoilt;
   view.draw(scene, plain);
   // Up to the largest float: their depths would leave none to tell the others apart.
@@ -97,7 +97,7 @@ TEST(PlaneView, LeavesOutPointsThatAreTooFarForAnyMap)
 TEST(PlaneView, LooksIntoARoomAsIntoADollsHouse)
 {
   Image image;
-  const auto layout = PlaneView(fromPositiveX()).draw(room(), image);
+  const auto layout = PlaneView(fromPositiveX()).draw(planeRoom(), image);
   EXPECT_EQ(image.width, 600);
   EXPECT_EQ(image.height, 500);
   EXPECT_EQ(layout.hidden, (std::vector<bool>{false, true, false, true}));
@@ -112,7 +112,7 @@ TEST(PlaneView, LooksIntoARoomAsIntoADollsHouse)
 
 TEST(PlaneView, DrawsWhatIsOnNoPlaneGrey)
 {
-  PlaneViewScene scene = room();
+  PlaneViewScene scene = planeRoom();
   for (auto& id : scene.plane_of)
     id = 0;
   scene.planes.clear();
@@ -126,7 +126,7 @@ TEST(PlaneView, DrawsWhatIsOnNoPlaneGrey)
 
 TEST(PlaneView, LooksAtTheLargerWallByItself)
 {
-  PlaneViewScene scene = room();
+  PlaneViewScene scene = planeRoom();
   scene.planes[2].area = 10; // faces +x
   scene.planes[3].area = 1;
   Image image;
@@ -137,7 +137,7 @@ TEST(PlaneView, LooksAtTheLargerWallByItself)
 
 TEST(PlaneView, FindsAWayToLookAndLeavesOutWhatIsNotFinite)
 {
-  PlaneViewScene scene = room();
+  PlaneViewScene scene = planeRoom();
   scene.points.emplace_back(0, 0, std::numeric_limits<float>::quiet_NaN());
   scene.plane_of.push_back(0);
   Image image;
@@ -150,13 +150,13 @@ TEST(PlaneView, FindsAWayToLookAndLeavesOutWhatIsNotFinite)
 TEST(PlaneView, RefusesWhatDoesNotFitTogether)
 {
   Image image;
-  PlaneViewScene scene = room();
+  PlaneViewScene scene = planeRoom();
   scene.plane_of.pop_back();
   EXPECT_THROW(PlaneView().draw(scene, image), BadArgument);
-  scene = room();
+  scene = planeRoom();
   scene.seen_from.pop_back();
   EXPECT_THROW(PlaneView().draw(scene, image), BadArgument);
-  scene = room();
+  scene = planeRoom();
   scene.plane_of[0] = 5;
   EXPECT_THROW(PlaneView().draw(scene, image), BadArgument);
   EXPECT_THROW(PlaneView().draw({}, image), BadArgument);

@@ -2,6 +2,7 @@
 #include "drawing.h"
 #include "support/temp_folder.h"
 
+#include <boost/process.hpp>
 #include <gtest/gtest.h>
 
 #include <unistd.h>

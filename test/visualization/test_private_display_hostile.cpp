@@ -3,6 +3,7 @@
 #include "drawing.h"
 #include "support/temp_folder.h"
 
+#include <boost/process.hpp>
 #include <gtest/gtest.h>
 
 #include <X11/Xlib.h>

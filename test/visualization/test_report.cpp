@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What stands in a report, and that nothing in it breaks the page.
 #include "report_run.h"
+#include "support/points.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>
@@ -16,6 +17,7 @@ namespace {
 using nlohmann::json;
 using pcl6d::ReportData;
 using pcl6d::ReportOptions;
+using pcl6d::test::kNan;
 using pcl6d::test::kReportOffset;
 using pcl6d::test::kWalkerPoints;
 using pcl6d::test::makeMovingReport;
@@ -23,7 +25,6 @@ using pcl6d::test::makeReportData;
 using pcl6d::test::readText;
 using pcl6d::test::TempFolder;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kStart = "<script type=\"application/json\" id=\"run\">";
 
 std::string

@@ -3,6 +3,7 @@
 #include "report_run.h"
 #include "support/browser.h"
 
+#include <boost/process.hpp>
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -4,6 +4,8 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/voxel_reduction.h>
 
+#include <pcl/types.h>
+
 #include <cmath>
 
 namespace pcl6d::benchmarking {

@@ -4,6 +4,8 @@
 #include <pcl6d/global_registration/pcl/correspondence_rejector_compatibility.h>
 #include <pcl6d/registration/pcl/impl/blob_points.h>
 
+#include <pcl/point_types.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/rotation.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/filters/voxel_reduction.h>
@@ -216,8 +217,7 @@ Eigen::Matrix3d
 uprightRotation(const Eigen::Vector3d& up)
 {
   requireUnit(up, "up");
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ())
-      .toRotationMatrix();
+  return shortestRotation(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 } // namespace pcl6d

@@ -8,6 +8,8 @@
 #include <pcl6d/registration/pcl/impl/blob_points.h>
 #include <pcl6d/search/pcl/core_search.h>
 
+#include <pcl/point_types.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -3,5 +3,4 @@
 
 namespace pcl6d {
 PCL6D_DEFINE_PAIR_INSTANCES(ICP6D)
-PCL6D_DEFINE_PAIR_INSTANCES(ICP6DWithNormals)
 } // namespace pcl6d

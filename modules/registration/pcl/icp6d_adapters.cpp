@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/registration/pcl/impl/icp6d_adapters.hpp>
 
+#include <pcl/types.h>
+
 #include <algorithm>
 #include <limits>
 

@@ -12,6 +12,8 @@
 #include <pcl6d/registration/pcl/transformation_estimation_small_angle.h>
 #include <pcl6d/registration/pcl/transformation_estimation_svd.h>
 
+#include <pcl/point_types.h>
+
 namespace pcl6d {
 PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationSVD)
 PCL6D_DEFINE_PAIR_INSTANCES(TransformationEstimationQuaternion)

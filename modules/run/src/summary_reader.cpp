@@ -2,12 +2,12 @@
 #include "summary_reader.h"
 #include "verification_json.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/run_fields.h>
 
-#include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -61,9 +61,7 @@ covarianceFrom(const JsonValue& json)
   const double rounding = kRounding * covariance.cwiseAbs().maxCoeff();
   json.require((covariance - covariance.transpose()).cwiseAbs().maxCoeff() <= rounding,
                "symmetric");
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(
-      covariance, Eigen::EigenvaluesOnly);
-  json.require(solver.info() == Eigen::Success && solver.eigenvalues()[0] >= -rounding,
+  json.require(symmetricEigenvalues<6>(covariance)[0] >= -rounding, // not of NaN
                "a covariance: no variance may be negative");
   return covariance;
 }

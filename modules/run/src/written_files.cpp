@@ -11,7 +11,7 @@ namespace pcl6d {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr const char* kSummary = "summary.json";
+constexpr const char* kSummaryFile = "summary.json";
 
 [[noreturn]] void
 failChanged(const fs::path& file, const std::string& difference)
@@ -48,7 +48,7 @@ writtenFiles(const fs::path& folder)
   std::map<std::string, WrittenFile> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).string();
-    if (entry.is_regular_file() && name != kSummary)
+    if (entry.is_regular_file() && name != kSummaryFile)
       files[name] = writtenFile(entry.path());
   }
   return files;

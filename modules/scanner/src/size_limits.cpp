@@ -5,6 +5,8 @@
 #include <pcl6d/scanner/range_image.h>
 #include <pcl6d/scanner/range_scan.h>
 
+#include <pcl/point_types.h>
+
 #include <cstdio>
 
 namespace pcl6d::scanner {

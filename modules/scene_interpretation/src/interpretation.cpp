@@ -4,6 +4,7 @@
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/rotation.h>
 #include <pcl6d/scene_interpretation/interpretation.h>
 
 #include <Eigen/Geometry>
@@ -49,8 +50,7 @@ levelledPlanes(const std::vector<Plane>& planes,
                const Eigen::Vector3d& up)
 {
   const Eigen::Matrix3d R_level_map =
-      Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ())
-          .toRotationMatrix();
+      shortestRotation(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   std::vector<ScenePlane> levelled;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     Eigen::Vector3d side =

@@ -6,6 +6,7 @@
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/rotation.h>
 #include <pcl6d/scene_interpretation/interpretation.h>
 #include <pcl6d/scene_interpretation/model_refinement.h>
 
@@ -140,7 +141,7 @@ private:
   static Eigen::Matrix3d
   minimalRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
   {
-    return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+    return shortestRotation(from, to).toRotationMatrix();
   }
 
   // By what factor a plane breaks the limits of turning and moving; its words.

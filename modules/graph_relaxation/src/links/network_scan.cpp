@@ -8,7 +8,7 @@
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kSample = 250; ///< points that tell an overlap
+constexpr std::size_t kSampledPoints = 250; ///< points that tell an overlap
 
 /** Of the scans before it, a scan is compared with so many: the nearest. On a long drive all
  * places are seen by many scans, and more pairs of them say nothing new. */
@@ -22,7 +22,7 @@ constexpr double kPlaceSigma = 2.0 / 3;
 struct Sample {
   explicit Sample(const Points& all)
   : points(all)
-  , stride(std::max<std::size_t>(1, all.size() / kSample))
+  , stride(std::max<std::size_t>(1, all.size() / kSampledPoints))
   , size((all.size() + stride - 1) / stride)
   {}
 

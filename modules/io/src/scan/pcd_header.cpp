@@ -212,14 +212,14 @@ datatypeOf(const Entries& entries, const std::string& type, const std::string& s
                    text::quoted(size) + " (known: I and U of 1, 2, 4, 8; F of 4, 8)");
 }
 
-/** \return how many values a field has; below zero only for a gap, see readFields() */
+/** \return how many values a field has; zero or less only for a gap, see readFields() */
 std::int64_t
 countOf(const Entries& entries, const std::string& name, const std::string& token)
 {
   if (name == "_" && token.front() == '-')
     return entries.number<std::int32_t>("COUNT", token);
   const auto count = entries.number<std::uint32_t>("COUNT", token);
-  if (count == 0)
+  if (count == 0 && name != "_") // drivers write gaps of no bytes; PCL drops them, too
     entries.fail("COUNT", "COUNT of field " + text::quoted(name) + " is 0");
   return count;
 }

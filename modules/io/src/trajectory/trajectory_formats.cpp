@@ -13,8 +13,6 @@
 
 namespace pcl6d {
 
-using namespace io;
-
 namespace {
 namespace fs = std::filesystem;
 using Format = TrajectoryFormat;

@@ -4,6 +4,7 @@
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/rotation.h>
 #include <pcl6d/object_localization/object_localizer.h>
 #include <pcl6d/object_localization/pose_clusters.h>
 #include <pcl6d/object_localization/pose_votes.h>
@@ -68,8 +69,7 @@ Eigen::Matrix3d
 withoutTurn(const Eigen::Matrix3d& R)
 {
   const Eigen::Vector3d z = R.col(2);
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z)
-      .toRotationMatrix();
+  return shortestRotation(Eigen::Vector3d::UnitZ(), z).toRotationMatrix();
 }
 } // namespace
 

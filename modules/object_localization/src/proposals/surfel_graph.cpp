@@ -14,7 +14,7 @@
 namespace pcl6d::object_localization {
 
 namespace {
-constexpr std::size_t kBlockSize = 256; // surfels
+constexpr std::size_t kEdgeBlock = 256; // surfels
 constexpr std::size_t kMostLinks = 64;  // of a surfel; itself included
 constexpr float kReach = 4;             // [spacings] of links
 
@@ -126,7 +126,7 @@ linkSurfels(const PlaneCloud& cloud,
   }
   std::vector<std::vector<SurfelLink>> links(surfels.size());
   parallelBlocks(
-      surfels.size(), kBlockSize, options.num_threads, [&](const Block& block) {
+      surfels.size(), kEdgeBlock, options.num_threads, [&](const Block& block) {
         std::array<Neighbour, kMostLinks> near;
         for (std::size_t i = block.begin; i < block.end; ++i) {
           const std::size_t count = tree.nearestK(points[i], kMostLinks, near.data());

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/polygon.h>
+#include <pcl6d/common/rotation.h>
 
 #include <algorithm>
 #include <array>
@@ -42,8 +43,7 @@ ViewBorder::ViewBorder(const PlaneCloud& cloud)
     makeBand();
     return;
   }
-  R_view_cloud_ = Eigen::Quaterniond::FromTwoVectors(sum, Eigen::Vector3d::UnitZ())
-                      .toRotationMatrix();
+  R_view_cloud_ = shortestRotation(sum, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   makeField();
 }
 

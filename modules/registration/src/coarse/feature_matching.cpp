@@ -12,7 +12,7 @@ namespace pcl6d::registration {
 
 namespace {
 constexpr std::size_t kLanes = 16;
-constexpr std::size_t kBlockSize = 64;
+constexpr std::size_t kMatchedBlock = 64;
 
 /** Features side by side, kLanes at a time, so that one is compared with many at once.
  */
@@ -85,7 +85,7 @@ findAll(const std::vector<Fpfh>& in,
 {
   const FeatureTable table(in);
   std::vector<Nearest> found(of.size());
-  parallelBlocks(of.size(), kBlockSize, num_threads, [&](const Block& block) {
+  parallelBlocks(of.size(), kMatchedBlock, num_threads, [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i)
       found[i] = findNearest(table, of[i]);
   });

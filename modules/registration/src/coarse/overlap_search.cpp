@@ -23,7 +23,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>; // x, y, z [m], roll, pitch, yaw [
 
 constexpr std::array<int, 6> kSteps = {5, 5, 3, 3, 3, 5};
 constexpr std::size_t kTuples = 5 * 5 * 3 * 3 * 3 * 5;
-constexpr std::size_t kBlockSize = 125; // tuples; independent of the threads
+constexpr std::size_t kSearchedBlock = 125; // tuples; independent of the threads
 
 Eigen::IOFormat
 oneLine()
@@ -177,10 +177,11 @@ private:
                       window.cwiseProduct(offsetOf(i % kTuples)));
     };
     std::vector<int> scores(candidates.size() * kTuples);
-    parallelBlocks(scores.size(), kBlockSize, o_.num_threads, [&](const Block& block) {
-      for (std::size_t i = block.begin; i < block.end; ++i)
-        scores[i] = target.count(cubes, placement(placeOf(i)));
-    });
+    parallelBlocks(
+        scores.size(), kSearchedBlock, o_.num_threads, [&](const Block& block) {
+          for (std::size_t i = block.begin; i < block.end; ++i)
+            scores[i] = target.count(cubes, placement(placeOf(i)));
+        });
     std::vector<Candidate> found;
     for (std::size_t i = 0; i < scores.size(); ++i) {
       if (!isLocalMaximum(&scores[i - i % kTuples], i % kTuples))

@@ -14,7 +14,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 float
-squared(double distance)
+squaredAsFloat(double distance)
 {
   // PCL's "no limit" is the root of the largest double.
   return static_cast<float>(std::min(
@@ -76,9 +76,9 @@ CorrespondenceSearch::update(const Placement& source,
     if (!is_identity_[i])
       look.source_in_part.back().T = target_[i].T_target_part.inverse() * source.T;
   }
-  look.limit = std::sqrt(squared(limit));
+  look.limit = std::sqrt(squaredAsFloat(limit));
   look.reach = remembers_ ? static_cast<float>(next_motion) : 0;
-  look.reach_sq = squared(limit + look.reach);
+  look.reach_sq = squaredAsFloat(limit + look.reach);
   searches_.assign((source_.size() + kBlockSize - 1) / kBlockSize, {});
   parallelBlocks(source_.size(), kBlockSize, options_.num_threads, [&](const Block& b) {
     searches_[b.index] = updateBlock(look, b);

@@ -12,6 +12,8 @@ namespace pcl6d {
 
 namespace {
 constexpr double kApproximation = 0.1; ///< epsilon of the approximate search
+constexpr double kVoxelsOfPatch =
+    3; ///< what normal_voxel usually has of the points' voxels
 
 constexpr Named<SearchMethod> kMethods[] = {{SearchMethod::kKdTree, "kdtree"},
                                             {SearchMethod::kCachedTree, "cached-tree"},
@@ -76,12 +78,11 @@ IcpModel::makeNormals(const Options& options) const
     return estimateNormals(points_, *tree_, options.neighbours, options.num_threads);
   ReductionOptions reduction;
   reduction.voxel = options.normal_voxel;
-  const Points patches = reducePoints(points_, reduction);
-  return estimateNormals(points_,
-                         patches,
-                         PointTree(patches, options.num_threads),
-                         options.neighbours,
-                         options.num_threads);
+  return estimateSurfaceNormals(
+      points_,
+      *tree_,
+      reducePoints(points_, reduction),
+      {options.neighbours, options.normal_voxel / kVoxelsOfPatch, options.num_threads});
 }
 
 void

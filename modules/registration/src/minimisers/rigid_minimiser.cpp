@@ -20,13 +20,13 @@ namespace pcl6d {
 
 namespace {
 /** Ratio of singular values below which a direction counts as not fixed. */
-constexpr double kRankTolerance = 1e-9;
+constexpr double kFreeDirection = 1e-9;
 
 /** The smallest rotation that takes unit vector a to unit vector b. */
 Eigen::Matrix3d
 minimalRotation(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
-  return Eigen::Quaterniond::FromTwoVectors(a, b).toRotationMatrix();
+  return shortestRotation(a, b).toRotationMatrix();
 }
 
 /** The motion by a rotation that also takes the centroid to its partner. */
@@ -147,7 +147,7 @@ degenerateEstimate(const PairSums& sums)
 
   // S = U diag(s) V^T; source directions are the columns of U, target directions of V.
   const auto [U, s, V] = singularValues(sums.cross);
-  const double limit = kRankTolerance * s(0);
+  const double limit = kFreeDirection * s(0);
   if (sums.count == 2 || s(1) <= limit)
     return rankDeficient(sums, minimalRotation(U.col(0), V.col(0)));
   const bool mirrored = U.determinant() * V.determinant() < 0;

@@ -4,6 +4,9 @@
 #include <pcl6d/scanner/depth_image.h>
 #include <pcl6d/scanner/measurement_principles.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <opencv2/core.hpp>
 
 #include <array>

@@ -3,6 +3,8 @@
 #include <pcl6d/scanner/camera_scanner.h>
 #include <pcl6d/scanner/stereo_cloud.h>
 
+#include <pcl/point_types.h>
+
 #include <opencv2/core.hpp>
 
 #include <cmath>

@@ -2,6 +2,9 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/line_assembly.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <cmath>
 
 namespace pcl6d {

@@ -9,7 +9,7 @@
 
 namespace pcl6d {
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnlit = std::numeric_limits<double>::quiet_NaN();
 }
 
 void
@@ -56,7 +56,7 @@ StripeProjector::column(const Eigen::Vector3d& point) const
 {
   const Eigen::Vector3d p = T_scanner_projector_.inverse() * point;
   if (!(p.z() > 0))
-    return kNaN;
+    return kUnlit;
   return options_.focal_length * p.x() / p.z() + (options_.columns - 1) / 2.0;
 }
 
@@ -101,9 +101,9 @@ ProjectionScanner::range(int line, int sample, double column) const
   const auto lit = meetOf(lineAlong(axis.origin, axis.direction),
                           PlaneEquation{plane.normal(), -plane.offset()});
   if (!lit)
-    return kNaN;
+    return kUnlit;
   const double range = axis.direction.dot(*lit - axis.origin);
-  return range > 0 ? range : kNaN;
+  return range > 0 ? range : kUnlit;
 }
 
 } // namespace pcl6d

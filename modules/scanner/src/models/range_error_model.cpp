@@ -10,7 +10,7 @@
 
 namespace pcl6d {
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoRange = std::numeric_limits<double>::quiet_NaN();
 
 // Sunflower pattern: every point stands for the same area.
 std::vector<Eigen::Vector2d>
@@ -122,7 +122,7 @@ RangeErrorModel::measure(std::vector<Echo>& echoes, Random& random) const
 {
   const double error = random.normal();
   const bool fails = options_.dropout > 0 && random.uniform() < options_.dropout;
-  const RangeSample no_return{kNaN, 0, 0};
+  const RangeSample no_return{kNoRange, 0, 0};
   if (fails || echoes.empty())
     return no_return;
   const Echo echo =
@@ -207,7 +207,7 @@ RangeErrorModel::mixedRange(const Echo* begin, const Echo* end) const
     }
   }
   if (!(light > 0))
-    return kNaN; // nothing but black surfaces
+    return kNoRange; // nothing but black surfaces
   return nearest + (std::isfinite(interval)
                         ? portableAtan2(sine, cosine) * interval / (2 * M_PI)
                         : sum / light);

@@ -3,6 +3,9 @@
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/scanner/range_scan.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <cmath>
 
 namespace pcl6d {

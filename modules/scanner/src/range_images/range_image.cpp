@@ -5,6 +5,9 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/scanner/range_image.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "objects/object_shape.h"
 
+#include <pcl6d/common/rotation.h>
+
 namespace pcl6d::semantic_map {
 
 Eigen::Matrix3d
 levelling(const Eigen::Vector3d& up)
 {
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ())
-      .toRotationMatrix();
+  return shortestRotation(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 ObjectShape

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "built_in/furniture.h"
-#include "built_in/outdoor_models.h"
+#include "bodies/body_models.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/simulation/body_ways.h>

@@ -4,7 +4,8 @@
 #include <pcl6d/simulation/simulation_scene.h>
 
 /** \file The scenes that come with the suite, planes not yet numbered. Each begins with a
- * plan of it. */
+ * plan of it. All but the corridor are in a library of their own, where libraries are
+ * shared: worlds.h. */
 namespace pcl6d::simulation {
 
 SimulationScene

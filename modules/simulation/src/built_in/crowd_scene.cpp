@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "bodies/body_models.h"
 #include "built_in/building.h"
 #include "built_in/built_in_scenes.h"
 #include "built_in/furniture.h"

@@ -99,29 +99,4 @@ doorLeafModel(double width, double height)
   return model;
 }
 
-TriangleScene
-personModel(double height)
-{
-  // Legs apart at the foot, shoulders at 0.82, neck at 0.86, crown at 1 of the height.
-  const auto at = [height](double radius, double share) {
-    return Eigen::Vector2d(radius * height, share * height);
-  };
-  TriangleScene model;
-  addRevolved(model,
-              {{0, 0, 0},
-               {at(0.07, 0),
-                at(0.09, 0.47),
-                at(0.10, 0.6),
-                at(0.125, 0.78),
-                at(0.09, 0.83),
-                at(0.035, 0.855),
-                at(0.05, 0.88),
-                at(0.058, 0.93),
-                at(0.045, 0.98),
-                at(0.01, 1)},
-               16},
-              kCloth);
-  return model;
-}
-
 } // namespace pcl6d::simulation

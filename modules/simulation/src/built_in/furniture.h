@@ -30,8 +30,4 @@ bedModel();
 TriangleScene
 doorLeafModel(double width, double height);
 
-/** \brief A standing person. \param[in] height [m] */
-TriangleScene
-personModel(double height);
-
 } // namespace pcl6d::simulation

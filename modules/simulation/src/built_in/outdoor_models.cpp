@@ -14,25 +14,7 @@ namespace pcl6d::simulation {
 namespace {
 const Surface kBark{"bark", 0.3};
 const Surface kLeaves{"leaves", 0.5};
-const Surface kPaint{"paint", 0.7};
-const Surface kGlass{"glass", 0.15};
-const Surface kRubber{"rubber", 0.08};
 const Surface kSteel{"steel", 0.6};
-
-// A cylinder whose axis runs along y.
-TriangleScene
-wheelModel(double radius, double width)
-{
-  TriangleScene upright;
-  addRevolved(
-      upright, {{0, 0, -width / 2}, {{radius, 0}, {radius, width}}, 16}, kRubber);
-  Eigen::Isometry3d lying = Eigen::Isometry3d::Identity();
-  lying.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  TriangleScene wheel;
-  addModel(wheel, upright, lying);
-  return wheel;
-}
-
 const Surface kFacade{"facade", 0.6, PlaneLabel::kWall};
 const Surface kConcrete{"concrete", 0.5};
 
@@ -95,24 +77,6 @@ treeModel(double height, std::uint64_t seed)
     const double factor = 1 + 0.35 * fractalNoise(vertex / 0.9, seed);
     vertex.head<2>() *= factor;
   }
-  return model;
-}
-
-TriangleScene
-carModel()
-{
-  TriangleScene model;
-  addBox(model, {-2.15, -0.88, 0.22}, {2.15, 0.88, 0.82}, kPaint);
-  addBox(model, {-1.75, -0.84, 0.82}, {0.85, 0.84, 1.45}, kGlass);
-  for (auto& vertex : model.vertices) // a sloping cabin
-    if (vertex.z() > 1.4)
-      vertex = {0.72 * (vertex.x() + 0.55) - 0.55, 0.84 * vertex.y(), vertex.z()};
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (const double x : {-1.35, 1.4})
-    for (const double y : {-0.8, 0.8}) {
-      pose.translation() << x, y, 0.31;
-      addModel(model, wheelModel(0.32, 0.2), pose);
-    }
   return model;
 }
 

@@ -15,10 +15,6 @@ namespace pcl6d::simulation {
 TriangleScene
 treeModel(double height, std::uint64_t seed);
 
-/** \brief 4.3 m long, 1.76 m wide, 1.45 m high. */
-TriangleScene
-carModel();
-
 /** \brief A street lamp, 5 m high, its arm to the front. */
 TriangleScene
 lampModel();

@@ -7,6 +7,9 @@
 #include <pcl6d/simulation/path_check.h>
 #include <pcl6d/simulation/simulator.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "built_in/built_in_scenes.h"
+#include "built_in/worlds.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/late_library.h>
 #include <pcl6d/simulation/scene_bodies.h>
 #include <pcl6d/simulation/scene_truth.h>
 #include <pcl6d/simulation/simulation_scene.h>
@@ -16,48 +18,35 @@ namespace {
 struct Entry {
   const char* name;
   const char* description;
-  SimulationScene (*make)(std::uint64_t seed);
 };
 constexpr std::array<Entry, 11> kScenes = {
-    {{"corridor",
-      "four furnished rooms, four corridors, two ramps; a loop of 55 m",
-      corridorScene},
+    {{"corridor", "four furnished rooms, four corridors, two ramps; a loop of 55 m"},
      {"campus",
       "streets between houses on hilly ground, with trees, parked cars, people and "
-      "lamps; a way of 1 km with five loops",
-      campusScene},
+      "lamps; a way of 1 km with five loops"},
      {"crowd",
-      "a square between houses where people walk and cars drive; a loop of 80 m",
-      crowdScene},
+      "a square between houses where people walk and cars drive; a loop of 80 m"},
      {"glass",
-      "offices with glass partitions, which send back one ray in five; a loop of 50 m",
-      glassScene},
+      "offices with glass partitions, which send back one ray in five; a loop of 50 m"},
      {"mine",
       "a drift with rough rock, timber supports and boulders; a loop of 130 m that "
-      "climbs and falls",
-      mineScene},
+      "climbs and falls"},
      {"multilevel",
-      "two storeys, joined by a ramp and by stairs; a loop of 120 m over both",
-      multilevelScene},
+      "two storeys, joined by a ramp and by stairs; a loop of 120 m over both"},
      {"parking",
       "an underground car park that looks the same after half a turn, apart from three "
-      "vans, a door and a pipe; a loop of 100 m",
-      parkingScene},
+      "vans, a door and a pipe; a loop of 100 m"},
      {"rooms",
       "a flat: rooms with tables, chairs and shelves along a hall, doors open and "
-      "closed; another seed is another flat",
-      roomsScene},
+      "closed; another seed is another flat"},
      {"shelves",
-      "a storage hall: rows of shelves whose bays repeat every metre; a loop of 90 m",
-      shelvesScene},
+      "a storage hall: rows of shelves whose bays repeat every metre; a loop of 90 m"},
      {"tunnel",
       "a straight tunnel without any feature along it, whose ends are out of sight; "
-      "there and back, 115 m",
-      tunnelScene},
+      "there and back, 115 m"},
      {"twins",
       "four rooms along a corridor, equal to the last chair; a loop of 70 m through "
-      "all of them",
-      twinsScene}}};
+      "all of them"}}};
 
 const Entry&
 entryOf(const std::string& name)
@@ -69,6 +58,25 @@ entryOf(const std::string& name)
     known += std::string(known.empty() ? "" : ", ") + scene.name;
   }
   throw BadArgument("no scene '" + name + "'; known: " + known);
+}
+
+/** \return the scene of an entry, planes not yet numbered */
+SimulationScene
+make(const std::string& name, std::uint64_t seed)
+{
+  if (name == kScenes.front().name)
+    return corridorScene(seed);
+#ifdef PCL6D_LATE_LIBRARIES
+  const auto worlds = reinterpret_cast<decltype(&pcl6d_simulation_worlds)>(
+      symbolOfLateLibrary("world '" + name + "'",
+                          "pcl6d_simulation_worlds",
+                          "pcl6d_simulation_worlds"));
+#else
+  const auto worlds = &pcl6d_simulation_worlds;
+#endif
+  SimulationScene scene;
+  worlds(name.c_str(), seed, scene);
+  return scene;
 }
 
 /** Which objects stay: their new ids by their old ones, both from 1; 0: it is gone. */
@@ -171,7 +179,7 @@ builtInSceneDescription(const std::string& name)
 SimulationScene
 builtInScene(const std::string& name, std::uint64_t seed)
 {
-  SimulationScene scene = entryOf(name).make(seed);
+  SimulationScene scene = make(entryOf(name).name, seed);
   numberPlanes(scene.geometry);
   return scene;
 }

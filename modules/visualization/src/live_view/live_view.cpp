@@ -23,7 +23,7 @@ namespace pcl6d {
 using namespace visualization;
 
 namespace {
-constexpr int kStartLimit = 20000;     // [ms]
+constexpr int kWindowLimit = 20000;    // [ms]
 constexpr int kPollInterval = 100;     // [ms]
 constexpr timeval kSendLimit = {5, 0}; // of a window that no longer answers
 
@@ -114,7 +114,7 @@ LiveView::Process::Process(const LiveViewOptions& options)
   socket = ends[0];
   ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &kSendLimit, sizeof(kSendLimit));
   char answer = 0;
-  if (pid > 0 && waitForInput(socket, kStartLimit) &&
+  if (pid > 0 && waitForInput(socket, kWindowLimit) &&
       ::recv(socket, &answer, 1, 0) == 1)
     return;
   if (pid > 0) {

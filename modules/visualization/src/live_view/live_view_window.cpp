@@ -34,6 +34,7 @@
 #include <mutex>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace pcl6d::visualization {
 namespace {

@@ -118,7 +118,7 @@ finitePoints(const Points& points, double max_height)
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f& p = points[i];
-    if (p.z() <= highest && canBeDrawn(p))
+    if (p.z() <= highest && visualization::canBeDrawn(p))
       indices.push_back(i);
   }
   return indices;

@@ -35,7 +35,8 @@ clampedTo(double value)
   static_assert(std::is_integral_v<Integer>, "to a whole number");
   using Limits = std::numeric_limits<Integer>;
   // 2^digits is exact in a double, where the largest 64-bit numbers are not.
-  constexpr double kEnd = 2.0 * static_cast<double>(Limits::max() / 2 + 1);
+  constexpr auto kHalf = Limits::max() / 2 + 1; // a power of two, so a double holds it
+  constexpr double kEnd = 2.0 * static_cast<double>(kHalf);
   if (value >= kEnd)
     return Limits::max();
   if (value <= static_cast<double>(Limits::min()))

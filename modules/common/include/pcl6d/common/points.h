@@ -3,9 +3,6 @@
 
 #include <pcl6d/common/export.h>
 
-#include <pcl/point_cloud.h>
-#include <pcl/types.h>
-
 #include <Eigen/Geometry>
 
 #include <vector>
@@ -16,10 +13,11 @@ namespace PCL6D_EXPORTS pcl6d {
  * frame of the scan that they belong to. \ingroup common */
 using Points = std::vector<Eigen::Vector3f>;
 
-/** \brief Copies the coordinates of a PCL cloud, NaN points included. */
-template <typename PointT>
+/** \brief Copies the coordinates of a cloud of PCL, NaN points included.
+ * \param[in] cloud a pcl::PointCloud, or any range of points with x, y and z */
+template <typename Cloud>
 Points
-toPoints(const pcl::PointCloud<PointT>& cloud)
+toPoints(const Cloud& cloud)
 {
   Points points;
   points.reserve(cloud.size());
@@ -28,10 +26,11 @@ toPoints(const pcl::PointCloud<PointT>& cloud)
   return points;
 }
 
-/** \brief Copies the coordinates of the chosen points of a PCL cloud, in that order. */
-template <typename PointT>
+/** \brief Copies the coordinates of the chosen points of a cloud of PCL, in that order.
+ * \param[in] indices pcl::Indices, or any range of integers below the cloud's size */
+template <typename Cloud, typename Indices>
 Points
-toPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
+toPoints(const Cloud& cloud, const Indices& indices)
 {
   Points points;
   points.reserve(indices.size());

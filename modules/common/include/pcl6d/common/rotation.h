@@ -57,6 +57,12 @@ slerp(const Eigen::Matrix3d& R0, const Eigen::Matrix3d& R1, double s);
 Eigen::Matrix3d
 nearestRotation(const Eigen::Matrix3d& A);
 
+/** \return the rotation by the smallest angle that turns the direction `from` into the
+ * direction `to`; about any axis across `from` if they are opposite. Lengths do not matter,
+ * but must not be zero. */
+Eigen::Quaterniond
+shortestRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /** \return q or -q, the one with w >= 0; both are the same rotation */
 Eigen::Quaterniond
 canonical(const Eigen::Quaterniond& q);

@@ -6,6 +6,9 @@
 #include <pcl6d/scanner/driven_scanner.h>
 #include <pcl6d/scanner/range_scan.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <limits>
 
 namespace PCL6D_EXPORTS pcl6d {

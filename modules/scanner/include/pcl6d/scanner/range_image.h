@@ -5,6 +5,7 @@
 #include <pcl6d/common/points.h>
 #include <pcl6d/scanner/range_projection.h>
 
+#include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
 #include <cstddef>

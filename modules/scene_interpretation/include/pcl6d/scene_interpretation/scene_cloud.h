@@ -22,14 +22,6 @@ struct SceneCloud {
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero(); ///< [m] of the points
 };
 
-/** \return the edge [m] of the voxels in which a map keeps one point, for planes:
- * matching needs few points, small planes more */
-inline double
-planeVoxel(double matching_voxel)
-{
-  return matching_voxel / 3;
-}
-
 /** \return the cloud of a map, whose scan numbers are places in poses
  * \param[in] poses of the scans, T_world_scan in full coordinates
  * \ingroup scene_interpretation */

@@ -62,8 +62,9 @@ builtInSceneDescription(const std::string& name);
  * the others: builtInSceneDescription().
  * \param[in] seed of what is random in a scene, such as rooms and furniture; corridor,
  * multilevel, twins, tunnel, shelves and glass are always the same
- * \throws BadArgument unknown name; the message lists the known ones \ingroup simulation
- */
+ * \throws BadArgument unknown name; the message lists the known ones
+ * \throws IoFailed the library that has all but the corridor is not there
+ * \ingroup simulation */
 SimulationScene
 builtInScene(const std::string& name, std::uint64_t seed = 1);
 

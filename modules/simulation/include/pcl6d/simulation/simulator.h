@@ -9,6 +9,9 @@
 #include <pcl6d/simulation/robot_motion.h>
 #include <pcl6d/simulation/simulation_scene.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <cstdint>
 #include <memory>
 #include <optional>

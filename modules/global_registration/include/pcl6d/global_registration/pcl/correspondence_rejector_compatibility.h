@@ -5,6 +5,9 @@
 #include <pcl6d/global_registration/compatible_pairs.h>
 #include <pcl6d/registration/pcl/correspondence_rejector.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <optional>
 
 namespace PCL6D_EXPORTS pcl6d {

@@ -210,6 +210,8 @@ private:
 
 } // namespace pcl6d
 #include <pcl6d/global_registration/pcl/impl/global_registration.hpp>
+
+#include <pcl/point_types.h>
 namespace PCL6D_EXPORTS pcl6d {
 PCL6D_DECLARE_PAIR_INSTANCES(GlobalRegistration)
 } // namespace pcl6d

@@ -6,6 +6,8 @@
 #include <pcl6d/registration/pcl/correspondence_rejector.h>
 #include <pcl6d/search/point_tree.h>
 
+#include <pcl/point_cloud.h>
+
 #include <memory>
 #include <vector>
 

@@ -6,6 +6,8 @@
 #include <pcl6d/registration/feature_alignment.h>
 #include <pcl6d/registration/pcl/coarse_registration.h>
 
+#include <pcl/point_types.h>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Places one scan on another without any guess: alignByFeatures() as a

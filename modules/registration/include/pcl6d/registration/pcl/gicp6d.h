@@ -163,6 +163,8 @@ private:
 
 } // namespace pcl6d
 #include <pcl6d/registration/pcl/impl/gicp6d.hpp>
+
+#include <pcl/types.h>
 namespace PCL6D_EXPORTS pcl6d {
 PCL6D_DECLARE_PAIR_INSTANCES(GICP6D)
 } // namespace pcl6d

@@ -116,6 +116,8 @@ private:
 
 } // namespace pcl6d
 #include <pcl6d/registration/pcl/impl/joint_icp6d.hpp>
+
+#include <pcl/point_types.h>
 namespace PCL6D_EXPORTS pcl6d {
 PCL6D_DECLARE_PAIR_INSTANCES(JointICP6D)
 } // namespace pcl6d

@@ -7,6 +7,8 @@
 #include <pcl6d/registration/pcl/coarse_registration.h>
 #include <pcl6d/search/pcl/core_search.h>
 
+#include <pcl/point_types.h>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A better guess where the given one is off by metres: searchByOverlap() as a

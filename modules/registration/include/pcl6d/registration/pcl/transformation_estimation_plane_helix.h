@@ -5,6 +5,8 @@
 #include <pcl6d/registration/pcl/sums_estimation.h>
 #include <pcl6d/registration/plane_minimiser.h>
 
+#include <pcl/point_types.h>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Rigid motion from points to planes by planeStepByHelix(), repeated with the

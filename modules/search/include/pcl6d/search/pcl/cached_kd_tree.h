@@ -5,6 +5,9 @@
 #include <pcl6d/search/leaf_memory.h>
 #include <pcl6d/search/pcl/kd_tree.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <limits>
 #include <memory>
 #include <string>

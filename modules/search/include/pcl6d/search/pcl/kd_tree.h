@@ -6,6 +6,8 @@
 #include <pcl6d/search/pcl/core_search.h>
 #include <pcl6d/search/point_tree.h>
 
+#include <pcl/point_types.h>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Our k-d tree (book 4.1.4) as a pcl::search::KdTree, hence accepted by

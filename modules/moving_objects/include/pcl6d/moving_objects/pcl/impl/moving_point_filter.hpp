@@ -5,6 +5,8 @@
 #include <pcl6d/common/require_indices.h>
 #include <pcl6d/moving_objects/pcl/moving_point_filter.h>
 
+#include <pcl/types.h>
+
 #include <algorithm>
 #include <string>
 

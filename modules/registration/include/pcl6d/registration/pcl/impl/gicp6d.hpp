@@ -5,6 +5,8 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/registration/pcl/gicp6d.h>
 
+#include <pcl/types.h>
+
 #include <memory>
 #include <string>
 #include <utility>

@@ -6,6 +6,8 @@
 #include <pcl6d/registration/pcl/icp6d.h>
 #include <pcl6d/registration/pcl/impl/icp6d_adapters.hpp>
 
+#include <pcl/types.h>
+
 #include <memory>
 #include <utility>
 

@@ -6,6 +6,8 @@
 #include <pcl6d/registration/pcl/impl/joint_sides.h>
 #include <pcl6d/registration/pcl/joint_icp6d.h>
 
+#include <pcl/types.h>
+
 #include <utility>
 
 namespace PCL6D_EXPORTS pcl6d {

@@ -4,6 +4,8 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/registration/pcl/sums_estimation.h>
 
+#include <pcl/types.h>
+
 #include <utility>
 
 namespace PCL6D_EXPORTS pcl6d {

@@ -6,6 +6,9 @@
 #include <pcl6d/scene_interpretation/labelled_files.h>
 #include <pcl6d/scene_interpretation/pcl/scene_interpreter.h>
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 template <typename PointT>

@@ -5,6 +5,8 @@
 #include <pcl6d/common/require_indices.h>
 #include <pcl6d/search/pcl/core_search.h>
 
+#include <pcl/types.h>
+
 namespace PCL6D_EXPORTS pcl6d {
 
 template <typename PointT, typename Core, typename Base>

@@ -222,7 +222,9 @@ public:
   }
 };
 
-/** \param[in] alignment a power of two up to that of a page; 0: the usual */
+/** \param[in] alignment a power of two up to that of a page; 0: the usual
+ * \throws std::bad_alloc where there is no memory
+ */
 void*
 takeBlock(std::size_t bytes, std::size_t alignment = 0)
 {
@@ -248,6 +250,17 @@ takeBlock(std::size_t bytes, std::size_t alignment = 0)
   throw std::bad_alloc();
 }
 
+/// Like takeBlock(), with a null pointer where there is no memory.
+void*
+takeBlockOrNull(std::size_t bytes, std::size_t alignment = 0) noexcept
+{
+  try {
+    return takeBlock(bytes, alignment);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
 void
 giveBlock(void* block) noexcept
 {
@@ -260,8 +273,9 @@ giveBlock(void* block) noexcept
 
 } // namespace pcl6d::app
 
-// The replaceable functions of the language; the forms for arrays and without exceptions
-// call these.
+// The replaceable functions of the language; the forms for arrays call these. The forms without
+// exceptions are here, too: those of a sanitizer take memory of its own, which
+// these deletes would give back to malloc.
 void*
 operator new(std::size_t bytes)
 {
@@ -272,6 +286,18 @@ void*
 operator new(std::size_t bytes, std::align_val_t alignment)
 {
   return pcl6d::app::takeBlock(bytes, static_cast<std::size_t>(alignment));
+}
+
+void*
+operator new(std::size_t bytes, const std::nothrow_t&) noexcept
+{
+  return pcl6d::app::takeBlockOrNull(bytes);
+}
+
+void*
+operator new(std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept
+{
+  return pcl6d::app::takeBlockOrNull(bytes, static_cast<std::size_t>(alignment));
 }
 
 void

@@ -295,7 +295,9 @@ operator new(std::size_t bytes, const std::nothrow_t&) noexcept
 }
 
 void*
-operator new(std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept
+operator new(std::size_t bytes,
+             std::align_val_t alignment,
+             const std::nothrow_t&) noexcept
 {
   return pcl6d::app::takeBlockOrNull(bytes, static_cast<std::size_t>(alignment));
 }

@@ -39,8 +39,7 @@ leaks=1
 # EIGEN_MALLOC_ALREADY_ALIGNED (preset): Eigen aligns memory in its own way where it sees the
 # sanitizer, and PCL's libraries, which were built without, could not free it.
 # alloc_dealloc_mismatch: PCL's libraries, built for C++14, take clouds from malloc by an
-# operator of the class, which C++17 has no more: a cloud of theirs is freed by delete. And the
-# programs have an operator new of their own, but for the one that does not throw.
+# operator of the class, which C++17 has no more: a cloud of theirs is freed by delete.
 # Faults of other people's libraries, each with its reason. All this is for the build as well,
 # which runs each test program once for the names of its tests.
 suppressions=$PWD/test/suppressions

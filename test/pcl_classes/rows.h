@@ -4,6 +4,7 @@
 // one name. OURS is defined where the class is ours, for settings that only ours has.
 #pragma once
 
+#include "support/pcl_estimation_peers.h"
 #include "support/pcl_peers.h"
 
 #include <pcl6d/common/pose.h>

@@ -2,6 +2,7 @@
 // Estimations of the motion: each of PCL's and what stands in its place, on exact pairs and
 // on pairs with noise.
 #include "as_pcl_cases.h"
+#include "support/pcl_estimation_peers.h"
 #include "support/pcl_peers.h"
 
 #include <pcl6d/registration/pcl/transformation_estimation_dual_quaternion.h>
@@ -9,10 +10,6 @@
 #include <pcl6d/registration/pcl/transformation_estimation_plane_linear.h>
 #include <pcl6d/registration/pcl/transformation_estimation_scale_quaternion.h>
 #include <pcl6d/registration/pcl/transformation_estimation_svd.h>
-
-#include <pcl/registration/transformation_estimation_dual_quaternion.h>
-#include <pcl/registration/transformation_estimation_lm.h>
-#include <pcl/registration/transformation_estimation_svd_scale.h>
 
 #include <numeric>
 

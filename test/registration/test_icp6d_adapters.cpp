@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCL's estimations of correspondences and transformations, plugged into ICP6D.
 #include "icp6d_cases.h"
+#include "support/pcl_estimation_peers.h"
 #include "support/pcl_peers.h"
 
 #include <pcl6d/registration/pcl/transformation_estimation_plane_helix.h>
 #include <pcl6d/registration/pcl/transformation_estimation_svd.h>
 
-#include <pcl/registration/correspondence_estimation_backprojection.h>
-#include <pcl/registration/correspondence_estimation_normal_shooting.h>
 #include <pcl/registration/transformation_estimation_3point.h>
-#include <pcl/registration/transformation_estimation_dual_quaternion.h>
-#include <pcl/registration/transformation_estimation_lm.h>
-#include <pcl/registration/transformation_estimation_point_to_plane.h>
-#include <pcl/registration/transformation_estimation_svd_scale.h>
 
 namespace reg = pcl::registration;
 using namespace pcl6d::test;

@@ -97,7 +97,7 @@ readOne(const PlaneSettings& s,
 SceneCloud
 readInput(const PlaneSettings& s, app::FolderJob& job)
 {
-  const ScanParameterOptions given{s.min_range, s.max_range, s.voxel};
+  const ScanParameterOptions given{s.min_range, s.max_range, s.voxel, {}};
   app::checkOptions([&] { given.validate(); });
   if (!std::filesystem::is_directory(s.input))
     return readOne(s, given, job.bar);

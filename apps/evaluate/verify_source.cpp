@@ -136,7 +136,8 @@ listFolder(const VerifySettings& s, ProgressBar& bar)
     listing.parameters = {
         lengthOf(*scans.summary(), "min-range", s.parameters.min_range),
         lengthOf(*scans.summary(), "max-range", s.parameters.max_range),
-        lengthOf(*scans.summary(), "voxel", s.parameters.voxel)};
+        lengthOf(*scans.summary(), "voxel", s.parameters.voxel),
+        s.parameters.line_spacing};
   if (scans.summary() && s.poses.empty())
     listing.unsure = unsureOf(*scans.summary(), listing.indices);
   if (!s.poses.empty())

@@ -192,6 +192,26 @@ TEST(PclSlam6d, PrintedParametersGiveTheSameRun)
             readText(folder / "given" / "trajectory.kitti"));
 }
 
+TEST(PclSlam6d, TakesALineSpacing)
+{
+  const TempFolder folder;
+  const fs::path out = folder / "out";
+  ASSERT_EQ(slam(scans(), out, {"--last", "1", "--line-spacing", "0.2"}).exit_code, 0);
+  const auto options = nlohmann::json::parse(readText(out / "summary.json"))["options"];
+  EXPECT_EQ(options["line-spacing"]["value"], "0.2");
+  EXPECT_EQ(options["voxel"]["value"], "0.26");
+  const Outcome both = slam(scans(),
+                            folder / "both",
+                            {"--last", "1", "--line-spacing", "0.2", "--voxel", "0.1"});
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_NE((both.out + both.err).find("no effect in this run: --line-spacing"),
+            std::string::npos)
+      << both.out << both.err;
+  expectError(slam(scans(), folder / "bad", {"--line-spacing", "-1"}),
+              2,
+              {"--line-spacing = -1"});
+}
+
 TEST(PclSlam6d, NeverReadsGroundTruth)
 {
   const TempFolder folder;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far the points and the lines of a scan lie apart, against patterns of known angles.
+#include <pcl6d/common/error.h>
 #include <pcl6d/common/random.h>
 #include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/filters/scan_sampling.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 using pcl6d::Points;
 using pcl6d::samplingOf;
@@ -184,7 +186,46 @@ TEST(ScanParametersOfRings, TakeTheVoxelFromTheLines)
   const pcl6d::ScanParameters p = pcl6d::deriveScanParameters({}, {scan});
   EXPECT_NEAR(
       p.voxel.value, 1.3 * sampling.lineSpacing(), 0.06 * sampling.lineSpacing());
-  EXPECT_NE(p.voxel.why.find("16 rings 2 deg apart"), std::string::npos) << p.voxel.why;
+  EXPECT_NE(p.voxel.why.find("1.3 x line-spacing"), std::string::npos) << p.voxel.why;
   EXPECT_NE(p.line_spacing.why.find("16 rings"), std::string::npos)
       << p.line_spacing.why;
+}
+
+TEST(ScanParametersOfRings, TakeALineSpacingThatIsGiven)
+{
+  const Points scan = ringScan(16, 2 * kDegree, 0.2 * kDegree);
+  pcl6d::ScanParameterOptions given;
+  given.line_spacing = 0.2;
+  const pcl6d::ScanParameters p = pcl6d::deriveScanParameters(given, {scan});
+  EXPECT_TRUE(p.line_spacing.given);
+  EXPECT_NEAR(p.voxel.value, 0.26, 1e-12);
+  // What is printed gives the same, and none is as for a scan without lines.
+  const pcl6d::ScanParameters derived = pcl6d::deriveScanParameters({}, {scan});
+  given.line_spacing = derived.line_spacing.value;
+  EXPECT_EQ(pcl6d::deriveScanParameters(given, {scan}).voxel.value,
+            derived.voxel.value);
+  given.line_spacing = 0;
+  EXPECT_LT(pcl6d::deriveScanParameters(given, {scan}).voxel.value,
+            0.7 * derived.voxel.value);
+  // A voxel that is given stays.
+  given.line_spacing = 0.2;
+  given.voxel = 0.03;
+  EXPECT_EQ(pcl6d::deriveScanParameters(given, {scan}).voxel.value, 0.03);
+}
+
+TEST(ScanParametersOfRings, RefuseALineSpacingThatIsNone)
+{
+  for (const double bad : {-0.1,
+                           std::numeric_limits<double>::infinity(),
+                           std::numeric_limits<double>::quiet_NaN()}) {
+    pcl6d::ScanParameterOptions given;
+    given.line_spacing = bad;
+    try {
+      given.validate();
+      FAIL() << bad;
+    } catch (const pcl6d::BadArgument& error) {
+      EXPECT_NE(std::string(error.what()).find("line_spacing"), std::string::npos)
+          << error.what();
+    }
+  }
 }

@@ -61,6 +61,9 @@ gateBelowCode(const std::vector<Points>& scans)
  * detail of narrow corridors, below 1 registration of rooms fails). */
 constexpr double kVoxelOfLines = 1.3;
 
+/** A voxel of two digits follows from it. */
+constexpr int kDigitsOfLines = 3;
+
 /** \return the sampling whose line spacing is the (upper) median of all */
 ScanSampling
 medianSampling(std::vector<ScanSampling> all)
@@ -108,6 +111,10 @@ ScanParameterOptions::validate() const
           "voxel",
           voxel.value_or(0),
           "finite and > 0");
+  require(!line_spacing || (*line_spacing >= 0 && std::isfinite(*line_spacing)),
+          "line_spacing",
+          line_spacing.value_or(0),
+          "finite and >= 0");
 }
 
 ScanParameters
@@ -147,12 +154,13 @@ deriveScanParameters(const ScanParameterOptions& options,
                                  "larger of 2.5 x median spacing " + metres(spacing) +
                                      " and " + scale + " / 60"));
   const ScanSampling sampling = medianSampling(std::move(samplings));
-  p.line_spacing = derivedParameter(sampling.lineSpacing(), sampling.text());
-  const double of_lines = kVoxelOfLines * sampling.lineSpacing();
+  p.line_spacing = orDerived(
+      options.line_spacing,
+      derivedParameter(sampling.lineSpacing(), sampling.text(), kDigitsOfLines));
+  const double of_lines = kVoxelOfLines * p.line_spacing.value;
   if (!options.voxel && of_lines > voxel)
     p.voxel = derivedParameter(of_lines,
-                               "1.3 x line-spacing " + metres(sampling.lineSpacing()) +
-                                   " (" + sampling.text() + ")");
+                               "1.3 x line-spacing " + metres(p.line_spacing.value));
   const Parameter grid = gateAtGrid(p.voxel.value);
   if (!options.max_range && grid.value < p.max_range.value)
     p.max_range = grid;

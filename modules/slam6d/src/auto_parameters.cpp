@@ -23,7 +23,8 @@ deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans)
 {
   Slam6DParameters p;
   static_cast<ScanParameters&>(p) = deriveScanParameters(
-      {options.min_range, options.max_range, options.voxel}, scans);
+      {options.min_range, options.max_range, options.voxel, options.line_spacing},
+      scans);
   p.max_distance = orDerived(
       options.max_distance,
       options.metric == Metric::kPoint

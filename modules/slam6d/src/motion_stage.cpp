@@ -60,7 +60,8 @@ void
 MotionStage::begin(const Points& points)
 {
   const ScanParameters parameters = deriveScanParameters(
-      {options_.min_range, options_.max_range, options_.voxel}, {points});
+      {options_.min_range, options_.max_range, options_.voxel, options_.line_spacing},
+      {points});
   min_range_ = parameters.min_range.value;
   max_range_ = parameters.max_range.value;
   voxel_ = parameters.voxel.value;

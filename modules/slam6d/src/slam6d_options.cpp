@@ -13,7 +13,7 @@ namespace pcl6d {
 void
 Slam6DOptions::validate() const
 {
-  ScanParameterOptions{min_range, max_range, voxel}.validate();
+  ScanParameterOptions{min_range, max_range, voxel, line_spacing}.validate();
   require(reduction_points >= 1, "reduction_points", reduction_points, ">= 1");
   require(!max_distance || (*max_distance > 0 && std::isfinite(*max_distance)),
           "max_distance",

@@ -27,9 +27,10 @@ derivedParameter(double value, const std::string& why, int digits = 2);
 
 /** \brief Range gate and reduction of scans as far as they are given. */
 struct ScanParameterOptions {
-  std::optional<double> min_range; ///< [m]
-  std::optional<double> max_range; ///< [m] >= min_range
-  std::optional<double> voxel;     ///< [m] finite and > 0
+  std::optional<double> min_range;    ///< [m]
+  std::optional<double> max_range;    ///< [m] >= min_range
+  std::optional<double> voxel;        ///< [m] finite and > 0
+  std::optional<double> line_spacing; ///< [m] of the lines of a scan; finite and >= 0
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;
@@ -45,7 +46,7 @@ struct ScanParameters {
 };
 
 /** \brief Fills in what the user left open, from some scans. Derived values are rounded to
- * two digits (max_range below a code: four), so that giving the printed value gives the
+ * two digits (max_range below a code: four; line_spacing: three), so that giving the printed value gives the
  * same run. \ingroup filters */
 ScanParameters
 deriveScanParameters(const ScanParameterOptions& options,

@@ -22,6 +22,8 @@ struct Slam6DOptions {
   std::optional<double> min_range; ///< [m] nearer points are dropped; >= 0
   std::optional<double> max_range; ///< [m] farther points are dropped; >= min_range
   std::optional<double> voxel;     ///< [m] edge length of the reduction; finite, > 0
+  /** [m] between the lines of a scan, which voxels span; finite, >= 0 */
+  std::optional<double> line_spacing;
   /** what stands for the points of a voxel; its seed is that below */
   ReductionMethod reduction = ReductionMethod::kMean;
   int reduction_points = 1;                 ///< of a voxel if kRandom; >= 1

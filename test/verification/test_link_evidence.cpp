@@ -67,6 +67,23 @@ TEST(LinkEvidence, OfATrueLinkIsGood)
   EXPECT_EQ(opinion.reason, "");
 }
 
+TEST(LinkEvidence, GivesPosesAQuarterOfTheErrorThatPairsShare)
+{
+  const ScannedPair pair;
+  const VerifiedScans scans = pair.verified();
+  LinkEvidence evidence = linkEvidence(scans[0], scans[1], pair.T_first_second);
+  const auto varianceOf = [&](double of_shared) {
+    LinkEvidence other = evidence;
+    other.fit.covariance += (of_shared - 1) * evidence.fit.shared;
+    other.fit.shared.setZero();
+    return pcl6d::linkCheck(0, 1, other, judged(other)).covariance;
+  };
+  const auto given = pcl6d::linkCheck(0, 1, evidence, judged(evidence)).covariance;
+  EXPECT_TRUE(given.isApprox(varianceOf(1.0 / 16), 1e-9));
+  EXPECT_LT(given.trace(), varianceOf(1).trace());
+  EXPECT_GT(given.trace(), varianceOf(0).trace());
+}
+
 TEST(LinkEvidence, LeavesByTheWholeShift)
 {
   // Also by more than pairs are apart at most (0.255 m): in a few steps.

@@ -270,6 +270,10 @@ TEST(SurfaceFit, CovarianceHoldsWhatAllPairsShare)
   const Eigen::VectorXd none = variancesWith(0), some = variancesWith(0.5),
                         twice = variancesWith(1);
   EXPECT_GT((some - none).minCoeff(), 0);
+  options.shared_error = 0.5;
+  const Eigen::VectorXd part =
+      fitSurfaces(scans[0], scans[1], pair.T_first_second, options).shared.diagonal();
+  EXPECT_TRUE(part.isApprox(some - none, 1e-9)) << "told apart from the rest";
   EXPECT_TRUE((twice - none).isApprox(4 * (some - none), 1e-9)) << "a deviation";
 }
 

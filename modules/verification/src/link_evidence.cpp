@@ -256,7 +256,9 @@ linkCheck(std::size_t from,
   link.open_directions = evidence.fit.open_directions;
   link.reason = opinion.reason;
   const Eigen::Matrix<double, 6, 6> J = intoSecondScan(evidence);
-  link.covariance = J * evidence.fit.covariance * J.transpose();
+  constexpr double kLeftOut = 1 - kSharedByPoses * kSharedByPoses;
+  link.covariance =
+      J * (evidence.fit.covariance - kLeftOut * evidence.fit.shared) * J.transpose();
   link.pull = J * evidence.fit.step;
   return link;
 }

@@ -210,6 +210,7 @@ solve(const std::vector<SurfacePair>& pairs,
   const double error = options.shared_error * usualResidual(pairs, fit);
   const Twist shared = sharedVariances(pairs, fit, error, V, inverse);
   // Few cubes leave directions without an error: a tenth of that of independent points.
+  fit.shared = V * shared.asDiagonal() * V.transpose();
   fit.covariance =
       H_inverse * (spread + 0.1 * fit.residual * fit.residual * H) * H_inverse +
       V * (open + shared).asDiagonal() * V.transpose();

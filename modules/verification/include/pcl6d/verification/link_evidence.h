@@ -66,7 +66,8 @@ struct LinkOpinion {
 };
 
 /** \brief A link between two places of a map, in plain data. Its covariance is that of the
- * surfaces, with what it is too small by; see share/doc/trust.md. */
+ * surfaces with a quarter of the error that all their pairs may share: what many links hold is
+ * known better than one of them may be judged; see share/doc/trust.md. */
 LinkCheck
 linkCheck(std::size_t from,
           std::size_t to,

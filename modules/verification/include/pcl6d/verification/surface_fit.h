@@ -42,6 +42,8 @@ struct SurfaceFit {
    * that all pairs share is added; directions that the surfaces leave open are as uncertain
    * as the pairs are spread */
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /** the part of the covariance that stems from an error which all pairs share */
+  Eigen::Matrix<double, 6, 6> shared = Eigen::Matrix<double, 6, 6>::Zero();
   int open_directions = 0; ///< motions that the surfaces do not fix
 
   /** \return [m] rms motion of the pairs by the step */

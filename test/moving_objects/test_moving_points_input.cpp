@@ -84,6 +84,24 @@ TEST_F(RaysAlone, FewMissesMayBeChance)
   EXPECT_GT(told(3e-3), 25u);
 }
 
+TEST_F(RaysAlone, ALineOfCellsMayBeAnEdge)
+{
+  // A band before what the other scan saw: one line of cells is how the edge of a table looks
+  // whose place is a little wrong, many lines are a thing.
+  const auto told = [&](double half_width) {
+    const Points points = scanAround(20000, {0, 0, 0}, [&](const Eigen::Vector3d& way) {
+      return way.x() > 0.9 && std::abs(way.z()) < half_width ? 2.0 : 4.0;
+    });
+    images_.emplace_back(points);
+    SeenScan judged;
+    judged.rays = &images_.back();
+    return count(MovingPoints({judged, sphere(4)}).judge(0, points),
+                 PointMotion::kDynamic);
+  };
+  EXPECT_EQ(told(0.004), 0u);
+  EXPECT_GT(told(0.1), 100u);
+}
+
 TEST_F(RaysAlone, PointsThatAreNoneAreUnknown)
 {
   const MovingPoints judges({sphere(3), sphere(3)});

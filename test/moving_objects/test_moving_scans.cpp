@@ -96,8 +96,9 @@ TEST(MovingScans, NoReturnsAreNoRays)
   EXPECT_FALSE(judges.isBlind());
   const auto motion = judges.motion(1, scans[1].points);
   for (std::size_t p = 0; p < motion.size(); ++p) {
-    if (scans[1].points[p].norm() > 50)
+    if (scans[1].points[p].norm() > 50) {
       ASSERT_EQ(motion[p], PointMotion::kUnknown) << "beyond the range gate";
+    }
   }
   const Told room = toldOf({scans[2]}, {judges.motion(2, scans[2].points)}, Met::kRoom);
   EXPECT_LT(room.dynamic, 3u);

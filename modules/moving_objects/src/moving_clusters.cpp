@@ -43,6 +43,25 @@ constexpr float kSideSigmas = 3;
 constexpr std::size_t kPlacesPerBlock = 256;
 
 constexpr int kNobody = -1;
+
+/** Two lines of cells are 1.7 cells wide by widthOf(), a single one less than 1, as its places lie
+ * anywhere in their cells. */
+constexpr double kLineCells = 1.5;
+
+/** \return how far points spread across the direction in which they spread most */
+double
+widthOf(const std::vector<Eigen::Vector3d>& points)
+{
+  const auto count = static_cast<double>(points.size());
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points)
+    middle += p / count;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& p : points)
+    scatter += (p - middle) * (p - middle).transpose() / count;
+  // Of points spread evenly over a width its variance is width^2 / 12.
+  return std::sqrt(12 * symmetricEigenvalues<3>(scatter)(1));
+}
 } // namespace
 
 MovingClusters::MovingClusters(const JudgedPlaces& judged,
@@ -161,7 +180,19 @@ MovingClusters::moves(const std::vector<std::size_t>& cluster) const
   }
   if (2 * hits > misses && clear < kClearJudges)
     return false;
-  return excess >= kLeastMisses && !isPassedBeside(cluster);
+  return excess >= kLeastMisses && !isLine(cluster) && !isPassedBeside(cluster);
+}
+
+/** Whether its places are a single line of cells, seen from the scanner: the edge of a table, whose
+ * top the scanner grazes, and that others miss by the error of its place. */
+bool
+MovingClusters::isLine(const std::vector<std::size_t>& cluster) const
+{
+  std::vector<Eigen::Vector3d> directions;
+  for (const std::size_t place : cluster)
+    directions.push_back(
+        (judged_.places[place] - judged_.origin).cast<double>().normalized());
+  return widthOf(directions) < kLineCells * judged_.cell;
 }
 
 Eigen::Vector3d
@@ -179,14 +210,10 @@ bool
 MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster) const
 {
   const Eigen::Vector3d middle = middleOf(cluster);
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const std::size_t place : cluster) {
-    const Eigen::Vector3d off = judged_.places[place].cast<double>() - middle;
-    scatter += off * off.transpose();
-  }
-  // Of points spread evenly over a width its variance is width^2 / 12.
-  const double width = std::sqrt(12 * symmetricEigenvalues<3>(scatter)(1) /
-                                 static_cast<double>(cluster.size()));
+  std::vector<Eigen::Vector3d> places;
+  for (const std::size_t place : cluster)
+    places.push_back(judged_.places[place].cast<double>());
+  const double width = widthOf(places);
   bool is_hit = false;
   for (std::size_t j = 0; j < jury_.judges().size(); ++j) {
     std::size_t hit = 0, missed = 0;

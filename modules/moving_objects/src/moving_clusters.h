@@ -50,6 +50,8 @@ private:
   bool
   moves(const std::vector<std::size_t>& cluster) const;
   bool
+  isLine(const std::vector<std::size_t>& cluster) const;
+  bool
   isPassedBeside(const std::vector<std::size_t>& cluster) const;
   Eigen::Vector3d
   middleOf(const std::vector<std::size_t>& cluster) const;

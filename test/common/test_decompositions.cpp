@@ -37,8 +37,9 @@ expectDecomposed(const MatrixXd& A, const VectorXd& values, const MatrixXd& V)
     EXPECT_LT((A * V.col(i) - values(i) * V.col(i)).norm(), kRounding);
     for (Eigen::Index j = 0; j <= i; ++j)
       EXPECT_NEAR(V.col(i).dot(V.col(j)), i == j, kRounding);
-    if (i > 0)
+    if (i > 0) {
       EXPECT_GE(values(i), values(i - 1));
+    }
   }
 }
 

@@ -58,17 +58,19 @@ TEST_P(RecordedPlanes, HaveAtLeastAsManyInliersAsPcls)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Clouds,
-    RecordedPlanes,
-    testing::Values(Recorded{"pcl", "bun0.pcd"},
-                    Recorded{"pcl", "bun4.pcd"},
-                    Recorded{"pcl", "sac_plane_test.pcd"},
-                    Recorded{"pcl", "milk_color.pcd"},
-                    Recorded{"objects", "milk_cartoon_all_small_clorox.pcd"},
-                    Recorded{"rooms", "room_scan1.pcd"},
-                    Recorded{"handheld", "scan000.pcd"}),
-    [](const auto& info) { return info.param.folder + std::to_string(info.index); });
+INSTANTIATE_TEST_SUITE_P(Clouds,
+                         RecordedPlanes,
+                         testing::Values(Recorded{"pcl", "bun0.pcd"},
+                                         Recorded{"pcl", "bun4.pcd"},
+                                         Recorded{"pcl", "sac_plane_test.pcd"},
+                                         Recorded{"pcl", "milk_color.pcd"},
+                                         Recorded{"objects",
+                                                  "milk_cartoon_all_small_clorox.pcd"},
+                                         Recorded{"rooms", "room_scan1.pcd"},
+                                         Recorded{"handheld", "scan000.pcd"}),
+                         [](const auto& tested) {
+                           return tested.param.folder + std::to_string(tested.index);
+                         });
 
 TEST(RecordedPlane, IsThatOfPclsTestOfPlaneModels)
 {

@@ -140,8 +140,9 @@ TEST_F(RecordFileTest, ALinkIsRefusedAndWhatItLeadsToStaysAsItIs)
     std::filesystem::create_symlink(other, path);
     EXPECT_THROW(RecordFile{path}, pcl6d::IoFailed);
     EXPECT_EQ(std::filesystem::exists(other), is_there);
-    if (is_there)
+    if (is_there) {
       EXPECT_EQ(std::filesystem::file_size(other), 0U);
+    }
   }
 }
 

@@ -5,10 +5,12 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/simd_clones.h>
 
 namespace plain {
 using namespace pcl6d;
 }
+#undef PCL6D_SIMD_CLONES
 #define PCL6D_SIMD_CLONES
 #define pcl6d plain
 #include "../../modules/search/src/lowest_node.cpp"

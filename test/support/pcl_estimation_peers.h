@@ -23,10 +23,8 @@
 #define PCL6D_TEST_ESTIMATION_PEERS_OF_PLANES_(EXPLICIT, P, Scalar)                    \
   EXPLICIT(pcl::registration::TransformationEstimationPointToPlane<P, P, Scalar>)
 #define PCL6D_TEST_ESTIMATION_PEERS_OF_PAIRS_(EXPLICIT, P, Scalar)                     \
-  EXPLICIT(                                                                            \
-      pcl::registration::CorrespondenceEstimationNormalShooting<P, P, P, Scalar>)      \
-  EXPLICIT(                                                                            \
-      pcl::registration::CorrespondenceEstimationBackProjection<P, P, P, Scalar>)
+  EXPLICIT(pcl::registration::CorrespondenceEstimationNormalShooting<P, P, P, Scalar>) \
+  EXPLICIT(pcl::registration::CorrespondenceEstimationBackProjection<P, P, P, Scalar>)
 
 #define PCL6D_TEST_ESTIMATION_ELSEWHERE_(...) extern template class __VA_ARGS__;
 #define PCL6D_TEST_ESTIMATION_HERE_(...) template class __VA_ARGS__;

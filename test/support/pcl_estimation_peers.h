@@ -11,39 +11,35 @@
 
 /** \file
  * PCL's estimations of pairs and motions that cost most to compile (least squares by
- * Levenberg-Marquardt: 20 s an instance), compiled once like those of pcl_peers.h. Include it
- * instead of PCL's headers of these classes.
+ * Levenberg-Marquardt: 20 s an instance), compiled once like those of pcl_peers.h, in units
+ * of their own. Include it instead of PCL's headers of these classes.
  */
 
-// Each calls EXPLICIT(class) for some of the instances that are compiled once.
-#define PCL6D_TEST_ESTIMATION_PEERS_OF_POINT_(EXPLICIT, P, Scalar)                     \
-  EXPLICIT(pcl::registration::TransformationEstimationLM<P, P, Scalar>)                \
+// Each calls EXPLICIT(class) for the instances of one unit.
+#define PCL6D_TEST_PEERS_LM_XYZ_(EXPLICIT)                                             \
+  EXPLICIT(pcl::registration::                                                         \
+               TransformationEstimationLM<pcl::PointXYZ, pcl::PointXYZ, float>)
+#define PCL6D_TEST_PEERS_LM_NORMALS_(EXPLICIT, Scalar)                                 \
+  EXPLICIT(pcl::registration::                                                         \
+               TransformationEstimationLM<pcl::PointNormal, pcl::PointNormal, Scalar>) \
+  EXPLICIT(pcl::registration::TransformationEstimationPointToPlane<pcl::PointNormal,   \
+                                                                   pcl::PointNormal,   \
+                                                                   Scalar>)
+#define PCL6D_TEST_PEERS_CLOSED_OF_(EXPLICIT, P, Scalar)                               \
   EXPLICIT(pcl::registration::TransformationEstimationDualQuaternion<P, P, Scalar>)    \
   EXPLICIT(pcl::registration::TransformationEstimationSVDScale<P, P, Scalar>)
-#define PCL6D_TEST_ESTIMATION_PEERS_OF_PLANES_(EXPLICIT, P, Scalar)                    \
-  EXPLICIT(pcl::registration::TransformationEstimationPointToPlane<P, P, Scalar>)
-#define PCL6D_TEST_ESTIMATION_PEERS_OF_PAIRS_(EXPLICIT, P, Scalar)                     \
+#define PCL6D_TEST_PEERS_PAIRS_OF_(EXPLICIT, P, Scalar)                                \
   EXPLICIT(pcl::registration::CorrespondenceEstimationNormalShooting<P, P, P, Scalar>) \
   EXPLICIT(pcl::registration::CorrespondenceEstimationBackProjection<P, P, P, Scalar>)
+#define PCL6D_TEST_PEERS_CLOSED_(EXPLICIT)                                             \
+  PCL6D_TEST_PEERS_CLOSED_OF_(EXPLICIT, pcl::PointXYZ, float)                          \
+  PCL6D_TEST_PEERS_CLOSED_OF_(EXPLICIT, pcl::PointNormal, double)                      \
+  PCL6D_TEST_PEERS_PAIRS_OF_(EXPLICIT, pcl::PointNormal, double)
 
 #define PCL6D_TEST_ESTIMATION_ELSEWHERE_(...) extern template class __VA_ARGS__;
 #define PCL6D_TEST_ESTIMATION_HERE_(...) template class __VA_ARGS__;
 
-PCL6D_TEST_ESTIMATION_PEERS_OF_POINT_(PCL6D_TEST_ESTIMATION_ELSEWHERE_,
-                                      pcl::PointXYZ,
-                                      float)
-PCL6D_TEST_ESTIMATION_PEERS_OF_POINT_(PCL6D_TEST_ESTIMATION_ELSEWHERE_,
-                                      pcl::PointNormal,
-                                      float)
-PCL6D_TEST_ESTIMATION_PEERS_OF_PLANES_(PCL6D_TEST_ESTIMATION_ELSEWHERE_,
-                                       pcl::PointNormal,
-                                       float)
-PCL6D_TEST_ESTIMATION_PEERS_OF_POINT_(PCL6D_TEST_ESTIMATION_ELSEWHERE_,
-                                      pcl::PointNormal,
-                                      double)
-PCL6D_TEST_ESTIMATION_PEERS_OF_PLANES_(PCL6D_TEST_ESTIMATION_ELSEWHERE_,
-                                       pcl::PointNormal,
-                                       double)
-PCL6D_TEST_ESTIMATION_PEERS_OF_PAIRS_(PCL6D_TEST_ESTIMATION_ELSEWHERE_,
-                                      pcl::PointNormal,
-                                      double)
+PCL6D_TEST_PEERS_LM_XYZ_(PCL6D_TEST_ESTIMATION_ELSEWHERE_)
+PCL6D_TEST_PEERS_LM_NORMALS_(PCL6D_TEST_ESTIMATION_ELSEWHERE_, float)
+PCL6D_TEST_PEERS_LM_NORMALS_(PCL6D_TEST_ESTIMATION_ELSEWHERE_, double)
+PCL6D_TEST_PEERS_CLOSED_(PCL6D_TEST_ESTIMATION_ELSEWHERE_)

@@ -5,15 +5,19 @@
 
 #include <optional>
 
-/** \file Spinning lidars, each after its data sheet. */
+/** \file Spinning lidars and rosettes, each after its data sheet. */
 namespace pcl6d::scanner {
 
 using Resolution = std::optional<double>; ///< [rad] between columns; none: as it is
 
 ScannerPreset
+avia(const Resolution& resolution);
+ScannerPreset
 hdl32(const Resolution& resolution);
 ScannerPreset
 hdl64(const Resolution& resolution);
+ScannerPreset
+mid360(const Resolution& resolution);
 ScannerPreset
 os0(const Resolution& resolution);
 ScannerPreset

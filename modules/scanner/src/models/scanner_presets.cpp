@@ -255,8 +255,10 @@ projection(const Resolution& resolution)
 }
 
 constexpr Entry kEntries[] = {
+    {"avia", "rosette ahead, 70 x 77 deg, 6 x 4000 in 0.1 s", avia},
     {"hdl32", "spinning lidar, 360 x 41 deg, 32 x 2170 in 0.1 s", hdl32},
     {"hdl64", "spinning lidar, 360 x 26 deg, 64 x 2083 in 0.1 s", hdl64},
+    {"mid360", "rosette all around, 360 x 59 deg, 4 x 5000 in 0.1 s", mid360},
     {"os0", "spinning lidar, 360 x 90 deg, 128 x 1024 in 0.1 s", os0},
     {"ouster", "spinning lidar, 360 x 45 deg, 64 x 1024 in 0.1 s", ouster},
     {"pandar", "spinning lidar, 360 x 40 deg, uneven, 64 x 1800 in 0.1 s", pandar},

@@ -29,7 +29,7 @@ scannerDescription(const std::string& name);
 
 /** \param[in] resolution [rad] in (0, pi / 2]: angle between neighbouring samples and
  * lines, of a spinning lidar between its columns, of a camera between pixels at the
- * centre of its image; none: that of the device
+ * centre of its image, of a rosette the side of the square that a point has on average; none: that of the device
  * \throws BadArgument the name is not known (the message lists those that are), the
  * resolution breaks its rule, or the scan would take too much memory (the message says
  * how much) \ingroup scanner */

@@ -208,6 +208,7 @@ TEST(PclSlam6d, TakesALineSpacing)
             std::string::npos)
       << both.out << both.err;
   expectError(slam(scans(), folder / "bad", {"--line-spacing", "-1"}),
+              "pcl_slam6d",
               2,
               {"--line-spacing = -1"});
 }

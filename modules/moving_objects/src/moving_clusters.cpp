@@ -44,9 +44,13 @@ constexpr std::size_t kPlacesPerBlock = 256;
 
 constexpr int kNobody = -1;
 
-/** Two lines of cells are 1.7 cells wide by widthOf(), a single one less than 1, as its places lie
- * anywhere in their cells. */
-constexpr double kLineCells = 1.5;
+/** A single line of cells is less than one wide by widthOf(), as its places lie anywhere in their
+ * cells; two lines are 1.7 wide, or 1.2 where points lie closer than cells do. */
+constexpr double kLineCells = 1.1;
+
+/** Where places are farther apart than so many cells, as those of reduced points, each would be a
+ * line. */
+constexpr double kDenseCells = 1.5;
 
 /** \return how far points spread across the direction in which they spread most */
 double
@@ -60,7 +64,7 @@ widthOf(const std::vector<Eigen::Vector3d>& points)
   for (const Eigen::Vector3d& p : points)
     scatter += (p - middle) * (p - middle).transpose() / count;
   // Of points spread evenly over a width its variance is width^2 / 12.
-  return std::sqrt(12 * symmetricEigenvalues<3>(scatter)(1));
+  return std::sqrt(12 * std::max(0.0, symmetricEigenvalues<3>(scatter)(1)));
 }
 } // namespace
 
@@ -156,9 +160,9 @@ MovingClusters::findClusters()
   }
 }
 
-/** Whether enough judges saw through it. Where as many saw it in its place, it may have stayed for
- * a while, if it is gone for some who see all of it; parts of what stands are missed by some here,
- * by others there. */
+/** Whether enough judges saw through it: two, or the only one that tells of most of it. Where as
+ * many saw it in its place, it may have stayed for a while, if it is gone for some who see all of
+ * it; parts of what stands are missed by some here, by others there. */
 bool
 MovingClusters::moves(const std::vector<std::size_t>& cluster) const
 {
@@ -172,27 +176,17 @@ MovingClusters::moves(const std::vector<std::size_t>& cluster) const
       of[j].second += votes_[place].hits >> j & 1U;
     }
   }
-  int clear = 0;
+  int clear = 0, telling = 0;
   for (const auto& [missed, hit] : of) {
     hits += hit;
     misses += missed;
     clear += 2 * missed >= cluster.size() && 4 * hit <= missed ? 1 : 0;
+    telling += 2 * (missed + hit) >= cluster.size() ? 1 : 0;
   }
-  if (2 * hits > misses && clear < kClearJudges)
+  const bool was_seen_there = 2 * hits > misses;
+  if (clear < (was_seen_there ? kClearJudges : std::min(kClearJudges, telling)))
     return false;
-  return excess >= kLeastMisses && !isLine(cluster) && !isPassedBeside(cluster);
-}
-
-/** Whether its places are a single line of cells, seen from the scanner: the edge of a table, whose
- * top the scanner grazes, and that others miss by the error of its place. */
-bool
-MovingClusters::isLine(const std::vector<std::size_t>& cluster) const
-{
-  std::vector<Eigen::Vector3d> directions;
-  for (const std::size_t place : cluster)
-    directions.push_back(
-        (judged_.places[place] - judged_.origin).cast<double>().normalized());
-  return widthOf(directions) < kLineCells * judged_.cell;
+  return excess >= kLeastMisses && !isPassedBeside(cluster);
 }
 
 Eigen::Vector3d
@@ -322,6 +316,33 @@ MovingClusters::grow()
   }
 }
 
+/** A thing that is a single line of cells, seen from the scanner, with all that it took in, has
+ * not moved: so the edge of a table looks, whose top the scanner grazes, and that others miss by
+ * the error of its place. */
+void
+MovingClusters::dropLines()
+{
+  std::vector<std::vector<Eigen::Vector3d>> directions(movers_.size());
+  std::vector<std::size_t> dense(movers_.size(), 0);
+  for (std::size_t place = 0; place < mover_.size(); ++place) {
+    if (mover_[place] == kNobody)
+      continue;
+    const auto mover = static_cast<std::size_t>(mover_[place]);
+    const Eigen::Vector3d ray = (judged_.places[place] - judged_.origin).cast<double>();
+    directions[mover].push_back(ray.normalized());
+    const auto nearest = tree_.nearestK(judged_.places[place], 2);
+    const double apart = kDenseCells * judged_.cell * ray.norm();
+    dense[mover] += nearest.size() == 2 && nearest[1].distance_sq < apart * apart;
+  }
+  std::vector<bool> is_line;
+  for (std::size_t m = 0; m < directions.size(); ++m)
+    is_line.push_back(2 * dense[m] > directions[m].size() &&
+                      widthOf(directions[m]) < kLineCells * judged_.cell);
+  for (int& mover : mover_)
+    if (mover != kNobody && is_line[static_cast<std::size_t>(mover)])
+      mover = kNobody;
+}
+
 std::vector<PointMotion>
 MovingClusters::decide()
 {
@@ -329,6 +350,7 @@ MovingClusters::decide()
     tree_ = PointTree(judged_.places, num_threads_);
     findClusters();
     grow();
+    dropLines();
   }
   std::vector<PointMotion> motion(votes_.size(), PointMotion::kUnknown);
   for (std::size_t place = 0; place < votes_.size(); ++place)

@@ -50,8 +50,6 @@ private:
   bool
   moves(const std::vector<std::size_t>& cluster) const;
   bool
-  isLine(const std::vector<std::size_t>& cluster) const;
-  bool
   isPassedBeside(const std::vector<std::size_t>& cluster) const;
   Eigen::Vector3d
   middleOf(const std::vector<std::size_t>& cluster) const;
@@ -63,6 +61,8 @@ private:
   isSideOf(const Mover& mover, std::size_t place) const;
   int
   ownerOf(std::size_t place, bool is_near) const;
+  void
+  dropLines();
 
   const JudgedPlaces judged_;
   const Jury& jury_;

@@ -12,8 +12,6 @@ namespace pcl6d {
 using namespace scanner;
 
 namespace {
-constexpr double kTurn = 2 * M_PI;
-
 /** \return the direction that lies so far [rad] to the left of straight ahead, and above */
 Eigen::Vector3d
 deflected(double left, double up)
@@ -69,16 +67,16 @@ Ray
 RosetteLidar::ray(int line, int sample) const
 {
   const double t = time(line, sample);
-  const double phase = kTurn * line / options_.lasers;
-  const SinCos a = portableSinCos(kTurn * options_.first_rate * t + phase);
+  const double phase = 2 * M_PI * line / options_.lasers;
+  const SinCos a = portableSinCos(2 * M_PI * options_.first_rate * t + phase);
   const double middle = (options_.highest + options_.lowest) / 2;
   const double half_height = (options_.highest - options_.lowest) / 2;
   if (options_.shape == RosetteShape::kBelt) {
-    const SinCos b = portableSinCos(kTurn * options_.second_rate * t);
+    const SinCos b = portableSinCos(2 * M_PI * options_.second_rate * t);
     const SinCos up = portableSinCos(middle - half_height * b.cos);
     return {Eigen::Vector3d::Zero(), {up.cos * a.cos, up.cos * a.sin, up.sin}};
   }
-  const SinCos b = portableSinCos(kTurn * options_.second_rate * t + phase);
+  const SinCos b = portableSinCos(2 * M_PI * options_.second_rate * t + phase);
   return {Eigen::Vector3d::Zero(),
           deflected(options_.half_width * (a.sin + b.sin) / 2,
                     middle + half_height * (a.cos + b.cos) / 2)};

@@ -27,8 +27,8 @@ struct RosetteLidarOptions {
   /** lasers. In a disc their curves are turned about its middle, in a belt about the vertical,
    * by equal parts of a turn; >= 1 */
   int lasers = 1;
-  int samples = 24000;       ///< of each laser in a scan, at equal times; >= 1
-  double scan_period = 0.1;  ///< [s] > 0
+  int samples = 24000;      ///< of each laser in a scan, at equal times; >= 1
+  double scan_period = 0.1; ///< [s] > 0
   /** \throws BadArgument naming the first field that breaks its rule, with its value */
   void
   validate() const;

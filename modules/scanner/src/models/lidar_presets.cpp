@@ -3,6 +3,7 @@
 #include "size_limits.h"
 
 #include <pcl6d/common/angle.h>
+#include <pcl6d/common/portable_math.h>
 #include <pcl6d/scanner/rosette_lidar.h>
 #include <pcl6d/scanner/spinning_lidar.h>
 
@@ -143,7 +144,8 @@ double
 solidAngleOf(const RosetteLidarOptions& options)
 {
   if (options.shape == RosetteShape::kBelt)
-    return 2 * M_PI * (std::sin(options.highest) - std::sin(options.lowest));
+    return 2 * M_PI *
+           (portableSinCos(options.highest).sin - portableSinCos(options.lowest).sin);
   return M_PI * options.half_width * (options.highest - options.lowest) / 2;
 }
 

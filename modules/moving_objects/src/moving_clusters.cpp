@@ -205,6 +205,7 @@ MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster) const
 {
   const Eigen::Vector3d middle = middleOf(cluster);
   std::vector<Eigen::Vector3d> places;
+  places.reserve(cluster.size());
   for (const std::size_t place : cluster)
     places.push_back(judged_.places[place].cast<double>());
   const double width = widthOf(places);
@@ -305,6 +306,7 @@ MovingClusters::grow()
     std::sort(border.begin(), border.end());
     border.erase(std::unique(border.begin(), border.end()), border.end());
     std::vector<int> owners; // as all were before this round
+    owners.reserve(border.size());
     for (const std::size_t place : border)
       owners.push_back(ownerOf(place, round < kGrowths));
     front.clear();

@@ -120,6 +120,7 @@ usualResidual(const std::vector<SurfacePair>& pairs, const SurfaceFit& fit)
 {
   constexpr double kOfMedian = 1.4826; // of a normal distribution
   std::vector<double> sizes;
+  sizes.reserve(pairs.size());
   for (const SurfacePair& pair : pairs)
     sizes.push_back(
         std::abs(pair.residual - jacobianOf(pair, fit.centroid).dot(fit.step)));

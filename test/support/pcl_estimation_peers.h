@@ -31,8 +31,9 @@
 #define PCL6D_TEST_PEERS_PAIRS_OF_(EXPLICIT, P, Scalar)                                \
   EXPLICIT(pcl::registration::CorrespondenceEstimationNormalShooting<P, P, P, Scalar>) \
   EXPLICIT(pcl::registration::CorrespondenceEstimationBackProjection<P, P, P, Scalar>)
-#define PCL6D_TEST_PEERS_CLOSED_(EXPLICIT)                                             \
-  PCL6D_TEST_PEERS_CLOSED_OF_(EXPLICIT, pcl::PointXYZ, float)                          \
+#define PCL6D_TEST_PEERS_CLOSED_FLOAT_(EXPLICIT)                                       \
+  PCL6D_TEST_PEERS_CLOSED_OF_(EXPLICIT, pcl::PointXYZ, float)
+#define PCL6D_TEST_PEERS_CLOSED_DOUBLE_(EXPLICIT)                                      \
   PCL6D_TEST_PEERS_CLOSED_OF_(EXPLICIT, pcl::PointNormal, double)                      \
   PCL6D_TEST_PEERS_PAIRS_OF_(EXPLICIT, pcl::PointNormal, double)
 
@@ -42,4 +43,5 @@
 PCL6D_TEST_PEERS_LM_XYZ_(PCL6D_TEST_ESTIMATION_ELSEWHERE_)
 PCL6D_TEST_PEERS_LM_NORMALS_(PCL6D_TEST_ESTIMATION_ELSEWHERE_, float)
 PCL6D_TEST_PEERS_LM_NORMALS_(PCL6D_TEST_ESTIMATION_ELSEWHERE_, double)
-PCL6D_TEST_PEERS_CLOSED_(PCL6D_TEST_ESTIMATION_ELSEWHERE_)
+PCL6D_TEST_PEERS_CLOSED_FLOAT_(PCL6D_TEST_ESTIMATION_ELSEWHERE_)
+PCL6D_TEST_PEERS_CLOSED_DOUBLE_(PCL6D_TEST_ESTIMATION_ELSEWHERE_)

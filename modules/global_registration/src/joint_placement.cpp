@@ -87,8 +87,9 @@ withThingsOnce(std::vector<LinkEvidence> links)
   return links;
 }
 
-/** \return what links of a place say against it, one by one or together, or that none holds it,
- * as it needs. Where it was expected, things count once: people who walk about */
+/** \return why the links of a place speak against it, or that no link holds it although one is
+ * needed; empty if it is accepted. Where odometry expected the place, each isolated thing in
+ * the way of rays counts once: people may walk about the scanner */
 std::string
 objectionBy(std::vector<LinkEvidence> of_place,
             std::vector<LinkEvidence> links,

@@ -44,12 +44,11 @@ constexpr std::size_t kPlacesPerBlock = 256;
 
 constexpr int kNobody = -1;
 
-/** A single line of cells is less than one wide by widthOf(), as its places lie anywhere in their
- * cells; two lines are 1.7 wide, or 1.2 where points lie closer than cells do. */
+/** [cells] Narrower things are a single line. Places lie anywhere in their cells, so widthOf() a
+ * line is up to 1; two lines have 1.7, and down to 1.25 where points lie closer than cells. */
 constexpr double kLineCells = 1.1;
 
-/** Where places are farther apart than so many cells, as those of reduced points, each would be a
- * line. */
+/** [cells] Where places are farther apart, as those of reduced points are, a line tells nothing. */
 constexpr double kDenseCells = 1.5;
 
 /** \return how far points spread across the direction in which they spread most */
@@ -160,9 +159,10 @@ MovingClusters::findClusters()
   }
 }
 
-/** Whether enough judges saw through it: two, or the only one that tells of most of it. Where as
- * many saw it in its place, it may have stayed for a while, if it is gone for some who see all of
- * it; parts of what stands are missed by some here, by others there. */
+/** \return whether enough scans saw through the cluster: two scans must have seen through most of
+ * its places, or one if a single scan says anything of most of them. If it was hit half as often
+ * as it was missed, always two: a thing that left is missed as a whole, while of a standing thing
+ * one scan misses this part and another scan that part. */
 bool
 MovingClusters::moves(const std::vector<std::size_t>& cluster) const
 {
@@ -254,10 +254,11 @@ MovingClusters::isSideOf(const Mover& mover, std::size_t place) const
                                  kSideSigmas * static_cast<float>(judged_.noise);
 }
 
-/** \return the thing that a place, which is not known to move, is a part of; kNobody: none. Where
- * others measured something near, but no surface through it, a quarter of its neighbours will
- * do, as one side of it is enough; where nobody looked, it must lie as the surface of the thing
- * would, or most of them must move. */
+/** \return the moving thing that a further place belongs to; kNobody: none. At least a quarter of
+ * its neighbours must belong to the thing. In addition the place is hit, or more than half of its
+ * neighbours move (both only for places near the thing), or it lies where the front of the thing
+ * would be (isSideOf()). A place on a surface of a scan that came when the thing was gone belongs
+ * to none. */
 int
 MovingClusters::ownerOf(std::size_t place, bool is_near) const
 {
@@ -318,9 +319,9 @@ MovingClusters::grow()
   }
 }
 
-/** A thing that is a single line of cells, seen from the scanner, with all that it took in, has
- * not moved: so the edge of a table looks, whose top the scanner grazes, and that others miss by
- * the error of its place. */
+/** Drops each thing that is a single line of cells, seen from the scanner. The edge of a table
+ * looks like this: the scanner sees the top at a flat angle, so that its last row of points lies
+ * along the edge, and rays of other scans pass beside it by the error of the poses. */
 void
 MovingClusters::dropLines()
 {

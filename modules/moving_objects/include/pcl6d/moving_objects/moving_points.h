@@ -98,11 +98,12 @@ public:
   bool
   isBlind() const;
 
-  /** \brief Judges points of one scan by the others.
-   * \param[in] scan its place among the scans; it must have rays
-   * \param[in] points measured ones [m], in its frame: all, or some of them
-   * \return one per point: unknown for those that are not finite, and all if no other scan
-   * sees them or isBlind() \throws BadArgument there is no such scan, or it has no rays */
+  /** \brief Tells which points of a scan moved, by the rays of the other scans.
+   * \param[in] scan the index of the scan; it must have rays
+   * \param[in] points [m] measured points of this scan, in its frame: the whole scan or a part
+   * \return one value a point. It is kUnknown where a coordinate is not finite or no other scan
+   * sees the point, and everywhere if isBlind()
+   * \throws BadArgument the index is too large, or the scan has no rays */
   std::vector<PointMotion>
   judge(std::size_t scan, const Points& points) const;
 

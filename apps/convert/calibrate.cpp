@@ -83,10 +83,10 @@ is to be turned to many sides and to reach the borders of the image.
   return true;
 }
 
-/** The pictures of one camera, and where they show the board. */
+/** The pictures of one camera, and the board's corners in the pictures. */
 struct Views {
   std::vector<fs::path> files;
-  std::vector<std::optional<CalibrationView>> found; ///< a place per file
+  std::vector<std::optional<CalibrationView>> found; ///< one entry per file
   cv::Size size;                                     ///< [px]
 };
 
@@ -219,7 +219,7 @@ startsWith(const fs::path& file, const std::string& word)
   return file.filename().string().compare(0, word.size(), word) == 0;
 }
 
-/** \return left* and right* of a folder; nothing if there are not both */
+/** \return left* and right* of a folder; empty if either is missing */
 std::optional<Pairs>
 pairsByName(const std::vector<fs::path>& files)
 {

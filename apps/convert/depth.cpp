@@ -84,7 +84,7 @@ addImages(OptionTable& table, DepthSettings& s)
   table.positional("IMAGES", &s.input);
   table.group("Camera");
   table.add("camera FILE", &s.camera)
-      .help("camera file of OpenCV (M1, D1), as `calibrate` writes it");
+      .help("camera file of OpenCV (M1, D1), written by `calibrate`");
   table.add("intrinsics FX,FY,CX,CY", &s.intrinsics)
       .help("[px] of a camera without distortion, in place of a file");
   table.group("Values");
@@ -93,17 +93,15 @@ addImages(OptionTable& table, DepthSettings& s)
            &s.kind,
            {{"axis", std::optional(DepthKind::kAlongAxis)},
             {"radial", std::optional(DepthKind::kRadial)}})
-      .help(
-          "axis|radial: values are z, as of stereo and structured light, or distances "
-          "from the camera (default: axis; radial for phases)");
+      .help("axis|radial: values are z (stereo, structured light), or distances from "
+            "the camera (default: axis; radial for phases)");
   table.add("unit M", &s.unit)
       .above(0, "> 0 and finite", kFinite)
       .help("[m] of one step (default: 0.001 of 16 bits, 1 of floating point)");
   table.add("modulation HZ", &s.modulation)
       .above(0, "> 0 and finite", kFinite)
-      .help(
-          "[Hz] values are the phases of a time-of-flight camera, which repeat after c "
-          "/ (2 HZ): 7.49 m at 2e7");
+      .help("[Hz] values are the phases of a time-of-flight camera, repeating after c "
+            "/ (2 HZ): 7.49 m at 2e7");
   table.add("turn VALUE", &s.turn)
       .above(0, "> 0 and finite", kFinite)
       .help("value of a whole turn of the phase (default: 65536 of 16 bits, 2 pi of "
@@ -117,9 +115,11 @@ addPixels(OptionTable& table, DepthSettings& s)
   table.add("min-range", &s.image.min_depth).help("[m] smaller values are dropped");
   table.add("max-range", &s.image.max_depth).help("[m] larger values are dropped");
   table.add("max-jump", &s.image.max_jump)
-      .help("[m] a pixel that differs by more from a neighbour is dropped");
+      .help("[m] largest difference between neighbouring pixels; a pixel beyond is "
+            "dropped");
   table.add("amplitudes DIR", &s.amplitudes)
-      .help("images of the same names: the intensity of the points, 8 or 16 bits");
+      .help("images with the names of the depth images: intensity of the points, 8 or "
+            "16 bits");
   table.add("min-amplitude", &s.image.min_amplitude).help("weaker pixels are dropped");
   table.group("Output");
   table.add("output,o OUT", &s.output)
@@ -130,18 +130,18 @@ addPixels(OptionTable& table, DepthSettings& s)
 
 /** Rules of several options, and of the library. \throws UsageError */
 void
-judgeOptions(DepthSettings& s)
+checkDepthOptions(DepthSettings& s)
 {
   if (s.camera.empty() == !s.intrinsics)
-    throw UsageError(
-        s.camera.empty()
-            ? "the camera is not known: give --camera FILE, as `calibrate` "
-              "writes it, or --intrinsics FX,FY,CX,CY"
-            : "--camera and --intrinsics contradict each other");
+    throw UsageError(s.camera.empty()
+                         ? "the camera is not known: give --camera FILE, written by "
+                           "`calibrate`, or --intrinsics FX,FY,CX,CY"
+                         : "--camera and --intrinsics contradict each other");
   if (s.turn && !s.modulation)
     throw UsageError("--turn needs --modulation");
   if (s.unit && s.modulation)
-    throw UsageError("--unit is of depths, --modulation of phases: give one");
+    throw UsageError("--unit is of depths, --modulation of phases: give only --unit or "
+                     "only --modulation");
   s.image.kind =
       s.kind.value_or(s.modulation ? DepthKind::kRadial : DepthKind::kAlongAxis);
   checkOptions(
@@ -174,7 +174,7 @@ pcl_slam6d reads the folder.
   addPixels(table, s);
   if (!table.parse(arguments))
     return false;
-  judgeOptions(s);
+  checkDepthOptions(s);
   refuseInputs(s.output, {s.input, s.camera, s.amplitudes});
   return true;
 }
@@ -185,7 +185,7 @@ sizeText(const cv::Mat& image)
   return std::to_string(image.cols) + " x " + std::to_string(image.rows) + " pixels";
 }
 
-/** \brief Images of one camera become scans. */
+/** \brief Converts images of one camera to scans. */
 class DepthConversion {
 public:
   explicit DepthConversion(const DepthSettings& settings) : s_(settings) {}
@@ -224,7 +224,7 @@ public:
   }
 
 private:
-  /** The camera is that of the first image. */
+  /** The camera, made from the first image. */
   const PinholeCamera&
   cameraOf(const cv::Mat& image, const fs::path& file)
   {
@@ -248,7 +248,7 @@ private:
     return lensOf(*s_.intrinsics, image.cols, image.rows);
   }
 
-  /** The amplitude image of the same name, whatever its extension. */
+  /** The amplitude image of equal name, with any extension. */
   cv::Mat
   amplitudeOf(const fs::path& file, const cv::Mat& image)
   {
@@ -292,7 +292,7 @@ convertDepthFolder(const DepthSettings& s)
     const std::string name = images[i].stem().string() + ".pcd";
     if (!names.insert(name).second)
       throw IoFailed(images[i].string() +
-                     ": another image has the same name but for the extension");
+                     ": another image has an equal name except for the extension");
     points += conversion.convert(images[i], out / name);
     bar.show({"converting", i + 1, images.size()});
   }

@@ -22,7 +22,7 @@ sizeOf(const PCLPointField& field)
          static_cast<std::size_t>(pcl::getFieldSize(field.datatype));
 }
 
-/** \return the field of the same name and kind, or null */
+/** \return the field of equal name and type, or null */
 const PCLPointField*
 findSame(const std::vector<PCLPointField>& fields, const PCLPointField& wanted)
 {
@@ -80,7 +80,7 @@ JoinedLayout::losses() const
 {
   std::vector<std::string> losses;
   for (const auto& name : incomplete_)
-    losses.push_back("dropped field '" + name + "', which not all scans have alike");
+    losses.push_back("dropped field '" + name + "', missing or different in a scan");
   if (replaces_index_)
     losses.push_back(std::string("replaced field '") + kIndex +
                      "' by the index of the scan");

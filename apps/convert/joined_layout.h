@@ -11,15 +11,15 @@
 
 namespace pcl6d::app {
 
-/** \brief The fields of the joined points of many scans: those that all scans have, and
- * the index of the scan, `scan`, as in map.pcd. */
+/** \brief Fields of the joined points of many scans: the fields common to the scans,
+ * and the index of the scan, `scan`, as in map.pcd. */
 class JoinedLayout {
 public:
   /** \brief Adds the fields of a scan. */
   void
   addScan(const std::vector<pcl::PCLPointField>& fields);
 
-  /** \brief To be called behind the last scan, ahead of what follows. */
+  /** \brief To be called after the last scan, before the functions below. */
   void
   finish();
 
@@ -36,13 +36,14 @@ public:
     return point_step_;
   }
 
-  /** \return what the joined points do not have, in words */
+  /** \return fields missing in the joined points, in words */
   std::vector<std::string>
   losses() const;
 
   /** \brief Moves positions and normals of the points [begin, end) of a scan into the
-   * world; computed in double, rounded once. \param[in] kept which points to take \param[in] T_world_scan relative to
-   * the world offset \return their joined points */
+   * world; computed in double, rounded once. \param[in] kept selected points
+   * \param[in] T_world_scan relative to the world offset \return the selected points in
+   * the joined layout */
   pcl::PCLPointCloud2
   joined(const pcl::PCLPointCloud2& scan,
          const std::vector<bool>& kept,
@@ -59,7 +60,7 @@ private:
          pcl::PCLPointCloud2& block) const;
 
   std::vector<pcl::PCLPointField> fields_;
-  std::vector<std::string> incomplete_; ///< names of fields that not all scans have
+  std::vector<std::string> incomplete_; ///< names of fields missing in some scans
   std::size_t point_step_ = 0;
   std::size_t index_offset_ = 0;
   bool first_ = true;

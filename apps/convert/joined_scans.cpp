@@ -21,11 +21,11 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBlock = 1 << 16; // points in memory as joined ones
+constexpr std::size_t kBlock = 1 << 16; // joined points kept in memory
 
 struct Stopped {}; ///< thrown after a signal
 
-/** \brief Joins the scans of a folder; only one of them is in memory at a time. */
+/** \brief Joins the scans of a folder, with one scan in memory at a time. */
 class JoinedScans {
 public:
   explicit JoinedScans(const ScanSettings& settings)
@@ -48,12 +48,14 @@ public:
     shape.fields = layout_.fields();
     shape.point_step = layout_.pointStep();
     shape.width = points_;
+    if (isLas()) // has room for every digit
+      shape.T_world_scan.translation() = source_.worldOffset();
     const auto losses = writeScanBlocks(settings_.output,
                                         shape,
                                         settings_.writer,
                                         [&](const ScanSink& sink) { handOver(sink); });
     describe(losses);
-    const int code = losses_.judge(bar_);
+    const int code = losses_.evaluate(bar_);
     if (code != kDone || points_ > 0)
       return code;
     bar_.warn("no point is within the ranges of the run");
@@ -63,6 +65,13 @@ public:
   }
 
 private:
+  bool
+  isLas() const
+  {
+    return settings_.writer.format == ScanFormat::kLas ||
+           settings_.writer.format == ScanFormat::kLaz;
+  }
+
   void
   advance(const char* stage, std::size_t i)
   {
@@ -71,7 +80,7 @@ private:
       throw Stopped();
   }
 
-  /** \return per point whether the run took it for one of a surface */
+  /** \return per point whether the run classified the point as part of a surface */
   std::vector<bool>
   surfacesOf(const pcl::PCLPointCloud2& scan) const
   {
@@ -84,7 +93,7 @@ private:
     return kept;
   }
 
-  /** The first pass: what the header of the file needs. */
+  /** The first pass: collects the data for the header of the file. */
   void
   survey()
   {
@@ -128,12 +137,13 @@ private:
     const Eigen::Vector3d offset = source_.worldOffset();
     std::cout << text::counted(source_.folder().size(), "scan") << ", "
               << text::counted(points_, "point") << ": "
-              << toString(source_.folder().format()) << " to "
+              << source_.folder().formatName() << " to "
               << toString(settings_.writer.format) << '\n'
               << "poses from " << source_.poseSource() << '\n'
               << "world_offset " << std::to_string(std::llround(offset.x())) << ' '
               << std::llround(offset.y()) << ' ' << std::llround(offset.z())
-              << ": subtracted from all points [m]\n";
+              << (isLas() ? ": added to the points of the run [m]\n"
+                          : ": subtracted from every point [m]\n");
     if (out_of_range_ > 0)
       std::cout << "dropped " << text::counted(out_of_range_, "point")
                 << " outside the ranges of the run, " << source_.minRange() << " to "

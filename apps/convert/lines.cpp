@@ -50,7 +50,7 @@ struct LinesSettings {
   bool continuous = false;
   double beam_first = -90;         // [deg]
   double beam_last = 90;           // [deg]
-  std::optional<Triple> mounting;  // [deg] none: as suits the drive
+  std::optional<Triple> mounting;  // [deg] empty: suited to the drive
   Triple lever_arm, axis_position; // [m]
   double range_unit = 1;           // [m]
   LineAssemblyOptions options;
@@ -63,11 +63,11 @@ addOptions(OptionTable& table, LinesSettings& s)
   table.positional("LINES.csv", &s.input);
   table.group("Files");
   table.add("angles FILE", &s.angles)
-      .help("CSV of the drive: angle [deg] and, if there is a second column, time [s]; "
-            "LINES.csv then holds ranges only");
+      .help("CSV of the drive: angle [deg] and optionally, in a second column, time "
+            "[s]; LINES.csv then holds ranges only");
   table.add("range-unit M", &s.range_unit)
       .above(0, "> 0 and finite", kFinite)
-      .help("[m] of one unit of the ranges; 0.001 for millimetres");
+      .help("[m] length of a unit of the ranges; 0.001 for millimetres");
   table.add("output,o FILE", &s.output).required().help("PCD file");
   table.group("Scanner");
   scanner.drive = Drive::kPitching;
@@ -79,18 +79,17 @@ addOptions(OptionTable& table, LinesSettings& s)
             {"yawing", Drive::kYawing}})
       .help("pitching|rolling|yawing: about y (positive looks up), x or z");
   table.add("continuous", &s.continuous)
-      .help("the drive turns on during a line; without: it stands still");
+      .help("the drive turns on during a line; without: the drive stands still");
   table.add("beam-first DEG", &s.beam_first)
       .within(-360, 360, "within a full turn")
-      .help("[deg] direction of the first range in the 2D scanner's plane, from its x "
-            "axis to its y axis");
+      .help("[deg] direction of the first range in the plane of the 2D scanner, from "
+            "the x axis to the y axis");
   table.add("beam-last DEG", &s.beam_last)
       .within(-360, 360, "within a full turn")
-      .help("[deg] of the last one");
+      .help("[deg] direction of the last range");
   table.add("mounting R,P,Y", &s.mounting)
-      .help(
-          "[deg] roll, pitch, yaw of the 2D scanner on the drive; default 0,0,0, for a "
-          "yawing drive 90,0,0: its fan stands upright");
+      .help("[deg] roll, pitch, yaw of the 2D scanner on the drive; default 0,0,0, for "
+            "a yawing drive with an upright fan 90,0,0");
   table.add("lever-arm X,Y,Z", &s.lever_arm)
       .help("[m] from the drive's axis to the 2D scanner's centre, turning with the "
             "drive");

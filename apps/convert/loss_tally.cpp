@@ -48,9 +48,9 @@ LossTally::print() const
 {
   if (dropped_points_ > 0)
     std::cout << "dropped " << text::counted(dropped_points_, "point")
-              << " whose x, y or z is not finite\n";
+              << " with an x, y or z that is not finite\n";
   for (const auto& [loss, count] : of_scans_) {
-    std::cout << printable(loss); // it holds names of fields
+    std::cout << printable(loss); // may contain names of fields
     if (scans_ > 1)
       std::cout << " (" << count << " of " << text::counted(scans_, "scan") << ')';
     std::cout << '\n';
@@ -60,7 +60,7 @@ LossTally::print() const
 }
 
 int
-LossTally::judge(ProgressBar& bar) const
+LossTally::evaluate(ProgressBar& bar) const
 {
   if (empty_scans_.empty())
     return kDone;

@@ -11,28 +11,28 @@
 
 namespace pcl6d::app {
 
-/** \brief Counts in how many scans each thing was not kept, for one line each. */
+/** \brief Counts the scans affected by each kind of loss, for one line per kind. */
 class LossTally {
 public:
-  /** \brief Adds what reading a scan left out, and what writing it lost.
-   * \param[in] name of the scan, for the warning if it has no points */
+  /** \brief Adds the losses of reading and writing a scan.
+   * \param[in] name of the scan, for the warning if the scan is empty */
   void
   addScan(const std::string& name,
           const ScanCloud& scan,
           const std::vector<std::string>& losses);
 
-  /** \brief Adds something that does not belong to a scan. */
+  /** \brief Adds a loss that does not belong to a scan. */
   void
   add(const std::string& loss);
 
-  /** \brief Prints to stdout, in the order in which the things came up. */
+  /** \brief Prints to stdout, in the order of first occurrence. */
   void
   print() const;
 
-  /** \brief Warns of scans without points, which a scanner that works does not make.
-   * \return the exit code: kDoubtful if there are any */
+  /** \brief Warns of scans without points, which indicate a fault of the scanner.
+   * \return the exit code: kDoubtful with empty scans */
   int
-  judge(ProgressBar& bar) const;
+  evaluate(ProgressBar& bar) const;
 
 private:
   void

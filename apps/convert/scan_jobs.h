@@ -13,8 +13,14 @@ convertFile(const ScanSettings& settings);
 int
 convertFolder(const ScanSettings& settings);
 
-/** \brief Joins the scans of a folder at their poses in one file, with all their points
- * and the memory of one scan: they are read twice, to count the points and to write them.
+/** \brief Writes a scan, or the scans of a folder or of an E57 file, to an E57 file.
+ * \return the exit code */
+int
+convertToE57(const ScanSettings& settings);
+
+/** \brief Joins the scans of a folder at their poses in one file with every point.
+ * Needs memory for one scan only: each scan is read twice, for counting and for writing
+ * points.
  * \return the exit code */
 int
 joinScans(const ScanSettings& settings);

@@ -10,6 +10,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 
@@ -21,7 +22,7 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
-/** Points are written where they are, poses as they were given. */
+/** Options that keep points and poses unchanged. */
 ScanFolderOptions
 asTheyAre(ScanFolderOptions options)
 {
@@ -41,7 +42,7 @@ poseBeside(fs::path scan)
   return scan.replace_extension(".pose");
 }
 
-/** \return whether the pose of a scan is there as that of the input */
+/** \return whether the pose file of a scan is the input's pose file */
 bool
 isPoseOf(const fs::path& scan, const fs::path& input)
 {
@@ -49,7 +50,7 @@ isPoseOf(const fs::path& scan, const fs::path& input)
   return fs::equivalent(poseBeside(scan), poseBeside(input), missing);
 }
 
-/** Writes 3DTK's pose of a scan beside it, unless it is there as an input. */
+/** Writes 3DTK's pose of a scan beside the scan, unless the file is an input. */
 void
 writePoseBeside(const fs::path& scan,
                 const Eigen::Isometry3d& pose,
@@ -59,8 +60,8 @@ writePoseBeside(const fs::path& scan,
     writeUosPose(poseBeside(scan), pose);
 }
 
-/** Finds out before a scan is written whether its pose can be; one that is there without its
- * scan is of something else. */
+/** Checks before writing a scan whether its pose can be written; an existing pose file
+ * without its scan belongs to other data. */
 void
 requirePoseBeside(const fs::path& scan, const fs::path& input)
 {
@@ -70,12 +71,12 @@ requirePoseBeside(const fs::path& scan, const fs::path& input)
     return;
   if (fs::exists(file, missing) && !fs::exists(scan, missing))
     throw IoFailed(file.string() +
-                   ": is there already, and would be replaced by the pose of " +
+                   ": already exists, and would be replaced by the pose of " +
                    scan.string() + "; use another name");
   requireWritable(file);
 }
 
-/** \brief Writes the scans of a folder, and their poses where they belong. */
+/** \brief Writes the scans of a folder, with poses if the format has them. */
 class FolderConversion {
 public:
   explicit FolderConversion(const ScanSettings& settings)
@@ -85,6 +86,7 @@ public:
   , bar_(settings.quiet)
   , uos_(isUos(settings.writer.format))
   , pcd_(settings.writer.format == ScanFormat::kPcd)
+  , ptx_(settings.writer.format == ScanFormat::kPtx)
   {}
 
   int
@@ -102,11 +104,11 @@ public:
     out_.publish();
     std::cout << text::counted(source_.folder().size(), "scan") << ", "
               << text::counted(points_, "point") << ": "
-              << toString(source_.folder().format()) << " to "
+              << source_.folder().formatName() << " to "
               << toString(settings_.writer.format) << '\n';
     describePoses();
     losses_.print();
-    return losses_.judge(bar_);
+    return losses_.evaluate(bar_);
   }
 
 private:
@@ -124,24 +126,27 @@ private:
   convert(std::size_t i)
   {
     const ScanFolder& folder = source_.folder();
-    const std::string name =
-        folder.file(i).stem().string() + extensionOf(settings_.writer.format);
+    // Names of stations may contain any character, so files are numbered.
+    const std::string stem = folder.sharesFile(i) ? scanName(folder.index(i))
+                                                  : folder.file(i).stem().string();
+    const std::string name = stem + extensionOf(settings_.writer.format);
     if (!names_.insert(name).second)
       throw IoFailed(folder.file(i).string() +
-                     ": another scan has the same name but for the extension");
+                     ": another scan has an equal name except for the extension");
     const ScanCloud scan = folder.readCloud(i);
     points_ += std::size_t{scan.cloud.width} * scan.cloud.height;
-    losses_.addScan(folder.name(i),
-                    scan,
-                    writeScan(out_ / name,
-                              scan.cloud,
-                              pcd_ ? source_.pose(i) : Eigen::Isometry3d::Identity(),
-                              settings_.writer));
+    losses_.addScan(
+        folder.name(i),
+        scan,
+        writeScan(out_ / name,
+                  scan.cloud,
+                  pcd_ || ptx_ ? source_.pose(i) : Eigen::Isometry3d::Identity(),
+                  settings_.writer));
     if (uos_ && folder.hasPoses())
       writeUosPose((out_ / name).replace_extension(".pose"), source_.pose(i));
   }
 
-  /** poses.txt also for PCD if there are stamps, which VIEWPOINT does not hold. */
+  /** poses.txt also for PCD and PTX with stamps, which these formats cannot store. */
   void
   writePoses()
   {
@@ -149,7 +154,7 @@ private:
     const bool has_stamps = !folder.stamps().empty();
     if (uos_ && has_stamps)
       losses_.add("dropped the stamps of the poses");
-    if (uos_ || !folder.hasPoses() || (pcd_ && !has_stamps))
+    if (uos_ || !folder.hasPoses() || ((pcd_ || ptx_) && !has_stamps))
       return;
     Trajectory trajectory;
     for (std::size_t i = 0; i < folder.size(); ++i)
@@ -164,12 +169,13 @@ private:
   {
     const char* const place = uos_   ? "the .pose files"
                               : pcd_ ? "VIEWPOINT"
+                              : ptx_ ? "the headers"
                                      : "poses.txt";
     if (source_.folder().hasPoses())
       std::cout << "poses from " << source_.poseSource() << ", now in " << place
                 << '\n';
     else
-      std::cout << "no poses found, none written\n";
+      std::cout << "no poses found or written\n";
   }
 
   const ScanSettings& settings_;
@@ -179,6 +185,7 @@ private:
   ProgressBar bar_;
   bool uos_;
   bool pcd_;
+  bool ptx_;
   std::set<std::string> names_;
   std::size_t points_ = 0;
   LossTally losses_;
@@ -188,11 +195,12 @@ private:
 int
 convertFile(const ScanSettings& settings)
 {
-  const ScanCloud scan = readScanCloud(settings.input, settings.folder.format);
+  const ScanCloud scan = readScanCloud(settings.input, readingOf(settings));
   const auto pose = fs::is_regular_file(settings.input) // a pipe cannot be read again
                         ? findScanPose(settings.input, settings.folder.format)
                         : std::nullopt;
   const ScanFormat format = settings.writer.format;
+  const bool keeps_pose = format == ScanFormat::kPcd || format == ScanFormat::kPtx;
   const bool has_pose_file = pose && isUos(format) && !isStream(settings.output);
   if (has_pose_file)
     requirePoseBeside(settings.output, settings.input);
@@ -201,13 +209,11 @@ convertFile(const ScanSettings& settings)
                  scan,
                  writeScan(settings.output,
                            scan.cloud,
-                           format == ScanFormat::kPcd && pose
-                               ? *pose
-                               : Eigen::Isometry3d::Identity(),
+                           keeps_pose && pose ? *pose : Eigen::Isometry3d::Identity(),
                            settings.writer));
   if (has_pose_file)
     writePoseBeside(settings.output, *pose, settings.input);
-  else if (pose && format != ScanFormat::kPcd)
+  else if (pose && !keeps_pose)
     losses.add("dropped the pose");
   ProgressBar bar(settings.quiet);
   if (!settings.without_effect.empty())
@@ -215,7 +221,7 @@ convertFile(const ScanSettings& settings)
   std::cout << text::counted(std::size_t{scan.cloud.width} * scan.cloud.height, "point")
             << " to " << toString(format) << '\n';
   losses.print();
-  return losses.judge(bar);
+  return losses.evaluate(bar);
 }
 
 int
@@ -231,9 +237,11 @@ runScans(const std::vector<std::string>& arguments)
   if (!parseScanSettings(arguments, settings))
     return kDone;
   const MemoryBudget memory(settings.memory, settings.output);
-  const int code = settings.full                      ? joinScans(settings)
-                   : fs::is_directory(settings.input) ? convertFolder(settings)
-                                                      : convertFile(settings);
+  const bool is_folder = fs::is_directory(settings.input) || holdsScans(settings.input);
+  const int code = settings.to_e57 ? convertToE57(settings)
+                   : settings.full ? joinScans(settings)
+                   : is_folder     ? convertFolder(settings)
+                                   : convertFile(settings);
   flushOutput();
   return code;
 }

@@ -39,10 +39,10 @@ addOptions(OptionTable& table, StereoSettings& s)
   table.group("Output");
   table.add("output,o FILE", &s.output).required().help("scan file");
   table.add("organized", &s.organized)
-      .help("one point per pixel of the rectified left image, NaN where there is none");
+      .help("a point per pixel of the rectified left image, NaN without a measurement");
   table.group("Calibration");
   table.add("extrinsics FILE", &s.extrinsics).help("holds R and T, if CALIB does not");
-  table.add("unit M", &s.unit).help("[m] one unit of T");
+  table.add("unit M", &s.unit).help("[m] length of a unit of T");
   table.group("Matching");
   table.add("matcher NAME", &s.matching.matcher, stereoMatcherFromName)
       .help("sgbm|bm: dense, or fast");

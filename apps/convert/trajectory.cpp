@@ -39,8 +39,8 @@ outputFormat(const TrajectorySettings& s)
 {
   const TrajectoryFormat of_file = trajectoryFormatOfExtension(s.output);
   if (s.format == TrajectoryFormat::kAuto && of_file == TrajectoryFormat::kAuto)
-    throw UsageError("--format is missing, as the extension of " + s.output +
-                     " is that of none: kitti, tum, g2o, pose or frames");
+    throw UsageError("--format is missing: the extension of " + s.output +
+                     " is unknown; give kitti, tum, g2o, pose or frames");
   if (s.format != TrajectoryFormat::kAuto && of_file != TrajectoryFormat::kAuto &&
       s.format != of_file)
     throw UsageError(std::string("--format = ") + toString(s.format) + ", but " +
@@ -61,8 +61,8 @@ parse(const std::vector<std::string>& arguments, TrajectorySettings& s)
       .help("auto|kitti|tum|g2o|pose|frames; auto: by the extension of OUT");
   table.group("Input");
   table.add("input-format NAME", &s.input_format, trajectoryFormatFromName)
-      .help("auto|kitti|tum|g2o|pose|frames; auto: .g2o by extension, rows by their "
-            "columns, a folder by its files");
+      .help("auto|kitti|tum|g2o|pose|frames; auto: .g2o by extension, rows by the "
+            "number of columns, a folder by the files");
   if (!table.parse(arguments))
     return false;
   s.format = outputFormat(s);
@@ -91,7 +91,7 @@ writeFolder(const TrajectorySettings& s, const TrajectoryFiles& input)
   out.publish();
 }
 
-/** \return whether the format has a place for stamps */
+/** \return whether the format stores stamps */
 bool
 holdsStamps(TrajectoryFormat format)
 {

@@ -7,13 +7,19 @@ namespace pcl6d::app {
 
 constexpr const char* kConvert = "pcl_slam6d_convert"; ///< the program's name
 
-/** \file What the verbs do stands in the table of pcl_slam6d_convert.cpp. */
+/** \file The verbs are described in the table of pcl_slam6d_convert.cpp. */
 int
 runCalibrate(const Arguments& arguments);
 int
 runDepth(const Arguments& arguments);
 int
+runInfo(const Arguments& arguments);
+int
 runLines(const Arguments& arguments);
+int
+runMap(const Arguments& arguments);
+int
+runPoses(const Arguments& arguments);
 int
 runScans(const Arguments& arguments);
 int

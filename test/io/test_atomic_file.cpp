@@ -81,7 +81,7 @@ TEST(AtomicFile, NamesTheFileAndTheReasonWhenItCannotBeWritten)
   path = folder / "file" / "file.txt";
   expectIoFailed(path, "Not a directory", to(path));
   path = folder.path();
-  expectIoFailed(path, "cannot be written: it is a folder", to(path));
+  expectIoFailed(path, "cannot be written: is a folder", to(path));
   EXPECT_EQ(namesIn(folder.path()).size(), 1u);
 }
 
@@ -97,7 +97,7 @@ TEST(AtomicFile, WhetherItCanBeWrittenIsKnownBefore)
   for (const auto& [path, reason] : std::vector<std::pair<fs::path, const char*>>{
            {folder / "no/file", "No such file or directory"},
            {folder / "old/file", "Not a directory"},
-           {folder.path(), "cannot be written: it is a folder"},
+           {folder.path(), "cannot be written: is a folder"},
            {"", "is not the name of a file"}})
     expectIoFailed(path, reason, [path = path] { pcl6d::requireWritable(path); });
 }
@@ -160,7 +160,7 @@ TEST(AtomicFile, ALinkOfAnotherUserIsRefused)
     writeFileAtomically(folder / "link", [](std::ostream& s) { s << "x"; });
   };
   expectIoFailed(
-      folder / "link", "is a link of another user, which is not followed", write);
+      folder / "link", "is a symbolic link of another user: not followed", write);
   EXPECT_EQ(readText(folder / "mine"), "mine");
 }
 

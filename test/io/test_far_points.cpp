@@ -163,7 +163,7 @@ TEST(FarText, FloatsOfABinaryFileTellWhatTheyHaveLost)
   EXPECT_EQ(typeOf(near.cloud, "x"), Field::FLOAT32);
   EXPECT_NE(
       near.description.find(
-          ", where float has steps of 0.500 m: what lies between is lost: moved by"),
+          ", where float has steps of 0.500 m: digits in between are lost: moved by"),
       std::string::npos)
       << near.description;
 }

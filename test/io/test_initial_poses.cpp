@@ -104,7 +104,7 @@ TEST_F(InitialPoses, EachSourceComesBeforeTheNext)
   expectSource(given.string(), 50, given);
 }
 
-TEST_F(InitialPoses, TheGroundTruthIsNeverRead)
+TEST_F(InitialPoses, TheGroundTruthIsReadOnlyWhenItIsNamed)
 {
   addRows("odometry.txt", 30);
   writeText(folder_ / "groundtruth.txt", "wrong\n");
@@ -115,9 +115,65 @@ TEST_F(InitialPoses, TheGroundTruthIsNeverRead)
   expectSource("identity", 0);
   addRows("groundtruth.txt", 60);
   const fs::path truth = folder_ / "groundtruth.txt";
-  EXPECT_EQ(pcl6d::test::messageOf<pcl6d::BadArgument>([&] { open(truth); }),
-            "poses_file = " + truth.string() +
-                ", but files named groundtruth* are never read");
+  expectSource(truth.string(), 60, truth);
+}
+
+TEST_F(InitialPoses, PosesOfKittisCameraAreTakenToTheLidar)
+{
+  // The camera looks along z, its x is right and its y down; it stands 0.3 m ahead.
+  writeText(folder_ / "calib.txt",
+            "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nTr: 0 -1 0 0 0 0 -1 0 1 0 0 -0.3\n");
+  std::string rows;
+  for (int i = 0; i < kScans; ++i)
+    rows += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(2 * i) + "\n";
+  writeText(folder_ / "poses.txt", rows);
+  const ScanFolder scans = open();
+  EXPECT_EQ(scans.poseSource(), "poses.txt (of the camera, by calib.txt)");
+  EXPECT_TRUE(scans.initialPose(2).isApprox(pcl6d::planarPose(4, 0, 0), 1e-12));
+  addRows("poses.txt", 0); // moves along x: these are the lidar's
+  EXPECT_EQ(open().poseSource(), "poses.txt");
+  writeText(folder_ / "poses.txt", rows);
+  writeText(folder_ / "calib.txt", "Tr: 0 -1 0 0\n");
+  expectIoFailed(folder_ / "calib.txt",
+                 "line 1: expected 12 numbers behind Tr:, got 4",
+                 [&] { open(); });
+  writeText(folder_ / "calib.txt", "P0: 1 0 0\n");
+  EXPECT_EQ(open().poseSource(), "poses.txt");
+}
+
+TEST_F(InitialPoses, AFolderOfAUsualNameIsEnteredAndThatIsSaid)
+{
+  for (const std::string name :
+       {"velodyne", "lidar", "scans", "velodyne_points/data"}) {
+    const TempFolder outer;
+    fs::create_directories(outer / name);
+    for (int i = 0; i < kScans; ++i)
+      fs::copy(folder_ / (scanName(i) + ".pcd"), outer / name);
+    writeText(outer / "poses.txt", kittiRow(5) + kittiRow(6) + kittiRow(7));
+    writeText(outer / "times.txt", "0.5\n1\n2\n");
+    const ScanFolder scans(outer.path());
+    EXPECT_EQ(scans.size(), 3U);
+    EXPECT_EQ(scans.note(), "scans are those in " + (outer / name).string());
+    EXPECT_EQ(scans.poseSource(), "poses.txt");
+    EXPECT_EQ(scans.initialPose(0).translation().x(), 5);
+    EXPECT_EQ(scans.stamps().front(), 0.5);
+    writeText(outer / name / "odometry.txt", kittiRow(1) + kittiRow(2) + kittiRow(3));
+    EXPECT_EQ(ScanFolder(outer.path()).initialPose(0).translation().x(), 1);
+    fs::copy(folder_ / "scan000.pcd", outer.path()); // now it has one of its own
+    EXPECT_THROW(ScanFolder(outer.path()), pcl6d::IoFailed); // with three poses
+    fs::remove(outer / "poses.txt");
+    fs::remove(outer / "times.txt");
+    EXPECT_EQ(ScanFolder(outer.path()).size(), 1U);
+    EXPECT_EQ(ScanFolder(outer.path()).note(), "");
+  }
+  const TempFolder outer;
+  for (const char* const name : {"velodyne", "lidar"}) {
+    fs::create_directory(outer / name);
+    fs::copy(folder_ / "scan000.pcd", outer / name);
+  }
+  expectIoFailed(outer.path(),
+                 "holds scans in velodyne and in lidar; choose one of them",
+                 [&] { const ScanFolder scans(outer.path()); });
 }
 
 TEST_F(InitialPoses, OneViewpointThatDiffersFromIdentityMakesAllCount)
@@ -152,9 +208,10 @@ TEST_F(InitialPoses, AMissingPoseFileOfAScanIsNamed)
   addScanPoses(40);
   const auto path = folder_ / "scan001.pose";
   fs::remove(path);
-  expectIoFailed(path,
-                 "missing, but other scans have a .pose file: no pose for scan001.pcd",
-                 [&] { open(); });
+  expectIoFailed(
+      path,
+      "missing, although further scans have a .pose file: no pose for scan001.pcd",
+      [&] { open(); });
 }
 
 TEST_F(InitialPoses, BrokenSourcesAreNamedAndNotSkipped)
@@ -177,7 +234,7 @@ TEST_F(InitialPoses, ABrokenViewpointIsAnError)
 {
   const auto path = folder_ / "scan001.pcd";
   std::string content = pcl6d::test::readText(path);
-  content.replace(content.find("VIEWPOINT 0 0 0 1"), 17, "VIEWPOINT 0 0 0 0");
+  content.replace(content.find("VIEWPOINT 0 0 0 1"), 17, "VIEWPOINT 0 0 1 0");
   writeText(path, content);
   expectIoFailed(
       path,

@@ -2,8 +2,11 @@
 #include "support/data_folder.h"
 #include "support/temp_folder.h"
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/ptx_io.h>
+#include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/trajectory_io.h>
 
@@ -125,4 +128,25 @@ TEST(RecordedPcd, IsReadBitByBitAsByPcl)
     EXPECT_EQ(cloud.fields.size(), expected.fields.size());
   }
   EXPECT_GT(files, 0);
+}
+
+TEST(FormatsData, PtxAndPtsOfOtherProgramsAreReadOrRefusedInWords)
+{
+  PCL6D_DATA_OR_SKIP(formats, "formats");
+  const auto ptx = pcl6d::readScan(formats / "ptx/1.2-with-color.ptx");
+  EXPECT_EQ(ptx.points.size() + ptx.dropped, 15U * 71U);
+  EXPECT_EQ((*pcl6d::fieldValues(ptx.cloud, "x")).values[0], 637012.24);
+  const auto scaled = formats / "ptx/multiple-and-transform.ptx"; // twice as high
+  try {
+    pcl6d::listPtxScans(scaled);
+    ADD_FAILURE() << "no error";
+  } catch (const pcl6d::IoFailed& e) {
+    EXPECT_EQ(e.what(),
+              scaled.string() +
+                  ": line 7: not a rigid motion (largest entry of |R^T R - I| is 3)");
+  }
+  EXPECT_EQ(pcl6d::readScan(formats / "pts/bunny_8.pts").points.size(), 9U);
+  const auto pts = pcl6d::readScan(formats / "pts/test.pts");
+  EXPECT_EQ(pts.points.size(), 19U);
+  EXPECT_EQ((*pcl6d::fieldValues(pts.cloud, "intensity")).values[0], -1035);
 }

@@ -92,11 +92,10 @@ TEST_F(BrokenPcd, EveryEntryIsChecked)
   expectWithEntry("TYPE", "F F F U U", "line 4: expected 4 values after TYPE, got 5");
   expectWithEntry("COUNT", "1 1 0 1", "line 5: COUNT of field 'z' is 0");
   expectWithEntry("COUNT", "1 1 -1 1", "line 5: COUNT '-1' is not a whole number >= 0");
-  expectWithEntry(
-      "COUNT",
-      "4294967295 4294967295 1 1",
-      "line 2: a point has more than 1048576 bytes, or a gap leads ahead of its "
-      "start");
+  expectWithEntry("COUNT",
+                  "4294967295 4294967295 1 1",
+                  "line 2: a point has more than 1048576 bytes, or a gap leads ahead "
+                  "of the start of the point");
   expectWithEntry("WIDTH", "two", "line 6: WIDTH 'two' is not a whole number >= 0");
   expectWithEntry("WIDTH", "3", "line 9: POINTS 2 is not WIDTH x HEIGHT = 3");
   expectWithEntry("DATA",
@@ -113,9 +112,8 @@ TEST_F(BrokenPcd, GapsThatLeadOutOfThePointAreRefused)
                       "\nWIDTH 1\nDATA binary\n12345678",
                   message);
   };
-  const std::string rule =
-      "line 1: a point has more than 1048576 bytes, or a gap leads "
-      "ahead of its start";
+  const std::string rule = "line 1: a point has more than 1048576 bytes, or a gap "
+                           "leads ahead of the start of the point";
   expectCounts("-1 1 9", rule);
   expectCounts("4 1 -9", rule);
   expectCounts("4 1 -4", "line 4: a field ends behind the point");
@@ -150,7 +148,7 @@ TEST_F(BrokenPcd, ViewpointsThatAreNoPoseAreRefused)
 {
   const std::string start = "line 8: not a rigid motion (";
   expectWithEntry("VIEWPOINT",
-                  "0 0 0 0 0 0 0",
+                  "0 0 1 0 0 0 0",
                   start + "the quaternion has norm 0, but must have 1)");
   expectWithEntry("VIEWPOINT",
                   "0 0 0 1.02 0 0 0",

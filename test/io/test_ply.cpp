@@ -171,7 +171,7 @@ TEST_F(BrokenPly, HeadersAreChecked)
   expectWith("list uchar int stars",
              "list float int stars",
              "line 16: the length of a list must have an integer type");
-  expectWith("element camera 1\n", "", "line 5: a property ahead of all elements");
+  expectWith("element camera 1\n", "", "line 5: a property ahead of the first element");
 }
 
 TEST_F(BrokenPly, FilesWithoutCoordinatesAreRefused)

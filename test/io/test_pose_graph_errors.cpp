@@ -49,9 +49,16 @@ TEST(PoseGraphErrors, NameTheLineAndItsWords)
 {
   expectMessage("", "holds no pose");
   expectMessage("# nothing\n\n", "holds no pose");
-  expectMessage("VERTEX_SE2 0 0 0 0\n",
-                "line 1: 'VERTEX_SE2' starts no line of a 3D pose graph; known are "
-                "VERTEX_SE3:QUAT, EDGE_SE3:QUAT, FIX (g2o), VERTEX3, EDGE3 (TORO)");
+  expectMessage(
+      "VERTEX_SIM3 0 0 0 0\n",
+      "line 1: 'VERTEX_SIM3' starts no line of a 3D pose graph; known are "
+      "VERTEX_SE3:QUAT, EDGE_SE3:QUAT, VERTEX_SE2, EDGE_SE2, FIX (g2o), VERTEX3, "
+      "EDGE3 (TORO)");
+  expectMessage(kTwo + "VERTEX_XY 7 0 0\n",
+                "line 3: 'VERTEX_XY' is not a pose, link or constraint; --skip-unknown "
+                "leaves unknown lines out");
+  expectMessage("PARAMS_SE3OFFSET 0 1\n",
+                "line 1: expected 8 numbers after PARAMS_SE3OFFSET, got 2");
   expectMessage("VERTEX3 0 0 0 0 0 0\n",
                 "line 1: expected 7 numbers after VERTEX3, got 6");
   expectMessage("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1 5\n",
@@ -139,7 +146,7 @@ TEST(PoseGraphErrors, GraphsThatAreNoneAreTheCallersMistake)
   EXPECT_EQ(messageOfWriting([](auto& g) {
               g.ids = {1, 2};
             }),
-            "a pose graph needs one id per pose, but there are 2 ids and 3 poses");
+            "a pose graph needs an id per pose, but has 2 ids and 3 poses");
   EXPECT_EQ(messageOfWriting([](auto& g) {
               g.ids = {7, 5, 7};
             }),

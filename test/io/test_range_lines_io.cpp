@@ -106,9 +106,9 @@ TEST(RangeLines, BrokenRowsAreNamed)
   csv.refuse("0,1,2\n1,1,-2\n", "line 2: column 3: the range is -2, but must be >= 0");
   csv.refuse("0,1\nnan,1\n", "line 2: the angle is nan, but must be finite");
   csv.refuse("0,1\n,1\n", "line 2: column 1: '' is not a number");
-  csv.refuse(
-      "angle,time,r\n0,1,2\n0,1,2\n",
-      "line 3: the time 1 does not follow that of the row before; times must increase");
+  csv.refuse("angle,time,r\n0,1,2\n0,1,2\n",
+             "line 3: the time 1 does not follow the time of the row before; times "
+             "must increase");
   csv.refuse("angle,time,r\n0,inf,2\n", "line 2: the time is inf, but must be finite");
   csv.refuse(
       "time,angle,r\n0,1,2\n",

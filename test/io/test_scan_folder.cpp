@@ -135,7 +135,8 @@ TEST_F(ScanFolderTest, SelectionsThatBreakARuleOrSelectNothingAreTheCallersMista
 
 TEST_F(ScanFolderTest, FoldersThatCannotBeUsedAreNamed)
 {
-  expectMessage("no scans found (looked for .pcd .ply .3d .bin .xyz)");
+  expectMessage("no scans found (looked for .pcd .ply .3d .bin .xyz .las .laz .ptx "
+                ".pts .csv .txt .asc)");
   add({"a.txt", "scan0.xyz"});
   ScanFolderOptions options;
   options.format = ScanFormat::kUos;
@@ -158,6 +159,37 @@ TEST_F(ScanFolderTest, SeveralFormatsNeedAChoice)
   EXPECT_EQ(names(options), "scan0.xyz scan1.xyz ");
   options.format = ScanFormat::kUos;
   EXPECT_EQ(names(options), "scan1.3d ");
+}
+
+TEST_F(ScanFolderTest, SomeOfTheSelectedScansAreKeptWithTheirPosesAndIndices)
+{
+  add({"a.xyz", "b.xyz", "c.xyz", "d.xyz", "e.xyz"});
+  writeText(folder_ / "poses.tum",
+            "1.5 0 0 0 0 0 0 1\n2.5 1 0 0 0 0 0 1\n3.5 2 0 0 0 0 0 1\n"
+            "4.5 3 0 0 0 0 0 1\n5.5 4 0 0 0 0 0 1\n");
+  ScanFolderOptions options = selection(1, 4, 1);
+  options.poses_file = folder_ / "poses.tum";
+  ScanFolder scans(folder_.path(), options);
+  scans.keepOnly({0, 2, 3});
+  ASSERT_EQ(scans.size(), 3u);
+  EXPECT_EQ(scans.name(1), "d.xyz");
+  EXPECT_EQ(scans.index(1), 3);
+  EXPECT_EQ(scans.initialPose(2).translation().x(), 4);
+  EXPECT_EQ(scans.stamps(), (std::vector<double>{2.5, 4.5, 5.5}));
+  EXPECT_EQ(scans.odometry().poses.size(), 5u) << "those of all scans";
+  writeText(folder_ / "d.xyz", "7 8 9\n");
+  scans.keepOnly({1, 2});
+  EXPECT_EQ(scans.read(0).points.at(0).x(), 7) << "not the scan that was first before";
+}
+
+TEST_F(ScanFolderTest, KeepingNoScansOrOthersThanThereAreIsTheCallersMistake)
+{
+  add({"a.xyz", "b.xyz", "c.xyz"});
+  ScanFolder scans(folder_.path());
+  for (const std::vector<std::size_t>& places :
+       {std::vector<std::size_t>{}, {0, 3}, {1, 1}, {2, 0}})
+    EXPECT_THROW(scans.keepOnly(places), pcl6d::BadArgument);
+  EXPECT_EQ(scans.size(), 3u);
 }
 
 TEST_F(ScanFolderTest, AScanIsReadOnlyWhenItIsAskedFor)

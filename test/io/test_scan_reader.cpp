@@ -21,9 +21,15 @@ TEST(ScanReader, FormatsHaveNames)
   EXPECT_EQ(pcl6d::scanFormatFromName("uosr"), ScanFormat::kUosr);
   EXPECT_EQ(pcl6d::scanFormatFromName("kitti"), ScanFormat::kKitti);
   EXPECT_EQ(pcl6d::scanFormatFromName("xyz"), ScanFormat::kXyz);
+  EXPECT_EQ(pcl6d::scanFormatFromName("las"), ScanFormat::kLas);
+  EXPECT_EQ(pcl6d::scanFormatFromName("laz"), ScanFormat::kLaz);
+  EXPECT_EQ(pcl6d::scanFormatFromName("pts"), ScanFormat::kPts);
+  EXPECT_EQ(pcl6d::scanFormatFromName("csv"), ScanFormat::kCsv);
+  EXPECT_EQ(pcl6d::scanFormatFromName("txt"), ScanFormat::kTxt);
   EXPECT_EQ(pcl6d::test::messageOf<pcl6d::BadArgument>(
-                [] { pcl6d::scanFormatFromName("las"); }),
-            "format = 'las', but must be auto, pcd, ply, uos, uosr, kitti or xyz");
+                [] { pcl6d::scanFormatFromName("dxf"); }),
+            "format = 'dxf', but must be auto, pcd, ply, uos, uosr, kitti, xyz, las, "
+            "laz, ptx, pts, csv or txt");
 }
 
 TEST(ScanReader, TheFormatComesFromTheExtensionUnlessItIsGiven)
@@ -31,13 +37,15 @@ TEST(ScanReader, TheFormatComesFromTheExtensionUnlessItIsGiven)
   const TempFolder folder;
   writeText(folder / "a.XYZ", "1 2 3\n");
   writeText(folder / "a.txt", "1 2 3\n");
+  writeText(folder / "a.dxf", "1 2 3\n");
   EXPECT_EQ(readScan(folder / "a.XYZ").points, (Points{{1, 2, 3}}));
   EXPECT_EQ(readScan(folder / "a.txt", ScanFormat::kXyz).points, (Points{{1, 2, 3}}));
   EXPECT_EQ(readScan(folder / "a.txt", ScanFormat::kUos).points,
             (Points{{3 / 100.f, -1 / 100.f, 2 / 100.f}}));
-  expectIoFailed(folder / "a.txt",
-                 "unknown format of scans '.txt' (known: .pcd .ply .3d .bin .xyz)",
-                 [&] { readScan(folder / "a.txt"); });
+  expectIoFailed(folder / "a.dxf",
+                 "unknown format of scans '.dxf' (known: .pcd .ply .3d .bin .xyz .las "
+                 ".laz .ptx .pts .csv .txt .asc)",
+                 [&] { readScan(folder / "a.dxf"); });
 }
 
 TEST(ScanReader, PointsThatAreNotFiniteAreDroppedAndCounted)

@@ -149,7 +149,8 @@ TEST(ScanWriter, RefusesWhatIsNoScanAndLeavesNoFile)
   };
   const auto cloud = makeRichCloud(2);
   EXPECT_EQ(refuse(cloud, {}),
-            "no format of scans has the extension '' (known: .pcd .ply .3d .bin .xyz)");
+            "no format of scans has the extension '' (known: .pcd .ply .3d .bin .xyz "
+            ".las .laz .ptx .pts .csv .txt .asc)");
   for (const auto format : {ScanFormat::kXyz, ScanFormat::kUos, ScanFormat::kKitti}) {
     auto flat = cloud;
     flat.fields[2].name = "depth";
@@ -198,4 +199,16 @@ TEST(ScanWriter, AFullDiskIsNamedAndLeavesNoFile)
                 Eigen::Isometry3d::Identity(),
                 {way.format, way.encoding});
     });
+}
+
+TEST(ScanWriter, FormatsThatAreOnlyReadAreRefused)
+{
+  const pcl6d::test::TempFolder folder;
+  for (const char* const name : {"a.csv", "a.pts", "a.txt"}) {
+    EXPECT_FALSE(pcl6d::isWritten(pcl6d::scanFormatOfExtension(name)));
+    EXPECT_THROW(pcl6d::writeScan(folder / name, pcl6d::test::randomCloud(3, false)),
+                 pcl6d::BadArgument);
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+  }
+  EXPECT_TRUE(pcl6d::isWritten(pcl6d::ScanFormat::kPtx));
 }

@@ -87,6 +87,24 @@ TEST(Uos, OnlyTheFirstLineMayBeAHeading)
   });
 }
 
+TEST(Uos, SizesOfTheScanAreHeadings)
+{
+  const TempFolder folder;
+  for (const std::string heading :
+       {"180 x 60", "180 X 60", "181 256", "2", "180x60", "uos 2"}) {
+    SCOPED_TRACE(heading);
+    writeText(folder / "scan000.3d", heading + "\n1 2 3\n4 5 6\n");
+    EXPECT_EQ(readScan(folder / "scan000.3d").points.size(), 2u);
+    writeText(folder / "scan000.3d", "1 2 3\n" + heading + "\n");
+    EXPECT_THROW(readScan(folder / "scan000.3d"), pcl6d::IoFailed);
+  }
+  for (const std::string row : {"180 y 60", "180 x 60.5", "1.5 2", "-1 2"}) {
+    SCOPED_TRACE(row);
+    writeText(folder / "scan000.3d", row + "\n1 2 3\n");
+    EXPECT_THROW(readScan(folder / "scan000.3d"), pcl6d::IoFailed);
+  }
+}
+
 TEST(Uos, BrokenLinesAreNamed)
 {
   const TempFolder folder;
@@ -96,7 +114,7 @@ TEST(Uos, BrokenLinesAreNamed)
       path, "line 2: expected at least 3 numbers, got 2", [&] { readScan(path); });
   writeText(path, "1 2 3\n\n4 5 6x\n");
   expectIoFailed(path, "line 3: '6x' is not a number", [&] { readScan(path); });
-  writeText(path, "1 2\n");
+  writeText(path, "1 2.5\n");
   expectIoFailed(
       path, "line 1: expected at least 3 numbers, got 2", [&] { readScan(path); });
 }
@@ -114,8 +132,8 @@ TEST(Xyz, BrokenLinesAreNamed)
 {
   const TempFolder folder;
   const auto path = folder / "scan.xyz";
-  writeText(path, "x y z\n1 2 3\n");
-  expectIoFailed(path, "line 1: 'x' is not a number", [&] { readScan(path); });
+  writeText(path, "1 2 3\nx y z\n");
+  expectIoFailed(path, "line 2: 'x' is not a number", [&] { readScan(path); });
   writeText(path, "1 2 3\n4;5\n");
   expectIoFailed(
       path, "line 2: expected at least 3 numbers, got 2", [&] { readScan(path); });

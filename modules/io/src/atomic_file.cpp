@@ -20,10 +20,10 @@ using io::DescriptorBuffer;
 
 namespace {
 
-constexpr int kMostTries = 100; // of names; one of 2^60 is taken by somebody else
+constexpr int kMostTries = 100; // attempts; each name is one of 2^60
 
-/** \return a hidden name that nobody can foresee. It is not made from the target's, which
- * may already have the greatest length. */
+/** \return an unpredictable hidden name. The target's name is not part of it: the target may
+ * already have the maximum length. */
 std::string
 hiddenName()
 {
@@ -43,8 +43,8 @@ folderOf(const fs::path& target)
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-/** \return the number of the open file of this process that a path names, such as
- * /dev/stdout; -1: it names none */
+/** \return the descriptor of this process behind a path such as /dev/stdout; -1: not a
+ * descriptor */
 int
 openFileOf(const fs::path& path)
 {
@@ -61,7 +61,7 @@ openFileOf(const fs::path& path)
              : -1;
 }
 
-/** \return whether a link was made by somebody else, who would choose what is replaced */
+/** \return whether another user made the link and could thus choose the replaced file */
 bool
 isLinkOfAnother(const fs::path& path)
 {
@@ -70,7 +70,7 @@ isLinkOfAnother(const fs::path& path)
          found.st_uid != ::geteuid() && found.st_uid != 0;
 }
 
-/** \brief What is to be written, and what is there. */
+/** \brief The file to write, resolved, with the state on disk. */
 struct Target {
   fs::path asked; ///< for messages
   fs::path path;  ///< behind links
@@ -92,12 +92,12 @@ Target::Target(const fs::path& asked_path) : asked(asked_path), path(asked_path)
   if (asked.empty() || asked.filename().empty())
     text::fail(asked, "is not the name of a file");
   open_file = openFileOf(asked);
-  if (open_file >= 0) { // a file there was opened by who started this process
+  if (open_file >= 0) { // opened by the parent process
     is_special = true;
     return;
   }
   if (isLinkOfAnother(asked))
-    text::fail(asked, "is a link of another user, which is not followed");
+    text::fail(asked, "is a symbolic link of another user: not followed");
   std::error_code error;
   if (fs::is_symlink(asked, error)) { // a link stays a link
     const fs::path behind = fs::canonical(asked, error);
@@ -107,13 +107,13 @@ Target::Target(const fs::path& asked_path) : asked(asked_path), path(asked_path)
   if (::stat(path.c_str(), &found) != 0)
     return;
   if (S_ISDIR(found.st_mode))
-    text::fail(asked, "cannot be written: it is a folder");
+    text::fail(asked, "cannot be written: is a folder");
   is_special = !S_ISREG(found.st_mode);
   mode = found.st_mode & 0777;
 }
 
-/** \brief Calls make with random names in the folder of the target until one is free.
- * \return that name; what make returns must be an error of errno or 0 */
+/** \brief Calls make with random names in the folder of the target until a name is free.
+ * \return the name; make returns an errno or 0 */
 template <typename Make>
 fs::path
 makeHidden(const Target& target, const Make& make)
@@ -128,8 +128,8 @@ makeHidden(const Target& target, const Make& make)
   target.fail(error);
 }
 
-/** Gives a complete file the permissions of the one that it replaces, and waits until the
- * disk has it. Not all file systems know permissions or can be waited for. */
+/** Copies the permissions of the replaced file to a complete file, and flushes the file to the
+ * disk. Not all file systems support permissions or flushing. */
 void
 finish(int file, const Target& target)
 {
@@ -139,7 +139,7 @@ finish(int file, const Target& target)
     target.fail(errno);
 }
 
-/** \brief Takes a name away at the end of its scope, with all that is below it. */
+/** \brief Removes a path, with everything below, at the end of the scope. */
 class HiddenPath {
 public:
   HiddenPath() = default;
@@ -153,16 +153,16 @@ public:
   HiddenPath&
   operator=(const HiddenPath&) = delete;
 
-  fs::path path; ///< empty: nothing is there
+  fs::path path; ///< empty: no file to remove
 };
 
-/** \brief A file that is written and takes the place of the target when it is complete. */
+/** \brief A file under construction, which replaces the target when complete. */
 class UnfinishedFile {
 public:
   explicit UnfinishedFile(const Target& target) : target_(target)
   {
-    // Without a name, it ends with the process whatever happens to that. It is given one
-    // by its number in /proc.
+    // Without a name, the file vanishes with the process in any case. The name is given at the
+    // end, through the descriptor in /proc.
     if (::access("/proc/self/fd", X_OK) == 0)
       file_ = Descriptor(::open(
           folderOf(target.path).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode()));
@@ -196,8 +196,8 @@ public:
   }
 
 private:
-  /** \return the permissions while it is written: the system takes off what the user does
-   * not want for new files; those of the file that is replaced come when it is complete */
+  /** \return the permissions during writing: the system applies the user's umask for new files;
+   * the permissions of a replaced file are copied at the end */
   mode_t
   mode() const
   {
@@ -244,7 +244,7 @@ writeTo(int file, const Target& target, const std::function<void(std::ostream&)>
     target.fail(buffer.error());
 }
 
-/** Makes a file that a library wrote by its name ready to be moved to its place. */
+/** Prepares a file written by a library for the move to the target. */
 void
 complete(const Target& target, const fs::path& written)
 {
@@ -303,7 +303,7 @@ requireWritable(const fs::path& path)
 {
   const Target target(path);
   if (!target.is_special)
-    const UnfinishedFile tried(target); // which goes as it came
+    const UnfinishedFile tried(target); // vanishes at the end of the scope
 }
 
 } // namespace pcl6d

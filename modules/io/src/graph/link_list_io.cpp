@@ -26,7 +26,7 @@ linksOfGraph(const std::filesystem::path& path)
     links.emplace_back(id(link.from), id(link.to));
   return links;
 }
-/** \return whether the first word of a file is that of a pose graph */
+/** \return whether the first word of a file is a word of a pose graph */
 bool
 isGraph(const std::string& content)
 {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "graph/pose_graph_row.h"
+
 #include <pcl6d/common/name_table.h>
 #include <pcl6d/io/pose_graph_io.h>
 
@@ -39,12 +41,16 @@ formatToWrite(const std::filesystem::path& path, PoseGraphFormat format)
 void
 writePoseGraph(const std::filesystem::path& path,
                const PoseGraph& graph,
-               PoseGraphFormat format)
+               PoseGraphFormat format,
+               const GraphConstraints& constraints)
 {
-  if (formatToWrite(path, format) == PoseGraphFormat::kToro)
+  if (formatToWrite(path, format) != PoseGraphFormat::kToro)
+    io::writeConstrainedG2o(path, graph, constraints);
+  else if (constraints.isEmpty())
     writePoseGraphToro(path, graph);
   else
-    writePoseGraphG2o(path, graph);
+    throw BadArgument(
+        "TORO has no lines for landmarks, priors and switches: write g2o");
 }
 
 } // namespace pcl6d

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "graph/constraint_rows.h"
+#include "graph/other_graph_rows.h"
 #include "graph/pose_graph_row.h"
+#include "graph/poses_along_links.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/information.h>
@@ -20,6 +23,7 @@ using namespace io;
 
 namespace {
 namespace fs = std::filesystem;
+constexpr std::size_t kLongestWord = 40; // of a skipped line, in messages
 using Index = std::unordered_map<std::size_t, std::size_t>; // from id to vertex
 
 /** A file's content with ids instead of indices. */
@@ -31,6 +35,8 @@ struct Rows {
   std::vector<std::size_t> lines; ///< of each link
   /** Ids in lines FIX, with their lines. */
   std::vector<std::pair<std::size_t, std::size_t>> fixed;
+  std::vector<std::pair<std::string, std::size_t>> skipped; ///< words and their lines
+  ConstraintRows constraints;
 };
 
 void
@@ -72,8 +78,20 @@ addFixed(const fs::path& path,
     rows.fixed.emplace_back(readVertexId(path, lines, token), lines.number());
 }
 
+/** Counts a skipped line. */
+void
+skip(std::string_view word, Rows& rows)
+{
+  for (auto& [known, count] : rows.skipped)
+    if (known == word.substr(0, kLongestWord)) {
+      ++count;
+      return;
+    }
+  rows.skipped.emplace_back(word.substr(0, kLongestWord), 1);
+}
+
 Rows
-readRows(const fs::path& path)
+readRows(const fs::path& path, const PoseGraphReaderOptions& options)
 {
   const std::string content = text::readFile(path);
   Rows rows;
@@ -87,20 +105,31 @@ readRows(const fs::path& path)
       addFixed(path, lines, tokens, rows);
       continue;
     }
+    if (word == "PARAMS_SE3OFFSET") {
+      rows.constraints.addOffset(path, lines, tokens);
+      continue;
+    }
+    if (const ConstraintTag* const constraint = constraintTag(word)) {
+      readGraphRow(path, lines, tokens, constraint->row, row);
+      rows.constraints.add(path, constraint->kind, row, rows.links.size());
+      if (constraint->kind == ConstraintKind::kSwitchedLink)
+        addLink(path, row, rows);
+      continue;
+    }
     const GraphTag* const tag = graphTag(word);
-    if (!tag)
-      text::failAt(path,
-                   lines.number(),
-                   text::quoted(word) +
-                       " starts no line of a 3D pose graph; known are VERTEX_SE3:QUAT, "
-                       "EDGE_SE3:QUAT, FIX (g2o), VERTEX3, EDGE3 (TORO)");
+    if (!tag && !options.skip_unknown)
+      failAtWord(path, lines, word);
+    if (!tag) {
+      skip(word, rows);
+      continue;
+    }
     readGraphRow(path, lines, tokens, *tag, row);
     tag->is_link ? addLink(path, row, rows) : addVertex(path, row, rows);
   }
   return rows;
 }
 
-/** The vertices that the links speak of, for a file that has none. */
+/** Creates the vertices of the links, for a file without vertices. */
 void
 nameVertices(Rows& rows)
 {
@@ -123,54 +152,6 @@ vertexOf(const fs::path& path, const Rows& rows, std::size_t id, std::size_t lin
   return found->second;
 }
 
-/** \return poses along the links i -> i+1; empty if one is missing */
-std::vector<Eigen::Isometry3d>
-posesAlongChain(std::size_t size, const std::vector<PoseLink>& links)
-{
-  std::vector<const PoseLink*> next(size, nullptr);
-  for (auto link = links.rbegin(); link != links.rend(); ++link)
-    if (link->to == link->from + 1)
-      next[link->from] = &*link; // the first in the file wins
-  std::vector<Eigen::Isometry3d> poses = {Eigen::Isometry3d::Identity()};
-  for (std::size_t i = 0; i + 1 < size; ++i) {
-    if (!next[i])
-      return {};
-    poses.push_back(poses.back() * next[i]->T_from_to);
-  }
-  return poses;
-}
-
-/** \return poses along a breadth-first tree of each component */
-std::vector<Eigen::Isometry3d>
-posesAlongTrees(std::size_t size, const std::vector<PoseLink>& links)
-{
-  std::vector<std::vector<const PoseLink*>> links_at(size);
-  for (const auto& link : links) {
-    links_at[link.from].push_back(&link);
-    links_at[link.to].push_back(&link);
-  }
-  std::vector<Eigen::Isometry3d> poses(size, Eigen::Isometry3d::Identity());
-  std::vector<bool> known(size, false);
-  for (std::size_t root = 0; root < size; ++root) {
-    std::vector<std::size_t> queue = {root};
-    if (known[root])
-      continue;
-    known[root] = true;
-    for (std::size_t next = 0; next < queue.size(); ++next)
-      for (const PoseLink* const link : links_at[queue[next]]) {
-        const bool forward = link->from == queue[next];
-        const std::size_t other = forward ? link->to : link->from;
-        if (known[other])
-          continue;
-        known[other] = true;
-        poses[other] = poses[queue[next]] *
-                       (forward ? link->T_from_to : link->T_from_to.inverse());
-        queue.push_back(other);
-      }
-  }
-  return poses;
-}
-
 bool
 areDefaultIds(const std::vector<std::size_t>& ids)
 {
@@ -184,7 +165,7 @@ void
 checkIds(const PoseGraph& graph)
 {
   if (!graph.ids.empty() && graph.ids.size() != graph.poses.size())
-    throw BadArgument("a pose graph needs one id per pose, but there are " +
+    throw BadArgument("a pose graph needs an id per pose, but has " +
                       text::counted(graph.ids.size(), "id") + " and " +
                       text::counted(graph.poses.size(), "pose"));
   std::set<std::size_t> known;
@@ -209,7 +190,7 @@ checkLink(const PoseLink& link, const std::string& name, std::size_t num_poses)
   if (!fault.empty())
     throw BadArgument(name + " has information that is " + fault);
 }
-/** \brief Refuses what readPoseGraph() would not read again. */
+/** \brief Rejects graphs that readPoseGraph() would reject. */
 void
 checkGraphToWrite(const PoseGraph& graph)
 {
@@ -224,12 +205,39 @@ checkGraphToWrite(const PoseGraph& graph)
 }
 
 void
+checkConstraintsToWrite(const PoseGraph& graph, const GraphConstraints& constraints)
+{
+  const auto require = [&](std::size_t pose, const char* what) {
+    if (pose >= graph.poses.size())
+      throw BadArgument(std::string(what) + " pose " + std::to_string(pose) +
+                        ", but there are only " +
+                        text::counted(graph.poses.size(), "pose"));
+  };
+  for (const std::size_t pose : constraints.fixed)
+    require(pose, "fixed");
+  for (const PosePrior& prior : constraints.priors)
+    require(prior.pose, "prior of");
+  for (const LandmarkSighting& sighting : constraints.sightings) {
+    require(sighting.pose, "sighting from");
+    if (sighting.landmark >= constraints.landmarks.size())
+      throw BadArgument("sighting of an unknown landmark");
+  }
+  if (constraints.landmark_ids.size() != constraints.landmarks.size())
+    throw BadArgument("landmarks need an id each");
+  for (const LinkSwitch& one : constraints.switches)
+    if (one.link >= graph.links.size())
+      throw BadArgument("switch of an unknown link");
+}
+
+void
 writeGraph(const fs::path& path,
            const PoseGraph& graph,
+           const GraphConstraints& constraints,
            const GraphTag& vertex,
            const GraphTag& edge)
 {
   checkGraphToWrite(graph);
+  checkConstraintsToWrite(graph, constraints);
   const auto idOf = [&](std::size_t i) {
     return std::to_string(graph.ids.empty() ? i : graph.ids[i]);
   };
@@ -239,9 +247,20 @@ writeGraph(const fs::path& path,
     appendPose(text, vertex, graph.poses[i]);
     text += '\n';
   }
-  for (const auto& link : graph.links) {
-    text.append(edge.name).append(" ").append(idOf(link.from)).append(" ");
-    text.append(idOf(link.to));
+  for (const std::size_t i : constraints.fixed)
+    text.append("FIX ").append(idOf(i)).append("\n");
+  appendConstraints(text, constraints, graph.ids);
+  std::unordered_map<std::size_t, std::size_t> switches; // from link to id
+  for (const LinkSwitch& one : constraints.switches)
+    switches.emplace(one.link, one.id);
+  for (std::size_t k = 0; k < graph.links.size(); ++k) {
+    const PoseLink& link = graph.links[k];
+    const auto found = switches.find(k);
+    const bool is_switched = found != switches.end();
+    text.append(is_switched ? "EDGE_SE3_SWITCHABLE" : edge.name).append(" ");
+    text.append(idOf(link.from)).append(" ").append(idOf(link.to));
+    if (is_switched)
+      text.append(" ").append(std::to_string(found->second));
     appendPose(text, edge, link.T_from_to);
     appendInformation(text, edge, link.information);
     text += '\n';
@@ -253,15 +272,25 @@ writeGraph(const fs::path& path,
 PoseGraph
 readPoseGraph(const fs::path& path)
 {
-  Rows rows = readRows(path);
+  return readPoseGraphFile(path).graph;
+}
+
+PoseGraphFile
+readPoseGraphFile(const fs::path& path, const PoseGraphReaderOptions& options)
+{
+  Rows rows = readRows(path, options);
   const bool has_vertices = !rows.ids.empty();
   if (!has_vertices)
     nameVertices(rows);
   if (rows.ids.empty())
     text::fail(path, "holds no pose");
+  PoseGraphFile file;
+  file.constraints = rows.constraints.resolved(path, rows.index);
   for (const auto& [id, line] : rows.fixed)
-    vertexOf(path, rows, id, line);
-  PoseGraph graph;
+    file.constraints.fixed.push_back(vertexOf(path, rows, id, line));
+  for (const auto& [word, count] : rows.skipped)
+    file.skipped.push_back(text::counted(count, "line") + " " + word);
+  PoseGraph& graph = file.graph;
   graph.links = std::move(rows.links);
   for (std::size_t k = 0; k < graph.links.size(); ++k) {
     PoseLink& link = graph.links[k];
@@ -271,9 +300,7 @@ readPoseGraph(const fs::path& path)
   if (has_vertices)
     graph.poses = std::move(rows.poses);
   else
-    graph.poses = posesAlongChain(rows.ids.size(), graph.links);
-  if (graph.poses.empty())
-    graph.poses = posesAlongTrees(rows.ids.size(), graph.links);
+    graph.poses = posesAlongLinks(rows.ids.size(), graph.links);
   for (std::size_t i = 0; i < graph.poses.size(); ++i)
     if (!graph.poses[i].matrix().allFinite() || !isPlace(graph.poses[i].translation()))
       text::fail(path,
@@ -281,19 +308,31 @@ readPoseGraph(const fs::path& path)
                      " add up to a position 1e9 m or farther from the origin");
   if (!areDefaultIds(rows.ids))
     graph.ids = std::move(rows.ids);
-  return graph;
+  return file;
 }
 
 void
 writePoseGraphG2o(const fs::path& path, const PoseGraph& graph)
 {
-  writeGraph(path, graph, *graphTag("VERTEX_SE3:QUAT"), *graphTag("EDGE_SE3:QUAT"));
+  writeConstrainedG2o(path, graph, {});
+}
+
+void
+io::writeConstrainedG2o(const fs::path& path,
+                        const PoseGraph& graph,
+                        const GraphConstraints& constraints)
+{
+  writeGraph(path,
+             graph,
+             constraints,
+             *graphTag("VERTEX_SE3:QUAT"),
+             *graphTag("EDGE_SE3:QUAT"));
 }
 
 void
 writePoseGraphToro(const fs::path& path, const PoseGraph& graph)
 {
-  writeGraph(path, graph, *graphTag("VERTEX3"), *graphTag("EDGE3"));
+  writeGraph(path, graph, {}, *graphTag("VERTEX3"), *graphTag("EDGE3"));
 }
 
 } // namespace pcl6d

@@ -10,13 +10,16 @@ namespace pcl6d::io {
 namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr std::size_t kTriangle = 21; // numbers of a symmetric 6x6 matrix
+constexpr std::size_t kTriangle = 21;      // numbers of a symmetric 6x6 matrix
+constexpr std::size_t kPlanarTriangle = 6; // of a symmetric 3x3 matrix
 constexpr GraphTag kTags[] = {{"VERTEX_SE3:QUAT", false, true, 1, 7},
                               {"EDGE_SE3:QUAT", true, true, 2, 7 + kTriangle},
+                              {"VERTEX_SE2", false, false, 1, 3, true},
+                              {"EDGE_SE2", true, false, 2, 3 + kPlanarTriangle, true},
                               {"VERTEX3", false, false, 1, 6},
                               {"EDGE3", true, false, 2, 6 + kTriangle}};
 
-/** From the rotation vector to the rotation of the file: g2o's is half of it. */
+/** Factor from the rotation vector to the rotation of the file: 0.5 for g2o. */
 double
 rotationScale(const GraphTag& tag)
 {
@@ -86,15 +89,45 @@ Eigen::Isometry3d
 poseOfRow(const std::filesystem::path& path, const GraphRow& row)
 {
   const double* const n = row.numbers.data();
+  if (row.tag->is_planar)
+    return rigidPose(path,
+                     row.line,
+                     rotationFromEuler({0, 0, n[2]}),
+                     Eigen::Vector3d(n[0], n[1], 0));
   const Eigen::Vector3d t(n[0], n[1], n[2]);
   if (row.tag->has_quaternion)
     return rigidPose(path, row.line, Eigen::Quaterniond(n[6], n[3], n[4], n[5]), t);
   return rigidPose(path, row.line, rotationFromEuler({n[3], n[4], n[5]}), t);
 }
 
+namespace {
+/** \return the information about x, y and yaw, with equal information about z, roll and pitch,
+ * which agree in all planar poses */
+Matrix6
+planarInformation(const double* entry)
+{
+  constexpr int kPlaces[] = {0, 1, 5}; // x, y, yaw
+  Matrix6 information = Matrix6::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j)
+      information(kPlaces[i], kPlaces[j]) = information(kPlaces[j], kPlaces[i]) =
+          *entry++;
+  information(2, 2) = (information(0, 0) + information(1, 1)) / 2;
+  information(3, 3) = information(4, 4) = information(5, 5);
+  return information;
+}
+} // namespace
+
 Matrix6
 informationOfRow(const std::filesystem::path& path, const GraphRow& row)
 {
+  if (row.tag->is_planar) {
+    const Matrix6 information = planarInformation(row.numbers.data() + 3);
+    const std::string fault = informationFault(information);
+    if (!fault.empty())
+      text::failAt(path, row.line, "the information matrix is " + fault);
+    return semidefinite(information);
+  }
   const double* entry = row.numbers.data() + row.tag->numbers - kTriangle;
   Matrix6 information;
   for (int i = 0; i < 6; ++i)

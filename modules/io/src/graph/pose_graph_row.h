@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/graph_constraints.h>
 #include <pcl6d/common/pose_graph.h>
 #include <pcl6d/io/text.h>
 
 #include <string_view>
+#include <vector>
 
 /** \file Single lines of pose graph files. */
 namespace pcl6d::io {
 
-/** What a line starts with. */
+/** First word of a line. */
 struct GraphTag {
   std::string_view name;
   bool is_link = false;        ///< else a vertex
   bool has_quaternion = false; ///< g2o; else Euler angles (TORO)
   std::size_t ids = 1;
   std::size_t numbers = 0; ///< behind the ids
+  bool is_planar = false;  ///< x y yaw
 };
 
-/** \return the tag of that name, nullptr if there is none */
+/** \return the tag by name, nullptr if unknown */
 const GraphTag*
 graphTag(std::string_view name);
 
-/** \brief A line with its numbers. */
+/** \brief A line, parsed into numbers. */
 struct GraphRow {
   const GraphTag* tag = nullptr;
   std::size_t line = 0;
-  std::size_t ids[2] = {0, 0};
+  std::size_t ids[3] = {0, 0, 0};
   std::vector<double> numbers;
 };
 
@@ -36,7 +39,7 @@ readVertexId(const std::filesystem::path& path,
              const text::Lines& lines,
              std::string_view token);
 
-/** \brief Reads what follows the tag. \throws IoFailed naming file and line */
+/** \brief Reads the numbers after the tag. \throws IoFailed naming file and line */
 void
 readGraphRow(const std::filesystem::path& path,
              const text::Lines& lines,
@@ -44,20 +47,26 @@ readGraphRow(const std::filesystem::path& path,
              const GraphTag& tag,
              GraphRow& row);
 
-/** \return the pose of a vertex or link \throws IoFailed it is no rigid motion */
+/** \return the pose of a vertex or link \throws IoFailed the numbers are not a rigid motion */
 Eigen::Isometry3d
 poseOfRow(const std::filesystem::path& path, const GraphRow& row);
 
-/** \return the information of a link as PoseLink has it
- * \throws IoFailed it is not finite or not positive semidefinite */
+/** \return the information of a link in the convention of PoseLink
+ * \throws IoFailed the information is not finite or not positive semidefinite */
 Eigen::Matrix<double, 6, 6>
 informationOfRow(const std::filesystem::path& path, const GraphRow& row);
+
+/** \brief writePoseGraphG2o() with rows of the constraints. */
+void
+writeConstrainedG2o(const std::filesystem::path& path,
+                    const PoseGraph& graph,
+                    const GraphConstraints& constraints);
 
 /** \brief Appends position and orientation. */
 void
 appendPose(std::string& text, const GraphTag& tag, const Eigen::Isometry3d& pose);
 
-/** \brief Appends the upper triangle as the file has it. */
+/** \brief Appends the upper triangle in the convention of the file. */
 void
 appendInformation(std::string& text,
                   const GraphTag& tag,

@@ -34,7 +34,7 @@ shortened(const std::string& text)
   return text.substr(0, end) + "...";
 }
 
-/** \return a key as the pointers in messages show it: on one line, and not too long */
+/** \return a key for JSON pointers in messages: on one line, and shortened */
 std::string
 pointerName(const std::string& key)
 {
@@ -268,7 +268,7 @@ JsonValue::appendNumbers(std::vector<double>& values) const
     else if (element.is_array())
       part(element, std::to_string(i)).appendNumbers(values);
     else
-      part(element, std::to_string(i)).number(); // which refuses it
+      part(element, std::to_string(i)).number(); // throws
   }
 }
 

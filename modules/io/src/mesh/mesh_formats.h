@@ -18,7 +18,7 @@ readObjMesh(const std::filesystem::path& path);
 TriangleMesh
 readStlMesh(const std::filesystem::path& path);
 
-/** \brief Cuts a polygon into triangles from its first corner. */
+/** \brief Cuts a polygon into a fan of triangles around the first corner. */
 template <typename Index>
 void
 addPolygon(const std::vector<Index>& polygon, TriangleMesh& mesh)

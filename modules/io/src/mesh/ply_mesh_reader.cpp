@@ -11,8 +11,7 @@ namespace pcl6d::io {
 namespace {
 constexpr std::size_t kRoom = sizeof(double); // [byte] for any number
 
-/** \return which property of an element has one of these names and is a list or not;
- * nothing if none is */
+/** \return index of the property of an element with one of the names, a list or not; or empty */
 std::optional<std::size_t>
 findProperty(const PlyElement& element,
              std::initializer_list<const char*> names,

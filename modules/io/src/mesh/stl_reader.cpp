@@ -26,7 +26,7 @@ struct CornerHash {
   }
 };
 
-// Triangles that meet must share vertices, so equal corners become one.
+// Adjacent triangles must share vertices, so equal corners are merged.
 class VertexMerger {
 public:
   explicit VertexMerger(TriangleMesh& mesh) : mesh_(mesh) {}
@@ -131,7 +131,7 @@ TriangleMesh
 readStlMesh(const std::filesystem::path& path)
 {
   const std::string content = text::readFile(path);
-  // Binary files may begin with "solid" too; their size tells.
+  // Binary files may begin with "solid" too; the size decides.
   const bool is_binary = content.size() >= kHeader &&
                          content.size() == kHeader + facetsOf(content) * kFacet;
   if (!is_binary && content.compare(0, 5, "solid") == 0)

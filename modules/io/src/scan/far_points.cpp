@@ -15,10 +15,10 @@
 namespace pcl6d {
 
 namespace {
-constexpr double kFarthest = 10e3; // [m] as worldOffset(): float has a millimetre there
-constexpr double kFar = 500; // [m] few scanners that stand on the ground see farther
+constexpr double kFarthest = 10e3;   // [m] float resolves a millimetre up to here
+constexpr double kFar = 500;         // [m] few scanners on the ground measure farther
 constexpr double kNarrow = 1.0 / 16; // radius by distance: half of the 14.5 degrees of
-                                     // the narrowest scanners, so that none is doubted
+                                     // the narrowest scanners, as a safety margin
 
 const std::array<std::string, 3> kPlace = {"x", "y", "z"};
 const std::array<std::string, 3> kNormal = {"normal_x", "normal_y", "normal_z"};
@@ -29,7 +29,7 @@ sizeOf(const pcl::PCLPointCloud2& cloud)
   return std::size_t{cloud.width} * cloud.height;
 }
 
-/** \return every n-th measured point, at most kMost of them */
+/** \return every n-th measured point, at most kMost points */
 std::vector<Eigen::Vector3d>
 sampleOf(const pcl::PCLPointCloud2& cloud, const VectorField& place)
 {
@@ -59,7 +59,7 @@ quantileOf(const std::vector<Eigen::Vector3d>& points, double share, Value&& val
   return *place;
 }
 
-/** \return the distance of neighbouring numbers of the type that the coordinates have */
+/** \return the distance of neighbouring numbers in the type of the coordinates */
 double
 stepAt(double coordinate, const pcl::PCLPointCloud2& cloud)
 {
@@ -137,7 +137,7 @@ describeFar(const PointsPlace& place)
         << place.middle.norm() / 1000 << " km from the origin of their coordinates";
   if (place.step >= 1e-3)
     words << ", where float has steps of " << std::setprecision(3) << place.step
-          << " m: what lies between is lost";
+          << " m: digits in between are lost";
   return words.str();
 }
 

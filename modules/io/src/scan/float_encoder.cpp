@@ -34,7 +34,7 @@ fitsFloat(std::uint8_t datatype)
   return datatype == PCLPointField::FLOAT32 || sizeOfType(datatype) <= 2;
 }
 
-/** \return the value of a point as float, 0 without a field */
+/** \return the value of a point in float, 0 without a field */
 float
 floatAt(const std::uint8_t* point, const PCLPointField* field)
 {
@@ -46,8 +46,7 @@ floatAt(const std::uint8_t* point, const PCLPointField* field)
   });
 }
 
-/** \brief x y z, perhaps with the intensity: the fields, and what becomes of the others.
- */
+/** \brief x y z, optionally with intensity: selection of the fields, and losses. */
 class FloatEncoder : public ScanEncoder {
 public:
   FloatEncoder(const ScanShape& shape, bool with_intensity)
@@ -89,7 +88,7 @@ private:
     losses_.emplace_back("wrote 0 for the missing field 'intensity'");
   }
 
-  PCLPointField intensity_; ///< without a name if there is none
+  PCLPointField intensity_; ///< without a name if missing
 };
 
 /** \brief float32 x y z intensity. */
@@ -131,7 +130,7 @@ public:
   }
 
 private:
-  std::vector<Column> columns_; ///< if all four are float32 already
+  std::vector<Column> columns_; ///< if all four fields are float32 already
 };
 
 /** \brief x y z [m]. */

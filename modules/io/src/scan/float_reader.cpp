@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "scan/bin_layout.h"
+#include "scan/packed_records.h"
 #include "scan/scan_formats.h"
 #include "text/file_input.h"
 #include "text/text_row.h"
@@ -11,8 +13,7 @@ namespace pcl6d::io {
 
 namespace {
 
-constexpr std::size_t kKittiPoint = 4 * sizeof(float); // x y z intensity
-constexpr std::size_t kSample = 1000;                  // points that tell their length
+constexpr std::size_t kSample = 1000; // points for the average length of a line
 constexpr const char* kIntensity = "intensity";
 
 /** \brief Adds fields of a floating point type to a cloud without points. */
@@ -32,7 +33,7 @@ addFields(const std::vector<std::string>& names, pcl::PCLPointCloud2& cloud)
   }
 }
 
-/** Makes one row of the points that the data hold. */
+/** Sets the width to the number of points in the data. */
 void
 setWidth(pcl::PCLPointCloud2& cloud)
 {
@@ -41,13 +42,25 @@ setWidth(pcl::PCLPointCloud2& cloud)
   cloud.row_step = cloud.width * cloud.point_step;
 }
 
-/** \return whether the first token is text: the line is a heading */
+/** \return whether the line is a heading of 3DTK: starts with text, or holds the size of the
+ * scan: "180 x 60", "181 256" or a count */
 bool
 isHeading(text::Tokens tokens)
 {
-  const auto token = tokens.next();
+  std::array<std::string_view, 4> words;
+  for (auto& word : words)
+    word = tokens.next();
   float value = 0;
-  return !token.empty() && !text::parseNumber(token, value);
+  if (!words[0].empty() && !text::parseNumber(words[0], value))
+    return true;
+  const auto is_size = [](std::string_view word) {
+    std::uint32_t size = 0;
+    return text::parseNumber(word, size);
+  };
+  if (!is_size(words[0]) || !words[3].empty())
+    return false;
+  return words[2].empty() ? words[1].empty() || is_size(words[1])
+                          : (words[1] == "x" || words[1] == "X") && is_size(words[2]);
 }
 
 /** \brief 3DTK's text: x right, y up, z forward [cm], then perhaps the reflectance.
@@ -56,8 +69,7 @@ template <typename T>
 struct UosText {
   using Value = T;
   static constexpr const char* kSeparators = "";
-  /** [cm], divided in double: in float, some coordinates would have no text that gives
-   * them back. */
+  /** [cm], divided in double: in float, some coordinates could not be written and read back. */
   using Number = double;
 
   bool
@@ -68,7 +80,7 @@ struct UosText {
   static bool
   skips(const FileInput& input)
   {
-    // Some files start with their number of points and the like.
+    // Some files start with the number of points or similar headings.
     return input.number() == 1 && isHeading(text::Tokens(input.line()));
   }
   static std::array<T, 4>
@@ -80,32 +92,7 @@ struct UosText {
   }
 };
 
-/** \brief x, y, z [m]; commas and semicolons may stand between them. */
-template <typename T>
-struct XyzText {
-  using Value = T;
-  static constexpr const char* kSeparators = ",;";
-  using Number = T;
-
-  bool
-  operator()(char c) const
-  {
-    return Blank()(c) || c == ',' || c == ';';
-  }
-  static bool
-  skips(const FileInput& input)
-  {
-    const auto first = text::Tokens(input.line(), kSeparators).next();
-    return !first.empty() && first.front() == '#';
-  }
-  static std::array<T, 4>
-  pointOf(const std::array<T, 4>& row)
-  {
-    return row;
-  }
-};
-
-/** \brief Reads the points of a text, one at the start of each line. */
+/** \brief Reads the points of a text, with a point at the start of each line. */
 template <typename Format>
 class TextReader {
 public:
@@ -180,11 +167,11 @@ private:
   FileInput input_;
   std::size_t columns_;
   std::array<typename Format::Number, 4> row_{};
-  std::size_t further_line_ = 0; ///< the first with more than a point; 0 if none
+  std::size_t further_line_ = 0; ///< the first line with extra columns; 0: not found
   ScanCloud scan_;
 };
 
-/** Reads a text whose points lie far from the origin in double. */
+/** Reads a text in double if the points lie far from the origin. */
 template <template <typename> class Format>
 ScanCloud
 readPoints(const std::filesystem::path& path, const std::vector<std::string>& names)
@@ -209,22 +196,80 @@ readUosr(const std::filesystem::path& path)
   return readPoints<UosText>(path, {"x", "y", "z", kIntensity});
 }
 
+namespace {
+/** \return the points of NCLT's records in our frame */
 ScanCloud
-readXyz(const std::filesystem::path& path)
+fromNclt(const std::vector<std::uint8_t>& data)
 {
-  return readPoints<XyzText>(path, {"x", "y", "z"});
+  constexpr std::size_t kRecord = 8;
+  constexpr float kStep = 0.005f, kStart = -100; // [m]
+  ScanCloud scan;
+  addFields<float>({"x", "y", "z", kIntensity, "ring"}, scan.cloud);
+  scan.cloud.data.reserve(data.size() / kRecord * scan.cloud.point_step);
+  for (std::size_t i = 0; i + kRecord <= data.size(); i += kRecord) {
+    const auto coordinate = [&](std::size_t axis) {
+      const int steps = data[i + 2 * axis] + 256 * data[i + 2 * axis + 1];
+      return static_cast<float>(steps) * kStep + kStart;
+    };
+    const std::array<float, 5> point = {coordinate(0),
+                                        -coordinate(1), // y right, z down
+                                        -coordinate(2),
+                                        static_cast<float>(data[i + 6]),
+                                        static_cast<float>(data[i + 7])};
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(point.data());
+    scan.cloud.data.insert(scan.cloud.data.end(), bytes, bytes + sizeof point);
+  }
+  setWidth(scan.cloud);
+  return scan;
 }
 
-ScanCloud
-readKitti(const std::filesystem::path& path)
+std::vector<std::string>
+fieldsOfLayout(BinLayout layout)
 {
-  ScanCloud scan;
-  addFields<float>({"x", "y", "z", kIntensity}, scan.cloud);
-  FileInput(path).appendRest(scan.cloud.data);
-  if (scan.cloud.data.size() % kKittiPoint != 0)
+  switch (layout) {
+  case BinLayout::kXyz:
+    return {"x", "y", "z"};
+  case BinLayout::kXyzir:
+    return {"x", "y", "z", kIntensity, "ring"};
+  case BinLayout::kXyzit:
+    return {"x", "y", "z", kIntensity, "time"};
+  case BinLayout::kXyzirt:
+    return {"x", "y", "z", kIntensity, "ring", "time"};
+  default:
+    return {"x", "y", "z", kIntensity};
+  }
+}
+} // namespace
+
+ScanCloud
+readKitti(const std::filesystem::path& path, BinLayout layout)
+{
+  std::vector<std::uint8_t> data;
+  FileInput(path).appendRest(data);
+  if (layout == BinLayout::kAuto) {
+    const auto guess = guessBinLayout(data);
+    if (guess && !guess->is_sure)
+      text::fail(path,
+                 "its points look like " + toString(guess->layout) +
+                     ", but the values do not confirm the guess; give the layout "
+                     "(--bin-layout xyz, xyzi, xyzir, xyzit, xyzirt or nclt)");
+    layout = guess ? guess->layout : BinLayout::kXyzi;
+  }
+  if (isPackedRecord(layout))
+    return fromPackedRecords(path, layout, std::move(data));
+  const std::size_t size = pointSizeOf(layout);
+  if (data.size() % size != 0)
     text::fail(path,
-               "its size of " + text::counted(scan.cloud.data.size(), "byte") +
-                   " is not a multiple of 16 (float32 x y z intensity)");
+               "its size of " + text::counted(data.size(), "byte") +
+                   " is not a multiple of " + std::to_string(size) +
+                   (layout == BinLayout::kXyzi
+                        ? " (float32 x y z intensity)"
+                        : " (--bin-layout " + toString(layout) + ")"));
+  if (layout == BinLayout::kNclt)
+    return fromNclt(data);
+  ScanCloud scan;
+  addFields<float>(fieldsOfLayout(layout), scan.cloud);
+  scan.cloud.data = std::move(data);
   setWidth(scan.cloud);
   return scan;
 }

@@ -1,41 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "scan/found_scans.h"
+
 #include <pcl6d/common/trajectory.h>
 #include <pcl6d/io/scan_reader.h>
+#include <pcl6d/io/scan_source.h>
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-/** \file Where the poses of a scan folder come from. */
+/** \file Sources of the poses of a scan folder. */
 namespace pcl6d::io {
 
 /** The pose source of a folder without poses. */
 constexpr const char* kNoPoses = "identity";
 
-/** Time stamps of the scans where the poses have none. */
-constexpr const char* kStampsFile = "times.txt";
+/** Time stamps of the scans, for poses without stamps. */
+constexpr const char* kStampsFiles[] = {"times.txt", "timestamps.txt"};
 
-/** \brief One pose per scan of the folder. */
+/** From the lidar to the camera, if a data set gives camera poses (KITTI). */
+constexpr const char* kCalibration = "calib.txt";
+
+/** \brief A pose for each scan of the folder. */
 struct InitialPoses {
   Trajectory trajectory;
   std::string source; ///< see ScanFolder::poseSource()
 };
 
-/** \return whether the name says that the file holds the truth, which no run may see */
+/** \return whether the name marks reference poses, which a run must not use */
 bool
 isGroundtruth(const std::filesystem::path& path);
 
-/** \brief Looks through the sources in the order that ScanFolder documents.
- * \param[in] scans all of the folder, in order, at least one
+/** \return whether the name of a text file in a folder of scans marks poses or times instead of
+ * a scan */
+bool
+isPosesFile(const std::filesystem::path& path);
+
+/** \brief Tries the sources in the order documented at ScanFolder.
  * \param[in] poses_file given by the user, or empty
- * \throws IoFailed the poses or stamps are incomplete or broken
- * \throws BadArgument poses_file is a ground truth */
+ * \throws IoFailed the poses or stamps are incomplete or broken */
 InitialPoses
-findInitialPoses(const std::filesystem::path& folder,
-                 const std::vector<std::filesystem::path>& scans,
-                 ScanFormat format,
-                 const std::filesystem::path& poses_file);
+findInitialPoses(const FoundScans& scans, const std::filesystem::path& poses_file);
+
+/** \brief The poses and stamps from a source. \param[in] poses_file replaces the source's poses,
+ * or empty \throws IoFailed under the conditions of findInitialPoses() */
+InitialPoses
+initialPosesOf(const ScanSource& source, const std::filesystem::path& poses_file);
 
 } // namespace pcl6d::io

@@ -28,7 +28,7 @@ headerFor(const ScanShape& shape, PcdEncoding encoding)
     if (isPadding(field))
       continue;
     field.count = std::max<pcl::uindex_t>(field.count, 1); // 0 in old clouds
-    // Packed colours: as a float, many are nan.
+    // Packed colours: many are nan if written as float.
     if (encoding == PcdEncoding::kAscii && field.datatype == PCLPointField::FLOAT32 &&
         (field.name == "rgb" || field.name == "rgba"))
       field.datatype = PCLPointField::UINT32;
@@ -38,7 +38,7 @@ headerFor(const ScanShape& shape, PcdEncoding encoding)
   return header;
 }
 
-/** \brief Points one after the other, as text or as they are in memory. */
+/** \brief Points in sequence, as text or in memory layout. */
 class RowEncoder : public ScanEncoder {
 public:
   RowEncoder(const ScanShape& shape, PcdEncoding encoding)
@@ -67,16 +67,16 @@ private:
   std::vector<Column> columns_;
 };
 
-/** \brief Field by field, compressed by LZF; all points must be there first. */
+/** \brief Field by field, compressed by LZF; needs all points before writing. */
 class CompressedEncoder : public ScanEncoder {
 public:
   CompressedEncoder(const std::filesystem::path& path, const ScanShape& shape)
   : path_(path), header_(headerFor(shape, PcdEncoding::kBinaryCompressed))
   {
-    // LZF makes incompressible data longer, by one byte in 32.
+    // LZF expands incompressible data by one byte in 32.
     const std::size_t size = header_.numPoints() * header_.point_size;
     if (size + roomFor(size) > std::numeric_limits<std::uint32_t>::max())
-      text::fail(path, "too many points for a compressed file; write it as binary");
+      text::fail(path, "too many points for a compressed file; write a binary file");
     values_.resize(size);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/pcd_header.h"
+#include "scan/usual_names.h"
 #include "trajectory/rigid_pose.h"
 
 #include <pcl6d/common/rotation.h>
@@ -48,8 +49,7 @@ const char* const kWords[] = {"VERSION",
                               "POINTS",
                               "DATA"};
 
-/** \brief The entries of a PCD header by their first word, before they are
- * understood. */
+/** \brief The entries of a PCD header by first word, before interpretation. */
 class Entries {
 public:
   /** \brief Reads up to and including the line DATA. \param[in] path kept for the
@@ -72,11 +72,11 @@ public:
     return entries_.count(word) > 0;
   }
 
-  /** \return the values after the word \throws IoFailed there is no such entry */
+  /** \return the values after the word \throws IoFailed the entry is missing */
   const std::vector<std::string>&
   values(std::string_view word) const;
 
-  /** \return the same for an entry that must have so many values */
+  /** \return the values of an entry with a required count */
   const std::vector<std::string>&
   values(std::string_view word, std::size_t count) const;
 
@@ -93,7 +93,7 @@ public:
     return value;
   }
 
-  /** \return the number of the line that holds the entry */
+  /** \return the line number of the entry */
   std::size_t
   lineOf(std::string_view word) const;
 
@@ -173,7 +173,7 @@ Entries::readLine(std::istream& stream, std::string& line) const
     if (line.size() > kLongestLine)
       text::failAt(path_, num_lines_ + 1, "not a line of a PCD header");
   }
-  return stream.good() || !line.empty(); // the last line may lack its end
+  return stream.good() || !line.empty(); // the last line may lack a line end
 }
 
 void
@@ -219,13 +219,13 @@ countOf(const Entries& entries, const std::string& name, const std::string& toke
   if (name == "_" && token.front() == '-')
     return entries.number<std::int32_t>("COUNT", token);
   const auto count = entries.number<std::uint32_t>("COUNT", token);
-  if (count == 0 && name != "_") // drivers write gaps of no bytes; PCL drops them, too
+  if (count == 0 && name != "_") // drivers write gaps of size 0; dropped by PCL too
     entries.fail("COUNT", "COUNT of field " + text::quoted(name) + " is 0");
   return count;
 }
 
-/** Fields that do not stand in the order of their offsets PCL's writer joins by gaps of
- * negative length; they lead back and are no fields here. */
+/** PCL's writer joins fields out of offset order by gaps of negative length; such gaps move
+ * backwards and are not fields here. */
 void
 readFields(const Entries& entries, PcdHeader& header)
 {
@@ -250,7 +250,7 @@ readFields(const Entries& entries, PcdHeader& header)
     if (offset < 0 || end > kMaxPointSize)
       entries.fail("FIELDS",
                    "a point has more than " + std::to_string(kMaxPointSize) +
-                       " bytes, or a gap leads ahead of its start");
+                       " bytes, or a gap leads ahead of the start of the point");
     field.count = static_cast<pcl::uindex_t>(count);
     if (count > 0)
       header.fields.push_back(field);
@@ -258,6 +258,7 @@ readFields(const Entries& entries, PcdHeader& header)
   if (offset < end)
     entries.fail("COUNT", "a field ends behind the point");
   header.point_size = static_cast<std::size_t>(offset);
+  takeUsualNames(header.fields);
 }
 
 std::size_t
@@ -292,6 +293,8 @@ readViewpoint(const Entries& entries)
   const auto& values = entries.values("VIEWPOINT", v.size());
   for (std::size_t i = 0; i < v.size(); ++i)
     v[i] = entries.number<double>("VIEWPOINT", values[i]);
+  if (std::all_of(v.begin(), v.end(), [](double value) { return value == 0; }))
+    return Eigen::Isometry3d::Identity(); // all zero: written by programs without pose
   return rigidPose(entries.path(),
                    entries.lineOf("VIEWPOINT"),
                    Eigen::Quaterniond(v[3], v[4], v[5], v[6]),

@@ -12,13 +12,13 @@
 /** \file The text at the start of a PCD file. */
 namespace pcl6d::io {
 
-/** \brief A checked PCD header: its entries agree with each other. */
+/** \brief A PCD header with consistent entries. */
 struct PcdHeader {
-  std::vector<pcl::PCLPointField> fields; ///< as in the file, padding ("_") included
+  std::vector<pcl::PCLPointField> fields; ///< of the file, including padding ("_")
   std::size_t width = 0;
   std::size_t height = 1;
   std::size_t point_size =
-      0; ///< [byte] one point with all fields, at most kMaxPointSize
+      0; ///< [byte] size of a point with all fields, at most kMaxPointSize
   Eigen::Isometry3d viewpoint = Eigen::Isometry3d::Identity(); ///< T_world_scan
   PcdEncoding encoding = PcdEncoding::kAscii;
   std::size_t num_lines = 0; ///< lines of the header; the body follows
@@ -39,7 +39,7 @@ isPadding(const pcl::PCLPointField& field)
   return field.name == "_";
 }
 
-/** \return bytes of one value of a PCLPointField's datatype, 0 if it is unknown */
+/** \return bytes of a value of a PCLPointField's datatype, 0 if unknown */
 std::size_t
 sizeOfType(std::uint8_t datatype);
 

@@ -5,6 +5,7 @@
 #include "text/file_input.h"
 #include "text/text_row.h"
 
+#include <pcl6d/common/number_range.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_writer.h>
 
@@ -25,7 +26,7 @@ using Bytes = std::vector<std::uint8_t>;
 using pcl::PCLPointField;
 
 constexpr std::size_t kSizes = 2 * sizeof(std::uint32_t); // ahead of compressed data
-constexpr std::size_t kMaxExpansion = 100; // LZF: 264 bytes from 3, so at most 88
+constexpr std::size_t kMaxExpansion = 100; // LZF: 264 bytes from 3, a factor of 88
 
 std::size_t
 sizeOf(const PCLPointField& field)
@@ -33,7 +34,22 @@ sizeOf(const PCLPointField& field)
   return field.count * sizeOfType(field.datatype);
 }
 
-/** Puts the values of a field from the tokens of a line to their place in a point. */
+/** \brief Reads a whole number in a form such as 12.0 or 4.29e9. \return false if not a whole
+ * number, or outside the type's range */
+template <typename T>
+bool
+parseWhole(std::string_view token, T& value)
+{
+  double number = 0;
+  if constexpr (std::is_integral_v<T>)
+    if (text::parseNumber(token, number) && number == std::floor(number)) {
+      value = clampedTo<T>(number);
+      return static_cast<double>(value) == number;
+    }
+  return false;
+}
+
+/** Stores the values of a field from the tokens of a line in a point. */
 void
 parseField(const std::filesystem::path& path,
            std::size_t line,
@@ -44,7 +60,7 @@ parseField(const std::filesystem::path& path,
   withTypeOf(field.datatype, [&](auto value) {
     for (std::size_t i = 0; i < field.count; ++i) {
       const auto token = tokens.next();
-      if (!text::parseNumber(token, value))
+      if (!text::parseNumber(token, value) && !parseWhole(token, value))
         text::failAt(path,
                      line,
                      text::quoted(token) + " is not a number" +
@@ -65,7 +81,7 @@ countTokens(text::Tokens tokens)
   return count;
 }
 
-/** Reads a row again that io::takeRow() refused. */
+/** Parses a row again, slowly, after io::takeRow() failed. */
 void
 parseRow(const FileInput& input,
          const PcdHeader& header,
@@ -138,7 +154,7 @@ decompress(FileInput& input, std::size_t size)
                "expected " + text::counted(sizes[0], "byte") +
                    " of compressed points, got " + std::to_string(compressed.size()));
   Bytes values;
-  if (size / kMaxExpansion <= sizes[0]) // else do not even ask for the memory
+  if (size / kMaxExpansion <= sizes[0]) // otherwise memory is not allocated
     values.resize(size);
   std::size_t unpacked = 0;
   if (values.size() == size && sizes[0] > 0) // PCL reads a byte in any case
@@ -191,11 +207,11 @@ isFinite(const pcl::PCLPointCloud2& cloud,
   });
 }
 
-/** \return whether all floating-point values are finite: PCL's meaning of dense */
+/** \return whether all floating-point values are finite: PCL's definition of dense */
 bool
 isDense(const pcl::PCLPointCloud2& cloud)
 {
-  constexpr std::size_t kBlock = 1024; // points that stay in the cache
+  constexpr std::size_t kBlock = 1024; // points that fit into the cache
   const std::size_t points = std::size_t{cloud.width} * cloud.height;
   for (std::size_t begin = 0; begin < points; begin += kBlock)
     for (const auto& field : cloud.fields)
@@ -204,7 +220,7 @@ isDense(const pcl::PCLPointCloud2& cloud)
   return true;
 }
 
-/** Makes room for x, y and z in double, which the header declares as float32. */
+/** Changes x, y and z from float32 in the header to double. */
 void
 widenCoordinates(PcdHeader& header)
 {
@@ -226,8 +242,8 @@ widenCoordinates(PcdHeader& header)
 }
 
 /** \param[in] input stands behind the header
- * \return the points, laid out as in the header; padding is no field any more
- * \throws IoFailed naming place, value and rule: too short, text that is no number,
+ * \return the points, laid out as in the header; padding is no longer a field
+ * \throws IoFailed naming position, value and rule: too short, text in place of a number,
  * broken compression */
 pcl::PCLPointCloud2
 decodeBody(FileInput& input, const PcdHeader& header)

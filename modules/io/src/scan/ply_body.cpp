@@ -16,7 +16,7 @@ sizeOf(std::uint8_t datatype)
   return withTypeOf(datatype, [](auto value) { return sizeof value; });
 }
 
-/** \brief One line per element. */
+/** \brief A line per element, or per property, decided from the first element. */
 class TextBody : public PlyBody {
 public:
   explicit TextBody(FileInput& input) : PlyBody(input), tokens_({}) {}
@@ -54,6 +54,23 @@ private:
         text::fail(input_.path(), "the file ends ahead of " + place());
     } while (text::isBlank(input_.line()));
     tokens_ = text::Tokens(input_.line());
+    if (isFirstOfSeveral()) {
+      text::Tokens first = tokens_;
+      first.next();
+      line_per_property_ = first.next().empty();
+    }
+  }
+
+  /** \return the next number, from the next line if each property has a separate line */
+  std::string_view
+  nextToken()
+  {
+    auto token = tokens_.next();
+    while (token.empty() && line_per_property_ && input_.next()) {
+      tokens_ = text::Tokens(input_.line());
+      token = tokens_.next();
+    }
+    return token;
   }
 
   bool
@@ -68,7 +85,7 @@ private:
   void
   read(std::uint8_t datatype, const PlyProperty& property, std::uint8_t* value) override
   {
-    const auto token = tokens_.next();
+    const auto token = nextToken();
     if (token.empty())
       fail(place() + " has no " + property.name);
     withTypeOf(datatype, [&](auto number) {
@@ -88,6 +105,7 @@ private:
   }
 
   text::Tokens tokens_;
+  bool line_per_property_ = false;
 };
 
 class BinaryBody : public PlyBody {
@@ -98,7 +116,7 @@ public:
 
   void
   finish() override
-  {} // some writers end the file with a line end
+  {} // some writers end the file with an empty line
 
 private:
   void
@@ -146,8 +164,8 @@ private:
       text::fail(input_.path(), "the file ends inside " + place());
   }
 
-  /** \return what follows the value. The machine is little-endian, as PCL's PCD files
-   * are. */
+  /** \return the address after the value. The machine is little-endian, a requirement of PCL's
+   * PCD files too. */
   const std::uint8_t*
   put(const std::uint8_t* value, std::size_t size, std::uint8_t* target) const
   {
@@ -176,7 +194,7 @@ PlyBody::start(const PlyElement& element,
   has_list_ = false;
   columns_.clear();
   in_order_ = true;
-  std::size_t end = 0; // of the columns so far
+  std::size_t end = 0; // of the preceding columns
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     has_list_ |= element.properties[i].is_list;
     columns_.push_back({element.properties[i].datatype, offsets[i]});
@@ -215,8 +233,8 @@ PlyBody::readWhole(std::uint8_t datatype, const PlyProperty& property)
   });
 }
 
-/** A list is read number by number, so that its length is believed only as far as the file
- * goes. */
+/** A list is read number by number: the declared length is not trusted beyond the end of the
+ * file. */
 void
 PlyBody::readList(std::size_t i)
 {

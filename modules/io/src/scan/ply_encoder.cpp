@@ -11,7 +11,7 @@ namespace {
 
 using pcl::PCLPointField;
 
-/** \return what PLY calls the datatype; null for 64-bit integers, which it has not */
+/** \return PLY's name of the datatype; null for 64-bit integers, unknown to PLY */
 const char*
 typeName(std::uint8_t datatype)
 {
@@ -37,7 +37,7 @@ typeName(std::uint8_t datatype)
   }
 }
 
-/** \return the usual name of the property where PCL has another one */
+/** \return the usual PLY name of a property that PCL names differently */
 std::string
 propertyName(const std::string& field)
 {

@@ -34,7 +34,7 @@ const std::map<std::string, PlyEncoding, std::less<>> kPlyEncodings = {
     {"binary_little_endian", PlyEncoding::kLittleEndian},
     {"binary_big_endian", PlyEncoding::kBigEndian}};
 
-/** No program writes longer names; the usual ones have a word or two. */
+/** Longer than any real name; usual names have a word or two. */
 constexpr std::size_t kLongestName = 255;
 
 /** \brief Takes a header line by line. */
@@ -110,7 +110,7 @@ private:
   takeProperty(text::Tokens& tokens)
   {
     if (header_.elements.empty())
-      fail("a property ahead of all elements");
+      fail("a property ahead of the first element");
     PlyProperty property;
     auto type = tokens.next();
     property.is_list = type == "list";
@@ -128,7 +128,7 @@ private:
     header_.elements.back().properties.push_back(property);
   }
 
-  /** Names stand in messages and become those of fields. */
+  /** Names appear in messages and become names of fields. */
   std::string
   name(std::string_view token) const
   {

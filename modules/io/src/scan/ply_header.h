@@ -10,7 +10,7 @@ namespace pcl6d::io {
 
 enum class PlyEncoding { kAscii, kLittleEndian, kBigEndian };
 
-/** \brief One value, or a list of values with its length ahead. */
+/** \brief A value, or a list of values preceded by its length. */
 struct PlyProperty {
   std::string name;
   std::uint8_t datatype = 0; ///< of PCLPointField

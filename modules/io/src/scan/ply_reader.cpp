@@ -2,6 +2,9 @@
 #include "scan/pcd_header.h"
 #include "scan/ply_body.h"
 #include "scan/scan_formats.h"
+#include "scan/usual_names.h"
+
+#include <pcl6d/io/scan_fields.h>
 
 #include <algorithm>
 #include <limits>
@@ -14,7 +17,7 @@ namespace {
 
 using pcl::PCLPointField;
 
-/** Names that PCL gives to usual properties of vertices. */
+/** PCL's names of usual properties of vertices. */
 const std::map<std::string, std::string> kNames = {{"nx", "normal_x"},
                                                    {"ny", "normal_y"},
                                                    {"nz", "normal_z"}};
@@ -53,7 +56,7 @@ isColour(const PlyProperty& property)
          kColours.count(property.name) > 0;
 }
 
-/** Like PCL: colours are packed into one field, lists are left out. */
+/** Follows PCL: colours are packed into a field, lists are left out. */
 Layout
 layoutOf(const PlyElement& vertex)
 {
@@ -92,7 +95,7 @@ readVertices(FileInput& input, PlyBody& body, const PlyElement& vertex)
   if (cloud.point_step == 0)
     text::fail(input.path(), "vertices without properties");
   body.start(vertex, layout.offsets);
-  // A number takes at least one byte, and at most eight.
+  // A number takes at least one byte in the file, and at most eight in memory.
   cloud.data.reserve(
       std::min(vertex.count * cloud.point_step, 8 * input.sizeAhead().value_or(0)));
   for (std::size_t i = 0; i < vertex.count; ++i) {
@@ -105,7 +108,7 @@ readVertices(FileInput& input, PlyBody& body, const PlyElement& vertex)
   return std::move(cloud);
 }
 
-/** \return what no field of a point can hold */
+/** \return the elements and properties that do not fit into a point field */
 std::vector<std::string>
 leftOut(const PlyHeader& header)
 {
@@ -121,7 +124,7 @@ leftOut(const PlyHeader& header)
   return things;
 }
 
-/** Makes doubles of x, y and z, which the header declares as floats. */
+/** Changes x, y and z from float in the header to double. */
 void
 widenCoordinates(PlyHeader& header)
 {
@@ -133,11 +136,31 @@ widenCoordinates(PlyHeader& header)
         property.datatype = PCLPointField::FLOAT64;
 }
 
+/** Converts integer coordinates to double. */
+void
+takeWholeCoordinates(pcl::PCLPointCloud2& cloud)
+{
+  for (const char* const axis : {"x", "y", "z"}) {
+    const auto field = std::find_if(cloud.fields.begin(),
+                                    cloud.fields.end(),
+                                    [&](const auto& f) { return f.name == axis; });
+    if (field == cloud.fields.end() || field->datatype == PCLPointField::FLOAT32 ||
+        field->datatype == PCLPointField::FLOAT64)
+      continue;
+    const auto values = fieldValues(cloud, axis);
+    cloud.fields.erase(field);
+    pcl6d::addField(cloud, axis, PCLPointField::FLOAT64, values->values);
+  }
+}
+
 ScanCloud
 readPly(const std::filesystem::path& path, Digits digits)
 {
   FileInput input(path);
   PlyHeader header = readPlyHeader(input);
+  for (auto& element : header.elements)
+    if (element.name == "vertex")
+      takeUsualNames(element.properties);
   if (digits == Digits::kDouble)
     widenCoordinates(header);
   const auto vertex =
@@ -158,6 +181,7 @@ readPly(const std::filesystem::path& path, Digits digits)
     else
       body->skipAll(element);
   body->finish();
+  takeWholeCoordinates(scan.cloud);
   scan.left_out = leftOut(header);
   return digits == Digits::kFloat && header.encoding == PlyEncoding::kAscii &&
                  needsDouble(path, scan.cloud)
@@ -167,8 +191,8 @@ readPly(const std::filesystem::path& path, Digits digits)
 
 } // namespace
 
-// Not by pcl::PLYReader, which takes 'abc' for nan and, where the locale has a decimal
-// comma, every broken number too.
+// pcl::PLYReader is not used: it reads 'abc' as nan and, in a locale with decimal commas, every
+// malformed number too.
 ScanCloud
 readPly(const std::filesystem::path& path)
 {

@@ -11,8 +11,8 @@
 /** \file The datatypes of fields, and their values in memory. */
 namespace pcl6d::io {
 
-/** \brief Calls f with a value-initialised number of the C++ type that a PCLPointField
- * of this datatype holds, and returns what it returns. */
+/** \brief Calls f with a value-initialised number of the C++ type for a PCLPointField datatype,
+ * and returns the result of f. */
 template <typename F>
 auto
 withTypeOf(std::uint8_t datatype, F&& f)
@@ -42,7 +42,7 @@ withTypeOf(std::uint8_t datatype, F&& f)
   }
 }
 
-/** \brief Copies values of `size` bytes that stand `step` bytes apart. */
+/** \brief Copies values of `size` bytes at strides of `step` bytes. */
 inline void
 copyValues(const std::uint8_t* source,
            std::size_t source_step,
@@ -51,7 +51,7 @@ copyValues(const std::uint8_t* source,
            std::size_t size,
            std::size_t count)
 {
-  const auto copy = [&](auto bytes) { // a size that the compiler knows
+  const auto copy = [&](auto bytes) { // a size known to the compiler
     for (std::size_t i = 0; i < count; ++i)
       std::memcpy(target + i * target_step, source + i * source_step, bytes);
   };

@@ -27,7 +27,7 @@ readPointList(const std::filesystem::path& path)
       text::failAt(path,
                    lines.number(),
                    points.back().allFinite() ? "a coordinate of 1e9 m or more"
-                                             : "a coordinate that is not finite");
+                                             : "a coordinate is not finite");
   }
   return points;
 }

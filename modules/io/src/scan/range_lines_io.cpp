@@ -21,7 +21,7 @@ trimmed(std::string_view cell)
   return cell.substr(begin, cell.find_last_not_of(" \t") - begin + 1);
 }
 
-// Between commas or semicolons a cell may be empty, between blanks there is none.
+// A cell may be empty between commas or semicolons, but not between blanks.
 Cells
 cellsOf(std::string_view line)
 {
@@ -43,14 +43,14 @@ cellsOf(std::string_view line)
   return cells;
 }
 
-/** \brief The rows of a table without its comments, as cells. */
+/** \brief The rows of a table, without comments, as cells. */
 class Table {
 public:
   explicit Table(const fs::path& path)
   : path_(path), text_(text::readFile(path)), lines_(withoutMark(text_))
   {}
 
-  /** \return whether there was another row; all must be as long as the first one */
+  /** \return false at the end; all rows must have the length of the first */
   bool
   next()
   {
@@ -135,7 +135,7 @@ struct Columns {
   }
 };
 
-/** \return whether the row, the first one, names the columns */
+/** \return whether the row, the first of the file, names the columns */
 bool
 readNames(const Table& table, const Columns& expected, Columns& columns)
 {
@@ -163,7 +163,7 @@ addStart(const Table& table, const Columns& columns, RangeLines& lines)
   const double time = table.finite(1, "time");
   if (!lines.times.empty() && !(time > lines.times.back()))
     table.fail("the time " + std::string(table.cells()[1]) +
-               " does not follow that of the row before; times must increase");
+               " does not follow the time of the row before; times must increase");
   lines.times.push_back(time);
 }
 

@@ -16,7 +16,7 @@ struct Span {
   std::size_t size = 0;
 };
 
-/** \return the columns, joined where one follows the other */
+/** \return the columns, joined where contiguous */
 std::vector<Span>
 spansOf(const std::vector<Column>& columns)
 {

@@ -15,7 +15,7 @@ class ScanEncoder {
 public:
   virtual ~ScanEncoder() = default;
 
-  /** \return what stands ahead of the points */
+  /** \return the bytes ahead of the points */
   virtual std::string
   header() const
   {
@@ -29,11 +29,26 @@ public:
          std::size_t end,
          std::string& content) = 0;
 
-  /** \brief Appends what stands behind the points. */
+  /** \brief Appends the bytes behind the points. */
   virtual void
   finish(std::string& content);
 
-  /** \return what the file does not hold, in words */
+  /** \return a final header of equal size, when all points are known; empty if the first header
+   * was complete */
+  virtual std::string
+  finalHeader() const
+  {
+    return {};
+  }
+
+  /** \return whether finalHeader() is not empty: the output must be a seekable file */
+  virtual bool
+  completesHeader() const
+  {
+    return false;
+  }
+
+  /** \return the losses of the format, in words */
   const std::vector<std::string>&
   losses() const
   {
@@ -57,16 +72,25 @@ makePlyEncoder(const ScanShape& shape, bool ascii);
 std::unique_ptr<ScanEncoder>
 makeFloatEncoder(const ScanShape& shape, ScanFormat format);
 
-/** \return what is lost in a format that holds only points: their order in rows, and the
- * pose */
+/** \brief LAS 1.4, points of format 6 or (with colours) 7, or compressed to LAZ.
+ * \param[in] wkt coordinate system, or empty */
+std::unique_ptr<ScanEncoder>
+makeLasEncoder(const ScanShape& shape, bool compress, const std::string& wkt);
+
+/** \brief PTX with the pose: x y z intensity, with colours also r g b. */
+std::unique_ptr<ScanEncoder>
+makePtxEncoder(const ScanShape& shape);
+
+/** \return the losses in a format that holds only points: the organization in rows, and the pose
+ */
 std::vector<std::string>
 lossesOfShape(const ScanShape& shape);
 
-/** \return the field of that name, or null */
+/** \return the field by name, or null */
 const pcl::PCLPointField*
 findField(const std::vector<pcl::PCLPointField>& fields, const std::string& name);
 
-/** \brief Appends the numbers as text, one row per point. */
+/** \brief Appends the numbers as text, a row per point. */
 void
 appendText(const pcl::PCLPointCloud2& block,
            std::size_t begin,
@@ -74,7 +98,7 @@ appendText(const pcl::PCLPointCloud2& block,
            const std::vector<Column>& columns,
            std::string& content);
 
-/** \brief Appends the numbers as they are in memory, without gaps. */
+/** \brief Appends the numbers in memory layout, without gaps. */
 void
 appendBytes(const pcl::PCLPointCloud2& block,
             std::size_t begin,

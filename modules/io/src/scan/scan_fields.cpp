@@ -15,8 +15,8 @@ namespace pcl6d {
 using namespace io;
 
 namespace {
-/** \return the value in the type of a field; the nearest that a type of whole numbers holds
- */
+/** \return the value in the type of a field; for an integer type the nearest representable
+ * number */
 template <typename T>
 T
 valueAs(double value)

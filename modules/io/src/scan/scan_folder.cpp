@@ -1,138 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "scan/found_scans.h"
 #include "scan/initial_poses.h"
 #include "scan/scan_formats.h"
+#include "scan/table/table_columns.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/median.h>
 #include <pcl6d/common/require.h>
-#include <pcl6d/io/natural_order.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/text.h>
-#include <pcl6d/io/trajectory_io.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
-#include <set>
 
 namespace pcl6d {
 
 using namespace io;
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/** \return whether the stamps [s] of scans that a run has, too, are their numbers: as those of
- * one scan a second, which stampsOfRun() takes for none */
-bool
-areNumbers(const std::map<std::string, double>& stamps, const RunResult& summary)
-{
-  std::size_t count = 0;
-  for (const auto& scan : summary.scans)
-    if (const auto found = stamps.find(scan.file); found != stamps.end()) {
-      if (found->second != scan.index)
-        return false;
-      ++count;
-    }
-  return count > 0;
-}
-
-/** \brief The scans of a folder, all of one format. */
-struct FoundScans {
-  std::vector<fs::path> files; ///< in natural order
-  ScanFormat format = ScanFormat::kAuto;
-};
-
-using IsOfFormat = std::function<bool(const fs::path&)>;
-
-/** \return what tells the files of a format by their names */
-IsOfFormat
-isOfFormat(const ScanFolderOptions& options)
-{
-  if (options.other_format)
-    return [&](const fs::path& file) {
-      return hasExtensionOf(*options.other_format, file);
-    };
-  if (options.format == ScanFormat::kAuto)
-    return [](const fs::path& file) {
-      return scanFormatOfExtension(file) != ScanFormat::kAuto;
-    };
-  return [extension = extensionOf(options.format)](const fs::path& file) {
-    return extensionOf(scanFormatOfExtension(file)) == extension;
-  };
-}
-
-bool
-isScan(const fs::directory_entry& entry, const IsOfFormat& is_of_format)
-{
-  // The name decides. What then proves to be a folder or a link to nowhere is an error when
-  // it is read: left out in silence it would shift all poses.
-  return entry.path().filename().string().front() != '.' &&
-         !isGroundtruth(entry.path()) && is_of_format(entry.path());
-}
-
-/** \return the scans of a format, in natural order */
-std::vector<fs::path>
-scanFiles(const fs::path& folder, const IsOfFormat& is_of_format)
-{
-  std::error_code error;
-  const fs::file_status status = fs::status(folder, error);
-  if (status.type() == fs::file_type::not_found)
-    text::fail(folder, "no such folder"); // or a part of its path is none
-  if (!error && !fs::is_directory(status))
-    text::fail(folder, "is a file, but must be a folder of scans");
-  std::vector<fs::path> files;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (isScan(*entry, is_of_format))
-      files.push_back(entry->path());
-  if (error)
-    text::fail(folder, error.message());
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return naturalLess(a.filename().string(), b.filename().string());
-  });
-  return files;
-}
-
-/** \return the one format of all files */
-ScanFormat
-commonFormat(const fs::path& folder, const std::vector<fs::path>& files)
-{
-  const ScanFormat first = scanFormatOfExtension(files.front());
-  for (const auto& file : files) {
-    const ScanFormat other = scanFormatOfExtension(file);
-    if (other != first)
-      text::fail(folder,
-                 "holds scans of several formats, " + extensionOf(first) + " (" +
-                     files.front().filename().string() + ") and " + extensionOf(other) +
-                     " (" + file.filename().string() + "); choose one of them");
-  }
-  return first;
-}
-
-FoundScans
-findScans(const fs::path& folder, const ScanFolderOptions& options)
-{
-  FoundScans scans{scanFiles(folder, isOfFormat(options)), options.format};
-  const bool is_auto = options.format == ScanFormat::kAuto;
-  if (scans.files.empty())
-    text::fail(folder,
-               "no scans found (looked for " +
-                   (options.other_format ? options.other_format->extension
-                    : is_auto            ? allExtensions()
-                                         : extensionOf(options.format)) +
-                   ")");
-  if (options.other_format)
-    scans.format = ScanFormat::kAuto;
-  else if (is_auto)
-    scans.format = commonFormat(folder, scans.files);
-  return scans;
-}
-
-} // namespace
 
 void
 ScanFolderOptions::validate() const
@@ -143,14 +29,78 @@ ScanFolderOptions::validate() const
           last.value_or(0),
           ">= first = " + std::to_string(first));
   require(every >= 1, "every", every, ">= 1");
+  if (!columns.empty())
+    tableColumns(columns);
 }
 
 ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
 : other_format_(options.other_format)
 {
   options.validate();
-  const FoundScans scans = findScans(folder, options);
-  const std::size_t count = scans.files.size();
+  reading_.columns = options.columns;
+  reading_.bin_layout = options.bin_layout;
+  FoundScans scans = findScans(folder, options);
+  InitialPoses poses = findInitialPoses(scans, options.poses_file);
+  takeLayout(scans, options, poses.trajectory.stamps);
+  pose_source_ = poses.source;
+  std::vector<Entry> all(scans.files.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].file = scans.files[i];
+    all[i].name = scans.files[i].filename().string();
+    all[i].format = scans.format;
+  }
+  select(std::move(all), std::move(poses.trajectory), options);
+}
+
+/** \param[in] stamps [s] of all scans, or empty */
+void
+ScanFolder::takeLayout(const FoundScans& scans,
+                       const ScanFolderOptions& options,
+                       const std::vector<double>& stamps)
+{
+  if (!scans.entered.empty())
+    note_ = "scans are those in " + scans.folders.front().string();
+  layout_ = scans.layout;
+  if (!layout_)
+    return;
+  note_ += (note_.empty() ? "" : "; ") + describe(*layout_);
+  if (layout_->names_are_stamps && stamps.empty())
+    note_ += "; the stamps in the names do not increase and are ignored";
+  if (options.bin_layout == BinLayout::kAuto)
+    reading_.bin_layout = layout_->bin_layout;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < stamps.size(); ++i)
+    steps.push_back(stamps[i] - stamps[i - 1]);
+  if (!steps.empty())
+    reading_.times = {layout_->times, upperMedian(std::move(steps))};
+}
+
+ScanFolder::ScanFolder(std::shared_ptr<const ScanSource> source,
+                       const ScanFolderOptions& options)
+{
+  options.validate();
+  require(source != nullptr, "source", "none", "a source of scans");
+  InitialPoses poses = initialPosesOf(*source, options.poses_file);
+  pose_source_ = poses.source;
+  if (options.poses_file.empty())
+    note_ = source->note();
+  std::vector<Entry> all(source->scans().size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].file = source->fileOf(i);
+    all[i].name = source->scans()[i].name;
+    all[i].source = source;
+    all[i].number = i;
+  }
+  select(std::move(all), std::move(poses.trajectory), options);
+}
+
+/** Selects scans by the options. \param[in] trajectory of all scans */
+void
+ScanFolder::select(std::vector<Entry> all,
+                   Trajectory trajectory,
+                   const ScanFolderOptions& options)
+{
+  const std::size_t count = all.size();
   const auto first = static_cast<std::size_t>(options.first);
   if (first >= count)
     throw BadArgument("first = " + std::to_string(first) + ", but the folder holds " +
@@ -158,21 +108,14 @@ ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
   const std::size_t end =
       options.last ? std::min(count, static_cast<std::size_t>(*options.last) + 1)
                    : count;
-  InitialPoses poses =
-      findInitialPoses(folder, scans.files, scans.format, options.poses_file);
-  pose_source_ = poses.source;
   for (std::size_t i = first; i < end; i += static_cast<std::size_t>(options.every)) {
-    entries_.push_back({scans.files[i],
-                        scans.files[i].filename().string(),
-                        static_cast<int>(i),
-                        poses.trajectory.poses[i],
-                        scans.format,
-                        false,
-                        poses.trajectory.poses[i]});
-    if (!poses.trajectory.stamps.empty())
-      stamps_.push_back(poses.trajectory.stamps[i]);
+    all[i].index = static_cast<int>(i);
+    all[i].given = all[i].pose = trajectory.poses[i];
+    entries_.push_back(std::move(all[i]));
+    if (!trajectory.stamps.empty())
+      stamps_.push_back(trajectory.stamps[i]);
   }
-  odometry_ = std::move(poses.trajectory);
+  odometry_ = std::move(trajectory);
   if (!options.keep_coordinates)
     lookAtFirst();
 }
@@ -183,7 +126,7 @@ ScanFolder::lookAtFirst()
   try {
     first_ = std::make_shared<ScanCloud>(readEntry(entries_.front()));
   } catch (const IoFailed&) {
-    return; // is told when it is read
+    return; // reported on reading
   }
   const auto place = placeOf(first_->cloud);
   if (!place || !place->isFarFrom(Eigen::Vector3d::Zero()))
@@ -196,7 +139,7 @@ PoseReading
 ScanFolder::readingOf(const PointsPlace& place, const Eigen::Vector3d& offset) const
 {
   const Eigen::Isometry3d& first = entries_.front().given;
-  double poses = 0, points = 0; // how far they spread
+  double poses = 0, points = 0; // spread [m]
   for (const Entry& entry : entries_) {
     poses += (entry.given.translation() - first.translation()).norm();
     points += (entry.given * offset - first * offset).norm();
@@ -223,9 +166,8 @@ ScanFolder::bringNear(const PointsPlace& place)
     coordinates_ += describeMove(offset);
     if (moved_->reading == PoseReading::kScanner)
       coordinates_ += ", which the poses (" + pose_source_ + ") do not hold";
-    coordinates_ +=
-        "; where the scanner stood among them is not known: ranges and rays "
-        "begin in their middle";
+    coordinates_ += "; the position of the scanner is not known: ranges and rays begin "
+                    "in the middle of the points";
   }
   for (Entry& entry : entries_)
     entry.is_far = true;
@@ -240,60 +182,6 @@ ScanFolder::placeNear()
   for (Entry& entry : entries_)
     if (entry.is_far)
       entry.pose = moved_->ofNear(entry.given);
-}
-
-void
-ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
-{
-  std::vector<Entry> entries;
-  std::set<std::string> known;
-  int next = 0;
-  for (const auto& scan : summary.scans) {
-    const fs::path file = run / "scans" / (scanName(scan.index) + ".pcd");
-    if (!fs::exists(file))
-      text::fail(file,
-                 "is missing, though " + (run / "summary.json").string() +
-                     " tells of it");
-    entries.push_back({file,
-                       scan.file,
-                       scan.index,
-                       scan.initial_pose,
-                       ScanFormat::kPcd,
-                       false,
-                       scan.initial_pose});
-    known.insert(scan.file);
-    next = std::max(next, scan.index + 1);
-  }
-  std::vector<double> stamps = stampsOfRun(run, summary);
-  if (stamps.empty()) {
-    std::map<std::string, double> found;
-    for (std::size_t i = 0; i < stamps_.size(); ++i)
-      found[entries_[i].name] = stamps_[i];
-    if (areNumbers(found, summary))
-      for (const auto& scan : summary.scans)
-        stamps.push_back(scan.index);
-  }
-  for (std::size_t i = 0; i < entries_.size(); ++i)
-    if (known.count(entries_[i].name) == 0) {
-      entries.push_back(entries_[i]);
-      entries.back().index = next++;
-      if (!stamps.empty() && !stamps_.empty())
-        stamps.push_back(stamps_[i]);
-    }
-  num_registered_ = summary.scans.size();
-  if (entries.size() == num_registered_)
-    text::fail(run,
-               "holds all " + text::counted(entries_.size(), "scan") +
-                   " of the folder already (scans are told apart by their file names)");
-  if (stamps_.empty())
-    stamps.clear();
-  stamps_ = std::move(stamps);
-  entries_ = std::move(entries);
-  first_.reset();
-  if (moved_ && summary.moved) { // the same trajectory goes on
-    moved_ = summary.moved;
-    placeNear();
-  }
 }
 
 std::size_t
@@ -312,6 +200,13 @@ const std::string&
 ScanFolder::name(std::size_t i) const
 {
   return entries_.at(i).name;
+}
+
+std::string
+ScanFolder::title(std::size_t i) const
+{
+  const Entry& entry = entries_.at(i);
+  return entry.source ? entry.source->titleOf(entry.number) : entry.file.string();
 }
 
 int
@@ -378,18 +273,34 @@ ScanFolder::readCloud(std::size_t i) const
 ScanCloud
 ScanFolder::readEntry(const Entry& entry) const
 {
+  if (entry.source)
+    return finiteMoved(entry.file,
+                       entry.source->read(entry.number),
+                       entry.is_far ? moved_->toNear(entry.given)
+                                    : std::optional<Eigen::Isometry3d>());
   const OtherScanFormat* const other =
       entry.format == ScanFormat::kAuto ? other_format_.get() : nullptr;
+  ScanReaderOptions reading = reading_;
+  reading.format = entry.format;
   if (entry.is_far)
-    return readMovedCloud(entry.file, entry.format, other, moved_->toNear(entry.given));
-  return other ? readScanCloud(entry.file, *other)
-               : readScanCloud(entry.file, entry.format);
+    return readMovedCloud(entry.file, reading, other, moved_->toNear(entry.given));
+  return other ? readScanCloud(entry.file, *other) : readScanCloud(entry.file, reading);
 }
 
 ScanFormat
 ScanFolder::format() const
 {
   return entries_.front().format;
+}
+
+std::string
+ScanFolder::formatName() const
+{
+  const Entry& first = entries_.front();
+  if (first.source)
+    return first.source->format();
+  return first.format == ScanFormat::kAuto && other_format_ ? other_format_->name
+                                                            : toString(first.format);
 }
 
 } // namespace pcl6d

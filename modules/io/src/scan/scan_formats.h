@@ -4,34 +4,42 @@
 #include <pcl6d/io/other_scan_format.h>
 #include <pcl6d/io/scan_reader.h>
 
+#include <optional>
 #include <string_view>
 
 /** \file The formats of scans; PCD is in <pcl6d/io/pcd_io.h>. The readers return the
  * points in our frame [m], invalid points included, and throw IoFailed naming file,
- * place, value and rule. */
+ * position, value and rule. */
 namespace pcl6d::io {
 
 /** \return the extensions of all formats, separated by blanks */
 std::string
 allExtensions();
 
-/** \brief How coordinates of a text are read that are meant as float32. */
+/** \brief Precision for coordinates of a text that should become float32. */
 enum class Digits { kFloat, kDouble };
 
-/** \return whether a text that was read as float32 is to be read again in double: its
- * points lie far from the origin (offsetOfFar()), and it can be read again */
+/** \return whether a text read in float32 must be read again in double: the points lie far from
+ * the origin (offsetOfFar()), and the file can be read twice */
 bool
 needsDouble(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud);
 
-/** \brief Reads a scan as readScanCloud(), and moves its points (moveCloud()) before those
- * that are not finite are dropped. \param[in] other in place of `format`, unless null */
+/** \brief readScanCloud() with the points moved (moveCloud()) before non-finite points are
+ * dropped. \param[in] other replaces the format, unless null */
 ScanCloud
 readMovedCloud(const std::filesystem::path& path,
-               ScanFormat format,
+               const ScanReaderOptions& options,
                const OtherScanFormat* other,
                const Eigen::Isometry3d& motion);
 
-/** \return the vertices with all their scalar properties, named as PCL names them */
+/** \brief Applies an optional motion to the points of a scan, and removes non-finite points.
+ * \param[in] path for messages \throws IoFailed fields and data do not fit */
+ScanCloud
+finiteMoved(const std::filesystem::path& path,
+            ScanCloud scan,
+            const std::optional<Eigen::Isometry3d>& motion);
+
+/** \return the vertices with all scalar properties, under PCL's names */
 ScanCloud
 readPly(const std::filesystem::path& path);
 
@@ -39,16 +47,33 @@ readPly(const std::filesystem::path& path);
 ScanCloud
 readUos(const std::filesystem::path& path);
 
-/** \return x y z intensity of the same text with a fourth column */
+/** \return x y z intensity, from 3DTK's text with a fourth column */
 ScanCloud
 readUosr(const std::filesystem::path& path);
 
-/** \return x y z of text */
+/** \return the points of a text, in rows of x y z, or of the columns in the heading
+ * \param[in] columns replace the columns of the heading, or empty (tableColumns())
+ * \param[in] is_pts the file is PTS: without a heading the number of columns determines their
+ * meaning
+ * \throws BadArgument the columns are invalid */
 ScanCloud
-readXyz(const std::filesystem::path& path);
+readTable(const std::filesystem::path& path,
+          const std::vector<std::string>& columns,
+          bool is_pts);
 
-/** \return x y z intensity */
+/** \return the points of a .bin file with the fields of the layout
+ * \throws IoFailed the size does not fit, or the layout is ambiguous */
 ScanCloud
-readKitti(const std::filesystem::path& path);
+readKitti(const std::filesystem::path& path, BinLayout layout);
+
+/** \return the points of a PTX file with a single scan \throws IoFailed the file holds several
+ * scans */
+ScanCloud
+readPtx(const std::filesystem::path& path);
+
+/** \return the points of LAS or LAZ with attributes; coordinates in double if far from the
+ * origin */
+ScanCloud
+readLas(const std::filesystem::path& path);
 
 } // namespace pcl6d::io

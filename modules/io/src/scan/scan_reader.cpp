@@ -8,6 +8,7 @@
 #include <pcl6d/io/other_scan_format.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_fields.h>
+#include <pcl6d/io/scan_source.h>
 #include <pcl6d/io/text.h>
 
 #include <algorithm>
@@ -20,28 +21,65 @@ namespace pcl6d {
 
 using namespace io;
 
+ScanSource::~ScanSource() = default;
+
+const std::filesystem::path&
+ScanSource::fileOf(std::size_t /*i*/) const
+{
+  return path();
+}
+
+std::string
+ScanSource::titleOf(std::size_t i) const
+{
+  return path().string() + ": scan " + std::to_string(i) + " (" + scans().at(i).name +
+         ")";
+}
+
+std::string
+ScanSource::poseSource() const
+{
+  return path().filename().string();
+}
+
+std::string
+ScanSource::note() const
+{
+  return {};
+}
+
 namespace {
 
-/** What the formats are called, on the command line and as files. */
+/** Names of the formats on the command line, and extensions. */
 struct FormatName {
   ScanFormat format;
   std::string_view name;
   std::string_view extension;
 };
-// Of two formats with one extension the first is that of the extension.
-constexpr std::array<FormatName, 6> kFormats = {{{ScanFormat::kPcd, "pcd", ".pcd"},
-                                                 {ScanFormat::kPly, "ply", ".ply"},
-                                                 {ScanFormat::kUos, "uos", ".3d"},
-                                                 {ScanFormat::kUosr, "uosr", ".3d"},
-                                                 {ScanFormat::kKitti, "kitti", ".bin"},
-                                                 {ScanFormat::kXyz, "xyz", ".xyz"}}};
+// If two formats share an extension, the first is the default.
+constexpr std::array<FormatName, 13> kFormats = {{{ScanFormat::kPcd, "pcd", ".pcd"},
+                                                  {ScanFormat::kPly, "ply", ".ply"},
+                                                  {ScanFormat::kUos, "uos", ".3d"},
+                                                  {ScanFormat::kUosr, "uosr", ".3d"},
+                                                  {ScanFormat::kKitti, "kitti", ".bin"},
+                                                  {ScanFormat::kXyz, "xyz", ".xyz"},
+                                                  {ScanFormat::kLas, "las", ".las"},
+                                                  {ScanFormat::kLaz, "laz", ".laz"},
+                                                  {ScanFormat::kPtx, "ptx", ".ptx"},
+                                                  {ScanFormat::kPts, "pts", ".pts"},
+                                                  {ScanFormat::kCsv, "csv", ".csv"},
+                                                  {ScanFormat::kTxt, "txt", ".txt"},
+                                                  {ScanFormat::kTxt, "txt", ".asc"}}};
 
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
 ScanCloud
-readAllPoints(const std::filesystem::path& path, ScanFormat format)
+pointsOfFile(const std::filesystem::path& path, const ScanReaderOptions& options)
 {
-  switch (format == ScanFormat::kAuto ? scanFormatOfExtension(path) : format) {
+  const ScanFormat format = options.format == ScanFormat::kAuto
+                                ? scanFormatOfExtension(path)
+                                : options.format;
+  switch (format) {
   case ScanFormat::kPcd: {
     ScanCloud scan;
     scan.cloud = readPcd(path);
@@ -54,15 +92,32 @@ readAllPoints(const std::filesystem::path& path, ScanFormat format)
   case ScanFormat::kUosr:
     return readUosr(path);
   case ScanFormat::kKitti:
-    return readKitti(path);
+    return readKitti(path, options.bin_layout);
   case ScanFormat::kXyz:
-    return readXyz(path);
+  case ScanFormat::kCsv:
+  case ScanFormat::kTxt:
+  case ScanFormat::kPts:
+    return readTable(path, options.columns, format == ScanFormat::kPts);
+  case ScanFormat::kPtx:
+    return readPtx(path);
+  case ScanFormat::kLas:
+  case ScanFormat::kLaz: // the file header marks the compression
+    return readLas(path);
   case ScanFormat::kAuto:
     break;
   }
   text::fail(path,
              "unknown format of scans " + text::quoted(path.extension().string()) +
                  " (known: " + allExtensions() + ")");
+}
+
+/** \return all points of a file, with times by the rule of the options */
+ScanCloud
+readAllPoints(const std::filesystem::path& path, const ScanReaderOptions& options)
+{
+  ScanCloud scan = pointsOfFile(path, options);
+  addPointTimes(options.times, scan.cloud);
+  return scan;
 }
 
 const pcl::PCLPointField&
@@ -81,7 +136,7 @@ coordinateField(const std::filesystem::path& path,
   text::fail(path, "has no field '" + name + "'");
 }
 
-/** \return per point whether x, y and z are finite as float */
+/** \return for each point whether x, y and z are finite in float */
 std::vector<bool>
 finitePoints(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud)
 {
@@ -100,23 +155,26 @@ finitePoints(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud
   return finite;
 }
 
-/** Leaves the points that are to be kept, in their order, in one row. */
+/** Keeps selected points, in order, in a single row. */
 void
 keepPoints(const std::vector<bool>& keep, ScanCloud& scan)
 {
   pcl::PCLPointCloud2& cloud = scan.cloud;
   const std::size_t step = cloud.point_step;
   std::size_t kept = 0;
+  const std::vector<std::uint32_t> before =
+      std::move(scan.places); // of an earlier time
+  scan.places.clear();
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (!keep[i])
       continue;
     if (scan.row_length > 0)
-      scan.places.push_back(static_cast<std::uint32_t>(i));
+      scan.places.push_back(before.empty() ? static_cast<std::uint32_t>(i) : before[i]);
     if (kept != i)
       std::memcpy(&cloud.data[kept * step], &cloud.data[i * step], step);
     ++kept;
   }
-  scan.dropped = keep.size() - kept;
+  scan.dropped += keep.size() - kept;
   cloud.data.resize(kept * step);
   cloud.width = static_cast<pcl::uindex_t>(kept);
   cloud.height = 1;
@@ -133,7 +191,7 @@ dropInvalid(const std::filesystem::path& path, ScanCloud& scan)
   const bool floats = std::count_if(kAxes.begin(), kAxes.end(), isFloat) == 3;
   if (scan.cloud.data.empty())
     keepPoints({}, scan);
-  else if (!floats || !scan.cloud.is_dense) { // else readPcd() has looked at them
+  else if (!floats || !scan.cloud.is_dense) { // else already checked by readPcd()
     const std::vector<bool> finite = finitePoints(path, scan.cloud);
     if (std::find(finite.begin(), finite.end(), false) != finite.end())
       keepPoints(finite, scan);
@@ -186,7 +244,7 @@ readByOther(const std::filesystem::path& path, const OtherScanFormat& format)
   }
 }
 
-/** The points that readScanCloud() leaves, of what a reader has read. */
+/** The finite points of a reader's result, for readScanCloud(). */
 ScanCloud
 finitePart(const std::filesystem::path& path, ScanCloud scan)
 {
@@ -257,13 +315,22 @@ scanFormatFromName(const std::string& name)
     if (name == known.name)
       return known.format;
   throw BadArgument("format = " + text::quoted(name) +
-                    ", but must be auto, pcd, ply, uos, uosr, kitti or xyz");
+                    ", but must be auto, pcd, ply, uos, uosr, kitti, xyz, las, "
+                    "laz, ptx, pts, csv or txt");
+}
+
+ScanCloud
+readScanCloud(const std::filesystem::path& path, const ScanReaderOptions& options)
+{
+  return finitePart(path, readAllPoints(path, options));
 }
 
 ScanCloud
 readScanCloud(const std::filesystem::path& path, ScanFormat format)
 {
-  return finitePart(path, readAllPoints(path, format));
+  ScanReaderOptions options;
+  options.format = format;
+  return readScanCloud(path, options);
 }
 
 bool
@@ -282,7 +349,7 @@ finiteScan(pcl::PCLPointCloud2 cloud, const std::filesystem::path& file)
   }
   ScanCloud scan;
   scan.cloud = std::move(cloud);
-  scan.cloud.is_dense = false; // as far as is known
+  scan.cloud.is_dense = false; // not checked
   return finitePart(file, std::move(scan));
 }
 
@@ -294,7 +361,7 @@ readScanCloud(const std::filesystem::path& path, const OtherScanFormat& format)
 
 ScanCloud
 io::readMovedCloud(const std::filesystem::path& path,
-                   ScanFormat format,
+                   const ScanReaderOptions& options,
                    const OtherScanFormat* other,
                    const Eigen::Isometry3d& motion)
 {
@@ -302,10 +369,19 @@ io::readMovedCloud(const std::filesystem::path& path,
   if (other)
     scan.cloud = readByOther(path, *other);
   else
-    scan = readAllPoints(path, format);
+    scan = readAllPoints(path, options);
+  return finiteMoved(path, std::move(scan), motion);
+}
+
+ScanCloud
+io::finiteMoved(const std::filesystem::path& path,
+                ScanCloud scan,
+                const std::optional<Eigen::Isometry3d>& motion)
+{
   try {
     requireFitting(scan.cloud);
-    moveCloud(motion, scan.cloud);
+    if (motion)
+      moveCloud(*motion, scan.cloud);
   } catch (const BadArgument& e) {
     text::fail(path, e.what());
   }
@@ -321,9 +397,7 @@ readNearScan(const std::filesystem::path& path, ScanFormat format)
   scan.offset = offsetOfFar(scan.cloud);
   if (!scan.offset.isZero(0)) {
     moveCloud(Eigen::Isometry3d(Eigen::Translation3d(-scan.offset)), scan.cloud);
-    const std::size_t dropped = scan.dropped;
     static_cast<ScanCloud&>(scan) = finitePart(path, std::move(scan));
-    scan.dropped += dropped;
     scan.description = describeFar(*place) + describeMove(scan.offset);
   }
   scan.points = coordinatesOf(scan.cloud);

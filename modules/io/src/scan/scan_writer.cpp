@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kBlock = 8192; // points turned into bytes at once
 
-/** Checks that the fields lie inside the points. */
+/** Checks the fields against the size of a point. */
 void
 checkFields(const ScanShape& shape)
 {
@@ -34,7 +34,7 @@ checkFields(const ScanShape& shape)
   }
 }
 
-/** Checks that the points lie inside the data. */
+/** Checks the points against the size of the data. */
 void
 checkBlock(const pcl::PCLPointCloud2& block, const ScanShape& shape)
 {
@@ -67,6 +67,17 @@ makeEncoder(const std::filesystem::path& path,
   case ScanFormat::kKitti:
   case ScanFormat::kXyz:
     return makeFloatEncoder(shape, format);
+  case ScanFormat::kLas:
+  case ScanFormat::kLaz:
+    return makeLasEncoder(shape, format == ScanFormat::kLaz, options.coordinate_system);
+  case ScanFormat::kPtx:
+    return makePtxEncoder(shape);
+  case ScanFormat::kPts:
+  case ScanFormat::kCsv:
+  case ScanFormat::kTxt:
+    throw BadArgument(
+        "format = " + toString(format) +
+        ", but this format is only read; xyz is a text format for writing");
   case ScanFormat::kAuto:
     break;
   }
@@ -76,6 +87,13 @@ makeEncoder(const std::filesystem::path& path,
 }
 
 } // namespace
+
+bool
+isWritten(ScanFormat format)
+{
+  return format != ScanFormat::kPts && format != ScanFormat::kCsv &&
+         format != ScanFormat::kTxt;
+}
 
 std::vector<std::string>
 writeScan(const std::filesystem::path& path,
@@ -98,6 +116,10 @@ writeScanBlocks(const std::filesystem::path& path,
 {
   checkFields(shape);
   const auto encoder = makeEncoder(path, shape, options);
+  if (encoder->completesHeader() && isStream(path))
+    text::fail(path,
+               "is a pipe, a device or an open file, but the header of LAS and LAZ is "
+               "completed at the end; write to a regular file");
   writeFileAtomically(path, [&](std::ostream& stream) {
     std::string content = encoder->header();
     const auto flush = [&] {
@@ -125,6 +147,11 @@ writeScanBlocks(const std::filesystem::path& path,
                         std::to_string(written) + " were handed over");
     encoder->finish(content);
     flush();
+    if (encoder->completesHeader()) {
+      stream.seekp(0);
+      content = encoder->finalHeader();
+      flush();
+    }
   });
   return encoder->losses();
 }

@@ -10,12 +10,12 @@
 /** \file The formats of readSegments(), in the units of the file. */
 namespace pcl6d::io {
 
-/** \brief Appends the sides of a polygon line, and the one that closes it if wanted. */
+/** \brief Appends the sides of a polygon line, optionally including the closing side. */
 void
 appendLine(const std::vector<Eigen::Vector2d>& line, bool closed, Segments& segments);
 
 /** Each reads the content of a file. \param[in] path for messages
- * \throws IoFailed naming file, place, value and rule */
+ * \throws IoFailed naming file, position, value and rule */
 Segments
 segmentsOfCsv(const std::string& content, const std::filesystem::path& path);
 Segments

@@ -16,11 +16,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Line = std::vector<Eigen::Vector2d>;
 
-/** Walks through a GeoJSON document (RFC 7946), and knows where it is. */
+/** Traverses a GeoJSON document (RFC 7946), and tracks the position. */
 class GeoJsonReader {
 public:
   Segments segments;
-  std::string place; ///< such as feature 3, for messages
+  std::string place; ///< for messages, e.g. feature 3
 
   void
   read(const Json& json)
@@ -78,7 +78,7 @@ private:
     for (const Json& position : coordinates) {
       line.emplace_back(position.at(0).get<double>(), position.at(1).get<double>());
       if (!line.back().allFinite())
-        throw std::invalid_argument("a coordinate that is not finite");
+        throw std::invalid_argument("a coordinate is not finite");
     }
     return line;
   }
@@ -91,8 +91,8 @@ isFine(double value) // has more decimals than a plan in metres
   return std::abs(thousandths - std::round(thousandths)) > 1e-6;
 }
 
-/** \return whether the coordinates are longitudes and latitudes, as RFC 7946 has them,
- * rather than metres: small, and some of them finer than a millimetre */
+/** \return whether the coordinates are longitudes and latitudes, the rule of RFC 7946, instead
+ * of metres: small, and in part finer than a millimetre */
 bool
 areDegrees(const Segments& segments)
 {
@@ -106,7 +106,7 @@ areDegrees(const Segments& segments)
          std::any_of(segments.begin(), segments.end(), fine);
 }
 
-/** \return the name of the coordinate system (GeoJSON 2008), or nothing */
+/** \return the name of the coordinate system (GeoJSON 2008), or empty */
 std::string
 systemOf(const Json& json)
 {

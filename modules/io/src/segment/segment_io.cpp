@@ -101,7 +101,7 @@ readSegments(const std::filesystem::path& path, const SegmentOptions& options)
   for (auto& segment : segments) {
     segment.a *= options.scale;
     segment.b *= options.scale;
-    if (!segment.a.allFinite() || !segment.b.allFinite()) // a sum, or scaled so
+    if (!segment.a.allFinite() || !segment.b.allFinite()) // overflow by sum or scale
       text::fail(path, "holds coordinates too large for a number");
   }
   segments.erase(std::remove_if(segments.begin(),

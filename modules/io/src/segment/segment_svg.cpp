@@ -18,16 +18,16 @@ namespace {
 using Tree = boost::property_tree::ptree;
 using Line = std::vector<Eigen::Vector2d>;
 
-constexpr std::size_t kLongestName = 40; // of an element that is shown as it is
+constexpr std::size_t kLongestName = 40; // of an element, shown unabridged in messages
 
-/** \return the name without the prefix of its namespace */
+/** \return the name without the namespace prefix */
 std::string
 localName(const std::string& name)
 {
   return name.substr(name.find(':') + 1); // npos + 1 is 0
 }
 
-/** The numbers and letters of a path's data, such as "M1-2l.5.5z". */
+/** The numbers and letters of a path's data, e.g. "M1-2l.5.5z". */
 class PathTokens {
 public:
   explicit PathTokens(std::string_view data) : rest_(data) {}
@@ -57,7 +57,7 @@ public:
     skip(" \t\r\n,");
     std::string_view digits = rest_;
     if (digits.size() > 1 && digits.front() == '+')
-      digits.remove_prefix(1); // from_chars knows no plus
+      digits.remove_prefix(1); // from_chars rejects a plus
     double value = 0;
     const char* const end = digits.data() + digits.size();
     const auto result = std::from_chars(digits.data(), end, value);
@@ -198,7 +198,7 @@ cornersOf(const Tree& rect)
           low + Eigen::Vector2d(0, height)};
 }
 
-/** Appends the lines of one element. */
+/** Appends the lines of an element. */
 void
 readShape(const std::string& name, const Tree& element, Segments& segments)
 {
@@ -216,7 +216,8 @@ readShape(const std::string& name, const Tree& element, Segments& segments)
   else if (name == "rect")
     appendLine(cornersOf(element), true, segments);
   else if (name == "circle" || name == "ellipse" || name == "use")
-    throw std::invalid_argument("is not read; turn it into a path of lines first");
+    throw std::invalid_argument(
+        "is not read; convert the shape to a path of lines first");
 }
 
 bool
@@ -241,8 +242,8 @@ readChildren(const Tree& parent, Segments& segments, std::string& place)
       place += " with id " + text::quoted(id);
     place += ": ";
     if (element.get_child_optional("<xmlattr>.transform"))
-      throw std::invalid_argument(
-          "attribute transform is not read; apply it to the coordinates first");
+      throw std::invalid_argument("attribute transform is not read; apply the "
+                                  "transform to the coordinates first");
     readShape(name, element, segments);
     readChildren(element, segments, place);
   }
@@ -261,7 +262,7 @@ segmentsOfSvg(const std::string& content, const std::filesystem::path& path)
     boost::property_tree::read_xml(
         stream, tree, boost::property_tree::xml_parser::no_comments);
     if (tree.size() != 1 || localName(tree.front().first) != "svg")
-      text::fail(path, "its outermost element must be svg");
+      text::fail(path, "the outermost element must be svg");
     readChildren(tree.front().second, segments, place);
   } catch (const boost::property_tree::xml_parser_error& error) {
     text::failAt(path, error.line(), error.message());

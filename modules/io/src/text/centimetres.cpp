@@ -8,7 +8,7 @@
 namespace pcl6d::io {
 
 namespace {
-constexpr int kLargestFixed = 15; // exponents of numbers written without one
+constexpr int kLargestFixed = 15; // exponents of numbers in fixed notation
 constexpr int kSmallestFixed = -5;
 
 /** Appends 0.d1 d2 d3... times 10^(exponent + 1). */
@@ -34,7 +34,7 @@ appendDecimal(std::string& text, std::string_view digits, int exponent)
     text.append(whole - digits.size(), '0');
 }
 
-/** \return how many decimal places the value's own text has; 0 if it is not finite */
+/** \return the number of decimal places in the value's own text; 0 if not finite */
 template <typename T>
 int
 appendShifted(std::string& text, T value)
@@ -63,10 +63,10 @@ appendShifted(std::string& text, T value)
 }
 } // namespace
 
-// A text of up to 9 digits with q decimal places is a multiple of 10^-q, and the middle
-// between two floats an odd multiple, below 2^25, of a power of 2. So the two differ by a
-// relative 2^-25 5^-q at least, or not at all: up to q = 11 by more than the two roundings
-// of double, 2^-52, which then cannot change the float.
+// A text of up to 9 digits with q decimal places is a multiple of 10^-q, and the middle between
+// two floats an odd multiple, below 2^25, of a power of 2. The two therefore differ by at least
+// a relative 2^-25 5^-q, or are equal: up to q = 11 by more than the two roundings of double,
+// 2^-52, which then cannot change the float.
 void
 appendCentimetres(std::string& text, float value)
 {

@@ -15,7 +15,7 @@ bool
 Descriptor::close()
 {
   const int number = std::exchange(number_, -1);
-  return number < 0 || ::close(number) == 0 || errno == EINTR; // closed all the same
+  return number < 0 || ::close(number) == 0 || errno == EINTR; // closed nonetheless
 }
 
 DescriptorBuffer::DescriptorBuffer(int file) : file_(file), buffer_(kWrittenAtOnce)
@@ -35,7 +35,7 @@ DescriptorBuffer::write(const char* bytes, std::size_t count)
     else if (written == 0 || errno != EINTR)
       error_ = written == 0 ? EIO : errno;
   }
-  errno = error_; // for those that ask at once
+  errno = error_; // for callers that check errno immediately
   return error_ == 0;
 }
 
@@ -66,6 +66,18 @@ DescriptorBuffer::xsputn(const char* bytes, std::streamsize count)
     return count;
   }
   return flushBuffer() && write(bytes, static_cast<std::size_t>(count)) ? count : 0;
+}
+
+DescriptorBuffer::pos_type
+DescriptorBuffer::seekpos(pos_type place, std::ios_base::openmode /*which*/)
+{
+  if (!flushBuffer())
+    return pos_type(off_type(-1));
+  if (::lseek(file_, static_cast<off_t>(off_type(place)), SEEK_SET) < 0) {
+    error_ = errno;
+    return pos_type(off_type(-1));
+  }
+  return place;
 }
 
 int

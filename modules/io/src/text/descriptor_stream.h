@@ -6,11 +6,10 @@
 #include <utility>
 #include <vector>
 
-/** \file Writing to a file that was opened by the system's own call, with all that it can
- * ask for. */
+/** \file Output stream for a file opened by the system call, with any of its flags. */
 namespace pcl6d::io {
 
-/** \brief An open file, closed at the end of its scope. */
+/** \brief An open file descriptor, closed at the end of the scope. */
 class Descriptor {
 public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -35,7 +34,7 @@ public:
     return number_ >= 0;
   }
 
-  /** \return false if something of what was written got lost; errno says why */
+  /** \return false if written data were lost; errno has the reason */
   bool
   close();
 
@@ -49,7 +48,7 @@ public:
   /** \param[in] file stays open, and belongs to the caller */
   explicit DescriptorBuffer(int file);
 
-  /** \return what the system said when a write failed (an errno); 0 if none did */
+  /** \return errno of a failed write; 0 without failures */
   int
   error() const
   {
@@ -63,6 +62,9 @@ protected:
   xsputn(const char* bytes, std::streamsize count) override;
   int
   sync() override;
+  /** Seeks to an offset from the start of a file; fails for a pipe. */
+  pos_type
+  seekpos(pos_type place, std::ios_base::openmode which) override;
 
 private:
   bool

@@ -22,7 +22,7 @@ FileInput::FileInput(std::ifstream stream,
 : path_(path), stream_(std::move(stream)), number_(lines)
 {}
 
-/** Reads a block behind what was not taken yet. \return false at the end of the file */
+/** Reads a block behind the unread bytes. \return false at the end of the file */
 bool
 FileInput::fill()
 {
@@ -55,7 +55,7 @@ FileInput::next()
     if (!found && !fill()) {
       if (rest == 0)
         return false;
-      break; // the last line may lack its end
+      break; // the last line may lack a line end
     }
   }
   const char* const start = buffer_.data() + begin_;
@@ -63,6 +63,7 @@ FileInput::next()
       found ? static_cast<std::size_t>(static_cast<const char*>(found) - start)
             : end_ - begin_;
   begin_ += size + (found ? 1 : 0);
+  offset_ += size + (found ? 1 : 0);
   line_ = {start, size};
   if (!line_.empty() && line_.back() == '\r')
     line_.remove_suffix(1);
@@ -118,7 +119,7 @@ FileInput::appendRest(std::vector<std::uint8_t>& data)
 std::optional<std::size_t>
 FileInput::sizeAhead()
 {
-  stream_.clear(); // of the end that a small file reaches with its first block
+  stream_.clear(); // of end-of-file, which a small file reaches in the first block
   const auto place = stream_.tellg();
   if (place == std::ifstream::pos_type(-1)) // a pipe
     return std::nullopt;

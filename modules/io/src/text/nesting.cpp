@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/** \brief The brackets of JSON that are open. */
+/** \brief The open brackets of JSON. */
 class JsonBrackets {
 public:
   void
@@ -40,7 +40,7 @@ public:
       at_key_ = false;
   }
 
-  /** \return whether a text that begins now is a key */
+  /** \return whether a string at this position is a key */
   bool
   atKey() const
   {
@@ -52,7 +52,7 @@ private:
   bool at_key_ = false;
 };
 
-/** Takes the rest of a text of JSON, with its end. */
+/** Skips the rest of a JSON string, with the closing quote. */
 void
 skipJsonText(TextCursor& text, bool is_plain_key)
 {
@@ -67,13 +67,13 @@ skipJsonText(TextCursor& text, bool is_plain_key)
   }
 }
 
-/** Takes the rest of an element's tag, whose name may hold almost anything; quotes begin a
- * value only behind a '='. \return whether the element has no content */
+/** Skips the rest of an element's tag; the name may hold almost any character, and quotes begin
+ * a value only behind a '='. \return whether the element has no content */
 bool
 skipTag(TextCursor& text)
 {
   text.skipTo(" \t\r\n/>?\0"sv);
-  char before = '\0'; // the last character that is no blank
+  char before = '\0'; // the last character that is not blank
   while (!text.atEnd()) {
     const char c = text.take();
     if (c == '>')
@@ -86,7 +86,7 @@ skipTag(TextCursor& text)
   return false;
 }
 
-/** Takes what follows a "<!": no element. */
+/** Skips the text after "<!": not an element. */
 void
 skipDeclaration(TextCursor& text)
 {

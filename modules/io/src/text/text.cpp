@@ -15,7 +15,7 @@ constexpr std::size_t kLongestQuote = 40;
 
 namespace fs = std::filesystem;
 
-/** \return whether the path names a descriptor of a process, which is open already */
+/** \return whether the path names an open descriptor of a process */
 bool
 namesDescriptor(const fs::path& path)
 {
@@ -29,7 +29,7 @@ namesDescriptor(const fs::path& path)
   return numbered("/dev/fd/") || numbered("/proc/self/fd/");
 }
 
-/** \return what is no file with content, in words; null if it is one */
+/** \return the kind of a path that is not a regular file, in words; else null */
 const char*
 kindOf(mode_t mode)
 {
@@ -40,7 +40,7 @@ kindOf(mode_t mode)
   return S_ISCHR(mode) || S_ISBLK(mode) ? "a device" : nullptr;
 }
 
-/** Fails if nothing can be read under this name, or only by waiting for somebody else. */
+/** Fails if the path is unreadable, or reading would wait for another process. */
 void
 requireFile(const fs::path& path)
 {
@@ -87,7 +87,7 @@ readRest(std::istream& stream, const std::filesystem::path& path)
 {
   errno = 0;
   std::string content;
-  while (stream) { // block by block, as a pipe does not know its size
+  while (stream) { // block by block, since the size of a pipe is unknown
     const std::size_t size = content.size();
     content.resize(size + kBlock);
     stream.read(content.data() + size, kBlock);

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
-/** \file Going through a text that may be hostile. */
+/** \file Forward scan through a possibly hostile text. */
 namespace pcl6d::io {
 
-/** \brief A place in a text that only moves forward. */
+/** \brief A position in a text that only moves forward. */
 class TextCursor {
 public:
   /** \param[in] name of the file, for messages; kept by reference */
@@ -22,14 +22,14 @@ public:
     return place_ >= text_.size();
   }
 
-  /** \return the character at hand or one ahead of it; 0 behind the end */
+  /** \return the current character or the character `ahead` positions later; 0 behind the end */
   char
   peek(std::size_t ahead = 0) const
   {
     return place_ + ahead < text_.size() ? text_[place_ + ahead] : '\0';
   }
 
-  /** \return the character at hand, and goes on */
+  /** \return the current character, which is then skipped */
   char
   take()
   {
@@ -38,7 +38,7 @@ public:
     return c;
   }
 
-  /** \return whether the word came next, which is then taken */
+  /** \return whether the word came next; if so, the word is skipped */
   bool
   takeWord(std::string_view word)
   {
@@ -48,21 +48,21 @@ public:
     return true;
   }
 
-  /** \brief Goes to the next of these characters, or to the end. */
+  /** \brief Moves to the next of the characters, or to the end. */
   void
   skipTo(std::string_view characters)
   {
     place_ = std::min(text_.find_first_of(characters, place_), text_.size());
   }
 
-  /** \brief Goes past these characters. */
+  /** \brief Skips the characters. */
   void
   skip(std::string_view characters)
   {
     place_ = std::min(text_.find_first_not_of(characters, place_), text_.size());
   }
 
-  /** \brief Goes behind the next such word, or to the end. */
+  /** \brief Moves behind the next occurrence of the word, or to the end. */
   void
   skipPast(std::string_view word)
   {
@@ -85,7 +85,7 @@ public:
     throw IoFailed(name_ + ": line " + std::to_string(lines + 1) + ": " + message);
   }
 
-  /** \throws IoFailed so many open levels are too many */
+  /** \throws IoFailed depth exceeds the limit of open levels */
   void
   requireShallow(std::size_t depth) const
   {

@@ -7,9 +7,8 @@
 
 #include <cstdint>
 
-/** \file Rows of numbers, fast. What is unusual is left to text::Tokens and
- * text::parseNumber(), which take more forms and know what to say about an error.
- * */
+/** \file Fast parsing of rows of numbers. Unusual forms are left to text::Tokens and
+ * text::parseNumber(), which accept more and explain errors. */
 namespace pcl6d::io {
 
 struct Blank {
@@ -20,10 +19,10 @@ struct Blank {
   }
 };
 
-/** \brief Takes the next number of a row if it has a plain form.
+/** \brief Takes the next number of a row in plain form.
  * \param[in,out] place moved behind the number \param[in] separates tells the characters
- * between numbers \return false, with place and value undefined, if it is the end of the
- * row or no number, or parseNumber() has to look at it */
+ * between numbers \return false, with place and value undefined, at the end of the row, for
+ * invalid numbers, or if parseNumber() is needed */
 template <typename T, typename Separates>
 bool
 takeNumber(const char*& place, const char* end, T& value, Separates separates)
@@ -37,17 +36,17 @@ takeNumber(const char*& place, const char* end, T& value, Separates separates)
   return true;
 }
 
-/** \brief A number of a row, and where it goes. */
+/** \brief A number of a row with its target. */
 struct Column {
   std::uint8_t datatype = 0; ///< of PCLPointField
   std::size_t offset = 0;    ///< [byte] in the point
 };
 
-/** \return one column for each number of the fields */
+/** \return a column for each number of the fields */
 std::vector<Column>
 columnsOf(const std::vector<pcl::PCLPointField>& fields);
 
-/** \brief Takes a row of exactly these columns, separated by blanks or tabs.
+/** \brief Takes a row with exactly the given columns, separated by blanks or tabs.
  * \return false, with the point undefined, if the row is unusual or broken */
 bool
 takeRow(std::string_view line, const std::vector<Column>& columns, std::uint8_t* point);

@@ -21,22 +21,21 @@ isYamlLetter(char c)
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/** \return whether no character of a word: a line's end, or one that only machines read */
+/** \return whether a character cannot be part of a word: a line end or an unprintable character */
 bool
 isControl(char c)
 {
   return static_cast<unsigned char>(c) < ' ';
 }
 
-/** \brief A collection that is open. */
+/** \brief An open collection. */
 struct YamlLevel {
   char kind = 0;          ///< '[' or '{'; of blocks '-' or ':'
   std::size_t column = 0; ///< of a block
 };
 
 /** \brief Follows the YAML that OpenCV's FileStorage reads, level by level and without
- * calling itself. What it does not know it refuses: to go on would be a guess at what the
- * other parser does. */
+ * recursion. Unknown syntax is rejected: continuing would mean guessing the parser's behaviour. */
 class YamlNesting {
 public:
   YamlNesting(std::string_view text, const std::string& name) : text_(text, name) {}
@@ -57,7 +56,7 @@ public:
       if (!isAtDocumentEnd())
         takeDocument();
       skipSpaces();
-      // OpenCV passes over three characters, whatever they are, and may then wait for ever.
+      // OpenCV skips three arbitrary characters, and may then loop forever.
       need(text_.atEnd() || text_.takeWord("..."));
     }
   }
@@ -76,7 +75,7 @@ private:
       refuse();
   }
 
-  /** Goes to the next character that means something, over comments and lines. */
+  /** Moves to the next significant character, across comments and lines. */
   void
   skipSpaces()
   {
@@ -121,7 +120,7 @@ private:
     text_.requireShallow(levels_.size());
   }
 
-  /** Takes a collection with all that is in it. */
+  /** Reads a collection with its content. */
   void
   takeDocument()
   {
@@ -167,13 +166,13 @@ private:
            (c == '.' && (isYamlDigit(next) || isYamlLetter(next)));
   }
 
-  /** Takes a tag, such as !!opencv-matrix. \return whether it makes a text of the value */
+  /** Reads a tag, e.g. !!opencv-matrix. \return whether the tag makes the value a string */
   bool
   takeTag()
   {
     if (text_.peek() != '!')
       return false;
-    need(text_.peek(1) != '<'); // a tag by its address
+    need(text_.peek(1) != '<'); // a verbatim tag
     const bool is_text = text_.takeWord("!str ");
     while (!isControl(text_.peek()) && text_.peek() != ' ')
       text_.take();
@@ -181,8 +180,7 @@ private:
     return is_text;
   }
 
-  /** Takes the rows of letters that stand below each other. \return false: no value comes
-   * next */
+  /** Reads rows of base64 text that begin in the same column. \return false: no value comes next */
   bool
   skipRows()
   {
@@ -205,13 +203,13 @@ private:
         return;
       if (c == quote) // '' is a quote
         text_.take();
-      else if (c == '\\' && quote == '"') // OpenCV skips what follows a number
+      else if (c == '\\' && quote == '"') // OpenCV skips characters after a code
         need(text_.peek() != 'x' && !isYamlDigit(text_.peek()) &&
              !isControl(text_.take()));
     }
   }
 
-  /** Takes a word up to one of these characters, or to the line's end. */
+  /** Skips a word up to one of the characters, or to the line end. */
   void
   skipPlain(std::string_view ends)
   {
@@ -241,7 +239,7 @@ private:
     return true;
   }
 
-  /** Takes a word that ends with its line, or the first key of a block. */
+  /** Reads a word that ends with the line, or the first key of a block. */
   bool
   takeWordOrMap()
   {
@@ -263,7 +261,7 @@ private:
     need(text_.take() == ':');
   }
 
-  /** \return whether the flow that is open was closed */
+  /** \return whether the open flow collection was closed */
   bool
   takeClosing()
   {
@@ -276,7 +274,7 @@ private:
     return true;
   }
 
-  /** Goes on behind a value. \return whether another one comes next */
+  /** Continues behind a value. \return whether another value follows */
   bool
   goOn()
   {

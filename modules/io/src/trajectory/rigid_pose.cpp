@@ -12,14 +12,14 @@ namespace {
 
 constexpr double kNormTolerance = 1e-2; // of a quaternion; forgives 3 digits
 
-/** \throws IoFailed the position is none, see isPlace() */
+/** \throws IoFailed the position is invalid, see isPlace() */
 void
 requirePlace(const std::filesystem::path& path,
              std::size_t line,
              const Eigen::Vector3d& t)
 {
   if (!isPlace(t))
-    text::failAt(path, line, "its position is 1e9 m or farther from the origin");
+    text::failAt(path, line, "the position is 1e9 m or farther from the origin");
 }
 
 std::string

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <numeric>
 
 namespace pcl6d {
 
@@ -29,7 +30,7 @@ constexpr std::array<FormatName, 6> kFormats = {{{Format::kAuto, "auto", false},
                                                  {Format::kPose, "pose", true},
                                                  {Format::kFrames, "frames", true}}};
 
-/** \return the files of a folder with this extension, in natural order */
+/** \return the files of a folder with the extension, in natural order */
 std::vector<fs::path>
 filesWith(const std::string& extension, const fs::path& folder)
 {
@@ -99,9 +100,23 @@ readVertices(const fs::path& path)
 {
   const PoseGraph graph = readPoseGraph(path);
   TrajectoryFiles result;
-  result.trajectory.poses = graph.poses;
-  if (!graph.ids.empty())
+  std::vector<std::size_t> order(graph.poses.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!graph.ids.empty()) // programs write vertices in any order
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return graph.ids[a] < graph.ids[b];
+    });
+  for (const std::size_t i : order) {
+    result.trajectory.poses.push_back(graph.poses[i]);
+    if (!graph.ids.empty())
+      result.trajectory.stamps.push_back(static_cast<double>(graph.ids[i]));
+  }
+  if (std::adjacent_find(result.trajectory.stamps.begin(),
+                         result.trajectory.stamps.end()) !=
+      result.trajectory.stamps.end()) { // too large for a double
+    result.trajectory.stamps.clear();
     result.left_out.emplace_back("the ids of the vertices");
+  }
   if (!graph.links.empty())
     result.left_out.push_back(text::counted(graph.links.size(), "edge"));
   return result;

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trajectory/rigid_pose.h"
+#include "layout/date_stamp.h"
+#include "scan/table/table_columns.h"
+#include "trajectory/pose_rows.h"
 #include "trajectory/uos_frame.h"
 
 #include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 
+#include <cctype>
 #include <cmath>
+#include <optional>
 #include <ostream>
 
 namespace pcl6d {
@@ -16,29 +21,6 @@ namespace pcl6d {
 using namespace io;
 
 namespace {
-
-constexpr std::size_t kKittiColumns = 12;
-constexpr std::size_t kTumColumns = 8;
-Eigen::Isometry3d
-poseFromKitti(const std::filesystem::path& path,
-              std::size_t line,
-              const std::vector<double>& row)
-{
-  const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> T(row.data());
-  return rigidPose(
-      path, line, Eigen::Matrix3d(T.leftCols<3>()), Eigen::Vector3d(T.col(3)));
-}
-
-Eigen::Isometry3d
-poseFromTum(const std::filesystem::path& path,
-            std::size_t line,
-            const std::vector<double>& row)
-{
-  return rigidPose(path,
-                   line,
-                   Eigen::Quaterniond(row[7], row[4], row[5], row[6]),
-                   Eigen::Vector3d(row[1], row[2], row[3]));
-}
 
 void
 addStamp(const std::filesystem::path& path,
@@ -58,16 +40,45 @@ addStamp(const std::filesystem::path& path,
   stamps.push_back(stamp);
 }
 
-/** \return the number of columns that all rows must have, from the first row */
-std::size_t
-columnsOf(const std::filesystem::path& path, std::size_t line, std::size_t columns)
+/** Reads a row of numbers separated by blanks, tabs or commas. \return false for a heading: the
+ * row begins with a word */
+bool
+readPoseNumbers(const std::filesystem::path& path,
+                const text::Lines& lines,
+                std::vector<double>& row)
 {
-  if (columns != kKittiColumns && columns != kTumColumns)
+  row.clear();
+  if (const auto token = unclearDecimalComma(lines.line()); !token.empty())
+    text::failAt(path, lines.number(), text::quoted(token) + " is not a number");
+  text::Tokens tokens(lines.line(), ",");
+  for (auto token = tokens.next(); !token.empty(); token = tokens.next()) {
+    double value = 0;
+    const bool is_number = text::parseNumber(token, value);
+    if (!is_number && row.empty() && std::isalpha(static_cast<unsigned char>(token[0])))
+      return false;
+    if (!is_number)
+      text::failAt(path, lines.number(), text::quoted(token) + " is not a number");
+    row.push_back(value);
+  }
+  return true;
+}
+
+/** \return the order of the numbers in all rows, from the first row */
+PoseRow
+kindOfRows(const std::filesystem::path& path,
+           std::size_t line,
+           const std::vector<double>& row,
+           const PoseHeading& heading)
+{
+  const auto kind = poseRowOf(row, heading);
+  if (!kind && row.size() == 16)
+    text::failAt(path, line, "the last four of 16 numbers are not 0 0 0 1");
+  if (!kind)
     text::failAt(path,
                  line,
-                 "expected 12 numbers (KITTI) or 8 (TUM), got " +
-                     std::to_string(columns));
-  return columns;
+                 "expected 12 numbers (KITTI) or 8 (TUM), or 9, 13, 16 or 17, got " +
+                     std::to_string(row.size()));
+  return *kind;
 }
 
 void
@@ -89,24 +100,34 @@ readTrajectory(const std::filesystem::path& path)
   const std::string content = text::readFile(path);
   Trajectory trajectory;
   std::vector<double> row;
+  std::optional<PoseRow> kind;
   std::size_t columns = 0;
+  PoseHeading heading;
   for (text::Lines lines(content); lines.next();) {
     const auto first = text::Tokens(lines.line()).next();
-    if (first.empty() || first.front() == '#')
+    if (first.empty() || first.front() == '#') {
+      readPoseHeading(lines.line(), heading);
       continue;
-    text::readRow(path, lines, row);
-    if (columns == 0)
-      columns = columnsOf(path, lines.number(), row.size());
+    }
+    if (!readPoseNumbers(path, lines, row)) {
+      if (kind)
+        text::failAt(path, lines.number(), text::quoted(first) + " is not a number");
+      readPoseHeading(lines.line(), heading);
+      continue;
+    }
+    heading.has_commas = lines.line().find(',') != std::string_view::npos;
+    if (!kind) {
+      kind = kindOfRows(path, lines.number(), row, heading);
+      columns = row.size();
+    }
     if (row.size() != columns)
       text::failAt(path,
                    lines.number(),
                    "expected " + std::to_string(columns) + " numbers, got " +
                        std::to_string(row.size()));
-    if (columns == kTumColumns)
-      addStamp(path, lines.number(), row[0], trajectory.stamps);
-    trajectory.poses.push_back(columns == kTumColumns
-                                   ? poseFromTum(path, lines.number(), row)
-                                   : poseFromKitti(path, lines.number(), row));
+    if (const auto stamp = stampOfRow(*kind, row))
+      addStamp(path, lines.number(), *stamp, trajectory.stamps);
+    trajectory.poses.push_back(poseOfRow(path, lines.number(), *kind, row));
   }
   if (trajectory.poses.empty())
     text::fail(path, "holds no pose");
@@ -128,7 +149,7 @@ void
 writeTrajectoryTum(const std::filesystem::path& path, const Trajectory& trajectory)
 {
   if (trajectory.stamps.size() != trajectory.poses.size())
-    throw BadArgument("a TUM trajectory needs one stamp per pose, but there are " +
+    throw BadArgument("a TUM trajectory needs a stamp per pose, but has " +
                       text::counted(trajectory.stamps.size(), "stamp") + " and " +
                       text::counted(trajectory.poses.size(), "pose"));
   std::string text;
@@ -153,6 +174,10 @@ readStamps(const std::filesystem::path& path)
     const auto first = text::Tokens(lines.line()).next();
     if (first.empty() || first.front() == '#')
       continue;
+    if (const auto date = secondsOfDate(lines.line())) {
+      addStamp(path, lines.number(), *date, stamps);
+      continue;
+    }
     text::readRow(path, lines, row);
     if (row.size() != 1)
       text::failAt(path,
@@ -192,7 +217,7 @@ readUosPose(const std::filesystem::path& path)
     text::fail(path,
                "expected 6 numbers (position in cm, angles in degrees), got " +
                    std::to_string(values.size()));
-  // 3DTK turns about x first in its own axes: R = Rx(a) Ry(b) Rz(c).
+  // 3DTK turns about x first, in the rotated axes: R = Rx(a) Ry(b) Rz(c).
   const Eigen::Vector3d angles = kDegree * Eigen::Vector3d(&values[3]);
   const Eigen::Matrix3d R =
       rotationFromEuler({-angles.x(), -angles.y(), -angles.z()}).transpose();

@@ -15,7 +15,7 @@ fromUos(const Eigen::Matrix<Scalar, 3, 1>& p)
   return Eigen::Matrix<Scalar, 3, 1>(p.z(), -p.x(), p.y()) / 100;
 }
 
-/** \return the matrix that turns coordinates of 3DTK into ours; mirrors, so det = -1 */
+/** \return the matrix from 3DTK's coordinates to ours; mirrors, so det = -1 */
 inline Eigen::Matrix3d
 axesFromUos()
 {
@@ -33,7 +33,7 @@ poseFromUos(const Eigen::Matrix3d& R, const Eigen::Vector3d& t)
   return pose;
 }
 
-/** \return a pose of ours [m] as 3DTK's 4x4 matrix [cm] */
+/** \return the pose [m] in 3DTK's convention, a 4x4 matrix [cm] */
 inline Eigen::Matrix4d
 poseToUos(const Eigen::Isometry3d& pose)
 {

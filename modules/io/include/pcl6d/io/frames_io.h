@@ -10,7 +10,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What a line of a `.frames` file tells of a scan; the numbers are 3DTK's. */
+/** \brief State of a scan in a line of a `.frames` file; the numbers are 3DTK's. */
 enum class FrameKind {
   kInvalid = 0,  ///< not yet registered
   kIcp = 1,      ///< just moved by ICP
@@ -19,7 +19,7 @@ enum class FrameKind {
   kElch = 4      ///< moved by error diffusion
 };
 
-/** \brief One step in the history of a scan. */
+/** \brief A step in the history of a scan. */
 struct Frame {
   Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity(); ///< our frame [m]
   FrameKind kind = FrameKind::kInvalid;

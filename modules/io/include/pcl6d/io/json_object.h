@@ -16,16 +16,16 @@
 #include <string>
 #include <vector>
 
-/** \file JSON files, read so that every error names the file and the place in it. */
+/** \file JSON files, with errors that name the file and the position. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A value of a JSON document and where it stands; it keeps the document alive.
- * What is missing or of another type: IoFailed "file: /planes/3/area: ..." */
+/** \brief A value of a JSON document with its path; keeps the document alive. A missing value or
+ * a wrong type throws IoFailed "file: /planes/3/area: ..." */
 class JsonValue {
 public:
   using Json = nlohmann::ordered_json;
 
-  /** \brief The whole of a document. \param[in] file its name, for messages */
+  /** \brief The whole of a document. \param[in] file name, for messages */
   JsonValue(std::string file, Json json);
 
   /** \throws IoFailed "file: /pointer: message" */
@@ -45,22 +45,22 @@ public:
   bool
   isNull() const;
 
-  /** \return whether it is a finite number */
+  /** \return whether the value is a finite number */
   bool
   isNumber() const;
 
-  /** \return whether it is an array of two */
+  /** \return whether the value is an array of two */
   bool
   isPair() const;
 
-  /** \return the member of an object, which must be there */
+  /** \return the member of an object, which must exist */
   JsonValue
   operator/(const std::string& key) const;
 
   bool
   has(const std::string& key) const;
 
-  /** \return the member of an object, if it is there and not null */
+  /** \return the member of an object; empty if missing or null */
   std::optional<JsonValue>
   find(const std::string& key) const;
 
@@ -68,7 +68,7 @@ public:
   std::vector<std::string>
   keys() const;
 
-  /** \throws IoFailed an object has another key than these */
+  /** \throws IoFailed an object has a key that is not listed */
   void
   allow(std::initializer_list<const char*> known) const;
 
@@ -76,7 +76,7 @@ public:
   std::vector<JsonValue>
   elements() const;
 
-  /** \return the elements of the array of that name, which may be missing */
+  /** \return the elements of the array under a key, which may be missing */
   std::vector<JsonValue>
   elements(const std::string& key) const;
 
@@ -102,7 +102,8 @@ public:
   std::vector<double>
   numbers() const;
 
-  /** \brief Takes as many numbers as the matrix has, row by row; rows may be arrays. */
+  /** \brief Copies the numbers into the matrix, row by row; the number of values must match,
+   * rows may be arrays. */
   void
   fill(Eigen::Ref<Eigen::MatrixXd> matrix) const;
 
@@ -111,7 +112,7 @@ public:
   std::vector<Eigen::Vector3d>
   points() const;
 
-  /** \return 16 numbers, row by row, that are a rigid motion */
+  /** \return 16 numbers, row by row, checked to be a rigid motion */
   Eigen::Isometry3d
   pose() const;
 
@@ -119,11 +120,11 @@ public:
   Eigen::Matrix<double, 6, 6>
   matrix6() const;
 
-  /** \return the value as JSON, shortened */
+  /** \return the value as JSON text, shortened */
   std::string
   excerpt() const;
 
-  /** \return the whole value as JSON \throws nlohmann's exceptions it holds no UTF-8 */
+  /** \return the whole value as JSON text \throws nlohmann's exceptions for invalid UTF-8 */
   std::string
   dump() const;
 
@@ -143,7 +144,7 @@ private:
             std::shared_ptr<const Json> json,
             std::string pointer);
 
-  /** \return what the value holds, under the same owner */
+  /** \return a member of the value, under the same owner */
   JsonValue
   part(const Json& json, const std::string& name) const;
   void
@@ -154,11 +155,10 @@ private:
   std::string pointer_;
 };
 
-/** \brief One object {...} of a JSON file, read key by key: tells as well of a key that
- * nobody asked for. */
+/** \brief An object {...} of a JSON file, read key by key; reports unread keys as errors. */
 class JsonObject {
 public:
-  /** \throws IoFailed it is no object */
+  /** \throws IoFailed the value is not an object */
   JsonObject(JsonValue value);
 
   bool
@@ -167,7 +167,7 @@ public:
     return value_.has(key);
   }
 
-  /** \brief Reads a number, if it is there. \throws IoFailed it is something else */
+  /** \brief Reads a number, if present. \throws IoFailed the value is not a number */
   void
   read(const std::string& key, double& value);
   void
@@ -181,7 +181,7 @@ public:
   void
   read(const std::string& key, Eigen::Vector3d& value);
 
-  /** \brief Reads what must be there. */
+  /** \brief Reads a required value. */
   template <typename T>
   T
   get(const std::string& key)
@@ -200,12 +200,12 @@ public:
   void
   each(const std::string& key, const std::function<void(const JsonValue&)>& f);
 
-  /** \brief Calls f with each object of an array, which may be missing, and makes sure
-   * that f knows all its keys. */
+  /** \brief Calls f with each object of an array, which may be missing, and checks that f read
+   * every key. */
   void
   eachObject(const std::string& key, const std::function<void(JsonObject&)>& f);
 
-  /** \return the object, or an empty one if it is missing */
+  /** \return the object; an empty object if missing */
   JsonObject
   object(const std::string& key);
 
@@ -236,7 +236,7 @@ private:
   std::set<std::string> read_;
 };
 
-/** \return the document; comments are allowed \param[in] name of its file, for messages
+/** \return the document; comments are allowed \param[in] name of the file, for messages
  * \throws IoFailed naming file and line */
 JsonValue
 parseJson(const std::string& text, const std::string& name);
@@ -245,7 +245,7 @@ parseJson(const std::string& text, const std::string& name);
 JsonValue
 readJson(const std::filesystem::path& file);
 
-/** \return the text as JSON writes it, in ASCII; what is no UTF-8 is replaced */
+/** \return the text as a JSON string in ASCII; invalid UTF-8 is replaced */
 std::string
 jsonText(const std::string& text);
 

@@ -9,9 +9,9 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return the colour (red, green, blue) in which every picture and file of the suite
- * shows a label: those of the book's labels and of share/rules are fixed, none is grey,
- * other words get one of eight colours by their letters \ingroup io */
+/** \return the colour (red, green, blue) of a label in all pictures and files of the suite:
+ * fixed for the book's labels and for share/rules, grey for "none", for further words one of
+ * eight colours chosen by the letters \ingroup io */
 std::array<std::uint8_t, 3>
 labelColour(const std::string& label);
 

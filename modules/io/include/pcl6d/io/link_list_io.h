@@ -10,12 +10,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Reads which scans are linked: the edges of a pose graph (g2o or TORO, known by
- * its first word) by the ids of its vertices, or lines `a b` with the indices of two scans
- * of a folder, whole numbers. Empty lines and
- * those that start with # are skipped; what follows two numbers in a line is, too.
+/** \brief Reads a list of links between scans: the edges of a pose graph (g2o or TORO,
+ * recognised by the first word) by vertex ids, or lines `a b` with the indices of two scans of
+ * a folder, whole numbers. Empty lines, lines that start with # and text after the two numbers
+ * of a line are skipped.
  * \return the pairs in the order of the file
- * \throws IoFailed unreadable; a line that is none, or links a scan to itself; as
+ * \throws IoFailed unreadable; an invalid line, or a link from a scan to itself; the errors of
  * readPoseGraph() \ingroup io */
 std::vector<std::pair<std::size_t, std::size_t>>
 readLinkList(const std::filesystem::path& path);

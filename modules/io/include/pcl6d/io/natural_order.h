@@ -7,8 +7,11 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return whether a stands before b when runs of digits count as numbers: scan2 before
- * scan10. Names that differ in leading zeros alone are ordered as plain text. */
+/** \return whether a sorts before b with runs of digits compared as numbers: scan2 before
+ * scan10. A number at the start of the name, or of 9 digits or more (a time stamp), may have
+ * decimals: 0.05 before 0.1, 1657900000.05 before 1657900000.1; elsewhere, and in 1.2.3, a
+ * point is a character. Names that differ only in leading or trailing zeros are ordered as
+ * plain text. */
 bool
 naturalLess(std::string_view a, std::string_view b);
 

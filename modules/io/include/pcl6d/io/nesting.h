@@ -7,21 +7,20 @@
 #include <string>
 #include <string_view>
 
-/** \file How deep a text is nested, looked at before a parser reads it: those of JSON, XML
- * and YAML call themselves for each level, and each level of a hostile file costs them a
- * piece of the stack until the process dies. The functions here take one look at each
- * character and keep no more than the levels that are open. */
+/** \file Limit on the nesting depth of a text, checked before parsing: parsers of JSON, XML and
+ * YAML recurse on each level, and a hostile file could overflow the stack. The functions scan
+ * each character once and store only the open levels. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The deepest nesting that is read. Files that people and programs write have about
- * a dozen levels (the groups of a drawing being the deepest); the parsers survive several
- * thousand in a stack of 8 MB, and so some hundreds in that of a thread. */
+/** \brief The deepest nesting accepted. Files written by people and programs have about a dozen
+ * levels (groups of a drawing are the deepest). The parsers survive several thousand levels on
+ * a stack of 8 MB, hence some hundreds on the stack of a thread. */
 constexpr std::size_t kDeepestNesting = 200;
 
-/** \brief What a backslash means in a key of JSON. */
+/** \brief Meaning of a backslash in a key of JSON. */
 enum class JsonKeys {
-  kEscaped, ///< it hides the next character, as the standard has it
-  kPlain    ///< to OpenCV it is a letter there; such a key is refused
+  kEscaped, ///< escapes the next character, as in the standard
+  kPlain    ///< a plain letter, as in OpenCV; keys with a backslash are rejected
 };
 
 /** \brief Looks at JSON, with or without comments: [...] and {...}.
@@ -32,13 +31,13 @@ checkJsonNesting(std::string_view text,
                  const std::string& name,
                  JsonKeys keys = JsonKeys::kEscaped);
 
-/** \brief Looks at XML: elements. \throws IoFailed as checkJsonNesting() */
+/** \brief Checks XML: elements. \throws IoFailed under the conditions of checkJsonNesting() */
 void
 checkXmlNesting(std::string_view text, const std::string& name);
 
-/** \brief Looks at YAML as OpenCV reads it: [...], {...}, and blocks, which open by their
- * indentation or one behind the other in a line ("- - - a"). \throws IoFailed as
- * checkJsonNesting(), and for a text that this YAML does not know, naming the line */
+/** \brief Checks YAML as read by OpenCV: [...], {...}, and blocks, opened by indentation or in
+ * sequence on a line ("- - - a"). \throws IoFailed under the conditions of checkJsonNesting(),
+ * and for syntax outside OpenCV's YAML, naming the line */
 void
 checkYamlNesting(std::string_view text, const std::string& name);
 

@@ -14,23 +14,23 @@ namespace PCL6D_EXPORTS pcl6d {
 
 class JsonValue;
 
-/** \brief Writes objects as JSON (fields: share/doc/run_folder.md), atomically; the id
- * of an object is its place plus one. \throws IoFailed the file cannot be written
+/** \brief Writes objects as JSON (fields: share/doc/run_folder.md), atomically; the id of an
+ * object is its index plus one. \throws IoFailed the file cannot be written
  * \ingroup io */
 void
 writeObjects(const std::filesystem::path& path, const std::vector<ObjectPose>& objects);
 
-/** \brief The box of an object in its own frame [m], by its corners `box_min` and `box_max`,
- * which keep all bits, or by `extent` and `centre`, which is 0 if it is missing.
- * \return nothing: it has neither. \throws IoFailed a corner or a side is no three numbers,
- * or the box is inside out; the message names the field \ingroup io */
+/** \brief The box of an object in the object's frame [m], by the corners `box_min` and
+ * `box_max`, which keep all bits, or by `extent` and an optional `centre`, default 0.
+ * \return the box, or empty if both pairs are missing \throws IoFailed a corner or a side is no
+ * three numbers, or the box is inside out; the message names the field \ingroup io */
 std::optional<Eigen::AlignedBox3d>
 boxOf(const JsonValue& object);
 
-/** \brief Reads what writeObjects() wrote, or a list of found objects: boxes as boxOf()
- * takes them, `moves` and `points` may be missing, further fields are left out.
- * \throws IoFailed the file cannot be read or is no such JSON, a pose is not rigid or a box
- * is missing; the message names the object and the field \ingroup io */
+/** \brief Reads the file of writeObjects(), or a list of found objects: boxes as in boxOf(),
+ * `moves` and `points` may be missing, further fields are ignored.
+ * \throws IoFailed the file cannot be read or has another structure, a pose is not rigid or a
+ * box is missing; the message names the object and the field \ingroup io */
 std::vector<ObjectPose>
 readObjects(const std::filesystem::path& path);
 

@@ -13,32 +13,31 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A flat piece of surface, as triangulate() takes it. */
+/** \brief A labelled flat polygon, in the form of triangulate(). */
 struct LabelledPolygon {
-  std::vector<std::vector<Eigen::Vector3d>> rings; ///< [m] outer ones and their holes
+  std::vector<std::vector<Eigen::Vector3d>> rings; ///< [m] outer rings and their holes
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   std::string label = "none";
 };
 
-/** \brief Writes polygons as a mesh, binary PLY, atomically: triangles in the colours
- * of their labels (labelColour()); each face has `plane_id`, its polygon's place plus
- * one.
+/** \brief Writes polygons as a mesh, binary PLY, atomically: triangles in the colours of the
+ * labels (labelColour()); each face has `plane_id`, the polygon's index plus one.
  * \throws IoFailed the file cannot be written \ingroup io */
 void
 writePolygonMesh(const std::filesystem::path& path,
                  const std::vector<LabelledPolygon>& polygons);
 
-/** \brief What a point belongs to. */
+/** \brief Plane and label of a point. */
 struct PointLabel {
   std::uint32_t plane_id = 0; ///< from 1; 0: none
   std::uint32_t label = 0;    ///< number of the label
-  std::string name = "none";  ///< the label, for its colour
+  std::string name = "none";  ///< the label, for the colour
 };
 
-/** \brief Writes points with the fields `rgb`, `plane_id` and `label` as the extension
- * says, PCD or PLY, atomically. \param[in] label_of per point the place of its label in
- * labels \throws IoFailed the file cannot be written
- * \throws BadArgument not one label per point, or a place that is none */
+/** \brief Writes points with the fields `rgb`, `plane_id` and `label` to PCD or PLY, by
+ * extension, atomically. \param[in] label_of index into labels for each point \throws IoFailed
+ * the file cannot be written
+ * \throws BadArgument the numbers of points and labels differ, or an index is out of range */
 void
 writeLabelledPoints(const std::filesystem::path& path,
                     const Points& points,

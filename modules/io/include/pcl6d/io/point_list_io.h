@@ -10,8 +10,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Reads a text file of lines `x y z`, such as the waypoints of a robot [m] in
- * double; empty lines and those that begin with # are left out.
+/** \brief Reads a text file of lines `x y z`, for example the waypoints of a robot [m], in
+ * double; empty lines and lines that begin with # are skipped.
  * \throws IoFailed naming file, line, value and rule \ingroup io */
 std::vector<Eigen::Vector3d>
 readPointList(const std::filesystem::path& path);

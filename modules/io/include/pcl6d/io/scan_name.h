@@ -8,7 +8,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return "scan007" for 7: the stem of the files that belong to a scan */
+/** \return "scan007" for 7: the stem of the scan's file names */
 inline std::string
 scanName(int index)
 {

@@ -13,21 +13,20 @@
 #include <type_traits>
 #include <vector>
 
-/** \file Reading and writing text fast and whatever the locale; messages that name
- * their place. */
+/** \file Fast reading and writing of text, independent of the locale, with messages that name
+ * the position. */
 namespace PCL6D_EXPORTS pcl6d {
 namespace text {
 
-/** \brief Opens a file for reading: the one way to do so, as it neither waits nor guesses.
- * A folder, a pipe, a socket or a device is refused without being opened, as it could keep
- * the program waiting for ever; but for a path that names a descriptor which is open
- * already, such as /dev/stdin or the /dev/fd/63 of a shell's <(...).
- * \return the opened file, which can be read \throws IoFailed with the reason */
+/** \brief Opens a file for reading, without blocking; use instead of std::ifstream. A folder, a
+ * pipe, a socket or a device is rejected unopened, because opening could block forever; except
+ * a path of an open descriptor, such as /dev/stdin or the /dev/fd/63 of a shell's <(...).
+ * \return the opened, readable file \throws IoFailed with the reason */
 std::ifstream
 open(const std::filesystem::path& path);
 
-/** \return whether something has this name; a link to nowhere has one too, which open()
- * then refuses in words, so that a file is never taken for missing in silence */
+/** \return whether the name exists, including broken links; open() then reports a broken link
+ * instead of a missing file */
 bool
 isThere(const std::filesystem::path& path);
 
@@ -35,7 +34,7 @@ isThere(const std::filesystem::path& path);
 std::string
 readRest(std::istream& stream, const std::filesystem::path& path);
 
-/** \return the content of a file \throws IoFailed as open() */
+/** \return the content of a file \throws IoFailed under the conditions of open() */
 std::string
 readFile(const std::filesystem::path& path);
 
@@ -47,7 +46,7 @@ fail(const std::filesystem::path& path, const std::string& message);
 [[noreturn]] void
 failAt(const std::filesystem::path& path, std::size_t line, const std::string& message);
 
-/** \return what errno says, or the other text if it is 0 */
+/** \return the text of errno, or the alternative if errno is 0 */
 std::string
 systemReason(const char* otherwise);
 
@@ -59,7 +58,7 @@ quoted(std::string_view token);
 std::string
 counted(std::size_t count, const std::string& noun);
 
-/** \brief The lines of a text one after the other, without their line ends. */
+/** \brief The lines of a text in order, without line ends. */
 class Lines {
 public:
   /** \param[in] first number of the first line, for messages */
@@ -67,7 +66,7 @@ public:
   : rest_(text), number_(first - 1)
   {}
 
-  /** \return whether there was another line */
+  /** \return false at the end of the text */
   bool
   next()
   {
@@ -92,7 +91,7 @@ public:
     return number_;
   }
 
-  /** \return what follows the line */
+  /** \return the text after the line */
   std::string_view
   rest() const
   {
@@ -105,8 +104,7 @@ private:
   std::size_t number_;
 };
 
-/** \brief The tokens of a line, separated by any number of blanks or tabs, and by the
- * extra separators if there are any. */
+/** \brief The tokens of a line, separated by blanks or tabs, and by optional extra separators. */
 class Tokens {
 public:
   explicit Tokens(std::string_view line, std::string_view extra = {})
@@ -142,14 +140,14 @@ private:
 bool
 isBlank(std::string_view line);
 
-/** \brief Reads a whole token as a number; nan and inf are numbers, as is a number too
- * small for its type (zero). \return false if it is none, or too large */
+/** \brief Parses a whole token as a number; accepts nan, inf and underflow (zero). \return false
+ * if not a number, or too large */
 template <typename T>
 bool
 parseNumber(std::string_view token, T& value)
 {
   if (token.size() > 1 && token.front() == '+' && token[1] != '-')
-    token.remove_prefix(1); // from_chars knows no plus
+    token.remove_prefix(1); // from_chars rejects a plus
   const char* const end = token.data() + token.size();
   const auto result = std::from_chars(token.data(), end, value);
   if (result.ptr != end)
@@ -165,15 +163,15 @@ parseNumber(std::string_view token, T& value)
   return result.ec == std::errc();
 }
 
-/** \brief Reads all tokens of a line as numbers. \throws IoFailed naming file, line and
- * the token that is no number */
+/** \brief Parses all tokens of a line as numbers. \throws IoFailed naming file, line and the
+ * invalid token */
 void
 readRow(const std::filesystem::path& path,
         const Lines& lines,
         std::vector<double>& row);
 
-/** \brief Appends the shortest text that reads back to the same bits (for a double, up
- * to 17 digits). */
+/** \brief Appends the shortest text that reads back to the same bits (for a double, up to 17
+ * digits). */
 template <typename T>
 void
 appendNumber(std::string& text, T value)

@@ -12,13 +12,13 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief File formats of trajectories.
  *
- * kKitti, kTum: rows, see readTrajectory(). kG2o: the vertices of a pose graph (g2o or
- * TORO). kPose, kFrames: a folder with a file per scan, 3DTK's `.pose`, or its `.frames`
- * whose last line counts. */
+ * kKitti, kTum: rows, see readTrajectory(). kG2o: the vertices of a pose graph (g2o or TORO).
+ * kPose, kFrames: a folder with a file per scan, 3DTK's `.pose`, or the last line of each
+ * `.frames`. */
 enum class TrajectoryFormat { kAuto, kKitti, kTum, kG2o, kPose, kFrames };
 
 /** \return the format called "auto", "kitti", "tum", "g2o", "pose" or "frames"
- * \throws BadArgument no format has that name */
+ * \throws BadArgument unknown name */
 TrajectoryFormat
 trajectoryFormatFromName(const std::string& name);
 
@@ -26,8 +26,7 @@ trajectoryFormatFromName(const std::string& name);
 std::string
 toString(TrajectoryFormat format);
 
-/** \return kKitti, kTum or kG2o for a file that ends with .kitti, .tum or .g2o, whatever
- * the case; else kAuto */
+/** \return kKitti, kTum or kG2o for the extension .kitti, .tum or .g2o, in any case; else kAuto */
 TrajectoryFormat
 trajectoryFormatOfExtension(const std::filesystem::path& path);
 
@@ -35,20 +34,20 @@ trajectoryFormatOfExtension(const std::filesystem::path& path);
 bool
 isFolder(TrajectoryFormat format);
 
-/** \brief A trajectory as it came from its file or files. */
+/** \brief A trajectory from a file or a folder of files. */
 struct TrajectoryFiles {
   Trajectory trajectory;
-  TrajectoryFormat format = TrajectoryFormat::kAuto; ///< as it was found
+  TrajectoryFormat format = TrajectoryFormat::kAuto; ///< the detected format
   std::vector<std::string>
       names; ///< of the files of a folder without extension, or empty
-  /** what the files hold that is no part of a trajectory, such as edges */
+  /** ignored content of the files, such as edges */
   std::vector<std::string> left_out;
 };
 
 /** \brief Reads a trajectory in any format.
- * \param[in] format kAuto: a folder by its files, a file by its extension, else by its
- * columns \throws IoFailed naming file, place, value and rule; a folder without poses, or
- * with `.pose` and `.frames` files \ingroup io */
+ * \param[in] format kAuto: a folder by the file names, a file by the extension, else by the
+ * columns \throws IoFailed naming file, position, value and rule; a folder without poses, or with
+ * `.pose` and `.frames` files \ingroup io */
 TrajectoryFiles
 readTrajectoryFiles(const std::filesystem::path& path,
                     TrajectoryFormat format = TrajectoryFormat::kAuto);

@@ -13,7 +13,7 @@
 
 namespace pcl6d {
 
-/** \brief Three fields of floating point that are a vector, in the bytes of a point.
+/** \brief Three floating-point fields of a point, accessed as a vector in the point's bytes.
  * \ingroup io */
 class VectorField {
 public:
@@ -27,7 +27,7 @@ public:
           parts_.push_back(field);
   }
 
-  /** \return whether all three are there */
+  /** \return whether all three fields exist */
   explicit operator bool() const { return parts_.size() == 3; }
 
   Eigen::Vector3d

@@ -24,7 +24,7 @@ TEST(LateLibrary, ThatIsMissingIsNamedWithWhatBuildsIt)
 {
   const std::string words = errorOf("pcl6d_teapot", "pour");
   EXPECT_EQ(words.rfind("for tea: ", 0), 0u) << words;
-  EXPECT_NE(words.find("libpcl6d_teapot.so is not there; cmake --build build/release "
+  EXPECT_NE(words.find("libpcl6d_teapot.so is missing; cmake --build build/release "
                        "--target pcl6d_teapot builds it"),
             std::string::npos)
       << words;

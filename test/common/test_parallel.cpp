@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 
 namespace {
 std::vector<double>
@@ -88,6 +91,24 @@ TEST(ParallelFor, ManyShortLoopsAllComplete)
     sum += steps;
   }
   EXPECT_EQ(sum, 60000u);
+}
+
+// A forked process has none of the pool's threads, and must not wait for them at its end.
+TEST(ParallelFor, WorksInAForkedProcess)
+{
+  const auto sum = [] {
+    std::atomic<int> total{0};
+    pcl6d::parallelFor(100, 4, [&](std::size_t i) { total += static_cast<int>(i); });
+    return total.load();
+  };
+  EXPECT_EQ(sum(), 4950);
+  const pid_t child = fork();
+  if (child == 0)
+    std::exit(sum() == 4950 ? 0 : 1); // with the destructors of statics
+  int status = -1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(sum(), 4950);
 }
 
 TEST(BlockedSum, HasTheSameBitsForEveryThreadCount)

@@ -351,7 +351,7 @@ TEST(NormalEstimation, RefusesWhatItCannotUse)
     EXPECT_NE(words(change).find(what), std::string::npos) << what;
   };
   tells([](auto& e) { e.setInputCloud(nullptr); }, "null");
-  tells([](auto& e) { e.setRadiusSearch(1); }, "take one of them");
+  tells([](auto& e) { e.setRadiusSearch(1); }, "set either the radius");
   tells([](auto& e) { e.setKSearch(0); }, "radius");
   tells([](auto& e) { e.setKSearch(-1); }, "k");
   for (const double radius : {-1., static_cast<double>(kNan), 1. * kInfinity})

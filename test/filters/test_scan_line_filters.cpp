@@ -55,10 +55,9 @@ TYPED_TEST(LineFilter, FindsTheLinesOrSaysHowToGiveThem)
   filter.setInputCloud(organized());
   filter.filter(by_rows);
   filter.setInputCloud(twoLines());
-  EXPECT_EQ(
-      badArgumentOf([&] { filter.filter(by_length); }),
-      "line_length = 0, but must be given by setLineLength(), as the cloud is not "
-      "organized (height 1)");
+  EXPECT_EQ(badArgumentOf([&] { filter.filter(by_length); }),
+            "line_length = 0, but must be given by setLineLength(): the cloud is not "
+            "organized (height 1)");
   filter.setLineLength(7);
   filter.filter(by_length);
   ASSERT_EQ(by_length.size(), by_rows.size());

@@ -155,7 +155,7 @@ TEST(CachedSearch, RefusesATreeWithoutCellsAndALeafThatIsNone)
   EXPECT_EQ(badArgumentOf([&] {
               PointTree(points).nearestFrom(leaf, {0, 0, 0}, 1);
             }),
-            "PointTree: cached search in a tree that keeps no cells");
+            "PointTree: cached search in a tree without cells");
   const PointTree tree(points, 1, PointTree::Cells::kKeep);
   EXPECT_EQ(badArgumentOf([&] {
               tree.nearestFrom(leaf, {0, 0, 0}, 1);

@@ -4,6 +4,7 @@
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/visibility/range_noise.h>
+#include <pcl6d/visibility/ray_origin.h>
 #include <pcl6d/visibility/sight_evidence.h>
 
 #include <algorithm>
@@ -100,4 +101,24 @@ TEST(Hku1, ScansDoNotContradictThemselves)
         pcl6d::selfContradiction(scan.points, Vector::Zero().cast<float>(), scan.noise),
         0.01);
   }
+}
+
+TEST(Cases, CutOutsInACommonFrameHaveNoScannerAtTheirOrigin)
+{
+  PCL6D_DATA_OR_SKIP(cases, "cases");
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = "scan00" + std::to_string(i) + ".pcd";
+    const Points far = pcl6d::readScan(cases / "M4_offset_6_31_49" / name).points;
+    EXPECT_FALSE(pcl6d::isPlausibleOrigin(far));
+    EXPECT_TRUE(pcl6d::isPlausibleOrigin(far, {6, 31, 49}));
+    EXPECT_TRUE(pcl6d::isPlausibleOrigin(
+        pcl6d::readScan(cases / "UD2_one_flipped" / name).points));
+  }
+}
+
+TEST(Hku1, ScansAreCentredOnTheirScanner)
+{
+  PCL6D_DATA_OR_SKIP(folder, "hku1");
+  for (const int i : {0, 10, 49}) // 0 and 49: the largest shares of all scans
+    EXPECT_LT(pcl6d::crossedShare(hku1Scan(folder, i).points, {0, 0, 0}), 0.05);
 }

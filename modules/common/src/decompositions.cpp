@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-// Function templates take the visibility of where they are instantiated.
+// Function templates have the visibility of the place of instantiation.
 namespace PCL6D_EXPORTS pcl6d {
 
 namespace {
@@ -14,9 +14,9 @@ using Square = Eigen::Matrix<double, Size, Size>;
 template <int Size>
 using Column = Eigen::Matrix<double, Size, 1>;
 
-/** Eigen's kernel for 3 x 3 is a special one, and hot. All other sizes share the one whose
- * size is known at run time: it gives the same bits as one of fixed size, which costs 10 s
- * and 0.4 GB of compiling each and saves less than half a microsecond a call. */
+/** Eigen has a special kernel for 3 x 3, and this size is hot. The remaining sizes share the
+ * solver of dynamic size: equal bits as fixed size, which costs 10 s and 0.4 GB of compiling
+ * per size and saves less than half a microsecond a call. */
 template <int Size>
 using Solver = Eigen::SelfAdjointEigenSolver<
     std::conditional_t<Size == 3, Square<3>, Eigen::MatrixXd>>;

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-// Function templates take the visibility of where they are instantiated.
+// Function templates have the visibility of the place of instantiation.
 namespace PCL6D_EXPORTS pcl6d {
 
 namespace {
@@ -33,7 +33,7 @@ template <int Size>
 Square<Size>
 inverted(const Square<Size>& A)
 {
-  // The same bits as of fixed size, and as fast, for half the compiling.
+  // Bits and speed equal to fixed size, for half the compile time.
   return Eigen::MatrixXd(A).inverse();
 }
 

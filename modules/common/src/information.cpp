@@ -7,7 +7,7 @@ namespace pcl6d {
 namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/** Scaled to a largest entry of one, as squares of huge entries overflow. */
+/** Scaled to a largest entry of one, because squares of huge entries overflow. */
 Matrix6
 scaled(const Matrix6& information)
 {

@@ -10,9 +10,8 @@ namespace pcl6d {
 namespace fs = std::filesystem;
 
 namespace {
-/** \return the folder of the library that this function is in; empty: not known. The loader
- * would look along the run path, but of the library that calls dlopen(), which is a
- * sanitizer's where there is one. */
+/** \return the folder of the library around this function; empty: not known. The loader would
+ * search the run path of the library that calls dlopen(), which may be a sanitizer. */
 fs::path
 folderOfSuite()
 {
@@ -50,7 +49,7 @@ symbolOfLateLibrary(const std::string& purpose,
     opened = ::dlopen(file.c_str(), kMode);
     if (!opened)
       throw IoFailed(purpose + ": the library " + beside.string() +
-                     " is not there; cmake --build build/release --target " + library +
+                     " is missing; cmake --build build/release --target " + library +
                      " builds it");
   }
   void* const address = ::dlsym(opened, symbol);

@@ -7,11 +7,11 @@
 namespace pcl6d {
 
 namespace {
-/** Ratio of eigenvalues, squares of sines, below which a direction is open. */
+/** Ratio of eigenvalues (squared sines) below which a direction is open. */
 constexpr double kOpenRatio = 1e-12;
 
-/** What a line or plane says of a point: P (x - foot) is its way from there, for a projector
- * P onto the directions that it fixes. */
+/** A line or plane as a constraint on a point: the offset is P (x - foot), with the projector P
+ * onto the constrained directions. */
 struct Nearness {
   Eigen::Matrix3d projector;
   Eigen::Vector3d foot;
@@ -30,8 +30,8 @@ nearnessTo(const PlaneEquation& plane)
   return {plane.normal * plane.normal.transpose(), plane.offset * plane.normal};
 }
 
-/** Solves about the mean foot point, so that what lies far from the origin loses no digits;
- * of a family of solutions this gives the one nearest to it. */
+/** Solves about the mean foot point, to keep the digits far from the origin; among several
+ * solutions returns the nearest to the mean foot point. */
 template <typename Thing>
 NearestPoint
 leastSquares(const std::vector<Thing>& things)
@@ -91,7 +91,7 @@ lineThrough(const Eigen::Vector3d& p, const Eigen::Vector3d& q)
 std::optional<PlaneEquation>
 planeThrough(const PlueckerLine& line, const Eigen::Vector3d& point)
 {
-  // x x g - m = (x - foot) x g stands upright on the plane, and is as long as x is off.
+  // x x g - m = (x - foot) x g is normal to the plane, with the length of the offset of x.
   const Eigen::Vector3d upright = point.cross(line.direction) - line.moment;
   const double off = upright.norm();
   if (!(off > kParallelSine * point.norm()))
@@ -149,7 +149,7 @@ nearestPoints(const PlueckerLine& a, const PlueckerLine& b)
   const double sine_sq = across.squaredNorm();
   if (!(sine_sq > kParallelSine * kParallelSine))
     return std::nullopt;
-  // On a where the plane through b and across meets it, and the other way round.
+  // The point of a on the plane through b and across, and vice versa.
   const Eigen::Vector3d way = b.foot() - a.foot();
   return NearestPoints{
       a.foot() + way.cross(b.direction).dot(across) / sine_sq * a.direction,

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <pthread.h>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -17,20 +18,21 @@
 namespace pcl6d {
 
 namespace {
-/** \brief Threads that wait for loops to help with.
+/** \brief Worker threads that help with loops.
  *
- * The thread that calls run() works too, and at the end waits only for steps that a helper
- * has begun, never for a helper that has not woken up: on a busy machine a loop of short
- * blocks then takes no longer than on one thread. Calls may nest and come from any thread. */
+ * The thread that calls run() works too, and finally waits only for steps that a helper has
+ * begun, never for a helper still asleep: on a busy machine a loop of short blocks takes no
+ * longer than on one thread. Calls may nest and come from any thread. */
 class ThreadPool {
 public:
-  /** \return the pool of the process; its threads are made when they are first needed */
+  /** \return the pool of the process; threads are started on first use */
   static ThreadPool&
   instance();
   ~ThreadPool();
 
-  /** \brief Calls body(0) .. body(count - 1) from at most num_threads threads, this one
-   * included; from fewer, if the system has none left. An exception of the body is thrown again; the one of the lowest index wins */
+  /** \brief Calls body(0) .. body(count - 1) from at most num_threads threads, including the
+   * caller; from fewer, if the system has no threads left. An exception of the body is
+   * rethrown; the exception of the lowest index wins */
   void
   run(std::size_t count,
       std::size_t num_threads,
@@ -39,7 +41,10 @@ public:
 private:
   struct Loop;
 
-  ThreadPool() = default;
+  /** A forked process inherits the pool without threads, and starts new threads. */
+  ThreadPool();
+  void
+  forgetThreads();
   void
   offer(const std::shared_ptr<Loop>& loop, std::size_t helpers);
   void
@@ -47,18 +52,18 @@ private:
 
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<std::shared_ptr<Loop>> offers_; ///< a loop once per helper that it can use
+  std::deque<std::shared_ptr<Loop>> offers_; ///< each loop once per helper it can use
   std::vector<std::thread> threads_;
   bool stop_ = false;
 };
 
-/** One parallel loop. Lives until the last helper has let go of it. */
+/** One parallel loop. Lives until the last helper releases the loop. */
 struct ThreadPool::Loop {
   Loop(std::size_t count_, const std::function<void(std::size_t)>& body_)
   : count(count_), body(body_)
   {}
 
-  /** Takes steps until none is left. */
+  /** Takes steps until the loop is exhausted. */
   void
   takeSteps()
   {
@@ -95,7 +100,7 @@ struct ThreadPool::Loop {
   }
 
   const std::size_t count;
-  /** The caller's; only called for steps, which end before the caller's run(). */
+  /** The caller's; called only for steps, which end before the caller's run(). */
   const std::function<void(std::size_t)>& body;
   std::atomic<std::size_t> next{0};
   std::atomic<std::size_t> finished{0};
@@ -110,6 +115,27 @@ ThreadPool::instance()
 {
   static ThreadPool pool;
   return pool;
+}
+
+ThreadPool::ThreadPool()
+{
+  // The lock is held across the fork, so the child never sees a half-queued loop.
+  pthread_atfork([] { instance().mutex_.lock(); },
+                 [] { instance().mutex_.unlock(); },
+                 [] { instance().forgetThreads(); });
+}
+
+/** Handles of threads of another process can be neither joined nor destroyed: they are kept. */
+void
+ThreadPool::forgetThreads()
+{
+  new (&mutex_) std::mutex;
+  new (&wake_) std::condition_variable;
+  // Not destroyed at the end, and in reach of a search for leaks.
+  static auto& of_parents = *new std::vector<std::vector<std::thread>>;
+  of_parents.push_back(std::move(threads_));
+  threads_.clear();
+  offers_.clear();
 }
 
 ThreadPool::~ThreadPool()
@@ -139,8 +165,8 @@ ThreadPool::run(std::size_t count,
 void
 ThreadPool::offer(const std::shared_ptr<Loop>& loop, std::size_t helpers)
 {
-  // Helpers are welcome, not needed: where the system has no more threads or no memory for
-  // them, those that there are do the work, in the end the caller's alone.
+  // Helpers are optional: if the system lacks threads or memory, the existing threads do the
+  // work, in the extreme case the caller alone.
   try {
     const std::lock_guard<std::mutex> lock(mutex_);
     try {
@@ -167,7 +193,7 @@ ThreadPool::work()
     const std::shared_ptr<Loop> loop = std::move(offers_.front());
     offers_.pop_front();
     lock.unlock();
-    loop->takeSteps(); // at once over, if the caller has done it all meanwhile
+    loop->takeSteps(); // returns at once if the caller has finished meanwhile
     lock.lock();
   }
 }

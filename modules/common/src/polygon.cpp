@@ -86,7 +86,7 @@ struct Corner {
   std::size_t index;
 };
 
-// One side of the hull of sorted corners, its last corner left to the other side.
+// One side of the hull of sorted corners; the last corner belongs to the opposite side.
 template <typename Iterator>
 void
 appendChain(Iterator begin, Iterator end, double tolerance, std::vector<Corner>& hull)

@@ -33,8 +33,8 @@ isInTriangle(const Eigen::Vector2d& p,
   return leftTurn(a, b, p) >= 0 && leftTurn(b, c, p) >= 0 && leftTurn(c, a, p) >= 0;
 }
 
-// Whether the way from a corner to a point starts inside the ring. Of the copies of a
-// corner that a cut has made, this tells the one on the right side of the cut.
+// Whether the way from a corner to a point starts inside the ring. Among the copies of a corner
+// made by a cut, selects the copy on the right side of the cut.
 bool
 startsInside(const Ring& ring, std::size_t i, const Eigen::Vector2d& point)
 {
@@ -47,8 +47,8 @@ startsInside(const Ring& ring, std::size_t i, const Eigen::Vector2d& point)
                                : is_left_before || is_left_after;
 }
 
-// The corner of the ring that a point sees best: that of the nearest edge to its right,
-// or, if another corner stands in between, the one nearest to the level of the point.
+// The corner of the ring that is visible from a point: of the nearest edge to the right, or, if
+// another corner is in between, the corner nearest to the level of the point.
 std::size_t
 visibleCorner(const Ring& ring, const Eigen::Vector2d& point)
 {
@@ -73,7 +73,7 @@ visibleCorner(const Ring& ring, const Eigen::Vector2d& point)
   std::size_t chosen = best;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Eigen::Vector2d& p = ring[i].at;
-    // A triangle without area holds every point of its line: so its end is looked at.
+    // A triangle without area contains every point of the line, so the end is tested too.
     if (p.x() > std::max(hit.x(), corner.x()) || !startsInside(ring, i, point) ||
         !(isInTriangle(p, point, hit, corner) || isInTriangle(p, point, corner, hit)))
       continue;
@@ -88,7 +88,7 @@ visibleCorner(const Ring& ring, const Eigen::Vector2d& point)
   return chosen;
 }
 
-// Opens the ring at a corner and goes round the hole from there.
+// Opens the ring at a corner and inserts the hole.
 void
 joinHole(Ring& ring, const Ring& hole)
 {
@@ -129,7 +129,7 @@ clipEars(Ring ring, std::vector<std::array<std::uint32_t, 3>>& triangles)
   while (ring.size() >= 3) {
     const std::size_t n = ring.size();
     i %= n;
-    // Where rounding left no ear at all, the next corner is cut off all the same.
+    // If rounding left no ear, the next corner is cut off regardless.
     if (tried < n && n > 3 && !isEar(ring, i)) {
       ++i;
       ++tried;

@@ -22,7 +22,7 @@ struct Double2 {
 constexpr Double2 kPi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 constexpr Double2 kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr Double2 kQuarterPi{0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55};
-// log 2 in two parts, so that an exponent times the first one is exact.
+// log 2 in two parts: an exponent times the first part is exact.
 constexpr Double2 kLog2{0x1.62e42fefp-1, 0x1.473de6af278edp-34};
 constexpr Double2 kAtanHalf{0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56};
 
@@ -50,8 +50,8 @@ polynomial(const double (&c)[N], double z)
 Double2
 reduced(double x, double k)
 {
-  // pi/2 in parts of 33 bits, so that k times each but the last is exact. The double
-  // nearest to a multiple keeps 60 bits of distance; all parts together have 157.
+  // pi/2 in parts of 33 bits: k times each but the last is exact. The double nearest to a
+  // multiple of pi/2 keeps 60 bits of distance; the parts together have 157 bits.
   constexpr double kRest[] = {
       0x1.0b4611a6p-34, 0x1.3198a2ep-69, 0x1.b839a252049c1p-104};
   double high = x - k * 0x1.921fb544p+0; // exact
@@ -65,7 +65,7 @@ reduced(double x, double k)
   return {sum, (high - sum) + low};
 }
 
-// All series are Taylor's, as long as the terms count in double.
+// All series are Taylor series, up to the last term that matters in double.
 
 /** \return the sine of r, |r| <= pi/4 */
 double
@@ -166,7 +166,7 @@ portableAtan2(double y, double x)
     opposite = opposite == kInfinity ? 1 : 0;
     adjacent = 1;
   }
-  // a = atan c + atan z for c = 0, 1/2 or 1, all of which make the numerator exact.
+  // a = atan c + atan z for c = 0, 1/2 or 1; these c keep the numerator exact.
   Double2 atan_c{0, 0};
   double z = adjacent > 0 ? opposite / adjacent : 0;
   if (z >= 5.0 / 16) {
@@ -202,8 +202,8 @@ portableLog(double x)
     m *= 2;
     --exponent;
   }
-  // log(1 + f) = 2 artanh s = 2 s + s tail with s = f / (2 + f), |s| < 0.172, and
-  // 2 s = f - f^2/2 + s f^2/2, whose first term is exact and the rest small.
+  // log(1 + f) = 2 artanh s = 2 s + s tail with s = f / (2 + f), |s| < 0.172, and 2 s = f -
+  // f^2/2 + s f^2/2: the first term is exact and the rest small.
   constexpr double kArtanh[] = {2.0 / 3,
                                 2.0 / 5,
                                 2.0 / 7,
@@ -231,7 +231,7 @@ floorOf(double x)
   return truncated > x ? truncated - 1 : truncated;
 }
 
-constexpr int kLeastPower = -1020; ///< of two: normal, with twice and half of it
+constexpr int kLeastPower = -1020; ///< of two: value, double and half are normal
 
 double
 powerOfTwo(int power)

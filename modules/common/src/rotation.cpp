@@ -27,7 +27,7 @@ eulerFromRotation(const Eigen::Matrix3d& R)
   const double cos_pitch = std::sqrt(R(0, 0) * R(0, 0) + R(1, 0) * R(1, 0));
   EulerAngles angles;
   angles.pitch = portableAtan2(-R(2, 0), cos_pitch);
-  if (cos_pitch < 1e-6) { // gimbal lock: only roll -+ yaw is fixed, so yaw stays 0
+  if (cos_pitch < 1e-6) { // gimbal lock: only roll -+ yaw is determined; yaw stays 0
     const double sign = R(2, 0) < 0 ? 1.0 : -1.0;
     angles.roll = portableAtan2(sign * R(0, 1), R(1, 1));
     return angles;
@@ -53,7 +53,7 @@ rotationFromVector(const Eigen::Vector3d& w)
   if (angle < 1e-8)
     return Eigen::Matrix3d::Identity() + W + 0.5 * W * W;
   const Eigen::Matrix3d K = W / angle;
-  // 1 - cos as 2 sin^2 of the half angle, which does not cancel for small angles.
+  // 1 - cos as 2 sin^2 of the half angle: no cancellation for small angles.
   const double half_sine = portableSinCos(0.5 * angle).sin;
   return Eigen::Matrix3d::Identity() + portableSinCos(angle).sin * K +
          2 * half_sine * half_sine * K * K;
@@ -90,8 +90,8 @@ nearestRotation(const Eigen::Matrix3d& A)
   return svd.U * sign.asDiagonal() * svd.V.transpose();
 }
 
-// Eigen's FromTwoVectors() finds the axis of opposite directions by a singular value
-// decomposition: 11 s of compiling for each file that calls it.
+// Eigen's FromTwoVectors() uses a singular value decomposition for opposite directions: 11 s of
+// compile time in each file that calls the function.
 Eigen::Quaterniond
 shortestRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
 {

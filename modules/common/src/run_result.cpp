@@ -26,7 +26,8 @@ constexpr Named<RecoveredBy> kRecoveries[] = {{RecoveredBy::kNone, ""},
 constexpr Named<StageKind> kStages[] = {{StageKind::kMatching, "matching"},
                                         {StageKind::kLoopClosing, "loop closing"},
                                         {StageKind::kRelaxation, "relaxation"},
-                                        {StageKind::kMotion, "motion within scans"}};
+                                        {StageKind::kMotion, "motion within scans"},
+                                        {StageKind::kControl, "control points"}};
 constexpr Named<LinkKind> kKinds[] = {{LinkKind::kSequence, "sequence"},
                                       {LinkKind::kNetwork, "network"},
                                       {LinkKind::kLoop, "loop"},
@@ -140,6 +141,13 @@ LinkVerdict
 linkVerdictFromName(const std::string& name)
 {
   return fromName(kVerdicts, "verdict", name);
+}
+
+Eigen::Isometry3d
+initialPoseOf(const RunResult& run, std::size_t place)
+{
+  const Eigen::Isometry3d& pose = run.scans.at(place).initial_pose;
+  return run.control ? run.control->T_control_initial * pose : pose;
 }
 
 } // namespace pcl6d

@@ -9,17 +9,17 @@
 namespace pcl6d {
 
 namespace {
-/** Behind all items: an error that is of none. */
+/** Behind all items: an error without an item. */
 constexpr std::size_t kNoItem = std::numeric_limits<std::size_t>::max();
 
-/** The first item that failed, and why. */
+/** The first item that failed, with the message. */
 struct Failure {
   std::size_t item = kNoItem;
   std::string message;
   std::exception_ptr cause;
 };
 
-/** Computes items. \return what failed first in their order */
+/** Computes items. \return the first failure in the order of items */
 Failure
 computeAll(const std::vector<std::size_t>& items,
            unsigned int num_threads,
@@ -47,7 +47,7 @@ computeAll(const std::vector<std::size_t>& items,
 
 WorkSharing::~WorkSharing() = default;
 
-/** \throws RankFailed one of them says so: the first item counts, then the first rank */
+/** \throws RankFailed a rank has failed: the first failed item counts, then the first rank */
 std::vector<std::string>
 WorkSharing::checked(std::vector<Message> all)
 {
@@ -82,7 +82,7 @@ WorkSharing::fail(const std::string& message) noexcept
     return;
   try {
     exchange({true, kNoItem, message}, Receivers::kAll);
-  } catch (const std::exception&) { // it ends anyway
+  } catch (const std::exception&) { // the rank ends anyway
   }
 }
 

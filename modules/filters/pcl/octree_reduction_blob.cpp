@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clouds whose fields are known when the program runs: each field is read, averaged and
-// written by its own type.
+// Clouds with fields known only at run time: each field is read, averaged and written by its
+// own type.
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/require_indices.h>
 #include <pcl6d/filters/pcl/octree_reduction.h>
@@ -75,7 +75,7 @@ writeAs(double value, std::uint8_t* data)
 {
   if (std::numeric_limits<Number>::is_integer)
     value = std::round(value);
-  const auto number = static_cast<Number>(value); // a mean of such numbers: it fits
+  const auto number = static_cast<Number>(value); // a mean of values of this type: fits
   std::memcpy(data, &number, sizeof(number));
 }
 
@@ -108,7 +108,7 @@ isColour(const Field& field)
   return field.name == "rgb" || field.name == "rgba";
 }
 
-/** \return the field; it must be there, and lie within the points */
+/** \return the field; must exist, and lie within the points */
 const Field&
 fieldOf(const Blob& cloud, const std::string& name)
 {
@@ -132,10 +132,10 @@ requireWhole(const Blob& cloud)
                 cloud.point_step,
             ("offset of the field " + field.name).c_str(),
             field.offset,
-            "such that it lies within a point");
+            "smaller: the field must lie within a point");
 }
 
-/** Averages all numbers of a field over some points. */
+/** Averages the numbers of a field over the members of a voxel. */
 void
 average(const Blob& cloud,
         const Field& field,

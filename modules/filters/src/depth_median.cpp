@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Depths lie in an image with a margin of NaN, so that borders are gaps like others. A gap
-// counts as far behind and far in front in turn, which leaves the median where it is.
+// Depths lie in an image with a margin of NaN: borders are treated like gaps. Gaps count
+// alternately far behind and far in front, which leaves the median unchanged.
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/simd_clones.h>
@@ -14,11 +14,10 @@
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kDepthLanes =
-    8; ///< neighbours in a row that are filtered at once
+constexpr std::size_t kDepthLanes = 8; ///< neighbours in a row, filtered at once
 using DepthLanes = float __attribute__((vector_size(4 * kDepthLanes)));
 constexpr float kBehind = std::numeric_limits<float>::infinity();
-/** Above, comparing all with all takes longer than partial sorting. */
+/** Above, pairwise comparison takes longer than partial sorting. */
 constexpr std::size_t kMostCompared = 169;
 
 /** Depths with a margin. */
@@ -53,7 +52,7 @@ readLanes(const float* depths, DepthLanes& lanes)
   std::memcpy(&lanes, depths, sizeof(lanes));
 }
 
-/** Puts the smaller one of two values first, lane by lane. */
+/** Puts the smaller of two values first, lane by lane. */
 PCL6D_INLINE void
 putInOrder(DepthLanes& a, DepthLanes& b)
 {
@@ -62,8 +61,8 @@ putInOrder(DepthLanes& a, DepthLanes& b)
   b = most;
 }
 
-/** The median of an odd number of values: of one more than half of them, neither the least nor
- * the greatest is it. They are dropped, and the next value is taken in. */
+/** The median of an odd number of values: among one more than half of the values, neither the least
+ * nor the greatest is the median. Both are dropped, and the next value is added. */
 PCL6D_INLINE void
 medianOfLanes(DepthLanes* values, std::size_t count, DepthLanes& median)
 {
@@ -74,7 +73,7 @@ medianOfLanes(DepthLanes* values, std::size_t count, DepthLanes& median)
     for (std::size_t k = 1; k + 1 < held; ++k)
       putInOrder(values[k], values[held - 1]);
     if (next < count)
-      values[0] = values[next++]; // in the least one's place; the greatest is dropped
+      values[0] = values[next++]; // replaces the least; the greatest is dropped
     else
       values[0] = values[--held - 1];
     --held;

@@ -38,7 +38,7 @@ pointAt(const CoordinateView& points, std::size_t i)
   return FourFloats{p[0], p[1], p[2], 0};
 }
 
-/** \return zero for each coordinate that is finite, NaN for any other */
+/** \return zero for each finite coordinate, NaN otherwise */
 FourFloats
 poisonOf(const FourFloats& p)
 {
@@ -51,8 +51,8 @@ isClean(const FourFloats& poison)
   return poison[0] == 0 && poison[1] == 0 && poison[2] == 0;
 }
 
-/** \return the corners of the box of the finite points. Blocks of points are taken as if all
- * were finite, and again one by one where they are not. */
+/** \return the corners of the box of the finite points. Blocks of points are processed assuming
+ * finite points, and again one by one where a point is not finite. */
 LeafCorners
 cornersOfFinite(const CoordinateView& points)
 {
@@ -149,7 +149,7 @@ nearestToCentres(const CoordinateView& points,
 }
 
 LeafGroups::LeafGroups(const LeafOrder& order)
-: begin_(order.size() + 2) // one more, while it is counted
+: begin_(order.size() + 2) // one more, while counting
 {
   const std::vector<std::uint32_t>& ranks = order.ranks();
   for (const auto rank : ranks)

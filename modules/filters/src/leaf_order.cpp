@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers cells by counting bits: a bit a cell, one beside the other, tells how many occupied
-// cells come before each.
+// Numbers cells by counting bits: with a bit per cell, the number of an occupied cell is the
+// count of set bits before.
 #include <pcl6d/common/simd_clones.h>
 #include <pcl6d/filters/leaf_cells.h>
 
@@ -14,13 +14,13 @@ using Numbers = std::vector<std::uint32_t>;
 using PointLane = float __attribute__((vector_size(16)));
 using CellLane = std::int32_t __attribute__((vector_size(16)));
 
-/** 64 cells: which are occupied, and how many in all words before. */
+/** 64 cells: bits of the occupied cells, and their number in the words before. */
 struct Word {
   std::uint64_t bits;
   std::uint64_t before;
 };
 
-/** What makes numbers of coordinates. */
+/** Parameters of the numbering of cells. */
 struct Numbering {
   PointLane inverse; ///< 1 / side
   CellLane low;      ///< the first cell
@@ -41,7 +41,7 @@ cellLane(const PointLane& p, const PointLane& inverse)
          (__builtin_convertvector(towards_zero, PointLane) > x); // true: -1
 }
 
-/** Numbers each point by its cell, x first; those that are not finite get the last number. */
+/** Numbers each point by its cell, x first; points that are not finite get the last number. */
 PCL6D_SIMD_CLONES void
 numberPoints(const CoordinateView& points, const Numbering& by, std::uint32_t* numbers)
 {
@@ -67,9 +67,9 @@ rankOf(const Word* words, std::uint32_t cell)
       static_cast<std::uint64_t>(__builtin_popcountll(word.bits & below)));
 }
 
-/** Counts numbers without those that no point has, in the same order. \param[in] shift the
- * lowest bits of numbers stay as they are: whole blocks of numbers are left out
- * \param[in,out] none the number of no cell, which is above all others */
+/** Renumbers without the numbers that no point has, in order. \param[in] shift number of lowest
+ * bits that stay: whole blocks of numbers are left out
+ * \param[in,out] none the number of no cell, above every other */
 PCL6D_SIMD_CLONES void
 closeGaps(std::uint32_t* numbers, std::size_t size, std::uint32_t& none, int shift)
 {
@@ -121,7 +121,7 @@ rankBySorting(const CoordinateView& points, const LeafCells& cells, Numbers& ran
 
 LeafOrder::LeafOrder(const CoordinateView& points, const LeafCells& cells)
 {
-  constexpr double kMostNumbers = 4294967000.; // 2^32, and one to spare
+  constexpr double kMostNumbers = 4294967000.; // 2^32, minus a reserve
   const Eigen::Vector3i counts = cells.counts();
   const double total = counts.cast<double>().prod();
   if (total > kMostNumbers) {
@@ -140,7 +140,8 @@ LeafOrder::LeafOrder(const CoordinateView& points, const LeafCells& cells)
                      layer,
                      none};
   numberPoints(points, by, ranks_.data());
-  constexpr std::size_t kSparse = 2; // words a point, whose counting takes as long
+  constexpr std::size_t kSparse = 2; // words per point: counting them takes about the
+                                     // time of the points
   if (none / 64 > kSparse * points.size)
     closeGaps(ranks_.data(), points.size, none, 6);
   closeGaps(ranks_.data(), points.size, none, 0);
@@ -157,7 +158,7 @@ struct alignas(32) LeafSum {
 PCL6D_SIMD_CLONES void
 addPoints(const CoordinateView& points, const std::uint32_t* ranks, LeafSum* sums)
 {
-  constexpr std::size_t kAhead = 16; // points whose sums are on their way
+  constexpr std::size_t kAhead = 16; // points ahead whose sums are prefetched
   for (std::size_t i = 0; i < points.size; ++i) {
     __builtin_prefetch(&sums[ranks[std::min(i + kAhead, points.size - 1)]], 1);
     const float* p = points.first + points.stride * i;
@@ -182,7 +183,7 @@ LeafOrder::writeMeans(const CoordinateView& points,
                       float* means,
                       std::size_t stride) const
 {
-  std::vector<LeafSum> sums(size_ + 1); // the last one of points in no cell
+  std::vector<LeafSum> sums(size_ + 1); // the last sum is of points in no cell
   addPoints(points, ranks_.data(), sums.data());
   divideSums(sums.data(), size_, means, stride);
 }

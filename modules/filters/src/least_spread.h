@@ -9,7 +9,7 @@
 #include <cstddef>
 
 /** \file
- * In which direction points spread least, for one patch of points or several at once. */
+ * Direction of least spread of points, for one patch or several at once. */
 namespace pcl6d::filters {
 
 /** Ratio of squared spreads below which points count as lying on a line. */
@@ -21,7 +21,7 @@ struct Symmetric {
   Real xx, xy, xz, yy, yz, zz;
 };
 
-/** Several patches at once: the same operations as for one, lane by lane. */
+/** Number of patches at once: the operations for one patch, lane by lane. */
 constexpr std::size_t kSpreadLanes = 8;
 using SpreadLanes = double __attribute__((vector_size(8 * kSpreadLanes)));
 
@@ -44,13 +44,13 @@ anyAbove(const SpreadLanes& values, double limit)
 template <typename Real>
 struct Spread {
   Symmetric<Real> S;
-  Real trace; ///< before it was 1; if it is not above 0, all else is without meaning
+  Real trace; ///< before normalisation; the other members are valid only if > 0
   Real c1;    ///< of the characteristic polynomial
   Real root;
 };
 
-/** The smallest root of the characteristic polynomial is found by Newton's method from zero,
- * where it is increasing and concave, so that no step goes too far. */
+/** The smallest root of the characteristic polynomial is found by Newton's method from zero, where
+ * it is increasing and concave: no step overshoots. */
 template <typename Real>
 PCL6D_INLINE Spread<Real>
 spreadOf(const Symmetric<Real>& scatter)
@@ -80,20 +80,41 @@ spreadOf(const Symmetric<Real>& scatter)
   return {S, trace, c1, root};
 }
 
-/** \return the direction of least spread; zero for points on a line. It is orthogonal to two
- * rows of S - root. Several times as fast as a general solver, which is left what this cannot
- * decide: patches that are nearly as thick as they are wide in some direction.
- * \param[in] line points lie on one if their second largest squared spread is at most this
- * share of the largest */
+/** The two larger squared spreads, as shares of the trace. */
+struct OtherSpreads {
+  double largest, product; ///< the second is their quotient
+};
+
+inline OtherSpreads
+otherSpreads(const Spread<double>& of)
+{
+  const double others = 1 - of.root, product = of.c1 - of.root * others;
+  return {(others + std::sqrt(std::max(0.0, others * others - 4 * product))) / 2,
+          product};
+}
+
+/** \return the second standard deviation by the first, in [0, 1]; 0 of points in one place */
+inline double
+breadthOf(const Spread<double>& of)
+{
+  if (!(of.trace > 0))
+    return 0;
+  const OtherSpreads others = otherSpreads(of);
+  return std::sqrt(std::max(0.0, others.product)) / others.largest;
+}
+
+/** \return the direction of least spread; zero for points on a line. This direction is orthogonal
+ * to two rows of S - root. Several times as fast as a general solver, which handles the undecided
+ * patches: nearly as thick as wide in a direction.
+ * \param[in] line points lie on a line if their second largest squared spread is at most this share
+ * of the largest */
 inline Eigen::Vector3d
 leastSpread(const Spread<double>& of, double line = kLineTolerance)
 {
   if (!(of.trace > 0))
     return Eigen::Vector3d::Zero();
-  const double others = 1 - of.root, product = of.c1 - of.root * others;
-  const double largest =
-      (others + std::sqrt(std::max(0.0, others * others - 4 * product))) / 2;
-  if (!(product > line * largest * largest))
+  const OtherSpreads others = otherSpreads(of);
+  if (!(others.product > line * others.largest * others.largest))
     return Eigen::Vector3d::Zero();
   Eigen::Matrix3d S;
   S << of.S.xx, of.S.xy, of.S.xz, of.S.xy, of.S.yy, of.S.yz, of.S.xz, of.S.yz, of.S.zz;

@@ -15,7 +15,7 @@ constexpr Named<LineFilter> kLineFilters[] = {
     {LineFilter::kReduction, "scanline-reduction"},
     {LineFilter::kBoth, "scanline-both"}};
 
-constexpr double kBelowCode = 0.999; // a gate of deriveScanParameters() ends there too
+constexpr double kBelowCode = 0.999; // a gate of deriveScanParameters() ends there, too
 
 /** \return the place of each point in the rows of the file */
 std::vector<std::size_t>
@@ -24,7 +24,7 @@ placesOf(const Scan& scan)
   require(scan.row_length > 0,
           "scan lines",
           "none",
-          "there: a file of rows, each a line of the scanner");
+          "set: a file of rows, each row a line of the scanner");
   require(scan.places.empty() || scan.places.size() == scan.points.size(),
           "number of points",
           scan.points.size(),
@@ -35,7 +35,7 @@ placesOf(const Scan& scan)
   return places;
 }
 
-/** \return the points in the rows of the file, NaN where there is no echo */
+/** \return the points in the rows of the file, NaN without an echo */
 Points
 inRows(const Scan& scan, const std::vector<std::size_t>& places)
 {

@@ -36,7 +36,8 @@ MapBuilder::addScan(const Points& points,
       grid_origin_.value_or(T_world_scan.translation().array().round().matrix());
   const Points in_grid = transformed(points, relativeTo(grid_origin, T_world_scan));
   const Points moved = transformed(points, relativeTo(world_offset_, T_world_scan));
-  std::vector<VoxelKey> keys; // all before the map changes, as voxelKey() may throw
+  std::vector<VoxelKey> keys; // computed before the map changes, since
+                              // voxelKey() may throw
   keys.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     keys.push_back(points[i].allFinite() ? voxelKey(in_grid[i], voxel_) : 0);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "grown_patch.h"
 #include "least_spread.h"
 
 #include <pcl6d/common/parallel.h>
@@ -40,7 +41,7 @@ struct PatchOffsets {
   }
 };
 
-/** The same of kLanes patches. */
+/** PatchOffsets of kLanes patches. */
 struct LanesOffsets {
   using Real = Lanes;
   const Patch* patches;
@@ -139,8 +140,8 @@ normalOfPatch(const Eigen::Vector3f& place,
       spreadOf(scatterOf(PatchOffsets{patch, points, place}, size)), place, line);
 }
 
-/** kLanes normals. \return whether all patches had the same size, of 3 or more; if not,
- * nothing was written */
+/** kLanes normals. \return whether the patches had equal sizes, of 3 or more; if not, no
+ * normal was written */
 bool
 normalsOfLanes(const Eigen::Vector3f* places,
                const PointTree& tree,
@@ -190,7 +191,7 @@ normalOf(const Eigen::Vector3f& place,
 }
 
 namespace {
-/** \param[in] line as leastSpread() has it */
+/** \param[in] line see leastSpread() */
 Normals
 normalsOfPatches(const Points& places,
                  const Points& points,
@@ -218,38 +219,48 @@ normalsOfPatches(const Points& places,
   return normals;
 }
 
-/** Standard deviations of a patch, the second by the first, up to which its points lie on a
- * line whose width may be noise (algorithms.md S.2, rule A). */
-constexpr double kLine = 0.3;
-/** The same above which a patch that was grown is a surface: half as wide as long
- * (algorithms.md S.3, "grow 0.5"). */
+/** Standard deviations of a patch, the second by the first, above which a grown patch is a surface:
+ * half as wide as long (algorithms.md S.3, "grow 0.5"). */
 constexpr double kFlat = 0.5;
-/** Sizes of the patches that are tried one after another. */
+/** Sizes of the patches tried in turn. */
 constexpr std::size_t kGrown[] = {16, 24, 40, kMostNeighbours};
-/** A patch wider than this share of its range, or than so many spacings, shows more than one
- * surface. */
+/** A patch wider than this share of its range, or this number of spacings, covers more
+ * than one surface. */
 constexpr double kWidestOfRange = 0.15, kWidestSpacings = 8;
 
-Eigen::Vector3f
-grownNormal(const Eigen::Vector3f& place,
-            const Points& points,
-            const PointTree& tree,
-            double spacing)
+} // namespace
+
+SurfacePatch
+filters::grownPatch(const Eigen::Vector3f& place,
+                    double range,
+                    const Points& points,
+                    const PointTree& tree,
+                    double spacing)
 {
-  const double widest =
-      std::max(kWidestOfRange * place.norm(), kWidestSpacings * spacing);
+  const double widest = std::max(kWidestOfRange * range, kWidestSpacings * spacing);
   Patch patch;
   const std::size_t found = tree.nearestK(place, kMostNeighbours, patch.data());
   for (const std::size_t size : kGrown) {
     if (size > found || patch[size - 1].distance_sq > widest * widest)
       break;
-    Eigen::Vector3f normal = normalOfPatch(place, patch, size, points, kFlat * kFlat);
+    const auto spread = spreadOf(scatterOf(PatchOffsets{patch, points, place}, size));
+    const Eigen::Vector3f normal = normalFrom(spread, place, kFlat * kFlat);
     if (!normal.isZero(0))
-      return normal;
+      return {normal,
+              static_cast<float>(spread.root),
+              static_cast<float>(filters::breadthOf(spread))};
   }
-  return Eigen::Vector3f::Zero();
+  return {};
 }
-} // namespace
+
+Normals
+filters::normalsOffLines(const Points& points,
+                         const PointTree& tree,
+                         std::size_t neighbours,
+                         unsigned int num_threads)
+{
+  return normalsOfPatches(points, points, tree, neighbours, kLine * kLine, num_threads);
+}
 
 Normals
 estimateNormals(const Points& places,
@@ -272,13 +283,15 @@ estimateSurfaceNormals(const Points& points,
                                      patches,
                                      PointTree(patches, options.num_threads),
                                      options.neighbours,
-                                     kLine * kLine,
+                                     filters::kLine * filters::kLine,
                                      options.num_threads);
   parallelBlocks(
       points.size(), kBlockSize, options.num_threads, [&](const Block& block) {
         for (std::size_t i = block.begin; i < block.end; ++i)
           if (normals[i].isZero(0) && points[i].allFinite())
-            normals[i] = grownNormal(points[i], points, tree, options.spacing);
+            normals[i] = filters::grownPatch(
+                             points[i], points[i].norm(), points, tree, options.spacing)
+                             .normal;
       });
   return normals;
 }

@@ -68,7 +68,8 @@ noReturnRange(const Points& points)
   if (ranges.empty())
     return std::nullopt;
   const double largest = *std::max_element(ranges.begin(), ranges.end());
-  // Where most points are about as far, the largest range is the place of an object.
+  // Where most points are at about the largest range, this range is
+  // measured on an object.
   if (upperMedian(ranges) >= 0.9 * largest)
     return std::nullopt;
   const double tolerance = 1e-4 * largest;
@@ -106,7 +107,7 @@ medianSpread(const Points& points)
 }
 
 namespace {
-/** \return about 1000 evenly chosen points, equal ones side by side */
+/** \return about 1000 evenly chosen points, duplicates side by side */
 Points
 samplesOf(const Points& points)
 {
@@ -121,11 +122,12 @@ samplesOf(const Points& points)
   return samples;
 }
 
-/** \return the distance to the nearest point at another place; none: nothing */
+/** \return the distance to the nearest point at another place; empty
+ * without such a point */
 std::optional<double>
 spacingAt(const Eigen::Vector3f& place, const PointTree& tree, std::size_t tree_size)
 {
-  for (std::size_t k = 2; k < 4 * tree_size; k *= 4) { // twice the same point is rare
+  for (std::size_t k = 2; k < 4 * tree_size; k *= 4) { // duplicates are rare
     const auto found = tree.nearestK(place, k);
     if (!found.empty() && found.back().distance_sq > 0) {
       const auto other = std::find_if(
@@ -140,7 +142,7 @@ spacingAt(const Eigen::Vector3f& place, const PointTree& tree, std::size_t tree_
 double
 medianSpacing(const Points& all)
 {
-  Points points; // the finite ones, so that samples are chosen from these
+  Points points; // finite points, to choose samples from
   std::copy_if(all.begin(), all.end(), std::back_inserter(points), [](const auto& p) {
     return p.allFinite();
   });

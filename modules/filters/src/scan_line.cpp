@@ -31,7 +31,7 @@ ScanLineReductionOptions::validate() const
 namespace {
 constexpr double kInvalid = std::numeric_limits<double>::quiet_NaN();
 
-/** \return the distances from the scanner; kInvalid where there is no ray */
+/** \return the distances from the scanner; kInvalid without a ray */
 std::vector<double>
 rayLengths(const Points& points)
 {
@@ -44,8 +44,8 @@ rayLengths(const Points& points)
   return ranges;
 }
 
-/** \return the median, of an even number that one of the middle two which is nearer to
- * the value. \param[in,out] values at least one; put in another order */
+/** \return the median; of an even number, the nearer of the middle two to the value.
+ * \param[in,out] values at least one; reordered */
 double
 medianNear(double value, std::vector<double>& values)
 {
@@ -149,7 +149,7 @@ lineLengthOf(std::size_t width, std::size_t height, std::size_t size, int given)
     require(given > 0,
             "line_length",
             given,
-            "given by setLineLength(), as the cloud is not organized (height 1)");
+            "given by setLineLength(): the cloud is not organized (height 1)");
     return static_cast<std::size_t>(given);
   }
   require(width * height == size,

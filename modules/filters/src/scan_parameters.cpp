@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/median.h>
-#include <pcl6d/common/require.h>
+#include <pcl6d/common/option_names.h>
+#include <pcl6d/common/option_spec.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/filters/scan_sampling.h>
@@ -15,17 +16,19 @@
 namespace pcl6d {
 
 namespace {
+constexpr double kAnyRange = std::numeric_limits<double>::infinity();
+
 double
 rounded(double value, int digits)
 {
   if (!(value > 0) || !std::isnormal(value))
     return value;
-  std::ostringstream text; // so 0.17 is the 0.17 that a user types, on every CPU
+  std::ostringstream text; // 0.17 equals the 0.17 typed by a user, on every CPU
   text << std::setprecision(digits) << value;
   return std::stod(text.str());
 }
 
-/** \return the largest number of two digits that is no larger, for a value > 0 */
+/** \return the value > 0, rounded down to two digits */
 double
 roundedDown(double value)
 {
@@ -45,7 +48,7 @@ metres(double value)
   return text.str();
 }
 
-/** A no-return code is no surface: the gate ends just below it. Infinite without one. */
+/** A no-return code is no surface: the gate ends just below the code. Infinite without a code. */
 Parameter
 gateBelowCode(const std::vector<Points>& scans)
 {
@@ -56,15 +59,10 @@ gateBelowCode(const std::vector<Points>& scans)
   return {rounded(0.999 * smallest, 4), false, "no-return code at " + metres(smallest)};
 }
 
-/** Voxels of this many line spacings hold points of two lines wherever the surface faces the
- * scanner, at up to 1.4 times the median range (algorithms.md S.2, rule C: 1.4 and more lose
- * detail of narrow corridors, below 1 registration of rooms fails). */
-constexpr double kVoxelOfLines = 1.3;
-
-/** A voxel of two digits follows from it. */
+/** Enough for a voxel of two digits, which follows from the line spacing. */
 constexpr int kDigitsOfLines = 3;
 
-/** \return the sampling whose line spacing is the (upper) median of all */
+/** \return the sampling with the (upper) median line spacing */
 ScanSampling
 medianSampling(std::vector<ScanSampling> all)
 {
@@ -77,9 +75,9 @@ medianSampling(std::vector<ScanSampling> all)
   return *middle;
 }
 
-/** One wild return must not end the run: a point beyond could not be numbered. The
- * grid of the metascan, half as wide, reaches 2^19 voxels; half of these are left for
- * the way from its origin to the scan. */
+/** One wild return must not end the run: a point beyond the grid cannot be numbered. The grid of
+ * the metascan, half as wide, reaches 2^19 voxels; half of the reach is left for the way from its
+ * origin to the scan. */
 Parameter
 gateAtGrid(double voxel)
 {
@@ -103,18 +101,53 @@ derivedParameter(double value, const std::string& why, int digits)
 }
 
 void
+describe(ScanParameterOptions& o, ScanParameters& used, OptionList& list)
+{
+  list.add(kMinRangeOption, o.min_range)
+      .inUnit("m")
+      .within(from0())
+      .derivedAs("0.2 m, at most a tenth of the median range", used.min_range)
+      .withHelp("[m] or auto: nearer points are dropped");
+  list.add(kMaxRangeOption, o.max_range)
+      .inUnit("m")
+      .within({0, kAnyRange, true, true, false, ">= --min-range"})
+      .derivedAs(
+          "just below the largest range of a scan if more than 0.5 % of the points "
+          "have exactly the largest range and more than half lie nearer than 0.9 times "
+          "the largest range (a no-return code; four digits); at most, and without a "
+          "code, 2^18 voxels, rounded down: the reach of the reduction's grid",
+          used.max_range)
+      .withHelp("[m] or auto: farther points are dropped; auto drops no-return codes");
+  list.add(kVoxelOption, o.voxel)
+      .inUnit("m")
+      .within(finiteAbove0())
+      .derivedAs("the largest of 2.5 times the median point spacing, 1.3 times the "
+                 "line spacing, and a 60th of the median range, or, if smaller, of the "
+                 "size of the scanned object, for example on a turntable",
+                 used.voxel)
+      .withHelp("[m] or auto: edge length of the octree reduction");
+  list.add("line-spacing", o.line_spacing)
+      .inUnit("m")
+      .within(finiteFrom0())
+      .derivedAs("distance of neighbouring lines of a scan (rings of a spinning lidar) "
+                 "at the median range, measured from the directions of the points "
+                 "(three digits); a given value also sets the voxel; 0: no lines",
+                 used.line_spacing)
+      .countsIf([&o] { return !o.voxel; }, "where --voxel is derived")
+      .withHelp("[m] or auto: distance between the lines of a scan (rings of a "
+                "spinning lidar) at the median range; without --voxel, a voxel is 1.3 "
+                "times the line spacing");
+}
+
+void
 ScanParameterOptions::validate() const
 {
-  validateRangeLimits(min_range.value_or(0),
-                      max_range.value_or(std::numeric_limits<double>::infinity()));
-  require(!voxel || (*voxel > 0 && std::isfinite(*voxel)),
-          "voxel",
-          voxel.value_or(0),
-          "finite and > 0");
-  require(!line_spacing || (*line_spacing >= 0 && std::isfinite(*line_spacing)),
-          "line_spacing",
-          line_spacing.value_or(0),
-          "finite and >= 0");
+  validateRangeLimits(min_range.value_or(0), max_range.value_or(kAnyRange));
+  ScanParameterOptions options = *this;
+  ScanParameters unused;
+  OptionList list;
+  describe(options, unused, list);
+  list.check();
 }
 
 ScanParameters
@@ -141,11 +174,11 @@ deriveScanParameters(const ScanParameterOptions& options,
       options.min_range,
       derivedParameter(std::min(0.2, 0.1 * range),
                        "0.2 m, at most a tenth of the median range " + metres(range)));
-  // Fine enough to keep a surface's shape at the typical range, coarse enough that most
-  // voxels average several points. What is small beside its range, such as an object on a
-  // turntable, keeps its own shape: half of its points are within a spread of its middle.
+  // Fine enough to keep a surface's shape at the typical range, coarse enough that most voxels
+  // average several points. An object small compared with its range, on a turntable for example,
+  // keeps its shape: half of its points lie within a spread of its middle.
   const double size = 4 * upperMedian(spreads);
-  const std::string scale = size < range ? "size of what is seen " + metres(size)
+  const std::string scale = size < range ? "size of the visible scene " + metres(size)
                                          : "median range " + metres(range);
   const double voxel = std::max(2.5 * spacing, std::min(size, range) / 60);
   p.voxel =

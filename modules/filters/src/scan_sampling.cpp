@@ -14,25 +14,24 @@
 namespace pcl6d {
 
 namespace {
-/** Directions whose surroundings are looked at; the median of so many is within 6 % of that
- * of all. */
+/** Number of sampled directions; their median is within 6 % of the median over every direction. */
 constexpr std::size_t kDirections = 300;
-/** Nearest directions that show the line through a point; more would reach the next line
- * where points and lines lie about as far apart. */
+/** Nearest directions that define the line through a point; more would reach the next line where
+ * the spacings of points and lines are similar. */
 constexpr std::size_t kOnLine = 5;
-/** Cosine to the line above which a direction is along it: 45 degrees, half way. */
+/** Cosine to the line above which a direction counts along the line: 45 degrees, half way. */
 constexpr double kAlong = 0.70710678;
-/** Closer directions are the same ray: a few steps of float. */
+/** Closer directions are one ray: a few steps of float. */
 constexpr double kSameRay = 1e-6; // [rad]
-/** Farther directions are on no neighbouring line: seen from a point of a ring, its far side
- * lies across. */
+/** Farther directions are not on a neighbouring line: seen from a point of a ring, the far
+ * side lies across. */
 constexpr double kFarthest = 0.5; // [rad]
-/** Lines are lines if they lie so many times as far apart as their points. A square grid has
- * 1, and its diagonal, which noise may bring forward, 1.4. */
+/** Least ratio of the spacing of lines to the spacing of points. A square grid has 1, its diagonal,
+ * which noise may bring out, 1.4. */
 constexpr double kLineRatio = 2;
 constexpr double kQuarter = 1.5707963267948966; // [rad] of a turn
 
-/** A direction beside another: the offset of unit vectors, which is the angle [rad]. */
+/** Offsets of unit vectors from a direction; their lengths are about the angles [rad]. */
 using Offsets = std::vector<Eigen::Vector3d>;
 
 Offsets
@@ -51,8 +50,7 @@ offsetsAt(const Eigen::Vector3f& ray,
   return offsets;
 }
 
-/** \return the axis along which the first kOnLine offsets spread most; nothing if there are
- * fewer */
+/** \return the axis along which the first kOnLine offsets spread most; empty with fewer */
 std::optional<Eigen::Vector3d>
 lineThrough(const Offsets& offsets)
 {
@@ -64,10 +62,10 @@ lineThrough(const Offsets& offsets)
   return symmetricEigen<3>(scatter).vectors.col(2);
 }
 
-/** What a direction sees beside it. */
+/** Neighbourhood of a direction. */
 struct Beside {
   double point = 0;             ///< [rad] to the nearest other direction
-  std::optional<double> across; ///< [rad] to the nearest one across the line
+  std::optional<double> across; ///< [rad] to the nearest direction across the line
   bool is_level = false;        ///< the line keeps its elevation
 };
 
@@ -101,8 +99,8 @@ besideOf(const Eigen::Vector3f& ray, const PointTree& tree, const Points& rays)
   return std::nullopt;
 }
 
-/** \return the number of groups of elevations that lie farther apart than a quarter of the
- * line angle; 0 if they do not stand apart, as after motion */
+/** \return the number of groups of elevations more than a quarter of the line angle apart; 0 if the
+ * elevations do not form groups, for example after motion */
 std::size_t
 countRings(const std::vector<double>& sorted, double line_angle)
 {

@@ -14,7 +14,7 @@ namespace pcl6d {
 namespace {
 constexpr std::size_t kPatchBlock = 256; // places
 
-/** The sums of offsets that a patch is made of. */
+/** The sums over the offsets of a patch. */
 struct PatchSums {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -44,7 +44,9 @@ patchOf(const PatchSums& sums)
   const Eigen::Vector3f normal = filters::leastSpread(spread).cast<float>();
   if (normal.isZero(0))
     return {};
-  return {normal, static_cast<float>(spread.root)};
+  return {normal,
+          static_cast<float>(spread.root),
+          static_cast<float>(filters::breadthOf(spread))};
 }
 } // namespace
 
@@ -60,10 +62,11 @@ fitPatch(const Points& offsets)
 void
 PatchSize::validate() const
 {
-  require(!(neighbours > 0 && radius != 0),
-          "radius",
-          radius,
-          "0 where the number of neighbours is given: take one of them");
+  require(
+      !(neighbours > 0 && radius != 0),
+      "radius",
+      radius,
+      "0 if the number of neighbours is given: set either the radius or the number");
   require(neighbours > 0 || (radius > 0 && std::isfinite(radius)),
           "radius",
           radius,

@@ -20,7 +20,7 @@ struct Corners {
 
 using Floats = float __attribute__((vector_size(16)));
 
-/** Twelve coordinates are those of four points; x, y, z at the places 0, 3, 6, 9 and so on. */
+/** Twelve coordinates make four points, with x at the places 0, 3, 6, 9, then y, z. */
 Corners
 cornersOf(const Points& points)
 {
@@ -55,7 +55,7 @@ cornersOf(const Points& points)
 std::optional<VoxelBox>
 VoxelBox::around(const Points& points, double voxel)
 {
-  // Division, rounding and floor are monotone: where the corners fit, all points do.
+  // Division, rounding and floor are monotone: where the corners fit, every point does.
   const Corners corners = cornersOf(points);
   VoxelBox box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -81,7 +81,7 @@ findFourCells(const float* coordinates, double voxel, std::int32_t* cells)
   using Doubles = double __attribute__((vector_size(32)));
   using Longs = std::int64_t __attribute__((vector_size(32)));
   using Ints = std::int32_t __attribute__((vector_size(16)));
-  constexpr double kMost = 2.0 * kHalf; // so that every quotient fits an int
+  constexpr double kMost = 2.0 * kHalf; // every quotient fits an int
   const Doubles most{kMost, kMost, kMost, kMost};
   Floats x;
   std::memcpy(&x, coordinates, sizeof(x));

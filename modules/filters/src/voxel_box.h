@@ -13,7 +13,7 @@ namespace pcl6d::filters {
 
 constexpr int kAxisBits = 21; ///< of a VoxelKey
 
-/** \return the number of bits that hold the value */
+/** \return the number of bits of the value */
 inline int
 bitsOf(std::uint64_t value)
 {
@@ -23,12 +23,12 @@ bitsOf(std::uint64_t value)
   return bits;
 }
 
-/** \brief The box of grid cells that holds the points of a cloud. Its own keys have
- * only as many bits as its sides need, and the order of the keys of the grid. */
+/** \brief The box of grid cells around the points of a cloud. Its keys are as short as
+ * its sides allow, and have the order of the grid's keys. */
 class VoxelBox {
 public:
-  /** \return the box of the finite coordinates; nothing if there are none on an axis,
-   * or if one of them lies outside the grid */
+  /** \return the box of the finite coordinates; empty if an axis has no finite
+   * coordinate, or a coordinate lies outside the grid */
   static std::optional<VoxelBox>
   around(const Points& points, double voxel);
 
@@ -49,7 +49,7 @@ public:
     return key;
   }
 
-  /** \return the key in the whole grid, as voxelKey() */
+  /** \return the key in the whole grid, equal to voxelKey() */
   VoxelKey
   keyInGrid(std::uint64_t key_in_box) const
   {
@@ -65,12 +65,12 @@ public:
 
 private:
   std::array<std::int32_t, 3> low_; ///< first cell of each axis
-  std::array<int, 3> bits_;         ///< that the number of cells of each axis needs
+  std::array<int, 3> bits_;         ///< for the number of cells of each axis
   VoxelKey first_key_ = 0;          ///< in the grid, of the cell low_
 };
 
-/** \brief floor(coordinate / voxel) as in voxelKey(), for coordinates inside the grid.
- * Any other value, NaN included, gives some number. */
+/** \brief floor(coordinate / voxel), like in voxelKey(), for coordinates inside the
+ * grid. Other values, NaN included, give an arbitrary number. */
 void
 findCells(const float* coordinates,
           std::size_t count,

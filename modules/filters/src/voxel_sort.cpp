@@ -13,10 +13,10 @@
 namespace pcl6d::filters {
 
 namespace {
-/** A key above the index of a point, in one number. */
+/** A key in the high bits, the index of a point in the low bits. */
 using Entry = std::uint64_t;
 
-/** Entries in memory that is not set before it is written. */
+/** Entries in uninitialised memory. */
 struct Entries {
   explicit Entries(std::size_t most) : data(new Entry[most]) {}
 
@@ -39,7 +39,7 @@ struct Entries {
 Entries
 entriesOf(const Points& points, double voxel, const VoxelBox& box, int index_bits)
 {
-  constexpr std::size_t kBlock = 512; // points whose cells stay in the nearest cache
+  constexpr std::size_t kBlock = 512; // points; their cells stay in the nearest cache
   std::array<std::int32_t, 3 * kBlock> cells;
   Entries entries(points.size());
   std::size_t num_entries = 0;
@@ -48,7 +48,8 @@ entriesOf(const Points& points, double voxel, const VoxelBox& box, int index_bit
     findCells(points[begin].data(), 3 * count, voxel, cells.data());
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3f& p = points[begin + i];
-      // Written in any case, kept if finite: no branch that gaps would make random.
+      // Written in any case, kept if finite: avoids a branch made
+      // unpredictable by gaps.
       entries.data[num_entries] =
           (box.keyInBox(&cells[3 * i]) << index_bits) | (begin + i);
       num_entries += std::isfinite(p.x()) & std::isfinite(p.y()) & std::isfinite(p.z());
@@ -58,7 +59,7 @@ entriesOf(const Points& points, double voxel, const VoxelBox& box, int index_bit
   return entries;
 }
 
-/** Some of the bits of a key. */
+/** A range of the bits of a key. */
 struct Digit {
   std::size_t
   operator()(Entry e) const
@@ -69,11 +70,11 @@ struct Digit {
   int begin, width;
 };
 
-/** \return the digits of `count` bits from `low` on, the last one first */
+/** \return the digits of `count` bits from `low` on, the last digit first */
 std::vector<Digit>
 digitsOf(int low, int count)
 {
-  constexpr int kMostBits = 11; // so many places to write to stay in a near cache
+  constexpr int kMostBits = 11; // 2^11 places to write to stay in a near cache
   const int num_digits = (count + kMostBits - 1) / kMostBits;
   std::vector<Digit> digits;
   for (int i = 0; i < num_digits; ++i) {
@@ -83,7 +84,7 @@ digitsOf(int low, int count)
   return digits;
 }
 
-/** Sorts by a digit and leaves equal ones in their order. */
+/** Sorts by a digit, stably. */
 void
 sortBy(const Digit& digit, const Entry* from, std::size_t size, Entry* to)
 {
@@ -98,7 +99,7 @@ sortBy(const Digit& digit, const Entry* from, std::size_t size, Entry* to)
     to[place[digit(from[i])]++] = from[i];
 }
 
-/** Sorts by `count` bits from `low` on and leaves equal ones in their order. */
+/** Sorts by `count` bits from `low` on, stably. */
 void
 sortByBits(Entries& entries, int low, int count)
 {
@@ -109,7 +110,7 @@ sortByBits(Entries& entries, int low, int count)
   }
 }
 
-/** The points of a cloud by their voxels, as entries. */
+/** The entries of a cloud's points, sorted by voxel. */
 struct SortedEntries {
   std::size_t
   indexOf(Entry e) const
@@ -127,7 +128,7 @@ struct SortedEntries {
   Entries entries;
 };
 
-/** \return nothing if no box of short keys holds the points */
+/** \return empty if the points exceed a box of short keys */
 std::optional<SortedEntries>
 sortedEntries(const Points& points, double voxel)
 {
@@ -165,7 +166,7 @@ cutIntoVoxels(const Member* members, std::size_t size, KeyOf keyOf, IndexOf inde
   return order;
 }
 
-/** For what no box of short keys holds; also finds the point outside the grid. */
+/** For points beyond a box of short keys; also finds the point outside the grid. */
 VoxelOrder
 sortByLongKeys(const Points& points, double voxel)
 {
@@ -218,14 +219,14 @@ meansByVoxel(const Points& points, double voxel)
   auto mean = means.begin();
   for (std::size_t i = 0; i < size; ++i, ++mean) {
     const auto pointOf = [&](std::size_t k) -> const Eigen::Vector3f& {
-      constexpr std::size_t kAhead = 16; // entries whose points are on their way
+      constexpr std::size_t kAhead = 16; // entries ahead whose points are prefetched
       __builtin_prefetch(
           &points[sorted->indexOf(entries[std::min(k + kAhead, size - 1)])]);
       return points[sorted->indexOf(entries[k])];
     };
     const Eigen::Vector3f& first = pointOf(i);
     if (endsVoxel(i)) {
-      *mean = first.array() + 0.0F; // as a sum: no -0
+      *mean = first.array() + 0.0F; // like in a sum: no -0
       continue;
     }
     const std::size_t begin = i;

@@ -19,15 +19,14 @@ struct VoxelOrder {
       begin; ///< first member of each voxel in indices, and the end
 };
 
-/** \brief Sorts points by voxelKey(), those of one voxel by their index, in O(N): keys
- * counted from the corner of the points' bounding box are short, and sorted by their
- * digits, the last digit first.
+/** \brief Sorts points by voxelKey(), and within a voxel by index, in O(N): keys counted from the
+ * corner of the points' bounding box are short, and sorted by their digits, the last digit first.
  * \throws BadArgument a point does not fit into the grid (see voxelKey()) */
 VoxelOrder
 sortByVoxel(const Points& points, double voxel);
 
-/** \return the means of the points of the voxels in that order, without the lists in between;
- * nothing if the points are too many, or the voxels too small, for short keys */
+/** \return the means of the voxels' points in the order of sortByVoxel(), without intermediate
+ * lists; empty if the points are too many, or the voxels too small, for short keys */
 std::optional<Points>
 meansByVoxel(const Points& points, double voxel);
 

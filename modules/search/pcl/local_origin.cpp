@@ -7,9 +7,10 @@
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kSample = 1001; ///< points that tell where most of them are
+constexpr std::size_t kSample = 1001; ///< points of the sample that
+                                      ///< locates the majority
 
-/** \return the value at a place of the sorted ones, by x, y, z */
+/** \return the order statistic at a place, separately for x, y, z */
 Eigen::Vector3f
 sortedAt(const Points& points, std::size_t place)
 {

@@ -17,7 +17,7 @@ struct FlannTree::Index {
 namespace {
 using Found = std::vector<Neighbour>;
 
-/** \return what PCL's vectors hold, as all searches order it */
+/** \return the content of PCL's vectors in the common order of results */
 Found
 toFound(const pcl::Indices& indices, const std::vector<float>& distances_sq)
 {
@@ -28,8 +28,8 @@ toFound(const pcl::Indices& indices, const std::vector<float>& distances_sq)
   return found;
 }
 
-/** \return a radius [m] whose square in float, which PCL forms, is surely beyond radius_sq:
- * FLANN may leave out what is at the limit */
+/** \return a radius [m] with a square in float (formed by PCL) surely beyond radius_sq: FLANN may
+ * leave out points at the limit */
 double
 radiusBeyond(float radius_sq)
 {
@@ -38,7 +38,7 @@ radiusBeyond(float radius_sq)
          std::sqrt(static_cast<double>(std::numeric_limits<float>::min()));
 }
 
-/** \return whether the square of a radius beyond it is a number of float's */
+/** \return whether the square of a radius beyond radius_sq is finite in float */
 bool
 isLimit(float radius_sq)
 {
@@ -54,10 +54,10 @@ FlannTree::FlannTree(const Points& points)
     cloud->push_back({p.x(), p.y(), p.z()});
     size_ += p.allFinite() ? 1 : 0;
   }
-  if (size_ == 0) // which PCL complains about
+  if (size_ == 0) // PCL warns about an empty cloud
     return;
   const auto index = std::make_shared<Index>();
-  index->tree.setInputCloud(cloud); // keeps the places of points that it leaves out
+  index->tree.setInputCloud(cloud); // indices still count the points left out
   index_ = index;
 }
 

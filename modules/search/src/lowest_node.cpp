@@ -10,7 +10,7 @@ constexpr int kLeafSize = PointTree::kLeafSize;
 constexpr int kMost = 8 * kLeafSize;
 
 /** Sorts N items along the longest side of their box, from one array into another.
- * \param[in] count of items that are real and stay in front \return the axis */
+ * \param[in] count of real items, which stay in front \return the axis */
 template <int N>
 PCL6D_INLINE int
 sortInto(Item* to, const Item* from, int count)
@@ -37,7 +37,7 @@ writeLeaf(const Item* items, PointTree::Leaf& leaf)
   }
 }
 
-/** The box of a leaf, without its unused places, as child i of the node. */
+/** Writes the box of a leaf, without the unused places, into child i of the node. */
 PCL6D_INLINE void
 writeBox(const PointTree::Leaf& leaf, PointTree::Node& node, int i)
 {

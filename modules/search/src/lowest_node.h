@@ -12,8 +12,8 @@ namespace pcl6d::search {
 using LowestAxes = int[7];
 
 /** Makes the lowest nodes with their leaves.
- * \param[in] items 1 to 64 of them; they may lie in the memory of the leaves
- * \param[out] leaves as many as it takes, all full but the last
+ * \param[in] items 1 to 64 items; may lie in the memory of the leaves
+ * \param[out] leaves as many as needed, full but for the last
  * \param[out] node boxes of the leaves \return box of the items */
 ItemBox
 makeLowestNode(const Item* items,

@@ -10,7 +10,7 @@ cutBySample(const Item* items, std::size_t size, float share)
   constexpr float kBand = 7; // ranks on either side; a median varies by 4 (1 sigma)
   Item sample[kCount];
   for (std::uint64_t i = 0; i < kCount;
-       ++i) { // one of each part, so that no pattern fits
+       ++i) { // one item of each part, against periodic patterns
     const std::uint64_t part = (i << 16) | ((i * 40503) & 0xffff); // golden ratio
     sample[i] = items[(part * size) >> 22];
   }

@@ -8,11 +8,11 @@
 #include <cstdint>
 
 /** \file
- * Selection without unpredictable branches: what building a k-d tree spends its time on.
- * Own code, so that the order of the points does not depend on the C++ library. */
+ * Selection without unpredictable branches: the main cost of building a k-d tree. Own code, to
+ * make the order of the points independent of the C++ library. */
 namespace pcl6d::search {
 
-/** Moves the items for which goes_left holds to the front. \return their end */
+/** Moves the items for which goes_left holds to the front. \return the end of this part */
 template <typename Predicate>
 inline Item*
 partitionItems(Item* first, Item* last, Predicate goes_left)
@@ -49,8 +49,8 @@ pivotFor(const Item* first, const Item* last, int axis)
   return medianOf(medians[0], medians[1], medians[2]);
 }
 
-/** Orders the items so that none before nth has a larger coordinate than nth, and none
- * behind it a smaller one. */
+/** Orders the items: no item before nth has a larger coordinate than nth, no item behind nth
+ * a smaller one. */
 inline void
 selectNth(Item* first, Item* nth, Item* last, int axis)
 {
@@ -62,7 +62,7 @@ selectNth(Item* first, Item* nth, Item* last, int axis)
       last = middle;
     else if (middle > first)
       first = middle;
-    else { // the pivot is the smallest: put all that equal it in front
+    else { // the pivot is the smallest: put its equals in front
       first = partitionItems(
           first, last, [=](const Item& item) { return item.xyz[axis] <= pivot; });
       if (nth < first)
@@ -71,21 +71,21 @@ selectNth(Item* first, Item* nth, Item* last, int axis)
   }
 }
 
-/** What a sample tells about many items. */
+/** Cut through many items, estimated from a sample. */
 struct Cut {
   int axis;   ///< of the longest side of their box
   float low;  ///< the coordinate wanted most likely lies from low
   float high; ///< to high
 };
 
-/** \param[in] share of the items that are to lie before the cut */
+/** \param[in] share of the items to put before the cut */
 Cut
 cutBySample(const Item* items, std::size_t size, float share);
 
-/** As selectNth(), from one array into another, across the longest side of the items'
- * box as a sample shows it; the first array is left without sense. Most items are looked
- * at once: only those in a narrow band about the cut need selecting (R. W. Floyd,
- * R. L. Rivest, "Expected time bounds for selection", CACM 18(3), 1975).
+/** selectNth() from one array into another, across the longest side of the items' box (estimated
+ * from a sample); the content of the first array is lost. Most items are read once: only a narrow
+ * band about the cut needs selecting (R. W. Floyd, R. L. Rivest, "Expected time bounds for
+ * selection", CACM 18(3), 1975).
  * \return the axis */
 inline int
 splitInto(Item* to, Item* from, std::size_t size, std::size_t nth)
@@ -95,11 +95,11 @@ splitInto(Item* to, Item* from, std::size_t size, std::size_t nth)
   Item *left = to, *right = to + size;
   for (Item* next = from; next != from + size; ++next) {
     const float x = next->xyz[cut.axis];
-    Vector4 item; // moved as one
+    Vector4 item; // moved as a unit
     load(item, next);
     store(left, item);
     store(right - 1, item);
-    store(next - size + (right - left), item); // the band closes up where it is
+    store(next - size + (right - left), item); // the band is compacted in place
     left += x < cut.low;
     right -= x > cut.high;
   }

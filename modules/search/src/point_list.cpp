@@ -10,7 +10,7 @@ namespace pcl6d {
 using namespace search;
 
 namespace {
-/** The distance to a point that is not finite is NaN or infinite: never accepted. */
+/** The distance to a non-finite point is NaN or infinite: never accepted. */
 template <typename Visitor>
 void
 visitEach(const Points& points, const Eigen::Vector3f& query, Visitor& visitor)

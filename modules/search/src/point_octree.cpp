@@ -13,8 +13,8 @@ namespace pcl6d {
 using namespace search;
 
 namespace {
-/** Squared distance to a box; each float operation is monotone, so it never exceeds the
- * float distance to a point in the box. */
+/** Squared distance to a box; each float operation is monotone, hence never more than
+ * the float distance to a point in the box. */
 float
 boxDistanceSq(const Eigen::Vector3f& q, const Eigen::AlignedBox3f& box)
 {

@@ -17,7 +17,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kBottomSize =
     8 * PointTree::kLeafSize;            ///< points of a lowest node
-constexpr std::size_t kShareFrom = 4096; ///< points that are worth a second thread
+constexpr std::size_t kShareFrom = 4096; ///< from this number of points on, a
+                                         ///< second thread pays
 
 PointTree::Node
 emptyNode()
@@ -29,12 +30,12 @@ emptyNode()
 }
 } // namespace
 
-/** Cuts the points in two until one lowest node is left; works on binary levels, whereof
- * each third one is a level of nodes, counted from the lowest. */
+/** Cuts the points in two until one lowest node is left; works on binary levels, every third of
+ * which, counted from the lowest, is a level of nodes. */
 class PointTree::Builder {
 public:
-  /** Makes room for the nodes. The points go to and fro between the items and the memory
-   * of the leaves, which is as large. */
+  /** Makes room for the nodes. The points go to and fro between the items and the equally large
+   * memory of the leaves. */
   Builder(PointTree& tree, std::vector<Item>& items)
   : tree_(tree), items_(items.data()), size_(items.size())
   {
@@ -76,13 +77,13 @@ private:
   struct Part {
     std::size_t place = 0;
     int level = 0;
-    Item* from = nullptr; ///< where they are, counted from the first of all points
+    Item* from = nullptr; ///< the points of the part, within the whole array
     Item* to = nullptr;   ///< the other array
     Cell cell{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
     unsigned int num_threads = 1;
   };
 
-  /** \return their box, which is also written into the node above */
+  /** \return the box of the part, also written into the node above */
   ItemBox
   build(const Part& part)
   {
@@ -157,9 +158,9 @@ private:
     return box;
   }
 
-  /** Cells of the leaves [first, last) of a lowest node. The cut between two halves is
-   * no plane but all that lies between them, or is common to them as keys round; a part
-   * never leaves the whole. */
+  /** Cells of the leaves [first, last) of a lowest node. The cut between two halves is not a
+   * plane but the gap between them, or their overlap due to rounded keys; a part never
+   * leaves the whole. */
   void
   writeLeafCells(std::size_t bottom,
                  const Node& node,

@@ -10,7 +10,7 @@ namespace pcl6d {
 namespace search {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/** Distances without those of one point. */
+/** Takes one point out of the distances. */
 PCL6D_INLINE void
 leaveOut(int index, const PointTree::Leaf& leaf, Vector8& distances)
 {
@@ -70,7 +70,7 @@ private:
 template <int Registers>
 struct TreeNearestFew {
   SortedFew<Registers> nearest;
-  const float shrink; ///< of the squared bound once there are k points
+  const float shrink; ///< of the squared bound, from k points on
 
   float
   bound() const
@@ -81,7 +81,7 @@ struct TreeNearestFew {
   PCL6D_INLINE void
   meet(const PointTree::Leaf& leaf, std::size_t, const Vector8& distances)
   {
-    // None that is infinite. One as far as the worst may have a smaller index.
+    // Infinite distances are excluded. A point as far as the worst may have a smaller index.
     const unsigned int chosen = bitsOf(distances <= std::min(nearest.worst(), kUsed));
     if (chosen == 0)
       return;
@@ -91,14 +91,14 @@ struct TreeNearestFew {
   }
 };
 
-/** Keeps the k nearest of many: in any order, until half as many again are there, of which
- * the k nearest stay. */
+/** Keeps the k nearest of many: collects up to 1.5 k points in any order, then reduces to
+ * the k nearest. */
 struct TreeNearestMany {
   NeighbourKey* const keys; ///< has room for most, and a leaf more
   const std::size_t k, most;
   const float shrink; ///< as above
   std::size_t count = 0;
-  float worst = kInfinity; ///< of the k nearest, when they were chosen last
+  float worst = kInfinity; ///< of the k nearest at the last reduction
 
   float
   bound() const
@@ -128,7 +128,7 @@ struct TreeNearestMany {
     count = k;
   }
 
-  /** \return the number of neighbours, which are sorted */
+  /** Sorts the neighbours. \return their number */
   std::size_t
   sort()
   {
@@ -201,7 +201,7 @@ collectMany(const PointTree::View& tree,
             float shrink,
             Neighbour* out)
 {
-  // What an approximate search finds depends on its bound, which is that of all it met.
+  // The result of an approximate search depends on its bound, hence on every point met.
   const std::size_t most = shrink < 1 ? k : k + k / 2;
   const std::unique_ptr<NeighbourKey[]> keys(
       new NeighbourKey[most + PointTree::kLeafSize]);

@@ -10,7 +10,7 @@ namespace pcl6d {
 
 namespace search {
 struct TreeNearest : NearestVisitor {
-  int leaf_place = -1; ///< of the leaf that held the best
+  int leaf_place = -1; ///< of the leaf with the best point
 
   PCL6D_INLINE void
   meet(const PointTree::Leaf& leaf, std::size_t place, const Vector8& distances)
@@ -23,7 +23,7 @@ struct TreeNearest : NearestVisitor {
 
 /** Is content with any point within a limit. */
 struct TreeAny {
-  float limit_sq; ///< below all distances once there is one
+  float limit_sq; ///< below every distance, once a point is found
   bool found = false;
 
   float
@@ -71,9 +71,9 @@ visitAll(const PointTree::View& tree, const float* q, TreeCollect& visitor)
   visit(tree, q, visitor);
 }
 
-/** Whether a ball lies inside a cell. A point outside lies on or behind one of the
- * closed faces, hence, in float too, at least as far as that face: as the test is
- * strict, it is neither nearer than the ball nor a tie. */
+/** Whether a ball lies inside a cell. A point outside the cell lies on or behind a
+ * closed face, hence, in float too, at least as far as the face: by the strict test
+ * neither nearer than the ball nor a tie. */
 PCL6D_INLINE bool
 ballInside(const float* q, float radius_sq, const PointTree::Cell& cell)
 {
@@ -163,7 +163,7 @@ PointTree::nearestFrom(int& leaf,
                        float max_distance_sq) const
 {
   if (!keepsCells())
-    throw BadArgument("PointTree: cached search in a tree that keeps no cells");
+    throw BadArgument("PointTree: cached search in a tree without cells");
   if (leaf >= 0 && static_cast<std::size_t>(leaf) >= leaves_.size())
     throw BadArgument("PointTree: leaf " + std::to_string(leaf) + " of " +
                       std::to_string(leaves_.size()));

@@ -15,14 +15,14 @@
 #include <string>
 
 /** \file
- * The way through a PointTree, the same for all searches. A search is a visitor: bound()
- * is the squared distance beyond which it needs nothing, and meet(leaf, place, distances)
- * is handed each leaf, with the squared distances of its points, that is not beyond. */
+ * Traversal of a PointTree, common to every search. A search is a visitor: bound() is the squared
+ * distance beyond which no point matters, and meet(leaf, place, distances) receives each leaf
+ * within the bound, with the squared distances of its points. */
 
 namespace pcl6d::search {
 
-/** A node on the way down: its level and its place in the arrays, and for each child the squared distance
- * of its box with the number of the child in the last three bits. */
+/** A node on the way down: level, place in the arrays, and for each child the squared distance of
+ * the box, with the number of the child in the last three bits. */
 struct Pending {
   Vector8 keys;
   std::size_t place;
@@ -30,10 +30,10 @@ struct Pending {
 };
 
 constexpr float kUsed = std::numeric_limits<float>::max(); ///< key of no child
-constexpr float kLargest = 3.4028e38f;                     ///< below each such key
+constexpr float kLargest = 3.4028e38f;                     ///< below each of these keys
 constexpr int kMaxLevels = 24;
 
-/** \return the smallest index among those at a distance */
+/** \return the smallest index among the points at a distance */
 PCL6D_INLINE int
 indexOf(const PointTree::Leaf& leaf, const Vector8& distances, float distance_sq)
 {
@@ -43,9 +43,9 @@ indexOf(const PointTree::Leaf& leaf, const Vector8& distances, float distance_sq
   return index;
 }
 
-/** Squared distances to the boxes of the children. Each float operation is monotone, so
- * none exceeds the float distance to a point in the box: pruning by them is exact, and
- * so it is when the last three bits are cleared. */
+/** Squared distances to the boxes of the children. Each float operation is monotone, hence no
+ * value exceeds the float distance to a point in the box: pruning is exact, also with the last
+ * three bits cleared. */
 PCL6D_INLINE void
 openNode(const PointTree::View& tree, const float* q, Pending& pending)
 {
@@ -86,7 +86,7 @@ scanLeaf(const PointTree::View& tree,
   visitor.meet(leaf, place, distances);
 }
 
-/** Visits what lies below the opened nodes, nearest child first. */
+/** Visits the subtrees of the opened nodes, nearest child first. */
 template <typename Visitor>
 PCL6D_INLINE void
 descend(const PointTree::View& tree,
@@ -126,7 +126,7 @@ template <typename Visitor>
 PCL6D_INLINE void
 visit(const PointTree::View& tree, const float* q, Visitor& visitor)
 {
-  Pending stack[kMaxLevels]; // one for each level
+  Pending stack[kMaxLevels]; // an entry per level
   stack[0].place = 0;
   stack[0].level = 0;
   openNode(tree, q, stack[0]);
@@ -140,7 +140,7 @@ shrinkFor(double epsilon)
 {
   if (!(epsilon >= 0))
     throw BadArgument("epsilon = " + std::to_string(epsilon) + ", but must be >= 0");
-  return std::isinf(epsilon) ? -1.0f // prune all
+  return std::isinf(epsilon) ? -1.0f // prune everything
                              : static_cast<float>(1 / ((1 + epsilon) * (1 + epsilon)));
 }
 } // namespace pcl6d::search

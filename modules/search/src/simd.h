@@ -43,7 +43,7 @@ smallest(const Vector8& v)
   return two[0] < two[1] ? two[0] : two[1];
 }
 
-/** \return a bit for each lane that is true (-1), that of the first lane last */
+/** \return a bit for each true lane (-1); the first lane is the lowest bit */
 PCL6D_INLINE unsigned int
 bitsOf(const Bits8& truth)
 {

@@ -10,16 +10,16 @@
 #include <cstring>
 
 /** \file
- * Neighbours as numbers, so that their order is that of numbers, and a few of them sorted
- * in vector registers. */
+ * Neighbours encoded in numbers of equal order, and a few neighbours sorted in
+ * vector registers. */
 namespace pcl6d::search {
 
-/** A neighbour as one number, ordered as neighbours are: the bits of the distance, which no
- * distance puts out of order as none is negative, above those of the index. */
+/** A neighbour in one number of equal order: the bits of the distance above the bits of the index.
+ * The bits of a float are ordered like its value, since no distance is negative. */
 using NeighbourKey = std::uint64_t;
 
-/** Added to the bits of a distance: even that of 0 is a normal number as a double then,
- * which has the order of the keys. That of infinity still is one. */
+/** Added to the bits of a distance, to make every key, from distance 0 to infinity, a normal
+ * double, which has the order of the keys. */
 constexpr std::uint32_t kDistanceOffset = 0x00100000;
 
 PCL6D_INLINE Neighbour
@@ -40,21 +40,20 @@ neighbourKeysOf(const Vector8& distances, const int* indices, NeighbourKey* keys
   std::memcpy(&high, &distances, sizeof(high));
   load(low, indices);
   high += static_cast<std::int32_t>(kDistanceOffset);
-  // Little-endian, as all else here: the index comes first.
+  // Little-endian, like the rest of this file: the index comes first.
   store(keys, __builtin_shufflevector(low, high, 0, 8, 1, 9, 2, 10, 3, 11));
   store(keys + 4, __builtin_shufflevector(low, high, 4, 12, 5, 13, 6, 14, 7, 15));
 }
 
-/** The smallest keys, sorted, in registers of four. Adding one is a step of insertion sort
- * without branches: each place takes the smaller of what it has and of the larger one of
- * what stands before it and the new key. */
+/** The smallest keys, sorted, in registers of four. Adding a key is a step of insertion sort
+ * without branches: place i becomes min(key i, max(key i - 1, new key)). */
 template <int Registers>
 class SortedFew {
 public:
   static constexpr std::size_t kPlaces = 4 * Registers;
 
-  /** \param[in] k of the places, the last ones, are used, and are at first infinitely far:
-   * what stands before them is smaller than all keys */
+  /** \param[in] k number of places used, the last ones, at first infinitely far; the places before
+   * hold a value below every key */
   explicit SortedFew(std::size_t k)
   {
     constexpr NeighbourKey kNone =
@@ -65,7 +64,7 @@ public:
     std::memcpy(&sorted_, keys, sizeof(keys));
   }
 
-  /** \return the largest distance; infinite if not all places are taken */
+  /** \return the largest distance; infinite while a place is free */
   PCL6D_INLINE float
   worst() const
   {
@@ -82,11 +81,11 @@ public:
     return key;
   }
 
-  /** \param[in] chosen which of eight keys, a bit for each */
+  /** \param[in] chosen a bit for each of the eight keys */
   PCL6D_INLINE void
   add(const NeighbourKey* keys, unsigned int chosen)
   {
-    Doubles4 sorted[Registers]; // a copy, to keep it in registers
+    Doubles4 sorted[Registers]; // a copy, kept in registers
     for (int r = 0; r < Registers; ++r)
       sorted[r] = sorted_[r];
     for (; chosen != 0; chosen &= chosen - 1) {

@@ -6,16 +6,17 @@
 #include <limits>
 
 /** \file
- * Points on their way into a tree, and what can be done with a few of them at once. */
+ * Points on their way into a tree, and vectorised operations on a few points. */
 namespace pcl6d::search {
 
-/** One vector register. Eight of them share the memory of the leaf that they become. */
+/** A point in one vector register. Eight items share the memory of the leaf
+ * made from them. */
 struct alignas(16) [[gnu::may_alias]] Item {
   float xyz[3];
   int index;
 };
 
-/** Tight box of some items; the fourth lane means nothing. */
+/** Tight box of items; the fourth lane is unused. */
 struct ItemBox {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Vector4 min{kInfinity, kInfinity, kInfinity, kInfinity};
@@ -49,7 +50,7 @@ template <int N>
 PCL6D_INLINE ItemBox
 boxOf(const Item* items)
 {
-  ItemBox even, odd; // two chains, as each waits for its own last result
+  ItemBox even, odd; // two chains hide the latency of each step
   for (int i = 0; i < N; i += 2) {
     even.extend(items[i]);
     odd.extend(items[i + 1]);
@@ -58,8 +59,8 @@ boxOf(const Item* items)
   return even;
 }
 
-/** Integers in the order of a coordinate, as far as 25 bits tell it apart within the
- * box, else in the order of the items: all differ, none is negative. */
+/** Distinct integers >= 0 in the order of a coordinate, at a resolution of 25 bits
+ * within the box; equal coordinates in the order of the items. */
 template <int N>
 PCL6D_INLINE void
 keysOf(const Item* items, const ItemBox& box, int axis, int* keys)

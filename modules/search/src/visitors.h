@@ -8,15 +8,14 @@
 #include <vector>
 
 /** \file
- * What a search keeps of the points that it meets, the same for every structure: here is
- * the rule for ties and limits. A structure may leave out points farther than bound(),
- * but none at exactly that distance. */
+ * Results of a search, common to every structure: the rule for ties and limits is here. A
+ * structure may leave out points farther than bound(), but not a point at exactly bound(). */
 namespace pcl6d::search {
 
 /** Keeps the nearest point within a limit. */
 struct NearestVisitor {
   Neighbour best;   ///< at first: index -1 and the limit
-  float shrink = 1; ///< of the squared bound once there is a point; < 1: approximate
+  float shrink = 1; ///< of the squared bound, once a point is found; < 1: approximate
 
   float
   bound() const
@@ -40,17 +39,17 @@ struct NearestVisitor {
   }
 };
 
-/** Keeps the nearest points within a radius, at most max_count of them: once there are
- * so many as a heap, the farthest in front; a short one is kept sorted, which is faster.
+/** Keeps the nearest points within a radius, at most max_count: from max_count on in a heap, the
+ * farthest in front; a short list is kept sorted, which is faster.
  */
 struct CollectVisitor {
   static constexpr std::size_t kShort = 64;
   float radius_sq;       ///< a point at exactly this distance is not accepted
   std::size_t max_count; ///< > 0
-  float shrink = 1;      ///< as above, once there are max_count points
+  float shrink = 1;      ///< as above, from max_count points on
   std::vector<Neighbour> found{};
 
-  /** \return the distance beyond which a point is of no use */
+  /** \return the distance beyond which a point does not matter */
   float
   worst() const
   {

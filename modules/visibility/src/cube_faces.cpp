@@ -8,7 +8,7 @@
 namespace pcl6d::visibility {
 
 namespace {
-/** \return the place of a cell of a face of so many rows and columns */
+/** \return the index of a cell in a face with the given rows and columns */
 std::size_t
 indexOf(int row, int col, int side)
 {
@@ -18,8 +18,8 @@ indexOf(int row, int col, int side)
 
 constexpr std::uint16_t kNone = std::numeric_limits<std::uint16_t>::max();
 
-/** Spreads equal angles over about equal lengths: within 14 % of the mean, where the
- * tangent would stretch twofold. */
+/** Maps equal angles to about equal lengths: within 14 % of the mean, while the
+ * tangent would vary by a factor of two. */
 float
 evenly(float tangent)
 {
@@ -34,18 +34,18 @@ cellAlong(float place, int side)
                   side - 1);
 }
 
-/** A cell by its face, its row and its column. */
+/** A cell by face, row and column. */
 struct CellOnCube {
   std::size_t face;
   int row, col;
 };
 
-/** \return the cell itself or, of one beyond an edge of its face, the cell of the other
- * face there: both count the cells along their common edge alike */
+/** \return the cell itself or, beyond an edge of its face, the neighbouring face's cell: both faces
+ * number the cells along their common edge alike */
 CellOnCube
 acrossEdge(const CellOnCube& cell, int side)
 {
-  // Along the axis of its face the cell is at the border of the face that it comes to.
+  // Along the axis of its old face, the cell lies at the border of the new face.
   const std::size_t axis = cell.face / 2;
   const int border = cell.face % 2 == 0 ? side - 1 : 0;
   if (cell.col < 0 || cell.col >= side)
@@ -55,8 +55,8 @@ acrossEdge(const CellOnCube& cell, int side)
   return cell;
 }
 
-/** A face with the cells beside it all around (none at the corners), each number in an
- * array of its own, so that the compiler takes many cells at once. */
+/** A face with the cells beside it all around (none at the corners), each quantity in a separate
+ * array, which lets the compiler vectorise. */
 class BorderedFace {
 public:
   BorderedFace(const Faces& measured, std::size_t face, int side)
@@ -81,7 +81,7 @@ public:
       }
   }
 
-  /** Each cell becomes what it and the two cells so many places before and after it are. */
+  /** Merges each cell with the two cells at the given distance before and after it. */
   void
   dilate(std::size_t step)
   {
@@ -120,8 +120,8 @@ private:
            static_cast<std::size_t>(col + 1);
   }
 
-  /** \return whether something was measured on each of the four sides of a cell: beyond the
-   * last line of a scan its six filled neighbours would else answer for what no ray met */
+  /** \return whether there are measurements on each of the four sides of a cell. Otherwise six
+   * filled neighbours would claim free space beyond the last line, without any ray */
   bool
   isEnclosed(std::size_t i) const
   {
@@ -184,7 +184,7 @@ haloOf(const Faces& measured, std::size_t face, int side, int filled, bool enclo
   if (measured[face].empty())
     return {};
   BorderedFace bordered(measured, face, side);
-  bordered.dilate(1); // wraps around at the borders only, which are not asked for
+  bordered.dilate(1); // wraps around at the borders only, and border cells are not used
   bordered.dilate(bordered.width());
   return bordered.cells(filled, enclosed);
 }

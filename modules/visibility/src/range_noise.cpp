@@ -11,31 +11,31 @@
 namespace pcl6d {
 
 namespace {
-/** Neighbours of a patch: the first hold several lines of most scans; more are taken
+/** Neighbours of a patch: the first number covers several lines of most scans; the number grows
  * until the patch is wider than a line and than its noise. */
 constexpr std::array<std::size_t, 3> kNeighbours{48, 192, 768};
-constexpr std::size_t kPatches = 100; ///< that are looked at
-/** So many points are enough: the first ones, as a part of a scan is as noisy as another,
- * but every n-th point would be as far from the next as the surface bends. */
+constexpr std::size_t kPatches = 100; ///< number of sampled patches
+/** The largest number of points used: the first ones, because the noise is similar in every part of
+ * a scan. Every n-th point would be too far from the next, across the bends of the surface. */
 constexpr std::size_t kMostPoints = 200000;
-/** A patch whose second side is a smaller part of the first is one line of the scan, and
- * shows nothing of the surface beside it. */
+/** Least ratio of the second to the first side of a patch: below, the patch is a single line of the
+ * scan, without information about the surface beside it. */
 constexpr double kLeastWidth = 0.1;
-/** A patch may still be one line, as wide as the noise: its points lie in one plane with
- * the scanner. Then its third side is a tiny part of the second, which in a longish patch
- * is suspect earlier. */
+/** A patch may still be a single line, as wide as the noise: its points lie in a plane with the
+ * scanner. Then its third side is tiny compared with the second; the test is stricter for longish
+ * patches. */
 constexpr double kLongish = 0.5;
 constexpr double kTiny = 0.01;
 constexpr double kTinyOfLongish = 0.1;
-/** A patch whose third side is a larger part of the second is a ball cut out of noise
- * that is thicker than itself. (Or no surface: then it is one of the rough half.) */
+/** Largest ratio of the third to the second side: above, the patch is a ball of noise
+ * thicker than the patch. (Or no surface: then it belongs to the rough half.) */
 constexpr double kThick = 0.3;
 
-/** A patch of points about a place. */
+/** A patch of points about a position. */
 struct Patch {
-  double variance = 0; ///< across its plane [m^2], of its own degrees of freedom
+  double variance = 0; ///< across its plane [m^2], by the degrees of freedom
   bool line = false;
-  bool large_enough = false; ///< to show the noise
+  bool large_enough = false; ///< to estimate the noise
 };
 
 Patch
@@ -52,7 +52,7 @@ patchOf(const Points& points, const std::vector<Neighbour>& neighbours)
     scatter += d * d.transpose();
   }
   const double freedom =
-      static_cast<double>(neighbours.size()) - 3; // of a plane: three
+      static_cast<double>(neighbours.size()) - 3; // a plane has three parameters
   const Eigen::Vector3d values = symmetricEigenvalues<3>(scatter).cwiseMax(0.0);
   const Eigen::Vector3d sides = values.cwiseSqrt(); // ascending
   Patch patch;
@@ -64,8 +64,8 @@ patchOf(const Points& points, const std::vector<Neighbour>& neighbours)
   return patch;
 }
 
-/** \return the smallest patch about the place that is large enough; if there is none the
- * smallest that is no line, or a line */
+/** \return the smallest sufficiently large patch about the position; else the smallest patch other
+ * than a line; else a line */
 Patch
 patchAt(const Points& points, const PointTree& tree, const Eigen::Vector3f& place)
 {

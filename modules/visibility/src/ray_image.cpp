@@ -10,29 +10,29 @@
 namespace pcl6d {
 
 namespace {
-/** Cells of a level are so many times as wide as those of the finer one. */
+/** Ratio of the cell widths of a level and the next finer one. */
 constexpr double kCoarser = 1.5;
 
-/** A cell answers if so many of the nine around it are measured. (Of the eight at a corner
- * of the cube, too, where three faces meet.) */
+/** Least number of measured cells, of the nine around a cell, for a result. (At a corner of the
+ * cube, where three faces meet, only eight exist.) */
 constexpr int kFilled = 6;
 
-/** A level is of use if so many of its measured cells answer: below, its cells are finer
- * than the pattern of the scan, and what is filled is chance (algorithms.md T.1). */
+/** Least share of measured cells of a level with a result: below, its cells are finer than the
+ * sampling of the scan, and are filled by chance (algorithms.md T.1). */
 constexpr double kUsefulShare = 0.25;
 
-/** Ranges within so many standard deviations are the same. */
+/** [standard deviations] Ranges within this distance are equal. */
 constexpr float kSameSigmas = 3;
 
-/** Rays that end farther apart than so many tolerances are of two surfaces. */
+/** [tolerances] Rays with ends farther apart belong to two surfaces. */
 constexpr float kOneSurface = 4;
 
 /** Codes of ranges: steps of 0.05 %, from 2^-20 m to 2^26 m. */
 constexpr float kSteps = 1400;
 constexpr int kLeastExponent = -20;
 
-/** Codes grow with the range, by equal steps between powers of two, so that they are
- * exact without a logarithm. */
+/** Codes grow with the range, in equal steps between powers of two: exact
+ * without a logarithm. */
 std::uint16_t
 codeOf(float range)
 {
@@ -49,7 +49,7 @@ rangeOf(std::uint16_t code)
 {
   const float place = (static_cast<float>(code) + 0.5F) / kSteps;
   const int whole = static_cast<int>(place);
-  // The power of two as IEEE 754 writes it: std::ldexp() takes as long as all else.
+  // The power of two in IEEE 754 format: std::ldexp() is too slow here.
   constexpr int kBias = 127, kMantissaBits = 23;
   const auto bits = static_cast<std::uint32_t>(whole + kLeastExponent + kBias)
                     << kMantissaBits;
@@ -112,7 +112,7 @@ RayImage::RayImage(const Points& measured, const RayImageOptions& options)
   for (const auto& p : measured) {
     const Eigen::Vector3f ray = p - origin_;
     const float range = ray.norm();
-    if (range > 0 && std::isfinite(range)) // not if the square leaves float
+    if (range > 0 && std::isfinite(range)) // not if the square overflows float
       rays.push_back({visibility::onCube(ray), codeOf(range)});
   }
   if (rays.empty())
@@ -163,7 +163,7 @@ RayImage::aim(const Eigen::Vector3f& place) const
   return {visibility::onCube(ray), range};
 }
 
-/** Asks for the cells that are likely to answer: where the finest is empty, the next one does. */
+/** Prefetches the cells that will probably be used: the finest, or the next if empty. */
 void
 RayImage::fetch(const Aim& aim) const
 {
@@ -188,7 +188,7 @@ RayImage::look(const Points& places, const std::vector<float>& sigmas) const
   require(sigmas.size() == places.size() || sigmas.size() == 1,
           "sigmas",
           sigmas.size(),
-          "one per place, or one for all");
+          "1, or the number of places");
   constexpr std::size_t kAhead = 16;
   std::array<Aim, kAhead> aims;
   std::vector<SightOfPlace> seen(places.size());
@@ -219,7 +219,7 @@ RayImage::lookAlong(const Aim& aim, float sigma) const
       continue;
     const auto noise = static_cast<float>(noise_);
     const float deviation = std::sqrt(noise * noise + sigma * sigma);
-    // Within a cell a surface that is not seen at a grazing angle changes by its width.
+    // Except at grazing angles, the range of a surface in a cell changes by its width.
     const float tolerance =
         kSameSigmas * deviation + static_cast<float>(level.cell) * range;
     const float nearest = rangeOf(around.nearest), farthest = rangeOf(around.farthest);

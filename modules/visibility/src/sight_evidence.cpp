@@ -11,19 +11,20 @@
 namespace pcl6d {
 
 namespace {
-/** A patch says something with so many points that do ... */
+/** Least number of free or confirmed points of a patch ... */
 constexpr std::size_t kLeastOfPatch = 4;
-/** ... and is contradicted by so many, and half of them (algorithms.md T.1). */
+/** ... and least number of free points, together with half of all points, for a contradiction
+ * (T.1). */
 constexpr std::size_t kLeastFree = 3;
 
-/** So many of a scan's own points are looked at: a share of 5 % of them is known to a tenth. */
+/** Number of a scan's own tested points: a share of 5 % is estimated to a tenth. */
 constexpr std::size_t kLookedAtOwn = 5000;
 
-/** A point that says something, and of which patch it is. */
-struct Witness {
+/** A free or confirmed point, and its patch. */
+struct Observer {
   VoxelKey patch;
   bool free;
-  std::size_t contradiction; ///< place in the list, if it is free
+  std::size_t contradiction; ///< index in the list, if the point is free
   Eigen::Vector3f place;
 };
 
@@ -33,26 +34,26 @@ shareOf(std::size_t part, std::size_t rest)
   return part == 0 ? 0 : static_cast<double>(part) / static_cast<double>(part + rest);
 }
 
-/** Counts the patches of witnesses, and marks the contradictions in contradicted ones.
- * \return the contradicted patches, as places in the list of contradictions */
+/** Counts the patches of the tested points, and marks contradictions in bad patches.
+ * \return the contradicted patches, by indices into the list of contradictions */
 std::vector<std::vector<std::size_t>>
-countPatches(std::vector<Witness>& witnesses,
+countPatches(std::vector<Observer>& observers,
              SightEvidence& evidence,
              std::vector<Contradiction>& contradictions)
 {
   std::vector<std::vector<std::size_t>> found;
   std::stable_sort(
-      witnesses.begin(), witnesses.end(), [](const Witness& a, const Witness& b) {
+      observers.begin(), observers.end(), [](const Observer& a, const Observer& b) {
         return a.patch < b.patch;
       });
-  for (auto first = witnesses.begin(); first != witnesses.end();) {
+  for (auto first = observers.begin(); first != observers.end();) {
     const auto last =
-        std::find_if(first, witnesses.end(), [first](const Witness& witness) {
-          return witness.patch != first->patch;
+        std::find_if(first, observers.end(), [first](const Observer& observer) {
+          return observer.patch != first->patch;
         });
     const auto all = static_cast<std::size_t>(last - first);
     const auto free = static_cast<std::size_t>(std::count_if(
-        first, last, [](const Witness& witness) { return witness.free; }));
+        first, last, [](const Observer& observer) { return observer.free; }));
     const bool contradicted = free >= kLeastFree && 2 * free >= all;
     if (all >= kLeastOfPatch) {
       ++evidence.patches;
@@ -72,9 +73,9 @@ countPatches(std::vector<Witness>& witnesses,
   return found;
 }
 
-/** Tells those contradicted patches that are of things from the rest. */
+/** Separates contradicted patches of isolated objects from the rest. */
 void
-countThings(const std::vector<Witness>& witnesses,
+countThings(const std::vector<Observer>& observers,
             const std::vector<Contradiction>& contradictions,
             const std::vector<std::vector<std::size_t>>& patches,
             const SightPatch& size,
@@ -83,16 +84,16 @@ countThings(const std::vector<Witness>& witnesses,
   Points free, confirmed;
   for (const Contradiction& one : contradictions)
     free.push_back(one.place);
-  for (const Witness& witness : witnesses)
-    if (!witness.free)
-      confirmed.push_back(witness.place);
+  for (const Observer& observer : observers)
+    if (!observer.free)
+      confirmed.push_back(observer.place);
   const auto found = visibility::standingThings(
       free, confirmed, patches, 0.5 * size.edge, size.largest_thing);
   evidence.things = found.things;
   evidence.patches_of_things = found.patches;
 }
 
-/** \return variance [m^2] of a place along the ray to it */
+/** \return variance [m^2] of a position along the ray to it */
 double
 varianceAlong(const Eigen::Vector3d& place,
               const Eigen::Vector3d& ray,
@@ -101,12 +102,12 @@ varianceAlong(const Eigen::Vector3d& place,
   Eigen::Matrix<double, 6, 1> j;
   j.head<3>() = ray.normalized();
   j.tail<3>() = place.cross(j.head<3>());
-  // A covariance that is only nearly positive would make it negative by rounding.
+  // Rounding can make the result of a barely positive covariance negative.
   return uncertainty.noise * uncertainty.noise +
          std::max(0.0, j.dot(uncertainty.motion * j));
 }
 
-/** Points that are finite, their places in an image, and how exactly they are known. */
+/** Finite points, their positions in an image, and their standard deviations. */
 struct UncertainPlaces {
   Points points, places;
   std::vector<float> sigmas; ///< [m] one per place
@@ -181,8 +182,8 @@ sightEvidence(const RayImage& image,
           patch.largest_thing,
           "finite and >= 0");
   SightEvidence evidence;
-  std::vector<Witness> witnesses;
-  // The list of the caller stays as it is if a point throws.
+  std::vector<Observer> observers;
+  // The caller's list is unchanged if a point throws.
   std::vector<Contradiction> found;
   const auto [finite, places, sigmas] =
       placesOf(image, points, T_image_points, uncertainty);
@@ -202,18 +203,18 @@ sightEvidence(const RayImage& image,
       continue;
     case Sight::kConfirmed:
       ++evidence.confirmed;
-      witnesses.push_back({voxelKey(p, patch.edge), false, 0, p});
+      observers.push_back({voxelKey(p, patch.edge), false, 0, p});
       continue;
     case Sight::kFree:
       break;
     }
     ++evidence.free;
-    witnesses.push_back({voxelKey(p, patch.edge), true, found.size(), p});
+    observers.push_back({voxelKey(p, patch.edge), true, found.size(), p});
     found.push_back({p, seen.beyond, false});
   }
-  const auto patches = countPatches(witnesses, evidence, found);
+  const auto patches = countPatches(observers, evidence, found);
   if (patch.largest_thing > 0 && !patches.empty())
-    countThings(witnesses, found, patches, patch, evidence);
+    countThings(observers, found, patches, patch, evidence);
   if (contradictions)
     contradictions->insert(contradictions->end(), found.begin(), found.end());
   return evidence;

@@ -11,11 +11,11 @@
 namespace pcl6d::visibility {
 
 namespace {
-/** Contradicted points that hang together. */
+/** A cluster of contradicted points. */
 struct Cluster {
   Eigen::AlignedBox3f box;
   std::size_t patches = 0;
-  std::size_t free = 0, confirmed = 0; ///< around its points, one by one
+  std::size_t free = 0, confirmed = 0; ///< around its points, summed
 };
 } // namespace
 

@@ -8,18 +8,19 @@
 
 namespace pcl6d::visibility {
 
-/** \brief Things that stand alone among contradicted points. */
+/** \brief Numbers of isolated objects among contradicted points. */
 struct StandingThings {
   std::size_t things = 0;
-  std::size_t patches = 0; ///< that are parts of them
+  std::size_t patches = 0; ///< of isolated objects
 };
 
-/** \brief Finds them: contradicted points that hang together, no larger than things are, around
- * which fewer than half of the points that say something are confirmed. As those who look for what
- * moved do it (moving_objects): a surface that goes on where it is seen is no thing.
- * \param[in] patches contradicted ones, each with its points as places in the list of free ones
- * \param[in] reach [m] within which points hang together; > 0
- * \param[in] largest [m] diagonal of the box about a thing */
+/** \brief Finds isolated objects: connected contradicted points, no larger than the given size,
+ * with fewer than half of the conclusive points around confirmed. The rules are those of the
+ * search for dynamic objects (moving_objects): a surface that continues in seen space is no
+ * isolated object.
+ * \param[in] patches contradicted patches, each with the indices of its points in `free`
+ * \param[in] reach [m] largest distance of connected points; > 0
+ * \param[in] largest [m] diagonal of an object's bounding box */
 StandingThings
 standingThings(const Points& free,
                const Points& confirmed,

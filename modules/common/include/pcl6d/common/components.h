@@ -10,25 +10,24 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The connected components of a graph, as its edges are told one by one
- * (union-find). \ingroup common */
+/** \brief The connected components of a graph, updated edge by edge (union-find).
+ * \ingroup common */
 class Components {
 public:
-  /** \brief Vertices that nothing joins yet. */
+  /** \brief Vertices without edges. */
   explicit Components(std::size_t num_vertices) : parent_(num_vertices)
   {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
 
-  /** \brief Tells of an edge. \return false: a and b were joined already, so that the
-   * edge closes a cycle */
+  /** \brief Adds an edge. \return false: a and b were connected already, the edge closes a cycle */
   bool
   join(std::size_t a, std::size_t b)
   {
     a = firstOf(a);
     b = firstOf(b);
     parent_[std::max(a, b)] =
-        std::min(a, b); // so the root is the first of its component
+        std::min(a, b); // keeps the first vertex of a component as its root
     return a != b;
   }
 

@@ -5,9 +5,8 @@
 
 #include <Eigen/Core>
 
-/** \file
- * Eigen's decompositions of the sizes that the suite needs, compiled once: each costs
- * seconds of compile time wherever it is used, and a call nothing beside the work. */
+/** \file Eigen's decompositions in the sizes used by the suite, compiled once: each
+ * instantiation costs seconds of compile time, the extra function call is negligible. */
 namespace PCL6D_EXPORTS pcl6d {
 
 /** A = V diag(values) V^T. */
@@ -17,7 +16,7 @@ struct SymmetricEigen {
   Eigen::Matrix<double, Size, Size> vectors; ///< V: unit eigenvectors as columns
 };
 
-/** \param[in] A symmetric: only its lower triangle is read. Size: 2, 3, 4, 6, 7 or
+/** \param[in] A symmetric: only the lower triangle is read. Size: 2, 3, 4, 6, 7 or
  * Eigen::Dynamic
  * \ingroup common */
 template <int Size>

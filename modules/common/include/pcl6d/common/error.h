@@ -12,9 +12,9 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief The caller's mistake: an option, a size, a null cloud. Thrown before any
  * work.
  *
- * The message names what was found and the rule: `max_iterations = -1, but must be >
- * 0`. Derives from PCL's exception, so existing handlers work; what() is the message
- * alone, without PCL's prefix. \ingroup common */
+ * The message names the value and the rule: `max_iterations = -1, but must be > 0`. Derives
+ * from PCL's exception, so existing handlers work; what() is the message without PCL's prefix.
+ * \ingroup common */
 class BadArgument : public pcl::BadArgumentException {
 public:
   explicit BadArgument(const std::string& message);
@@ -25,7 +25,7 @@ private:
   std::string message_;
 };
 
-/** \brief The data do not allow an answer. The message says what was found and what was
+/** \brief The data do not allow an answer. The message states the value found and the value
  * needed. \ingroup common */
 class ComputeFailed : public pcl::ComputeFailedException {
 public:
@@ -37,7 +37,7 @@ private:
   std::string message_;
 };
 
-/** \brief A file or device said no. The message names file, place, value and rule:
+/** \brief Reading or writing failed. The message names file, position, value and rule:
  * `scan003.pcd: line 12: expected 3 numbers, got 2`. \ingroup common */
 class IoFailed : public pcl::IOException {
 public:

@@ -5,9 +5,8 @@
 #error "PCL6D needs C++17: compile with -std=c++17 or later"
 #endif
 
-/** \file
- * What the libraries of the suite show. They are built with hidden visibility; a public
- * header opens its namespace as `namespace PCL6D_EXPORTS pcl6d {`, so that what it
- * declares, and nothing else, can be linked against. The internals of a module live in a
- * namespace of its own (`pcl6d::search`), whose blocks carry no such mark. */
+/** \file Symbol visibility of the libraries. The libraries are built with hidden visibility. A
+ * public header opens the namespace as `namespace PCL6D_EXPORTS pcl6d {`, and only declarations
+ * in such a block can be linked against. Internals of a module live in a separate namespace
+ * (`pcl6d::search`), without the mark. */
 #define PCL6D_EXPORTS [[gnu::visibility("default")]]

@@ -10,7 +10,7 @@
 
 namespace pcl6d {
 
-/** \brief A number that tells data apart, to the last bit: FNV-1a over words. The same on all
+/** \brief A hash that distinguishes data to the last bit: FNV-1a over words. Equal on all
  * machines of one byte order; no protection against malice. \ingroup common */
 class Fingerprint {
 public:

@@ -9,23 +9,23 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief So far an entry of an information matrix may be from its mirror image, beside
- * the largest entry: rounding. */
+/** \brief Largest difference of an entry of an information matrix from its mirror image,
+ * relative to the largest entry: rounding. */
 constexpr double kAsymmetryTolerance = 1e-9;
 
-/** \brief So far below zero an eigenvalue of an information matrix may be, beside the
- * largest one: digits that a text file has lost. */
+/** \brief Largest magnitude of a negative eigenvalue of an information matrix, relative to the
+ * largest eigenvalue: digits lost in a text file. */
 constexpr double kNegativeTolerance = 1e-6;
 
-/** \return what an information matrix (inverse covariance) breaks: "not finite", "not
- * symmetric", "not positive semidefinite"; empty: nothing, within the tolerances above
+/** \return the fault of an information matrix (inverse covariance): "not finite", "not
+ * symmetric", "not positive semidefinite"; empty: no fault within the tolerances above
  * \ingroup common */
 std::string
 informationFault(const Eigen::Matrix<double, 6, 6>& information);
 
-/** \return the matrix without what the tolerances let pass: symmetric, negative
- * eigenvalues zero, so that no motion lowers a sum of squares below zero; the same bits
- * if there is nothing to repair. \param[in] information one without a fault */
+/** \return the matrix made symmetric, with negative eigenvalues set to zero: no motion lowers a
+ * sum of squares below zero. A valid matrix keeps all bits. \param[in] information without a
+ * fault */
 Eigen::Matrix<double, 6, 6>
 semidefinite(const Eigen::Matrix<double, 6, 6>& information);
 

@@ -3,9 +3,8 @@
 
 #include <pcl/point_types.h>
 
-/** \file
- * The point types for which the suite's templates are compiled once, in one list. Other
- * types work from the headers (include the class's impl/.hpp). */
+/** \file The point types for which the suite's templates are compiled once, in one list. Further
+ * point types work from the headers (include the class's impl/.hpp). */
 
 /** Calls MACRO(argument, PointT) for every precompiled point type. */
 #define PCL6D_FOR_POINT_TYPES(MACRO, argument)                                         \
@@ -17,7 +16,7 @@
 
 #define PCL6D_DECLARE_ONE_(Class, PointT) extern template class Class<PointT>;
 #define PCL6D_DEFINE_ONE_(Class, PointT) template class Class<PointT>;
-/** For class templates over one point type. */
+/** For class templates over a single point type. */
 #define PCL6D_DECLARE_INSTANCES(Class) PCL6D_FOR_POINT_TYPES(PCL6D_DECLARE_ONE_, Class)
 #define PCL6D_DEFINE_INSTANCES(Class) PCL6D_FOR_POINT_TYPES(PCL6D_DEFINE_ONE_, Class)
 

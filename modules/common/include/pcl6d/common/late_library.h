@@ -7,14 +7,14 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Opens a library of the suite that nothing is linked with, as few who use the rest
- * need it, and which they need not build either. It is looked for beside libpcl6d_common,
- * else where the system looks, and stays open until the process ends.
- * \param[in] purpose what it is needed for, with which errors begin
- * \param[in] library its name without "lib" and ".so", which is also that of its target
- * \return the address of what it shows under the name symbol
- * \throws IoFailed there is no such library (the message says what builds it), or it cannot
- * be opened \ingroup common */
+/** \brief Opens an optional library of the suite at run time. No target links with such a
+ * library, so most users need not build the library. The loader looks beside libpcl6d_common,
+ * then in the system's directories; the library stays open until the process ends.
+ * \param[in] purpose use of the library, the start of error messages
+ * \param[in] library name without "lib" and ".so", also the name of the build target
+ * \return the address of the symbol
+ * \throws IoFailed the library is missing (the message tells the target to build), or cannot be
+ * opened \ingroup common */
 void*
 symbolOfLateLibrary(const std::string& purpose,
                     const std::string& library,

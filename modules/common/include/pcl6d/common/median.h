@@ -8,8 +8,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The value in the middle: one of the values, the upper one of the middle two for an
- * even count. \param[in] values copied, as they are put in order \return 0 without values */
+/** \brief The median: for an even count the upper of the middle two values. \param[in] values
+ * copied, since the search reorders the vector \return 0 without values */
 inline double
 upperMedian(std::vector<double> values)
 {

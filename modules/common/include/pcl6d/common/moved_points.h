@@ -9,30 +9,30 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What the poses of scans belong to whose points lie far from the origin of their
+/** \brief Meaning of the poses of scans whose points lie far from the origin of their
  * coordinates. */
 enum class PoseReading {
-  kFile,    ///< T p is in the world, p as the file has it
+  kFile,    ///< T p is in the world, for p from the file
   kScanner, ///< T (p - offset) is: the points carry an offset, the poses do not
-  kStation  ///< p is in the world, and T tells where the scanner stood
+  kStation  ///< p is in the world, and T is only the pose of the scanner
 };
 
 /** \return file, scanner, station */
 const char*
 toString(PoseReading reading);
-/** \throws BadArgument no such name; the message lists all */
+/** \throws BadArgument another name; the message lists the valid names */
 PoseReading
 poseReadingFromName(const std::string& name);
 
-/** \brief How scans whose points lie far from the origin of their coordinates (national
- * coordinates, say) are brought near, so that float keeps their digits. What is read of
- * them are "near" points: p - offset, of kStation T^-1 p. \ingroup common */
+/** \brief Shift of scans with points far from the origin (national coordinates, for example) to
+ * near coordinates, to keep their digits in float. Scans are read as "near" points: p - offset,
+ * for kStation T^-1 p. \ingroup common */
 struct MovedPoints {
   PoseReading reading = PoseReading::kFile;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< whole metres; of kStation zero
 
-  /** \param[in] given pose of the scan, as the user gave it
-   * \return the motion that makes near points of those of the file */
+  /** \param[in] given pose of the scan, from the user
+   * \return the motion from points of the file to near points */
   Eigen::Isometry3d
   toNear(const Eigen::Isometry3d& given) const
   {
@@ -41,14 +41,14 @@ struct MovedPoints {
                : Eigen::Isometry3d(Eigen::Translation3d(-offset));
   }
 
-  /** \return T_world_near of a pose in the meaning of those that were given */
+  /** \return T_world_near of a given pose */
   Eigen::Isometry3d
   ofNear(const Eigen::Isometry3d& given) const
   {
     return reading == PoseReading::kFile ? given * Eigen::Translation3d(offset) : given;
   }
 
-  /** \return the inverse of ofNear(): a pose that means what the given ones mean */
+  /** \return the inverse of ofNear(): the pose in the user's convention */
   Eigen::Isometry3d
   asGiven(const Eigen::Isometry3d& T_world_near) const
   {

@@ -10,9 +10,8 @@
 #include <string_view>
 #include <vector>
 
-/** \file
- * The words for the values of an enumeration, in command lines and files. A table is an
- * array in the order in which messages list the words:
+/** \file The words for the values of an enumeration, in command lines and files. A table is an
+ * array in the order of the words in messages:
  * \code
  * constexpr Named<Metric> kMetrics[] = {{Metric::kPoint, "point"}, ...};
  * \endcode */
@@ -57,7 +56,7 @@ listed(const Named<Value> (&table)[N], WordList style)
   return words;
 }
 
-/** \return the value of a word, if there is one */
+/** \return the value of a word, if known */
 template <typename Value, std::size_t N>
 std::optional<Value>
 findNamed(const Named<Value> (&table)[N], std::string_view name)
@@ -68,8 +67,8 @@ findNamed(const Named<Value> (&table)[N], std::string_view name)
   return {};
 }
 
-/** \param[in] what the option, for the message \throws BadArgument "what = name, but must
- * be ..." with the words of the table */
+/** \param[in] what the option, for the message \throws BadArgument "what = name, but must be
+ * ..." with the words of the table */
 template <typename Value, std::size_t N>
 Value
 fromName(const Named<Value> (&table)[N],
@@ -82,7 +81,7 @@ fromName(const Named<Value> (&table)[N],
   return *found;
 }
 
-/** \return the word of a value, or the other one if it has none */
+/** \return the word of a value; `otherwise` for a value without a word */
 template <typename Value, std::size_t N>
 constexpr const char*
 nameOf(const Named<Value> (&table)[N], Value value, const char* otherwise = "unknown")

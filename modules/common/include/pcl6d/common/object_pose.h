@@ -10,14 +10,14 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief An object of a known class and where it is (book 7.2). \ingroup common */
+/** \brief An object of a known class with pose and box (book 7.2). \ingroup common */
 struct ObjectPose {
   std::string object_class; ///< "chair"
   Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity();
   Eigen::AlignedBox3d box{Eigen::Vector3d::Zero(),
                           Eigen::Vector3d::Zero()}; ///< [m] in the object's frame
-  bool moves = false;     ///< then its pose holds at the start
-  std::size_t points = 0; ///< points on it
+  bool moves = false;                               ///< the pose is that of the start
+  std::size_t points = 0;                           ///< points on the object
 };
 
 } // namespace pcl6d

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-/** \file Results as bytes, for other processes of the same program and for journals of this
- * machine: values one after the other, as they are in memory. A struct says what it is made of
- * by a function beside it, one for both ways:
+/** \file Results as bytes, for further processes of the program and for journals on one machine:
+ * values in sequence, in memory layout. A function beside a struct lists the members, for
+ * packing and unpacking:
  * \code
  * template <typename Archive>
  * void
@@ -27,7 +27,7 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 namespace packing {
-/** Whether a value lies in memory as it is to be packed. */
+/** Whether a value is packed by copying memory. */
 template <typename Value>
 struct IsPlain : std::bool_constant<std::is_trivially_copyable_v<Value>> {};
 template <typename Scalar, int Rows, int Cols>
@@ -54,7 +54,7 @@ public:
     if constexpr (packing::IsPlain<Value>::value)
       bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
     else
-      packFields(*this, const_cast<Value&>(v)); // reads it
+      packFields(*this, const_cast<Value&>(v)); // only reads
   }
   void
   value(const std::string& v)
@@ -97,7 +97,7 @@ public:
   /** \param[in] bytes kept by reference */
   explicit Unpacker(const std::string& bytes) : bytes_(bytes) {}
 
-  /** \throws IoFailed there are too few bytes */
+  /** \throws IoFailed the buffer is too short */
   template <typename... Values>
   void
   operator()(Values&... values)

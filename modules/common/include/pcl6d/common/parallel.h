@@ -7,19 +7,18 @@
 #include <functional>
 #include <vector>
 
-/** \file
- * Parallel loops whose results do not depend on the number of threads (book 4.1.6):
- * work is cut into blocks of fixed size, each block is summed by one thread, and the
- * partial sums are merged by a fixed binary tree. */
+/** \file Parallel loops with results that do not depend on the number of threads (book 4.1.6):
+ * work is cut into blocks of fixed size, each block is summed by one thread, and the partial
+ * sums are merged by a fixed binary tree. */
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \return the number of threads to use. \param[in] wanted 0: one per core */
 unsigned int
 threadCount(unsigned int wanted);
 
-/** \brief Calls body(0) .. body(count - 1), each once, from several threads.
- * An exception thrown by the body is thrown again here; the one of the lowest index
- * wins. \param[in] num_threads 0: one per core */
+/** \brief Calls body(0) .. body(count - 1), each once, from several threads. An exception of the
+ * body is rethrown; the exception of the lowest index wins. \param[in] num_threads 0: one per
+ * core */
 void
 parallelFor(std::size_t count,
             unsigned int num_threads,
@@ -40,10 +39,10 @@ parallelBlocks(std::size_t size,
                unsigned int num_threads,
                const std::function<void(const Block&)>& body);
 
-/** \brief Merges partial results by a binary tree over their index: neighbours first,
- * an odd one carried up. The order is fixed, hence the bits of floating sums too.
+/** \brief Merges partial results by a binary tree over the index: neighbours first, an odd
+ * element is carried up. The order is fixed, hence the bits of floating sums too.
  * \param[in] merge binary operation T(const T&, const T&)
- * \return the merged value, or T() if there are no partials */
+ * \return the merged value, or T() without partials */
 template <typename T, typename Merge>
 T
 mergeTree(std::vector<T> partials, Merge merge)

@@ -13,8 +13,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What a surface is to a person (book 7.1.2): the labels of the book's network.
- * As a number it is the field `label` of a point. Rules of a user's own may name more
+/** \brief Semantic label of a surface (book 7.1.2): the labels of the book's network. The
+ * numeric value is the field `label` of a point. User-defined rules may add labels
  * (Plane::label). \ingroup common */
 enum class PlaneLabel { kNone = 0, kFloor = 1, kCeiling = 2, kWall = 3, kDoor = 4 };
 
@@ -33,16 +33,16 @@ toString(PlaneLabel label);
 struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit length
   double offset = 0;                                 ///< [m] >= 0
-  std::string label = "none"; ///< what it is: toString(PlaneLabel) or a user's word
+  std::string label = "none";        ///< toString(PlaneLabel) or a user's word
   std::vector<Eigen::Vector3d> hull; ///< [m] convex, counter-clockwise against normal
   double area = 0;                   ///< [m^2]
-  std::size_t inliers = 0;           ///< points on it
+  std::size_t inliers = 0;           ///< points on the plane
   double rms = 0;                    ///< [m] of their distances to the plane
 };
 
-/** \brief Turns a plane's normal around, if need be, so that offset >= 0; where the
- * plane runs through the origin (|offset| <= 1e-12 m), the first component of the
- * normal other than 0 becomes positive. The hull is turned with it. */
+/** \brief Flips a plane's normal, if needed, to make offset >= 0. For a plane through the origin
+ * (|offset| <= 1e-12 m), the first non-zero component of the normal becomes positive. The hull
+ * is reversed accordingly. */
 void
 orientPlane(Plane& plane);
 

@@ -9,8 +9,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The compiled core's view of a cloud: contiguous float x, y, z [m], in the
- * frame of the scan that they belong to. \ingroup common */
+/** \brief The compiled core's view of a cloud: contiguous float x, y, z [m], in the frame of the
+ * scan. \ingroup common */
 using Points = std::vector<Eigen::Vector3f>;
 
 /** \brief Copies the coordinates of a cloud of PCL, NaN points included.
@@ -26,7 +26,8 @@ toPoints(const Cloud& cloud)
   return points;
 }
 
-/** \brief Copies the coordinates of the chosen points of a cloud of PCL, in that order.
+/** \brief Copies the coordinates of selected points of a cloud of PCL, in the order of the
+ * indices.
  * \param[in] indices pcl::Indices, or any range of integers below the cloud's size */
 template <typename Cloud, typename Indices>
 Points

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <vector>
 
-/** \file Polygons, flat ones and such on a plane in space: which side, what area, inside
- * or not, how near, convex hull, triangles. A polygon is the list of its corners [m] in
- * order, the last one joined to the first. \ingroup common */
+/** \file Polygons in the plane and on planes in space: orientation, area, containment, distance,
+ * convex hull, triangulation. A polygon is the ordered list of its corners [m]; the last corner
+ * joins the first. \ingroup common */
 namespace PCL6D_EXPORTS pcl6d {
 
 struct Plane;
@@ -39,13 +39,13 @@ signedArea(const std::vector<Eigen::Vector2d>& ring);
 bool
 isInside(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& p);
 
-/** \brief The same for several rings together, such as islands and the lakes in them. */
+/** \brief Containment in several rings together, for example islands and the lakes inside. */
 bool
 isInside(const std::vector<std::vector<Eigen::Vector2d>>& rings,
          const Eigen::Vector2d& p);
 
-/** \return whether a point, seen along the normal, lies in a convex polygon that was
- * grown by margin [m] */
+/** \return whether a point, projected along the normal, lies in a convex polygon grown by margin
+ * [m] */
 bool
 isInside(const std::vector<Eigen::Vector3d>& polygon,
          const Eigen::Vector3d& normal,
@@ -57,12 +57,11 @@ double
 extentAlong(const std::vector<Eigen::Vector3d>& corners,
             const Eigen::Vector3d& direction);
 
-/** \return the centre of the area of a convex polygon; the mean of its corners if it has
- * no area */
+/** \return the centroid of a convex polygon; the mean of the corners if the area is zero */
 Eigen::Vector3d
 centreOfArea(const std::vector<Eigen::Vector3d>& corners);
 
-/** \return whether a line in plan that follows an edge of a, or stands on it, parts the
+/** \return whether a line parallel or perpendicular to an edge of a, in plan, separates the
  * convex polygons by more than margin [m] (separating axes) */
 bool
 apartAcrossEdgesOf(const std::vector<Eigen::Vector3d>& a,
@@ -76,25 +75,23 @@ hullToHull(const std::vector<Eigen::Vector3d>& a,
            const Eigen::Vector3d& normal,
            const std::vector<Eigen::Vector3d>& b);
 
-/** \return the convex hull of points on a plane, counter-clockwise as seen from where
- * the normal points to; corners on an edge are left out
+/** \return the convex hull of points on a plane, counter-clockwise seen against the normal;
+ * corners on an edge are left out
  * \param[in] normal unit normal of the plane
  * \note Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two
  * dimensions", Information Processing Letters 9(5), 1979. */
 std::vector<Eigen::Vector3d>
 convexHull(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& normal);
 
-/** \brief Cuts a flat polygon with holes into triangles by clipping its ears.
+/** \brief Triangulates a flat polygon with holes by ear clipping.
  *
- * Rings are lists of corners on a plane: outer ones counter-clockwise as seen from
- * where the normal points to, each followed by its holes, clockwise. Rings of fewer
- * than 3 corners, and holes without an outer ring, are left out. Of rings that cross
- * themselves or each other the triangles may overlap; there are always as many as for a
- * proper polygon. O(n^2) for n corners as a rule.
+ * Rings are lists of corners on a plane: outer rings counter-clockwise seen against the normal,
+ * each followed by its holes, clockwise. Rings of fewer than 3 corners, and holes without an
+ * outer ring, are left out. Triangles may overlap if rings cross; the number of triangles
+ * always equals that of a proper polygon. O(n^2) for n corners in general.
  * \return counter-clockwise triangles; indices count the corners of all rings in order
- * \note Source: G. H. Meisters, "Polygons have ears", American Mathematical Monthly
- * 82(6), 1975; holes are joined to their outer ring by a cut to a corner that they see.
- */
+ * \note Source: G. H. Meisters, "Polygons have ears", American Mathematical Monthly 82(6),
+ * 1975; a cut to a visible corner joins each hole to the outer ring. */
 std::vector<std::array<std::uint32_t, 3>>
 triangulate(const std::vector<std::vector<Eigen::Vector3d>>& rings,
             const Eigen::Vector3d& normal);
@@ -102,7 +99,7 @@ triangulate(const std::vector<std::vector<Eigen::Vector3d>>& rings,
 /** \brief The space over and under the convex hull of a plane, without end. */
 class HullPrism {
 public:
-  /** \param[in] plane without corners its prism is all of space */
+  /** \param[in] plane without corners the prism is all of space */
   explicit HullPrism(const Plane& plane);
 
   /** \return whether a point is in the prism grown by a margin [m] */

@@ -3,22 +3,21 @@
 
 #include <pcl6d/common/export.h>
 
-/** \file
- * Sine, cosine, arc tangent, arc cosine, logarithm and exponential from + - * / and sqrt
- * alone, which IEEE 754 fixes to the last bit. The C library's functions are as accurate but
- * not as constant: glibc takes other code on a CPU with FMA than on one without, and
- * the last bits of sin, cos, tan, acos, atan2, exp, log and pow differ. Whatever a
- * result depends on calls these instead; so it must not call Eigen::AngleAxis,
- * Quaternion::slerp, angularDistance, eulerAngles or
- * SelfAdjointEigenSolver::computeDirect either. Eigen's other decompositions, inverses
- * and conversions between quaternions and matrices need + - * / and sqrt only. Exact,
- * and free to use: std::sqrt, floor, round, frexp, ldexp, fmod, remainder.
+/** \file Sine, cosine, arc tangent, arc cosine, logarithm and exponential from + - * / and sqrt
+ * alone, which IEEE 754 fixes to the last bit. The C library's functions are equally accurate
+ * but vary: glibc runs different code on CPUs with and without FMA, and the last bits of sin,
+ * cos, tan, acos, atan2, exp, log and pow differ. Code that affects a result calls the
+ * functions of this header instead, and must not call Eigen::AngleAxis, Quaternion::slerp,
+ * angularDistance, eulerAngles or SelfAdjointEigenSolver::computeDirect either. Eigen's
+ * remaining decompositions, inverses and conversions between quaternions and matrices use the
+ * four basic operations and sqrt only. Exact, and free to use: std::sqrt, floor, round, frexp,
+ * ldexp, fmod, remainder.
  *
- * To check a program, run it a second time with
- * GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA (glibc 2.33 or later; older ones name them
- * AVX2_Usable and FMA_Usable) and compare the files. Few arguments differ, so this
- * shows little; the proof is that `nm -D --undefined-only` of each library lists none
- * of those functions. test/apps/test_same_bits.cpp does both. */
+ * To check a program, run twice, once with GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA (glibc
+ * 2.33 or later; older versions name the flags AVX2_Usable and FMA_Usable), and compare the
+ * files. Few arguments differ, so the comparison shows little. The proof is that `nm -D
+ * --undefined-only` of each library lists none of the variable functions.
+ * test/apps/test_same_bits.cpp does both. */
 namespace PCL6D_EXPORTS pcl6d {
 
 struct SinCos {
@@ -31,8 +30,8 @@ struct SinCos {
 SinCos
 portableSinCos(double x);
 
-/** \return the angle of the point (x, y) [rad], in [-pi, pi], within 1.5 ulp; for
- * zeros, infinities and NaN what std::atan2 returns */
+/** \return the angle of the point (x, y) [rad], in [-pi, pi], within 1.5 ulp; for zeros,
+ * infinities and NaN the value of std::atan2 */
 double
 portableAtan2(double y, double x);
 

@@ -42,9 +42,8 @@ distanceBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 bool
 isRigid(const Eigen::Isometry3d& pose, double tolerance = 1e-3);
 
-/** \brief The whole metres to subtract from all poses of a run so that float points
- * keep their digits: the rounded first position if it lies farther than 10 km from the
- * origin, else zero. */
+/** \brief The whole metres to subtract from all poses of a run to keep the digits of float
+ * points: the rounded first position if farther than 10 km from the origin, else zero. */
 Eigen::Vector3d
 worldOffset(const Eigen::Isometry3d& first_pose);
 

@@ -10,7 +10,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A measurement of one pose seen from another. \ingroup common */
+/** \brief A measured relative pose of two vertices. \ingroup common */
 struct PoseLink {
   std::size_t from = 0;                                        ///< vertex a
   std::size_t to = 0;                                          ///< vertex b
@@ -20,7 +20,7 @@ struct PoseLink {
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Identity();
 };
 
-/** \brief Poses and what was measured between them. \ingroup common */
+/** \brief Poses and the measured links between them. \ingroup common */
 struct PoseGraph {
   std::vector<Eigen::Isometry3d> poses; ///< T_world_vertex [m]
   std::vector<PoseLink> links;

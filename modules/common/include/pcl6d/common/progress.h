@@ -9,15 +9,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How far a stage has come. Libraries report it and never print. \ingroup
- * common */
+/** \brief Progress of a stage. Libraries report progress by callback and never print.
+ * \ingroup common */
 struct Progress {
-  std::string stage;     ///< what is being done: "reading", "matching"
+  std::string stage;     ///< the stage: "reading", "matching"
   std::size_t done = 0;  ///< finished steps
-  std::size_t total = 0; ///< all steps; 0 if not known
+  std::size_t total = 0; ///< number of steps; 0 if not known
 };
 
-/** \brief Called from the thread that runs the stage. May be empty. */
+/** \brief Called from the thread of the stage. May be empty. */
 using ProgressCallback = std::function<void(const Progress&)>;
 
 } // namespace pcl6d

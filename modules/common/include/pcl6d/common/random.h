@@ -8,8 +8,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Seeded random numbers that are the same with every standard library and on
- * every CPU: the distributions of the standard are not, so they are spelled out here.
+/** \brief Seeded random numbers, equal for every standard library and CPU: the distributions of
+ * the standard differ and are therefore implemented here.
  * \ingroup common */
 class Random {
 public:
@@ -37,8 +37,8 @@ private:
   std::mt19937_64 engine_;
 };
 
-/** \brief Mixes the bits of a key (the finaliser of splitmix64, Steele et al. 2014), so
- * that a random choice can depend on the key alone and not on the order of the work. */
+/** \brief Mixes the bits of a key (the finaliser of splitmix64, Steele et al. 2014), for random
+ * choices that depend on the key and not on the order of the work. */
 inline std::uint64_t
 mixBits(std::uint64_t key)
 {

@@ -8,8 +8,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Raw measurements of a 2D scanner on a drive, line by line as they came: what
- * the devices of book 2.2.3 deliver. \ingroup common */
+/** \brief Raw measurements of a 2D scanner on a drive, line by line: the output of the devices
+ * of book 2.2.3. \ingroup common */
 struct RangeLines {
   std::vector<double> angles; ///< [rad] of the drive at the start of each line
   std::vector<double> times;  ///< [s] of the starts, increasing; empty: not known

@@ -9,7 +9,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Checks an option against its rule, with one wording for all of them.
+/** \brief Checks an option against a rule, with a uniform message.
  * \throws BadArgument "name = value, but must be rule" unless the rule is kept */
 template <typename Value>
 void

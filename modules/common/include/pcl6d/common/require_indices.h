@@ -12,7 +12,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return whether every index is that of one of num_points points */
+/** \return whether every index is below num_points and not negative */
 inline bool
 areIndices(const pcl::Indices& indices, std::size_t num_points)
 {
@@ -21,7 +21,7 @@ areIndices(const pcl::Indices& indices, std::size_t num_points)
   });
 }
 
-/** \throws BadArgument unless every index is that of one of num_points points */
+/** \throws BadArgument unless every index is below num_points and not negative */
 inline void
 requireIndices(const pcl::Indices& indices, std::size_t num_points)
 {

@@ -5,10 +5,9 @@
 
 #include <Eigen/Geometry>
 
-/** \file
- * Representations of rotations and the ways between them (book, Appendix A.1). One
- * Euler convention everywhere: R = Rz(yaw) Ry(pitch) Rx(roll), that of
- * pcl::getTransformation. Angles are in radians, frames right-handed. */
+/** \file Representations of rotations and conversions between them (book, Appendix A.1). One
+ * Euler convention everywhere: R = Rz(yaw) Ry(pitch) Rx(roll), as in pcl::getTransformation.
+ * Angles are in radians, frames right-handed. */
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Roll, pitch and yaw [rad] of R = Rz(yaw) Ry(pitch) Rx(roll). A positive pitch
@@ -37,9 +36,8 @@ skew(const Eigen::Vector3d& v);
 Eigen::Matrix3d
 rotationFromVector(const Eigen::Vector3d& w);
 
-/** \brief Inverse of rotationFromVector(). Goes through the quaternion, which keeps
- * full accuracy for small angles and near pi. \return axis times angle [rad], |w| in
- * [0, pi]; at pi the sign of the axis is free */
+/** \brief Inverse of rotationFromVector(). Uses the quaternion, accurate for small angles and
+ * near pi. \return axis times angle [rad], |w| in [0, pi]; at pi the sign of the axis is free */
 Eigen::Vector3d
 rotationVector(const Eigen::Matrix3d& R);
 
@@ -52,18 +50,18 @@ rotationAngle(const Eigen::Matrix3d& R);
 Eigen::Matrix3d
 slerp(const Eigen::Matrix3d& R0, const Eigen::Matrix3d& R1, double s);
 
-/** \brief The rotation closest to A in the Frobenius norm, by its SVD.
+/** \brief The rotation closest to A in the Frobenius norm, by SVD.
  * \return a proper rotation also for mirrored or singular A */
 Eigen::Matrix3d
 nearestRotation(const Eigen::Matrix3d& A);
 
-/** \return the rotation by the smallest angle that turns the direction `from` into the
- * direction `to`; about any axis across `from` if they are opposite. Lengths do not matter,
- * but must not be zero. */
+/** \return the rotation by the smallest angle that turns the direction `from` into the direction
+ * `to`; about any perpendicular axis if the directions are opposite. Lengths do not matter, but
+ * must not be zero. */
 Eigen::Quaterniond
 shortestRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/** \return q or -q, the one with w >= 0; both are the same rotation */
+/** \return q or -q, with w >= 0; both describe one rotation */
 Eigen::Quaterniond
 canonical(const Eigen::Quaterniond& q);
 

@@ -9,25 +9,25 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What an estimator says of its own result, so that "identity, because nothing
- * was found" can never pass for "identity, because already aligned". \ingroup common */
+/** \brief An estimator's status, to distinguish "identity, no solution found" from "identity,
+ * already aligned". \ingroup common */
 enum class Status {
   kOk,            ///< unique minimiser; converged
-  kRankDeficient, ///< a whole family of minimisers; the one with the smallest motion
+  kRankDeficient, ///< a family of minimisers; returns the smallest motion
   kTooFewPairs,   ///< fewer than 3 pairs; the transform is the input guess or identity
   kMaxIterations, ///< iteration limit reached; the last iterate
-  kDiverged       ///< non-finite value, or the error grew beyond its limit; the guess
+  kDiverged       ///< non-finite value, or the error exceeded the limit; returns guess
 };
 
 /** \return "ok", "rank-deficient", "too-few-pairs", "max-iterations" or "diverged" */
 const char*
 toString(Status status);
 
-/** \throws BadArgument no status has that name */
+/** \throws BadArgument unknown name */
 Status
 statusFromName(const std::string& name);
 
-/** \brief A rigid motion and how far it can be believed. \ingroup common */
+/** \brief A rigid motion with status. \ingroup common */
 struct RigidEstimate {
   Status status = Status::kTooFewPairs;
   Eigen::Isometry3d transform =

@@ -9,7 +9,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The poses of a run in order, with time stamps if the source had them.
+/** \brief The poses of a run in order, with time stamps if available.
  * \ingroup common */
 struct Trajectory {
   std::vector<Eigen::Isometry3d> poses; ///< T_world_scan [m]

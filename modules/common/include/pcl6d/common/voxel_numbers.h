@@ -10,8 +10,8 @@
 
 namespace pcl6d {
 
-/** \brief Numbers voxels in the order in which they come: what belongs to them lies in plain
- * vectors. A hash table with its entries in one block, so that millions of voxels are few
+/** \brief Numbers voxels in the order of insertion: data of voxels are kept in plain vectors. A
+ * hash table with the entries in one block, so that millions of voxels are few
  * allocations. \code
  * const auto [number, is_new] = numbers.add(voxelKey(p, voxel));
  * if (is_new)
@@ -20,7 +20,7 @@ namespace pcl6d {
  * \endcode \ingroup common */
 class VoxelNumbers {
 public:
-  /** \return the number of the voxel, from 0, and whether it is seen for the first time */
+  /** \return the number of the voxel, from 0, and whether the voxel is new */
   std::pair<std::size_t, bool>
   add(VoxelKey key)
   {
@@ -33,7 +33,7 @@ public:
     return {size_ - 1, true};
   }
 
-  /** \return the number of the voxel, or size() if it was not added */
+  /** \return the number of the voxel, or size() if not added */
   std::size_t
   find(VoxelKey key) const
   {
@@ -76,8 +76,8 @@ private:
         slots_[placeOf(slot.key)] = slot;
   }
 
-  std::vector<Slot> slots_; ///< a power of two of them
-  unsigned int shift_ = 64; ///< that leaves so many bits as slots_ has places
+  std::vector<Slot> slots_; ///< a power of two in size
+  unsigned int shift_ = 64; ///< keeps as many bits as needed to index slots_
   std::size_t size_ = 0;
 };
 

@@ -12,21 +12,21 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Another rank could not go on, or this one after it said so: the message is that of
- * the first cause. */
+/** \brief Another rank failed, or this rank after reporting a failure: the message of the first
+ * cause. */
 class RankFailed : public IoFailed {
 public:
   using IoFailed::IoFailed;
 };
 
-/** \brief Several processes (ranks) that run the same program on the same input and share its
- * heavy loops: each computes some items, and what comes out travels to all, so that all go on
- * with the same state. Results are combined in the order of items, never of arrival, so that
- * the bits do not depend on the number of ranks.
+/** \brief Several processes (ranks) that run one program on equal input and share heavy loops:
+ * each rank computes some items, and all ranks receive all results and continue with equal
+ * state. Results are combined in the order of items, not of arrival: the bits do not depend on
+ * the number of ranks.
  *
- * All calls but fail() are collective: every rank makes the same ones in the same order, from
- * one thread. Where one rank fails, the call throws on all of them, so that none waits for
- * another. \ingroup common */
+ * All calls but fail() are collective: every rank makes equal calls in equal order, from one
+ * thread. If a rank fails, the call throws on every rank, and no rank waits forever.
+ * \ingroup common */
 class WorkSharing {
 public:
   virtual ~WorkSharing();
@@ -36,15 +36,15 @@ public:
   virtual std::size_t
   rank() const = 0;
 
-  /** \return whether this rank speaks with the user and writes the files */
+  /** \return whether this rank talks to the user and writes the files */
   bool
   isFirst() const
   {
     return rank() == 0;
   }
 
-  /** \return the rank that computes an item of a loop over scans, or a link by its later scan:
-   * it stays the same whatever else there is */
+  /** \return the rank that computes an item of a loop over scans, or a link by the later scan;
+   * does not depend on the rest of the work */
   std::size_t
   ownerOf(std::size_t scan) const
   {
@@ -56,15 +56,15 @@ public:
     return ownerOf(scan) == rank();
   }
 
-  /** Who is to have the bytes. */
+  /** The ranks that receive the bytes. */
   enum class Receivers { kAll, kFirst };
 
-  /** \return what each rank gives, in their order; nothing where it is not received
+  /** \return the bytes of each rank, in rank order; empty on ranks that do not receive
    * \throws RankFailed a rank has failed */
   std::vector<std::string>
   gather(std::string mine, Receivers receivers = Receivers::kAll);
 
-  /** \return what the first rank gives \throws RankFailed a rank has failed */
+  /** \return the value of the first rank \throws RankFailed a rank has failed */
   template <typename Value>
   Value
   fromFirst(Value value)
@@ -78,37 +78,37 @@ public:
     return value;
   }
 
-  /** \brief Takes part in the next collective call of the others, and makes it throw: for a
-   * rank that ends with an error of its own. Does nothing after a call that threw.
-   * \param[in] message what the user is to read */
+  /** \brief Joins the next collective call of the remaining ranks and makes the call throw: for
+   * a rank that ends with an error. No effect after a call that threw.
+   * \param[in] message for the user */
   void
   fail(const std::string& message) noexcept;
 
-  /** \brief A loop whose items are computed by their owners. */
+  /** \brief A loop with items computed by their owners. */
   struct Loop {
     std::size_t count = 0;
     std::function<void(std::size_t)> compute; ///< of own items, from several threads
     std::function<void(std::size_t, Packer&)> give;   ///< own items, in their order
-    std::function<void(std::size_t, Unpacker&)> take; ///< the same items of other ranks
+    std::function<void(std::size_t, Unpacker&)> take; ///< unpacks another rank's item
     std::function<std::size_t(std::size_t)> owner;    ///< rank of an item
     Receivers receivers = Receivers::kAll;
   };
 
-  /** \throws RankFailed with the message of the first item that failed on another rank; what
-   * compute() threw, where that item is of this rank */
+  /** \throws RankFailed with the message of the first item that failed on another rank; if the
+   * item belongs to this rank, the exception of compute() */
   void
   run(const Loop& loop, unsigned int num_threads);
 
 protected:
-  /** \brief What a rank has to say. */
+  /** \brief Contribution of a rank to a collective call. */
   struct Message {
     bool failed = false;
     std::size_t item = 0; ///< that failed
-    std::string bytes;    ///< of a failed one its message, which all are to have
+    std::string bytes;    ///< of a failed rank the error message, sent to every rank
   };
 
-  /** \brief The collective call itself. \return the messages of all ranks, in their order;
-   * `failed` and `item` of all are there whoever receives the bytes */
+  /** \brief The collective call itself. \return the messages of all ranks, in rank order;
+   * `failed` and `item` are always filled in, `bytes` on receivers only */
   virtual std::vector<Message>
   exchange(Message mine, Receivers receivers) = 0;
 
@@ -119,9 +119,9 @@ private:
   bool over_ = false; ///< a rank has failed
 };
 
-/** \brief parallelFor() over several processes: all of them have all results in the end.
- * \param[in] sharing null: this process does all
- * \param[in,out] results one per item \param[in] owner rank of an item
+/** \brief parallelFor() over several processes: every process ends with all results.
+ * \param[in] sharing null: this process computes all items
+ * \param[in,out] results one element per item \param[in] owner rank of an item
  * \param[in] compute fills in results[i]; called from several threads */
 template <typename Result, typename Owner, typename Compute>
 void
@@ -142,7 +142,7 @@ sharedFor(WorkSharing* sharing,
   sharing->run(loop, num_threads);
 }
 
-/** \brief The same where neighbouring items take about as long. */
+/** \brief sharedFor() if neighbouring items have similar cost. */
 template <typename Result, typename Compute>
 void
 sharedFor(WorkSharing* sharing,

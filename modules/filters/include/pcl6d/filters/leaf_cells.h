@@ -13,15 +13,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Coordinates that lie somewhere in memory: x, y, z [m] of the point i from the float
- * first[stride * i] on. */
+/** \brief View of coordinates in memory: x, y, z [m] of point i begin at the float
+ * first[stride * i]. */
 struct CoordinateView {
   const float* first = nullptr;
   std::size_t stride = 3; ///< floats; >= 3
   std::size_t size = 0;   ///< points
 };
 
-/** \return a view of points, valid as long as they are */
+/** \return a view of points, valid during their lifetime */
 inline CoordinateView
 viewOf(const Points& points)
 {
@@ -35,26 +35,26 @@ pointOf(const CoordinateView& points, std::size_t i)
   return Eigen::Map<const Eigen::Vector3f>(points.first + points.stride * i);
 }
 
-/** \return the mean [m] of the chosen points, which are at least one; summed in double */
+/** \return the mean [m] of the chosen points, at least one; summed in double */
 Eigen::Vector3f
 meanOf(const CoordinateView& points, const IndexRange& indices);
 
-/** \brief The cells of pcl::VoxelGrid around some points: boxes of any three sides, the cell of
- * a coordinate being floor(x * (1 / side)) in float, so that both have the same. Unlike
- * there, the product of the numbers of cells along the axes is not limited.
+/** \brief The cells of pcl::VoxelGrid around a cloud: boxes of any three sides. The cell of a
+ * coordinate is floor(x * (1 / side)) in float, exactly like in PCL. Unlike in PCL, the product of
+ * the numbers of cells along the axes is not limited.
  * \ingroup filters */
 class LeafCells {
 public:
   /** No cells. */
   LeafCells() = default;
 
-  /** \param[in] points those that are not finite lie in no cell
+  /** \param[in] points points that are not finite lie in no cell
    * \param[in] leaf sides of a cell [m]
    * \throws BadArgument a side is not finite and > 0, or a point is 2^30 cells or
    * more from the origin along an axis */
   LeafCells(const CoordinateView& points, const Eigen::Vector3f& leaf);
 
-  /** \return the first and the last cell of the points; 0 and -1 if there are none */
+  /** \return the first and the last cell of the points; 0 and -1 without points */
   const Eigen::Vector3i&
   low() const
   {
@@ -100,12 +100,12 @@ private:
   Eigen::Vector3i low_ = Eigen::Vector3i::Zero(), high_ = -Eigen::Vector3i::Ones();
 };
 
-/** \brief Points by the cells that they lie in. Occupied cells are numbered in PCL's order: x
- * runs fastest, z slowest. Linear in the number of points: no sorting, but a bit a cell, and
- * of most empty cells not even that. */
+/** \brief Points ordered by cell. Occupied cells are numbered in PCL's order: x runs fastest, z
+ * slowest. Time is linear in the number of points: no sorting, but a bit per cell, and not even a
+ * bit for most empty cells. */
 class LeafOrder {
 public:
-  /** \param[in] points those of the cells */
+  /** \param[in] points the points of the cells */
   LeafOrder(const CoordinateView& points, const LeafCells& cells);
 
   /** \return the number of occupied cells */
@@ -115,7 +115,7 @@ public:
     return size_;
   }
 
-  /** \return which occupied cell each point lies in; size() if in none */
+  /** \return the number of the occupied cell of each point; size() for a point without a cell */
   const std::vector<std::uint32_t>&
   ranks() const
   {
@@ -123,8 +123,8 @@ public:
   }
 
   /** \brief Writes the mean of the points of each cell, summed in double.
-   * \param[in] points the same as above
-   * \param[out] means x, y, z of the cell c from means[stride * c] on */
+   * \param[in] points the points given to the constructor
+   * \param[out] means x, y, z of cell c, from means[stride * c] on */
   void
   writeMeans(const CoordinateView& points, float* means, std::size_t stride) const;
 
@@ -133,9 +133,9 @@ private:
   std::size_t size_ = 0;
 };
 
-/** \return of each point, whether it is the one of its cell that is nearest to the centre; of
- * several equally near, the first. Distances are in double
- * \param[in] points, cells as of the order */
+/** \return for each point, whether no other point of its cell is nearer to the centre; of equally
+ * near points, the first. Distances are in double
+ * \param[in] points, cells given to the order */
 std::vector<bool>
 nearestToCentres(const CoordinateView& points,
                  const LeafCells& cells,
@@ -152,16 +152,16 @@ public:
     return begin_.size() - 1;
   }
 
-  /** \return places in the points; valid as long as this object */
+  /** \return indices of points; valid during the lifetime of this object */
   IndexRange
   indices(std::size_t group) const
   {
     return {indices_.data() + begin_[group], indices_.data() + begin_[group + 1]};
   }
 
-  /** \brief Chooses at most count points of each of some groups. The choice depends only on
-   * the seed, the cell and the order of its points. \param[in] points, cells as of the
-   * order \return places in the points, group by group, ascending inside a group */
+  /** \brief Chooses at most count points of each group. The choice depends only on the seed, the
+   * cell and the order of its points. \param[in] points, cells given to the order \return indices
+   * of points, group by group, ascending inside a group */
   pcl::Indices
   chooseRandom(const std::vector<std::size_t>& groups,
                const CoordinateView& points,

@@ -10,7 +10,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Which filters along its lines a scan goes through (book 4.1.5). */
+/** \brief Filters along the lines of a scan (book 4.1.5). */
 enum class LineFilter {
   kNone,
   kMedian,    ///< medianAlongLines(): mixed pixels
@@ -18,12 +18,12 @@ enum class LineFilter {
   kBoth       ///< the median, then the reduction
 };
 
-/** \return the filter called "none", "scanline-median", "scanline-reduction" or
- * "scanline-both" \throws BadArgument another name */
+/** \return the filter named "none", "scanline-median", "scanline-reduction" or "scanline-both"
+ * \throws BadArgument another name */
 LineFilter
 lineFilterFromName(const std::string& name);
 
-/** \return the names of all filters */
+/** \return the names of the filters */
 std::vector<std::string>
 lineFilterNames();
 
@@ -31,15 +31,15 @@ lineFilterNames();
 std::string
 toString(LineFilter filter);
 
-/** \brief Moves the mixed pixels of a scan along their rays, in its points and its cloud.
- * Points at noReturnRange() count as values without an echo, and stay.
- * \throws BadArgument the scan has no rows (Scan::row_length), or its points are not
- * those of its rows \ingroup filters */
+/** \brief Moves the mixed pixels of a scan along their rays, in its points and its cloud. Points at
+ * noReturnRange() count like values without an echo, and stay.
+ * \throws BadArgument the scan has no rows (Scan::row_length), or the points do not match the rows
+ * \ingroup filters */
 void
 filterByMedian(Scan& scan, const ScanLineMedianOptions& options = {});
 
-/** \brief Merges the points of a scan that follow each other on a line. Its cloud stays;
- * points at noReturnRange() are left out. \throws BadArgument as filterByMedian() \ingroup filters */
+/** \brief Merges successive points on a line of a scan. The cloud stays; points at noReturnRange()
+ * are left out. \throws BadArgument see filterByMedian() \ingroup filters */
 void
 reduceLines(Scan& scan, const ScanLineReductionOptions& options = {});
 

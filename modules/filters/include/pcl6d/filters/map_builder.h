@@ -15,8 +15,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return the edge [m] of the voxels in which a map keeps one point, for planes:
- * matching needs few points, small planes more */
+/** \return the edge [m] of the voxels with one map point each, for planes: matching
+ * needs few points, small planes more */
 inline double
 planeVoxel(double matching_voxel)
 {
@@ -24,21 +24,21 @@ planeVoxel(double matching_voxel)
 }
 
 /** \brief Joins registered scans into one reduced map: the first point in each voxel of
- * the world stays. Scans can be added one at a time, so that they need not be in memory
- * together. The voxels are counted from the whole metres of the first scan's position,
- * so that a small object is mapped as finely far from the origin as near it.
+ * the world stays. Scans can be added one at a time, hence need not be in memory
+ * together. The voxels are counted from the whole metres of the first scan's position:
+ * a small object is mapped equally finely far from the origin.
  * \ingroup filters */
 class MapBuilder {
 public:
   /** \param[in] voxel [m] finite and > 0
-   * \param[in] world_offset [m] subtracted from world coordinates, so that float keeps
-   * their digits
-   * \throws BadArgument voxel breaks its rule */
+   * \param[in] world_offset [m] subtracted from world coordinates, for the
+   * precision of float
+   * \throws BadArgument voxel is invalid */
   explicit MapBuilder(double voxel,
                       const Eigen::Vector3d& world_offset = Eigen::Vector3d::Zero());
 
   /** \brief Adds the points of a scan.
-   * \param[in] points in the scan's frame [m]; those that are not finite are left out
+   * \param[in] points in the scan's frame [m]; points that are not finite are left out
    * \param[in] intensities one per point, or empty
    * \param[in] scan the scan's number, kept with each point
    * \throws BadArgument sizes differ, or a point lies outside the grid about the first
@@ -56,14 +56,14 @@ public:
     return points_;
   }
 
-  /** \return per point the number of the scan that it came from */
+  /** \return per point the number of its scan */
   const std::vector<std::uint32_t>&
   scans() const
   {
     return scans_;
   }
 
-  /** \return per point its intensity; empty unless every scan had it */
+  /** \return per point its intensity; empty unless every scan had intensities */
   std::vector<float>
   intensities() const
   {
@@ -71,7 +71,7 @@ public:
   }
 
   /** \return the map as a cloud with fields x y z, scan (uint32), and intensity if
-   * every scan had it */
+   * every scan had intensities */
   pcl::PCLPointCloud2
   cloud() const;
 

@@ -12,13 +12,11 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief Unit normals, one per point; zero where a point has none. */
 using Normals = std::vector<Eigen::Vector3f>;
 
-/** \brief The normal of the surface at a place: the direction in which the nearest
- * points spread least (Hoppe et al. 1992), towards the origin of their frame, which is
- * the scanner.
+/** \brief The normal of the surface at a place: the direction of least spread of the nearest points
+ * (Hoppe et al. 1992), towards the origin of their frame, the scanner.
  * \param[in] tree over the points
- * \param[in] neighbours k, the number of nearest points that make a patch; in [3, 64]
- * \return zero if the place is not finite, there are fewer than 3 points, or they lie on a
- * line
+ * \param[in] neighbours k, the number of nearest points of a patch; in [3, 64]
+ * \return zero if the place is not finite, with fewer than 3 points, or points on a line
  * \throws BadArgument neighbours is outside [3, 64] */
 Eigen::Vector3f
 normalAt(const Eigen::Vector3f& place,
@@ -26,18 +24,17 @@ normalAt(const Eigen::Vector3f& place,
          const Points& points,
          std::size_t neighbours);
 
-/** \brief The same of given points near the place, zero if there are fewer than 3.
- * \param[in] nearest places among the points; at most 64 of them count */
+/** \brief normalAt() of given points near the place; zero with fewer than 3 points.
+ * \param[in] nearest indices of points; at most 64 are used */
 Eigen::Vector3f
 normalOf(const Eigen::Vector3f& place,
          const std::vector<Neighbour>& nearest,
          const Points& points);
 
-/** \brief normalAt() each of some places. In parallel, the same bits for any number of
- * threads.
+/** \brief normalAt() for many places. In parallel; bit-identical for any number of threads.
  * \param[in] places [m] usually the points themselves
  * \param[in] points, tree the surface
- * \param[in] num_threads 0: one per core
+ * \param[in] num_threads 0: a thread per core
  * \throws BadArgument neighbours is outside [3, 64] */
 Normals
 estimateNormals(const Points& places,
@@ -46,7 +43,7 @@ estimateNormals(const Points& places,
                 std::size_t neighbours = 20,
                 unsigned int num_threads = 0);
 
-/** \brief The same at the points themselves. */
+/** \brief estimateNormals() at the points themselves. */
 inline Normals
 estimateNormals(const Points& points,
                 const PointTree& tree,
@@ -56,19 +53,19 @@ estimateNormals(const Points& points,
   return estimateNormals(points, points, tree, neighbours, num_threads);
 }
 
-/** \brief How estimateSurfaceNormals() takes its patches. */
+/** \brief Knobs of estimateSurfaceNormals(). */
 struct PatchNormals {
   std::size_t neighbours = 20;  ///< of a patch of the coarser points; in [3, 64]
   double spacing = 0;           ///< [m] of the points
-  unsigned int num_threads = 0; ///< 0: one per core
+  unsigned int num_threads = 0; ///< 0: a thread per core
 };
 
-/** \brief Normals that claim no plane that was not measured: where the nearest points lie
- * along a line, as on a ring of a spinning lidar (their second standard deviation is below 0.3
- * of the first), the patch grows across lines until it is half as wide as long. What stays a
- * line has a normal of length zero.
+/** \brief Normals of measured surfaces only: where the nearest points lie along a line, like
+ * on a ring of a spinning lidar (second standard deviation below 0.3 of the first), the
+ * patch grows across lines to a width of half its length. A patch that stays a line has a
+ * normal of length zero.
  *
- * Patches are first taken from coarser points, whose neighbourhoods are larger, then from 16,
+ * Patches are first taken from the coarser points with their larger neighbourhoods, then from 16,
  * 24, 40 and 64 of the points themselves, up to a width of 0.15 of the range or 8 spacings.
  * \param[in] points [m] in the frame of the scanner
  * \param[in] tree over the points

@@ -21,16 +21,15 @@ isWithinRange(const Eigen::Vector3f& p, double min_range, double max_range);
 Points
 gateByRange(const Points& points, double min_range, double max_range);
 
-/** \brief Makes points outside [min_range, max_range] of the origin NaN, so that the others
- * keep their places */
+/** \brief Sets points outside [min_range, max_range] of the origin to NaN; the indices of
+ * the points stay */
 void
 maskOutOfRange(double min_range, double max_range, Points& points);
 
-/** \brief The range [m] that a scanner writes when no echo came back: the largest range
- * of a scan if more than 0.5 % of its points share it to within 1 mm per 10 m, while
- * more than half lie well inside it, nearer than 0.9 of it. Such points are no
- * surfaces. \return nothing if the largest range is a measured one, as of an object far
- * away or of a sphere around the scanner */
+/** \brief The range [m] that a scanner writes without an echo: the largest range of a scan if more
+ * than 0.5 % of the points share this range to within 1 mm per 10 m, while more than half of the
+ * points are nearer than 0.9 of this range. Points at the no-return range are no surfaces. \return
+ * empty if the largest range was measured, like a distant object or a sphere around the scanner */
 std::optional<double>
 noReturnRange(const Points& points);
 
@@ -38,15 +37,15 @@ noReturnRange(const Points& points);
 double
 medianRange(const Points& points);
 
-/** \return the median distance of the finite points from their middle, which is the median of
- * each coordinate [m]: for a scanner with surfaces all around about their range, for a small
- * object far away a part of its size; 0 without finite points */
+/** \return the median distance [m] of the finite points from their middle, the median of each
+ * coordinate: about the range for a scanner amid surfaces, a part of the size for a small distant
+ * object; 0 without finite points */
 double
 medianSpread(const Points& points);
 
-/** \return the median distance from a point to the nearest other one [m], over about
- * 1000 evenly chosen points. Exact duplicates are no other points: their distance of 0
- * says nothing of the spacing. 0 with fewer than 2 different points */
+/** \return the median distance from a point to its nearest neighbour [m], over about 1000 evenly
+ * chosen points. Exact duplicates are not neighbours: their distance of 0 is no spacing. 0 with
+ * fewer than 2 different points */
 double
 medianSpacing(const Points& points);
 

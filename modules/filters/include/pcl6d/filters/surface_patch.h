@@ -10,35 +10,37 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The surface at a place, as some points show it. */
+/** \brief The surface at a place, fitted to a patch of points. */
 struct SurfacePatch {
-  /** Unit vector in which the points spread least; zero if there are fewer than 3 points, or
-   * if they lie on a line. Its sign is arbitrary. */
+  /** Unit vector of least spread of the points, with arbitrary sign; zero with fewer than 3 points,
+   * or points on a line. */
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  /** Surface variation (Pauly et al. 2002): the least share that a direction has of the
-   * points' spread, in [0, 1/3]; 0 of a plane. */
+  /** Surface variation (Pauly et al. 2002): the share of the least eigenvalue in the trace of the
+   * points' covariance, in [0, 1/3]; 0 of a plane. */
   float curvature = 0;
+  /** Second standard deviation of the points by the first, in [0, 1]; near 0 on a line. */
+  float breadth = 0;
 };
 
-/** \return the surface of points at some offsets [m] from a place; summed in double about
- * their mean. Offsets that are not finite do not count */
+/** \return the surface of points at offsets [m] from a place; summed in double about their mean.
+ * Offsets that are not finite are left out */
 SurfacePatch
 fitPatch(const Points& offsets);
 
-/** \brief Where the points of a patch are taken from: k nearest, or all within a radius. */
+/** \brief Size of a patch: k nearest points, or every point within a radius. */
 struct PatchSize {
-  std::size_t neighbours = 0; ///< k; 0: all within the radius
-  double radius = 0;          ///< [m] > 0 if there is no k
+  std::size_t neighbours = 0; ///< k; 0: points within the radius
+  double radius = 0;          ///< [m] > 0 without k
   /** \throws BadArgument neither or both are given, or the radius is not > 0 */
   void
   validate() const;
 };
 
-/** \brief The patches at some places. In parallel, the same bits for any number of threads.
- * \param[in] places [m]; one that is not finite has no patch
+/** \brief The patches at places. In parallel; bit-identical for any number of threads.
+ * \param[in] places [m]; a place that is not finite has no patch
  * \param[in] points, tree the surface
- * \param[in] num_threads 0: one per core
- * \throws BadArgument as PatchSize::validate() */
+ * \param[in] num_threads 0: a thread per core
+ * \throws BadArgument see PatchSize::validate() */
 std::vector<SurfacePatch>
 fitPatches(const Points& places,
            const Points& points,

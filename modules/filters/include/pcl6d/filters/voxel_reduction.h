@@ -14,7 +14,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What stands for the points of an occupied voxel (book 4.1.5). */
+/** \brief The point that represents an occupied voxel (book 4.1.5). */
 enum class ReductionMethod {
   kCentre, ///< the centre of the voxel: regular, moves points up to voxel sqrt(3) / 2
   kMean,   ///< the mean of the voxel's points: always inside the voxel
@@ -25,7 +25,7 @@ enum class ReductionMethod {
 ReductionMethod
 reductionMethodFromName(const std::string& name);
 
-/** \return the names of all methods */
+/** \return the names of the methods */
 std::vector<std::string>
 reductionMethodNames();
 
@@ -39,7 +39,7 @@ struct ReductionOptions {
   ReductionMethod method = ReductionMethod::kMean;
   int points_per_voxel = 1; ///< kept by kRandom; >= 1
   std::uint64_t seed = 0;   ///< of kRandom
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
@@ -74,10 +74,9 @@ private:
   const pcl::index_t* end_;
 };
 
-/** \brief The points of a cloud sorted into the occupied voxels of a regular grid,
- * which has a corner at the origin. Voxels come in the order of their keys, points in
- * their own order, so nothing depends on threads or hashing. Points that are not finite
- * are left out. */
+/** \brief The points of a cloud sorted into the occupied voxels of a regular grid with a corner at
+ * the origin. Voxels come in the order of their keys, points in the order of the cloud,
+ * independent of threads or hashing. Points that are not finite are left out. */
 class VoxelGroups {
 public:
   /** \throws BadArgument a point does not fit into the grid (see voxelKey()) */
@@ -96,17 +95,17 @@ public:
     return keys_[group];
   }
 
-  /** \return the places of the group's points in the input, ascending; valid as long as
-   * this object */
+  /** \return the indices of the group's points in the input, ascending; valid during the lifetime
+   * of this object */
   IndexRange
   indices(std::size_t group) const
   {
     return {indices_.data() + begin_[group], indices_.data() + begin_[group + 1]};
   }
 
-  /** \brief Chooses at most count points of each group. The choice depends only on the
-   * seed, the voxel and the order of its points. \return places in the input, group by
-   * group, ascending inside a group */
+  /** \brief Chooses at most count points of each group. The choice depends only on the seed, the
+   * voxel and the order of its points. \return indices in the input, group by group, ascending
+   * inside a group */
   pcl::Indices
   chooseRandom(int count, std::uint64_t seed) const;
 
@@ -116,13 +115,13 @@ private:
   std::vector<pcl::index_t> begin_; ///< first member of each group, and the end
 };
 
-/** \return the mean [m] of the chosen points, which are at least one; summed in double
+/** \return the mean [m] of the chosen points, at least one; summed in double
  */
 Eigen::Vector3f
 meanOf(const Points& points, const IndexRange& indices);
 
 /** \brief Reduces points to one (kRandom: a few) per occupied voxel.
- * \throws BadArgument an option breaks its rule, or a point lies outside the grid
+ * \throws BadArgument an option is invalid, or a point lies outside the grid
  * \note Source: book 4.1.5; the grid is the leaf level of an octree. */
 Points
 reducePoints(const Points& points, const ReductionOptions& options);

@@ -14,14 +14,14 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief FLANN's k-d tree, searched through pcl::KdTreeFLANN, the engine of
  * pcl::search::KdTree.
  *
- * Exact: distances have the bits of all searches. Of several points at the same distance, up
- * to the rounding with which FLANN leaves out branches, it may find another one than
- * PointTree, which takes the first, and so may keep another one at the end of a list. Searches may run in parallel.
+ * Exact: each distance has the same bits as in PointTree. Among points at equal distance, up to the
+ * rounding with which FLANN prunes branches, the point found may differ from that of PointTree,
+ * which takes the smallest index; likewise the last points of a list. Searches may run in parallel.
  * \note Source: M. Muja, D. G. Lowe, "Fast approximate nearest neighbors with automatic
  * algorithm configuration", VISAPP 2009; here with epsilon 0. \ingroup search */
 class FlannTree {
 public:
-  /** \param[in] points [m]; copied; those not finite are left out */
+  /** \param[in] points [m]; copied; points that are not finite are left out */
   explicit FlannTree(const Points& points = {});
 
   /** \return the number of finite points */
@@ -47,7 +47,7 @@ public:
 
 private:
   struct Index;
-  std::shared_ptr<const Index> index_; ///< null: there is nothing to find
+  std::shared_ptr<const Index> index_; ///< null: no points
   std::size_t size_ = 0;
 };
 

@@ -10,27 +10,27 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The leaves of a PointTree in which the searches of query points ended, by where
- * the points lie in the memory of the computer.
+/** \brief Cache of the PointTree leaves in which the searches of query points ended, keyed by the
+ * memory address of the query point.
  *
- * For callers that cannot say which query is which, as PCL's registration, whose moved
- * source stays in one place from iteration to iteration. Only ever a hint of where to
- * start: what another point left behind at the same address makes a search slower and
- * never changes its result. As large as it is made; points that share a place forget each
- * other's leaf. Safe to use from several threads at once. \ingroup search */
+ * For callers that do not number their queries: pcl::Registration moves its source, which keeps its
+ * memory from iteration to iteration. An entry is only a hint where to start: a stale entry, left
+ * by another point at the same address, slows a search down and never changes its result. The
+ * capacity is fixed; points that share an entry overwrite each other's leaf. Safe to use from
+ * several threads at once. \ingroup search */
 class LeafMemory {
 public:
-  /** \param[in] queries how many points it should hold at least; takes 8 bytes for each,
-   * rounded up to a power of two */
+  /** \param[in] queries least number of points to keep; rounded up to a power of two,
+   * 8 bytes for each */
   explicit LeafMemory(std::size_t queries = 1);
 
-  /** \param[in] address of the query point \param[in] size of a point in bytes, so that
-   * neighbours in an array have places of their own
-   * \return the leaf where its last search ended; -1: not known */
+  /** \param[in] address of the query point \param[in] size of a point in bytes, so that neighbours
+   * in an array have entries of their own
+   * \return the leaf where the last search of the point ended; -1: not known */
   int
   leafOf(const void* address, std::size_t size) const;
 
-  /** \brief Remembers a leaf, or forgets the point if it is -1. */
+  /** \brief Remembers the leaf of a point; -1 forgets the point. */
   void
   remember(const void* address, std::size_t size, int leaf);
 
@@ -40,7 +40,7 @@ public:
 
 private:
   std::size_t places_; ///< a power of two
-  /** which point, in the high half (what its place leaves open), and its leaf + 1 */
+  /** high half: the bits of the address that the entry's index leaves open; low half: leaf + 1 */
   std::unique_ptr<std::atomic<std::uint64_t>[]> entries_;
 };
 

@@ -9,11 +9,11 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A point found by a search. */
 struct Neighbour {
-  int index = -1;        ///< place in the points that were searched; -1: none
+  int index = -1;        ///< in the searched points; -1: not found
   float distance_sq = 0; ///< squared distance to the query [m^2]
 };
 
-/** \brief The order of all results: nearer first, ties by index. */
+/** \brief The order of results: nearer first, ties by index. */
 inline bool
 operator<(const Neighbour& a, const Neighbour& b)
 {
@@ -21,15 +21,15 @@ operator<(const Neighbour& a, const Neighbour& b)
          (a.distance_sq == b.distance_sq && a.index < b.index);
 }
 
-/** \brief The nearest point and how near any other one comes; see
+/** \brief The nearest point, and the distance of the second nearest; see
  * PointTree::improveTwo(). */
 struct TwoNearest {
-  Neighbour nearest;   ///< index -1: none within nearest.distance_sq
+  Neighbour nearest;   ///< index -1: no point within nearest.distance_sq
   float second_sq = 0; ///< squared distance of the next [m^2]; at first the limit
 };
 
-/** \return the squared distance of two points [m^2] with the bits of all searches:
- * squares are summed in the order x, y, z, in float, everywhere */
+/** \return the squared distance of two points [m^2]; every search sums the squares in
+ * the order x, y, z, in float, hence to the same bits */
 inline float
 distanceSq(const Eigen::Vector3f& a, const Eigen::Vector3f& b)
 {

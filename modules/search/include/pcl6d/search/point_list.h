@@ -10,11 +10,11 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Search by looking at every point: the oracle of the others, and quick for a few
- * dozen points. \ingroup search */
+/** \brief Brute-force search: the oracle of the trees, and quick for a few dozen points.
+ * \ingroup search */
 class PointList {
 public:
-  /** \param[in] points [m]; copied; those not finite are never found */
+  /** \param[in] points [m]; copied; points that are not finite are never found */
   explicit PointList(Points points = {}) : points_(std::move(points)) {}
 
   /** \brief See PointTree::nearest(). */

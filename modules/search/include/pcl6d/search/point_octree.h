@@ -10,20 +10,20 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief An octree to search in (book 4.1.4), free of point types.
+/** \brief Octree for searches (book 4.1.4), free of point types.
  *
  * Halves the cube about the points along all three axes until a leaf holds at most
  * kLeafSize points. A search visits the children of a node by rising distance of their
- * cubes and stops at the first that is farther than the best. Slower than PointTree, of
- * which it is an independent check: the same results, ties and limits included.
+ * cubes and stops at the first cube farther than the best point. Slower than PointTree;
+ * an independent check of PointTree with equal results, ties and limits included.
  * Searches may run in parallel. \ingroup search */
 class PointOctree {
 public:
   static constexpr std::size_t kLeafSize = 10;
   static constexpr int kMaxDepth = 20; ///< ends the halving at equal points
 
-  /** \param[in] points [m]; copied; those not finite are left out
-   * \param[in] num_threads 0: one per core; never changes the tree */
+  /** \param[in] points [m]; copied; points that are not finite are left out
+   * \param[in] num_threads 0: a thread per core; never changes the tree */
   explicit PointOctree(const Points& points = {}, unsigned int num_threads = 0);
 
   /** \return the number of finite points */
@@ -52,7 +52,7 @@ private:
     Eigen::AlignedBox3f cube; ///< closed
     std::size_t begin = 0;    ///< its points
     std::size_t end = 0;
-    std::vector<Node> children{}; ///< those with points; none: a leaf
+    std::vector<Node> children{}; ///< children with points; empty: a leaf
   };
 
   void
@@ -65,7 +65,7 @@ private:
 
   Node root_;
   std::vector<int> index_; ///< of the finite points in the input, leaf by leaf
-  Points points_;          ///< in the same order
+  Points points_;          ///< in the order of index_
 };
 
 } // namespace pcl6d

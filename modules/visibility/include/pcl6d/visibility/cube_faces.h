@@ -11,11 +11,12 @@
 #include <cstdint>
 #include <vector>
 
-/** \file The six faces of the cube that a RayImage is kept on. Faces 2 k and 2 k + 1 look along
- * axis k and against it; columns run along the axis after it, rows along the one before. */
+/** \file The six faces of the cube on which a RayImage is stored. Faces 2 k and 2 k + 1 look along
+ * axis k and against axis k; columns run along the next axis, rows along the previous axis
+ * (cyclic). */
 namespace pcl6d::visibility {
 
-/** \brief Ranges measured in a cell, as codes that grow with the range. Empty: nearest 0. */
+/** \brief Ranges measured in a cell, as codes that increase with the range. Empty: nearest 0. */
 struct Interval {
   std::uint16_t nearest = 0;
   std::uint16_t farthest = 0;
@@ -34,22 +35,22 @@ struct Interval {
   }
 };
 
-/** \brief Cells row by row, as many rows as columns; empty: nothing was measured there. */
+/** \brief Cells row by row, with equal numbers of rows and columns; empty: nothing was measured. */
 using Faces = std::array<std::vector<Interval>, 6>;
 
-/** \brief A direction by its place on the faces, in [-1, 1] along columns and rows. */
+/** \brief A direction by its position on the faces, in [-1, 1] along columns and rows. */
 struct OnCube {
   std::size_t face;
   float u, v;
 };
 
-/** \brief A ray by its direction and its range. */
+/** \brief A ray by direction and range. */
 struct CodedRay {
   OnCube direction;
   std::uint16_t code;
 };
 
-/** \param[in] ray [m] not zero \return where it meets the cube */
+/** \param[in] ray [m] not zero \return the intersection with the cube */
 PCL6D_EXPORTS OnCube
 onCube(const Eigen::Vector3f& ray);
 
@@ -60,11 +61,10 @@ cellOf(const OnCube& place, int side);
 
 /** \brief Dilation by a square of three cells, across the edges of the cube.
  * \param[in] side cells along an edge of a face
- * \param[in] filled a cell is empty unless so many of the nine (at a corner of the cube of
- * the eight) are not
- * \param[in] enclosed a cell is also empty unless something was measured on each of its four
- * sides
- * \return for each cell of a face what was measured in it and around it; none for a face
+ * \param[in] filled a cell is empty unless at least this number of the nine cells (eight at a
+ * corner of the cube) has measurements
+ * \param[in] enclosed a cell is also empty unless each of its four sides has measurements
+ * \return for each cell of a face the ranges measured in and around the cell; empty for a face
  * without cells */
 PCL6D_EXPORTS std::vector<Interval>
 haloOf(const Faces& measured,

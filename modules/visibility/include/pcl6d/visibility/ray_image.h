@@ -9,13 +9,14 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What the rays of a scan say of a place. */
+/** \brief The result of a free-space test of a point with the rays of a scan. */
 enum class Sight {
-  kUnseen,    ///< no rays went near it
-  kBehind,    ///< hidden: all rays around it ended before it
-  kEdge,      ///< rays around it ended before and behind it: they say nothing
-  kConfirmed, ///< a surface was measured there
-  kFree       ///< all rays around it went on behind it: a surface there is contradicted
+  kUnseen,    ///< no rays passed nearby
+  kBehind,    ///< hidden: all rays around the point ended before it
+  kEdge,      ///< rays around the point ended before and behind it: inconclusive
+  kConfirmed, ///< a surface was measured at the point
+  kFree       ///< all rays around the point ended behind it: a surface there is
+              ///< contradicted
 };
 
 /** \return "unseen", "behind", "edge", "confirmed" or "free" */
@@ -25,8 +26,9 @@ toString(Sight sight);
 /** \brief The answer of RayImage::look(). */
 struct SightOfPlace {
   Sight sight = Sight::kUnseen;
-  float beyond = 0; ///< [m] kFree: how far behind it the nearest ray around it ended
-  float sigmas = 0; ///< the same in standard deviations of place and rays
+  float beyond = 0; ///< [m] kFree: distance from the point to the end of the nearest
+                    ///< ray behind it
+  float sigmas = 0; ///< beyond, in standard deviations of point and rays
 };
 
 /** \brief Knobs of RayImage. */
@@ -34,52 +36,52 @@ struct RayImageOptions {
   Eigen::Vector3f origin =
       Eigen::Vector3f::Zero(); ///< [m] of the rays, in the scan's frame; finite
   double noise = 0.01;         ///< [m] standard deviation of a range; finite, >= 0
-  double finest = 0.0061; ///< [rad] smallest cell, 0.35 deg: the halo of such a cell
-                          ///< covers the beam of common scanners; >= 0.0005
+  double finest = 0.0061; ///< [rad] smallest cell, 0.35 deg: the halo of a cell of this
+                          ///< size covers the beam of common scanners; >= 0.0005
   double coarsest = 0.07; ///< [rad] largest cell, 4 deg; in [finest, 0.5]
-  /** A cell answers only if something was measured on each of its four sides: for scans whose
-   * lines lie apart (ScanSampling), which would else claim free space beyond the last line. */
+  /** A cell is used only if each of its four sides has measurements: for scans with separate lines
+   * (ScanSampling), which would otherwise claim free space beyond the last line. */
   bool between_lines = false;
 
-  /** \brief For places that are known by a fraction of a metre, as a placement or a link
-   * that is yet to be believed, and for reduced points: cells from 1.1 to 9 deg, and no
-   * noise, as the standard deviation of the places holds all of it. Made in a fifth of the
-   * time, with a tenth of the memory. */
+  /** \brief For positions with an uncertainty of a fraction of a metre, e.g. in place recognition
+   * or in links before their test, and for reduced points. Cells are 1.1 to 9 deg; the noise is 0,
+   * because it is part of the standard deviation of the positions. Takes a fifth of the time and a
+   * tenth of the memory. */
   static RayImageOptions
   coarse();
 
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field, with its value */
   void
   validate() const;
 };
 
-/** \brief A scan as rays from its origin: how near and how far it measured in each
- * direction, at the scan's own resolution, so that a place can be asked for.
+/** \brief A scan as rays from its origin: the nearest and the farthest range measured in each
+ * direction, at the resolution of the scan, for free-space tests of points.
  *
- * Six images on the faces of a cube, so that a direction needs no angle; several sizes of
- * cells, each 1.5 times the one before, of which the finest that is filled around the
- * place answers. A cell counts with its eight neighbours, which makes the edges of things
- * and the width of the beam harmless, across the edges of the cube, too. About 0.3 MB for
- * each face that the scan looks at.
+ * The rays are stored in six images on the faces of a cube, which needs no angles. Several levels
+ * have cells each 1.5 times larger than in the level before; the finest level filled around the
+ * point gives the result. A cell is merged with its eight neighbours, also across the edges of the
+ * cube, to be robust against object edges and the width of the beam. About 0.3 MB for each face
+ * with measurements.
  * \note Source: share/doc/trust.md; the halo and the pyramid are algorithms.md T.1.
  * \ingroup visibility */
 class RayImage {
 public:
   RayImage() = default;
 
-  /** \param[in] measured all points of the scan, not the reduced ones, in its frame [m];
-   * those that are not finite, or at the origin (within 1e-22 m), are left out
-   * \throws BadArgument an option breaks its rule */
+  /** \param[in] measured all points of the scan, not reduced, in its frame [m]; points that are not
+   * finite, or at the origin (within 1e-22 m), are ignored
+   * \throws BadArgument an option is invalid */
   explicit RayImage(const Points& measured, const RayImageOptions& options = {});
 
-  /** \param[in] place in the scan's frame [m]
-   * \param[in] sigma [m] standard deviation of the place relative to the scan */
+  /** \param[in] place position in the scan's frame [m]
+   * \param[in] sigma [m] standard deviation of the position relative to the scan */
   SightOfPlace
   look(const Eigen::Vector3f& place, float sigma) const;
 
-  /** \brief The same of many places, in less time: cells are fetched ahead.
+  /** \brief Tests many points in less time: cells are prefetched.
    * \param[in] sigmas one per place, or one for all
-   * \throws BadArgument another number of them */
+   * \throws BadArgument wrong number of sigmas */
   std::vector<SightOfPlace>
   look(const Points& places, const std::vector<float>& sigmas) const;
 
@@ -101,7 +103,7 @@ public:
     return levels_.empty() ? 0 : levels_.front().cell;
   }
 
-  /** \brief All of it, for another process (packing.h). */
+  /** \brief All members, for another process (packing.h). */
   template <typename Archive>
   friend void
   packFields(Archive& archive, RayImage& image)
@@ -113,7 +115,7 @@ private:
   struct Level {
     double cell = 0;         ///< [rad]
     int side = 0;            ///< cells along an edge of a face
-    visibility::Faces faces; ///< of each cell what was measured in it and around it
+    visibility::Faces faces; ///< for each cell: ranges measured in and around it
 
     template <typename Archive>
     friend void
@@ -124,7 +126,7 @@ private:
         archive(face);
     }
   };
-  /** A place as the end of a ray. */
+  /** A point as the end of a ray. */
   struct Aim {
     visibility::OnCube direction;
     float range = 0; ///< [m] 0: nowhere
@@ -136,7 +138,7 @@ private:
   void
   fetch(const Aim& aim) const;
 
-  /** \return the share of measured cells that have enough measured neighbours */
+  /** \return the share of measured cells with enough measured neighbours */
   static double
   fill(const std::vector<visibility::CodedRay>& rays, Level& level, bool enclosed);
 

@@ -12,12 +12,12 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief pcl::ApproximateVoxelGrid with its setters and getters, but exact: every occupied
  * leaf gives one point.
  *
- * PCL's class keeps 512 leaves at a time and throws one out where two have the same hash, so
- * that a leaf gives several points, and how many depends on the order of the input. Here
- * the points are those of pcl::VoxelGrid (LeafCells) in its order, x running fastest. What
- * else differs: chosen indices count, points that are not finite are left out
- * and the output is dense, sums of x, y, z are in double, mean normals have length 1, and
- * with setDownsampleAllData(false) fields other than x, y, z keep what the point type sets.
+ * PCL's class keeps 512 leaves at a time and drops one at a hash collision. A leaf then gives
+ * several points, depending on the order of the input. This class gives the points of
+ * pcl::VoxelGrid (LeafCells) in its order, x running fastest. Further differences: chosen indices
+ * are respected, points that are not finite are left out and the output is dense, sums of x, y, z
+ * are in double, mean normals have length 1, and with setDownsampleAllData(false) fields other than
+ * x, y, z keep the defaults of the point type.
  * \code
  * pcl6d::ApproximateVoxelGrid<pcl::PointXYZI> grid;
  * grid.setLeafSize(0.2f, 0.2f, 0.2f); // [m]
@@ -50,7 +50,7 @@ public:
     return leaf_;
   }
 
-  /** \brief Whether all fields are averaged, or x, y, z alone; true unless set. */
+  /** \brief Whether every field is averaged, or x, y, z alone; true unless set. */
   void
   setDownsampleAllData(bool downsample)
   {
@@ -63,7 +63,7 @@ public:
   }
 
 protected:
-  /** \throws BadArgument as LeafCells(), or an index is not that of a point */
+  /** \throws BadArgument see LeafCells(), or an index is out of range */
   void
   applyFilter(PointCloud& output) override;
 

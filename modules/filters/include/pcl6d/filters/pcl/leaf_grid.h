@@ -29,7 +29,7 @@ public:
     return leaf_ ? *leaf_ : Eigen::Vector3f::Zero();
   }
 
-  /** \brief Whether all fields are averaged, or x, y, z alone; true unless set. */
+  /** \brief Whether every field is averaged, or x, y, z alone; true unless set. */
   void
   setDownsampleAllData(bool downsample)
   {
@@ -53,7 +53,7 @@ public:
     return least_points_;
   }
 
-  /** \brief Only points with a field within limits count (or, negative, outside them). */
+  /** \brief Filters points by limits of a field (negative: points outside the limits stay). */
   void
   setFilterFieldName(const std::string& name)
   {
@@ -105,8 +105,8 @@ public:
     return layout_;
   }
 
-  /** \return of the last filter(): first and last cell, their number along each axis, and
-   * the steps of the layout along them */
+  /** \return of the last filter(): first and last cell, number of cells along each axis, and steps
+   * of the layout along the axes */
   Eigen::Vector3i
   getMinBoxCoordinates() const
   {
@@ -133,8 +133,7 @@ public:
   Eigen::Vector3i
   getGridCoordinates(float x, float y, float z) const;
 
-  /** \return the place in the output of a cell's point; -1: it has none, or the layout was not
-   * kept */
+  /** \return the index in the output of a cell's point; -1: no point, or the layout was not kept */
   int
   getCentroidIndexAt(const Eigen::Vector3i& cell) const;
   template <typename PointT>
@@ -149,7 +148,7 @@ public:
     return getCentroidIndexAt(getGridCoordinates(x, y, z));
   }
 
-  /** \return the same of the cells around a point. \param[in] relative a column each */
+  /** \return getCentroidIndexAt() of the cells around a point. \param[in] relative a column each */
   template <typename PointT>
   std::vector<int>
   getNeighborCentroidIndices(const PointT& p, const Eigen::MatrixXi& relative) const
@@ -175,7 +174,7 @@ protected:
     return leaf_.has_value();
   }
 
-  /** \return whether a point counts, by its field */
+  /** \return whether the field of a point is within its limits */
   bool
   isWithinLimits(double value) const
   {
@@ -183,9 +182,8 @@ protected:
                      : !(value > most_ || value < least_);
   }
 
-  /** \brief Finds the cells of points; those that are not finite have none.
-   * \throws BadArgument as LeafCells(), or, with a layout to be kept, there are more than
-   * 2^31 cells */
+  /** \brief Finds the cells of points; points that are not finite have no cell.
+   * \throws BadArgument see LeafCells(), or more than 2^31 cells with a layout to be kept */
   void
   findCells(const CoordinateView& points);
   const LeafCells&
@@ -194,8 +192,8 @@ protected:
     return cells_;
   }
 
-  /** \return the groups that have points enough, the places in the output of which are
-   * kept, if the layout is to be */
+  /** \return the groups of enough points; also keeps their indices in the output, if the
+   * layout is to be kept */
   std::vector<std::size_t>
   keptGroups(const LeafGroups& groups, const CoordinateView& points);
 

@@ -12,23 +12,22 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return the words of makeFilter(): mean, centre, random (those of `--reduction`),
- * scanline-median, scanline-reduction (of `--filter`) */
+/** \return the words of makeFilter(): mean, centre, random (of `--reduction`), scanline-median,
+ * scanline-reduction (of `--filter`) */
 std::vector<std::string>
 filterNames();
 
-/** \brief PCL's filters by the words of the command line: OctreeReduction, ScanLineMedian or
+/** \brief Makes a PCL filter from a word of the command line: OctreeReduction, ScanLineMedian or
  * ScanLineReduction behind a pointer to PCL's base class.
  * \code
  * const auto filter = pcl6d::makeFilter<pcl::PointXYZI>("mean", {0.2}); // [m]
  * filter->setInputCloud(cloud);
  * filter->filter(reduced);
  * \endcode
- * Filters along scan lines take the rows of an organized cloud as lines; `scanline-both` of the
- * command line is the one and then the other.
- * \param[in] reduction voxel, number of points and seed of the reductions; its method is that
- * of the word
- * \throws BadArgument no such word; the message lists all \ingroup filters */
+ * Filters along scan lines take the rows of an organized cloud for lines; `scanline-both` of the
+ * command line is both in turn.
+ * \param[in] reduction voxel, number of points and seed of the reductions; the word sets the method
+ * \throws BadArgument unknown word; the message lists the known words \ingroup filters */
 template <typename PointT>
 typename pcl::Filter<PointT>::Ptr
 makeFilter(const std::string& name, const ReductionOptions& reduction = {});

@@ -9,15 +9,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief pcl::MedianFilter: z of each point of an organized cloud becomes the median in a
- * window around it; see medianDepths().
+/** \brief pcl::MedianFilter: z of each point of an organized cloud becomes the median in a window
+ * around the point; see medianDepths().
  *
- * The same depths as PCL's class gives, in parallel. What differs: with no movement allowed
- * points stay (PCL makes NaN of those that are the median already), chosen indices
- * are the points that move, and a cloud that is not organized is refused, where PCL
- * prints a message and leaves the output as it was. setSymmetric() mends what the window
- * of PCL does at borders and gaps. For clouds of scan lines there is
- * ScanLineMedian, which moves points along their rays. \code
+ * Depths are identical to PCL's class, computed in parallel. Differences: with no movement allowed
+ * points stay (PCL sets points already at the median to NaN), only chosen indices move, and an
+ * unorganized cloud is an error, where PCL prints a message and leaves the output unchanged.
+ * setSymmetric() mends the effects of PCL's window at borders and gaps. For clouds of scan lines
+ * see ScanLineMedian, which moves points along their rays.
+ * \code
  * pcl6d::MedianFilter<pcl::PointXYZ> median;
  * median.setWindowSize(5);
  * median.setMaxAllowedMovement(0.05f); // [m]
@@ -57,8 +57,8 @@ public:
     return options_.max_movement;
   }
 
-  /** \brief Whether inclined planes keep their shape at borders and gaps, see
-   * DepthMedianOptions; false, as in PCL, unless set. */
+  /** \brief Whether inclined planes keep their shape at borders and gaps, see DepthMedianOptions;
+   * false, like in PCL, unless set. */
   void
   setSymmetric(bool symmetric)
   {
@@ -70,7 +70,7 @@ public:
     return options_.symmetric;
   }
 
-  /** \param[in] num_threads 0: one per core, as unless set; never changes results */
+  /** \param[in] num_threads 0 (default): a thread per core; never changes results */
   void
   setNumberOfThreads(unsigned int num_threads)
   {
@@ -78,8 +78,8 @@ public:
   }
 
 protected:
-  /** \throws BadArgument the cloud is not organized, an option breaks its rule, or an index
-   * is not that of a point */
+  /** \throws BadArgument the cloud is not organized, an option is invalid, or an index
+   * is out of range */
   void
   applyFilter(PointCloud& output) override;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/filters/line_growth.h>
 #include <pcl6d/filters/surface_patch.h>
 #include <pcl6d/search/pcl/kd_tree.h>
 
@@ -10,16 +11,18 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief pcl::NormalEstimation and pcl::NormalEstimationOMP: normals and curvatures of points
- * from their k nearest neighbours, or all within a radius; see SurfacePatch.
+/** \brief pcl::NormalEstimation and pcl::NormalEstimationOMP: normals and curvatures of points from
+ * their k nearest neighbours, or every neighbour within a radius; see SurfacePatch.
  *
- * All setters and getters of PCL's class, of which it is one, and setNumberOfThreads(). What
- * differs: sums are in double about each point; without a search method our KdTree is taken, for
- * organized clouds too; a pcl::search::KdTree with default settings is given the surface
- * as there, but our tree finds the same neighbours in its place (of points equally far
- * those of the smallest index). Any other search method is asked. Points on a line have no
- * normal (NaN), where PCL gives one of many. Both a k and a radius, or none, and
- * indices of no point are BadArgument, where PCL prints a message or crashes. \code
+ * A subclass of PCL's class, with its setters and getters and setNumberOfThreads(). Differences:
+ * sums are in double about each point. Without a search method pcl6d::KdTree is used, for organized
+ * clouds, too; a pcl::search::KdTree with default settings is given the surface like in PCL, but
+ * pcl6d::KdTree finds its neighbours (equally far points by the smallest index). Any other search
+ * method is used unchanged. Points on a line have no normal (NaN), where PCL gives an arbitrary
+ * normal. In a scan of lines far apart, for example of a spinning lidar at the viewpoint, a patch
+ * of points on one line grows across lines, see setLineGrowth(). Both k and radius, or neither, and
+ * indices out of range are BadArgument, where PCL prints a message or crashes.
+ * \code
  * pcl6d::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
  * estimation.setInputCloud(cloud);
  * estimation.setKSearch(20);
@@ -37,26 +40,42 @@ public:
   using typename Base::PointCloudConstPtr;
   using typename Base::PointCloudOut;
 
-  /** \param[in] num_threads as setNumberOfThreads() */
+  /** \param[in] num_threads see setNumberOfThreads() */
   explicit NormalEstimation(unsigned int num_threads = 0);
 
   /** \throws BadArgument the cloud is null */
   void
   setInputCloud(const PointCloudConstPtr& cloud) override;
 
-  /** \param[in] num_threads 0: one per core, but a single one where a search method is not one
-   * of the k-d trees, as it may not bear more; never changes results */
+  /** \param[in] num_threads 0: a thread per core, but a single thread for a search method other
+   * than the k-d trees, which may not be thread-safe; never changes results */
   void
   setNumberOfThreads(unsigned int num_threads = 0)
   {
     num_threads_ = num_threads;
   }
 
-  /** \brief The plane through some points of a cloud.
-   * \param[out] plane a, b, c, d of a x + b y + c z + d = 0; NaN if there is none
-   * \param[out] curvature see SurfacePatch; NaN if there is none
-   * \return whether there is one
-   * \throws BadArgument an index is not that of a point */
+  /** \brief Whether patches of points on one line (second standard deviation at most 0.3 of
+   * the first) grow across lines, see LineSurface; patches that stay a line have no normal
+   * (NaN). kAuto unless set: patches grow if the surface, seen from the viewpoint, consists
+   * of lines or rings; otherwise results are bit-identical to kNever. computePointNormal()
+   * never grows patches. */
+  void
+  setLineGrowth(LineGrowth growth)
+  {
+    line_growth_ = growth;
+  }
+  LineGrowth
+  getLineGrowth() const
+  {
+    return line_growth_;
+  }
+
+  /** \brief The plane through chosen points of a cloud.
+   * \param[out] plane a, b, c, d of a x + b y + c z + d = 0; NaN without a plane
+   * \param[out] curvature see SurfacePatch; NaN without a plane
+   * \return whether the points have a plane
+   * \throws BadArgument an index is out of range */
   bool
   computePointNormal(const pcl::PointCloud<PointInT>& cloud,
                      const pcl::Indices& indices,
@@ -71,8 +90,8 @@ public:
                      float& curvature);
 
 protected:
-  /** \throws BadArgument no cloud was given, or not just one of k and radius, or an index is not
-   * that of a point of the input */
+  /** \throws BadArgument no cloud was given, or not exactly one of k and radius, or an index
+   * is out of range */
   bool
   initCompute() override;
 
@@ -85,11 +104,14 @@ private:
   patchesByTree(const KdTree<PointInT>& tree) const;
   std::vector<SurfacePatch>
   patchesBySearch() const;
+  void
+  growAcrossLines(std::vector<SurfacePatch>& patches) const;
 
   unsigned int num_threads_;
+  LineGrowth line_growth_ = LineGrowth::kAuto;
 };
 
-/** \brief Another name for those who write pcl::NormalEstimationOMP. */
+/** \brief Alias for code with pcl::NormalEstimationOMP. */
 template <typename PointInT, typename PointOutT>
 using NormalEstimationOMP = NormalEstimation<PointInT, PointOutT>;
 

@@ -12,11 +12,12 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Octree reduction (book 4.1.5) as a pcl::Filter: one point per occupied voxel.
  *
- * Where setLeafSize() is called it is pcl::VoxelGrid, with the same voxels, points and their
- * order, and all of its setters (LeafGrid). Else options() give the voxel, a cube. Unlike
- * pcl::VoxelGrid it does not overflow on large extents (what does not fit is an error),
- * sums in double, and can keep measured points. Fields other than x, y, z are
- * averaged with kMean and taken from the voxel's first point with kCentre. \code
+ * After setLeafSize() the filter is equivalent to pcl::VoxelGrid in voxels, points, order and
+ * setters (LeafGrid). Otherwise options() give the voxel, a cube. Unlike pcl::VoxelGrid the filter
+ * does not overflow on large extents (a point outside the grid is an error), sums in double, and
+ * can keep measured points. Fields other than x, y, z are averaged with kMean and taken from the
+ * voxel's first point with kCentre.
+ * \code
  * pcl6d::OctreeReduction<pcl::PointXYZI> reduction;
  * reduction.setLeafSize(0.1f, 0.1f, 0.1f);
  * reduction.setInputCloud(cloud);
@@ -38,8 +39,8 @@ public:
   }
 
 protected:
-  /** \throws BadArgument an option breaks its rule, an index is not that of a point, the
-   * point type has no field to filter by, or a point lies outside the grid */
+  /** \throws BadArgument an option is invalid, an index is out of range, the point type has no
+   * field to filter by, or a point lies outside the grid */
   void
   applyFilter(PointCloud& output) override;
 
@@ -54,8 +55,8 @@ private:
   ReductionOptions options_;
 };
 
-/** \brief The same for clouds whose fields are known when the program runs: all of them
- * are averaged in double, each by its type, colours by channel.
+/** \brief OctreeReduction for clouds with fields known only at run time: every field is averaged in
+ * double, by its type, colours by channel.
  * \ingroup filters */
 template <>
 class OctreeReduction<pcl::PCLPointCloud2> : public pcl::Filter<pcl::PCLPointCloud2>,
@@ -73,7 +74,7 @@ public:
   }
 
 protected:
-  /** \throws BadArgument as above, or x, y, z are no fields of type float or double */
+  /** \throws BadArgument see OctreeReduction, or x, y, z are no fields of type float or double */
   void
   applyFilter(pcl::PCLPointCloud2& output) override;
 

@@ -10,9 +10,9 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Keeps the points whose distance from the scanner (the origin of the scan's
- * frame) lies in [min_range, max_range], as a pcl::FilterIndices. Points that are not
- * finite never pass. \ingroup filters */
+/** \brief pcl::FilterIndices that keeps the points at a distance from the scanner (the
+ * origin of the scan's frame) in [min_range, max_range]. Points that are not finite
+ * never pass. \ingroup filters */
 template <typename PointT>
 class RangeGate : public pcl::FilterIndices<PointT> {
 public:
@@ -22,12 +22,12 @@ public:
   explicit RangeGate(bool extract_removed_indices = false);
 
   /** \param[in] min_range, max_range [m], 0 <= min_range <= max_range
-   * \throws BadArgument naming the value that breaks the rule */
+   * \throws BadArgument naming the invalid value */
   void
   setLimits(double min_range, double max_range);
 
 protected:
-  /** \throws BadArgument an index is not that of a point */
+  /** \throws BadArgument an index is out of range */
   void
   applyFilter(pcl::Indices& indices) override;
 

@@ -9,14 +9,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What the filters along scan lines share: where the lines are. The rows of an
- * organized cloud (height > 1) are its lines; of another one, in the order of
- * acquisition, setLineLength() tells how many values a line has. \ingroup filters */
+/** \brief Base class of filters along scan lines: locates the lines. The rows of an
+ * organized cloud (height > 1) are its lines; for an unorganized cloud, in the order
+ * of acquisition, setLineLength() sets the number of values a line.
+ * \ingroup filters */
 template <typename PointT>
 class ScanLineFilter : public pcl::Filter<PointT> {
 public:
-  /** \param[in] length values a line, those without an echo included; the last line may
-   * be shorter. Of an organized cloud only its width is accepted
+  /** \param[in] length values a line, values without an echo included; the last line
+   * may be shorter. For an organized cloud only its width is accepted
    * \throws BadArgument length <= 0 */
   void
   setLineLength(int length)
@@ -26,8 +27,8 @@ public:
   }
 
 protected:
-  /** \return the line length of the input \throws BadArgument as lineLengthOf(), or an
-   * index is not that of a point */
+  /** \return the line length of the input \throws BadArgument see lineLengthOf(), or an
+   * index is out of range */
   std::size_t
   checkedLineLength() const;
 

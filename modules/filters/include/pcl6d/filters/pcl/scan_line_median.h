@@ -8,12 +8,13 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Scan-line median filter (book 4.1.5) as a pcl::Filter: moves mixed pixels,
- * which hang in the air between an edge and what is behind it, along their ray to the
+ * which hang in the air between an edge and the background, along their ray to the
  * median range of their neighbours on the scan line; see medianAlongLines().
  *
- * The output has all points of the input and its width and height; all other points and
- * all fields but x, y, z keep their bits. With setIndices() only the chosen points are
- * moved; all points are neighbours. Nothing is ever removed. \code
+ * The output has the size, width and height of the input; unmoved points and fields
+ * other than x, y, z keep their bits. With setIndices() only the chosen points are
+ * moved; every point counts in the median. No point is ever removed.
+ * \code
  * pcl6d::ScanLineMedian<pcl::PointXYZI> median;
  * median.setLineLength(360); // not needed for organized clouds
  * median.setInputCloud(cloud);
@@ -27,7 +28,7 @@ public:
 
   ScanLineMedian();
 
-  /** \brief Window and threshold, see there. */
+  /** \brief Window and threshold, see ScanLineMedianOptions. */
   ScanLineMedianOptions&
   options()
   {
@@ -35,8 +36,8 @@ public:
   }
 
 protected:
-  /** \throws BadArgument an option breaks its rule, the lines are not known, or an
-   * index is not that of a point */
+  /** \throws BadArgument an option is invalid, the lines are not known, or an index
+   * is out of range */
   void
   applyFilter(PointCloud& output) override;
 

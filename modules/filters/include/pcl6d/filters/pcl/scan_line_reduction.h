@@ -8,11 +8,12 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Scan-line reduction filter (book 4.1.5) as a pcl::Filter: merges consecutive
- * points of a line that are close to the first of their group; see groupAlongLines().
+ * points of a line close to the first point of their group; see groupAlongLines().
  *
- * Each group becomes the mean of its points, with the mean of their other fields as in
+ * Each group becomes the mean of its points, with the mean of their other fields by
  * pcl::CentroidPoint. With setIndices() only the chosen points are merged, each once,
- * in the order of the line; the others keep their place. \code
+ * in the order of the line; points that are not chosen still count in the line.
+ * \code
  * pcl6d::ScanLineReduction<pcl::PointXYZI> reduction;
  * reduction.options().max_distance = 0.1; // [m]
  * reduction.options().line_step = 3;      // every third line only
@@ -28,7 +29,7 @@ public:
 
   ScanLineReduction();
 
-  /** \brief Distance limit and step of lines, see there. */
+  /** \brief Distance limit and step of lines, see ScanLineReductionOptions. */
   ScanLineReductionOptions&
   options()
   {
@@ -40,8 +41,8 @@ public:
   setLineStep(int step);
 
 protected:
-  /** \throws BadArgument an option breaks its rule, the lines are not known, or an
-   * index is not that of a point */
+  /** \throws BadArgument an option is invalid, the lines are not known, or an index
+   * is out of range */
   void
   applyFilter(PointCloud& output) override;
 

@@ -12,12 +12,13 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief pcl::UniformSampling: of each occupied cube of a grid, the point nearest to its
  * centre.
  *
- * The cubes are those of PCL's class (LeafCells). What differs: distances to the centre are
- * in double, where PCL adds 1 to their squares in float, so that of cubes of millimetres it
- * keeps the first point; of points equally near the first stays; large extents do not
- * overflow; points come in the order of the input, not of a hash table. It is a
- * pcl::FilterIndices, as PCL's own class is in later versions: filter(indices), negative
- * and organized output work as there. Points that are not finite never pass. \code
+ * The cubes are identical to PCL's class (LeafCells). Differences: distances to the centre are in
+ * double, where PCL adds 1 to their squares in float and thus keeps the first point in cubes of
+ * millimetres; of equally near points the first stays; large extents do not overflow; points come
+ * in the order of the input, not of a hash table. A pcl::FilterIndices, like PCL's own class in
+ * later versions: filter(indices), negative and organized output work likewise. Points that are not
+ * finite never pass.
+ * \code
  * pcl6d::UniformSampling<pcl::PointXYZ> sampling;
  * sampling.setRadiusSearch(0.01); // [m] side of a cube
  * sampling.setInputCloud(cloud);
@@ -32,7 +33,7 @@ public:
   /** \param[in] extract_removed_indices fill getRemovedIndices() */
   explicit UniformSampling(bool extract_removed_indices = false);
 
-  /** \brief Side of a cube [m], which PCL calls radius; it must be set. */
+  /** \brief Side of a cube [m], called radius in PCL; must be set. */
   virtual void
   setRadiusSearch(double radius)
   {
@@ -45,7 +46,7 @@ public:
   }
 
 protected:
-  /** \throws BadArgument as LeafCells(), or an index is not that of a point */
+  /** \throws BadArgument see LeafCells(), or an index is out of range */
   void
   applyFilter(pcl::Indices& indices) override;
 

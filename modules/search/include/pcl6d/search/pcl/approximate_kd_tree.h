@@ -11,8 +11,8 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief The approximate k-d tree (book 4.1.4): the i-th point found is at most
  * (1 + epsilon) times as far as the true i-th; radiusSearch() stays exact.
  *
- * A limited search finds a point if and only if there is one within the limit. Not a
- * pcl6d::KdTree, so that what promises exact results refuses it.
+ * A limited search finds a point if and only if one lies within the limit. Not a
+ * pcl6d::KdTree: classes that need exact results do not accept it.
  * \note Source: S. Arya, D. M. Mount, "Approximate nearest neighbor queries in fixed
  * dimensions", SODA 1993. \ingroup search */
 template <typename PointT>
@@ -22,7 +22,7 @@ public:
   using Ptr = pcl::shared_ptr<ApproximateKdTree<PointT>>;
 
   /** \param[in] epsilon relative, see setEpsilon()
-   * \param[in] num_threads for building; 0: one per core */
+   * \param[in] num_threads for building; 0: a thread per core */
   explicit ApproximateKdTree(float epsilon = 1, unsigned int num_threads = 0)
   : CoreSearch<PointT, PointTree, pcl::search::KdTree<PointT>>(
         "pcl6d::ApproximateKdTree")

@@ -8,7 +8,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Looks at every point: the oracle of the other searches. \ingroup search */
+/** \brief Brute-force search over every point: the oracle of the faster searches.
+ * \ingroup search */
 template <typename PointT>
 class BruteForceSearch
 : public CoreSearch<PointT, PointList, pcl::search::Search<PointT>> {

@@ -15,16 +15,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The cached k-d tree (book 4.1.4): exact, and quick when the same queries come
- * again slightly moved, as in the iterations of ICP.
+/** \brief The cached k-d tree (book 4.1.4): exact, and quick for queries that recur slightly moved,
+ * like the iterations of ICP.
  *
- * Each query remembers the leaf of its last neighbour; the next search starts there and
- * climbs only as far as it must. A caller who numbers its queries has a slot for each. A
- * search for the one nearest point of a PointT alone, as PCL's registration makes it, is
- * known by where that point lies in memory (LeafMemory): PCL moves its source in place, so
- * that pcl::IterativeClosestPoint and pcl6d::ICP6D both start at the leaves of their last
- * iteration. ICP6D keeps its leaves by itself, anew in each align(), so that several may
- * share a tree.
+ * The leaf of a query's last neighbour is kept; the next search starts there and climbs only as far
+ * as necessary. A caller who numbers the queries has a slot for each. Without a number, as in
+ * pcl::Registration, a search for the one nearest point is recognised by the memory address of the
+ * query point (LeafMemory). PCL moves its source in place: pcl::IterativeClosestPoint and
+ * pcl6d::ICP6D both start at the leaves of their last iteration. ICP6D keeps leaves of its own,
+ * anew in each align(), hence several ICP6D objects may share a tree.
  * \code
  * pcl6d::CachedKdTree<pcl::PointXYZ> tree;
  * tree.setInputCloud(target);
@@ -33,8 +32,8 @@ namespace PCL6D_EXPORTS pcl6d {
  *   for (std::size_t i = 0; i < source->size(); ++i)
  *     found = tree.nearestCached(i, (*source)[i], 0.5);
  * \endcode
- * Searches may run in parallel as long as no two of them use the same slot at once; by
- * points alone they always may.
+ * Searches may run in parallel unless two of them use one slot at once; searches without a
+ * slot always may.
  * \note Source: A. Nüchter, K. Lingemann, J. Hertzberg, "Cached k-d tree search for ICP
  * algorithms", 3DIM 2007. \ingroup search */
 template <typename PointT>
@@ -51,16 +50,16 @@ public:
   template <typename Number, typename = OnlyNumbers<Number>>
   explicit CachedKdTree(Number) = delete;
 
-  /** \brief Makes so many slots, all of them empty; at first there are none. A new
-   * input cloud empties them too. */
+  /** \brief Sets the number of slots (initially 0) and empties every slot. A new input cloud
+   * empties the slots, too. */
   void
   setNumSlots(std::size_t count)
   {
     leaf_of_slot_.assign(count, -1);
   }
 
-  /** \brief As nearest(), by the cached search.
-   * \throws BadArgument there is no such slot */
+  /** \brief nearest() by the cached search.
+   * \throws BadArgument the slot does not exist */
   Neighbour
   nearestCached(std::size_t slot, const PointT& point, double max_distance) const
   {
@@ -71,8 +70,8 @@ public:
         leaf_of_slot_[slot], this->local(point), squaredLimit(max_distance)));
   }
 
-  /** \brief PCL's search: with k = 1 from the leaf where the last one for the point at
-   * this address ended. */
+  /** \brief PCL's search: with k = 1 from the leaf where the last search for the point at this
+   * address ended. */
   int
   nearestKSearch(const PointT& point,
                  int k,
@@ -88,7 +87,7 @@ public:
     return this->toPcl(found, k_indices, k_sqr_distances);
   }
 
-  /** \return the number of points, searched for without a slot, whose leaf is known */
+  /** \return the number of query points without a slot for which a leaf is known */
   std::size_t
   numRemembered() const
   {
@@ -96,7 +95,7 @@ public:
   }
 
   /** \brief PCL's search for the neighbours of cloud[index]: with k = 1 the index is the
-   * slot, if there is one. */
+   * slot, if it exists. */
   int
   nearestKSearch(const pcl::PointCloud<PointT>& cloud,
                  pcl::index_t index,

@@ -18,33 +18,32 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Where coordinates of some points are best counted from: zero, unless nearly all
- * points lie farther than 8 km from it and within 8 km of each other; then a place near them (their
- * median) in whole kilobinary metres (1024 m), which float subtracts without rounding. So
- * distances to points in UTM coordinates keep the digits that a query of double has. */
+/** \brief Origin for the coordinates of a cloud: zero, unless nearly all points lie farther than
+ * 8 km from zero and within 8 km of each other; then their median, rounded to multiples of 1024 m,
+ * which float subtracts without rounding. Distances to points in UTM coordinates thereby keep the
+ * digits of a query in double. */
 Eigen::Vector3f
 localOrigin(const Points& points);
 
-/** \brief What PCL's setInputCloud() returns: nothing up to 1.13, bool since 1.14. */
+/** \brief Return type of PCL's setInputCloud(): void up to 1.13, bool since 1.14. */
 template <typename Base>
 using SetInputCloudResult =
     decltype(std::declval<Base&>().setInputCloud(nullptr, nullptr));
 
-/** \brief For constructors that take no number where PCL's take a bool. */
+/** \brief For constructors that reject a number where PCL's take a bool. */
 template <typename Number>
 using OnlyNumbers = std::enable_if_t<std::is_arithmetic<Number>::value &&
                                      !std::is_same<Number, bool>::value>;
 
-/** \brief The seam between PCL's interface of searches and our cores.
+/** \brief Base class of searches: PCL's interface on top of a core free of point types.
  *
- * Converts clouds, indices and results; a class for one structure adds build() and what
- * else differs. Distances are those of the coordinates x, y, z [m]; point
- * representations of the base class are not used. Results are always sorted, ties by
- * index. Indices refer to the input cloud, also when only some of its points are
- * searched. Searches of one object may run in parallel.
- * \tparam Core structure free of point types, such as PointTree
- * \tparam Base pcl::search::KdTree<PointT>, the only type that pcl::Registration accepts
- * (its FLANN part stays empty), or pcl::search::Search<PointT> \ingroup search */
+ * Converts clouds, indices and results; the class of one structure adds build() and its
+ * peculiarities. Distances are over the coordinates x, y, z [m]; point representations of the base
+ * class are not used. Results are always sorted, ties by index. Indices refer to the input cloud,
+ * also when only a part of its points is searched. Searches of one object may run in parallel.
+ * \tparam Core structure free of point types, like PointTree
+ * \tparam Base pcl::search::KdTree<PointT>, the only type accepted by pcl::Registration (the FLANN
+ * part stays empty), or pcl::search::Search<PointT> \ingroup search */
 template <typename PointT, typename Core, typename Base>
 class CoreSearch : public Base {
 public:
@@ -52,16 +51,16 @@ public:
   using Base::radiusSearch;
   using PointCloudConstPtr = typename pcl::PointCloud<PointT>::ConstPtr;
 
-  /** \brief Builds the structure. \param[in] indices the points to search; null: all
-   * \return true, where PCL's class returns anything
-   * \throws BadArgument the cloud is null, or an index is not that of a point */
+  /** \brief Builds the structure. \param[in] indices the points to search; null: every point
+   * \return true, where PCL's class returns a bool
+   * \throws BadArgument the cloud is null, or an index is out of range */
   SetInputCloudResult<Base>
   setInputCloud(const PointCloudConstPtr& cloud,
                 const pcl::IndicesConstPtr& indices = nullptr) override;
 
-  /** \return the number of neighbours found: k, or all points if there are fewer. If it is
-   * 0, the vectors hold one entry all the same, index -1 and an infinite distance, as PCL's
-   * own callers read it without looking */
+  /** \return the number of neighbours found: k, or the number of points if smaller. With 0, the
+   * vectors still hold one entry, index -1 and an infinite distance, since PCL's own callers read
+   * the first entry unchecked */
   int
   nearestKSearch(const PointT& point,
                  int k,
@@ -69,7 +68,7 @@ public:
                  std::vector<float>& k_sqr_distances) const override;
 
   /** \return the number of points nearer than radius [m]
-   * \param[in] max_nn keep only so many of the nearest; 0: all */
+   * \param[in] max_nn keep at most max_nn of the nearest; 0: no limit */
   int
   radiusSearch(const PointT& point,
                double radius,
@@ -77,7 +76,7 @@ public:
                std::vector<float>& k_sqr_distances,
                unsigned int max_nn = 0) const override;
 
-  /** \return the place that the core's coordinates are relative to [m], see localOrigin() */
+  /** \return the origin of the core's coordinates [m], see localOrigin() */
   const Eigen::Vector3f&
   origin() const
   {
@@ -86,12 +85,12 @@ public:
 
   /** \brief Limited search: the nearest point within a distance, without vectors.
    * \param[in] max_distance [m]; a point at exactly this distance is not accepted
-   * \return index in the input cloud, -1: none */
+   * \return index in the input cloud, -1: not found */
   Neighbour
   nearest(const PointT& point, double max_distance) const;
 
 protected:
-  /** \param[in] name as getName() returns it */
+  /** \param[in] name returned by getName() */
   explicit CoreSearch(const std::string& name)
   {
     this->name_ = name;
@@ -102,7 +101,7 @@ protected:
   virtual std::shared_ptr<const Core>
   build(const Points& points) = 0;
 
-  // The points found are places in those of build().
+  // Indices found refer to the points given to build().
   virtual Neighbour
   findNearest(const Eigen::Vector3f& query, float max_distance_sq) const
   {
@@ -114,7 +113,7 @@ protected:
     return core_->nearestK(query, k);
   }
 
-  /** \return the same with the index of the input cloud */
+  /** \return the neighbour with its index in the input cloud */
   Neighbour
   inCloud(Neighbour found) const
   {
@@ -123,7 +122,7 @@ protected:
     return found;
   }
 
-  /** \brief Writes the result of a search for k points as PCL's callers expect it. */
+  /** \brief Writes the result of a search for k points in the form expected by PCL's callers. */
   int
   toPcl(const Neighbour& found,
         pcl::Indices& indices,
@@ -133,7 +132,7 @@ protected:
         pcl::Indices& indices,
         std::vector<float>& sqr_distances) const;
 
-  /** \return the coordinates of a point as the core counts them */
+  /** \return the coordinates of a point relative to the core's origin */
   Eigen::Vector3f
   local(const PointT& point) const
   {
@@ -144,8 +143,8 @@ protected:
   std::shared_ptr<const Core> core_ = std::make_shared<Core>(); ///< at first empty
 };
 
-/** \return the square of a distance [m] for the cores; infinite if float ends before; 0, within
- * which nothing lies, for a distance that is negative or NaN */
+/** \return the square of a distance [m] for the cores; infinite on overflow of float; 0, which no
+ * point is nearer than, for a negative distance or NaN */
 inline float
 squaredLimit(double distance)
 {

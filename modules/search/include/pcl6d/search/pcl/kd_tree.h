@@ -10,9 +10,9 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Our k-d tree (book 4.1.4) as a pcl::search::KdTree, hence accepted by
- * pcl::Registration. Exact: the epsilon of the base class is not used. With a point
- * representation that is not of x, y, z, FLANN searches in our place.
+/** \brief The optimised k-d tree (PointTree, book 4.1.4) as a pcl::search::KdTree,
+ * hence accepted by pcl::Registration. Exact: the epsilon of the base class is not
+ * used. With a point representation other than x, y, z, FLANN does the search.
  * \code
  * pcl6d::KdTree<pcl::PointXYZ> tree;
  * tree.setInputCloud(cloud);
@@ -36,8 +36,9 @@ public:
   template <typename Number, typename = OnlyNumbers<Number>>
   explicit KdTree(Number) = delete;
 
-  /** \brief PCL's setter: neighbours are then those of FLANN, over these coordinates.
-   * Through a pointer to the base class it counts from the next setInputCloud() on. */
+  /** \brief PCL's setter: FLANN then finds the neighbours, over the coordinates of the
+   * representation. Called through a pointer to the base class, the setting takes
+   * effect at the next setInputCloud(). */
   void
   setPointRepresentation(const typename Flann::PointRepresentationConstPtr& how)
   {
@@ -79,15 +80,15 @@ public:
                : Core::radiusSearch(point, radius, k_indices, k_sqr_distances, max_nn);
   }
 
-  /** \param[in] num_threads for the next setInputCloud(); 0: one per core */
+  /** \param[in] num_threads for the next setInputCloud(); 0: a thread per core */
   void
   setNumberOfThreads(unsigned int num_threads)
   {
     num_threads_ = num_threads;
   }
 
-  /** \return the tree of the core; null before setInputCloud(). Its indices are those
-   * of the searched points, in their order */
+  /** \return the tree of the core; null before setInputCloud(). Its indices count the
+   * searched points in order */
   std::shared_ptr<const PointTree>
   tree() const
   {
@@ -99,7 +100,7 @@ protected:
   : Core(name), cells_(cells)
   {}
 
-  bool by_flann_ = false; ///< the coordinates are others than x, y, z
+  bool by_flann_ = false; ///< the coordinates differ from x, y, z
 
   std::shared_ptr<const PointTree>
   build(const Points& points) override

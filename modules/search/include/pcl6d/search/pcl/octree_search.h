@@ -15,15 +15,15 @@ class OctreeSearch
 public:
   using Ptr = pcl::shared_ptr<OctreeSearch<PointT>>;
 
-  /** \brief PCL's constructor. \param[in] resolution [m] has no effect: there is none to
-   * choose, leaves hold so many points */
+  /** \brief PCL's constructor. \param[in] resolution [m] has no effect: the size of a leaf follows
+   * from its number of points */
   explicit OctreeSearch(double resolution = 0)
   : CoreSearch<PointT, PointOctree, pcl::search::Search<PointT>>("pcl6d::OctreeSearch")
   {
     static_cast<void>(resolution);
   }
 
-  /** \param[in] num_threads for the next setInputCloud(); 0: one per core */
+  /** \param[in] num_threads for the next setInputCloud(); 0: a thread per core */
   void
   setNumberOfThreads(unsigned int num_threads)
   {

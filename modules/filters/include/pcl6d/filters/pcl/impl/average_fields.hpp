@@ -60,9 +60,10 @@ averageFields(const pcl::PointCloud<PointT>& cloud,
     sums[c].get(means[c]);
 }
 
-/** Makes one point a cell, the mean of its points; x, y, z are summed in double.
- * \param[in] chosen, points the chosen points of the cloud, in their order
- * \param[in] all_fields or x, y, z alone \param[out] means not the cloud itself */
+/** Makes one point per cell, the mean of the cell's points; x, y, z are
+ * summed in double.
+ * \param[in] chosen, points the chosen points of the cloud, in order
+ * \param[in] all_fields false: x, y, z alone \param[out] means not the cloud itself */
 template <typename PointT>
 void
 averageCells(const pcl::PointCloud<PointT>& cloud,

@@ -9,7 +9,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return whether the indices are 0, 1, 2, ... of all points */
+/** \return whether the indices are 0, 1, 2, ... of every point */
 inline bool
 areAllInOrder(const pcl::Indices& indices, std::size_t num_points)
 {
@@ -21,7 +21,7 @@ areAllInOrder(const pcl::Indices& indices, std::size_t num_points)
   return differs == 0;
 }
 
-/** \return the points of a cloud in their place; valid as long as it is */
+/** \return the points of a cloud in place; valid during its lifetime */
 template <typename PointT>
 CoordinateView
 viewOf(const pcl::PointCloud<PointT>& cloud)
@@ -32,12 +32,12 @@ viewOf(const pcl::PointCloud<PointT>& cloud)
           cloud.size()};
 }
 
-/** \brief The chosen points of a cloud as the core sees them: in their place if they are all,
- * else copied. Valid as long as the cloud. */
+/** \brief The chosen points of a cloud for the core: in place if every point is chosen, else
+ * copied. Valid during the lifetime of the cloud. */
 template <typename PointT>
 class ChosenPoints {
 public:
-  /** \throws BadArgument an index is not that of a point */
+  /** \throws BadArgument an index is out of range */
   ChosenPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
   {
     if (areAllInOrder(indices, cloud.size())) {

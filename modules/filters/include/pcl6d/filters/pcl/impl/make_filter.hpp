@@ -8,10 +8,10 @@
 namespace pcl6d {
 namespace filters {
 
-/** What makeFilter() makes. */
+/** Filters of makeFilter(). */
 enum class FilterKind { kReduction, kMedian, kLineReduction };
 
-/** \throws BadArgument no such word */
+/** \throws BadArgument unknown word */
 PCL6D_EXPORTS FilterKind
 filterKindFromName(const std::string& name);
 

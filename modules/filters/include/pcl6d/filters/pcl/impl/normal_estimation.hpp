@@ -122,9 +122,23 @@ NormalEstimation<PointInT, PointOutT>::patchesBySearch() const
 
 template <typename PointInT, typename PointOutT>
 void
+NormalEstimation<PointInT, PointOutT>::growAcrossLines(
+    std::vector<SurfacePatch>& patches) const
+{
+  const Eigen::Vector3f viewpoint(this->vpx_, this->vpy_, this->vpz_);
+  growLines(
+      toPoints(*this->input_, *this->indices_),
+      LineSurface(toPoints(*this->surface_), viewpoint, line_growth_, num_threads_),
+      patches,
+      num_threads_);
+}
+
+template <typename PointInT, typename PointOutT>
+void
 NormalEstimation<PointInT, PointOutT>::computeFeature(PointCloudOut& output)
 {
-  const std::vector<SurfacePatch> all = patches();
+  std::vector<SurfacePatch> all = patches();
+  growAcrossLines(all);
   const Eigen::Vector3d viewpoint(this->vpx_, this->vpy_, this->vpz_);
   output.is_dense = true;
   for (std::size_t i = 0; i < all.size(); ++i) {

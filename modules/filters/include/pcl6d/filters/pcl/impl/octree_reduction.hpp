@@ -22,7 +22,7 @@ OctreeReduction<PointT>::OctreeReduction()
   this->filter_name_ = "OctreeReduction";
 }
 
-/** \return the chosen points; NaN are those whose field is beyond its limits */
+/** \return the chosen points; NaN where the field is outside its limits */
 template <typename PointT>
 Points
 OctreeReduction<PointT>::chosenPoints() const
@@ -41,7 +41,7 @@ OctreeReduction<PointT>::chosenPoints() const
   const int field = pcl::getFieldIndex<PointT>(field_, fields);
   require(field >= 0, "filter field", field_, "a field of the points");
   for (std::size_t i = 0; i < points.size(); ++i) {
-    float value = 0; // as PCL has it, whatever the field's type
+    float value = 0; // float like in PCL, whatever the field's type
     std::memcpy(&value,
                 reinterpret_cast<const char*>(&input[chosen[i]]) + fields[field].offset,
                 sizeof(value));
@@ -103,7 +103,7 @@ OctreeReduction<PointT>::reduceByVoxel(const Points& points, PointCloud& output)
   }
 }
 
-/** What pcl::VoxelGrid does. */
+/** Reduces like pcl::VoxelGrid. */
 template <typename PointT>
 void
 OctreeReduction<PointT>::reduceByLeaf(const CoordinateView& points, PointCloud& output)

@@ -33,7 +33,7 @@ ScanLineReduction<PointT>::applyFilter(PointCloud& output)
 {
   const auto& input = *this->input_;
   const std::size_t line_length = this->checkedLineLength();
-  // Points that are not chosen keep their place in the line as if they had no echo.
+  // Points that are not chosen count in the line like points without an echo.
   const float nan = std::numeric_limits<float>::quiet_NaN();
   Points points(input.size(), Eigen::Vector3f::Constant(nan));
   for (const auto i : *this->indices_)

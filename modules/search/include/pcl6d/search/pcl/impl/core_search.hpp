@@ -71,8 +71,8 @@ CoreSearch<PointT, Core, Base>::toPcl(const Neighbour& found,
                                       pcl::Indices& indices,
                                       std::vector<float>& sqr_distances) const
 {
-  // If there is none, PCL's own code (Registration::getFitnessScore) reads the first
-  // entry unseen.
+  // PCL's own code (Registration::getFitnessScore) reads the first entry unchecked,
+  // even without a neighbour.
   const bool none = found.index < 0;
   indices.assign(1, inCloud(found).index);
   sqr_distances.assign(

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/common/packing.h>
+#include <pcl6d/common/status.h>
+
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace PCL6D_EXPORTS pcl6d {
+
+/** \brief Why a match, a pose, a link or a stage was rejected. The comment of a reason says what
+ * Rejection::measured and Rejection::needed hold; its words are in src/rejection.cpp. */
+enum class RejectReason {
+  kNone,   ///< accepted
+  kStated, ///< in words only (text): from a file of a run, or from an error
+
+  // a match of a scan with the scans before
+  kIcpFailed,          ///< status
+  kNoInitialPose,      ///< text: the start that was tried; status
+  kOverlapTooSmall,    ///< overlap; least overlap
+  kTooFewPairs,        ///< pairs; least number
+  kUnrelatedPoints,    ///< rms of the pairs [m]; largest rms of scans that overlap
+  kCorrectionTooLarge, ///< correction [m]; step of the odometry [m]
+  kAgreementLost,      ///< agreement after; before
+  kAgreementWithPreviousLost, ///< the same with the previous scan alone
+  kInconsistentPose,          ///< verification contradicts the matched pose
+  kNotMatchedWhereFound,      ///< recovery found a pose, ICP rejected it: cause
+  kLostTogether,              ///< scans that were lost with this one, and match it
+  kNoPoseInMap,               ///< recovery found none: cause
+  kNotJoined,                 ///< no pose relative to any other scan: cause
+
+  // a pose found by place recognition
+  kNoSurfacesMeet,     ///< no candidate pose at which surfaces meet
+  kTooFewSurfacesMeet, ///< overlap; least overlap
+  kSecondPose,       ///< score of a second pose / score of the best one; largest ratio;
+                     ///< text: how far apart the two are
+  kSurfaceViolated,  ///< share of points in measured free space; largest share
+  kInconsistentLink, ///< the link with a scan is wrong: cause
+  kNoConsistentLink, ///< no link confirms the pose
+  kInconsistentTogether, ///< violated patches of all links together; patches
+  kInTwoGroups,          ///< a pose in two groups that have none relative to each other
+  kNeighbourInTwoGroups, ///< the scan that it was joined to has
+  kBetterPoseElsewhere,  ///< without the scan's own links another pose is better
+  kLinkNotGood,          ///< text: trust of the link at the best pose; cause
+  kFreeDirection,    ///< poses along a direction that surfaces leave free fit as well
+  kRunWithoutPose,   ///< scans of the run that were looked for; cause
+  kRunContradictory, ///< scans of the run that were looked for
+
+  // a link between two scans
+  kFreeDirections,   ///< number of motions that the surfaces leave free
+  kTooFewConfirmed,  ///< share of points that rays confirm; least share
+  kPatchesViolated,  ///< patches of surface that rays pass through; patches
+  kTooFewPatches,    ///< patches of surface in common; least number
+  kShifted,          ///< shift that surfaces ask for [m]; its standard deviation [m]
+  kOffCentre,        ///< a scan is not centred on its scanner
+  kTooFewSurfaces,   ///< of a scan, or its rays contradict its own points
+  kRaysUnreliable,   ///< rays contradict even the best links of the map
+  kSamePoints,       ///< both scans hold the same points
+  kScanUnregistered, ///< a scan of the link is not registered
+  kContradictsLinks, ///< switched off by the other links
+  kContradictsLoops, ///< loops beside it that it contradicts; that it agrees with
+  kSurfacePassed,    ///< share of points near surfaces; least share
+
+  // a stage
+  kScanAgreementLost, ///< agreement of a scan after; before; text: index of the scan
+  kRelaxationFailed,  ///< status
+  kLoopClosingFailed, ///< status
+  kNoCycle,           ///< the links close no cycle
+  kNoNeighbours,      ///< no scan has a neighbour
+  kNothingJoined,     ///< no two scans could be joined
+  kNoSolution,        ///< status
+  kNoClearGain,       ///< agreement after; before
+
+  // the motion within a scan
+  kNoMotionSeen,       ///< way of the points in multiples of the noise
+  kDeskewedAgreesLess, ///< agreement after; before
+  kDeskewedNotBetter,  ///< agreement after; before
+  kTurnTooLarge,       ///< turn between two knots [deg]; largest turn [deg]
+  kNoPreviousScanMet,  ///< overlap; least overlap
+  kTooLittleKnown,     ///< of the motion after the first scan
+  kOneTime,            ///< all points have the same time
+  kNoNextScan          ///< no scan follows
+};
+
+/** \return a word for files, such as "overlap-too-small"; "" for kNone */
+const char*
+toString(RejectReason reason);
+/** \throws BadArgument no reason has that name */
+RejectReason
+rejectReasonFromName(const std::string& name);
+
+/** \brief A decision against a result: the reason and the numbers behind it. False as a
+ * condition if the result was accepted. \ingroup common */
+struct Rejection {
+  Rejection() = default;
+  Rejection(RejectReason why, double was = 0, double limit = 0)
+  : reason(why), measured(was), needed(limit)
+  {}
+  Rejection(RejectReason why, Status result) : reason(why), status(result) {}
+  Rejection(RejectReason why, Rejection cause) : reason(why), causes{std::move(cause)}
+  {}
+  /** \return in words only; accepted if there are none */
+  static Rejection
+  stated(std::string words);
+
+  explicit operator bool() const { return reason != RejectReason::kNone; }
+
+  RejectReason reason = RejectReason::kNone;
+  double measured = 0;   ///< unit by reason
+  double needed = 0;     ///< what it was compared with, in the same unit
+  double deviations = 0; ///< their difference in standard deviations; 0: not known
+  Status status = Status::kOk;   ///< of the estimator that failed
+  std::string text;              ///< a name, by reason
+  std::vector<Rejection> causes; ///< what the decision rests on: none or one
+};
+
+/** \return one sentence without a full stop, with the numbers; "" if accepted */
+std::string
+toWords(const Rejection& rejection);
+/** \return the same of all, with semicolons between */
+std::string
+toWords(const std::vector<Rejection>& rejections);
+
+bool
+operator==(const Rejection& a, const Rejection& b);
+inline bool
+operator!=(const Rejection& a, const Rejection& b)
+{
+  return !(a == b);
+}
+std::ostream&
+operator<<(std::ostream& out, const Rejection& rejection);
+
+template <typename Archive>
+void
+packFields(Archive& archive, Rejection& rejection)
+{
+  archive(rejection.reason, rejection.measured, rejection.needed, rejection.status);
+  archive(rejection.deviations, rejection.text, rejection.causes);
+}
+
+} // namespace pcl6d

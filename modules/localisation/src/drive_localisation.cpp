@@ -15,7 +15,7 @@ planPoseOf(const Eigen::Isometry3d& T)
   return {T.translation().x(), T.translation().y(), eulerFromRotation(T.linear()).yaw};
 }
 
-/** \return the pose of a scan that stands at a place of the plan */
+/** \return the pose in space of a scan with a pose in the plan */
 Eigen::Isometry3d
 standing(const Eigen::Vector3d& plan_pose,
          double z,
@@ -27,7 +27,7 @@ standing(const Eigen::Vector3d& plan_pose,
   return T;
 }
 
-/** \return the start in the frame of the map, as far as it is known */
+/** \return the start in the frame of the map, if known */
 std::optional<Eigen::Vector3d>
 startIn(const SegmentMap& map,
         const DriveStart& start,
@@ -58,8 +58,8 @@ heightsOf(const std::vector<DriveScan>& scans)
   return heights;
 }
 
-/** Gives the localised scans their poses in space, and finds the world in the map unless
- * the poses told it: by the given start, or by the first trusted scan. */
+/** Gives the localised scans their poses in space, and finds the pose of the world in the map
+ * (unless given by the poses) from the given start, or from the first trusted scan. */
 void
 placeScans(const std::vector<DriveScan>& scans,
            MclStart kind,

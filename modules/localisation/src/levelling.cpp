@@ -27,11 +27,12 @@ struct TiltSums {
   }
 };
 
-/** The tilt that fits, only in directions that the walls fix. */
+/** The least-squares tilt, only in directions fixed by the walls. */
 Eigen::Vector2d
 solve(const TiltSums& sums, double least, bool& is_fixed)
 {
-  constexpr double kLeastShare = 0.02; // of the weight that must face a direction
+  constexpr double kLeastShare = 0.02; // of the weight: least that must
+                                       // face a direction
   const auto eigen = symmetricEigen<2>(sums.A);
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
   is_fixed = true;
@@ -75,7 +76,7 @@ levelByNormals(const std::vector<Eigen::Vector3d>& normals,
           "one per normal, " + std::to_string(normals.size()));
   Levelling level;
   level.R_level_source = levellingOf(guess.row(2).transpose());
-  // The scale of Cauchy's weights shrinks from the largest tilt to that of a wall.
+  // The scale of Cauchy's weights shrinks from the largest tilt to the tilt of a wall.
   for (const double scale : {8.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.5, 0.5}) {
     TiltSums sums;
     for (std::size_t i = 0; i < normals.size(); ++i) {

@@ -155,8 +155,8 @@ MonteCarloLocalisation::weights() const
   return weights;
 }
 
-/** How many particles stand for their spread: those that keep the error of the
- * distribution over k bins below epsilon, with a probability of 99 % (Fox 2003, eq. 7). */
+/** The number of particles that keeps the error of the distribution over k bins below epsilon, with
+ * a probability of 99 % (Fox 2003, eq. 7). */
 std::size_t
 MonteCarloLocalisation::wantedParticles() const
 {
@@ -181,8 +181,8 @@ MonteCarloLocalisation::wantedParticles() const
                  static_cast<double>(options_.max_particles)));
 }
 
-/** Low variance resampling, when the weights are unequal or the number is far from what
- * the spread asks for. */
+/** Low variance resampling, when the weights are unequal or the number is far from
+ * wantedParticles(). */
 void
 MonteCarloLocalisation::resample()
 {

@@ -22,7 +22,7 @@ isWall(const Plane& plane)
          plane.inliers > 0 && plane.hull.size() >= 3;
 }
 
-/** \return the hull of an upright plane from above: from one end to the other */
+/** \return the hull of an upright plane seen from above: a segment from end to end */
 Segment
 fromAbove(const Plane& plane, const Eigen::Matrix3d& R)
 {
@@ -49,7 +49,7 @@ struct Cell {
   double low = 0, high = 0;
 };
 
-/** A cell in which something stands upright. */
+/** A cell with an upright surface. */
 struct UprightCell {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
   Eigen::Vector2d along = Eigen::Vector2d::Zero(); ///< of the line around it
@@ -130,7 +130,7 @@ public:
   }
 
 private:
-  static constexpr double kPatch = 0.4;    // [m] around a cell, that makes its line
+  static constexpr double kPatch = 0.4;    // [m] around a cell: points of its line
   static constexpr double kStraight = 0.8; // of a seed
   static constexpr double kCosine = 0.93;  // of the angle between lines, 22 deg
 
@@ -141,7 +141,7 @@ private:
       return clampedTo<std::int64_t>(std::floor(v / options_.cell));
     };
     if (!isPlace(p))
-      return; // nor can its neighbours be counted
+      return; // neighbouring cells could not be counted
     Cell& cell = cells[{index(p.x()), index(p.y())}];
     cell.low = cell.count == 0 ? p.z() : std::min(cell.low, p.z());
     cell.high = cell.count == 0 ? p.z() : std::max(cell.high, p.z());
@@ -249,7 +249,7 @@ sliceOf(const TriangleMesh& mesh, double height)
     for (std::size_t i = 0; i < 3; ++i) {
       const Eigen::Vector3d& p = mesh.vertices[triangle[i]];
       const Eigen::Vector3d& q = mesh.vertices[triangle[(i + 1) % 3]];
-      if ((p.z() < height) == (q.z() < height)) // a corner in the plane is above it
+      if ((p.z() < height) == (q.z() < height)) // a corner in the plane counts as above
         continue;
       const double s = (height - p.z()) / (q.z() - p.z());
       crossings.push_back((p + s * (q - p)).head<2>());

@@ -20,12 +20,11 @@ requireFinite(const Segments& segments)
   for (std::size_t i = 0; i < segments.size(); ++i)
     if (!isPlace(segments[i].a) || !isPlace(segments[i].b))
       throw BadArgument("segment " + std::to_string(i) +
-                        " of the map has a coordinate that is not finite, or 1e9 m or "
-                        "farther from the origin");
+                        " of the map has a coordinate that is infinite, NaN, or 1e9 m "
+                        "or farther from the origin");
 }
 
-/** \return the segments that have a length, each once, in their order; direction does not
- * matter */
+/** \return the segments of non-zero length, each once, in order; direction does not matter */
 Segments
 withoutRepetitions(const Segments& segments)
 {
@@ -100,8 +99,8 @@ SegmentMap::centreOf(std::size_t column, std::size_t row) const
                                              static_cast<double>(row) + 0.5);
 }
 
-/** Calls visit(cell, distance of its centre) for all cells whose centre is no farther
- * than reach from the segment. */
+/** Calls visit(cell, distance of its centre) for every cell with its centre within reach
+ * of the segment. */
 template <typename Visit>
 void
 SegmentMap::forCellsNear(const Segment& s, double reach, Visit visit) const

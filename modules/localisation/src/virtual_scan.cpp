@@ -50,8 +50,8 @@ sortedPoints(const Points& points, const Eigen::Matrix3d& R, double width)
   return sorted;
 }
 
-/** \return the height of the ground around the scanner: low among the near points, but
- * not the lowest, which may be an error; NaN if there are none */
+/** \return the height of the ground around the scanner: low among the near points, but not the
+ * lowest, a possible outlier; NaN without near points */
 double
 groundAtScanner(const Column& points)
 {
@@ -132,13 +132,12 @@ shapeOf(const std::vector<const ColumnPoint*>& group)
   return shape;
 }
 
-/** A wall seen at an angle is a line in the plan, thin against the width of the column
- * [m], which leaves fill. A strip of sloping ground is such a line too, but longer than
- * high. */
+/** A wall seen at an angle is a line in the plan, thin against the width of the column [m]; leaves
+ * fill the column. A strip of sloping ground is a thin line, too, but longer than high. */
 bool
 isAtAnAngle(const PlanShape& shape, double height, double width)
 {
-  constexpr double kThinShare = 0.15; // what fills the width has 0.29
+  constexpr double kThinShare = 0.15; // points filling the width have 0.29
   return shape.thickness <= kThinShare * width && shape.length <= height;
 }
 
@@ -165,7 +164,7 @@ groupOf(const std::vector<const ColumnPoint*>& points,
   return group;
 }
 
-/** \return the farthest wall of a column, or a group that is none */
+/** \return the farthest wall of a column, or a group with is_wall false */
 Group
 farthestWall(Iterator begin, Iterator end, const VirtualScanOptions& options)
 {
@@ -188,7 +187,7 @@ farthestWall(Iterator begin, Iterator end, const VirtualScanOptions& options)
   return farthest;
 }
 
-/** Sorts the cloud into columns, marks the ground, and visits them in order. \return the
+/** Sorts the cloud into columns, marks the ground, and visits the columns in order. \return the
  * height of the ground at the scanner */
 double
 visitColumns(const Points& points,

@@ -12,19 +12,20 @@
 /** \file The scans of a drive, localised in a plan (book 6.4). */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A scan of a drive as Monte Carlo localisation needs it. */
+/** \brief A scan of a drive, prepared for Monte Carlo localisation. */
 struct DriveScan {
   Eigen::Isometry3d odometry = Eigen::Isometry3d::Identity(); ///< T_world_scan
-  Eigen::Matrix3d R_level_scan = Eigen::Matrix3d::Identity(); ///< turns it upright
+  Eigen::Matrix3d R_level_scan = Eigen::Matrix3d::Identity(); ///< turns the scan
+                                                              ///< upright
   VirtualScan virtual_scan;
 };
 
-/** \brief What tells roll and pitch of a scan. */
+/** \brief Sources of roll and pitch of a scan. */
 struct DriveLevelling {
   Eigen::Matrix3d R_map_world =
       Eigen::Matrix3d::Identity(); ///< turns a tilted map upright
-  bool by_poses = true; ///< false: they are of wheel odometry, which says nothing of it
-  bool by_walls = true; ///< walls correct what the poses say
+  bool by_poses = true; ///< false: poses are of wheel odometry, without roll and pitch
+  bool by_walls = true; ///< walls correct the tilt of the poses
 };
 
 /** \return the scan with its levelling and its walls
@@ -37,7 +38,7 @@ driveScan(const Points& points,
 
 /** \brief Where the first scan was taken. */
 enum class MclStart {
-  kPoses,   ///< as the poses say: the map is in their world
+  kPoses,   ///< by the poses: the map is in their world
   kGiven,   ///< DriveStart::pose
   kAnywhere ///< to be found
 };
@@ -48,9 +49,9 @@ struct DriveStart {
   Eigen::Vector3d pose = Eigen::Vector3d::Zero(); ///< x, y [m], yaw [rad] of kGiven
 };
 
-/** \brief A stretch of scans that are not to be trusted, for one reason. */
+/** \brief A stretch of scans with doubtful poses, for one reason. */
 struct DoubtfulStretch {
-  std::size_t first = 0; ///< place in the drive
+  std::size_t first = 0; ///< index in the drive
   std::size_t last = 0;
   MclDoubt doubt = MclDoubt::kNone;
 };
@@ -67,12 +68,12 @@ struct LocalisedDrive {
   doubtfulStretches() const;
 };
 
-/** \brief Localises the scans of a drive in a plan, one after the other, and gives them
- * their heights: each way that the odometry measures climbs with the mean slope at its
- * ends.
+/** \brief Localises the scans of a drive in a plan, one after the other, and
+ * computes their heights: each way measured by the odometry climbs with the mean
+ * slope at its ends.
  * \param[in] R_map_world turns a tilted map upright
- * \param[in] progress called with each scan ("localising"); what it throws goes through
- * \throws BadArgument an option breaks its rule, or a pose is not finite
+ * \param[in] progress called with each scan ("localising"); its exceptions propagate
+ * \throws BadArgument an option is invalid, or a pose is not finite
  * \ingroup localisation */
 LocalisedDrive
 localiseDrive(const SegmentMap& map,

@@ -8,24 +8,23 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What tells which way is up. */
+/** \brief A levelling rotation, with its certainty. */
 struct Levelling {
   Eigen::Matrix3d R_level_source =
       Eigen::Matrix3d::Identity(); ///< roll and pitch alone: turns the source upright
-  double walls = 0;      ///< weight of the normals that count, in points or m^2
+  double walls = 0;      ///< total weight of the normals used, in points or m^2
   bool is_fixed = false; ///< walls of two directions fix both roll and pitch
 };
 
-/** \brief Finds roll and pitch from walls, whose normals are horizontal: minimises sum w
- * (n . up)^2 with weights that leave out what is no wall, starting from a guess.
+/** \brief Finds roll and pitch from walls, whose normals are horizontal: minimises sum w (n . up)^2
+ * with robust weights against normals of other surfaces, starting from a guess.
  *
- * A direction that too few walls face keeps its tilt. Slopes, leaves and furniture
- * count little: normals farther than 15 deg from horizontal are left out, then ever
- * closer ones.
- * \param[in] normals unit vectors; zero ones are skipped
- * \param[in] weights >= 0, one per normal, or empty for equal ones
+ * A direction faced by too few walls keeps its tilt. Slopes, leaves and furniture count little:
+ * normals farther than 24 deg from horizontal are left out, and the limit then shrinks.
+ * \param[in] normals unit vectors; zero vectors are skipped
+ * \param[in] weights >= 0, one per normal, or empty for equal weights
  * \param[in] guess R_level_source, wrong by no more than about 10 deg
- * \param[in] least weight that must face a direction to tell its tilt
+ * \param[in] least weight that must face a direction to fix its tilt
  * \throws BadArgument weights are not one per normal */
 Levelling
 levelByNormals(const std::vector<Eigen::Vector3d>& normals,
@@ -33,7 +32,7 @@ levelByNormals(const std::vector<Eigen::Vector3d>& normals,
                const Eigen::Matrix3d& guess = Eigen::Matrix3d::Identity(),
                double least = 0);
 
-/** \brief levelByNormals() of the surfaces that a scan has seen. \param[in] points [m]
+/** \brief levelByNormals() of the surfaces in a scan. \param[in] points [m]
  * \param[in] voxel [m] of the reduction before normals are estimated; finite, > 0
  * \ingroup localisation */
 Levelling
@@ -41,8 +40,7 @@ levelByWalls(const Points& points,
              const Eigen::Matrix3d& guess = Eigen::Matrix3d::Identity(),
              double voxel = 0.2);
 
-/** \return the rotation by roll and pitch alone that turns `up`, a direction in the
- * source, to z */
+/** \return the rotation, by roll and pitch alone, of `up` (a direction in the source) to z */
 Eigen::Matrix3d
 levellingOf(const Eigen::Vector3d& up);
 

@@ -16,31 +16,31 @@ struct SegmentMapOptions {
   std::size_t max_cells =
       4000000; ///< the cell is doubled until the grid has no more: 8
                ///< bytes each and 4 per candidate; > 0
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief A plan of walls that knows how far a place is from the nearest one.
+/** \brief A plan of walls with a fast look-up of the distance to the nearest wall.
  *
- * Each cell of a grid lists the segments that are nearest to some place in it, so a
- * distance is exact and costs a few segments, whatever the size of the map. A cell's
- * list holds all segments that are no farther from its centre than the nearest one and
- * its diagonal together: the triangle inequality lets no other be nearest.
+ * Each cell of a grid lists the candidates for the nearest segment within the cell: a distance is
+ * exact and costs a few segments, whatever the size of the map. The list holds every segment no
+ * farther from the cell's centre than the nearest segment plus the cell's diagonal; by the triangle
+ * inequality no other segment can be nearest.
  *
- * National coordinates are kept apart: the map is relative to offset(), which is whole
- * metres, and zero unless the plan lies farther than 10 km from the origin.
+ * National coordinates are kept apart: the map is relative to offset(), in whole metres, zero
+ * unless the plan lies farther than 10 km from the origin.
  * \ingroup localisation */
 class SegmentMap {
 public:
-  /** \param[in] segments [m] those without length are left out
-   * \throws BadArgument no segment has a length, a coordinate is not finite, or an option
-   * breaks its rule */
+  /** \param[in] segments [m] segments without length are left out
+   * \throws BadArgument no segment has a length, a coordinate is not finite, or an
+   * option is invalid */
   explicit SegmentMap(const Segments& segments,
                       const SegmentMapOptions& options = SegmentMapOptions());
 
-  /** \return the distance to the nearest segment [m], at most max_distance, which is also
-   * that of a place that is not finite \param[in] place [m] relative to offset() */
+  /** \return the distance to the nearest segment [m], at most max_distance, also returned for a
+   * place that is not finite \param[in] place [m] relative to offset() */
   double
   distance(const Eigen::Vector2d& place) const;
 
@@ -51,21 +51,21 @@ public:
     return segments_;
   }
 
-  /** \return what was subtracted from the plan [m]: whole numbers */
+  /** \return the offset subtracted from the plan [m]: whole numbers */
   const Eigen::Vector2d&
   offset() const
   {
     return offset_;
   }
 
-  /** \return the edge of a cell as used [m] */
+  /** \return the edge of a cell in use [m] */
   double
   cell() const
   {
     return cell_;
   }
 
-  /** \return the corners of the box around all segments [m], relative to offset() */
+  /** \return the corners of the box around the segments [m], relative to offset() */
   const Eigen::Vector2d&
   low() const
   {

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/odometry/local_map.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+/** A plane has three parameters; twice this number of points gives a usable variance. */
+constexpr double kLeastPoints = 6;
+
+/** Points of a plane that fill their voxel spread by edge / sqrt(12) both ways; points on a line,
+ * or in a corner of the voxel, spread less than a third of this value and fix no normal. */
+constexpr double kLeastSpread = 0.1;
+
+/** Least ratio of a plane's spread along its directions to the spread across
+ * (SurfaceMapOptions). */
+constexpr double kFlatness = 5;
+
+/** A larger voxel is taken if its variance is at most this multiple of the smaller voxel's: the
+ * variance of a few dozen points varies by this factor between equal surfaces. */
+constexpr double kSameVariance = 1.5;
+
+constexpr int kMostLevels = 8;
+
+/** Voxels are numbered up to 2^20 either way (voxelKey()); the outermost voxel is left out. */
+constexpr double kMostVoxels = 1048575;
+
+Eigen::Vector3d
+centreOf(VoxelKey key, double edge)
+{
+  return voxelCentre(key, edge).cast<double>();
+}
+} // namespace
+
+void
+LocalMapOptions::validate() const
+{
+  require(std::isfinite(voxel) && voxel > 0, "voxel", voxel, "finite and > 0");
+  require(levels >= 1 && levels <= kMostLevels, "levels", levels, "in [1, 8]");
+  require(points_of_sweep >= 1, "points_of_sweep", points_of_sweep, ">= 1");
+  require(points_of_voxel >= 1, "points_of_voxel", points_of_voxel, ">= 1");
+}
+
+LocalMap::LocalMap(const LocalMapOptions& options) : options_(options)
+{
+  options_.validate();
+  levels_.resize(static_cast<std::size_t>(options_.levels));
+  for (std::size_t l = 0; l < levels_.size(); ++l)
+    levels_[l].edge = std::ldexp(options_.voxel, static_cast<int>(l));
+}
+
+bool
+LocalMap::isInside(const Eigen::Vector3d& place) const
+{
+  return place.allFinite() &&
+         place.cwiseAbs().maxCoeff() < kMostVoxels * options_.voxel;
+}
+
+/** \return the sums over the points of the sweep being added */
+LocalMap::Sums&
+LocalMap::freshSums(VoxelKey key, Level& level, std::vector<Fresh>& fresh)
+{
+  const auto [number, is_new] = level.numbers.add(key);
+  if (is_new)
+    level.voxels.emplace_back().key = key;
+  Voxel& voxel = level.voxels[number];
+  if (voxel.fresh == 0) {
+    fresh.push_back({number, {}});
+    voxel.fresh = fresh.size();
+  }
+  return fresh[voxel.fresh - 1].sums;
+}
+
+/** Adds sums about another point. \param[in] offset from the centre of `to` to the
+ * centre of `from` */
+void
+LocalMap::shift(const Sums& from, const Eigen::Vector3d& offset, Sums& to)
+{
+  const Eigen::Vector3d &f = from.first, &o = offset;
+  const double n = from.count;
+  to.count += n;
+  to.first += f + n * o;
+  Eigen::Matrix<double, 6, 1> added;
+  added << 2 * f.x() * o.x() + n * o.x() * o.x(),
+      f.x() * o.y() + f.y() * o.x() + n * o.x() * o.y(),
+      f.x() * o.z() + f.z() * o.x() + n * o.x() * o.z(),
+      2 * f.y() * o.y() + n * o.y() * o.y(),
+      f.y() * o.z() + f.z() * o.y() + n * o.y() * o.z(),
+      2 * f.z() * o.z() + n * o.z() * o.z();
+  to.second += from.second + added;
+}
+
+void
+LocalMap::add(const std::vector<Eigen::Vector3d>& points)
+{
+  std::vector<Fresh> fresh, above;
+  Level& finest = levels_.front();
+  for (const Eigen::Vector3d& p : points) {
+    if (!isInside(p))
+      continue;
+    const VoxelKey key = voxelKey(p.cast<float>(), finest.edge);
+    const Eigen::Vector3d o = p - centreOf(key, finest.edge);
+    shift({1, Eigen::Vector3d::Zero(), Eigen::Matrix<double, 6, 1>::Zero()},
+          o,
+          freshSums(key, finest, fresh));
+  }
+  for (std::size_t l = 0; l < levels_.size(); ++l, std::swap(fresh, above)) {
+    Level& level = levels_[l];
+    above.clear();
+    for (const Fresh& sums : fresh) {
+      Voxel& voxel = level.voxels[sums.number];
+      if (l + 1 < levels_.size()) {
+        Level& next = levels_[l + 1];
+        const Eigen::Vector3d centre = centreOf(voxel.key, level.edge);
+        const VoxelKey key = voxelKey(centre.cast<float>(), next.edge);
+        shift(
+            sums.sums, centre - centreOf(key, next.edge), freshSums(key, next, above));
+      }
+      voxel.fresh = 0;
+      take(sums.sums, level.edge, voxel);
+    }
+  }
+}
+
+void
+LocalMap::take(const Sums& fresh, double edge, Voxel& voxel) const
+{
+  Sums& sums = voxel.sums;
+  const double weight = std::min(1.0, options_.points_of_sweep / fresh.count);
+  const double room = options_.points_of_voxel - weight * fresh.count;
+  const double kept = sums.count > 0 ? std::clamp(room / sums.count, 0.0, 1.0) : 1;
+  sums.count = kept * sums.count + weight * fresh.count;
+  sums.first = kept * sums.first + weight * fresh.first;
+  sums.second = kept * sums.second + weight * fresh.second;
+  voxel.surface = surfaceOf(sums, centreOf(voxel.key, edge), edge);
+}
+
+MapSurface
+LocalMap::surfaceOf(const Sums& sums, const Eigen::Vector3d& centre, double edge)
+{
+  MapSurface surface;
+  if (sums.count < kLeastPoints)
+    return surface;
+  const Eigen::Vector3d mean = sums.first / sums.count;
+  Eigen::Matrix3d spread; // the lower triangle is enough
+  spread << sums.second(0), 0, 0, sums.second(1), sums.second(3), 0, sums.second(2),
+      sums.second(4), sums.second(5);
+  spread = spread / sums.count - mean * mean.transpose();
+  const SymmetricEigen<3> axes = symmetricEigen<3>(spread);
+  surface.mean = centre + mean;
+  if (axes.values(1) < kLeastSpread * edge * kLeastSpread * edge)
+    return surface;
+  // Three parameters were fitted to the points.
+  const double across = std::max(0.0, axes.values(0)) * sums.count / (sums.count - 3);
+  if (across * kFlatness * kFlatness <= axes.values(1)) {
+    surface.shape = VoxelShape::kPlane;
+    surface.normal = axes.vectors.col(0);
+    surface.variance = across;
+  }
+  else if (axes.values(0) >= kLeastSpread * edge * kLeastSpread * edge) {
+    surface.shape = VoxelShape::kBlob;
+    surface.variance = axes.values.mean();
+  }
+  return surface;
+}
+
+void
+LocalMap::keepWithin(const Eigen::Vector3d& place, double distance)
+{
+  for (Level& level : levels_) {
+    VoxelNumbers numbers;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < level.voxels.size(); ++i) {
+      const VoxelKey key = level.voxels[i].key;
+      if ((centreOf(key, level.edge) - place).norm() > distance)
+        continue;
+      numbers.add(key);
+      level.voxels[kept++] = level.voxels[i];
+    }
+    level.voxels.resize(kept);
+    level.numbers = std::move(numbers);
+  }
+}
+
+const MapSurface*
+LocalMap::surfaceAt(const Eigen::Vector3d& place) const
+{
+  const MapSurface* found = nullptr;
+  if (!isInside(place))
+    return found;
+  const Eigen::Vector3f p = place.cast<float>();
+  for (const Level& level : levels_) {
+    const std::size_t number = level.numbers.find(voxelKey(p, level.edge));
+    if (number == level.numbers.size())
+      continue;
+    const MapSurface& surface = level.voxels[number].surface;
+    if (surface.shape == VoxelShape::kNone)
+      continue;
+    const bool is_plane = surface.shape == VoxelShape::kPlane;
+    if (!found || (is_plane && (found->shape == VoxelShape::kBlob ||
+                                surface.variance <= kSameVariance * found->variance)))
+      found = &surface;
+  }
+  return found;
+}
+
+bool
+LocalMap::isOccupied(const Eigen::Vector3d& place, int level) const
+{
+  if (!isInside(place))
+    return false;
+  const Level& looked_at = levels_.at(static_cast<std::size_t>(level));
+  return looked_at.numbers.find(voxelKey(place.cast<float>(), looked_at.edge)) !=
+         looked_at.numbers.size();
+}
+
+std::size_t
+LocalMap::size() const
+{
+  std::size_t size = 0;
+  for (const Level& level : levels_)
+    size += level.voxels.size();
+  return size;
+}
+
+std::size_t
+LocalMap::numBytes() const
+{
+  std::size_t bytes = 0;
+  for (const Level& level : levels_)
+    bytes += level.voxels.capacity() * sizeof(Voxel) +
+             2 * level.voxels.capacity() * 2 * sizeof(VoxelKey); // hash half full
+  return bytes;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sweep_track.h"
+
+#include <pcl6d/common/pose.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/filters/scan_sampling.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+using odometry::kLeastSweepPoints;
+using odometry::rigid;
+using odometry::SweepMatch;
+using odometry::SweepMotion;
+using odometry::SweepPrior;
+
+namespace {
+/** Voxels of this number of line spacings hold points of three lines, enough for a plane. */
+constexpr double kVoxelOfLines3 = 2.5 * kVoxelOfLines;
+
+/** Voxels are at least this share of the typical range: finer voxels show the sensor's noise. */
+constexpr double kVoxelOfRange = 0.03;
+
+/** Far away, planes need large voxels: three lines with 2 deg between them. [rad] */
+constexpr double kAngleOfVoxel = 0.1;
+constexpr int kMostMapLevels = 8; ///< the limit of LocalMap
+
+/** Planes are known to this share of the smallest voxel: the spread that still shows the normal of
+ * a plane (1/16), reduced by the mean over 6 points or more. */
+constexpr double kNoiseOfVoxel = 1.0 / 50;
+
+/** Parts of a sweep, within which the velocity is taken as constant: a change of 3 degrees a sweep
+ * leaves 0.2 mrad. */
+constexpr int kPathSteps = 8;
+
+/** Edge of the reduction of a sweep before it enters the map, as a share of the voxel edge. */
+constexpr double kMapThinning = 0.25;
+} // namespace
+
+TrackedSweep
+SweepTracker::Track::track(const Sweep& sweep)
+{
+  require(!sweep.prediction || isRigid(*sweep.prediction),
+          "prediction",
+          "of the sweep",
+          "a rigid motion");
+  const Current now = prepare(sweep);
+  ++num_sweeps_;
+  if (now.span.points.size() < kLeastSweepPoints)
+    return lost(now);
+  if (num_matched_ == 0)
+    return begin(now);
+  return num_matched_ == 1 ? second(now) : next(now);
+}
+
+SweepTracker::Track::Current
+SweepTracker::Track::prepare(const Sweep& sweep)
+{
+  Current now;
+  now.span = odometry::spanOf(sweep.points, sweep.times, options_.max_range);
+  now.is_timed = now.span.end > now.span.begin;
+  now.prediction = sweep.prediction;
+  setClock(sweep, now);
+  if (now.span.points.size() < kLeastSweepPoints)
+    return now;
+  if (!map_) {
+    const ScanSampling sampling = samplingOf(sweep.points);
+    range_ = std::max(odometry::rangeOfShare(now.span.points, 0.5), 1e-3);
+    const double voxel = options_.voxel.value_or(
+        std::max(kVoxelOfLines3 * sampling.lineSpacing(), kVoxelOfRange * range_));
+    noise_ = kNoiseOfVoxel * voxel;
+    LocalMapOptions map;
+    map.voxel = voxel;
+    const double far = kAngleOfVoxel * odometry::rangeOfShare(now.span.points, 0.9);
+    while (map.levels < kMostMapLevels && std::ldexp(voxel, map.levels - 1) < far)
+      ++map.levels;
+    map_.emplace(map);
+    sampler_.emplace(kMapThinning * voxel, options_.points_of_match);
+  }
+  reach_ = std::max(reach_, 1.2 * odometry::rangeOfShare(now.span.points, 0.99));
+  now.sample = sampler_->sample(now.span.points);
+  return now;
+}
+
+/** Where stamps jump back or are missing, the sweep follows the sweep before without a pause. */
+void
+SweepTracker::Track::setClock(const Sweep& sweep, Current& now) const
+{
+  const bool is_stamped = sweep.stamp && std::isfinite(*sweep.stamp);
+  now.length = now.is_timed ? now.span.end - now.span.begin : last_length_;
+  const double next = (now.is_timed ? last_end_ : last_begin_ + last_length_) +
+                      static_cast<double>(num_lost_) * last_length_;
+  now.begin = is_stamped ? *sweep.stamp + now.span.begin : next;
+  const double earliest = now.is_timed ? last_end_ - 0.5 * now.length : last_begin_;
+  if (num_matched_ > 0 && !(now.begin > earliest))
+    now.begin = next;
+}
+
+LocalMap
+SweepTracker::Track::emptyMap() const
+{
+  return LocalMap(map_->options());
+}
+
+/** The map begins with this sweep, assumed at rest. */
+TrackedSweep
+SweepTracker::Track::begin(const Current& now)
+{
+  if (num_sweeps_ > 1 && num_lost_ > 0)
+    ++segment_;
+  const Eigen::Isometry3d predicted =
+      now.prediction ? *now.prediction : rigid(last_.end());
+  last_ = SweepMotion();
+  last_.begin = predicted;
+  last_begin_ = now.begin;
+  last_length_ = now.length;
+  last_end_ = now.begin + (now.is_timed ? now.length : 0);
+  num_matched_ = 1;
+  num_lost_ = 0;
+  usual_fit_ = usual_overlap_ = 0;
+  map_ = emptyMap();
+  addToMap(now, last_);
+  const double widest =
+      0.5 * std::ldexp(map_->options().voxel, map_->options().levels - 1);
+  translation_sq_ = widest * widest;
+  rotation_sq_ = translation_sq_ / (range_ * range_);
+  waiting_ = now;
+  first_ = describe(now, last_);
+  first_.status = SweepStatus::kFirst;
+  first_.segment = segment_;
+  keyframe_ = VoxelNumbers();
+  markKeyframe(odometry::placesOf(now.sample, last_, options_.num_threads), first_);
+  return first_;
+}
+
+/** The motion within the first sweep is taken from the motion between the first and the second
+ * sweep; both are matched anew until the motion converges. */
+TrackedSweep
+SweepTracker::Track::second(const Current& now)
+{
+  constexpr double kSettled = 0.2; // of the noise: below the resolution of the points
+  constexpr int kRounds = 12;      // needed by weak directions of sparse rings
+  const SweepMotion at_rest = last_;
+  SweepPrior prior;
+  SweepMatch found;
+  for (int round = 0; round < kRounds; ++round) {
+    prior = priorOf(now);
+    found = bestMatch(now, prior);
+    if (!isMatched(found))
+      break;
+    const Twist before = last_.velocity;
+    const double steps = (now.begin - last_begin_) / last_length_;
+    last_.velocity = twistFromMotion(last_.begin.inverse() * found.motion.begin) /
+                     std::max(steps, 0.1);
+    map_ = emptyMap();
+    addToMap(*waiting_, waiting_->is_timed ? last_ : at_rest);
+    const Twist change = last_.velocity - before;
+    if (change.head<3>().norm() + range_ * change.tail<3>().norm() < kSettled * noise_)
+      break;
+  }
+  if (!isMatched(found)) { // the first sweep may be at fault
+    last_ = at_rest;
+    num_lost_ = 1;
+    return begin(now);
+  }
+  const bool is_first_keyframe = first_.is_keyframe;
+  first_ = describe(*waiting_, waiting_->is_timed ? last_ : at_rest);
+  first_.status = SweepStatus::kFirst;
+  first_.segment = segment_;
+  first_.is_keyframe = is_first_keyframe;
+  waiting_.reset();
+  return accept(now, prior, found);
+}
+
+TrackedSweep
+SweepTracker::Track::next(const Current& now)
+{
+  const SweepPrior prior = priorOf(now);
+  const SweepMatch found = bestMatch(now, prior);
+  return isMatched(found) ? accept(now, prior, found) : lost(now);
+}
+
+TrackedSweep
+SweepTracker::Track::accept(const Current& now,
+                            const SweepPrior& prior,
+                            const SweepMatch& match)
+{
+  learn(prior, match);
+  SweepMotion motion = match.motion;
+  if (!now.is_timed) { // the velocity since the sweep before
+    const double steps = (now.begin - last_begin_) / last_length_;
+    motion.velocity =
+        twistFromMotion(last_.begin.inverse() * motion.begin) / std::max(steps, 0.1);
+    motion.change.setZero();
+  }
+  const bool was_lost = num_lost_ > 0;
+  if (!now.is_timed)
+    last_length_ = (now.begin - last_begin_) > 0 ? now.begin - last_begin_ : 1;
+  else
+    last_length_ = now.length;
+  last_ = motion;
+  last_begin_ = now.begin;
+  last_end_ = now.begin + (now.is_timed ? now.length : 0);
+  end_information_ = match.end_information;
+  information_centre_ = prior.centre;
+  correlation_ = match.correlation;
+  num_lost_ = 0;
+  ++num_matched_;
+  TrackedSweep found = describe(now, motion);
+  found.status = was_lost ? SweepStatus::kFoundAgain : SweepStatus::kTracked;
+  found.inliers = match.inliers;
+  found.overlap = match.overlap;
+  found.deviation =
+      distanceBetween(prior.motion.end(), match.motion.end()).translation +
+      range_ * distanceBetween(prior.motion.end(), match.motion.end()).rotation;
+  found.covariance = match.begin_covariance;
+  found.free_directions = match.free_directions;
+  markKeyframe(odometry::placesOf(now.sample, motion, options_.num_threads), found);
+  addToMap(now, motion);
+  return found;
+}
+
+/** The pose at the stamp follows from the motion, also before the begin. */
+TrackedSweep
+SweepTracker::Track::describe(const Current& now, const SweepMotion& motion) const
+{
+  TrackedSweep found;
+  found.segment = segment_;
+  found.points = now.span.points.size();
+  found.begin = now.span.begin;
+  found.end = now.span.end;
+  found.T_world_begin = rigid(motion.begin);
+  found.T_world_end = now.is_timed ? rigid(motion.end()) : found.T_world_begin;
+  found.T_world_sweep = found.T_world_begin;
+  for (int knot = 0; now.is_timed && knot <= kPathSteps; ++knot) {
+    const double share = static_cast<double>(knot) / kPathSteps;
+    found.path.stamps.push_back(now.span.begin + share * now.length);
+    found.path.poses.push_back(
+        rigid(motion.begin * motionFromTwist(motion.twistAt(share))));
+  }
+  if (now.is_timed && now.span.begin != 0)
+    found.T_world_sweep = rigid(
+        motion.begin * motionFromTwist(motion.twistAt(-now.span.begin / now.length)));
+  return found;
+}
+
+TrackedSweep
+SweepTracker::Track::lost(const Current& now)
+{
+  SweepMotion motion;
+  if (num_matched_ > 0) {
+    motion = priorOf(now).motion;
+    ++num_lost_;
+  }
+  TrackedSweep found = describe(now, motion);
+  found.status = SweepStatus::kLost;
+  if (num_matched_ > 0 &&
+      num_lost_ >= options_.most_lost) { // the next sweep begins a map
+    last_ = motion;
+    num_matched_ = 0;
+  }
+  return found;
+}
+
+void
+SweepTracker::Track::addToMap(const Current& now, const SweepMotion& motion)
+{
+  const auto points =
+      odometry::thinned(now.span.points, kMapThinning * map_->options().voxel);
+  map_->add(odometry::placesOf(points, motion, options_.num_threads));
+  const Eigen::Vector3d here = motion.begin.translation();
+  constexpr double kCutAfter = 0.1; // of the reach: voxels are dropped now and then
+  if ((here - cut_at_).norm() < kCutAfter * reach_)
+    return;
+  map_->keepWithin(here, (1 + kCutAfter) * reach_);
+  cut_at_ = here;
+}
+
+void
+SweepTracker::Track::markKeyframe(const std::vector<Eigen::Vector3d>& places,
+                                  TrackedSweep& found)
+{
+  const double edge = std::ldexp(map_->options().voxel, 2);
+  const Eigen::Vector3d here = found.T_world_begin.translation();
+  std::vector<VoxelKey> keys;
+  for (const auto& place : places)
+    if (place.cwiseAbs().maxCoeff() < 1e6 * edge)
+      keys.push_back(voxelKey(place.cast<float>(), edge));
+  std::size_t seen = 0;
+  for (const VoxelKey key : keys)
+    seen += keyframe_.find(key) < keyframe_.size();
+  if (static_cast<double>(seen) >=
+          options_.keyframe_overlap * static_cast<double>(keys.size()) &&
+      (here - keyframe_at_).norm() < options_.keyframe_way * range_)
+    return;
+  keyframe_at_ = here;
+  found.is_keyframe = true;
+  keyframe_ = VoxelNumbers();
+  for (const VoxelKey key : keys)
+    keyframe_.add(key);
+}
+
+} // namespace pcl6d

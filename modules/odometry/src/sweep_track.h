@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sweep_matcher.h"
+#include "sweep_sample.h"
+
+#include <pcl6d/common/voxel_numbers.h>
+#include <pcl6d/odometry/sweep_tracker.h>
+
+#include <optional>
+
+namespace pcl6d {
+
+namespace odometry {
+/** A sweep with fewer points has no shape to be matched by. */
+inline constexpr std::size_t kLeastSweepPoints = 100;
+} // namespace odometry
+
+/** \brief The state of a SweepTracker. */
+class SweepTracker::Track {
+public:
+  explicit Track(const SweepTrackerOptions& options) : options_(options)
+  {
+    options_.validate();
+  }
+
+  TrackedSweep
+  track(const Sweep& sweep);
+
+  const TrackedSweep&
+  first() const
+  {
+    return first_;
+  }
+  double
+  voxel() const
+  {
+    return map_ ? map_->options().voxel : 0;
+  }
+  std::size_t
+  mapBytes() const
+  {
+    return map_ ? map_->numBytes() : 0;
+  }
+
+private:
+  /** The current sweep: points, and times in the clock of the tracker. */
+  struct Current {
+    odometry::SweepSpan span;
+    odometry::SweepPoints sample;
+    double begin = 0; ///< [s, or sweeps] in the clock
+    double length = 1;
+    bool is_timed = false;
+    std::optional<Eigen::Isometry3d> prediction;
+  };
+
+  Current
+  prepare(const Sweep& sweep);
+  void
+  setClock(const Sweep& sweep, Current& now) const;
+  TrackedSweep
+  begin(const Current& now);
+  TrackedSweep
+  second(const Current& now);
+  TrackedSweep
+  next(const Current& now);
+  TrackedSweep
+  lost(const Current& now);
+
+  odometry::SweepPrior
+  priorOf(const Current& now) const;
+  bool
+  widen(const odometry::SweepMatch& found, odometry::SweepPrior& prior) const;
+  odometry::SweepMatch
+  bestMatch(const Current& now, const odometry::SweepPrior& prior) const;
+  odometry::SweepMatch
+  match(const Current& now, const odometry::SweepPrior& prior, double gate) const;
+  bool
+  isMatched(const odometry::SweepMatch& match) const;
+
+  TrackedSweep
+  accept(const Current& now,
+         const odometry::SweepPrior& prior,
+         const odometry::SweepMatch& match);
+  void
+  learn(const odometry::SweepPrior& prior, const odometry::SweepMatch& match);
+  TrackedSweep
+  describe(const Current& now, const odometry::SweepMotion& motion) const;
+  void
+  addToMap(const Current& now, const odometry::SweepMotion& motion);
+  void
+  markKeyframe(const std::vector<Eigen::Vector3d>& places, TrackedSweep& found);
+  LocalMap
+  emptyMap() const;
+
+  SweepTrackerOptions options_;
+  std::optional<LocalMap> map_;
+  std::optional<odometry::SweepSampler> sampler_;
+  double range_ = 0; ///< [m] typical range of the first sweep
+  double reach_ = 0; ///< [m] of the sweeps so far
+  double noise_ = 0; ///< [m]
+  TrackedSweep first_;
+  std::optional<Current> waiting_; ///< the first sweep, until the second is matched
+  std::size_t segment_ = 0;
+  std::size_t num_sweeps_ = 0, num_matched_ = 0, num_lost_ = 0; ///< lost: in a row
+
+  odometry::SweepMotion last_; ///< of the last matched sweep
+  odometry::Matrix6 end_information_ = odometry::Matrix6::Zero();
+  Eigen::Vector3d information_centre_ = Eigen::Vector3d::Zero();
+  double last_begin_ = 0, last_end_ = 0, last_length_ = 1; ///< in the clock
+  double translation_sq_ = 0,
+         rotation_sq_ = 0; ///< of the deviations from constant velocity
+  double usual_fit_ = 0, usual_overlap_ = 0;
+  double correlation_ = 1;
+
+  Eigen::Vector3d cut_at_ =
+      Eigen::Vector3d::Zero(); ///< where far voxels were dropped last
+  VoxelNumbers keyframe_;      ///< voxels seen from the last keyframe
+  Eigen::Vector3d keyframe_at_ = Eigen::Vector3d::Zero(); ///< [m]
+};
+
+} // namespace pcl6d

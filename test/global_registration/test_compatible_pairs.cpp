@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pairs of which most are wrong: exact truth, an exhaustive oracle, laws, and bad input.
-#include "compatibility_graph.h"
+#include "features/compatibility_graph.h"
 #include "support/points.h"
 #include "support/poses.h"
 

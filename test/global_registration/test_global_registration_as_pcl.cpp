@@ -58,7 +58,7 @@ void
 expectPlaced(Class& placing,
              const Eigen::Isometry3d& truth = scannedPair().T_first_second)
 {
-  EXPECT_TRUE(placing.hasConverged()) << placing.reason();
+  EXPECT_TRUE(placing.hasConverged()) << placing.rejection();
   EXPECT_EQ(placing.answer(), PlaceAnswer::kUnique);
   const MotionSize off = errorOf(placing, truth);
   EXPECT_LT(off.translation, kFineTol);

@@ -50,8 +50,8 @@ TEST(PairPlacer, SaysWhichScanHasTooFewPoints)
   PairPlacer placer;
   const PairPlacement found = placer.place(scannedPair().first, {{1, 2, 3}});
   EXPECT_EQ(found.result.answer, PlaceAnswer::kNone);
-  EXPECT_NE(found.result.reason.find("the source"), std::string::npos)
-      << found.result.reason;
+  EXPECT_NE(found.result.rejection.text.find("the source"), std::string::npos)
+      << found.result.rejection;
   EXPECT_EQ(placer.place(scannedPair().first, scannedPair().second).result.answer,
             PlaceAnswer::kUnique)
       << "the next one is placed";

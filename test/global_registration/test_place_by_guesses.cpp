@@ -11,10 +11,10 @@
 #include <vector>
 
 using pcl6d::KnownScan;
-using pcl6d::objectionToPlace;
 using pcl6d::PlaceNeeds;
 using pcl6d::poseFromEuler;
 using pcl6d::Random;
+using pcl6d::rejectionOfPose;
 using pcl6d::test::kRayStep;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::Placeable;
@@ -47,13 +47,13 @@ struct AmongPeople {
               kFineVoxel);
   }
 
-  std::string
-  objection(PlaceNeeds needs, const Vector& off = Vector::Zero()) const
+  pcl6d::Rejection
+  rejection(PlaceNeeds needs, const Vector& off = Vector::Zero()) const
   {
-    return objectionToPlace(scans[1],
-                            {KnownScan{&scans[0], T_world_first}},
-                            Eigen::Translation3d(off) * T_world_second,
-                            needs);
+    return rejectionOfPose(scans[1],
+                           {KnownScan{&scans[0], T_world_first}},
+                           Eigen::Translation3d(off) * T_world_second,
+                           needs);
   }
 
   Eigen::Isometry3d T_world_first = poseFromEuler({0, -0.4, 0}, {0, 0, 0.5});
@@ -62,26 +62,27 @@ struct AmongPeople {
 };
 } // namespace
 
-TEST(ObjectionToPlace, IsNotMadeByPeopleWhereAScanWasExpected)
+TEST(RejectionOfPose, IsNotMadeByPeopleWhereAScanWasExpected)
 {
   const AmongPeople run;
-  EXPECT_EQ(run.objection(PlaceNeeds::kToBeHeldAsExpected), "");
-  EXPECT_EQ(run.objection(PlaceNeeds::kToBeHeld), "no scan holds it where it fits best")
+  EXPECT_FALSE(run.rejection(PlaceNeeds::kConfirmedAsExpected));
+  EXPECT_EQ(run.rejection(PlaceNeeds::kConfirmed).reason,
+            pcl6d::RejectReason::kNoConsistentLink)
       << "a place found anywhere needs more";
-  EXPECT_NE(run.objection(PlaceNeeds::kToBeTied), "");
+  EXPECT_TRUE(run.rejection(PlaceNeeds::kConnected));
 }
 
-TEST(ObjectionToPlace, IsMadeToWrongPlacesWhereverAScanWasExpected)
+TEST(RejectionOfPose, IsMadeToWrongPlacesWhereverAScanWasExpected)
 {
   const AmongPeople run;
   for (const Vector& off : {Vector(0.5, 0, 0), Vector(0, -1, 0), Vector(-2, 0.5, 0)})
-    EXPECT_NE(run.objection(PlaceNeeds::kToBeHeldAsExpected, off), "")
+    EXPECT_TRUE(run.rejection(PlaceNeeds::kConfirmedAsExpected, off))
         << off.transpose();
 }
 
-TEST(ObjectionToPlace, IsMadeWhereThereIsNothingToSee)
+TEST(RejectionOfPose, IsMadeWhereThereIsNothingToSee)
 {
   const AmongPeople run;
-  EXPECT_NE(run.objection(PlaceNeeds::kToBeHeldAsExpected, Vector(100, 0, 0)), "");
-  EXPECT_EQ(run.objection(PlaceNeeds::kNoObjection, Vector(100, 0, 0)), "");
+  EXPECT_TRUE(run.rejection(PlaceNeeds::kConfirmedAsExpected, Vector(100, 0, 0)));
+  EXPECT_FALSE(run.rejection(PlaceNeeds::kNoContradiction, Vector(100, 0, 0)));
 }

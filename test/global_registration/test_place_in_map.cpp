@@ -74,19 +74,19 @@ TEST(PlaceInMap, FindsTheOnePlaceAndWhatHoldsIt)
 {
   const MappedRoom room;
   const MapPlaces found = placeInMap(room.scan(), room.map());
-  ASSERT_EQ(found.answer, PlaceAnswer::kUnique) << found.reason;
-  EXPECT_EQ(found.reason, "");
+  ASSERT_EQ(found.answer, PlaceAnswer::kUnique) << found.rejection;
+  EXPECT_FALSE(found.rejection);
   EXPECT_EQ(found.pairs_compared, 4u);
   const auto& best = found.candidates.front();
   const MotionSize off = distanceBetween(room.poses[2], best.T_map_scan);
   EXPECT_LT(off.translation, kPlaceTol);
   EXPECT_LT(off.rotation, kTurnTol);
-  EXPECT_EQ(best.objection, "");
+  EXPECT_FALSE(best.rejection);
   ASSERT_EQ(best.links.size(), 4u) << "it meets all of them";
   for (const auto& link : best.links) {
     EXPECT_LT(link.from, 4u);
     EXPECT_EQ(link.to, 4u);
-    EXPECT_EQ(link.trust, LinkTrust::kGood) << link.reason;
+    EXPECT_EQ(link.trust, LinkTrust::kGood) << link.rejection;
     EXPECT_GT(link.covariance.diagonal().minCoeff(), 0);
   }
 }
@@ -113,7 +113,7 @@ TEST(PlaceInMap, ARoomThatHalfATurnMapsToItselfIsAmbiguous)
                   {Vector(2, 1, -1), Vector(3, 2, 2)}};
   const MappedRoom room(bare);
   const MapPlaces found = placeInMap(room.scan(), room.map());
-  EXPECT_EQ(found.answer, PlaceAnswer::kAmbiguous) << found.reason;
+  EXPECT_EQ(found.answer, PlaceAnswer::kAmbiguous) << found.rejection;
   ASSERT_GE(found.candidates.size(), 2u);
   EXPECT_GT(found.ambiguity(), 0.6);
   // Half a turn about the middle of the room leads from one to the other.
@@ -137,7 +137,7 @@ TEST(PlaceInMap, AScanOfElsewhereHasNoPlace)
   elsewhere.add(other.scan(Eigen::Isometry3d::Identity(), random, kRayStep));
   const MapPlaces found = placeInMap(elsewhere[0], room.map());
   EXPECT_EQ(found.answer, PlaceAnswer::kNone);
-  EXPECT_NE(found.reason, "");
+  EXPECT_TRUE(found.rejection);
 }
 
 TEST(PlaceInMap, OfFiftyPointsThereIsNoPlace)
@@ -149,7 +149,7 @@ TEST(PlaceInMap, OfFiftyPointsThereIsNoPlace)
   few.add(Points(all.begin(), all.begin() + 50));
   const MapPlaces found = placeInMap(few[0], room.map());
   EXPECT_EQ(found.answer, PlaceAnswer::kNone);
-  EXPECT_NE(found.reason, "");
+  EXPECT_TRUE(found.rejection);
 }
 
 TEST(PlaceInMap, KeepsAsManyCandidatesAndPlacesAsManyPairsAsAreAskedFor)
@@ -161,7 +161,7 @@ TEST(PlaceInMap, KeepsAsManyCandidatesAndPlacesAsManyPairsAsAreAskedFor)
   const MapPlaces found = placeInMap(room.scan(), room.map(), options);
   EXPECT_EQ(found.candidates.size(), 1u);
   EXPECT_EQ(found.pairs_placed, 2u);
-  EXPECT_EQ(found.answer, PlaceAnswer::kUnique) << found.reason;
+  EXPECT_EQ(found.answer, PlaceAnswer::kUnique) << found.rejection;
 }
 
 TEST(PlaceInMap, RefusesWhatBreaksARule)

@@ -70,10 +70,10 @@ TEST(PlaceRun, FindsTheWorldOfARunInTheMap)
 {
   const RunOfRoom map({}, kMap, 0, 21), run({}, kRun, 0.4, 22);
   const RunPlace place = placeRun(run.known(), map.known());
-  ASSERT_EQ(place.answer, PlaceAnswer::kUnique) << place.reason;
+  ASSERT_EQ(place.answer, PlaceAnswer::kUnique) << place.rejection;
   EXPECT_GE(place.agreeing, 2u);
   EXPECT_LE(place.tried, 3u);
-  EXPECT_EQ(place.reason, "");
+  EXPECT_FALSE(place.rejection);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto off = distanceBetween(kMap * kRun.inverse() * run.poses[i],
                                      place.T_map_run * run.poses[i]);
@@ -105,8 +105,9 @@ TEST(PlaceRun, FindsNoneInAnotherRoom)
   const RunPlace place = placeRun(run.known(), map.known());
   EXPECT_NE(place.answer, PlaceAnswer::kUnique);
   EXPECT_EQ(place.tried, 3u);
-  EXPECT_NE(place.reason.find("3 of its scans looked for"), std::string::npos)
-      << place.reason;
+  EXPECT_EQ(place.rejection.reason, pcl6d::RejectReason::kRunWithoutPose)
+      << place.rejection;
+  EXPECT_EQ(place.rejection.measured, 3);
 }
 
 TEST(PlaceRun, TellsHowFarItIs)

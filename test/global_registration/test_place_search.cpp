@@ -13,7 +13,7 @@
 #include <string>
 
 using pcl6d::distanceBetween;
-using pcl6d::judgePlace;
+using pcl6d::evaluatePlace;
 using pcl6d::MotionSize;
 using pcl6d::PlaceAnswer;
 using pcl6d::PlaceResult;
@@ -77,11 +77,11 @@ TEST(PlaceSearch, FindsTheTruthWithoutAGuess)
     Random random(11);
     pair.second = PillarRoom().scan(pair.T_world_first * T, random, 0.025);
     const PlaceResult found = placed(pair);
-    EXPECT_EQ(found.answer, PlaceAnswer::kUnique) << found.reason;
-    EXPECT_EQ(found.reason, "");
+    EXPECT_EQ(found.answer, PlaceAnswer::kUnique) << found.rejection;
+    EXPECT_FALSE(found.rejection);
     ASSERT_FALSE(found.candidates.empty());
     expectNear(found.candidates.front().T_first_second, T);
-    EXPECT_EQ(found.candidates.front().opinion.trust, pcl6d::LinkTrust::kGood);
+    EXPECT_EQ(found.candidates.front().test_result.trust, pcl6d::LinkTrust::kGood);
   }
 }
 
@@ -92,7 +92,7 @@ TEST(PlaceSearch, FindsHowMuchHigherAScanStands)
   Random random(12);
   pair.second = PillarRoom().scan(pair.T_world_first * T, random, 0.025);
   const PlaceResult found = placed(pair);
-  EXPECT_EQ(found.answer, PlaceAnswer::kUnique) << found.reason;
+  EXPECT_EQ(found.answer, PlaceAnswer::kUnique) << found.rejection;
   expectNear(found.candidates.front().T_first_second, T);
 }
 
@@ -104,8 +104,8 @@ TEST(PlaceSearch, TheOtherWayRoundIsTheInverse)
   scans.add(pair.second);
   const PlaceResult there = placeScan(scans[0], scans[1]);
   const PlaceResult back = placeScan(scans[1], scans[0]);
-  ASSERT_EQ(there.answer, PlaceAnswer::kUnique) << there.reason;
-  ASSERT_EQ(back.answer, PlaceAnswer::kUnique) << back.reason;
+  ASSERT_EQ(there.answer, PlaceAnswer::kUnique) << there.rejection;
+  ASSERT_EQ(back.answer, PlaceAnswer::kUnique) << back.rejection;
   expectNear(back.candidates.front().T_first_second,
              there.candidates.front().T_first_second.inverse());
 }
@@ -119,7 +119,7 @@ TEST(PlaceSearch, DoesNotDependOnTheUnit)
     for (const Points* points : {&pair.first, &pair.second})
       scans.add(ScannedPair::scaled(*points, scale), scale * kVoxel);
     const PlaceResult found = placeScan(scans[0], scans[1]);
-    EXPECT_EQ(found.answer, PlaceAnswer::kUnique) << found.reason;
+    EXPECT_EQ(found.answer, PlaceAnswer::kUnique) << found.rejection;
     Eigen::Isometry3d truth = pair.T_first_second;
     truth.translation() *= scale;
     expectNear(found.candidates.front().T_first_second, truth, scale * kPlaceTol);
@@ -145,10 +145,12 @@ TEST(PlaceSearch, ARoomThatHalfATurnMapsToItselfIsAmbiguous)
 {
   const ScannedPair pair(bareRoom());
   const PlaceResult found = placed(pair);
-  EXPECT_EQ(found.answer, PlaceAnswer::kAmbiguous) << found.reason;
+  EXPECT_EQ(found.answer, PlaceAnswer::kAmbiguous) << found.rejection;
   ASSERT_GE(found.candidates.size(), 2u);
   EXPECT_GT(found.ambiguity(), 0.6);
-  EXPECT_NE(found.reason.find("of its score"), std::string::npos) << found.reason;
+  EXPECT_EQ(found.rejection.reason, pcl6d::RejectReason::kSecondPose)
+      << found.rejection;
+  EXPECT_EQ(found.rejection.measured, found.ambiguity());
   // One of the two is the truth, the other that after half a turn about the middle.
   const Eigen::Isometry3d half = poseFromEuler(Vector::Zero(), {0, 0, M_PI});
   const Eigen::Isometry3d turned =
@@ -172,7 +174,7 @@ TEST(PlaceSearch, AnotherRoomHasNoPlace)
   pair.second = other.scan(poseFromEuler({0.2, -1, 0}, {0, 0, 1}), random, 0.025);
   const PlaceResult found = placed(pair);
   EXPECT_EQ(found.answer, PlaceAnswer::kNone);
-  EXPECT_NE(found.reason, "");
+  EXPECT_TRUE(found.rejection);
 }
 
 TEST(PlaceSearch, AMirroredScanHasNoPlace)
@@ -181,7 +183,7 @@ TEST(PlaceSearch, AMirroredScanHasNoPlace)
   for (auto& p : pair.second)
     p.y() = -p.y();
   const PlaceResult found = placed(pair);
-  EXPECT_EQ(found.answer, PlaceAnswer::kNone) << found.reason;
+  EXPECT_EQ(found.answer, PlaceAnswer::kNone) << found.rejection;
 }
 
 TEST(PlaceSearch, FindsASensorThatWasMountedOnItsSide)
@@ -192,7 +194,7 @@ TEST(PlaceSearch, FindsASensorThatWasMountedOnItsSide)
   scans.add(pair.first);
   scans.add(pcl6d::transformed(pair.second, side.inverse()));
   const PlaceResult found = placeScan(scans[0], scans[1]);
-  ASSERT_EQ(found.answer, PlaceAnswer::kUnique) << found.reason;
+  ASSERT_EQ(found.answer, PlaceAnswer::kUnique) << found.rejection;
   expectNear(found.candidates.front().T_first_second, pair.T_first_second * side);
 }
 
@@ -204,7 +206,7 @@ TEST(PlaceSearch, OfFewPointsThereIsNone)
   scans.add(Points(pair.second.begin(), pair.second.begin() + 50));
   const PlaceResult found = placeScan(scans[0], scans[1]);
   EXPECT_EQ(found.answer, PlaceAnswer::kNone);
-  EXPECT_NE(found.reason, "");
+  EXPECT_TRUE(found.rejection);
 }
 
 TEST(PlaceSearch, RefusesOptionsThatBreakTheirRules)
@@ -234,15 +236,16 @@ TEST(JudgePlace, MatchesAGuessAndSaysWhatSpeaksForIt)
   scans.add(pair.first);
   scans.add(pair.second);
   const Eigen::Isometry3d off = poseFromEuler({0.3, -0.2, 0.05}, {0, 0, 0.05});
-  const auto right = judgePlace(scans[0], scans[1], pair.T_first_second * off);
+  const auto right = evaluatePlace(scans[0], scans[1], pair.T_first_second * off);
   expectNear(right.T_first_second, pair.T_first_second);
-  EXPECT_EQ(right.opinion.trust, pcl6d::LinkTrust::kGood) << right.opinion.reason;
+  EXPECT_EQ(right.test_result.trust, pcl6d::LinkTrust::kGood)
+      << right.test_result.rejection;
   const Eigen::Isometry3d far = poseFromEuler({3, -2, 0}, {0, 0, 1});
-  const auto wrong = judgePlace(scans[0], scans[1], pair.T_first_second * far);
+  const auto wrong = evaluatePlace(scans[0], scans[1], pair.T_first_second * far);
   EXPECT_LT(wrong.score, 0.1 * right.score);
   Eigen::Isometry3d stretched = pair.T_first_second;
   stretched.linear() *= 2;
-  EXPECT_NE(badArgumentOf([&] { judgePlace(scans[0], scans[1], stretched); }), "");
+  EXPECT_NE(badArgumentOf([&] { evaluatePlace(scans[0], scans[1], stretched); }), "");
 }
 
 TEST(PlaceAnswer, HasWords)

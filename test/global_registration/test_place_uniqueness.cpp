@@ -44,13 +44,14 @@ TEST(PlaceUniqueness, IsUniqueOnlyIfEnoughMeetsAndLittleContradicts)
   scans.add(pair.second);
   PlaceSearchOptions options = PlaceSearchOptions::forTwoScans();
   const PlaceResult strict = placeScan(scans[0], scans[1], options);
-  ASSERT_EQ(strict.answer, PlaceAnswer::kUnique) << strict.reason;
+  ASSERT_EQ(strict.answer, PlaceAnswer::kUnique) << strict.rejection;
   const double overlap = strict.candidates[0].overlap;
   ASSERT_GT(overlap, options.min_overlap);
   options.min_overlap = 0.5 * (1 + overlap);
   const PlaceResult few = placeScan(scans[0], scans[1], options);
   EXPECT_EQ(few.answer, PlaceAnswer::kNone);
-  EXPECT_NE(few.reason.find("of the surfaces meet"), std::string::npos) << few.reason;
+  EXPECT_EQ(few.rejection.reason, pcl6d::RejectReason::kTooFewSurfacesMeet);
+  EXPECT_EQ(few.rejection.needed, options.min_overlap);
   EXPECT_EQ(few.candidates.size(), strict.candidates.size()) << "they stay";
 }
 
@@ -71,7 +72,8 @@ TEST(PlaceUniqueness, WhatMovedMakesItNoUniquePlaceOfTwoScansAlone)
   expectNearTruth(strict.candidates[0].T_first_second, pair.T_first_second);
   EXPECT_GT(strict.candidates[0].contradiction, 0.01);
   EXPECT_EQ(strict.answer, PlaceAnswer::kNone);
-  EXPECT_NE(strict.reason.find("rays go through"), std::string::npos) << strict.reason;
+  EXPECT_EQ(strict.rejection.reason, pcl6d::RejectReason::kSurfaceViolated)
+      << strict.rejection;
 }
 
 TEST(PlaceUniqueness, ACorridorThatPillarsHoldIsUniqueAndABareOneIsNot)
@@ -92,7 +94,7 @@ TEST(PlaceUniqueness, ACorridorThatPillarsHoldIsUniqueAndABareOneIsNot)
     corridor.pillars.push_back({Vector(x, x > 3.5 ? 1.3 : -1.5, -1),
                                 Vector(x + 0.2, x > 3.5 ? 1.5 : -1.3, 1.5)});
   const PlaceResult held = placedIn(corridor);
-  EXPECT_EQ(held.answer, PlaceAnswer::kUnique) << held.reason;
+  EXPECT_EQ(held.answer, PlaceAnswer::kUnique) << held.rejection;
   EXPECT_GT(held.candidates[0].evidence.fit.open_directions, 0);
   expectNearTruth(held.candidates[0].T_first_second, T);
 }

@@ -105,10 +105,27 @@ TEST(ScanJoiner, JoinsTheScansOfARoom)
                        Eigen::Isometry3d::Identity()));
   for (const auto& scan : found.scans) {
     EXPECT_EQ(scan.group, 0u);
-    EXPECT_EQ(scan.reason, "");
+    EXPECT_FALSE(scan.rejection);
   }
   EXPECT_EQ(found.pairs_compared, 15u);
   EXPECT_LE(found.pairs_placed, 15u);
+}
+
+TEST(ScanJoiner, PlacesNoMorePairsThanItMay)
+{
+  const RoomScans room;
+  Placeable scans;
+  for (const auto& one : room.points)
+    scans.add(one);
+  JoinOptions options;
+  for (const std::size_t most : {1u, 3u, 5u}) {
+    options.max_pairs = most;
+    const JoinedScans found = joinScans(scans.all(), options);
+    EXPECT_EQ(found.pairs_compared, 15u);
+    EXPECT_EQ(found.pairs_placed, most);
+    EXPECT_LE(found.groups[0].size(), most + 1); // each pair ties one scan more
+    expectTruth(found, found.groups[0], room.T_world_scan);
+  }
 }
 
 TEST(ScanJoiner, GivesTheSameBitsForAnyOrderAndAnyNumberOfThreads)
@@ -154,7 +171,7 @@ TEST(ScanJoiner, AScanOfElsewhereStaysLoose)
   ASSERT_EQ(found.groups.size(), 2u);
   EXPECT_EQ(found.groups[1], std::vector<std::size_t>{2});
   EXPECT_EQ(found.scans[2].group, 1u);
-  EXPECT_NE(found.scans[2].reason, "");
+  EXPECT_TRUE(found.scans[2].rejection);
   expectTruth(found, found.groups[0], room.T_world_scan);
 }
 
@@ -169,8 +186,8 @@ TEST(ScanJoiner, MirroredAndTinyScansStayLoose)
   const JoinedScans found = joined(room.points);
   ASSERT_EQ(found.groups.size(), 3u);
   EXPECT_EQ(found.groups[0].size(), 4u);
-  EXPECT_NE(found.scans[4].reason, "");
-  EXPECT_NE(found.scans[5].reason, "");
+  EXPECT_TRUE(found.scans[4].rejection);
+  EXPECT_TRUE(found.scans[5].rejection);
   expectTruth(found, found.groups[0], room.T_world_scan);
 }
 
@@ -203,7 +220,7 @@ TEST(ScanJoiner, OfOneScanOrNoneThereIsNothingToJoin)
   const JoinedScans found = joined(RoomScans({}, 1).points);
   ASSERT_EQ(found.groups.size(), 1u);
   EXPECT_EQ(found.groups[0], std::vector<std::size_t>{0});
-  EXPECT_NE(found.scans[0].reason, "");
+  EXPECT_TRUE(found.scans[0].rejection);
 }
 
 TEST(ScanJoiner, KnownPosesStandAndOthersJoinThem)

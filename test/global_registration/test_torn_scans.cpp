@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scans that two groups would take, as numbers: who leaves, and what leaves with them.
-#include "torn_scans.h"
+#include "group/torn_scans.h"
 
 #include <gtest/gtest.h>
 

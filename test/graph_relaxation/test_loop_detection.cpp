@@ -70,7 +70,7 @@ TEST(DetectLoops, FindsTheLoopOfARingWhoseChainHasDrifted)
     EXPECT_EQ(loop.kind, LinkKind::kLoop);
     EXPECT_GE(loop.to, loop.from + kGap);
     EXPECT_EQ(loop.verdict, LinkVerdict::kUsed)
-        << loop.from << " - " << loop.to << ": " << loop.reason;
+        << loop.from << " - " << loop.to << ": " << loop.rejection;
     EXPECT_DOUBLE_EQ(
         loop.distance,
         (poses[loop.from].translation() - poses[loop.to].translation()).norm());
@@ -165,7 +165,7 @@ TEST(DetectLoops, RefusesScansThatSeeDifferentRooms)
   for (const ScanLink& loop : loops) {
     EXPECT_EQ(loop.verdict, LinkVerdict::kRefused) << loop.from << " - " << loop.to;
     EXPECT_GT(loop.pairs, 0u) << "of the wall";
-    EXPECT_NE(loop.reason, "");
+    EXPECT_TRUE(loop.rejection);
   }
 }
 
@@ -183,7 +183,7 @@ TEST(DetectLoops, RefusesALoopThatContradictsThoseBesideIt)
   for (const ScanLink& loop : loops) {
     if (loop.to == wrong) {
       EXPECT_EQ(loop.verdict, LinkVerdict::kRefused);
-      refused += loop.reason.find("contradicts") == 0;
+      refused += loop.rejection.reason == pcl6d::RejectReason::kContradictsLoops;
     }
     else
       good += loop.verdict == LinkVerdict::kUsed;

@@ -182,7 +182,7 @@ TEST(ScanNetwork, KeepsNoLinkOfAScanThatIsNotUsable)
   EXPECT_EQ(links[0].from, 0u);
   EXPECT_EQ(links[0].to, 1u);
   EXPECT_EQ(links[0].verdict, pcl6d::LinkVerdict::kRefused);
-  EXPECT_EQ(links[0].reason, "one of its scans could not be matched");
+  EXPECT_EQ(links[0].rejection.reason, pcl6d::RejectReason::kScanUnregistered);
 }
 
 TEST(ScanNetwork, RefusesWhatCannotBe)

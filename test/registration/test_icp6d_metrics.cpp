@@ -244,3 +244,50 @@ TEST(Icp6DMetrics, TheSymmetricObjectiveIsThatOfIcpWithNormals)
   EXPECT_TRUE(sameBits(Eigen::Matrix4d(plain.getFinalTransformation()),
                        Eigen::Matrix4d(by_metric.getFinalTransformation())));
 }
+
+TEST(Icp6DMetrics, NormalsOfRingsGrowAcrossThem)
+{
+  constexpr double kDegree = 3.14159265358979 / 180, kNoise = 0.01; // [m]
+  const Eigen::Array3d low(-6, -5, -1), high(5, 7, 3);              // [m] walls
+  const auto rings = [&](const Eigen::Isometry3d& T_world_scan, int seed) {
+    pcl6d::Random random(seed);
+    pcl6d::Points points;
+    for (int ring = 0; ring < 16; ++ring)
+      for (int step = 0; step < 900; ++step) {
+        const double elevation = (2 * ring - 15) * kDegree,
+                     azimuth = 0.4 * step * kDegree;
+        const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth),
+                                  std::cos(elevation) * std::sin(azimuth),
+                                  std::sin(elevation));
+        const Eigen::Array3d in_world = (T_world_scan.linear() * ray).array();
+        const Eigen::Array3d wall = (in_world > 0).select(high, low);
+        const double range =
+            ((wall - T_world_scan.translation().array()) / in_world).minCoeff();
+        points.push_back(((range + kNoise * random.normal()) * ray).cast<float>());
+      }
+    return points;
+  };
+  const Eigen::Isometry3d truth = pcl6d::poseFromEuler({0.3, -0.2, 0.1}, {0, 0, 0.05});
+  const auto error = [&](Metric metric, pcl6d::LineGrowth growth) {
+    pcl6d::ICP6D<pcl::PointXYZ, pcl::PointXYZ, double> icp;
+    icp.setMetric(metric);
+    icp.setNormalNeighbours(10);
+    icp.setLineGrowth(growth);
+    icp.setMaxCorrespondenceDistance(1);
+    icp.setInputTarget(toCloud<pcl::PointXYZ>(rings(Eigen::Isometry3d::Identity(), 1)));
+    icp.setInputSource(toCloud<pcl::PointXYZ>(rings(truth, 2)));
+    pcl::PointCloud<pcl::PointXYZ> aligned;
+    icp.align(aligned);
+    return pcl6d::distanceBetween(icp.result().T_target_source, truth).translation;
+  };
+  using pcl6d::LineGrowth;
+  EXPECT_EQ((pcl6d::ICP6D<pcl::PointXYZ, pcl::PointXYZ>().getLineGrowth()),
+            LineGrowth::kAuto);
+  for (const Metric metric : {Metric::kPlane, Metric::kGicp}) {
+    SCOPED_TRACE(toString(metric));
+    const double nearest = error(metric, LineGrowth::kNever);
+    const double grown = error(metric, LineGrowth::kAuto);
+    EXPECT_LT(grown, 0.01);
+    EXPECT_LT(grown, nearest / 2) << "errors [m] " << nearest << ' ' << grown;
+  }
+}

@@ -98,6 +98,16 @@ TEST(MotionFromTwist, IsATranslationWithoutATurn)
   EXPECT_EQ(motionFromTwist(twist).translation(), Eigen::Vector3d(1, 2, 3));
 }
 
+TEST(TwistFromMotion, IsTheInverse)
+{
+  Random random(4);
+  for (const double angle : {0.0, 1e-9, 1e-4, 0.0099, 0.0101, 1.0, 3.0})
+    for (int trial = 0; trial < 20; ++trial) {
+      const Twist twist = twistOf(random, angle, 5);
+      EXPECT_LT((pcl6d::twistFromMotion(motionFromTwist(twist)) - twist).norm(), 1e-12);
+    }
+}
+
 TEST(EulerRates, AreTheDerivativeOfTheRotation)
 {
   Random random(3);

@@ -173,6 +173,100 @@ TEST(Ndt6D, SaysThatACorridorLeavesAMotionOpen)
   EXPECT_EQ(ndt.result().status, Status::kRankDeficient);
 }
 
+namespace {
+/** Rings about a scanner 1 m above the floor of a hall, as a spinning lidar of 16 lines sees
+ * them. \param[in] T_world_scan of the scanner, which stays upright */
+Points
+ringsInHall(const Eigen::Isometry3d& T_world_scan, Random& random)
+{
+  constexpr double kDegree = 3.14159265358979 / 180, kNoise = 0.01;
+  const Eigen::Array3d low(-14, -9, -1), high(11, 8, 4); // [m] the walls
+  Points points;
+  for (int ring = 0; ring < 16; ++ring)
+    for (int step = 0; step < 1800; ++step) {
+      const double elevation = (2 * ring - 15) * kDegree,
+                   azimuth = 0.2 * step * kDegree;
+      const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth),
+                                std::cos(elevation) * std::sin(azimuth),
+                                std::sin(elevation));
+      const Eigen::Array3d in_world = (T_world_scan.linear() * ray).array();
+      const Eigen::Array3d wall = (in_world > 0).select(high, low);
+      const double range =
+          ((wall - T_world_scan.translation().array()) / in_world).minCoeff();
+      points.push_back(((range + kNoise * random.normal()) * ray).cast<float>());
+    }
+  return points;
+}
+
+/** \return the root mean square of the position errors over some motions [m] */
+double
+errorInHall(pcl6d::LineGrowth growth)
+{
+  double sum = 0;
+  constexpr int kMotions = 6;
+  for (int seed = 1; seed <= kMotions; ++seed) {
+    Random random(seed);
+    const Eigen::Isometry3d truth = pcl6d::poseFromEuler(
+        {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0.05 * seed},
+        {0.02, -0.01, random.uniform(-0.1, 0.1)});
+    const Points target = ringsInHall(Eigen::Isometry3d::Identity(), random);
+    Ndt ndt;
+    ndt.setMaximumIterations(100);
+    ndt.setLineGrowth(growth);
+    const Eigen::Isometry3d found = align(ndt, target, ringsInHall(truth, random));
+    const double error = pcl6d::distanceBetween(found, truth).translation;
+    sum += error * error / kMotions;
+  }
+  return std::sqrt(sum);
+}
+} // namespace
+
+TEST(Ndt6D, ClaimsNoPlaneOfASingleRing)
+{
+  EXPECT_EQ(Ndt().getLineGrowth(), pcl6d::LineGrowth::kAuto);
+  const double as_pcl = errorInHall(pcl6d::LineGrowth::kNever);
+  const double grown = errorInHall(pcl6d::LineGrowth::kAuto);
+  EXPECT_LT(grown, 0.05);
+  EXPECT_LT(grown, as_pcl / 2) << "errors [m] " << as_pcl << ' ' << grown;
+}
+
+TEST(Ndt6D, KeepsTheCellsOfAnEvenTarget)
+{
+  Ndt by_itself, never;
+  never.setLineGrowth(pcl6d::LineGrowth::kNever);
+  EXPECT_TRUE(sameBits(align(by_itself, rooms().target, rooms().source).matrix(),
+                       align(never, rooms().target, rooms().source).matrix()));
+}
+
+TEST(DistributionGrid, GivesALineTheCovarianceThatItHas)
+{
+  constexpr double kStep = 0.02; // [m]
+  Points line;
+  for (int i = 0; i < 40; ++i)
+    line.push_back({static_cast<float>(0.1 + kStep * i),
+                    0.5F,
+                    0.5F + 0.001F * static_cast<float>(i % 2)});
+  using pcl6d::LineGrowth;
+  const auto thin = pcl6d::DistributionGrid(line, 1, 6, LineGrowth::kNever);
+  const auto open = pcl6d::DistributionGrid(line, 1, 6, LineGrowth::kAlways);
+  ASSERT_EQ(thin.distributions().size(), 1U);
+  ASSERT_EQ(open.distributions().size(), 1U);
+  const Eigen::Matrix3d claimed = thin.distributions()[0].information;
+  const Eigen::Matrix3d known = open.distributions()[0].information;
+  EXPECT_NEAR(claimed(1, 1) / claimed(0, 0), 100, 1e-3) << "a tenth of the length";
+  EXPECT_NEAR(known(1, 1) / claimed(0, 0), 1, 1e-3) << "no plane";
+  EXPECT_NEAR(known(2, 2) / claimed(0, 0), 1, 1e-3);
+  EXPECT_LT(open.distributions()[0].form.norm(), 1e-9) << "it fixes no motion";
+  Points lines; // three of 3 m, a metre apart: each cell holds a piece of one
+  for (const float y : {-0.5F, 0.5F, 1.5F})
+    for (int i = 0; i < 140; ++i)
+      lines.push_back({static_cast<float>(0.1 + kStep * i), y, 0.5F});
+  const auto grown = pcl6d::DistributionGrid(lines, 1, 6, LineGrowth::kAlways);
+  ASSERT_EQ(grown.distributions().size(), 9U);
+  for (const auto& cell : grown.distributions())
+    EXPECT_GT(cell.form(2, 2), 0.9) << "the plane z = 0.5";
+}
+
 TEST(Ndt6D, SaysWhenThereIsTooLittle)
 {
   Ndt ndt;

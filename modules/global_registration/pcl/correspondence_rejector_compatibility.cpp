@@ -14,8 +14,8 @@ namespace pcl6d {
 using namespace registration;
 
 namespace {
-/** [median spacings] Two scans of a surface have points so far apart at most: half the
- * diagonal of a square of them is 0.7, and what both are off by adds to it. */
+/** [median spacings] Largest distance of equal points of two scans of a surface: half the
+ * diagonal of a square of points is 0.7; the noise of both scans adds the rest. */
 constexpr double kNoiseSpacings = 1.25;
 } // namespace
 
@@ -55,7 +55,7 @@ void
 CorrespondenceRejectorCompatibility::set(Side& side, Points points)
 {
   if (side.is_set && side.points == points)
-    return; // pipelines hand over the same target for each source: its spacing stays
+    return; // pipelines pass an unchanged target with each source: keep its spacing
   side = {true, std::move(points), std::nullopt};
 }
 

@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/** \file Constants that several files of the module share, and where each comes from. */
+#include <pcl6d/registration/reduced_scans.h>
+
+/** \file Constants shared by several files of the module, with the source of each. */
 namespace pcl6d::global_registration {
 
 /** Surfaces are level up to 37 deg: cosine (algorithms.md G.4). */
 constexpr double kLevel = 0.8;
 
-/** A contradicted share that counts e times as much against a place. Of starts, which lie up
- * to a cell off; of matched places; and of judged ones: there 0.001 to 0.004 of right ones is
- * contradicted, of wrong ones 0.02 to 0.13 (algorithms.md G.4). Which of several places is the
- * best changes little with them: bench_places finds 1 of 25 more with 0.05 than with 0.2. */
+/** Violated shares that divide the score of a pose by e: of starting poses, up to a cell off;
+ * of matched poses; and of tested poses. There right poses have shares of 0.001 to 0.004,
+ * wrong poses 0.02 to 0.13 (algorithms.md G.4). The best of several poses depends little on
+ * the constants: bench_places finds 1 of 25 more with 0.05 than with 0.2. */
 constexpr double kContradictedStart = 0.05, kContradictedMatch = 0.02,
                  kContradictedPlace = 0.01;
 
-/** [voxels] Points of matched scans meet a surface within it, as those that matching pairs;
- * and the standard deviation of a matched place. */
-constexpr double kMetVoxels = 1.7, kPlaceVoxels = 0.5;
+/** [voxels] Points of matched scans meet a surface within the distance of the pairs of
+ * matching; and the standard deviation of a matched pose. */
+constexpr double kMetVoxels = kPlanePairVoxels, kPlaceVoxels = 0.5;
 
-/** Places are others from so many cells, or so large a turn [rad], on. */
+/** Two poses are different from this number of cells, or turn [rad], on. */
 constexpr double kOtherCells = 1.5, kOtherTurn = 0.15;
 
-/** A place where fewer surfaces meet is no place: walls of any two rooms do so much by chance.
- * Of bench_places' pairs the right ones accepted have 0.1 and more. */
+/** Least overlap of a pose: walls of any two rooms reach nearly as much by chance. The right
+ * pairs accepted in bench_places have 0.1 and more. */
 constexpr double kLeastOverlap = 0.1;
 
 } // namespace pcl6d::global_registration

@@ -79,7 +79,7 @@ ConvergenceCriteria<Scalar>::start(IcpOptions& options)
   show(options);
   run_ = options;
   this->setConvergenceState(Base::CONVERGENCE_CRITERIA_NOT_CONVERGED);
-  last_judgement_ = Base::CONVERGENCE_CRITERIA_NOT_CONVERGED;
+  last_result_ = Base::CONVERGENCE_CRITERIA_NOT_CONVERGED;
   last_mse_ = -1;
   last_scale_ = 1;
   similar_ = 0;
@@ -87,10 +87,10 @@ ConvergenceCriteria<Scalar>::start(IcpOptions& options)
     options.translation_epsilon = options.rotation_epsilon = options.error_epsilon = 0;
 }
 
-/** PCL's criteria, in its order. */
+/** PCL's criteria, in PCL's order. */
 template <typename Scalar>
 typename ConvergenceCriteria<Scalar>::State
-ConvergenceCriteria<Scalar>::judge(const IcpIteration& seen) const
+ConvergenceCriteria<Scalar>::evaluate(const IcpIteration& seen) const
 {
   if (seen.max_distance > run_.max_distance) // the limit still shrinks
     return Base::CONVERGENCE_CRITERIA_NOT_CONVERGED;
@@ -110,12 +110,12 @@ template <typename Scalar>
 bool
 ConvergenceCriteria<Scalar>::endsAt(const IcpIteration& seen)
 {
-  last_judgement_ = judge(seen);
+  last_result_ = evaluate(seen);
   last_mse_ = seen.rms * seen.rms;
   last_scale_ = seen.scale;
-  const bool is_similar = last_judgement_ != Base::CONVERGENCE_CRITERIA_NOT_CONVERGED;
+  const bool is_similar = last_result_ != Base::CONVERGENCE_CRITERIA_NOT_CONVERGED;
   const bool has_own_rule = this->getMaximumIterationsSimilarTransforms() > 0 ||
-                            last_judgement_ == Base::CONVERGENCE_CRITERIA_ABS_MSE;
+                            last_result_ == Base::CONVERGENCE_CRITERIA_ABS_MSE;
   const bool ends = is_similar && has_own_rule &&
                     similar_ >= this->getMaximumIterationsSimilarTransforms();
   similar_ = is_similar ? similar_ + 1 : 0;
@@ -137,9 +137,9 @@ ConvergenceCriteria<Scalar>::finish(IcpResult& result, bool ended_here)
   }
   State state = Base::CONVERGENCE_CRITERIA_NOT_CONVERGED;
   if (result.stop == IcpStop::kAtRest)
-    state = last_judgement_ == Base::CONVERGENCE_CRITERIA_NOT_CONVERGED
+    state = last_result_ == Base::CONVERGENCE_CRITERIA_NOT_CONVERGED
                 ? Base::CONVERGENCE_CRITERIA_REL_MSE // the error no longer changes
-                : last_judgement_;
+                : last_result_;
   else if (result.stop == IcpStop::kIterationLimit)
     state = this->getFailureAfterMaximumIterations()
                 ? Base::CONVERGENCE_CRITERIA_FAILURE_AFTER_MAX_ITERATIONS

@@ -14,7 +14,7 @@ limitThatIncludes(double max_distance)
   const double sq = max_distance * max_distance;
   if (!(sq < static_cast<double>(std::numeric_limits<float>::max())))
     return kInfinite;
-  float last = static_cast<float>(sq); // the largest that still counts
+  float last = static_cast<float>(sq); // the largest still included
   if (static_cast<double>(last) > sq)
     last = std::nextafter(last, 0.0f);
   return std::nextafter(last, kInfinite);

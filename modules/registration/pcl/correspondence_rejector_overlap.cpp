@@ -69,7 +69,7 @@ CorrespondenceRejectorOverlap::setTarget(Points points)
   for (auto& p : points)
     p -= origin;
   if (tree_ && points == target_)
-    return; // pipelines hand over the same target for each source: what is known stays
+    return; // pipelines pass one target for every source: results stay valid
   target_ = std::move(points);
   tree_ = std::make_shared<const PointTree>(target_, num_threads_);
   forget();
@@ -104,9 +104,9 @@ CorrespondenceRejectorOverlap::placeOf(const Eigen::Vector3f& point) const
                                                                   : Place::kInside;
 }
 
-/** Judges those of some points that were not judged yet. */
+/** Tests the points not tested yet. */
 void
-CorrespondenceRejectorOverlap::judge(std::vector<int> indices)
+CorrespondenceRejectorOverlap::evaluate(std::vector<int> indices)
 {
   const auto is_known = [this](int i) {
     return places_[static_cast<std::size_t>(i)] != Place::kUnknown;
@@ -128,7 +128,7 @@ bool
 CorrespondenceRejectorOverlap::isBoundary(int index)
 {
   requireIndices({index}, target_.size());
-  judge({index});
+  evaluate({index});
   return places_[static_cast<std::size_t>(index)] == Place::kBoundary;
 }
 
@@ -142,7 +142,7 @@ CorrespondenceRejectorOverlap::select(const pcl::Correspondences& original)
   for (const auto& pair : pairs)
     partners.push_back(pair.index_match);
   requireIndices(partners, target_.size());
-  judge(partners);
+  evaluate(partners);
   pcl::Correspondences kept;
   for (const auto& pair : pairs)
     if (places_[static_cast<std::size_t>(pair.index_match)] == Place::kInside)

@@ -53,7 +53,7 @@ closestPairs(const pcl::Correspondences& pairs, std::size_t count)
   std::nth_element(by_distance.begin(), last, by_distance.end(), isCloserPair);
   pcl::Correspondences kept;
   kept.reserve(count);
-  for (const auto& pair : pairs) // copies of one pair: the first ones
+  for (const auto& pair : pairs) // of equal pairs, the first
     if (!isCloserPair(*last, pair) && kept.size() < count)
       kept.push_back(pair);
   return kept;
@@ -149,8 +149,8 @@ CorrespondenceRejectorVarTrimmed::setTargetPoints(pcl::PCLPointCloud2::ConstPtr 
 }
 
 namespace {
-/** \return how many of the closest pairs have the least fractional RMSD
- * \param[in] distances_sq ascending \param[in] least, most of them; > 0 */
+/** \return the number of closest pairs with the least fractional RMSD
+ * \param[in] distances_sq ascending \param[in] least, most number of pairs; > 0 */
 std::size_t
 countByFractionalRmsd(const std::vector<float>& distances_sq,
                       std::size_t least,
@@ -161,7 +161,7 @@ countByFractionalRmsd(const std::vector<float>& distances_sq,
   std::size_t count = most;
   for (std::size_t k = 1; k <= most; ++k) {
     sum += static_cast<double>(distances_sq[k - 1]);
-    // Twice the logarithm of rms / f^lambda, less what is the same for all k.
+    // Twice the logarithm of rms / f^lambda, without terms independent of k.
     const double n = static_cast<double>(k);
     const double cost = portableLog(sum / n) - 2 * kLambda * portableLog(n);
     if (k >= least && cost <= best) {

@@ -17,9 +17,9 @@ checkedCovariance(const Eigen::Matrix3d& covariance,
                   const char* name,
                   std::size_t index)
 {
-  constexpr double kSymmetric = 1e-6; // roundings of float, of the largest entry
-  constexpr double kLeastShare =
-      1e-9; // of the largest eigenvalue: what double still inverts
+  constexpr double kSymmetric = 1e-6;  // roundings of float, of the largest entry
+  constexpr double kLeastShare = 1e-9; // of the largest eigenvalue: still
+                                       // invertible in double
   const double largest = covariance.cwiseAbs().maxCoeff();
   const Eigen::Matrix3d C = (covariance + covariance.transpose()) / 2;
   const bool is_symmetric =

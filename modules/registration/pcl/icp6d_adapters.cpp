@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace pcl6d {
 namespace registration {
@@ -41,11 +42,11 @@ requireMotion(const Eigen::Matrix4d& matrix)
 {
   const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
   const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
-  constexpr double kTolerance = 1e-3; // some thousand roundings of float
+  constexpr double kTolerance = 1e-3; // thousands of float roundings
   if (off > kTolerance || R.determinant() < 0)
-    throw BadArgument("ICP6D: the transformation estimation made a matrix that is no "
-                      "motion, but scales, shears or mirrors; a scale is estimated by "
-                      "setEstimateScale(true)");
+    throw BadArgument(
+        "ICP6D: the transformation estimation made a matrix that is no motion, with "
+        "scale, shear or mirroring; setEstimateScale(true) estimates a scale");
 }
 
 std::vector<int>
@@ -63,7 +64,7 @@ Normals
 givenOrEstimated(Normals given,
                  const Points& points,
                  const PointTree* tree,
-                 std::size_t neighbours,
+                 const ScanNormals& settings,
                  const IcpOptions& options)
 {
   const bool are_given = std::any_of(given.begin(), given.end(), [](const auto& n) {
@@ -71,10 +72,10 @@ givenOrEstimated(Normals given,
   });
   if (are_given)
     return given;
-  if (tree)
-    return estimateNormals(points, *tree, neighbours, options.num_threads);
-  return estimateNormals(
-      points, PointTree(points, options.num_threads), neighbours, options.num_threads);
+  std::optional<PointTree> own;
+  if (!tree)
+    tree = &own.emplace(points, options.num_threads);
+  return estimateScanNormals(points, *tree, settings, options.num_threads);
 }
 
 } // namespace registration

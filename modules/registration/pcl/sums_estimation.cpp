@@ -22,7 +22,7 @@ requireSameSize(std::size_t num_source, std::size_t num_target)
 {
   if (num_source != num_target)
     throw BadArgument("source has " + std::to_string(num_source) + " points, target " +
-                      std::to_string(num_target) + ", but they must be pairs");
+                      std::to_string(num_target) + ", but pairs need equal numbers");
 }
 
 bool

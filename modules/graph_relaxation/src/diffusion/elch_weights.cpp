@@ -13,10 +13,10 @@ using namespace graph_relaxation;
 
 namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kZeroCost = 1e-12; ///< stands for 0, of the smallest other cost
+constexpr double kZeroCost = 1e-12; ///< for 0, relative to the smallest positive cost
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/** Scales the costs to at most 1, so that no sum overflows, and makes them positive. */
+/** Scales the costs to at most 1, against overflow of sums, and makes the costs positive. */
 std::vector<WeightedEdge>
 positiveCosts(std::vector<WeightedEdge> edges)
 {
@@ -36,15 +36,15 @@ positiveCosts(std::vector<WeightedEdge> edges)
   return edges;
 }
 
-/** The weights of a graph while they are found.
+/** The weights of a graph during the search.
  *
- * A vertex with a weight is a terminal. Each other vertex knows its nearest terminal, by a
- * shortest path through vertices without weights. The shortest path between two terminals
- * then is, for the best edge between regions of different terminals: from its ends back to
- * both (K. Mehlhorn, "A faster approximation algorithm for the Steiner problem in graphs",
- * 1988). When the path has got its weights, its vertices are terminals too, and distances
- * only shrink. To delete its edges is not necessary: both ends have weights, so that
- * across them there is nothing left to weigh. */
+ * A vertex with a weight is a terminal. Each remaining vertex stores its nearest terminal, by a
+ * shortest path through vertices without weights. The shortest path between two terminals then
+ * runs across the best edge between regions of different terminals: from both ends of the edge
+ * back to the terminals (K. Mehlhorn, "A faster approximation algorithm for the Steiner problem
+ * in graphs", 1988). After a path has its weights, its vertices are terminals, too, and
+ * distances only shrink. Its edges need not be deleted: both ends have weights, so that no
+ * weight is left to find across the edge. */
 class ElchGraph {
 public:
   ElchGraph(std::size_t num_vertices, const std::vector<WeightedEdge>& edges)
@@ -80,7 +80,7 @@ public:
     std::vector<double> weights;
     if (!joined)
       return weights;
-    for (const auto& v : vertices_) // branches: that of the terminal at their root
+    for (const auto& v : vertices_) // branches: weight of the terminal at their root
       weights.push_back(v.terminal == kNone ? 0 : vertices_[v.terminal].weight);
     return weights;
   }
@@ -89,7 +89,7 @@ private:
   struct Vertex {
     double distance = kInfinity;  ///< from its terminal
     std::size_t terminal = kNone; ///< the nearest; of a terminal: itself
-    std::size_t edge = kNone;     ///< the last on the way from there
+    std::size_t edge = kNone;     ///< last edge of the path from the terminal
     double weight = 0;            ///< of a terminal
   };
   using Entry = std::tuple<double, std::size_t>; ///< distance or length; vertex or edge
@@ -109,7 +109,7 @@ private:
   }
 
   /** The length of the path between terminals across an edge, which may be the edge alone;
-   * infinite if it joins a region with itself. */
+   * infinite if the edge joins a region with itself. */
   double
   lengthAcross(std::size_t e) const
   {
@@ -138,8 +138,7 @@ private:
   {
     const std::size_t n = otherEnd(e, v);
     const double distance = vertices_[v].distance + edges_[e].cost;
-    // A way that goes through v changes its terminal with v, even if the gain is so small
-    // that rounding swallows it.
+    // A path through v changes its terminal with v, even if rounding swallows the gain.
     const bool follows = vertices_[n].edge == e;
     if (distance < vertices_[n].distance ||
         (follows && vertices_[n].terminal != vertices_[v].terminal)) {
@@ -152,7 +151,7 @@ private:
       bridges_.emplace(length, e);
   }
 
-  /** \return the edge across which the shortest path between terminals runs, or kNone */
+  /** \return the edge of the shortest path between terminals across regions, or kNone */
   std::size_t
   popBridge()
   {
@@ -188,7 +187,7 @@ private:
   std::vector<std::size_t> start_;    ///< of each vertex in incident_
   std::vector<std::size_t> incident_; ///< edges, by vertex
   std::vector<Vertex> vertices_;
-  Queue frontier_; ///< vertices whose distance became shorter
+  Queue frontier_; ///< vertices with a shortened distance
   Queue bridges_;  ///< edges between regions
 };
 } // namespace

@@ -19,7 +19,7 @@ constexpr Named<LoopClosing> kMethods[] = {{LoopClosing::kElch, "elch"},
                                            {LoopClosing::kPath, "path"},
                                            {LoopClosing::kNone, "none"}};
 
-/** \return weights that rise with the steps from first to last; uniform if all are 0
+/** \return weights that rise with the steps from first to last; uniform if every step is 0
  * \param[in] step of the i-th pose to the next */
 template <typename Step>
 std::vector<double>
@@ -41,7 +41,7 @@ risingWeights(std::size_t num_poses, std::size_t first, std::size_t last, Step s
   return weights;
 }
 
-/** \return the motion without what digits lost in a file have stretched */
+/** \return the pose with an exact rotation, where a file has lost digits */
 Eigen::Isometry3d
 trulyRigid(const Eigen::Isometry3d& pose)
 {
@@ -52,8 +52,8 @@ trulyRigid(const Eigen::Isometry3d& pose)
   return rigid;
 }
 
-/** \return a power of two that brings all positions near one, so that neither the
- * squares of their distances overflow nor their sum */
+/** \return a power of two that scales the positions to about 1, so that neither squared
+ * distances nor their sum overflow */
 double
 scaleOf(const std::vector<Eigen::Isometry3d>& poses)
 {
@@ -105,7 +105,7 @@ elchInAllDimensions(std::size_t num_poses,
   return all;
 }
 
-/** Fills in the weights and what they say of the status. */
+/** Computes the weights and the resulting status. */
 void
 findWeights(const std::vector<Eigen::Isometry3d>& poses,
             const std::vector<LoopEdge>& edges,
@@ -134,7 +134,7 @@ findWeights(const std::vector<Eigen::Isometry3d>& poses,
 }
 
 /** Moves each pose by its share of the motion of the last.
- * \return false: the numbers were too large, and no pose has moved */
+ * \return false: the values overflow, and no pose has moved */
 bool
 applyWeights(const Loop& loop,
              const Eigen::Vector3d& closing_rotation,
@@ -185,7 +185,7 @@ costOfCovariance(const Eigen::Matrix<double, 6, 6>& covariance)
   require(covariance.allFinite() && (covariance.diagonal().array() >= 0).all(),
           "variances of an edge",
           covariance.diagonal().transpose(),
-          "finite and >= 0, as the covariances must be finite");
+          "finite and >= 0: the covariances must be finite");
   PerDimension cost;
   cost << covariance.diagonal().head<3>(), covariance.diagonal().tail<3>().sum();
   return cost;

@@ -5,8 +5,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/graph_relaxation/error_diffusion.h>
 
-/** \file
- * What error diffusion asks of loops and edges. */
+/** \file Checks of loops and edges before error diffusion. */
 namespace pcl6d::graph_relaxation {
 
 inline void

@@ -87,7 +87,8 @@ private:
         enqueue(n);
   }
 
-  /** Matches a scan with its neighbours. \return whether it moved enough to wake them */
+  /** Matches a scan with its neighbours.
+   * \return whether the motion is large enough to wake the neighbours */
   bool
   moves(std::size_t s, const std::vector<std::size_t>& neighbours)
   {
@@ -108,7 +109,7 @@ private:
     return moved.translation > o_.min_translation || moved.rotation > o_.min_rotation;
   }
 
-  /** \return the motion that brings points of scan n into the frame of scan s */
+  /** \return the transform of points of scan n into the frame of scan s */
   Eigen::Isometry3d
   fromTo(std::size_t n, std::size_t s) const
   {

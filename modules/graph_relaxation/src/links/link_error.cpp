@@ -59,7 +59,7 @@ void
 checkPoseGraph(const PoseGraph& graph)
 {
   if (!graph.ids.empty() && graph.ids.size() != graph.poses.size())
-    throw BadArgument("a pose graph needs one id per pose, but there are " +
+    throw BadArgument("a pose graph needs an id per pose, but has " +
                       std::to_string(graph.ids.size()) + " ids of " +
                       std::to_string(graph.poses.size()) + " poses");
   for (std::size_t i = 0; i < graph.poses.size(); ++i)

@@ -18,8 +18,8 @@ struct QuaternionPose {
   Eigen::Isometry3d
   isometry() const;
 
-  /** \return the pose after a small motion (dt, dr) in its own axes; the turn is by
-   * 2 atan(|dr| / 2), which needs no trigonometry */
+  /** \return the pose after a small motion (dt, dr) in its own axes; the turn is 2
+   * atan(|dr|/2), without trigonometric functions */
   QuaternionPose
   moved(const Vector6& motion) const;
 };
@@ -45,8 +45,8 @@ struct LinkTerms {
 Vector6
 errorOf(const LinkMeasurement& link, const QuaternionPose& a, const QuaternionPose& b);
 
-/** \brief Error and derivative by b, and the adjoint that gives the one by a:
- * J_from = -J_to Ad(X^-1) with X = T_a^-1 T_b. */
+/** \brief Error and derivative by b, and the adjoint for the derivative by a: J_from = -J_to
+ * Ad(X^-1) with X = T_a^-1 T_b. */
 struct LinkGeometry {
   LinkGeometry(const LinkMeasurement& link,
                const QuaternionPose& a,
@@ -54,7 +54,7 @@ struct LinkGeometry {
 
   Vector6 error;
   Eigen::Matrix3d J_translation; ///< upper left block of J_to
-  Eigen::Matrix3d J_rotation;    ///< lower right block; the others are zero
+  Eigen::Matrix3d J_rotation;    ///< lower right block; the remaining blocks are zero
   Eigen::Matrix3d R;             ///< of X
   Eigen::Vector3d t;             ///< of X
 };

@@ -9,20 +9,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace pcl6d {
 
 namespace {
-/** Of the scans near a later one, so many are tried: the nearest ones. */
+/** Number of earlier scans, the nearest, tested per scan. */
 constexpr std::size_t kTriedPerScan = 2;
 
-/** Two loops agree if, going from one to the other on both sides, the difference is
- * within so many max_distance, and an angle which moves points as much. */
+/** Largest difference of the motions along both sides, from one loop to the other, of two
+ * agreeing loops: as multiple of max_distance, and as an angle that moves points as far. */
 constexpr double kAgreeingDistances = 2;
 constexpr double kAgreeingAngle = 0.05; // [rad]
 
-/** \return whether two positions may be the same place, as far as they are known */
+/** \return whether two positions may be equal, within their covariances */
 bool
 mayMeet(std::size_t j,
         std::size_t n,
@@ -65,7 +64,7 @@ candidatesOf(std::size_t n,
   return candidates;
 }
 
-/** \return whether two loops agree on the way between their ends */
+/** \return whether two loops agree on the motion between their ends */
 bool
 agree(const ScanLink& a, const ScanLink& b, const Poses& poses, double max_distance)
 {
@@ -77,7 +76,7 @@ agree(const ScanLink& a, const ScanLink& b, const Poses& poses, double max_dista
          apart.rotation <= kAgreeingAngle;
 }
 
-/** Loops whose ends are near each other in time speak of the same closing. */
+/** Whether two loops belong to one closing: their ends are near each other in time. */
 bool
 areNeighbours(const ScanLink& a, const ScanLink& b, std::size_t gap)
 {
@@ -85,13 +84,13 @@ areNeighbours(const ScanLink& a, const ScanLink& b, std::size_t gap)
   return apart(a.from, b.from) <= gap && apart(a.to, b.to) <= gap;
 }
 
-/** Refuses loops that more of their neighbours contradict than support. */
+/** Rejects loops contradicted by more of their neighbours than support the loop. */
 void
 refuseContradicted(std::vector<ScanLink>& loops,
                    const Poses& poses,
                    const LoopDetectionOptions& options)
 {
-  std::vector<std::string> reasons(loops.size());
+  std::vector<Rejection> rejections(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i].verdict != LinkVerdict::kUsed)
       continue;
@@ -101,20 +100,19 @@ refuseContradicted(std::vector<ScanLink>& loops,
           areNeighbours(loops[i], loops[k], options.min_gap / 2))
         ++(agree(loops[i], loops[k], poses, options.icp.max_distance) ? support
                                                                       : against);
-    if (against > support) {
-      std::ostringstream why;
-      why << "contradicts " << against << " loops beside it, agrees with " << support;
-      reasons[i] = why.str();
-    }
+    if (against > support)
+      rejections[i] = {RejectReason::kContradictsLoops,
+                       static_cast<double>(against),
+                       static_cast<double>(support)};
   }
   for (std::size_t i = 0; i < loops.size(); ++i)
-    if (!reasons[i].empty()) {
+    if (rejections[i]) {
       loops[i].verdict = LinkVerdict::kRefused;
-      loops[i].reason = reasons[i];
+      loops[i].rejection = rejections[i];
     }
 }
 
-/** The scan at the later end and the one before it, in the frame of the later one. */
+/** The scan at the later end and its predecessor, in the frame of the former. */
 struct LoopSource {
   Points points;
   Normals normals;
@@ -138,7 +136,7 @@ sourceOf(const std::vector<NetworkScan>& scans,
   return source;
 }
 
-/** The scan at the earlier end and its neighbours, in the frame of the earlier one. */
+/** The scan at the earlier end and its neighbours, in the frame of the former. */
 IcpTarget
 targetOf(const std::vector<NetworkScan>& scans,
          const Poses& poses,
@@ -152,26 +150,28 @@ targetOf(const std::vector<NetworkScan>& scans,
   return target;
 }
 
-std::string
-doubtOf(const IcpResult& found, double consistency, const LoopDetectionOptions& options)
+Rejection
+rejectionOf(const IcpResult& found,
+            double consistency,
+            const LoopDetectionOptions& options)
 {
-  std::ostringstream why; // read by people
-  why.precision(3);
+  const double largest_rms = options.max_rms_share * options.icp.max_distance;
   if (found.status != Status::kOk)
-    why << "ICP: " << toString(found.status);
-  else if (found.pairs < options.min_pairs)
-    why << found.pairs << " pairs, fewer than " << options.min_pairs;
-  else if (found.overlap < options.min_overlap)
-    why << "overlap " << found.overlap << " is less than " << options.min_overlap;
-  else if (found.rms > options.max_rms_share * options.icp.max_distance)
-    why << "rms " << found.rms << " m is that of unrelated points";
-  else if (consistency < options.min_consistency)
-    why << "a scan looked through surfaces of the other (consistency " << consistency
-        << ")";
-  return why.str();
+    return {RejectReason::kIcpFailed, found.status};
+  if (found.pairs < options.min_pairs)
+    return {RejectReason::kTooFewPairs,
+            static_cast<double>(found.pairs),
+            static_cast<double>(options.min_pairs)};
+  if (found.overlap < options.min_overlap)
+    return {RejectReason::kOverlapTooSmall, found.overlap, options.min_overlap};
+  if (found.rms > largest_rms)
+    return {RejectReason::kUnrelatedPoints, found.rms, largest_rms};
+  if (consistency < options.min_consistency)
+    return {RejectReason::kSurfacePassed, consistency, options.min_consistency};
+  return {};
 }
 
-/** \return near points, of those and of the ones where the other scan looked through */
+/** \return the share of near points, of near points and points in free space */
 double
 consistencyOf(const NetworkScan& from,
               const NetworkScan& to,
@@ -185,7 +185,8 @@ consistencyOf(const NetworkScan& from,
   return all > 0 ? static_cast<double>(votes.near) / static_cast<double>(all) : 0;
 }
 
-/** Runs ICP from a guess and fills in the link. \return whether it is believed */
+/** Runs ICP from an initial pose and fills in the link.
+ * \return whether the link is accepted */
 bool
 matchFrom(const IcpTarget& target,
           const LoopSource& source,
@@ -207,18 +208,18 @@ matchFrom(const IcpTarget& target,
     link.T_from_to = found.T_target_source;
     link.covariance = found.covariance;
   }
-  link.reason = doubtOf(found,
-                        consistencyOf(scans[link.from],
-                                      scans[link.to],
-                                      found.T_target_source,
-                                      options.icp.max_distance),
-                        options);
-  link.verdict = link.reason.empty() ? LinkVerdict::kUsed : LinkVerdict::kRefused;
-  return link.reason.empty();
+  link.rejection = rejectionOf(found,
+                               consistencyOf(scans[link.from],
+                                             scans[link.to],
+                                             found.T_target_source,
+                                             options.icp.max_distance),
+                               options);
+  link.verdict = link.rejection ? LinkVerdict::kRefused : LinkVerdict::kUsed;
+  return !link.rejection;
 }
 
-/** Matches both ends of a possible loop and fills in what is found: pairs, rms,
- * overlap, condition, T_from_to, and the verdict by the evidence of this loop alone.
+/** Matches both ends of a possible loop and fills in the results: pairs, rms, overlap,
+ * condition, T_from_to, and the verdict on this loop alone.
  * \param[in,out] link with from < to */
 void
 matchLoop(const std::vector<NetworkScan>& scans,
@@ -283,7 +284,7 @@ detectLoops(const std::vector<NetworkScan>& scans,
   require(covariances == 0 || covariances == scans.size(),
           "position_covariances",
           covariances,
-          "one per scan, or none");
+          "empty or equal to the number of scans");
   std::vector<ScanLink> loops;
   for (std::size_t n = options.first; n < scans.size(); ++n) {
     if (!usable[n])
@@ -297,7 +298,7 @@ detectLoops(const std::vector<NetworkScan>& scans,
       loops.push_back(loop);
     }
   }
-  // One loop after the other would wait for the slowest thread in each step of ICP.
+  // In parallel over loops: sequentially, each step of ICP would wait for the slowest thread.
   LoopDetectionOptions of_one = options;
   of_one.icp.num_threads = 1;
   sharedFor(options.sharing, options.icp.num_threads, loops, [&](std::size_t k) {

@@ -8,15 +8,15 @@
 namespace pcl6d {
 
 namespace {
-/** Scans see each other if so large a share of the points of one has a partner. */
+/** Scans overlap if at least this share of the points of one has a partner. */
 constexpr double kLeastOverlap = 0.05;
-/** Partners are so many voxels apart at most. */
+/** [voxels] Largest distance of partners. */
 constexpr double kPartnerVoxels = 2;
-/** So many points of a scan tell what it says of another; of more pairs than so many to a
- * scan fewer points each, so that all of them take as long, down to so many. */
+/** Sampled points of a scan in each pair; with more pairs per scan than the given number,
+ * fewer points each, at constant total time, down to the least number. */
 constexpr std::size_t kSample = 700, kPairsPerScan = 40, kLeastSample = 100;
 
-/** \return how many points of a scan are looked at in each pair */
+/** \return the number of tested points of a scan per pair */
 std::size_t
 sampleFor(std::size_t pairs, std::size_t scans)
 {

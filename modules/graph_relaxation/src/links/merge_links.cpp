@@ -13,7 +13,7 @@ using namespace graph_relaxation;
 namespace {
 constexpr int kSteps = 5; // quadratic convergence
 
-/** \return the link that stands for all of them, which have the same direction */
+/** \return a single link with the summed information of links of one direction */
 PoseLink
 merged(const std::vector<PoseLink>& links)
 {
@@ -50,7 +50,7 @@ reversed(const PoseLink& link)
   result.from = link.to;
   result.to = link.from;
   result.T_from_to = link.T_from_to.inverse();
-  // M exp(e) turned round is exp(-e) M^-1 = M^-1 exp(-Ad(M) e).
+  // The inverse of M exp(e) is exp(-e) M^-1 = M^-1 exp(-Ad(M) e).
   const Matrix6 adjoint = adjointOf(result.T_from_to); // Ad(M)^-1
   const Matrix6 information = adjoint.transpose() * link.information * adjoint;
   result.information = 0.5 * (information + information.transpose());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/graph_relaxation/network_scan.h>
+#include <pcl6d/visibility/ray_origin.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,17 +9,17 @@
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kSampledPoints = 250; ///< points that tell an overlap
+constexpr std::size_t kSampledPoints = 250; ///< sampled to estimate an overlap
 
-/** Of the scans before it, a scan is compared with so many: the nearest. On a long drive all
- * places are seen by many scans, and more pairs of them say nothing new. */
+/** Number of earlier scans, the nearest, compared with a scan. On a long drive many scans see
+ * each place, and further pairs add no information. */
 constexpr std::size_t kCompared = 64;
 
-/** Standard deviation of a point, of the distance within which points are near: three of
- * it are twice that distance. */
+/** Standard deviation of a point, relative to the distance within which points are near: three
+ * standard deviations are twice the distance. */
 constexpr double kPlaceSigma = 2.0 / 3;
 
-/** The sample of a scan's points that tells an overlap: each stride-th of them. */
+/** The points of a scan for the estimate of an overlap: each stride-th point. */
 struct Sample {
   explicit Sample(const Points& all)
   : points(all)
@@ -36,9 +37,9 @@ struct Sample {
   std::size_t stride, size;
 };
 
-/** The share of a sample of points that have a partner.
- * \param[in] is_decided of the least and the most that the share may still be: whether to
- * look no further \return the share, or the least at that time */
+/** The share of the sampled points with a partner.
+ * \param[in] is_decided from the least and the largest possible final share: whether to
+ * stop early \return the share, or the least possible share when stopped */
 template <typename IsDecided>
 double
 sampledShare(const NetworkScan& scan,
@@ -61,7 +62,7 @@ sampledShare(const NetworkScan& scan,
   return sample.share(near);
 }
 
-/** \return whether overlapOf() is at least so much; one way may be enough */
+/** \return whether overlapOf() reaches the limit; one direction may be enough */
 bool
 overlapBy(double enough,
           const NetworkScan& a,
@@ -72,13 +73,13 @@ overlapBy(double enough,
   const auto isDecided = [enough](double least, double most) {
     return least >= enough || !(most >= enough);
   };
-  // In b first: its tree is in the near cache, as one scan after the other is a.
+  // In b first: its tree stays in the cache while a changes.
   return sampledShare(a, b, T_a_b.inverse(), distance, isDecided) >= enough ||
          sampledShare(b, a, T_a_b, distance, isDecided) >= enough;
 }
 
-/** \return the earlier scans whose bounding spheres meet that of b, in their order; of many
- * the nearest */
+/** \return the earlier scans with bounding spheres that meet the sphere of b, in order; if
+ * there are many, the nearest */
 std::vector<std::size_t>
 candidatesOf(std::size_t b,
              const std::vector<NetworkScan>& scans,
@@ -104,7 +105,7 @@ candidatesOf(std::size_t b,
 } // namespace
 
 NetworkScan::NetworkScan(const IcpModel& model)
-: model_(&model), rays_(model.points(), RayImageOptions::coarse())
+: model_(&model), rays_(plausibleRays(model.points(), RayImageOptions::coarse()))
 {
   const Points& points = model.points();
   if (points.empty())
@@ -144,7 +145,7 @@ votesOf(const NetworkScan& scan,
         std::size_t stride)
 {
   PointVotes votes;
-  Points apart; // points of the scan that are not near
+  Points apart; // points of the scan beyond the distance
   const Points& points = scan.model().points();
   const auto limit_sq = static_cast<float>(distance * distance);
   const auto sigma = static_cast<float>(kPlaceSigma * distance);

@@ -14,7 +14,8 @@
 namespace pcl6d {
 
 namespace {
-/** Links are chosen anew when a pose has moved by so much of max_distance, or turned. */
+/** Links are chosen again after a pose has moved by this share of max_distance, or turned by
+ * the angle. */
 constexpr double kMoved = 0.2, kTurned = 0.01; // [rad]
 
 /** Finds the partner in scan a of points of scan b. */
@@ -33,14 +34,14 @@ public:
   , limit_sq_(static_cast<float>(max_distance * max_distance))
   {}
 
-  /** \return the index of the partner of b's i-th point, -1: none */
+  /** \return the index of the partner of b's i-th point; -1 without a partner */
   int
   operator()(std::size_t i) const
   {
     return a_.tree().nearest(place(i), limit_sq_).index;
   }
 
-  /** The same, without a search where no other point can have become nearer. */
+  /** The partner, without a search if no other point can have become nearer. */
   int
   operator()(std::size_t i, RememberedPartner& last) const
   {
@@ -86,7 +87,7 @@ private:
     last.others = std::sqrt(best.second_sq);
   }
 
-  /** Searches go farther by so large a part of the limit: rounds move scans by less. */
+  /** Share of the limit added to the search radius: rounds move scans by less. */
   static constexpr float kReach = 0.2F;
 
   const IcpModel& a_;
@@ -95,7 +96,7 @@ private:
   float limit_, limit_sq_; ///< [m], [m^2]
 };
 
-/** The norm of a pair in the axes of the world, by the normals of both points. */
+/** The norm of a pair in the axes of the world, from the normals of both points. */
 Eigen::Matrix3d
 normOf(Metric metric,
        const Eigen::Vector3d& normal_a,
@@ -107,10 +108,11 @@ normOf(Metric metric,
   return normal_a * normal_a.transpose();
 }
 
-/** Links of a scan, on average, that are given all their points; more share them. */
+/** Average number of links per scan with the full number of points; more links use fewer points
+ * each. */
 constexpr std::size_t kLinksPerScan = 32;
 
-/** Fewer points of a link would leave some without the pairs that relaxation asks for. */
+/** Least points of a link: with fewer, links lack the pairs needed by relaxation. */
 constexpr std::size_t kLeastPoints = 200;
 
 std::size_t
@@ -166,7 +168,7 @@ ScanNetwork::ScanNetwork(const std::vector<NetworkScan>& scans,
                 scan.model().normals().size() == scan.model().points().size(),
             "normals of a scan",
             scan.model().normals().size(),
-            "one per point, for metrics of planes");
+            "equal to the number of points, for metrics of planes");
 }
 
 void
@@ -181,7 +183,7 @@ ScanNetwork::keep(std::size_t a, std::size_t b, LinkKind kind, bool trusted)
     kept_[link] = {kind, trusted};
 }
 
-/** \return the share of min_overlap that a link needs, the multiple of link_distance */
+/** \return tolerance for a link chosen before: share of min_overlap, link_distance */
 double
 ScanNetwork::slack(const ScanPair& link) const
 {
@@ -194,7 +196,7 @@ ScanNetwork::byOverlap(const Poses& poses) const
   const auto found = overlappingPairs(
       scans_,
       poses,
-      1.2 * options_.max_distance, // some still come nearer
+      1.2 * options_.max_distance, // some come nearer later
       [&](const ScanPair& link) { return (1 - slack(link)) * options_.min_overlap; },
       options_.num_threads,
       options_.sharing);
@@ -271,7 +273,7 @@ ScanNetwork::pairsOf(const ScanPair& link,
       scans_[a], scans_[b], poses[a].inverse() * poses[b], options_.max_distance);
   const std::size_t stride = strideFor(to.points().size(), pointsPerLink());
   const std::size_t looked_at = (to.points().size() + stride - 1) / stride;
-  if (remembered.size() != looked_at) // other points
+  if (remembered.size() != looked_at) // different points
     remembered.assign(looked_at, {});
   for (std::size_t i = 0; i < to.points().size(); i += stride) {
     const int partner = partnerOf(i, remembered[i / stride]);
@@ -319,7 +321,7 @@ ScanNetwork::describeLink(const ScanPair& pair, const Poses& poses) const
   link.distance = (poses[a].translation() - poses[b].translation()).norm();
   if (!usable_[a] || !usable_[b]) {
     link.verdict = LinkVerdict::kRefused;
-    link.reason = "one of its scans could not be matched";
+    link.rejection = RejectReason::kScanUnregistered;
     return link;
   }
   const IcpModel &from = scans_[a].model(), &to = scans_[b].model();

@@ -10,29 +10,29 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace pcl6d {
 
 namespace {
-/** Neighbours of points are so many voxels away at most. */
+/** [voxels] Largest distance of neighbours of points. */
 constexpr double kNeighbourVoxels = 2;
 
-/** A scan's surfaces are pieces of so many voxels. */
+/** [voxels] Size of the pieces of a scan's surface. */
 constexpr double kPieceVoxels = 16;
 
-/** So many points of a scan tell what it says of another; where all pairs would have more than
- * so many points together fewer, down to so many. */
+/** Sampled points of a scan per pair of scans; fewer, down to the least number, if the total
+ * exceeds the given limit. */
 constexpr std::size_t kPointsOfPair = 400, kPointsOfAll = 4000000, kFewestOfPair = 50;
 
-/** A scan is worse if it lost so many deviations: of thousands of scans none does by chance. */
+/** A scan is worse if its agreement fell by this number of deviations: by chance, less than one
+ * scan in thousands does ... */
 constexpr double kScanDeviations = 5;
-/** And so large a share of its agreement: less is what all scans that are moved at once lose to
- * each other while the map gains. */
+/** ... and by this share of its agreement: smaller losses are normal when every scan moves and
+ * the map improves. */
 constexpr double kScanShare = 0.1;
 
-/** In place of a distance: the other scan looked through, or has nothing there. */
+/** In place of a distance: free space of the other scan, or no surface there. */
 constexpr float kLookedThrough = -1, kNothingThere = -2;
 
 /** \brief [m] from a point to the surface of another scan, at both poses. */
@@ -41,7 +41,7 @@ struct Distances {
   float after = kNothingThere;
 };
 
-/** \brief The points of one scan as they lie in another. */
+/** \brief The points of one scan, transformed into the frame of another. */
 struct View {
   std::size_t of = 0, in = 0; ///< scans
   std::vector<Distances> points;
@@ -73,7 +73,7 @@ distanceToSurface(const IcpModel& model, std::size_t i, const Eigen::Vector3f& p
   return std::abs(model.normals()[i].dot(d));
 }
 
-/** \return of each stride-th point of a scan its distance to the surface of another */
+/** \return for each stride-th point of a scan its distance to the surface of another */
 std::vector<float>
 distancesTo(const NetworkScan& other,
             const NetworkScan& scan,
@@ -120,7 +120,7 @@ strideOf(const NetworkScan& scan, std::size_t wanted)
   return std::max<std::size_t>(1, scan.model().points().size() / wanted);
 }
 
-/** \brief What the judge looks at. */
+/** \brief The input of the stage test. */
 struct Stage {
   const std::vector<NetworkScan>& scans;
   const Poses& before;
@@ -145,8 +145,8 @@ viewOf(const Stage& stage, std::size_t of, std::size_t in)
   return view;
 }
 
-/** Scan by scan as the one that is asked, whose tree and rays then stay in the near cache.
- * \return by the scan whose points they are */
+/** Ordered by the observing scan: its tree and rays then stay in the cache.
+ * \return by owner of the points */
 std::vector<std::vector<View>>
 viewsOf(const Stage& stage,
         const std::vector<ScanPair>& pairs,
@@ -173,7 +173,7 @@ viewsOf(const Stage& stage,
   return views;
 }
 
-/** \return [m] the robust standard deviation of points from surfaces, of the better poses */
+/** \return [m] the robust standard deviation of points from surfaces, at the better poses */
 double
 deviationOf(const std::vector<std::vector<View>>& views)
 {
@@ -200,7 +200,7 @@ scoreOf(float distance, double deviation)
   return 1 / (1 + share * share);
 }
 
-/** \brief Sums up what points say, those of a cube of the world together. */
+/** \brief Sums up the agreement of points, together for each cube of the world. */
 class ChangeSums {
 public:
   void
@@ -242,7 +242,7 @@ private:
   double before_ = 0, after_ = 0;
 };
 
-/** \return the cube that holds a point, about an origin; beyond all grids one for all */
+/** \return the cube of a point, about an origin; one common cube for points beyond the grid */
 VoxelKey
 cubeOf(const Eigen::Vector3d& point, const Eigen::Vector3d& origin, double cube)
 {
@@ -258,7 +258,7 @@ sumUp(const Stage& stage,
       const std::vector<std::vector<View>>& views,
       StageAgreement& agreement)
 {
-  const double deviation = // where all points lie on surfaces exactly
+  const double deviation = // lower bound, for points exactly on surfaces
       std::max(agreement.deviation, 1e-6 * stage.voxel);
   const Eigen::Vector3d origin = stage.after.front().translation();
   ChangeSums all;
@@ -283,14 +283,12 @@ sumUp(const Stage& stage,
   agreement.total = all.change();
 }
 
-std::string
-fall(const std::string& of, const AgreementChange& change)
+Rejection
+lossOf(RejectReason reason, const AgreementChange& change)
 {
-  std::ostringstream why; // read by people
-  why.precision(3);
-  why << of << " fell from " << change.before << " to " << change.after << ", "
-      << (change.before - change.after) / change.deviation << " standard deviations";
-  return why.str();
+  Rejection lost(reason, change.after, change.before);
+  lost.deviations = (change.before - change.after) / change.deviation;
+  return lost;
 }
 } // namespace
 
@@ -300,25 +298,28 @@ agreementCube(double voxel)
   return kPieceVoxels * voxel;
 }
 
-std::string
+Rejection
 StageAgreement::worse(const std::vector<bool>& counted) const
 {
   if (total.isLoss())
-    return fall("agreement", total);
+    return lossOf(RejectReason::kAgreementLost, total);
   for (std::size_t i = 0; i < scans.size(); ++i)
     if ((counted.empty() || counted[i]) && scans[i].isLoss(kScanDeviations) &&
-        scans[i].before - scans[i].after > kScanShare * std::abs(scans[i].before))
-      return fall("agreement of scan " + std::to_string(i), scans[i]);
-  return "";
+        scans[i].before - scans[i].after > kScanShare * std::abs(scans[i].before)) {
+      Rejection lost = lossOf(RejectReason::kScanAgreementLost, scans[i]);
+      lost.text = std::to_string(i);
+      return lost;
+    }
+  return {};
 }
 
 StageAgreement
-judgeStage(const std::vector<NetworkScan>& scans,
-           const Poses& before,
-           const Poses& after,
-           double voxel,
-           unsigned int num_threads,
-           WorkSharing* sharing)
+compareStage(const std::vector<NetworkScan>& scans,
+             const Poses& before,
+             const Poses& after,
+             double voxel,
+             unsigned int num_threads,
+             WorkSharing* sharing)
 {
   require(before.size() == scans.size(), "poses before", before.size(), "one per scan");
   require(after.size() == scans.size(), "poses after", after.size(), "one per scan");

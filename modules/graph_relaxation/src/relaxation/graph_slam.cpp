@@ -41,7 +41,7 @@ requirePoses(const GraphSlam::Poses& poses)
             "finite and rigid (a rotation and a translation)");
 }
 
-/** \return the links as they may enter a sum of squares */
+/** \return the checked links, with semidefinite information */
 std::vector<PoseLink>
 checkedLinks(std::vector<PoseLink> links, std::size_t num_poses)
 {
@@ -53,7 +53,7 @@ checkedLinks(std::vector<PoseLink> links, std::size_t num_poses)
     require(fault.empty(),
             "measured link.from",
             link.from,
-            "with an information matrix, but it is " + fault);
+            "with an information matrix, but the matrix is " + fault);
     link.information = semidefinite(link.information);
   }
   return links;
@@ -104,7 +104,7 @@ poseLinkOf(const LinkReport& link, const std::vector<Eigen::Isometry3d>& poses)
           link.to,
           "a scan with a pose");
   const Eigen::Isometry3d &T_a = poses[link.from], &T_b = poses[link.to];
-  // The motion that puts b where the pairs want it, about the centre.
+  // The motion of b demanded by the pairs, about the centre.
   const Eigen::Isometry3d motion = motionFromTwist(link.correction);
   Eigen::Isometry3d wanted = T_b;
   wanted.linear() = motion.linear() * T_b.linear();

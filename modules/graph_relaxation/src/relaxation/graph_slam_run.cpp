@@ -139,7 +139,7 @@ GraphSlamRun::weigh()
 void
 GraphSlamRun::switchLinks()
 {
-  std::vector<double> wants; // how far each link would move its points (rms) [m]
+  std::vector<double> wants; // rms motion of points demanded by each link [m]
   for (std::size_t l = 0; l < report_of_link_.size(); ++l) {
     const RoundLink& link = round_.links[l];
     const double energy = link.equation.D.dot(link.equation.g);
@@ -148,7 +148,7 @@ GraphSlamRun::switchLinks()
   const std::vector<double> weights = switch_.weights(wants, trusted_);
   for (std::size_t l = 0; l < report_of_link_.size(); ++l)
     result_.links[report_of_link_[l]].switch_weight = weights[l];
-  if (links_alike_ && switch_.settled()) // the error is another one from now on
+  if (links_alike_ && switch_.settled()) // the error is a new quantity from now on
     best_error_ = std::numeric_limits<double>::infinity();
   links_alike_ = !switch_.settled();
 }
@@ -175,7 +175,7 @@ GraphSlamRun::setFactors()
     link.factor = weight;
     if (alike)
       link.factor *= typical / strengths[l];
-    else if (weight < 1) // what is doubted is not stronger than others
+    else if (weight < 1) // a doubtful link is no stronger than a typical link
       link.factor *= weight + (1 - weight) * std::min(1.0, typical / strengths[l]);
     if (link.equation.open_directions > 0)
       damping_ = kLeastDamping;
@@ -280,7 +280,7 @@ GraphSlamRun::finish()
   fillCovariances();
   if (!result_.converged)
     return Status::kMaxIterations;
-  const auto& open = result_.open_direction; // of all that float, too
+  const auto& open = result_.open_direction; // true for floating poses, too
   const bool held = std::count(open.begin(), open.end(), true) == 0;
   return held ? Status::kOk : Status::kRankDeficient;
 }
@@ -294,7 +294,7 @@ GraphSlamRun::fillCovariances()
     damping_ = 1e3 * kLeastDamping;
     inverses = step_->inverses(round_, damping_);
   }
-  // Only what the damping holds follows it.
+  // Only directions fixed by the damping scale with the damping.
   const auto damped = damping_ > 0 ? step_->inverses(round_, 10 * damping_) : inverses;
   for (std::size_t j = 0; j < round_.poses.size(); ++j) {
     const std::size_t i = round_.layout.unknown[j];

@@ -13,8 +13,8 @@
 
 namespace pcl6d::graph_relaxation {
 
-/** \brief One run of GraphSLAM: statistics, rounds, stop rules, covariances; the same for
- * all parameterisations. */
+/** \brief One run of GraphSLAM: statistics, rounds, stop rules, covariances, common to the
+ * parameterisations. */
 class GraphSlamRun {
 public:
   /** \brief The pairs at some poses, kept by the caller for one round. */
@@ -35,19 +35,20 @@ private:
   measure(const std::vector<LinkPairs>& pairs);
   void
   weigh();
-  /** Lets the links that contradict the others lose their weight. */
+  /** Reduces the weight of links that contradict the rest. */
   void
   switchLinks();
   /** Sets by how much each link counts in the round. */
   void
   setFactors();
-  /** \return how much the pairs of a link hold its scans, as the round counts them */
+  /** \return the constraint strength of a link's pairs in the round */
   double
   strengthOf(const RoundLink& link) const;
-  /** Sums up what the pairs are off by. */
+  /** Sums up the residuals of the pairs. */
   void
   sumUpError();
-  /** One solution. \return whether the poses stay where they are */
+  /** One solution.
+   * \return whether the poses have converged */
   bool
   advance(int iteration);
   bool
@@ -71,12 +72,12 @@ private:
   Round round_;
   GraphSlamResult result_;
   std::vector<std::size_t> report_of_link_; ///< of each link of the round with pairs
-  bool links_alike_ = false;                ///< strong and weak links count the same
+  bool links_alike_ = false;                ///< strong and weak links have equal weight
   double error_ = 0;                        ///< [m^2] mean square of this round
   double last_error_ = 0;                   ///< of the round before
-  double link_error_ = 0;                   ///< [m^2] the same with links alike
+  double link_error_ = 0;                   ///< [m^2] mean square, equal weights
   double best_error_ = std::numeric_limits<double>::infinity();
-  double damping_ = 0; ///< 0: all directions are held
+  double damping_ = 0; ///< 0: no open direction
   bool stopped_ = false, failed_ = false;
 };
 

@@ -8,15 +8,13 @@
 namespace pcl6d::graph_relaxation {
 
 namespace {
-constexpr double kFirstDamping =
-    1e-8; ///< small, as Marquardt's scaling is already cautious
+constexpr double kFirstDamping = 1e-8; ///< small: Marquardt's scaling is cautious
 constexpr double kLargestDamping = 1e12;
-constexpr double kNegligibleDamping =
-    1e-9; ///< below it a step tells how near the end is
-constexpr double kRounding =
-    1e-20; ///< a squared error of a link that is rounding alone
-constexpr double kRoundingShare =
-    1e-6; ///< of the cost: steps that promise more should lower it
+constexpr double kNegligibleDamping = 1e-9; ///< below, the step length
+                                            ///< shows convergence
+constexpr double kRounding = 1e-20;         ///< squared error by rounding alone
+constexpr double kRoundingShare = 1e-6;     ///< of the cost: larger
+                                            ///< predicted decreases are real
 constexpr double kDampingFactor = 10;
 constexpr double kNarrowing =
     1.4; ///< of the squared width per stage (Yang et al. 2020)
@@ -41,7 +39,7 @@ public:
   run()
   {
     if (!std::isfinite(result_.chi2_before))
-      result_.status = Status::kDiverged; // information so large that squares overflow
+      result_.status = Status::kDiverged; // overflow by large information
     else if (problem_.numPoses() > 1) {
       if (options_.graduated)
         narrow();
@@ -64,7 +62,7 @@ private:
         result_.squared_errors.begin(), result_.squared_errors.end(), 0.0);
   }
 
-  /** One step per width, from one at which all links count down to the wanted one. */
+  /** One step per width, from a width at which every link counts down to the wanted width. */
   void
   narrow()
   {
@@ -91,7 +89,7 @@ private:
     return false;
   }
 
-  /** \brief Takes a step that lowers the cost, if there is one.
+  /** \brief Takes a step that lowers the cost, if possible.
    * \return whether the minimum was reached */
   bool
   step()
@@ -100,7 +98,7 @@ private:
     const double before = problem_.cost(result_.squared_errors, robust_);
     if (before <= kRounding * static_cast<double>(result_.squared_errors.size()))
       return true;
-    double promised = 0; ///< by the least damped step, the longest
+    double promised = 0; ///< by the least damped, longest step
     while (result_.iterations < options_.max_iterations) {
       ++result_.iterations;
       double expected = 0;
@@ -131,8 +129,8 @@ private:
       problem_.addRidge();
   }
 
-  /** Without damping, links that leave a motion free leave no solution: it gets a hold
-   * that is weak beside the links. */
+  /** Links that leave a motion free make the undamped system singular: a ridge, weak beside the
+   * links, then fixes the motion. */
   bool
   solve(std::vector<Vector6>& step)
   {
@@ -145,7 +143,7 @@ private:
     return problem_.solve(damping_, step);
   }
 
-  /** \return whether the links leave some motion free at the end */
+  /** \return whether the links leave a motion free at the end */
   bool
   isFree()
   {
@@ -154,8 +152,8 @@ private:
     return !problem_.system().factorize(0, options_.num_threads);
   }
 
-  /** \param[out] expected decrease of the cost, were it quadratic
-   * \return whether there is a step that lowers the cost; it is taken */
+  /** \param[out] expected decrease of a quadratic cost
+   * \return whether a step lowers the cost; the step is then taken */
   bool
   tryStep(double before, double& expected)
   {
@@ -182,7 +180,7 @@ private:
     damping_ = damping_ > kNegligibleDamping ? damping_ / kDampingFactor : 0;
   }
 
-  /** Faster and faster, as the right damping may be far. */
+  /** Increasingly fast, as the right damping may be far. */
   void
   growDamping()
   {

@@ -2,7 +2,6 @@
 #include "relaxation/link_equation.h"
 
 #include <pcl6d/common/decompositions.h>
-#include <pcl6d/common/portable_math.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +9,10 @@
 namespace pcl6d::graph_relaxation {
 
 namespace {
-/** How much stronger a measurement holds the scale than it does the rest. */
+/** Weight of the scale in a measurement, relative to the rest. */
 constexpr double kScaleHold = 1e6;
 
-/** A square root of B: motions in units of the way that they move the points. */
+/** A square root of B: scales motions to the motion of the points. */
 template <int Size>
 struct Whitening {
   using Matrix = Eigen::Matrix<double, Size, Size>;
@@ -79,7 +78,7 @@ inverseJacobian(const Twist& e)
   Eigen::Matrix<double, 6, 6> ad = Eigen::Matrix<double, 6, 6>::Zero();
   ad.topLeftCorner<3, 3>() = ad.bottomRightCorner<3, 3>() = skew(e.tail<3>());
   ad.topRightCorner<3, 3>() = skew(e.head<3>());
-  // J = sum ad^n / (n + 1)!; |x| <= pi, so the series falls quickly.
+  // J = sum ad^n / (n + 1)!; |x| <= pi, so the series converges quickly.
   constexpr int kTerms = 32;
   Eigen::Matrix<double, 6, 6> term = Eigen::Matrix<double, 6, 6>::Identity();
   Eigen::Matrix<double, 6, 6> J = term;
@@ -92,7 +91,7 @@ inverseJacobian(const Twist& e)
   return inverted(J);
 }
 
-/** A six-dimensional equation as it is, or with a scale of its own. */
+/** A six-dimensional equation, extended by a scale if needed. */
 template <int Size>
 LinkEquation<Size>
 withScale(const LinkEquation<6>& rigid)
@@ -170,23 +169,6 @@ equationOf(const PoseLink& link,
   equation.D = -axes.transpose() * e;
   equation.variance = 1;
   return withScale<Size>(equation);
-}
-
-Twist
-twistFromMotion(const Eigen::Isometry3d& motion)
-{
-  // V^-1 = I - [x]x / 2 + q [x]x^2, where q = (1 - n/2 cot(n/2)) / n^2.
-  const Eigen::Vector3d x = rotationVector(motion.linear());
-  const double n = x.norm();
-  double q = 1.0 / 12 + n * n / 720;
-  if (n > 1e-2) {
-    const auto [sine, cosine] = portableSinCos(0.5 * n);
-    q = (1 - 0.5 * n * cosine / sine) / (n * n);
-  }
-  const Eigen::Vector3d& t = motion.translation();
-  Twist twist;
-  twist << t - 0.5 * x.cross(t) + q * x.cross(x.cross(t)), x;
-  return twist;
 }
 
 template LinkEquation<6>

@@ -7,8 +7,9 @@
 
 namespace pcl6d::graph_relaxation {
 
-/** \brief What a link asks of its two scans: K (X_a - X_b) = g, for motions about a
- * centre. \tparam Size 6: xb, x; 7: xb, scale, x */
+/** \brief The linear equation of a link for its two scans: K (X_a - X_b) = g, for motions about
+ * a centre.
+ * \tparam Size 6: xb, x; 7: xb, scale, x */
 template <int Size>
 struct LinkEquation {
   using Matrix = Eigen::Matrix<double, Size, Size>;
@@ -19,14 +20,14 @@ struct LinkEquation {
   Vector g = Vector::Zero();
   Vector D = Vector::Zero(); ///< K D = g; zero in open directions
   double variance = 0;       ///< s^2 of the pairs [m^2]
-  int open_directions = 0;   ///< motions that the pairs leave open
+  int open_directions = 0;   ///< motions left open by the pairs
 };
 
-/** \brief A motion counts as open, and K and g are zeroed in its direction, if the pairs
- * resist it less than this, as Localizability measures it: the eigenvalues e of A u = e B
- * u, where B is A with all norms replaced by the unit matrix. Turns that hardly move the
- * points, about a line of them, are measured as if the points had a distance from the
- * line of a tenth of their extent along it: within a hundredth of it they are open. */
+/** A motion is open if the constraint of the pairs is below this limit; K and g are then zeroed
+ * in its direction. Measured as in Localizability: the eigenvalues e of A u = e B u, where B
+ * is A with each norm replaced by the unit matrix. For turns that hardly move the points,
+ * about a line of points, the points count as a tenth of their extent away from the line:
+ * within a hundredth of the extent such turns are open. */
 constexpr double kOpenDirection = 0.01;
 
 /** \param[in] least_variance guard of s^2 [m^2] */
@@ -34,21 +35,16 @@ template <int Size>
 LinkEquation<Size>
 equationOf(const LinkSums& sums, double least_variance);
 
-/** \brief The same of a measured relative pose at the current poses; K is the inverse of a
- * covariance. Minimises e^T information e, e the twist of the error pose (6.3), by steps of
- * Gauss and Newton. The measurement knows no change of scale: it is held at zero. */
+/** \brief The equation of a measured relative pose at the current poses; K is the inverse of a
+ * covariance. Minimises e^T information e, e the twist of the error pose (6.3), by
+ * Gauss-Newton steps. The measurement contains no scale: its change is held at zero. */
 template <int Size>
 LinkEquation<Size>
 equationOf(const PoseLink& link,
            const Eigen::Isometry3d& T_world_from,
            const Eigen::Isometry3d& T_world_to);
 
-/** \brief Inverse of motionFromTwist(). */
-Twist
-twistFromMotion(const Eigen::Isometry3d& motion);
-
-/** \return S of X_centre = S X, which moves the origin of a motion from one place to
- * another */
+/** \return S of X_centre = S X, which moves the origin of a motion */
 template <int Size>
 Eigen::Matrix<double, Size, Size>
 originShift(const Eigen::Vector3d& from, const Eigen::Vector3d& to)

@@ -13,8 +13,7 @@ namespace {
 constexpr std::size_t kBlockSize = 4096;
 constexpr double kLeastScale = 1e-6; // [m] finer than any scanner: exact copies
 
-/** What is added up pair by pair, about an origin that all blocks of a link share,
- * so that merging is adding. */
+/** Sums over pairs about an origin common to the blocks of a link: merging is addition. */
 struct PairMoments {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -36,7 +35,7 @@ struct PairMoments {
   void
   add(const Eigen::Vector3d& c, const Eigen::Vector3d& Z, double w);
 
-  /** The same of a pair with a norm, times its weight. */
+  /** Adds a pair with a norm, times its weight. */
   void
   addNorm(const Eigen::Vector3d& c, const Eigen::Vector3d& Z, const Eigen::Matrix3d& W);
 
@@ -57,7 +56,7 @@ motionMatrix(const Eigen::Vector3d& c)
   return M;
 }
 
-/** A, b and the rest of pairs without norms: all of it follows from the moments. */
+/** A, b and the rest for pairs without norms, from the moments. */
 void
 fillFromMoments(LinkSums& sums)
 {
@@ -153,7 +152,7 @@ PairMoments::about(const Eigen::Vector3d& origin) const
   return sums;
 }
 
-/** The pairs of a link in the world, about a place near them. */
+/** The pairs of a link in the world, about an origin near the pairs. */
 class PlacedPairs {
 public:
   PlacedPairs(const LinkPairs& pairs,
@@ -188,7 +187,7 @@ public:
     Z = pa - pb;
     c = 0.5 * (pa + pb);
     const double w = weight(k);
-    // A sum of squares is finite only if all terms are.
+    // A sum of squares is finite only if each term is.
     return w > 0 && std::isfinite(w) &&
            std::isfinite(c.squaredNorm() + Z.squaredNorm());
   }
@@ -218,7 +217,7 @@ private:
   Eigen::Vector3d t_to_;
 };
 
-/** Square root of what each pair costs; negative: the pair does not count. */
+/** Square root of the cost of each pair; negative: the pair does not count. */
 std::vector<double>
 residualsOf(const PlacedPairs& placed)
 {
@@ -233,7 +232,7 @@ residualsOf(const PlacedPairs& placed)
   return residuals;
 }
 
-/** \return the factor of each pair by its residual over the scale of all; empty: 1 */
+/** \return the factor of each pair by its residual over the common scale; empty: 1 */
 std::vector<double>
 robustFactors(const PlacedPairs& placed, RobustKernel kernel)
 {
@@ -293,7 +292,7 @@ requireSizes(const LinkPairs& pairs)
           "0 or points_from.size()");
 }
 
-/** Some pairs of one link, summed by one thread. */
+/** A block of pairs of one link, summed by one thread. */
 struct Piece {
   std::size_t link, begin, end;
 };

@@ -12,8 +12,8 @@ namespace {
 // Three times the robust standard deviation (of normal residuals: 1.4826 medians).
 constexpr double kScale = 3 * 1.4826;
 
-/** Share of the scale up to which a link does not contradict the others at all: three
- * medians, which noise hardly ever exceeds. */
+/** Share of the scale up to which a link does not contradict the rest: three medians, rarely
+ * exceeded by noise. */
 constexpr double kFree = 3 / kScale;
 
 constexpr double kSteady = 0.8; ///< the scale's square counts as steady from here
@@ -41,7 +41,7 @@ LinkSwitch::narrow(double wanted)
     step *= 0.5;
   --rounds_left_;
   width_sq_ = std::max(wanted, step * width_sq_);
-  // The scale falls, too, while scans find together or a false link loses its weight.
+  // The scale falls, too, while scans converge or a wrong link loses its weight.
   const bool falls = wanted < kSteady * last_wanted_;
   settled_ = width_sq_ <= wanted && (!falls || rounds_left_ <= 0);
   last_wanted_ = wanted;

@@ -6,32 +6,33 @@
 
 namespace pcl6d::graph_relaxation {
 
-/** \brief Takes the weight from links that contradict the others: w = (s / (r^2 + s))^2
- * after Geman and McClure, r being how far a link wants to move its points. s falls from
- * twice the largest r^2, where all links count, to the square of the scale (graduated
- * non-convexity, GNC), by half per round or faster, so that it arrives in the given
- * number of rounds. Then links up to 0.67 of the scale count fully, and only what
- * exceeds that enters w; at the scale it is still a quarter.
+/** \brief Reduces the weight of links that contradict the rest: w = (s / (r^2 + s))^2 after
+ * Geman and McClure, with r the motion of its points that a link demands. s falls from twice
+ * the largest r^2, where every link counts, to the square of the scale (graduated
+ * non-convexity, GNC). s falls by half per round or faster, to end within the given number of
+ * rounds. At the end, links up to 0.67 of the scale count fully, and only the excess enters w:
+ * a quarter at the scale.
  *
- * To find the false links all must have the same say, or the strongest one bends the map
- * before it is found out: the caller solves for links that are alike until settled(). */
+ * To find the wrong links, every link needs equal weight, or the strongest link bends the map
+ * before the test: the caller solves with equal weights until settled(). */
 class LinkSwitch {
 public:
   /** \param[in] scale [m]; 0: three times the robust standard deviation of the links
-   * \param[in] least [m] scale that links which agree better are held to; > 0
-   * \param[in] rounds in which s comes down; > 0 */
+   * \param[in] least [m] lower bound of the scale, where links agree better; > 0
+   * \param[in] rounds until s reaches the scale; > 0 */
   LinkSwitch(double scale, double least, int rounds)
   : scale_(scale), least_scale_(least), rounds_left_(rounds)
   {}
 
-  /** \param[in] residuals r of each link [m] \param[in] trusted links keep weight 1
-   * \return the weights of the next round; 1 for all in the first one, so that what the
-   * links want is measured where they agree best */
+  /** \param[in] residuals r of each link [m]
+   * \param[in] trusted links keep weight 1
+   * \return the weights of the next round; 1 everywhere in the first round, so that residuals
+   * are measured where the links agree best */
   std::vector<double>
   weights(const std::vector<double>& residuals, const std::vector<bool>& trusted);
 
-  /** \return per link how well it agrees with the others, 1 at r = 0: its weight without
-   * the part of the scale in which links count fully */
+  /** \return per link its agreement with the rest, 1 at r = 0: its weight without the range of
+   * full weight */
   const std::vector<double>&
   agreement() const
   {

@@ -12,7 +12,7 @@ namespace pcl6d {
 using namespace graph_relaxation;
 
 namespace {
-/** The worse of two states: nothing to report, ..., nothing reached. */
+/** The worse of two states. */
 Status
 worse(Status a, Status b)
 {
@@ -92,8 +92,7 @@ struct PoseGraphOptimizer::Impl {
       result.weights[k] = merged_weights[merged_place[k]];
   }
 
-  /** \return e^T information e over the links as they were given, at the poses of the
-   * result */
+  /** \return e^T information e over the given links, at the poses of the result */
   double
   givenChi2(std::size_t c) const
   {
@@ -131,17 +130,17 @@ struct PoseGraphOptimizer::Impl {
       weights.push_back(merged_weights[link]);
     problem.linearize(posesOf(c), weights);
     if (!problem.system().factorize(0, options.num_threads))
-      throw ComputeFailed("no covariance: the links leave some motion of the poses "
-                          "connected with pose " +
-                          std::to_string(problem.part().poses.front()) + " free");
+      throw ComputeFailed(
+          "no covariance: the links leave a motion of the poses connected with pose " +
+          std::to_string(problem.part().poses.front()) + " free");
     return problem.system();
   }
 
   PoseGraph graph;
   PoseGraphOptions options;
-  std::vector<std::size_t> merged_place; ///< per given link: the one that stands for it
+  std::vector<std::size_t> merged_place; ///< per given link: its merged link
   std::vector<double> merged_weights;
-  std::vector<GraphPart> given_parts;     ///< per component, with the links as given
+  std::vector<GraphPart> given_parts;     ///< per component, with the given links
   std::vector<PoseGraphProblem> problems; ///< one per component, with merged links
   PoseGraphResult result;
 };

@@ -11,7 +11,7 @@ namespace pcl6d::graph_relaxation {
 
 namespace {
 constexpr std::size_t kLinksOfATask = 256;
-// What is added to a singular system, beside the mean of its diagonal.
+// Ridge on the diagonal of a singular system, relative to the mean of the diagonal.
 constexpr double kRidge = 1e-9;
 
 std::pair<std::size_t, std::size_t>
@@ -73,7 +73,7 @@ PoseGraphProblem::PoseGraphProblem(const PoseGraph& graph,
   findStructure();
 }
 
-/** Which links meet at each block of the normal equations. */
+/** Finds the links at each block of the normal equations. */
 void
 PoseGraphProblem::findStructure()
 {

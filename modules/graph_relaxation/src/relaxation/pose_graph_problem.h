@@ -16,14 +16,14 @@ namespace pcl6d::graph_relaxation {
 /** \brief The poses and links of a connected part of a graph, ascending. */
 struct GraphPart {
   std::vector<std::size_t> poses;
-  std::vector<std::size_t> links; ///< without those that carry no information
+  std::vector<std::size_t> links; ///< without links that carry no information
 };
 
 /** \return the parts of a graph in the order of their first poses */
 std::vector<GraphPart>
 connectedParts(const PoseGraph& graph);
 
-/** \brief rho(s) of a link's squared error s, and its slope, the link's weight. */
+/** \brief rho(s) of a link's squared error s, and its derivative, the link's weight. */
 struct RobustCost {
   RobustKernel kernel = RobustKernel::kNone;
   double width_sq = 1; ///< of the s at which the kernel sets in
@@ -62,8 +62,8 @@ struct RobustCost {
   }
 };
 
-/** \brief The least squares problem of a connected part of a graph: unknown i is pose
- * i + 1 of the part, as the first one is fixed. */
+/** \brief The least squares problem of a connected component: unknown i is pose i + 1 of the
+ * part, as its first pose is fixed. */
 class PoseGraphProblem {
 public:
   using Poses = std::vector<QuaternionPose>;
@@ -99,17 +99,17 @@ public:
   void
   linearize(const Poses& poses, const std::vector<double>& weights);
 
-  /** \brief Adds to the diagonal a share of its mean, where links leave a motion free.
-   */
+  /** \brief Adds to the diagonal a share of its mean, where links leave a motion free. */
   void
   addRidge();
 
-  /** \return the step, (dt, dr) of each unknown, or nothing if there is none
-   * \param[in] damping see BlockSystem::factorize() */
+  /** \return whether a step exists
+   * \param[in] damping see BlockSystem::factorize()
+   * \param[out] step (dt, dr) of each unknown */
   bool
   solve(double damping, std::vector<Vector6>& step);
 
-  /** \return how much an undamped step lowers the cost, were it quadratic */
+  /** \return the decrease of the cost by an undamped step, for a quadratic cost */
   double
   expectedDecrease(const std::vector<Vector6>& step) const;
 

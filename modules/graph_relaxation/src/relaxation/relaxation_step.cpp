@@ -12,7 +12,7 @@
 namespace pcl6d::graph_relaxation {
 
 namespace {
-/** \return per pose the lowest pose that links join it to */
+/** \return per pose the lowest pose of its component */
 std::vector<std::size_t>
 componentsOf(std::size_t num_poses, const std::vector<RoundLink>& links)
 {
@@ -32,7 +32,7 @@ GraphLayout::GraphLayout(std::size_t num_poses, const std::vector<RoundLink>& li
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> places;
   for (const RoundLink& link : links) {
     const auto ends = std::minmax(unknown[link.from], unknown[link.to]);
-    if (ends.second == kFixed) { // the larger one, as kFixed is the largest number
+    if (ends.second == kFixed) { // the larger, as kFixed is the largest number
       coupling_of_link.push_back(kFixed);
       continue;
     }
@@ -46,8 +46,9 @@ GraphLayout::GraphLayout(std::size_t num_poses, const std::vector<RoundLink>& li
 namespace {
 constexpr double kLargestTurn = 1; ///< [rad] of a pose in a round
 
-/** \brief The coupled system of all unknowns (5.2.2): symmetric, a block per pose and per
- * pair of linked poses. \tparam Size of the motion of a pose */
+/** \brief The coupled system of every unknown (5.2.2): symmetric, a block per pose and per pair
+ * of linked poses.
+ * \tparam Size of the motion of a pose */
 template <int Size>
 class CoupledStep : public RelaxationStep {
 public:
@@ -133,7 +134,7 @@ private:
             -Sb.transpose() * g};
   }
 
-  /** Makes room for the system, unless its structure is that of the last one. */
+  /** Makes room for the system, unless its structure is unchanged. */
   void
   prepare(const GraphLayout& layout)
   {
@@ -176,8 +177,7 @@ private:
     }
   }
 
-  /** Beyond a radian, a linear solution says little of where to go: it is shortened as a
-   * whole. */
+  /** Shortens a solution with a turn beyond a radian as a whole: linearisation is invalid there. */
   static void
   limitTurns(std::vector<Vector>& X)
   {
@@ -189,8 +189,8 @@ private:
         x *= kLargestTurn / largest;
   }
 
-  /** Adds to the diagonal of each block a share of its mean: not of each entry, as an open
-   * direction may have none. */
+  /** Adds to the diagonal of each block a share of its mean, not of each entry: the entry of an
+   * open direction may be zero. */
   void
   damp(double share)
   {

@@ -11,35 +11,33 @@
 
 namespace pcl6d::graph_relaxation {
 
-/** \brief A link as it enters the linear system. */
+/** \brief A link in the linear system. */
 struct RoundLink {
   std::size_t from = 0;
   std::size_t to = 0;
   LinkSums sums;                      ///< of pairs
-  const PoseLink* measured = nullptr; ///< or this
+  const PoseLink* measured = nullptr; ///< or a measured link
   LinkEquation<6> equation;
-  double factor = 1; ///< by which the equation counts, beside 1 / variance
+  double factor = 1; ///< weight of the equation, beside 1 / variance
 };
 
-/** \brief Which pose is which unknown. The first pose of each group of linked poses is
- * fixed. */
+/** \brief Index map from poses to unknowns. The first pose of each component is fixed. */
 struct GraphLayout {
   static constexpr std::size_t kFixed = static_cast<std::size_t>(-1);
 
-  std::vector<std::size_t> component; ///< per pose: first pose of its group
-  std::vector<std::size_t>
-      unknown; ///< per pose: its place among the unknowns, or kFixed
+  std::vector<std::size_t> component; ///< per pose: first pose of its component
+  std::vector<std::size_t> unknown;   ///< per pose: index of its unknown, or kFixed
   std::size_t num_unknowns = 0;
   /** (a, b) of unknowns, a < b, each once */
   std::vector<std::pair<std::size_t, std::size_t>> couplings;
-  /** per link: its place in couplings, or kFixed */
+  /** per link: its index in couplings, or kFixed */
   std::vector<std::size_t> coupling_of_link;
 
   GraphLayout() = default;
   GraphLayout(std::size_t num_poses, const std::vector<RoundLink>& links);
 };
 
-/** \brief All that a step is computed from. */
+/** \brief The state of a round: the input of a step. */
 struct Round {
   std::vector<Eigen::Isometry3d> poses;
   std::vector<RoundLink> links;
@@ -56,17 +54,16 @@ struct Round {
   }
 };
 
-/** \brief What a parameterisation adds to GraphSLAM: one linear solution, and what it makes
- * of the poses. */
+/** \brief A parameterisation of GraphSLAM: solves one linear system and updates the poses. */
 class RelaxationStep {
 public:
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
   virtual ~RelaxationStep() = default;
 
-  /** \param[in] damping share of the diagonal's mean, separate for translations and
-   * turns, that is added to the diagonal \return whether the system could be
-   * solved; if so, the poses of the round have moved */
+  /** \param[in] damping share of the diagonal's mean, separate for translations and turns,
+   * added to the diagonal
+   * \return whether the system was solved; the poses of the round have then moved */
   virtual bool
   advance(Round& round, double damping) = 0;
 

@@ -6,10 +6,10 @@
 namespace pcl6d::graph_relaxation {
 
 namespace {
-/** What a link contributes to the two systems of 5.3.3. */
+/** Terms of a link in the two systems of 5.3.3. */
 struct SmallAngleTerms {
   Eigen::Matrix3d aa, bb, ab; ///< of the rotation system
-  Eigen::Vector3d turn;       ///< right side of a; minus that of b
+  Eigen::Vector3d turn;       ///< right side of a; negative for b
   Eigen::Vector3d centre_a, centre_b;
   double weight; ///< N
 };
@@ -37,7 +37,7 @@ termsOfPairs(const LinkSums& sums)
           sums.weight};
 }
 
-/** The measurement puts b's origin at the centre, with a weight alike in all axes. */
+/** The measurement puts b's origin at the centre, with an isotropic weight. */
 SmallAngleTerms
 termsOfMeasurement(const LinkEquation<6>& equation, const Eigen::Vector3d& b)
 {
@@ -51,8 +51,8 @@ termsOfMeasurement(const LinkEquation<6>& equation, const Eigen::Vector3d& b)
           equation.K.topLeftCorner<3, 3>().trace() / 3};
 }
 
-/** \brief Rotations first, then positions. The place of pose j is t_j + s_j, its turn that
- * of theta_j about t_j. */
+/** \brief Rotations first, then positions. Pose j moves to t_j + s_j and turns by theta_j about
+ * t_j. */
 class SmallAngleStep : public RelaxationStep {
 public:
   bool
@@ -102,7 +102,7 @@ private:
     std::vector<Eigen::Vector3d> turn_rhs;
   };
 
-  /** Positions are held by any pair; turns may be open. */
+  /** Any pair fixes positions; turns may be open. */
   static bool
   factorize(Systems& systems, double damping, unsigned int num_threads)
   {
@@ -178,7 +178,7 @@ private:
                                      Eigen::Vector3d::Zero());
     for (std::size_t l = 0; l < terms.size(); ++l) {
       const RoundLink& link = round.links[l];
-      // Where the turns take the points, relative to where they are.
+      // Displacement of a point by the turn of its pose.
       const auto turned = [&](std::size_t j, const Eigen::Vector3d& p) {
         const Eigen::Vector3d arm = p - round.poses[j].translation();
         return Eigen::Vector3d(R[j] * arm - arm);

@@ -14,7 +14,7 @@ namespace pcl6d::graph_relaxation::slabs {
 
 namespace {
 using Vector8 = double __attribute__((vector_size(64)));
-constexpr std::size_t kTile = 4; // columns that are worked on at once
+constexpr std::size_t kTile = 4; // columns per tile
 
 PCL6D_INLINE void
 load(Vector8& v, const double* from)
@@ -28,8 +28,8 @@ store(double* to, const Vector8& v)
   std::memcpy(to, &v, sizeof(v));
 }
 
-/** C -= A B^T for one slab of A and some columns of C.
- * \param[in] B its first row used; the rows are in one slab
+/** C -= A B^T for one slab of A and a tile of columns of C.
+ * \param[in] B its first used row; the rows are in one slab
  * \param[in] depth columns of A and B */
 template <std::size_t Columns>
 PCL6D_INLINE void
@@ -80,8 +80,8 @@ subtractSlab(const double* A,
         std::min(kTile, b_rows - j), A, B + at(j, 0, depth), depth, C + kRows * j);
 }
 
-/** Columns first .. last - 1 of X L^T = B for one slab, from B less what the columns
- * before them contribute. */
+/** Columns first .. last - 1 of X L^T = B for one slab, from B less the contribution of earlier
+ * columns. */
 PCL6D_INLINE void
 finishColumns(const double* L,
               std::size_t size,
@@ -102,8 +102,8 @@ finishColumns(const double* L,
   }
 }
 
-/** The block of the diagonal of L from its first to its last column, from A less what
- * the columns before them contribute. */
+/** The diagonal block of L from its first to its last column, from A less the contribution of
+ * earlier columns. */
 PCL6D_INLINE bool
 factorBlock(double* A,
             std::size_t size,
@@ -147,7 +147,7 @@ cholesky(double* A, std::size_t size, double* reciprocals, const double* floors)
                    A + at(s * kRows, first, size));
     if (!factorBlock(A, size, reciprocals, floors, first, last))
       return false;
-    // The rest of the own slab row by row, as the rows above are done.
+    // The rest of the slab row by row, as the rows above are done.
     for (std::size_t i = last; i < std::min(size, (own + 1) * kRows); ++i)
       for (std::size_t j = first; j < last; ++j) {
         double entry = A[at(i, j, size)];

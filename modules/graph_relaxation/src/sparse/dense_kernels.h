@@ -5,38 +5,36 @@
 #include <cstddef>
 #include <vector>
 
-/** \file
- * Dense kernels of the factorisation. A matrix is kept in slabs of eight rows: slab s
- * holds rows 8 s .. 8 s + 7, column after column, so that entry (i, j) of a matrix with
- * n columns stands at (i / 8 * n + j) * 8 + i % 8. Rows that fill up the last slab are
- * zero. Each entry is summed in an order that depends on nothing but its place, so that
- * slabs may be handed to threads at will. */
+/** \file Dense kernels of the factorisation. A matrix is stored in slabs of eight rows: slab s
+ * contains rows 8 s .. 8 s + 7, column by column. Entry (i, j) of a matrix with n columns is
+ * at (i / 8 * n + j) * 8 + i % 8. Padding rows of the last slab are zero. The summation order
+ * of an entry depends only on its position, so that threads may take slabs in any order. */
 namespace pcl6d::graph_relaxation::slabs {
 
 constexpr std::size_t kRows = 8;
 
-/** \return the slabs of so many rows */
+/** \return the number of slabs for a number of rows */
 constexpr std::size_t
 count(std::size_t rows)
 {
   return (rows + kRows - 1) / kRows;
 }
 
-/** \return the numbers that a matrix takes */
+/** \return the number of stored values of a matrix */
 constexpr std::size_t
 size(std::size_t rows, std::size_t columns)
 {
   return count(rows) * kRows * columns;
 }
 
-/** \return where an entry stands */
+/** \return the offset of an entry */
 constexpr std::size_t
 at(std::size_t row, std::size_t column, std::size_t columns)
 {
   return (row / kRows * columns + column) * kRows + row % kRows;
 }
 
-/** \brief One column of a slab, in a cache line of its own. */
+/** \brief One column of a slab, in a separate cache line. */
 struct alignas(64) Line {
   double rows[kRows];
 };
@@ -80,15 +78,15 @@ struct Range {
   std::size_t end = 0;
 };
 
-/** \brief L of A = L L^T in place of the lower triangle of A, zeros above it.
+/** \brief L of A = L L^T in place of the lower triangle of A, zeros above the diagonal.
  * \param[in] size rows and columns of A
  * \param[out] reciprocals of the diagonal of L
  * \param[in] floors a pivot must be larger than its entry
- * \return false if one is not, or not finite */
+ * \return false if a pivot is too small or not finite */
 bool
 cholesky(double* A, std::size_t size, double* reciprocals, const double* floors);
 
-/** \brief X of X L^T = B in place of B, for some of its slabs. */
+/** \brief X of X L^T = B in place of B, for a range of its slabs. */
 void
 solveTransposed(const double* L,
                 std::size_t size,
@@ -96,7 +94,7 @@ solveTransposed(const double* L,
                 double* B,
                 Range slabs);
 
-/** \brief X of X L = B in place of B, for some of its slabs. */
+/** \brief X of X L = B in place of B, for a range of its slabs. */
 void
 solveFromRight(const double* L,
                std::size_t size,

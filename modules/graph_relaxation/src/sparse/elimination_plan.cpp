@@ -43,7 +43,7 @@ fillReducingOrder(const Adjacency& graph)
   return {order.indices().data(), order.indices().data() + size};
 }
 
-/** \return for each place i the i-th entry's index: the inverse permutation */
+/** \return the inverse permutation: for each i the index of the entry i */
 std::vector<std::size_t>
 inverseOf(const std::vector<std::size_t>& permutation)
 {
@@ -53,7 +53,7 @@ inverseOf(const std::vector<std::size_t>& permutation)
   return inverse;
 }
 
-/** \return the graph with its vertices named by their place in the order */
+/** \return the graph with its vertices renumbered by the order */
 Adjacency
 renamed(const Adjacency& graph, const std::vector<std::size_t>& order)
 {
@@ -108,14 +108,14 @@ postorder(const std::vector<std::size_t>& parents)
 }
 
 /** \return the rows below the diagonal of each column of the factor, ascending
- * \param[in] graph whose vertices are in postorder of the tree */
+ * \param[in] graph with vertices in postorder of the tree */
 Adjacency
 factorRows(const Adjacency& graph, const std::vector<std::size_t>& parents)
 {
   Adjacency rows(graph.size());
   std::vector<std::size_t> seen_by(graph.size(), kNoSupernode);
   for (std::size_t j = 0; j < graph.size(); ++j) {
-    auto& own = rows[j]; // holds what the children have passed on
+    auto& own = rows[j]; // contains the rows from the children
     for (const std::size_t row : own)
       seen_by[row] = j;
     for (const std::size_t row : graph[j])
@@ -135,16 +135,16 @@ factorRows(const Adjacency& graph, const std::vector<std::size_t>& parents)
   return rows;
 }
 
-/** A supernode while it may still grow; its columns are not yet neighbours. */
+/** A supernode while growing; its columns are not yet adjacent. */
 struct Draft {
   std::vector<std::size_t> columns;
   std::vector<std::size_t> rows;
   std::size_t parent = kNoSupernode;
-  double zeros = 0;    ///< blocks that are stored although they are zero
+  double zeros = 0;    ///< stored blocks that are zero
   bool merged = false; ///< into its parent
 };
 
-/** \return columns that follow each other and have the same rows, joined */
+/** \return drafts of consecutive columns with equal rows */
 std::vector<Draft>
 fundamentalSupernodes(const Adjacency& rows, const std::vector<std::size_t>& parents)
 {
@@ -166,8 +166,8 @@ fundamentalSupernodes(const Adjacency& rows, const std::vector<std::size_t>& par
   return drafts;
 }
 
-/** \return whether a supernode is worth the share of zeros in it: the smaller it is,
- * the more its handling costs beside its arithmetic */
+/** \return whether the share of zeros in a supernode is acceptable: the overhead of a small
+ * supernode exceeds its arithmetic */
 bool
 isWorthwhile(double columns, double zeros, double blocks)
 {
@@ -197,11 +197,11 @@ mergeIfWorthwhile(Draft& child, Draft& parent)
   child.merged = true;
 }
 
-/** Joins children with parents where the zeros that this brings are few. */
+/** Merges children into parents where this adds few zeros. */
 void
 relax(std::vector<Draft>& drafts)
 {
-  // Children stand before parents; the last child is the one most like its parent.
+  // Children precede parents; the last child is the most similar to its parent.
   for (std::size_t i = drafts.size(); i-- > 0;) {
     std::size_t parent = drafts[i].parent;
     while (parent != kNoSupernode && drafts[parent].merged)
@@ -254,7 +254,7 @@ workOf(const Supernode& node)
   return k * k * k / 3 + k * k * r + k * r * r + r * r;
 }
 
-/** Puts the drafts in postorder, so that their columns get their final places. */
+/** Puts the drafts in postorder: the final order of their columns. */
 void
 makeSupernodes(const std::vector<Draft>& drafts,
                const std::vector<std::size_t>& block_of_column,
@@ -303,7 +303,7 @@ connect(std::vector<Supernode>& nodes)
   }
 }
 
-/** Cuts the tree below its top so that no subtree is a large part of all the work. */
+/** Cuts the tree below its top so that no subtree is a large part of the total work. */
 void
 cutSubtrees(EliminationPlan& plan)
 {

@@ -13,15 +13,15 @@ namespace pcl6d::graph_relaxation {
 
 constexpr std::size_t kNoSupernode = static_cast<std::size_t>(-1);
 
-/** \brief Neighbouring columns of the factor with the same rows below them, treated as
- * one dense matrix; a node of the elimination tree. */
+/** \brief Neighbouring columns of the factor with equal rows below, stored as one dense matrix;
+ * a node of the elimination tree. */
 struct Supernode {
-  std::size_t begin = 0; ///< first column, as a place in the order of elimination
-  std::size_t end = 0;   ///< behind the last one
-  std::vector<std::size_t> rows;     ///< below the columns, ascending places
+  std::size_t begin = 0;             ///< first column, in the order of elimination
+  std::size_t end = 0;               ///< behind the last one
+  std::vector<std::size_t> rows;     ///< below the columns, ascending
   std::vector<std::size_t> children; ///< ascending
   std::size_t parent = kNoSupernode;
-  /** Where each row stands among the columns and rows of the parent. */
+  /** Position of each row among the columns and rows of the parent. */
   std::vector<std::size_t> place_in_parent;
   double work = 0;         ///< multiplications, in cubes of the block size
   double subtree_work = 0; ///< with all descendants
@@ -33,26 +33,26 @@ struct Supernode {
   }
 };
 
-/** \brief In which order blocks are eliminated, and what can be done side by side. */
+/** \brief The elimination order of blocks, and the independent subtrees. */
 struct EliminationPlan {
-  std::vector<std::size_t> block_at; ///< the block of each place in the order
+  std::vector<std::size_t> block_at; ///< the block at each position of the order
   std::vector<std::size_t> place_of; ///< its inverse
   std::vector<Supernode> supernodes; ///< children before parents
   /** Independent subtrees, heaviest first, each as its supernodes, ascending. */
   std::vector<std::vector<std::size_t>> subtrees;
-  std::vector<std::size_t> top; ///< the supernodes above them, ascending
+  std::vector<std::size_t> top; ///< the supernodes above the subtrees, ascending
 };
 
-/** \brief Plans the factorisation of a symmetric matrix with the given off-diagonal
- * blocks: a fill-reducing order, the elimination tree, supernodes (with some zeros
- * accepted where larger ones save more than they cost) and independent subtrees. The
- * same plan for the same input, whatever the machine.
+/** \brief Plans the factorisation of a symmetric matrix with the given off-diagonal blocks: a
+ * fill-reducing order, the elimination tree, supernodes (with a few zeros accepted where
+ * larger supernodes save more than the zeros cost) and independent subtrees. The plan depends
+ * on the input only, not on the machine.
  *
  * \note Sources: P. R. Amestoy, T. A. Davis, I. S. Duff, "An approximate minimum degree
- * ordering algorithm", SIAM J. Matrix Anal. 17(4), 1996 (Eigen's implementation); J. W.
- * H. Liu, "The role of elimination trees in sparse factorization", SIAM J. Matrix Anal.
- * 11(1), 1990; C. Ashcraft, R. Grimes, "The influence of relaxed supernode partitions
- * on the multifrontal method", ACM TOMS 15(4), 1989. */
+ * ordering algorithm", SIAM J. Matrix Anal. 17(4), 1996 (Eigen's implementation); J. W. H. Liu,
+ * "The role of elimination trees in sparse factorization", SIAM J. Matrix Anal. 11(1), 1990; C.
+ * Ashcraft, R. Grimes, "The influence of relaxed supernode partitions on the multifrontal
+ * method", ACM TOMS 15(4), 1989. */
 PCL6D_EXPORTS EliminationPlan // shown to its test
 planElimination(std::size_t num_blocks,
                 const std::vector<std::pair<std::size_t, std::size_t>>& couplings);

@@ -34,10 +34,10 @@ inverseFromFactor(const double* L, std::size_t size, const double* reciprocals)
 }
 } // namespace
 
-/** With the factor [L; B] of a front and the inverse Z of the rows below,
- * W = B L^-1 and the inverse is [(L L^T)^-1 + W^T Z W, -W^T Z; -Z W, Z].
- * \param[in] parent its inverse over all its columns and rows; empty for a root
- * \return the inverse over all columns and rows of the front */
+/** With the factor [L; B] of a front and the inverse Z of the rows below, W = B L^-1 and the
+ * inverse is [(L L^T)^-1 + W^T Z W, -W^T Z; -Z W, Z].
+ * \param[in] parent inverse of the parent's front; empty for a root
+ * \return the inverse over the columns and rows of the front */
 slabs::Storage
 SupernodalCholesky::inverseOfFront(std::size_t node, const slabs::Storage& parent) const
 {
@@ -93,7 +93,7 @@ SupernodalCholesky::inverseDiagonals(double* blocks) const
         for (std::size_t i = 0; i < size; ++i)
           block[j * size + i] = inverses[node][at(b * size + i, b * size + j, m)];
     }
-    // The first child comes last; then nobody needs the parent's any more.
+    // The first child comes last; the parent's inverse is then no longer needed.
     if (!is_root && plan_.supernodes[supernode.parent].children.front() == node)
       inverses[supernode.parent] = slabs::Storage();
     if (supernode.children.empty())

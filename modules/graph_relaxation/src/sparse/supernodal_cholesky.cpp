@@ -10,11 +10,11 @@
 namespace pcl6d::graph_relaxation {
 
 namespace {
-// A front below it is not worth waking a thread up for [multiplications].
+// Smaller fronts are not worth waking a thread up [multiplications].
 constexpr double kWorkToShare = 1e6;
 constexpr std::size_t kSlabsOfATask = 4;
 
-// A pivot this small beside what it was before elimination is rounding alone. (The last
+// Smaller pivots, relative to the diagonal before elimination, are rounding alone. (The last
 // pose of a chain of 10 000 links still has 3e-12.)
 constexpr double kSmallestPivot = 64 * std::numeric_limits<double>::epsilon();
 } // namespace
@@ -51,8 +51,8 @@ SupernodalCholesky::placeFronts()
   scratch_ = slabs::Storage(arena);
 }
 
-/** Gives each update matrix a place that is free from its making to its use: the first
- * that fits, as if the nodes were eliminated one after the other. */
+/** Assigns each update matrix memory that is free from its creation to its use: first fit, in
+ * the sequential order of elimination. */
 void
 SupernodalCholesky::placeUpdates(const std::vector<std::size_t>& nodes,
                                  std::size_t& arena)
@@ -156,13 +156,13 @@ SupernodalCholesky::scalarPlaces(std::size_t child) const
   return places;
 }
 
-/** Adds what a child passes up to the front of its parent. */
+/** Adds the update matrix of a child to the front of its parent. */
 void
 SupernodalCholesky::extendAdd(std::size_t child, std::size_t node)
 {
   const Front &from = fronts_[child], &to = fronts_[node];
   const std::vector<std::size_t> places = scalarPlaces(child);
-  // Where the first entry of a row stands: in a column of the pivots, of the update.
+  // Address of the first entry of a row: in a column of the pivots, of the update.
   std::vector<double*> in_pivots(from.rows), in_update(from.rows, nullptr);
   for (std::size_t i = 0; i < from.rows; ++i) {
     const bool is_pivot = places[i] < to.columns;
@@ -229,7 +229,7 @@ SupernodalCholesky::eliminate(std::size_t node,
   });
   const std::size_t num_tasks = (num_slabs + kSlabsOfATask - 1) / kSlabsOfATask;
   parallelFor(num_tasks, threads, [&](std::size_t task) {
-    // From the last slab on, as these have the most columns.
+    // From the last slab on, as the last slabs have the most columns.
     const std::size_t begin = (num_tasks - 1 - task) * kSlabsOfATask;
     slabs::subtractSquare(below,
                           front.rows,
@@ -268,7 +268,7 @@ SupernodalCholesky::factorize(const double* diagonal,
   return has_factor_;
 }
 
-/** x of the pivots becomes that of L x = b, and what it contributes leaves the rest. */
+/** Solves L x = b for the pivots, and subtracts their contribution from the rest. */
 void
 SupernodalCholesky::forward(std::size_t node, std::vector<double>& x) const
 {
@@ -290,7 +290,7 @@ SupernodalCholesky::forward(std::size_t node, std::vector<double>& x) const
       x[supernode.rows[b] * block_size_ + i] += below[b * block_size_ + i];
 }
 
-/** x of the pivots becomes that of L^T x = y, as those of the rows below have. */
+/** Solves L^T x = y for the pivots, after the rows below. */
 void
 SupernodalCholesky::backward(std::size_t node, std::vector<double>& x) const
 {

@@ -7,11 +7,11 @@
 namespace pcl6d::graph_relaxation {
 
 /** \brief Sparse Cholesky factor of a symmetric matrix of dense square blocks by the
- * multifrontal method: each supernode is a dense front, into which its own blocks and
- * what its children pass up are summed.
+ * multifrontal method: each supernode is a dense front, the sum of its own blocks and the
+ * updates of its children.
  *
- * \note Source: J. W. H. Liu, "The multifrontal method for sparse matrix solution:
- * theory and practice", SIAM Review 34(1), 1992. */
+ * \note Source: J. W. H. Liu, "The multifrontal method for sparse matrix solution: theory and
+ * practice", SIAM Review 34(1), 1992. */
 class SupernodalCholesky {
 public:
   using Couplings = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -21,9 +21,10 @@ public:
                      const Couplings& couplings,
                      std::size_t block_size);
 
-  /** \param[in] diagonal the diagonal blocks one after the other, each column by
-   * column; only their lower triangles count \param[in] coupling the off-diagonal
-   * blocks \return false: a pivot is not positive or not finite */
+  /** \param[in] diagonal the diagonal blocks in sequence, each column by column; only their
+   * lower triangles count
+   * \param[in] coupling the off-diagonal blocks
+   * \return false: a pivot is not positive or not finite */
   bool
   factorize(const double* diagonal,
             const double* coupling,
@@ -53,13 +54,14 @@ private:
     std::size_t column; ///< block column
     bool transposed;
   };
-  /** Sizes and places of a supernode's dense matrices, in scalars. */
+  /** Sizes and offsets of a supernode's dense matrices, in scalars. */
   struct Front {
     std::size_t columns = 0;     ///< of the pivots
     std::size_t rows = 0;        ///< below them
     std::size_t pivot = 0;       ///< where the factor of the pivots starts
-    std::size_t below = 0;       ///< where the rows below them start
-    std::size_t update = 0;      ///< where what is passed up starts, in scratch_
+    std::size_t below = 0;       ///< start of the rows below the pivots
+    std::size_t update = 0;      ///< start of the update matrix
+                                 ///< for the parent, in scratch_
     std::size_t first_entry = 0; ///< in entries_
     std::size_t last_entry = 0;
   };
@@ -98,10 +100,11 @@ private:
   EliminationPlan plan_;
   std::vector<Front> fronts_;
   std::vector<Entry> entries_;
-  slabs::Storage factor_;           ///< all pivots and rows below
+  slabs::Storage factor_;           ///< pivots and rows below of every front
   std::vector<double> reciprocals_; ///< of the diagonal, in the order of elimination
-  std::vector<double> floors_;      ///< below which a pivot counts as zero
-  slabs::Storage scratch_;          ///< what supernodes pass up
+  std::vector<double> floors_;      ///< lower bounds of the pivots; a
+                                    ///< smaller pivot counts as zero
+  slabs::Storage scratch_;          ///< updates from the supernodes
   bool has_factor_ = false;
 };
 

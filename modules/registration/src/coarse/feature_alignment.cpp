@@ -6,6 +6,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/registration/feature_alignment.h>
 #include <pcl6d/registration/icp.h>
+#include <pcl6d/visibility/ray_origin.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,10 @@ using namespace registration;
 namespace {
 constexpr std::size_t kMaxPoints = 5000; // of a reduced scan, about
 constexpr std::size_t kMaxMatches = 2000;
-constexpr std::size_t kShortList = 400; // placements judged by their points
+constexpr std::size_t kShortList = 400; // placements scored by their points
 constexpr std::size_t kRefined = 16;    // placements refined by ICP
-constexpr std::size_t kStep = 4;        // of the points that judge the short list
+constexpr std::size_t kStep = 4;        // step of the points in the scores of
+                                        // the short list
 
 // In voxels:
 constexpr double kFeatureRadius = 7;
@@ -43,7 +45,7 @@ public:
   CoarseEstimate
   run() const
   {
-    const auto hypotheses = refined(judged(drawn()));
+    const auto hypotheses = refined(evaluated(drawn()));
     if (hypotheses.empty())
       return {};
     const auto distinct =
@@ -88,9 +90,9 @@ private:
     return supportOf(target_, source_, T, kMeetingDistance * voxel_, step);
   }
 
-  /** The best by what their points meet, a quarter of them looked at. */
+  /** The best hypotheses by the support of a quarter of the points. */
   std::vector<Hypothesis>
-  judged(std::vector<Hypothesis> hypotheses) const
+  evaluated(std::vector<Hypothesis> hypotheses) const
   {
     parallelFor(hypotheses.size(), o_.num_threads, [&](std::size_t i) {
       hypotheses[i].score = supportAt(hypotheses[i].T_target_source, kStep).value();
@@ -123,7 +125,8 @@ private:
     return hypotheses;
   }
 
-  /** The best score of the placements beside one, moved as its surfaces hold least. */
+  /** The best score of the placements next to T, moved along the directions least
+   * fixed by surfaces. */
   double
   besideScore(const Eigen::Isometry3d& T) const
   {
@@ -158,7 +161,7 @@ PlacedScan
 placed(const Points& measured, double voxel, unsigned int num_threads)
 {
   return {makeFeatureScan(measured, voxel, num_threads),
-          RayImage(measured, RayImageOptions::coarse())};
+          plausibleRays(measured, RayImageOptions::coarse())};
 }
 
 void

@@ -13,7 +13,7 @@ namespace pcl6d::registration {
 
 namespace {
 constexpr std::size_t kBlockSize = 64;
-constexpr int kTries = 8; // of which the best connected match is taken
+constexpr int kTries = 8; // draws, of which the best connected match is taken
 constexpr double kMaxCosineGap = 0.35;
 
 using Word = std::uint64_t;
@@ -24,7 +24,7 @@ struct Pair {
   Eigen::Vector3d source, target;
 };
 
-/** Which matches are compatible with which, one row of bits each. */
+/** Compatibility of pairs of matches, a row of bits per match. */
 class Compatibility {
 public:
   Compatibility(const FeatureScan& target,
@@ -87,7 +87,7 @@ countOf(const Bits& bits)
   return count;
 }
 
-/** \return the place of the n-th bit that is set; there must be more than n */
+/** \return the place of the n-th set bit; more than n bits must be set */
 std::size_t
 nthOf(const Bits& bits, std::size_t n)
 {
@@ -110,8 +110,8 @@ drawBelow(Random& random, std::size_t count)
   return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
 }
 
-/** Draws one of the set, the best connected of a few tries, and leaves in the set what
- * is compatible with it too. \return nothing if the set is empty */
+/** Draws a match of the set, the best connected of a few tries, and reduces the set to
+ * the matches compatible with the drawn match. \return empty if the set is empty */
 std::optional<std::size_t>
 drawConnected(const Compatibility& graph, Bits& set, Random& random)
 {
@@ -134,7 +134,7 @@ drawConnected(const Compatibility& graph, Bits& set, Random& random)
   return best;
 }
 
-/** The least-squares motion of the pairs that a motion brings within the tolerance. */
+/** The least-squares motion of the pairs within the tolerance at a given motion. */
 struct Fit {
   RigidEstimate estimate;
   std::size_t count = 0;

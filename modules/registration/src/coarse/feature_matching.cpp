@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLanes = 16;
 constexpr std::size_t kMatchedBlock = 64;
 
-/** Features side by side, kLanes at a time, so that one is compared with many at once.
+/** Features side by side, kLanes at a time, for comparing a feature with many at once.
  */
 struct FeatureTable {
   std::size_t size = 0;
@@ -31,15 +31,15 @@ struct FeatureTable {
   }
 };
 
-/** The two smallest distances of a feature to those of a table. */
+/** The two smallest distances of a feature to the features of a table. */
 struct Nearest {
   int index = -1;
   float best = std::numeric_limits<float>::infinity();
   float second = std::numeric_limits<float>::infinity();
 };
 
-/** Sums of each lane run over the bins in order: the same bits at any vector width.
- * \return whether one of them is below the limit */
+/** Sums of each lane run over the bins in order: bit-identical at any vector width.
+ * \return whether a sum is below the limit */
 PCL6D_SIMD_CLONES bool
 distancesToGroup(const float* group, const float* feature, float limit, float* sums)
 {
@@ -108,7 +108,7 @@ matchFeatures(const std::vector<Fpfh>& target,
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const auto& n = of_source[i];
-    if (source[i] == Fpfh{}) // describes nothing
+    if (source[i] == Fpfh{}) // no description
       continue;
     if (n.index >= 0 && of_target[n.index].index == static_cast<int>(i))
       candidates.push_back(

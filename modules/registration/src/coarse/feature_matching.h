@@ -7,15 +7,15 @@
 
 namespace pcl6d::registration {
 
-/** \brief A point of the source and one of the target that look alike. */
+/** \brief A point of the source and a point of the target with similar features. */
 struct FeatureMatch {
   int source = -1;
   int target = -1;
 };
 
-/** \brief The points that are each other's most similar one, by exact search.
- * \param[in] max_matches keep those that are most distinctive: the second most similar
- * point is much less so (Lowe's ratio)
+/** \brief The pairs of mutually most similar points, by exact search.
+ * \param[in] max_matches keep the most distinctive: with the second most similar point
+ * much less similar (Lowe's ratio)
  * \return most distinctive first, ties by source */
 std::vector<FeatureMatch>
 matchFeatures(const std::vector<Fpfh>& target,

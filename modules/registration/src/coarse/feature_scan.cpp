@@ -30,7 +30,8 @@ measuredPoints(const Points& scan)
   const double nothing =
       noReturnRange(scan).value_or(std::numeric_limits<double>::infinity());
   const double median = medianRange(gateByRange(scan, 0, 0.999 * nothing));
-  // A sensible voxel is not below median / 60; 2^20 of these reach 17000 medians.
+  // A sensible voxel is not below median / 60; 2^20 voxels of this size reach
+  // 17000 medians.
   return gateByRange(
       scan, std::min(0.2, 0.1 * median), std::min(0.999 * nothing, 1e4 * median));
 }

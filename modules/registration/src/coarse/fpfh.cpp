@@ -48,8 +48,8 @@ binOfCosine(float cosine)
   return static_cast<std::size_t>(std::clamp(bin, 0.f, kBins - 1.f));
 }
 
-/** \return the bin of the angle of (x, y) in [-pi, pi]; by its side of the limits of the
- * bins, without an arc tangent, for the same bits on any machine */
+/** \return the bin of the angle of (x, y) in [-pi, pi]; by comparison with the limits of the bins,
+ * without an arc tangent: bit-identical on any machine */
 std::size_t
 binOfAngle(float x, float y)
 {
@@ -66,14 +66,14 @@ binOfAngle(float x, float y)
   return y < 0 ? kBins / 2 - beyond : kBins / 2 + beyond;
 }
 
-/** Which bins of the three angles a pair of points belongs to. */
+/** The bins of a pair of points, for the three angles. */
 struct PairBins {
   std::size_t theta, alpha, phi;
 };
 
-/** \return the angles between the normals of two points in the Darboux frame of the one
- * whose normal leans more along the line between both; nothing for equal places or a
- * normal along that line */
+/** \return the angles between the normals of two points in the Darboux frame of the point with
+ * the normal leaning more along the line between both; empty for equal places or a normal
+ * along the line */
 std::optional<PairBins>
 binsOf(const FeatureScan& scan, std::size_t i, std::size_t k)
 {
@@ -100,7 +100,7 @@ binsOf(const FeatureScan& scan, std::size_t i, std::size_t k)
                   binOfCosine(along)};
 }
 
-/** \return what a point and its neighbours say: each third sums up to 100 */
+/** \return the histograms of each point with its neighbours: each third sums up to 100 */
 std::vector<Fpfh>
 simpleHistograms(const FeatureScan& scan,
                  const std::vector<Neighbours>& near,

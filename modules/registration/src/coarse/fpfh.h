@@ -11,11 +11,11 @@ namespace pcl6d::registration {
 constexpr std::size_t kFpfhSize = 33;
 using Fpfh = std::array<float, kFpfhSize>;
 
-/** \brief Describes points by fast point feature histograms, 11 bins for each of three
- * angles, of which each sums up to 100. They are those of pcl::FPFHEstimation, without its
- * library, whose 100 000 symbols made every program start 0.1 s later.
+/** \brief Computes fast point feature histograms, 11 bins for each of three angles; the bins of an
+ * angle sum up to 100. Equivalent to pcl::FPFHEstimation, without its library: the 100 000 symbols
+ * of the library delayed the start of every program by 0.1 s.
  * \param[in] radius [m] of the surroundings
- * \return one per point; zeros for a point without normal or neighbours
+ * \return a histogram per point; zeros for a point without normal or neighbours
  * \note Source: R. B. Rusu, N. Blodow, M. Beetz, "Fast point feature histograms (FPFH)
  * for 3D registration", ICRA 2009. */
 std::vector<Fpfh>

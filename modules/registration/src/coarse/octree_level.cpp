@@ -11,17 +11,17 @@ namespace {
 constexpr int kBits = 21;
 constexpr double kHalf = 1 << (kBits - 1); // cubes on either side of the origin
 constexpr VoxelKey kMask = (VoxelKey{1} << kBits) - 1;
-constexpr VoxelKey kEmpty = ~VoxelKey{0}; // no key: these have 63 bits
+constexpr VoxelKey kEmpty = ~VoxelKey{0}; // no key: keys have 63 bits
 
-/** \param[in] cell place in units of cubes, none negative \return kEmpty outside the
- * grid */
+/** \param[in] cell place in units of cubes, not negative \return kEmpty
+ * outside the grid */
 VoxelKey
 keyOf(const Eigen::Vector3d& cell)
 {
   for (int axis = 0; axis < 3; ++axis)
     if (!(cell[axis] >= 0 && cell[axis] < 2 * kHalf)) // NaN too
       return kEmpty;
-  const auto bits = [](double x) { // by way of a signed number: one instruction
+  const auto bits = [](double x) { // through a signed number: one instruction
     return static_cast<VoxelKey>(static_cast<std::int64_t>(x));
   };
   return bits(cell.x()) << (2 * kBits) | bits(cell.y()) << kBits | bits(cell.z());
@@ -41,7 +41,7 @@ OctreeLevel::OctreeLevel(const Points& points,
   std::sort(cubes_.begin(), cubes_.end());
   cubes_.erase(std::unique(cubes_.begin(), cubes_.end()), cubes_.end());
 
-  std::size_t places = 2; // at least four for each cube, so that misses end soon
+  std::size_t places = 2; // at least four for each cube: misses end soon
   for (; places < 4 * cubes_.size(); places *= 2)
     --shift_;
   table_.assign(places, kEmpty);
@@ -49,7 +49,7 @@ OctreeLevel::OctreeLevel(const Points& points,
     table_[slotOf(key)] = key;
 }
 
-/** \return the place of the key, or the empty one where it belongs */
+/** \return the slot of the key, or the empty slot for the key */
 std::size_t
 OctreeLevel::slotOf(VoxelKey key) const
 {
@@ -79,7 +79,7 @@ std::vector<Eigen::Vector3d>
 OctreeLevel::centres(std::size_t count) const
 {
   std::vector<VoxelKey> chosen = cubes_;
-  if (chosen.size() > count) { // those with the smallest hash
+  if (chosen.size() > count) { // keep the smallest hashes
     std::sort(chosen.begin(), chosen.end(), [](VoxelKey a, VoxelKey b) {
       return mixBits(a) < mixBits(b); // a bijection: no ties
     });

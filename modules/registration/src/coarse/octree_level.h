@@ -9,13 +9,13 @@
 namespace pcl6d::registration {
 
 /** \brief The cubes of a regular grid that hold points: one level of an octree, as a
- * hash table. The grid has a corner at the given origin; points farther than 2^20 cubes
- * from it, and those not finite, are left out. */
+ * hash table. The grid has a corner at the given origin; points farther than 2^20
+ * cubes from the origin, or not finite, are left out. */
 class OctreeLevel {
 public:
   OctreeLevel(const Points& points, const Eigen::Vector3d& origin, double edge);
 
-  /** \return how many of the points [m], moved, fall into these cubes */
+  /** \return the number of points [m], moved by T, in the cubes */
   int
   count(const std::vector<Eigen::Vector3d>& points, const Eigen::Isometry3d& T) const;
 
@@ -30,7 +30,7 @@ private:
 
   Eigen::Vector3d origin_;
   double edge_;
-  int shift_ = 63;              ///< of the hash, that the table's places remain
+  int shift_ = 63;              ///< shift of the hash to the size of the table
   std::vector<VoxelKey> cubes_; ///< ascending
   std::vector<VoxelKey> table_; ///< open addressing
 };

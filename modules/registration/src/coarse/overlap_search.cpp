@@ -42,7 +42,7 @@ stepsOf(std::size_t tuple)
   return steps;
 }
 
-/** \return the offsets of a tuple as parts of the window, in [-1, 1] */
+/** \return the offsets of a tuple in units of the window, in [-1, 1] */
 Vector6d
 offsetOf(std::size_t tuple)
 {
@@ -69,7 +69,8 @@ isLocalMaximum(const int* scores, std::size_t tuple)
   return true;
 }
 
-/** A placement as offsets from the guess, and the share of cubes that it brings home.
+/** A placement by its offsets from the guess, with its share of cubes in
+ * occupied cubes.
  */
 struct Candidate {
   Vector6d offset = Vector6d::Zero();
@@ -78,7 +79,7 @@ struct Candidate {
   double motion_sq = 0; ///< squared size of the last step, in windows
 };
 
-/** What the options leave open. */
+/** Window and cubes, from options or derived. */
 struct Scale {
   double first_cube, last_cube; ///< [m]
   Vector6d window;
@@ -93,7 +94,7 @@ centroidOf(const Points& points)
   return sum / static_cast<double>(points.size());
 }
 
-/** Six cubes to the median distance, so that 10 m give the cubes of the paper from the
+/** Six cubes to the median distance: 10 m give the cubes of the paper from the
  * second level on. */
 Scale
 deriveScale(const Points& target,
@@ -151,7 +152,7 @@ public:
       candidates = distinct(refined(candidates, window, target, cubes));
       window /= 2;
     }
-    return judged(candidates);
+    return evaluated(candidates);
   }
 
 private:
@@ -196,7 +197,7 @@ private:
     return found;
   }
 
-  /** The best candidates, of which no two are closer than the first cube. */
+  /** The best candidates, any two farther apart than the first cube. */
   std::vector<Candidate>
   distinct(std::vector<Candidate> found) const
   {
@@ -210,7 +211,7 @@ private:
   }
 
   CoarseEstimate
-  judged(const std::vector<Candidate>& candidates) const
+  evaluated(const std::vector<Candidate>& candidates) const
   {
     CoarseEstimate estimate;
     estimate.T_target_source = guess_;
@@ -275,7 +276,7 @@ searchByOverlap(const Points& target,
   options.validate();
   require(isRigid(guess), "guess", guess.matrix().format(oneLine()), "a rigid motion");
   constexpr double kAnyRange = std::numeric_limits<double>::infinity();
-  const Points seen_target = gateByRange(target, 0, kAnyRange); // finite ones
+  const Points seen_target = gateByRange(target, 0, kAnyRange); // finite points
   const Points seen_source = gateByRange(source, 0, kAnyRange);
   if (seen_target.empty() || seen_source.empty()) {
     CoarseEstimate nothing;

@@ -8,7 +8,7 @@
 
 namespace pcl6d::registration {
 
-/** \brief How far two placements of the same points are apart: the root mean square of
+/** \brief Distance between two placements of a set of points: the root mean square of
  * the distances between the two places of each point. */
 class PlacementDistance {
 public:
@@ -24,8 +24,8 @@ private:
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
 };
 
-/** \return the first of the placements that are close to each other, at most max_count,
- * any two farther apart than min_distance [m]
+/** \return the first of each group of close placements, at most max_count, any two
+ * farther apart than min_distance [m]
  * \tparam Placement has T_target_source \param[in] placements best first */
 template <typename Placement>
 std::vector<Placement>

@@ -12,8 +12,8 @@ namespace pcl6d::registration {
 namespace {
 constexpr float kLikeNormal = 0.8f; // cosine of 37 degrees
 
-/** Standard deviation of a point, of the distance within which it is met: three of it are
- * twice that distance. */
+/** Standard deviation of a point, as a share of the distance for partners: three deviations are
+ * twice this distance. */
 constexpr double kPlaceSigma = 2.0 / 3;
 
 /** Support of the points of one scan, seen from the other. */
@@ -44,7 +44,7 @@ supportBy(const PlacedScan& other,
   return support;
 }
 
-/** What the surfaces of the target say of small motions of the source's points. */
+/** Constraints of the target's surfaces on small motions of the source's points. */
 PlaneSums
 heldBy(const FeatureScan& target,
        const FeatureScan& source,

@@ -17,23 +17,24 @@ struct PlacedScan {
   RayImage rays;
 };
 
-/** \brief What a placement explains of one scan by the other. */
+/** \brief Support of a placement by the points of one scan in the other. */
 struct Support {
   std::size_t points = 0;
-  std::size_t met = 0;          ///< a point of the other scan, with a like normal
-  std::size_t contradicted = 0; ///< where the other scan looked through
+  std::size_t met = 0;          ///< points with a partner of like normal in
+                                ///< the other scan
+  std::size_t contradicted = 0; ///< points in the measured free space of the other scan
 };
 
-/** \brief What a placement explains of both. */
+/** \brief Support of a placement by both scans. */
 struct PlacementSupport {
   Support source, target;
 
-  /** \return the larger of both scans' shares of points that are met, in [0, 1]: a
-   * scan may see much more than the other */
+  /** \return the larger of both scans' shares of points with a partner, in [0, 1]: a
+   * scan may cover much more than the other */
   double
   overlap() const;
 
-  /** \return met of met and contradicted points of both scans, in [0, 1] */
+  /** \return met / (met + contradicted) points of both scans, in [0, 1] */
   double
   consistency() const;
 
@@ -42,7 +43,7 @@ struct PlacementSupport {
   value() const;
 };
 
-/** \param[in] distance [m] within which a point is met
+/** \param[in] distance [m] largest distance of a partner
  * \param[in] step looks at each step-th point only, >= 1 */
 PlacementSupport
 supportOf(const PlacedScan& target,
@@ -51,12 +52,13 @@ supportOf(const PlacedScan& target,
           double distance,
           std::size_t step);
 
-/** \brief The placements beside one that its surfaces can tell least from it: moved by
- * about the same way to and fro along the three weakest of the six directions of the
- * point-to-plane problem. A corridor yields a slide along it, a plane its slides.
- * \param[in] distance [m] within which points hold each other
+/** \brief The neighbouring placements least distinguishable by surfaces: moved by
+ * about equal ways to and fro along the three weakest of the six directions of
+ * the point-to-plane problem. A corridor yields a slide along the corridor, a
+ * plane its slides.
+ * \param[in] distance [m] largest distance of a partner
  * \param[in] way [m] of the points, root mean square
- * \return six placements; none if fewer than 6 points are held */
+ * \return six placements; empty if fewer than 6 points have a partner */
 std::vector<Eigen::Isometry3d>
 looselyHeld(const PlacedScan& target,
             const PlacedScan& source,

@@ -33,7 +33,7 @@ struct CorrespondenceSearch::Look {
   Placement source;
   std::vector<Placement> source_in_part;
   float limit;    ///< [m]
-  float reach;    ///< [m] the search goes so much beyond the neighbour, for later
+  float reach;    ///< [m] reach of the search beyond the neighbour, for later
   float reach_sq; ///< [m^2] of limit + reach
 };
 
@@ -85,8 +85,8 @@ CorrespondenceSearch::update(const Placement& source,
   });
 }
 
-/** Keeps a neighbour if no other point can have become nearer, by the triangle inequality
- * and with room for the rounding of all distances that it compares. */
+/** Keeps a neighbour if no other point can have become nearer, by the triangle inequality with a
+ * margin for the rounding of the compared distances. */
 CorrespondenceSearch::Searches
 CorrespondenceSearch::updateBlock(const Look& look, const Block& block)
 {
@@ -128,8 +128,8 @@ CorrespondenceSearch::knowsLeaf(std::size_t i) const
   });
 }
 
-/** Normals with a smaller cosine point apart: clearly, as pairs that come and go with the
- * noise of a normal would keep ICP from coming to rest. */
+/** Normals with a smaller cosine point apart: clearly, since pairs that come and go with the noise
+ * of a normal would keep ICP from converging. */
 constexpr double kOpposite = -0.5;
 
 /** \return false for the two faces of a wall: normals that point apart */
@@ -143,8 +143,8 @@ CorrespondenceSearch::facesAlike(const Look& look, std::size_t i) const
   return normal.dot(partners_[i].normal.cast<double>()) > kOpposite;
 }
 
-/** Searches the parts, that of the last neighbour first, as its distance prunes the
- * others. */
+/** Searches the parts, starting with the part of the last neighbour: its distance
+ * prunes the others. */
 void
 CorrespondenceSearch::search(const Look& look,
                              std::size_t i,
@@ -197,7 +197,7 @@ CorrespondenceSearch::searchPart(const Look& look,
       : candidate >= 0
           ? part.tree->nearest(q, limit_sq, candidate, (*part.points)[candidate])
           : part.tree->nearest(q, limit_sq);
-  if (found.index < 0) { // what lies between nearest and second remains unknown
+  if (found.index < 0) { // points between nearest and second remain unknown
     best.second_sq = std::min(best.second_sq, limit_sq);
     return false;
   }

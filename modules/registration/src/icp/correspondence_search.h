@@ -8,19 +8,21 @@
 
 namespace pcl6d::registration {
 
-/** What a source point knows of its neighbour in the target; one cache line. */
+/** The neighbour of a source point in the target; one cache line. */
 struct alignas(64) Partner {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< the neighbour, target's frame
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< there, of unit length, for the
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< at the neighbour, of
+                                                    ///< unit length, for the
                                                     ///< metrics with normals
   Eigen::Vector3f searched_at = Eigen::Vector3f::Constant(
-      std::numeric_limits<float>::infinity()); ///< where the source point was then
-  float others = 0; ///< [m] all other points were no nearer to searched_at than this
-  int index = -1;   ///< of the neighbour in its part; -1: none within others
+      std::numeric_limits<float>::infinity()); ///< position of the source point at
+                                               ///< its last search
+  float others = 0; ///< [m] least distance of any other point to searched_at
+  int index = -1;   ///< of the neighbour in its part; -1: no point within `others`
   int part = -1;
   float distance_sq = 0; ///< [m^2] at the last pose
   float weight = 0;      ///< of the pair at the last pose; 0: no pair
-  bool usable = false;   ///< the neighbour and its normal are what the metric needs
+  bool usable = false;   ///< neighbour and normal satisfy the metric
 };
 
 /** Where ICP has the source: at a pose, scaled beforehand. */
@@ -36,9 +38,9 @@ struct Placement {
   }
 };
 
-/** The closest pairs at one pose after the other. With SearchMemory::kNeighbours, whether
- * another point has become the nearest is known without a search as long as the source point
- * has not moved half-way from its neighbour to the next one: exact. */
+/** The closest pairs at successive poses. With SearchMemory::kNeighbours no search is needed while
+ * a source point has moved by less than half the difference of its distances to the nearest and
+ * second nearest point: exact. */
 class CorrespondenceSearch {
 public:
   static constexpr std::size_t kBlockSize = 256; ///< source points
@@ -50,7 +52,7 @@ public:
   /** Finds the pairs at a pose.
    * \param[in] limit [m] largest distance of a pair, exclusive
    * \param[in] next_motion [m] how far points are likely to move in further iterations
-   * \param[in] stride only every n-th source point is looked at */
+   * \param[in] stride only every n-th source point is used */
   void
   update(const Placement& source, double limit, double next_motion, int stride);
 
@@ -58,7 +60,7 @@ public:
   void
   setPairs(const std::vector<IcpPair>& pairs);
 
-  /** \return the pairs that count */
+  /** \return the pairs in use */
   std::vector<IcpPair>
   pairs() const;
 
@@ -74,16 +76,16 @@ public:
 
   /** The searches of an update(). */
   struct Searches {
-    std::size_t all = 0;       ///< source points that had to be searched
-    std::size_t from_leaf = 0; ///< of these, from a remembered leaf
+    std::size_t all = 0;       ///< source points with a new search
+    std::size_t from_leaf = 0; ///< searches from a remembered leaf
   };
 
-  /** \return those of the last update() */
+  /** \return the searches of the last update() */
   Searches
   searches() const;
 
 private:
-  /** A pose, and what is needed to look for neighbours there. */
+  /** A pose with the data for searches at this pose. */
   struct Look;
   Searches
   updateBlock(const Look& look, const Block& block);
@@ -92,7 +94,7 @@ private:
   /** \return whether the next search of a source point starts at a leaf */
   bool
   knowsLeaf(std::size_t i) const;
-  /** \return whether best is now a point of the part; a candidate is one */
+  /** \return whether best is now a point of the part (true for the candidate, too) */
   bool
   searchPart(const Look& look,
              std::size_t i,
@@ -108,15 +110,15 @@ private:
 
   const IcpTarget& target_;
   const Points& source_;
-  const Normals* source_normals_; ///< null unless the metric needs them
+  const Normals* source_normals_; ///< null unless needed by the metric
   const IcpOptions& options_;
-  float frames_ =
-      0;           ///< [m] largest distance of a part's origin from that of the target
-  bool remembers_; ///< neighbours, see SearchMemory
+  float frames_ = 0;              ///< [m] largest distance of a part's origin from the
+                                  ///< target's origin
+  bool remembers_;                ///< neighbours, see SearchMemory
   std::vector<char> is_identity_; ///< T_target_part, per part
   std::vector<Partner> partners_;
-  /** per part and source point, where its last search ended, -1: nowhere; of parts without
-   * SearchMemory::kLeaves empty */
+  /** per part and source point, the leaf of its last search, -1: not known; empty for parts without
+   * SearchMemory::kLeaves */
   std::vector<std::vector<int>> leaves_;
   std::vector<Searches> searches_; ///< per block
 };

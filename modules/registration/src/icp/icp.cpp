@@ -17,7 +17,7 @@ namespace pcl6d {
 using namespace registration;
 
 namespace {
-/** Makes an accumulated motion exactly rigid again, so that rounding does not add up. */
+/** Makes an accumulated motion exactly rigid again, against accumulated rounding. */
 Eigen::Isometry3d
 rigid(Eigen::Isometry3d T)
 {
@@ -32,8 +32,7 @@ countFinite(const Points& points)
       points.begin(), points.end(), [](const auto& p) { return p.allFinite(); });
 }
 
-/** \return the largest coordinate of the source points [m]: turns move them by about so
- * much */
+/** \return the largest coordinate of the source points [m]: about the lever of turns */
 double
 extentOf(const Points& points)
 {
@@ -44,7 +43,7 @@ extentOf(const Points& points)
   return largest;
 }
 
-constexpr double kFloatRounding = 1e-7; ///< of a coordinate, as a share of it
+constexpr double kFloatRounding = 1e-7; ///< of a coordinate, relative
 constexpr double kLowerShare = 1e-3;    ///< of an error: less is no progress
 constexpr int kStillSteps = 3, kIdleSteps = 20;
 
@@ -89,7 +88,7 @@ public:
   }
 
 private:
-  /** One step. \return why to stop, if so */
+  /** One step. \return the reason to stop, if any */
   std::optional<IcpStop>
   iterate(double limit)
   {
@@ -144,8 +143,8 @@ private:
     problem_.weigh(placement(), finder_.partners());
   }
 
-  /** Whether the error is more than three times its best at this limit, with no more pairs
-   * to show for it, and more than rounding. */
+  /** Whether the error is more than three times its best at this limit, without additional pairs,
+   * and above rounding. */
   bool
   hasGrown(const MetricStep& step, double limit)
   {
@@ -162,7 +161,7 @@ private:
     return false;
   }
 
-  /** Tells the observer. \return why to stop, if so */
+  /** Calls the observers. \return the reason to stop, if any */
   std::optional<IcpStop>
   observe(const MetricStep& step, double limit)
   {
@@ -171,8 +170,8 @@ private:
     seen.pairs = step.pairs;
     seen.rms = step.rms;
     seen.max_distance = limit;
-    // The length of the step is that of the points' centroid: it does not depend on
-    // where the origin is, as the translation part of the motion would.
+    // The length of the step is the motion of the points' centroid: independent of the origin,
+    // unlike the translation part of the motion.
     seen.translation = (step.motion.transform * step.centroid - step.centroid).norm();
     seen.rotation = rotationAngle(step.motion.transform.linear());
     seen.searched = finder_.searches().all;
@@ -193,10 +192,10 @@ private:
     return std::nullopt;
   }
 
-  /** Whether the error no longer changes: by the share that was asked for; or, if others'
-   * classes choose pairs or steps in float, by no more than its rounding, or not downwards
-   * in many steps shorter than it: their pairs may come and go for ever. Not where the
-   * epsilon is 0, which asks for every step. */
+  /** Whether the error no longer changes: by a share below error_epsilon; or, if plugged-in classes
+   * choose pairs or steps in float, by no more than float rounding, or without a decrease in many
+   * steps shorter than the error, since their pairs may come and go for ever. The rule for
+   * plugged-in classes does not apply with an epsilon of 0, which asks for every step. */
   bool
   isErrorAtRest(double rms, double way)
   {
@@ -213,8 +212,8 @@ private:
            (has_foreign_steps_ && (still_ >= kStillSteps || idle_ >= kIdleSteps));
   }
 
-  /** \return how far points will move before they are at rest, [m]; 0 while that is so far
-   * that to remember neighbours does not pay: for speed only */
+  /** \return the expected further motion of points [m]; 0 while too large for remembering
+   * neighbours to pay: for speed only */
   double
   likelyMotion(const IcpIteration& last) const
   {
@@ -266,14 +265,14 @@ private:
   double extent_;
   bool has_foreign_steps_;
   IcpResult result_;
-  bool is_unique_ = true; ///< of the last step: the pairs fixed it
+  bool is_unique_ = true; ///< the pairs fixed the last step
   double next_motion_ = 0;
   std::size_t pairs_found_ = 0; ///< before trimming
   double least_residual_ = std::numeric_limits<double>::infinity();
   std::size_t pairs_at_least_ = 0;
-  double last_rms_ = -1; ///< [m] of the iteration before; -1: none
+  double last_rms_ = -1; ///< [m] of the iteration before; -1: no iteration yet
   double lowest_rms_ = std::numeric_limits<double>::infinity();
-  int still_ = 0; ///< iterations without a change of it
+  int still_ = 0; ///< iterations without a change of last_rms_
   int idle_ = 0;  ///< iterations without progress
 };
 
@@ -283,7 +282,7 @@ requireNormals(const Normals* normals, const Points& points, const char* whose)
   require(normals && normals->size() == points.size(),
           whose,
           normals ? normals->size() : 0,
-          "one per point for this metric");
+          "equal to the number of points for this metric");
 }
 
 void
@@ -305,7 +304,7 @@ requireUsable(const IcpTarget& target,
                 (part.tree && !part.search && part.tree->keepsCells()),
             "memory of a target part",
             "kLeaves",
-            "of a tree that keeps its cells, without another search");
+            "from a tree that keeps cells, without another search");
     if (part.normals || options.metric != Metric::kPoint)
       requireNormals(part.normals, *part.points, "target normals");
   }
@@ -316,7 +315,7 @@ requireUsable(const IcpTarget& target,
   require(!options.estimate_scale || !(hooks.find || hooks.reject || hooks.minimise),
           "estimate_scale",
           "true",
-          "false with hooks of pairs, which see a pose without a scale");
+          "false with hooks of pairs: hooks see a pose without a scale");
 }
 } // namespace
 

@@ -41,8 +41,8 @@ stepOf(const Sums& sums, double distance_sq, double residual_sq)
   return step;
 }
 
-/** Cosine of 60 degrees: points whose normals stand farther apart lie on two surfaces, such as
- * floor and wall near their edge, and the sum of their normals is that of neither. */
+/** Cosine of 60 degrees: points with normals farther apart lie on two surfaces, near the edge of
+ * floor and wall for example; the sum of their normals fits neither. */
 constexpr double kSameSurface = 0.5;
 
 double
@@ -67,8 +67,8 @@ trimAt(double share, const std::vector<Partner>& partners)
   return *last;
 }
 
-/** 1.4826 times the median of the residuals: the standard deviation if they are normal,
- * whatever a minority of outliers does (MAD about zero). */
+/** 1.4826 times the median of the residuals: the standard deviation of normal residuals, robust to
+ * a minority of outliers (MAD about zero). */
 double
 scaleOf(const std::vector<float>& residuals, const std::vector<Partner>& partners)
 {
@@ -84,8 +84,7 @@ scaleOf(const std::vector<float>& residuals, const std::vector<Partner>& partner
 }
 
 /** Trims and weights pairs by their residuals (book 4.1.5).
- * \param[in] residuals [m] what the metric sees of each pair, per source point; only those
- * of pairs count */
+ * \param[in] residuals [m] in the metric, per source point; used only for pairs */
 void
 weightPairs(const IcpOptions& options,
             const std::vector<float>& residuals,

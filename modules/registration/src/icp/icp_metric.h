@@ -9,7 +9,7 @@ namespace pcl6d::registration {
 struct MetricStep {
   std::size_t pairs = 0;
   double rms = 0;      ///< [m] distance of the pairs
-  double residual = 0; ///< [m] rms of what the metric minimises
+  double residual = 0; ///< [m] rms of the residuals of the metric
   Eigen::Vector3d centroid =
       Eigen::Vector3d::Zero(); ///< of the moved source points [m]
   RigidEstimate motion;        ///< in the target's frame, to be put before the pose
@@ -23,7 +23,7 @@ public:
   : source_(source), options_(options)
   {}
 
-  /** Applies trimming and robust weights to the pairs, if they are asked for. */
+  /** Applies trimming and robust weights to the pairs, if set. */
   void
   weigh(const Placement& at, std::vector<Partner>& partners) const;
 

@@ -13,7 +13,7 @@ namespace pcl6d {
 namespace {
 constexpr double kApproximation = 0.1; ///< epsilon of the approximate search
 constexpr double kVoxelsOfPatch =
-    3; ///< what normal_voxel usually has of the points' voxels
+    3; ///< usual ratio of normal_voxel to the points' voxel
 
 constexpr Named<SearchMethod> kMethods[] = {{SearchMethod::kKdTree, "kdtree"},
                                             {SearchMethod::kCachedTree, "cached-tree"},
@@ -24,7 +24,7 @@ constexpr Named<SearchMethod> kMethods[] = {{SearchMethod::kKdTree, "kdtree"},
                                             {SearchMethod::kFlann, "flann"}};
 constexpr char kFormerWord[] = "cached"; ///< of kRemembered, in older command lines
 
-/** \return the plain search of a structure that is made here */
+/** \return the plain search of a structure made here */
 template <typename Structure>
 NearestSearch
 searchOf(const Points& points)

@@ -89,7 +89,7 @@ IcpOptions::validate() const
   require(!estimate_scale || metric == Metric::kPoint,
           "estimate_scale",
           "true",
-          "false for the metrics with planes, whose minimisers have no scale");
+          "false for the metrics with planes: the minimisers have no scale");
   require(!symmetric || metric == Metric::kPlane,
           "symmetric",
           "true",

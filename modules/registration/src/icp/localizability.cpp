@@ -13,9 +13,9 @@ Localizability::openDirections(double threshold) const
 }
 
 namespace {
-/** \return B^-1/2: from coordinates in which a motion has its mean square length, to
- * twists. Turns that move no point (about a line of points) count as if the line had a
- * thickness of a thousandth of its length. */
+/** \return B^-1/2: maps coordinates in which the length of a motion is the rms motion
+ * of the points to twists. For turns that move no point (about a line of points) the
+ * line gets a thickness of a thousandth of its length. */
 PlaneSums::Matrix
 unitMotions(const PlaneSums& sums)
 {

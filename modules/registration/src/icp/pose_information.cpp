@@ -47,7 +47,7 @@ systemOf(const PlaneSums& sums)
           sums.sourceSq() / sums.weight};
 }
 
-/** Whether roll and yaw are defined, and three pairs are there. */
+/** Whether roll and yaw are defined, with at least three pairs. */
 template <typename Sums>
 bool
 hasAngles(const Sums& sums, const EulerAngles& angles)

@@ -12,21 +12,19 @@ namespace {
 constexpr std::size_t kSample = 400; ///< pairs: a few per cent of error, under 1 ms
 constexpr std::size_t kNeighbours = 10;
 
-/** Of a surface that was sampled twice, the share of points whose partner is nearer than a
- * tenth of the distance to the next point is pi / 100; where it is half of them, both are
- * the same points. */
+/** Of a surface sampled twice, a share of pi / 100 of the points has a partner nearer than a tenth
+ * of the distance to the next point; a share of one half means identical points. */
 constexpr float kSamePoint = 0.1f;
 
-/** The rounding of float coordinates, with what turning them adds; measured scans are
- * never so flat. */
+/** The rounding of float coordinates, also after a rotation; measured scans are never this flat. */
 constexpr double kFlat = 1e-5;
 
-/** Spreads of a line and across it: ten points of a patch are less elongated, but for one
- * patch in a thousand. */
+/** Ratio of the spreads across and along a line: ten points of a patch are less elongated, except
+ * in one patch of a thousand. */
 constexpr double kLine = 0.1;
 
-/** \return the k-th of count places in [0, size): multiples of the golden section, which
- * keep no step with scan lines or faces that take turns; all places if count is size */
+/** \return the k-th of count places in [0, size): multiples of the golden section, which avoid
+ * aliasing with scan lines or alternating faces; every place if count is size */
 std::size_t
 spread(std::size_t k, std::size_t count, std::size_t size)
 {
@@ -43,7 +41,7 @@ struct Spot {
   Eigen::Vector3d source; ///< moved [m]
   const Partner* partner;
   const IcpTargetPart* part;
-  std::vector<Neighbour> around; ///< the partner and the points next to it, if known
+  std::vector<Neighbour> around; ///< the partner and its neighbours, if known
 
   Eigen::Vector3d
   place() const
@@ -96,7 +94,7 @@ areSamePoints(const std::vector<Spot>& spots)
   return 2 * static_cast<std::size_t>(count) > spots.size();
 }
 
-/** \return the normal of the plane in which all spots lie, if they do */
+/** \return the normal of the common plane of the spots, if any */
 std::optional<Eigen::Vector3d>
 commonPlane(const std::vector<Spot>& spots)
 {
@@ -112,7 +110,7 @@ commonPlane(const std::vector<Spot>& spots)
   return Eigen::Vector3d(eigen.vectors.col(0));
 }
 
-/** \return what a point of a flat scan holds: its height, and the side of its line */
+/** \return the directions fixed by a point of a flat scan: its height, and the side of its line */
 Eigen::Matrix3d
 holdInPlane(const Spot& spot, const Eigen::Vector3d& normal)
 {

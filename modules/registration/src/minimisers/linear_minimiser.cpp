@@ -15,7 +15,7 @@ constexpr double kLargestTurn = 1; ///< [rad] of a step
 constexpr double kGimbalCosine = 1e-3;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/** Where the pairs stand after some steps, and the solution of the next one. */
+/** The state of the pairs after a number of steps, and the solution of the next step. */
 struct LinearState {
   const PairSums& sums;
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity(); ///< source to target so far
@@ -31,7 +31,7 @@ struct LinearState {
   }
 };
 
-/** The finite motion that a method makes of a solution: turn and shift into T. */
+/** The finite motion of a method from a solution: applies turn and shift to T. */
 using Retraction = void (*)(LinearState&);
 
 void
@@ -49,7 +49,7 @@ turned(const Eigen::Matrix3d& R, double w, const Eigen::Vector3d& turn)
   return (small * Eigen::Quaterniond(R)).normalized().toRotationMatrix();
 }
 
-/** \return R free of the rounding that products of rotations gather */
+/** \return R without the accumulated rounding of products of rotations */
 Eigen::Matrix3d
 normalised(const Eigen::Matrix3d& R)
 {
@@ -63,7 +63,7 @@ retractHelix(LinearState& state)
   twist << state.shift, state.turn;
   const Eigen::Vector3d from = state.centroid();
   const Eigen::Isometry3d helix = motionFromTwist(twist);
-  // About the centroid, which the helix moves by its translation part.
+  // About the centroid, moved by the helix's translation part.
   const Eigen::Matrix3d R = normalised(helix.linear() * state.T.linear());
   state.T.linear() = R;
   state.T.translation() = from + helix.translation() - R * state.sums.mean_source;
@@ -98,9 +98,9 @@ retractQuaternion(LinearState& state)
   setRotation(state, turned(state.T.linear(), 1, state.turn));
 }
 
-/** The seventh unknown, the relative change of scale, has a solution of its own: 1 + s is
- * the best scale. Normalising drops it from the rotation, but the position, moved as
- * published, keeps it. The arm reaches from the pose's position to the centroid. */
+/** The seventh unknown, the relative change of scale s, has a solution of its own: 1 + s is the
+ * best scale. Normalising drops s from the rotation, but the position, moved by the published
+ * rule, keeps s. The arm reaches from the pose's position to the centroid. */
 void
 retractQuaternionUnconstrained(LinearState& state)
 {
@@ -112,8 +112,8 @@ retractQuaternionUnconstrained(LinearState& state)
   state.T.translation() = sums.mean_target - (1 + s) * arm - state.turn.cross(arm);
 }
 
-/** A symmetric 3x3 system, solved with the sizes of its eigenvalues: a step of Newton
- * goes uphill from a maximum or saddle, this one downhill. */
+/** A symmetric 3x3 system, solved with the sizes of its eigenvalues: a Newton step goes uphill from
+ * a maximum or saddle, this step downhill. */
 class TurnSolver {
 public:
   explicit TurnSolver(const Eigen::Matrix3d& symmetric)
@@ -155,8 +155,8 @@ turningMatrix(const Eigen::Matrix3d& A)
   return A.trace() * Eigen::Matrix3d::Identity() - 0.5 * (A + A.transpose());
 }
 
-/** Solves for the next small motion. \return whether the pairs are at rest: no further
- * to turn, and not at a half turn that is stationary without being the minimum */
+/** Solves for the next small motion. \return whether the pairs are at rest: without a further turn,
+ * and not at a stationary half turn other than the minimum */
 bool
 solveStep(LinearState& state, bool first)
 {
@@ -181,14 +181,14 @@ solveStep(LinearState& state, bool first)
   return at_rest;
 }
 
-/** How well the turned source goes with the target; the minimum has the most. */
+/** Alignment of the turned source with the target; largest at the minimum. */
 double
 alignment(const LinearState& state)
 {
   return (state.T.linear() * state.sums.cross).trace();
 }
 
-/** Takes the step, or as much of it as does not turn away from the goal. */
+/** Takes the step, or the first halving that does not turn away from the goal. */
 void
 advance(LinearState& state, Retraction retract)
 {

@@ -20,7 +20,7 @@ struct TwistEstimate {
   Twist twist = Twist::Zero(); ///< about the centroid
 };
 
-/** Pseudo-inverse, after turns were scaled to the length that they move the points. */
+/** Pseudo-inverse, with turns scaled to the motion of the points. */
 TwistEstimate
 solve(const PlaneSums& sums)
 {

@@ -15,8 +15,8 @@ planesNorm(const Eigen::Vector3d& n,
            double epsilon,
            double* N)
 {
-  // In the directions n + m and n - m, which are orthogonal, the sum of the covariances
-  // 2 I - k (n n^T + m m^T), k = 1 - epsilon, has the values 2 - k (1 +- c); 2 elsewhere.
+  // In the orthogonal directions n + m and n - m, the sum of the covariances 2 I - k (n n^T + m
+  // m^T), k = 1 - epsilon, has the values 2 - k (1 +- c); 2 elsewhere.
   const double k = 1 - epsilon, c = n.dot(m);
   const double of_sum = 2 - k * (1 + c), of_difference = 2 - k * (1 - c);
   const double common = epsilon * k / (2 * of_sum * of_difference);
@@ -128,7 +128,7 @@ addEquations(const LanesOfPair& pair, double*& sum)
   }
 }
 
-/** What does not depend on N: W, W c_d, the squared distances and the scatter. */
+/** Sums independent of N: W, W c_d, the squared distances and the scatter. */
 PCL6D_INLINE void
 addMoments(const LanesOfPair& pair, double*& sum)
 {
@@ -142,7 +142,7 @@ addMoments(const LanesOfPair& pair, double*& sum)
       addTo(sum, pair.w * d[row] * d[column]);
 }
 
-/** Reads the sums of all lanes in the order in which addLanes() writes them. */
+/** Reads the sums of the lanes in the order of addLanes(). */
 class SumsReader {
 public:
   explicit SumsReader(const double (*sums)[8]) : sums_(sums) {}
@@ -209,7 +209,7 @@ PlaneAccumulator::addLanes(const Waiting& waiting, double (*sums)[kLanes])
   addMoments(pair, sum);
 }
 
-/** \return whether the pair counts; then its lane holds all but N */
+/** \return whether the pair is valid; its lane then has every value but N */
 bool
 PlaneAccumulator::begin(const Eigen::Vector3d& source,
                         const Eigen::Vector3d& target,

@@ -11,15 +11,15 @@
  * f - lambda . c:
  * - quaternion: q^T N q with |q| = 1, hence N q = lambda q, the largest eigenvalue;
  * - dual quaternion: real part r and dual part s with |r| = 1 and r . s = 0; the second
- *   condition gives s in terms of r, the first again an eigenvector;
- * - svd: trace(R S) with R^T R = I, whose multipliers are a symmetric matrix L with
+ *   condition gives s in terms of r, the first an eigenvector;
+ * - svd: trace(R S) with R^T R = I; the multipliers form a symmetric matrix L with
  *   S^T = L R: the singular vectors; det R = 1 by the sign of the smallest;
- * - orthonormal: the same, L by the square root of S^T S.
- * An eigenvalue that is not simple means a family of minimisers: kRankDeficient. */
+ * - orthonormal: like svd, with L by the square root of S^T S. An eigenvalue that is
+ * not simple means a family of minimisers: kRankDeficient. */
 namespace pcl6d {
 
 namespace {
-/** Ratio of singular values below which a direction counts as not fixed. */
+/** Ratio of singular values below which a direction is not fixed. */
 constexpr double kFreeDirection = 1e-9;
 
 /** The smallest rotation that takes unit vector a to unit vector b. */
@@ -29,7 +29,8 @@ minimalRotation(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   return shortestRotation(a, b).toRotationMatrix();
 }
 
-/** The motion by a rotation that also takes the centroid to its partner. */
+/** The motion by a rotation, with the translation that takes the source centroid to the
+ * target centroid. */
 Eigen::Isometry3d
 aboutCentroids(const PairSums& sums, const Eigen::Matrix3d& R)
 {
@@ -45,9 +46,9 @@ rankDeficient(const PairSums& sums, const Eigen::Matrix3d& R)
   return {Status::kRankDeficient, aboutCentroids(sums, R)};
 }
 
-/** Mirrored pairs whose last count singular values are equal: R = V (I - 2 n n^T) U^T
- * is as good for every unit n in their span. The smallest rotation has the largest
- * trace, hence the n that minimises n^T U^T V n. */
+/** Mirrored pairs with the last `count` singular values equal: R = V (I - 2 n n^T) U^T
+ * is equally good for every unit n in their span. The smallest rotation has the
+ * largest trace, hence the n of least n^T U^T V n. */
 Eigen::Matrix3d
 smallestOfMirrored(const Eigen::Matrix3d& U, const Eigen::Matrix3d& V, int count)
 {

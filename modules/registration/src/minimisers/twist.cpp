@@ -5,7 +5,7 @@
 namespace pcl6d {
 
 namespace {
-/** (n - sin n) / n^3, by its series where the difference would cancel. */
+/** (n - sin n) / n^3, by series where the difference would cancel. */
 double
 sineDefect(double n)
 {
@@ -36,6 +36,23 @@ motionFromTwist(const Twist& twist)
   T.linear() = rotationFromVector(x);
   T.translation() = xb + cosineDefect(n) * turned + sineDefect(n) * x.cross(turned);
   return T;
+}
+
+Twist
+twistFromMotion(const Eigen::Isometry3d& motion)
+{
+  // V^-1 = I - [x]x / 2 + q [x]x^2, where q = (1 - n/2 cot(n/2)) / n^2.
+  const Eigen::Vector3d x = rotationVector(motion.linear());
+  const double n = x.norm();
+  double q = 1.0 / 12 + n * n / 720;
+  if (n > 1e-2) {
+    const auto [sine, cosine] = portableSinCos(0.5 * n);
+    q = (1 - 0.5 * n * cosine / sine) / (n * n);
+  }
+  const Eigen::Vector3d& t = motion.translation();
+  Twist twist;
+  twist << t - 0.5 * x.cross(t) + q * x.cross(x.cross(t)), x;
+  return twist;
 }
 
 Eigen::Matrix3d

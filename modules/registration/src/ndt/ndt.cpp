@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
-#include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/registration/ndt.h>
 
 #include <algorithm>
@@ -14,71 +12,6 @@
 #include <optional>
 
 namespace pcl6d {
-
-namespace {
-/** Of the smaller variances to the largest, so that planes keep a thickness (Magnusson 2009,
- * 6.2.2: a hundredth, as in PCL). */
-constexpr double kLeastVariance = 0.01;
-
-std::optional<Distribution>
-distributionOf(const Points& points, const IndexRange& members)
-{
-  const auto count = static_cast<double>(members.size());
-  Distribution found;
-  for (const auto i : members)
-    found.mean += points[i].cast<double>() / count;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const auto i : members) {
-    const Eigen::Vector3d d = points[i].cast<double>() - found.mean;
-    scatter += d * d.transpose();
-  }
-  const auto eigen = symmetricEigen<3>(scatter / (count - 1));
-  const double largest = eigen.values(2);
-  if (!(largest > 0) || !std::isfinite(largest))
-    return std::nullopt;
-  const Eigen::Vector3d variances = eigen.values.cwiseMax(kLeastVariance * largest);
-  const Eigen::Vector3d inverse = variances.cwiseInverse();
-  found.information = eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
-  const Eigen::Vector3d form =
-      (inverse.array() - inverse(2)).matrix() / inverse(0); // the widest is the last
-  found.form = eigen.vectors * form.asDiagonal() * eigen.vectors.transpose();
-  return found;
-}
-
-Points
-meansOf(const std::vector<Distribution>& distributions)
-{
-  Points means;
-  for (const auto& d : distributions)
-    means.push_back(d.mean.cast<float>());
-  return means;
-}
-
-std::vector<Distribution>
-distributionsOf(const Points& points, double resolution, std::size_t least_points)
-{
-  require(resolution > 0 && std::isfinite(resolution),
-          "resolution",
-          resolution,
-          "finite and > 0");
-  require(least_points >= 3, "least_points", least_points, ">= 3");
-  const VoxelGroups groups(points, resolution);
-  std::vector<Distribution> found;
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    if (groups.indices(g).size() >= least_points)
-      if (const auto distribution = distributionOf(points, groups.indices(g)))
-        found.push_back(*distribution);
-  return found;
-}
-} // namespace
-
-DistributionGrid::DistributionGrid(const Points& points,
-                                   double resolution,
-                                   std::size_t least_points)
-: resolution_(resolution)
-, distributions_(distributionsOf(points, resolution, least_points))
-, tree_(meansOf(distributions_))
-{}
 
 void
 NdtOptions::validate() const
@@ -94,8 +27,8 @@ NdtOptions::validate() const
 }
 
 namespace {
-/** The score of a point at a squared Mahalanobis distance: height exp(-slope / 2 d^2), which
- * stands for the logarithm of a normal distribution and a level of outliers. */
+/** The score of a point at a squared Mahalanobis distance: height exp(-slope / 2 d^2), an
+ * approximation of the logarithm of a normal distribution with a level of outliers. */
 struct Score {
   /** Magnusson 2009, (6.8) and the constants after it. */
   Score(double outlier_ratio, double resolution)
@@ -118,10 +51,10 @@ struct Score {
   double slope, height;
 };
 
-/** What a pass over the source gives. */
+/** Sums of a pass over the source. */
 struct NdtSums {
-  PlaneSums of_score; ///< weighted as the score asks
-  PlaneSums of_form;  ///< of which directions the distributions hold
+  PlaneSums of_score; ///< weighted by the score
+  PlaneSums of_form;  ///< constraints of the distributions on directions
   double score = 0;
   std::size_t points = 0;
 
@@ -166,9 +99,9 @@ public:
   }
 
 private:
-  /** One step, no longer than allowed. It is taken whether the score rises or not: it jumps
-   * where a distribution comes within reach of a point, and would hold back small steps.
-   * \return why to stop, if so */
+  /** One step, limited in length, and taken whether the score rises or not: the score jumps where a
+   * distribution comes within reach of a point, and would hold back small steps.
+   * \return the reason to stop, if any */
   std::optional<IcpStop>
   iterate(NdtResult& result) const
   {
@@ -237,9 +170,9 @@ private:
     return mergeTree(std::move(partials), &NdtSums::merge);
   }
 
-  /** Adds a point with the distributions whose means lie near it: for the step within half the
-   * diagonal of a cell's face, so that a surface's own cell is among them; to rate a pose
-   * within a cell's side, so that the score is PCL's. */
+  /** Adds a point with the distributions of nearby means: for the step within half the diagonal of
+   * a cell's face, enough to include a surface's own cell; to rate a pose within a cell's side,
+   * like PCL's score. */
   void
   addPoint(const Eigen::Vector3d& p,
            PlaneAccumulator& of_score,
@@ -258,8 +191,8 @@ private:
       const Eigen::Vector3d pull = d.information * e;
       const double distance_sq = e.dot(pull), score = score_(distance_sq);
       sums.score += score;
-      // The score's curvature (Magnusson 2009, (6.13)) without what would bend it down: N less
-      // a share of pull pull^T, with the gradient as it is.
+      // The score's curvature (Magnusson 2009, (6.13)) without its negative part: N minus a share
+      // of pull pull^T, with the gradient unchanged.
       const double bend = std::min(score_.slope * distance_sq, kMostBend);
       if (distance_sq > 0)
         of_score.addNorm(p,
@@ -293,7 +226,7 @@ private:
   static constexpr std::size_t kMostCells =
       12; ///< 8 share a corner, and means lie anywhere
 
-  /** At 1 a point beyond the inflexion of its score would let the step go anywhere. */
+  /** At 1, a point beyond the inflexion of its score would leave the step unbounded. */
   static constexpr double kMostBend = 0.8;
 
   const DistributionGrid& target_;

@@ -10,29 +10,29 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Sizes for normals and descriptors of a cloud, as they follow from the cloud. */
+/** \brief Radii for normals and descriptors of a cloud, derived from its points. */
 struct FeatureScale {
-  double voxel = 0;          ///< [m] edge of the cubes to reduce it by
-  double normal_radius = 0;  ///< [m] of the surroundings of a normal
-  double feature_radius = 0; ///< [m] of those of a descriptor, such as an FPFH
-  std::string why;           ///< what the voxel follows from, in words
+  double voxel = 0;          ///< [m] edge of the cubes for the reduction
+  double normal_radius = 0;  ///< [m] neighbourhood of a normal
+  double feature_radius = 0; ///< [m] neighbourhood of a descriptor, such as an FPFH
+  std::string why;           ///< origin of the voxel, in words
 };
 
-/** \brief Sizes at which surfaces of a cloud can be described, so that nobody has to know its
- * unit or its scanner: code that says setRadiusSearch(0.05) finds nothing in a scan of a
- * street, and everything in one of a bunny.
+/** \brief Estimates the scales at which the surfaces of a cloud can be described, without
+ * knowing its unit or its scanner. A fixed setRadiusSearch(0.05) finds no point in a scan of a
+ * street, and every point in a scan of a bunny.
  *
- * The first voxel is that of a reduction (deriveScanParameters()): a sixtieth of the median
- * range, or of the size of what is small beside its range, and no less than 2.5 spacings of
- * the points. Normals take 3 voxels, where a reduced surface has about 28 points, and
- * descriptors 7, as alignByFeatures() has them: where points are sparser - lines of a spinning
- * scanner - as much more as it takes for half of the points to have 10 neighbours.
- * Each further scale is twice the one before; its descriptors reach no farther than half of
- * the spread of the cloud (medianSpread()), as what holds most of it tells no points apart.
- * \param[in] points [m] in the frame of their scanner, from whose origin ranges count; those
- * that are not finite, and the range that stands for "no echo", are left out
- * \param[in] count so many scales at most; > 0
- * \return the finest first; none for points without extent
+ * The first voxel is the voxel of a reduction (deriveScanParameters()): a sixtieth of the
+ * median range, or of the size of a small object beside its range, but at least 2.5 point
+ * spacings. Normals take 3 voxels, where a reduced surface has about 28 points, and descriptors
+ * 7, as in alignByFeatures(). Where points are sparser, as between lines of a spinning scanner,
+ * the radii grow until half of the points have 10 neighbours. Each further scale doubles the
+ * previous scale. Its descriptors reach at most half of the spread of the cloud
+ * (medianSpread()): a neighbourhood with most of the cloud cannot distinguish points.
+ * \param[in] points [m] in the scanner frame, ranges from the origin; non-finite points and the
+ * range that marks "no echo" are skipped
+ * \param[in] count the largest number of scales; > 0
+ * \return the finest first; empty for points without extent
  * \throws BadArgument count is 0
  * \ingroup global_registration */
 std::vector<FeatureScale>

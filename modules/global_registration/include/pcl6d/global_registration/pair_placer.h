@@ -15,26 +15,26 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief Knobs of PairPlacer. */
 struct PairPlacerOptions {
   PlaceSearchOptions search = PlaceSearchOptions::forTwoScans();
-  ScanParameterOptions parameters; ///< what is left open follows from each scan itself
+  ScanParameterOptions parameters; ///< each missing value follows from the scan
   /** unit vectors in the frames of the scans: the sensors' own up, see estimateVertical() */
   Eigen::Vector3d target_up = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d source_up = Eigen::Vector3d::UnitZ();
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief What PairPlacer found. */
+/** \brief Result of PairPlacer. */
 struct PairPlacement {
-  PlaceResult result; ///< places of the source on the target
-  /** the best place, matched by all points of both; none: identity */
+  PlaceResult result; ///< poses of the source on the target
+  /** the best pose, matched by every point of both scans; identity without a candidate */
   Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
 };
 
-/** \brief Places measured points on others without a guess: the compiled core of
- * GlobalRegistration. Each scan is made ready by its own range gate and voxel, so that a
- * target is made ready once for all sources, and what is found does not depend on what was
- * placed before. \ingroup global_registration */
+/** \brief Place recognition between two measured point sets: the compiled core of
+ * GlobalRegistration. Each scan is prepared with its own range gate and voxel. A target is
+ * prepared once for every source, and a result does not depend on earlier calls.
+ * \ingroup global_registration */
 class PairPlacer {
 public:
   PairPlacer();
@@ -43,7 +43,7 @@ public:
   PairPlacer&
   operator=(PairPlacer&&) noexcept;
 
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an invalid option */
   void
   setOptions(const PairPlacerOptions& options);
   const PairPlacerOptions&
@@ -52,19 +52,18 @@ public:
     return options_;
   }
 
-  /** \brief Places a scan. What was made of a target, or a source, that is the same again
-   * is used again.
-   * \param[in] target, source [m] in the frames of their scanners, from whose origins they
-   * were seen
-   * \return never throws on data: kNone with the reason where there are too few points, or
-   * they are too far apart for the voxels */
+  /** \brief Finds the pose of the source on the target. Data prepared from an unchanged target
+   * or source are reused.
+   * \param[in] target, source [m] in the frames of their scanners, which stand at the origins
+   * \return never throws on data: kNone with the reason for too few points, or for points too
+   * far apart for the voxels */
   PairPlacement
   place(const Points& target, const Points& source);
 
 private:
   struct Prepared;
 
-  /** \return what was made of points, made again if they, or the options, are others */
+  /** \return prepared data, computed again if points or options have changed */
   const Prepared&
   prepared(std::unique_ptr<Prepared>& kept,
            const Points& points,

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/progress.h>
+#include <pcl6d/common/rejection.h>
 #include <pcl6d/global_registration/place_by_guesses.h>
 #include <pcl6d/global_registration/place_search.h>
 
@@ -14,40 +15,38 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Where the world of a run lies in that of another one. */
+/** \brief Pose of one run in the map of another run. */
 struct RunPlace {
   PlaceAnswer answer = PlaceAnswer::kNone;
-  Eigen::Isometry3d T_map_run =
-      Eigen::Isometry3d::Identity(); ///< if there is one place
-  std::size_t agreeing = 0;          ///< scans whose places say so
-  std::size_t tried = 0;             ///< scans that were looked for
-  std::string reason; ///< why there is no such place, in words; else empty
+  Eigen::Isometry3d T_map_run = Eigen::Isometry3d::Identity(); ///< valid if unique
+  std::size_t agreeing = 0; ///< scans whose poses agree with T_map_run
+  std::size_t tried = 0;    ///< scans searched in the map
+  Rejection rejection;      ///< reason if no pose was found
 };
 
 /** \brief Knobs of placeRun(). */
 struct RunPlaceOptions {
-  std::size_t tries =
-      8; ///< so many scans of the run, evenly, are looked for at most; > 0
-  std::size_t enough =
-      2; ///< agreeing scans with one sure place: no more are looked for; > 0
-  double max_ambiguity = 0.6;   ///< as of MapPlaceOptions
-  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
-  ProgressCallback progress =
-      {}; ///< told of "placing the run"; may throw, which ends it
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  std::size_t tries = 8;          ///< largest number of scans of the run,
+                                  ///< evenly spaced, to search for; > 0
+  std::size_t enough = 2;         ///< agreeing scans with a unique
+                                  ///< pose that end the search; > 0
+  double max_ambiguity = 0.6;     ///< as of MapPlaceOptions
+  unsigned int num_threads = 0;   ///< 0: a thread per core; never changes the result
+  ProgressCallback progress = {}; ///< "placing the run"; may throw to stop the search
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief Finds where a run lies in the map of another one, in one piece, by some of its scans:
- * each whose best place in the map (placeInMap()) is clear says where the run lies. Scans that
- * were taken in different places and say the same are hardly deceived, as by equal rooms: the
- * run is where most of them say, within six voxels and 3 deg, and nowhere if as many say
- * otherwise. Where something speaks against their places, as things do that have changed, one
- * more has to agree. A quick way for runs that are to be compared; joinScans() asks all scans.
- * \param[in] run, map with the same voxel, at least one of each; poses in their own worlds
- * \throws BadArgument an option breaks its rule, a run is empty, or a pose is not a rigid
- * motion \ingroup global_registration */
+/** \brief Finds the pose of a run, as one rigid piece, in the map of another run, from a few of
+ * its scans. Each scan whose best pose in the map (placeInMap()) is clear votes for a pose of
+ * the run. Scans from different positions that agree are hardly misled by equal rooms. The
+ * pose with most votes wins, within six voxels and 3 deg; a tie gives no pose. Where a
+ * contradiction remains, as with changed objects, one more vote is needed. A quick method for
+ * runs that are to be compared; joinScans() uses every scan.
+ * \param[in] run, map with the same voxel, at least one scan each; poses in their own worlds
+ * \throws BadArgument an invalid option, a run is empty, or a pose is not a rigid motion
+ * \ingroup global_registration */
 RunPlace
 placeRun(const std::vector<KnownScan>& run,
          const std::vector<KnownScan>& map,

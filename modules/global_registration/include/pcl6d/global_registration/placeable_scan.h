@@ -9,9 +9,9 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A scan made ready to be placed on others, or others on it: which way is up in it,
- * and few enough of its points, evenly, for many places to be tried. Made once, used for all
- * of its pairs. \ingroup global_registration */
+/** \brief A scan prepared for place recognition: its vertical, and evenly spaced samples small
+ * enough to test many poses. Built once, used for each of its pairs.
+ * \ingroup global_registration */
 class PlaceableScan {
 public:
   /** Points with their normals, a part of the scan's. */
@@ -20,14 +20,14 @@ public:
     Normals normals;
   };
 
-  /** A ball in which all that is judged lies. */
+  /** Bounding sphere of the test points. */
   struct Ball {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [m] in the scan's frame
     double radius = 0;                                ///< [m]
   };
 
   /** \param[in] scan kept by reference; its surfaces have normals
-   * \param[in] expected_up unit vector in the scan's frame: the sensor's own
+   * \param[in] expected_up unit vector in the scan's frame: the sensor's own up
    * \throws BadArgument expected_up is no unit vector */
   explicit PlaceableScan(const VerifiedScan& scan,
                          const Eigen::Vector3d& expected_up = Eigen::Vector3d::UnitZ());
@@ -48,18 +48,18 @@ public:
   {
     return cell_;
   }
-  /** \return what places are judged by */
+  /** \return the points that test a pose */
   const Sample&
-  judged() const
+  evaluated() const
   {
-    return judged_;
+    return evaluated_;
   }
   const Ball&
   ball() const
   {
     return ball_;
   }
-  /** \return what is matched */
+  /** \return the points for matching */
   const Sample&
   matched() const
   {
@@ -70,7 +70,7 @@ private:
   const VerifiedScan* scan_;
   VerticalEstimate vertical_;
   double cell_;
-  Sample judged_, matched_;
+  Sample evaluated_, matched_;
   Ball ball_;
 };
 

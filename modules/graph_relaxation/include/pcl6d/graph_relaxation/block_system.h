@@ -12,15 +12,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A sparse symmetric positive definite system A x = b of dense blocks, such as
- * the normal equations of a graph of poses: one diagonal block per pose, one
- * off-diagonal block per pair of linked poses.
+/** \brief A sparse symmetric positive definite system A x = b of dense blocks, such as the
+ * normal equations of a pose graph: one diagonal block per pose, one off-diagonal block per
+ * pair of linked poses.
  *
- * The order of elimination and the structure of the factor are found once; then the
- * numbers may change and be factorised again and again. The same bits for any number of
- * threads. Multifrontal: the structure is cut into dense fronts, which are worked on by
- * vector kernels, independent ones at the same time. \tparam Size of a block: 1, 3, 6
- * or 7 \ingroup graph_relaxation */
+ * The elimination order and the structure of the factor are computed once; then new values may
+ * be factorised repeatedly. Bit-identical for any number of threads. Multifrontal: the
+ * structure is cut into dense fronts for vector kernels; independent fronts run in parallel.
+ * \tparam Size of a block: 1, 3, 6 or 7
+ * \ingroup graph_relaxation */
 template <int Size>
 class BlockSystem {
 public:
@@ -29,18 +29,18 @@ public:
   using Couplings = std::vector<std::pair<std::size_t, std::size_t>>;
 
   /** \param[in] couplings (a, b) with a != b, each pair of blocks once in either order
-   * \throws BadArgument a block that does not exist, a == b, or a pair given twice */
+   * \throws BadArgument an index out of range, a == b, or a pair given twice */
   BlockSystem(std::size_t num_blocks, const Couplings& couplings);
   ~BlockSystem();
   BlockSystem(BlockSystem&&) noexcept;
   BlockSystem&
   operator=(BlockSystem&&) noexcept;
 
-  /** \brief All numbers zero; the structure stays. */
+  /** \brief Sets every value to zero; the structure stays. */
   void
   setZero();
 
-  /** \return the i-th diagonal block, of which only the lower triangle counts */
+  /** \return the i-th diagonal block; only the lower triangle counts */
   Block&
   diagonal(std::size_t i);
 
@@ -49,19 +49,20 @@ public:
   coupling(std::size_t k);
 
   /** \param[in] damping is added to the diagonal, times the diagonal (Marquardt)
-   * \param[in] num_threads 0: one per core
-   * \return false: not positive definite, or a value is not finite. What a pivot loses
-   * to rounding can hide a singular matrix: fix one pose of every component */
+   * \param[in] num_threads 0: a thread per core
+   * \return false: not positive definite, or a value is not finite. Rounding of a pivot can
+   * hide a singular matrix: fix one pose of every component */
   bool
   factorize(double damping = 0, unsigned int num_threads = 0);
 
-  /** \return x of A x = b for the last factor \throws ComputeFailed there is none
+  /** \return x of A x = b for the last factor
+   * \throws ComputeFailed no factor is available
    * \throws BadArgument b has not one entry per block */
   std::vector<Vector>
   solve(const std::vector<Vector>& b) const;
 
   /** \return the diagonal blocks of the inverse, by selected inversion
-   * \throws ComputeFailed there is no factor */
+   * \throws ComputeFailed no factor is available */
   std::vector<Block>
   inverseDiagonals() const;
 

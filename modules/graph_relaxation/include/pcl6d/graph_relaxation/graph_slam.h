@@ -15,18 +15,18 @@ namespace PCL6D_EXPORTS pcl6d {
 
 class WorkSharing;
 
-/** \brief How much the links count against each other. */
+/** \brief Relative weights of the links. */
 enum class LinkWeights {
-  kUnit,      ///< all links alike, however many pairs they have
-  kPairs,     ///< all pairs alike: the plain sum of squares is minimised
-  kCovariance ///< by the covariance of each link: s^2 (M^T M)^-1 of its pairs, s^2 their
-              ///< variance (Lu and Milios; book 5.2.2)
+  kUnit,      ///< equal weights per link, whatever the number of pairs
+  kPairs,     ///< equal weights per pair: minimises the plain sum of squares
+  kCovariance ///< by the covariance of each link: s^2 (M^T M)^-1 of its
+              ///< pairs, s^2 their variance (Lu and Milios; book 5.2.2)
 };
 
 /** \return unit, pairs, covariance */
 std::vector<std::string>
 linkWeightsNames();
-/** \throws BadArgument no such name; the message lists all */
+/** \throws BadArgument an unknown name; the message lists the valid names */
 LinkWeights
 linkWeightsFromName(const std::string& name);
 const char*
@@ -37,89 +37,88 @@ struct GraphSlamOptions {
   Relaxation relaxation = Relaxation::kHelix;
   LinkWeights weights = LinkWeights::kCovariance;
   RobustKernel robust = RobustKernel::kNone; ///< of the pairs within their link
-  /** Links that contradict the others lose their weight (Geman-McClure, with graduated
-   * non-convexity), so that a false one does not bend the map, however many pairs it has:
-   * until it is known which are false, all links count the same. Needs a graph in which
-   * the true links confirm each other: in a single cycle no link is falser than
-   * another. */
+  /** Links that contradict the rest lose their weight (Geman-McClure, with graduated
+   * non-convexity), so that a wrong link does not bend the map, whatever its number of pairs.
+   * Until wrong links are identified, every link has equal weight. Needs a graph in which the
+   * true links confirm each other: a single cycle cannot identify a wrong link. */
   bool switch_links = false;
-  double switch_scale =
-      0; ///< [m] a link that asks for so much more motion of its points
-         ///< counts a quarter, and one up to 0.67 of it fully; 0: from
-         ///< the links themselves, three times their robust standard
-         ///< deviation; >= 0
+  double switch_scale = 0;           ///< [m] a link whose pairs ask for this much more
+                                     ///< motion of its points counts a quarter, up to
+                                     ///< 0.67 of it fully; 0: from the links, three
+                                     ///< times their robust standard deviation; >= 0
   std::size_t min_pairs = 20;        ///< links with fewer are dropped; >= 3
-  double least_deviation = 1e-3;     ///< [m] guard of s of a link, and of switch_scale:
-                                     ///< links that agree better are all true; > 0
+  double least_deviation = 1e-3;     ///< [m] lower bound of s of a link,
+                                     ///< and of switch_scale: links with
+                                     ///< smaller residuals are true; > 0
   int max_iterations = 50;           ///< > 0
   double translation_epsilon = 1e-3; ///< [m] stop when no pose moved more ...
   double rotation_epsilon = 1e-4;    ///< [rad] ... nor turned more; >= 0
   double error_epsilon = 1e-6;  ///< stop, too, when the mean squared error of the pairs
                                 ///< changes by a smaller share; >= 0, 0: off
-  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
-  /** of the work between processes, null: none; each then has the pairs of the links whose
-   * later scan it owns, as ScanNetwork finds them */
+  unsigned int num_threads = 0; ///< 0: a thread per core; never changes the result
+  /** shares the work between processes; null: one process. Each process has the pairs of the
+   * links whose later scan is its own, as ScanNetwork finds them */
   WorkSharing* sharing = nullptr;
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief What became of a link of pairs. */
+/** \brief Result of a link of pairs. */
 struct LinkReport {
   std::size_t from = 0;
   std::size_t to = 0;
-  std::size_t pairs = 0;    ///< that are finite and have a weight
+  std::size_t pairs = 0;    ///< finite pairs with a weight
   bool used = false;        ///< false: fewer than min_pairs
   double rms = 0;           ///< [m] of the pairs at the final poses
   double switch_weight = 1; ///< in [0, 1]; near 0: contradicts the other links
-  int open_directions =
-      0;               ///< motions that its pairs leave open (a corridor 1, one plane
-                       ///< with norms 3, a line 1): no information in these
-  double variance = 0; ///< s^2 of the pairs [m^2], with the guard
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [m] of its points, in the world
-  Twist correction = Twist::Zero(); ///< X_a - X_b that the pairs ask for, about centre
+  int open_directions = 0;  ///< motions left open by its pairs, without information
+                            ///< (a corridor 1, one plane with norms 3, a line 1)
+  double variance = 0;      ///< s^2 of the pairs [m^2], with the guard
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [m] mean of its
+                                                    ///< points, in the world
+  Twist correction = Twist::Zero(); ///< X_a - X_b demanded by the pairs, about centre
   /** inverse covariance of correction, MM / s^2; zero in open directions */
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-/** \return the link as a measured relative pose, for a pose graph \param[in] poses those
- * of the result */
+/** \return the link as a measured relative pose, for a pose graph
+ * \param[in] poses of the result */
 PoseLink
 poseLinkOf(const LinkReport& link, const std::vector<Eigen::Isometry3d>& poses);
 
-/** \brief What GraphSlam came to. */
+/** \brief Result of GraphSlam. */
 struct GraphSlamResult {
-  /** The first that applies: kDiverged: the error grew tenfold or is not finite, poses as
-   * given; kTooFewPairs: no link is left, poses as given; kMaxIterations: the stop rule
-   * was not met; kRankDeficient: it was, but the graph falls apart or open directions are
-   * left, these stayed as they were; kOk. The same order as in PoseGraphResult. */
+  /** The first that applies. kDiverged: the error grew tenfold or is not finite, input poses.
+   * kTooFewPairs: no link is left, input poses. kMaxIterations: the stop rule was not met.
+   * kRankDeficient: converged, but the graph is disconnected or open directions remain, which
+   * were not changed. kOk. The order of PoseGraphResult. */
   Status status = Status::kTooFewPairs;
   std::vector<Eigen::Isometry3d> poses; ///< T_world_scan
   int iterations = 0;                   ///< rounds
   bool converged = false;               ///< the stop rule was met, whatever the status
-  double rms_before = 0;                ///< [m] of all pairs of the first round
-  /** [m] of all pairs at the end; with switch_links, links by how well they agree with the
-   * others: a quarter at the scale, 1 where they want nothing */
+  double rms_before = 0;                ///< [m] over the pairs of the first round
+  /** [m] over the final pairs; with switch_links, links weighted by their agreement with the
+   * rest: a quarter at the scale, 1 for a zero residual */
   double rms = 0;
-  /** per pose; a group of linked poses has one number, that of its first pose, which
-   * stays fixed; poses of another group than pose 0 float */
+  /** per pose: number of its component, the index of the first pose in the component. The first
+   * pose stays fixed; components without pose 0 float */
   std::vector<std::size_t> component;
   std::vector<LinkReport> links;    ///< of the last round, in the order given
-  std::vector<bool> open_direction; ///< per pose: some motion of it relative to pose 0
-                                    ///< is not determined
-  /** per pose: covariance of the twist about its position in the axes of the world,
-   * translation [m], then rotation [rad]; zero for pose 0, which is fixed, and for all
-   * that floating() names: there it is not known, and open_direction says so. See
-   * eulerCovariance(). Pairs count as independent, which closest points are not: optimistic. */
+  std::vector<bool> open_direction; ///< per pose: some motion relative
+                                    ///< to pose 0 is not determined
+  /** per pose: covariance of the twist about its position in the world axes, translation [m],
+   * then rotation [rad]; zero for pose 0, which is fixed, and for the poses of floating():
+   * unknown there, as open_direction tells. See eulerCovariance(). Optimistic: pairs count as
+   * independent, but closest points are not. */
   std::vector<Eigen::Matrix<double, 6, 6>> covariances;
 
-  /** \return the poses that no chain of links joins to pose 0 */
+  /** \return the poses disconnected from pose 0 */
   std::vector<std::size_t>
   floating() const;
 };
 
-/** \brief A round of GraphSlam, told to its observer. */
+/** \brief A round of GraphSlam, reported to the observer. */
 struct GraphSlamRound {
   int iteration = 0; ///< from 1
   double rms = 0;    ///< [m] before the round
@@ -127,22 +126,23 @@ struct GraphSlamRound {
   double turned = 0; ///< [rad] largest turn of a pose
 };
 
-/** \brief Moves all scans at once so that the points matched between them meet (book 5.2,
- * 5.3): globally consistent scan matching after Lu and Milios in six degrees of freedom.
+/** \brief Moves every scan at once so that matched points meet (book 5.2, 5.3): globally
+ * consistent scan matching after Lu and Milios in six degrees of freedom.
  *
- * A round sums up each link's pairs at the current poses, solves one sparse linear system
- * for small motions of all scans but the first, and moves them. \code
+ * A round sums up each link's pairs at the current poses, solves one sparse linear system for
+ * small motions of every scan except the first, and applies the motions.
+ * \code
  * GraphSlam slam;
  * const auto result = slam.relax(poses, [&](const auto& current) {
  *   return pairsOfAllLinks(scans, current); // searched anew each round
  * });
  * \endcode
- * Links between the same two scans, in either direction, add up. \note Source: F. Lu, E.
- * Milios, "Globally consistent range scan alignment for environment mapping", Autonomous
- * Robots 4, 1997; D. Borrmann, J. Elseberg, K. Lingemann, A. Nuechter, J. Hertzberg, RAS
- * 56, 2008. Switching: H. Yang, P. Antonante, V. Tzoumas, L. Carlone, "Graduated
- * non-convexity for robust spatial perception", RA-L 5(2), 2020. \ingroup
- * graph_relaxation */
+ * Links between two scans, in either direction, add up.
+ * \note Source: F. Lu, E. Milios, "Globally consistent range scan alignment for environment
+ * mapping", Autonomous Robots 4, 1997; D. Borrmann, J. Elseberg, K. Lingemann, A. Nuechter, J.
+ * Hertzberg, RAS 56, 2008. Switching: H. Yang, P. Antonante, V. Tzoumas, L. Carlone, "Graduated
+ * non-convexity for robust spatial perception", RA-L 5(2), 2020.
+ * \ingroup graph_relaxation */
 class GraphSlam {
 public:
   using Poses = std::vector<Eigen::Isometry3d>;
@@ -150,12 +150,12 @@ public:
   using PairSearch = std::function<std::vector<LinkPairs>(const Poses&)>;
   using Observer = std::function<bool(const GraphSlamRound&)>;
 
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an invalid option */
   explicit GraphSlam(const GraphSlamOptions& options = {});
 
-  /** \brief Relative poses measured otherwise, such as by odometry, which count beside the
-   * pairs (6.3). Without LinkWeights::kCovariance they are weighed against the common
-   * variance of all pairs. */
+  /** \brief Sets relative poses from other measurements, such as odometry, used besides the
+   * pairs (6.3). Without LinkWeights::kCovariance they are weighted against the common
+   * variance of the pairs. */
   void
   setMeasuredLinks(const std::vector<PoseLink>& links)
   {
@@ -169,10 +169,10 @@ public:
     observer_ = observer;
   }
 
-  /** \brief Relaxes with fixed pairs. \param[in] poses T_world_scan, the start
-   * \throws BadArgument a pose is not rigid; a link of a scan to itself or to a scan that
-   * does not exist; vectors of a link that differ in size; information with a fault, see
-   * informationFault() */
+  /** \brief Relaxes with fixed pairs.
+   * \param[in] poses T_world_scan, the start
+   * \throws BadArgument a pose is not rigid; a link of a scan to itself or to an index out of
+   * range; vectors of a link that differ in size; invalid information, see informationFault() */
   GraphSlamResult
   relax(const Poses& poses, const std::vector<LinkPairs>& links) const;
 

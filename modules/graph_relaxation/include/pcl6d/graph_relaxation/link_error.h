@@ -4,9 +4,8 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/pose_graph.h>
 
-/** \file
- * How far two poses are from what was measured between them. A pose is changed from the
- * right, T <- T [R(dr), dt]: small motions (dt [m], dr [rad]) are in its own axes. */
+/** \file Residual of a link between two poses. A pose is changed from the right, T <- T [R(dr),
+ * dt]: small motions (dt [m], dr [rad]) are in its own axes. */
 namespace PCL6D_EXPORTS pcl6d {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -33,8 +32,8 @@ linearizeLink(const PoseLink& link,
               const Eigen::Isometry3d& T_a,
               const Eigen::Isometry3d& T_b);
 
-/** \return e^T information e, summed over all links \throws BadArgument see
- * checkPoseGraph() */
+/** \return e^T information e, summed over the links
+ * \throws BadArgument see checkPoseGraph() */
 double
 chi2Of(const PoseGraph& graph);
 
@@ -43,9 +42,9 @@ chi2Of(const PoseGraph& graph);
 Matrix6
 adjointOf(const Eigen::Isometry3d& X);
 
-/** \throws BadArgument not one id per pose, if there are ids; a link to a pose that does not exist or from a pose to itself; a
- * value that is not finite; a pose that is not rigid; information that is not symmetric
- * or not positive semidefinite, see informationFault() */
+/** \throws BadArgument the numbers of ids and poses differ, if ids are given; a link to an
+ * index out of range or from a pose to itself; a non-finite value; a pose that is not rigid;
+ * information that is not symmetric or not positive semidefinite, see informationFault() */
 void
 checkPoseGraph(const PoseGraph& graph);
 

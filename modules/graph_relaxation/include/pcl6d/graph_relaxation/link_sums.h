@@ -12,35 +12,36 @@ namespace PCL6D_EXPORTS pcl6d {
 
 class WorkSharing;
 
-/** \brief Matched points of two scans: what GraphSLAM knows of a link.
+/** \brief Matched points of two scans: the pairs of a link in GraphSLAM.
  * \ingroup graph_relaxation */
 struct LinkPairs {
   std::size_t from = 0; ///< scan a
   std::size_t to = 0;   ///< scan b
   Points points_from;   ///< u [m], each in the frame of scan a
-  Points points_to;     ///< v [m], its partner in the frame of scan b
-  /** empty, or a symmetric N per pair in the axes of the world, so that a pair costs
-   * Z . N Z; its largest eigenvalue near 1, as planeToPlane() makes it. Counts as turning
-   * with the mean of its two scans, so that no torque acts on the map as a whole. */
+  Points points_to;     ///< v [m], partners of u, in the frame of scan b
+  /** empty, or a symmetric N per pair in the world axes: the pair costs Z . N Z. The largest
+   * eigenvalue is near 1, as in planeToPlane(). N is assumed to turn with the mean of both
+   * scans, so that no torque acts on the map as a whole. */
   std::vector<Eigen::Matrix3d> norms;
   /** empty, or a weight per pair; pairs of weight 0 do not count */
   std::vector<double> weights;
-  bool trusted = false; ///< never switched off, such as between successive scans
+  bool trusted = false; ///< never switched off, as links between successive scans
 };
 
-/** \brief The sums over the pairs of a link at the current poses (book 5.2.2, 5.3.1,
- * 5.3.3), about the mean of its points, so that maps far from the origin lose no digits.
+/** \brief The sums over the pairs of a link at the current poses (book 5.2.2, 5.3.1, 5.3.3),
+ * about the mean of its points to keep precision in maps far from the origin.
  *
- * Pair k: pa = T_a u, pb = T_b v, both in the world; c = (pa + pb) / 2, Z = pa - pb; w:
- * the pair's weight (of a pair with a norm N: times the size of N, tr N^2 / tr N). The
- * unknown is a small motion v(p) = xb + s (p - centre) + x x (p - centre) with a change
- * of scale s: M = [I | c' | -[c']x]. Rows and columns are in the order xb, s, x; without
- * row and column 3 they are the 6 of the rigid motion. \ingroup graph_relaxation */
+ * Pair k: pa = T_a u, pb = T_b v, both in the world; c = (pa + pb) / 2, Z = pa - pb; w: the
+ * pair's weight (of a pair with a norm N: times the size of N, tr N^2 / tr N). The unknown is a
+ * small motion v(p) = xb + s (p - centre) + x x (p - centre) with a change of scale s: M = [I |
+ * c' | -[c']x]. Rows and columns are in the order xb, s, x; without row and column 3, the 6 of
+ * the rigid motion remain.
+ * \ingroup graph_relaxation */
 struct LinkSums {
   using Matrix = Eigen::Matrix<double, 7, 7>;
   using Vector = Eigen::Matrix<double, 7, 1>;
 
-  std::size_t count = 0; ///< pairs that are finite and have a weight
+  std::size_t count = 0; ///< finite pairs with a weight
   double weight = 0;     ///< sum w
   /** how many scalar equations the pairs are worth, (sum tr W)^2 / sum tr W^2 with W = w
    * I or w N: 3 m for m pairs of equal weight, m for planes */
@@ -59,10 +60,10 @@ struct LinkSums {
   rms() const;
 };
 
-/** \brief Sums of one link. Takes them in blocks of fixed size and merges these in a
- * fixed order; pairs with a coordinate that is not finite are skipped.
- * \param[in] T_world_from, T_world_to poses of the two scans \param[in] kernel weighs
- * each pair by its residual over the scale (MAD) of the link's residuals
+/** \brief Sums of one link, over blocks of fixed size merged in a fixed order; pairs with a
+ * non-finite coordinate are skipped.
+ * \param[in] T_world_from, T_world_to poses of the two scans
+ * \param[in] kernel weighs each pair by its residual over the scale (MAD) of the link's residuals
  * \throws BadArgument the sizes of the vectors differ */
 LinkSums
 sumLink(const LinkPairs& pairs,
@@ -70,11 +71,12 @@ sumLink(const LinkPairs& pairs,
         const Eigen::Isometry3d& T_world_to,
         RobustKernel kernel = RobustKernel::kNone);
 
-/** \brief Sums of many links at once; link and block are summed by whichever thread is
- * free, with the bits of sumLink(). \param[in] poses T_world_scan of all scans
- * \param[in] num_threads 0: one per core
- * \param[in] sharing null: this process has the pairs of all links; else of those whose
- * later scan it owns, and the sums travel */
+/** \brief Sums of many links at once, with the bits of sumLink(); free threads take links and
+ * blocks.
+ * \param[in] poses T_world_scan of every scan
+ * \param[in] num_threads 0: a thread per core
+ * \param[in] sharing null: this process has the pairs of each link; else of the links whose
+ * later scan is its own, and the sums are exchanged */
 std::vector<LinkSums>
 sumLinks(const std::vector<LinkPairs>& links,
          const std::vector<Eigen::Isometry3d>& poses,

@@ -10,18 +10,18 @@ namespace PCL6D_EXPORTS pcl6d {
 
 class WorkSharing;
 
-/** \brief How well the scans of a map agree: a word on poses without knowing the truth
+/** \brief How well the scans of a map agree: a quality measure of poses without ground truth
  * (share/doc/run_folder.md). */
 struct MapAgreement {
-  double total = 0;          ///< over all pairs of scans, both ways; in [-1, 1]
-  std::vector<double> scans; ///< of each scan, over its pairs; 0 for one without pairs
+  double total = 0;          ///< over every pair of scans, both ways; in [-1, 1]
+  std::vector<double> scans; ///< of each scan, over its pairs; 0 without pairs
 };
 
-/** \return the pairs of scans that see each other at some poses: at least 5 % of the
- * points of one have a point of the other within 2 voxels
+/** \return the pairs of scans with common surfaces at some poses: at least 5 % of the points of
+ * one scan have a point of the other within 2 voxels
  * \param[in] voxel [m] of the reduction
- * \param[in] num_threads 0: one per core; never changes the result
- * \param[in] sharing of the work between processes; null: this one does all
+ * \param[in] num_threads 0: a thread per core; never changes the result
+ * \param[in] sharing shares the work between processes; null: one process
  * \throws BadArgument not one pose per scan */
 std::vector<ScanPair>
 visiblePairs(const std::vector<NetworkScan>& scans,
@@ -30,15 +30,14 @@ visiblePairs(const std::vector<NetworkScan>& scans,
              unsigned int num_threads = 0,
              WorkSharing* sharing = nullptr);
 
-/** \return the distance [m] within which a point lies on a surface that was reduced to
- * this voxel [m]: voxel / 2.5 */
+/** \return [m] largest distance of a point from a surface reduced to the voxel [m], to count as
+ * on the surface: voxel / 2.5 */
 double
 agreementDistance(double voxel);
 
-/** \return how well scans agree at some poses, over given pairs of them: the share of
- * points of each within agreementDistance() of the other, less those that lie where it
- * looked through
- * \throws BadArgument not one pose per scan, or a pair is not of them */
+/** \return the agreement of scans at some poses, over given pairs: the share of points of each
+ * scan within agreementDistance() of the other, less the share of free-space violations
+ * \throws BadArgument not one pose per scan, or an index of a pair out of range */
 MapAgreement
 agreementOver(const std::vector<ScanPair>& pairs,
               const std::vector<NetworkScan>& scans,

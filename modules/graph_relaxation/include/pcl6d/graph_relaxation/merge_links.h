@@ -6,26 +6,26 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Puts several links between the same two poses, in either direction, into one:
- * the motion that fits them best, weighted by their information, with their information
- * added up. The merged link has the direction and place of the first. A graph keeps its
- * optimum up to second order in the contradictions between the links.
+/** \brief Merges parallel links, in either direction, between two poses: the merged link is the
+ * weighted mean motion with the sum of the information. It has the direction and index of the
+ * first. The optimum of the graph is kept up to second order in the contradictions between the
+ * links.
  * \throws BadArgument see checkPoseGraph() (link_error.h); a link from a pose to itself
- * among them \ingroup graph_relaxation */
+ * \ingroup graph_relaxation */
 std::vector<PoseLink>
 mergeLinks(const PoseGraph& graph);
 
-/** \brief Merged links, and where the given ones went. */
+/** \brief Merged links, and the index map from the given links. */
 struct MergedLinks {
   std::vector<PoseLink> links;
-  std::vector<std::size_t> place; ///< of each given link: the one that stands for it
+  std::vector<std::size_t> place; ///< of each given link: index of its merged link
 };
 
-/** \brief mergeLinks(), with the place of each given link. */
+/** \brief mergeLinks() with the index of the merged link for each given link. */
 MergedLinks
 mergeLinksWithPlaces(const PoseGraph& graph);
 
-/** \return the same measurement, of the pose `from` seen from the pose `to` */
+/** \return the inverse measurement, of the pose `from` seen from the pose `to` */
 PoseLink
 reversed(const PoseLink& link);
 

@@ -16,8 +16,8 @@ namespace PCL6D_EXPORTS pcl6d {
 
 class WorkSharing;
 
-/** \brief A scan as a member of a network: what finds its points, how far it reaches,
- * and its rays. \ingroup graph_relaxation */
+/** \brief A scan as a member of a network: its point search, its extent, and its rays.
+ * \ingroup graph_relaxation */
 class NetworkScan {
 public:
   /** \param[in] model is kept by reference */
@@ -58,11 +58,11 @@ private:
 using ScanPair = std::pair<std::size_t, std::size_t>;
 using Poses = std::vector<Eigen::Isometry3d>; ///< T_world_scan, one per scan
 
-/** \brief What the points of one scan say of another. */
+/** \brief Counts of points of one scan tested by another. */
 struct PointVotes {
-  std::size_t points = 0; ///< that were looked at
-  std::size_t near = 0;   ///< that have a point of the other scan within a distance
-  std::size_t empty = 0;  ///< that lie where the other scan looked through
+  std::size_t points = 0; ///< tested points
+  std::size_t near = 0;   ///< points with a point of the other scan within a distance
+  std::size_t empty = 0;  ///< violations: points in the free space of the other scan
 
   PointVotes&
   operator+=(const PointVotes& other);
@@ -73,7 +73,7 @@ struct PointVotes {
 };
 
 /** \param[in] distance [m] within which a point is near
- * \param[in] stride looks at each stride-th point of `scan`; >= 1 */
+ * \param[in] stride tests each stride-th point of `scan`; >= 1 */
 PointVotes
 votesOf(const NetworkScan& scan,
         const NetworkScan& other,
@@ -81,21 +81,21 @@ votesOf(const NetworkScan& scan,
         double distance,
         std::size_t stride = 1);
 
-/** \return the share of the points of one scan that have a partner in the other within a
- * distance [m], the larger of both ways, in [0, 1]; of samples of the points */
+/** \return the overlap: share of the points of one scan with a partner in the other within a
+ * distance [m], the larger of both ways, in [0, 1]; from samples of the points */
 double
 overlapOf(const NetworkScan& a,
           const NetworkScan& b,
           const Eigen::Isometry3d& T_a_b,
           double distance);
 
-/** \return all pairs of scans that see common places: overlapOf() at the poses is at
- * least what a pair needs. Candidates come from bounding spheres; of those before it a scan
- * is compared with the 64 nearest, so that the pairs grow with the scans, not their square.
+/** \return the pairs of overlapping scans: overlapOf() at the poses reaches min_overlap.
+ * Candidates come from bounding spheres; a scan is compared with at most the 64 nearest
+ * earlier scans, so that the number of pairs grows linearly with the number of scans.
  * \param[in] distance [m] within which points are partners
  * \param[in] min_overlap of a pair; called from several threads
- * \param[in] num_threads 0: one per core; never changes the result
- * \param[in] sharing of the work between processes; null: this one does all */
+ * \param[in] num_threads 0: a thread per core; never changes the result
+ * \param[in] sharing shares the work between processes; null: one process */
 std::vector<ScanPair>
 overlappingPairs(const std::vector<NetworkScan>& scans,
                  const Poses& poses,

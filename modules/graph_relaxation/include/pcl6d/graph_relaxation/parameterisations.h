@@ -7,13 +7,12 @@
 #include <string>
 #include <vector>
 
-/** \file
- * The ways of GraphSLAM to describe small changes of all poses (book 5.2, 5.3).
+/** \file Parameterisations of small pose changes in GraphSLAM (book 5.2, 5.3).
  *
- * The unknown X of a pose is a motion v(p) = xb + x x (p - t) of its scan in the axes of
- * the world, about the pose's own position t, as Z ~ Z - M (X_a - X_b): the scans move by
- * -X. Helix, Euler and quaternion solve the same system for X and differ only in the
- * finite motion that they make of it: they share one optimum. */
+ * The unknown X of a pose is a motion v(p) = xb + x x (p - t) of its scan in the world axes,
+ * about the pose's own position t, as Z ~ Z - M (X_a - X_b): the scans move by -X. Helix, Euler
+ * and quaternion solve one system for X and differ only in the finite motion from X: they share
+ * one optimum. */
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How GraphSLAM describes the change of a pose. \ingroup graph_relaxation */
@@ -22,20 +21,20 @@ enum class Relaxation {
   kEuler, ///< Lu and Milios with roll, pitch, yaw (5.2)
   /** quaternion with its change of scale held at zero (5.3.1) */
   kQuaternion,
-  /** As published: 7 unknowns per pose, then the quaternion is normalised. For comparison
-   * only: every scan may rescale, normalising drops that, and the result is off the
-   * optimum (3 cm at 5 cm noise, 5.3). \note Source: A. Nuechter, J. Elseberg, P.
-   * Schneider, D. Paulus, CVIU 114(8), 2010. */
+  /** As published: 7 unknowns per pose, then the quaternion is normalised. For comparison only:
+   * every scan may rescale, normalisation discards the scale, and the result is off the
+   * optimum (3 cm at 5 cm noise, 5.3).
+   * \note Source: A. Nuechter, J. Elseberg, P. Schneider, D. Paulus, CVIU 114(8), 2010. */
   kQuaternionPublished,
-  /** As published: all rotations from centred points, then all positions (5.3.3). For
-   * comparison only: on graphs with cycles off the optimum (6 cm at 5 cm noise, 5.3). */
+  /** As published: first the rotations from centred points, then the positions (5.3.3). For
+   * comparison only: off the optimum on graphs with cycles (6 cm at 5 cm noise, 5.3). */
   kSmallAngle
 };
 
 /** \return helix, euler, quaternion, quaternion-published, small-angle */
 std::vector<std::string>
 relaxationNames();
-/** \throws BadArgument no such name; the message lists all */
+/** \throws BadArgument an unknown name; the message lists the valid names */
 Relaxation
 relaxationFromName(const std::string& name);
 const char*
@@ -50,30 +49,30 @@ moveByHelix(const Eigen::Isometry3d& pose, const Twist& X);
 Eigen::Isometry3d
 moveByEuler(const Eigen::Isometry3d& pose, const Twist& X);
 
-/** \brief The pose with its quaternion changed by -(0, x) q / 2, then normalised. Book:
- * 5.3.1. */
+/** \brief The pose with its quaternion changed by -(0, x) q / 2, then normalised. Book: 5.3.1. */
 Eigen::Isometry3d
 moveByQuaternion(const Eigen::Isometry3d& pose, const Twist& X);
 
-/** \brief The same with a change of scale. \param[in] X in the order xb, scale, x */
+/** \brief moveByQuaternion() with a change of scale.
+ * \param[in] X in the order xb, scale, x */
 Eigen::Isometry3d
 moveByScaledQuaternion(const Eigen::Isometry3d& pose,
                        const Eigen::Matrix<double, 7, 1>& X);
 
-/** \brief Covariance of (x, y, z, roll, pitch, yaw) [m, rad] from that of X.
+/** \brief Covariance of (x, y, z, roll, pitch, yaw) [m, rad] from the covariance of X.
  * \return not finite at a pitch of a right angle, where roll and yaw are not defined */
 Eigen::Matrix<double, 6, 6>
 eulerCovariance(const Eigen::Isometry3d& pose,
                 const Eigen::Matrix<double, 6, 6>& covariance);
 
-/** \brief Covariance of X from that of (x, y, z, roll, pitch, yaw) [m, rad]: the inverse of
- * eulerCovariance(), defined at every pitch. */
+/** \brief Covariance of X from the covariance of (x, y, z, roll, pitch, yaw) [m, rad]: the
+ * inverse of eulerCovariance(), defined at every pitch. */
 Eigen::Matrix<double, 6, 6>
 twistCovariance(const Eigen::Isometry3d& pose,
                 const Eigen::Matrix<double, 6, 6>& covariance);
 
-/** \brief Covariance of the twist about another place, such as the world's origin, from
- * that of X. */
+/** \brief Covariance of the twist about another point, such as the world origin, from the
+ * covariance of X. */
 Eigen::Matrix<double, 6, 6>
 covarianceAbout(const Eigen::Vector3d& origin,
                 const Eigen::Isometry3d& pose,

@@ -13,14 +13,14 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief How steps are found. */
 enum class GraphMethod {
-  kGaussNewton,       ///< full steps; damped only while they fail
+  kGaussNewton,       ///< full steps; damped only after a failed step
   kLevenbergMarquardt ///< damped from the start
 };
 
 /** \return gauss-newton, levenberg-marquardt */
 std::vector<std::string>
 graphMethodNames();
-/** \throws BadArgument no such name; the message lists all */
+/** \throws BadArgument an unknown name; the message lists the valid names */
 GraphMethod
 graphMethodFromName(const std::string& name);
 const char*
@@ -29,15 +29,15 @@ toString(GraphMethod method);
 /** \brief Knobs of PoseGraphOptimizer. */
 struct PoseGraphOptions {
   GraphMethod method = GraphMethod::kGaussNewton;
-  /** How much a link counts by its error r = sqrt(e^T information e). */
+  /** The weight of a link by its error r = sqrt(e^T information e). */
   RobustKernel robust = RobustKernel::kNone;
-  /** The r at which a kernel sets in, > 0. A measurement that keeps its covariance is
-   * above 4.1 in 1 of 100 cases (chi2 distribution of 6 degrees of freedom). */
+  /** The r at which a kernel sets in, > 0. A measurement with a correct covariance exceeds 4.1
+   * in 1 of 100 cases (chi2 distribution of 6 degrees of freedom). */
   double robust_width = 4.1;
-  /** Graduated non-convexity with the kernel of Geman and McClure, whatever `robust`:
-   * starts so wide that every link counts and narrows to robust_width, which switches
-   * wrong links off. No proof of the best choice: where few links speak against a wrong
-   * one, right links of the chain may go instead, unless trust_chain is set. */
+  /** Graduated non-convexity with the kernel of Geman and McClure, whatever `robust`: starts so
+   * wide that every link counts, and narrows to robust_width, which switches wrong links off.
+   * Not proven optimal: where few links contradict a wrong link, right links of the chain may
+   * be switched off instead, unless trust_chain is set. */
   bool graduated = false;
   /** Links between neighbours (odometry) always count fully: poses with the ids i and
    * i + 1, whatever their order in the graph. */
@@ -45,15 +45,15 @@ struct PoseGraphOptions {
   int max_iterations = 100;   ///< tried steps of a component; > 0
   double chi2_epsilon = 1e-8; ///< stop when a step lowers the cost by no larger share;
                               ///< in [0, 1)
-  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  unsigned int num_threads = 0; ///< 0: a thread per core; never changes the result
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
 /** \brief A connected part of a graph. */
 struct GraphComponent {
-  std::size_t fixed_pose = 0; ///< its first pose, which keeps its place
+  std::size_t fixed_pose = 0; ///< its first pose, not moved
   std::size_t num_poses = 0;
   std::size_t num_links = 0; ///< that carry information
   double chi2_before = 0;
@@ -62,32 +62,31 @@ struct GraphComponent {
   Status status = Status::kOk;
 };
 
-/** \brief What came out. */
+/** \brief Result of PoseGraphOptimizer. */
 struct PoseGraphResult {
-  /** The worst of the components. Of each, the first that applies: kDiverged: not
-   * finite, and its poses are those of the input; kMaxIterations: the minimum was not
-   * reached, because of the limit or because no step lowers the cost although the
-   * derivatives promise it; kRankDeficient: it was, but the links leave some motion
-   * free, which stays as it was; kOk. The same order as in GraphSlamResult. */
+  /** The worst of the components. Of each, the first that applies. kDiverged: not finite; its
+   * poses are the input. kMaxIterations: the minimum was not reached, because of the limit or
+   * because no step lowers the cost although the derivatives predict a decrease.
+   * kRankDeficient: the minimum was reached, but the links leave some motion free, which is
+   * unchanged. kOk. The order of GraphSlamResult. */
   Status status = Status::kOk;
   std::vector<Eigen::Isometry3d> poses; ///< T_world_vertex [m]
-  double chi2_before = 0;               ///< e^T information e over all links
+  double chi2_before = 0;               ///< e^T information e over every link
   double chi2_after = 0;
   int iterations = 0;                     ///< the most of any component
   std::vector<std::size_t> component;     ///< of each pose
   std::vector<GraphComponent> components; ///< in the order of their first poses
-  std::vector<double> weights; ///< of each link: 1, or what the kernel leaves of it
+  std::vector<double> weights;            ///< of each link: 1, or reduced by the kernel
 };
 
-/** \brief The poses that fit the links of a graph best.
+/** \brief Optimises the poses of a pose graph.
  *
- * Minimises the sum over all links of rho(e^T information e) with e = (t, 2 vec(q)) of
- * T_from_to^-1 T_a^-1 T_b and a robust kernel rho. Each connected component is a
- * problem of its own, in which the first pose is fixed; links without any information
- * join nothing. Several links between the same poses, in either direction, are merged
- * before solving (mergeLinks()), so that a robust kernel sees one link; chi2 is that of
- * the links as given. Information is made positive semidefinite to the last digit
- * (semidefinite()). The same bits for any number of threads.
+ * Minimises the sum over the links of rho(e^T information e) with e = (t, 2 vec(q)) of
+ * T_from_to^-1 T_a^-1 T_b and a robust kernel rho. Each connected component is a separate
+ * problem with its first pose fixed; links without any information connect no poses. Parallel
+ * links between two poses, in either direction, are merged before solving (mergeLinks()), so
+ * that a robust kernel sees one link; chi2 is over the given links. Information is made positive
+ * semidefinite to the last digit (semidefinite()). Bit-identical for any number of threads.
  *
  * \code
  * pcl6d::PoseGraphOptimizer optimizer(pcl6d::readPoseGraph("garage.g2o"));
@@ -95,8 +94,8 @@ struct PoseGraphResult {
  * \endcode
  *
  * \note Sources: G. Grisetti, R. Kuemmerle, C. Stachniss, W. Burgard, "A tutorial on
- * graph-based SLAM", IEEE ITS Magazine 2(4), 2010; H. Yang, P. Antonante, V. Tzoumas,
- * L. Carlone, "Graduated non-convexity for robust spatial perception", RA-L 5(2), 2020.
+ * graph-based SLAM", IEEE ITS Magazine 2(4), 2010; H. Yang, P. Antonante, V. Tzoumas, L.
+ * Carlone, "Graduated non-convexity for robust spatial perception", RA-L 5(2), 2020.
  * \ingroup graph_relaxation */
 class PoseGraphOptimizer {
 public:
@@ -107,8 +106,7 @@ public:
   PoseGraphOptimizer&
   operator=(PoseGraphOptimizer&&) noexcept;
 
-  /** \brief Optimises from the poses of the last result, at first those of the graph.
-   */
+  /** \brief Optimises from the poses of the last result, at first from the graph. */
   const PoseGraphResult&
   optimize();
 
@@ -116,15 +114,15 @@ public:
   const PoseGraphResult&
   result() const;
 
-  /** \return the covariance of each pose relative to the fixed pose of its component,
-   * for small motions (translation [m], rotation [rad]) in its own axes; zero for fixed
-   * poses \throws ComputeFailed the links leave some motion free */
+  /** \return the covariance of each pose relative to the fixed pose of its component, for small
+   * motions (translation [m], rotation [rad]) in its own axes; zero for fixed poses
+   * \throws ComputeFailed the links leave a motion free */
   std::vector<Matrix6>
   marginalCovariances() const;
 
-  /** \return the covariance of the relative pose T_a^-1 T_b, for small motions in the
-   * axes of b \throws BadArgument no such pose, or a and b are not connected \throws
-   * ComputeFailed the links leave some motion free */
+  /** \return the covariance of the relative pose T_a^-1 T_b, for small motions in the axes of b
+   * \throws BadArgument an index out of range, or a and b are not connected
+   * \throws ComputeFailed the links leave a motion free */
   Matrix6
   relativeCovariance(std::size_t a, std::size_t b) const;
 

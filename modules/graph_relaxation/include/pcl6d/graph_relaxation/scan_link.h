@@ -11,13 +11,13 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Two scans that may see the same places, and what is known of it: every
- * candidate is kept, with its verdict and the reason. from and to are the places of its
- * scans. \ingroup graph_relaxation */
+/** \brief A candidate link between two scans: its measurements, its result and the reason.
+ * Rejected candidates are kept. from and to are the indices of its scans.
+ * \ingroup graph_relaxation */
 struct ScanLink : RunLink {
   /** of a loop: the pose of `to` seen from `from`, as matched */
   std::optional<Eigen::Isometry3d> T_from_to;
-  /** of T_from_to, x y z roll pitch yaw [m, rad]; none if the pairs do not fix it */
+  /** of T_from_to, x y z roll pitch yaw [m, rad]; empty if the pairs do not fix the pose */
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
 };
 
@@ -25,7 +25,7 @@ template <typename Archive>
 void
 packFields(Archive& archive, ScanLink& link)
 {
-  archive(link.from, link.to, link.kind, link.verdict, link.reason, link.distance);
+  archive(link.from, link.to, link.kind, link.verdict, link.rejection, link.distance);
   archive(link.pairs, link.rms, link.overlap, link.condition, link.weight);
   archive(link.T_from_to, link.covariance);
 }

@@ -2,32 +2,32 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/rejection.h>
 #include <pcl6d/graph_relaxation/network_scan.h>
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
 
 class WorkSharing;
 
-/** \brief How well something agrees before and after a change, over the same points, and how
- * much of the difference is chance. \ingroup graph_relaxation */
+/** \brief Agreement before and after a change, over one set of points, with the standard
+ * deviation of the difference by chance.
+ * \ingroup graph_relaxation */
 struct AgreementChange {
-  double before = 0; ///< in [-1, 1]
-  double after = 0;  ///< in [-1, 1]
-  double deviation =
-      0; ///< standard deviation of their difference by chance: points of one
-         ///< cube count as one, as they come to lie on a surface together
+  double before = 0;    ///< in [-1, 1]
+  double after = 0;     ///< in [-1, 1]
+  double deviation = 0; ///< standard deviation of the difference by chance; points of
+                        ///< one cube count as one, as they reach a surface together
 
-  /** \return whether it fell by more than chance does: by more than so many deviations */
+  /** \return whether the agreement fell by more than this multiple of its standard deviation */
   bool
   isLoss(double deviations = 3) const
   {
     return after < before - deviations * deviation;
   }
-  /** \return whether it rose by more than chance does */
+  /** \return whether the agreement rose by more than this multiple of its standard deviation */
   bool
   isGain(double deviations = 3) const
   {
@@ -35,46 +35,47 @@ struct AgreementChange {
   }
 };
 
-/** \return the edge [m] of the cubes whose points count as one: 16 voxels, a piece of a
- * surface \param[in] voxel [m] of the reduction */
+/** \return the edge [m] of the cubes whose points count as one observation: 16 voxels, a piece
+ * of a surface
+ * \param[in] voxel [m] of the reduction */
 double
 agreementCube(double voxel);
 
-/** \brief How a map agrees before and after a stage, over the same points of the same pairs of
- * scans.
+/** \brief Agreement of a map before and after a stage, over one set of points and pairs of scans.
  *
- * A point whose neighbour in the other scan, at most 2 voxels away, has a normal n and is d
- * away counts 1 / (1 + r^2 / s^2), r = |n . d|: 1 on the surface, 1/2 where it is off by the
- * robust standard deviation s of the better of both maps. One without a neighbour counts 0,
- * and -1 where the other scan looked through. So all that is compared has the scale of the
- * scans themselves, and a bent wall shows long before points miss each other. */
+ * A point with a neighbour in the other scan, at most 2 voxels away, counts 1 / (1 + r^2 /
+ * s^2). Here r = |n . d| with the normal n of the neighbour and its difference d, and s is the
+ * robust standard deviation of the better of both maps: 1 on the surface, 1/2 at a distance of
+ * s. A point without a neighbour counts 0, and -1 for a free-space violation. The scale
+ * therefore follows from the scans, and a bent wall shows long before points lose their
+ * partners. */
 struct StageAgreement {
   AgreementChange total;
-  std::vector<AgreementChange>
-      scans;             ///< of each scan's points; zero for one without pairs
-  std::size_t pairs = 0; ///< of scans that see each other before or after
-  double deviation = 0;  ///< s [m]; 0 if no point has a neighbour before and after
+  std::vector<AgreementChange> scans; ///< per scan, over its points; zero without pairs
+  std::size_t pairs = 0;              ///< pairs of scans that overlap before or after
+  double deviation = 0; ///< s [m]; 0 if no point has a neighbour before and after
 
-  /** \param[in] counted per scan: false leaves its own points out, such as those of one
-   * whose pose is not to be trusted anyway; empty: all count
-   * \return why the stage made the map worse, by more than chance does: the total fell by more
-   * than 3 standard deviations, or that of a scan by more than 5, as many are asked, and by a
-   * tenth (its index is named); empty: it did not */
-  std::string
+  /** \param[in] counted per scan: false excludes its points, for example of a scan with an
+   * unreliable pose; empty: every scan counts
+   * \return why the stage made the map worse, by more than chance: the total fell by more than
+   * 3 standard deviations, or the agreement of a scan by more than 5 (because many scans are
+   * tested) and by a tenth (its index is named); empty: not worse */
+  Rejection
   worse(const std::vector<bool>& counted = {}) const;
 };
 
-/** \brief Judges a stage by the poses before and after it.
+/** \brief Tests a stage by the poses before and after.
  * \param[in] voxel [m] of the reduction
- * \param[in] num_threads 0: one per core; never changes the result
- * \param[in] sharing of the work between processes; null: this one does all
- * \throws BadArgument not one pose per scan \ingroup graph_relaxation */
+ * \param[in] num_threads 0: a thread per core; never changes the result
+ * \param[in] sharing shares the work between processes; null: one process
+ * \throws BadArgument not one pose per scan
+ * \ingroup graph_relaxation */
 StageAgreement
-judgeStage(const std::vector<NetworkScan>& scans,
-           const Poses& before,
-           const Poses& after,
-           double voxel,
-           unsigned int num_threads = 0,
-           WorkSharing* sharing = nullptr);
+compareStage(const std::vector<NetworkScan>& scans,
+             const Poses& before,
+             const Poses& after,
+             double voxel,
+             unsigned int num_threads = 0,
+             WorkSharing* sharing = nullptr);
 
 } // namespace pcl6d

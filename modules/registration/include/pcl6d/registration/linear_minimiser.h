@@ -7,18 +7,18 @@
 /** \file
  * The linearised minimisers of sum w |m - (R d + t)|^2 (book 4.1.2, 4.1.3).
  *
- * All solve the same normal equations for a small motion (sum M^T M and sum M^T Z, which
- * about the centroid of the points follow from PairSums) and differ in the finite motion
- * that they make of it. stepBy...() is one such solution, starting from identity: the
- * step between two searches of an ICP. minimiseBy...() repeats it on the sums, pairs
- * fixed, until it rests; that costs nothing per pair and reaches the minimiser of the
- * closed forms, except where said. To get there from large angles and for mirrored
- * pairs, later steps use the exact second derivative (4.1.3.1) with the sizes of its
- * eigenvalues, and a step that turns away from the goal is halved.
+ * Each solves the normal equations for a small motion (sum M^T M and sum M^T Z, which about the
+ * centroid of the points follow from PairSums); the minimisers differ in the finite motion made
+ * from this solution. stepBy...() is one solution, starting from identity: the step between two
+ * searches of an ICP. minimiseBy...() repeats the step on the sums, pairs fixed, until
+ * convergence; the repetition costs no time per pair and reaches the minimiser of the closed
+ * forms, unless noted. For convergence from large angles and with mirrored pairs, later steps use
+ * the exact second derivative (4.1.3.1) with the sizes of its eigenvalues, and a step away from
+ * the goal is halved.
  *
- * \return kOk; kMaxIterations when 20 steps do not arrive or arrive at a half turn that
- * is not the minimum, as from pairs turned by just that; the cases of
- * degenerateEstimate(), which are the same as for the closed forms */
+ * \return kOk; kMaxIterations when 20 steps do not converge, or converge to a half turn that is not
+ * the minimum, from pairs turned by exactly half a turn; in degenerate cases the result of
+ * degenerateEstimate(), common to the closed forms */
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The matrix exponential of the twist, about the centroid. \note Source: M.
@@ -35,30 +35,28 @@ stepBySmallAngle(const PairSums& sums);
 RigidEstimate
 minimiseBySmallAngle(const PairSums& sums);
 
-/** \brief Lu and Milios with the pose's Euler angles, to which the solution is added by
- * the inverse of the book's H; within 1e-3 of a right angle of pitch, where H is
- * singular, the helical motion is taken. The pose's reference point is the centroid, so
- * that the result does not depend on the frame's origin. The first step, from angles
- * zero, is that of the small angles. \note Source: F. Lu, E. Milios 1997, in six
- * dimensions. Book: 4.1.3.3. */
+/** \brief Lu and Milios with the pose's Euler angles: the solution is added to the angles by the
+ * inverse of the book's H; within 1e-3 of a right angle of pitch, where H is singular, the helical
+ * motion is taken. The pose's reference point is the centroid, hence the result does not depend on
+ * the frame's origin. The first step, from angles zero, equals stepBySmallAngle(). \note Source:
+ * F. Lu, E. Milios 1997, in six dimensions. Book: 4.1.3.3. */
 RigidEstimate
 stepByEuler(const PairSums& sums);
 RigidEstimate
 minimiseByEuler(const PairSums& sums);
 
-/** \brief Lu and Milios with the pose's quaternion, its change of scale held at zero;
- * reference point as for the Euler angles. Book: 4.1.3.4, the constrained form. */
+/** \brief Lu and Milios with the pose's quaternion, its change of scale held at zero; reference
+ * point: see stepByEuler(). Book: 4.1.3.4, the constrained form. */
 RigidEstimate
 stepByQuaternionLinear(const PairSums& sums);
 RigidEstimate
 minimiseByQuaternionLinear(const PairSums& sums);
 
-/** \brief The same as published: seven parameters, then the quaternion is normalised.
- * For comparison only: the position takes up the scale that normalising drops. With
- * fixed pairs it comes to rest at R of the closed forms and t = c_m - s R c_d, which is
- * off by |s - 1| times the distance of the centroid from the source's origin; s: scale
- * of similarityByQuaternion(). \note Source: A. Nuechter, J. Elseberg, P. Schneider, D.
- * Paulus, CVIU 114(8), 2010. Book: 4.1.3.4. */
+/** \brief The unconstrained published form: seven parameters, then the quaternion is normalised.
+ * For comparison only: the position takes up the scale dropped by normalising. With fixed pairs it
+ * converges to R of the closed forms and t = c_m - s R c_d, off by |s - 1| times the distance of
+ * the centroid from the source's origin; s: scale of similarityByQuaternion(). \note Source: A.
+ * Nuechter, J. Elseberg, P. Schneider, D. Paulus, CVIU 114(8), 2010. Book: 4.1.3.4. */
 RigidEstimate
 stepByQuaternionUnconstrained(const PairSums& sums);
 RigidEstimate

@@ -9,7 +9,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A point-to-point minimiser by the name that the command line gives it. */
+/** \brief A point-to-point minimiser with its name on the command line. */
 struct NamedMinimiser {
   std::string name;
   RigidMinimiser step;     ///< between two searches of an ICP; closed forms: minimise
@@ -25,8 +25,8 @@ namedMinimisers();
 std::vector<std::string>
 minimiserNames();
 
-/** \return the step of the minimiser of that name, as icp() takes it
- * \throws BadArgument no such name; the message lists all */
+/** \return the step of the named minimiser, for icp()
+ * \throws BadArgument unknown name; the message lists the known names */
 RigidMinimiser
 minimiserFromName(const std::string& name);
 

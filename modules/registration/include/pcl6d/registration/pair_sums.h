@@ -8,12 +8,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief All that the closed-form minimisers need to know of matched points
- * (book 4.1.1): source (data) points d, target (model) points m, weights w, in one
+/** \brief Sums over matched points, the input of the closed-form minimisers (book
+ * 4.1.1): source (data) points d, target (model) points m, weights w, in one
  * right-handed frame.
  *
- * Sums of parts are merged pairwise (4.1.6), so that they can be formed in parallel
- * with the same bits for every number of threads. \ingroup registration */
+ * Sums of parts are merged pairwise (4.1.6): in parallel, bit-identical for any number
+ * of threads. \ingroup registration */
 struct PairSums {
   std::size_t count = 0;                                 ///< pairs
   double weight = 0;                                     ///< W = sum w
@@ -39,11 +39,11 @@ struct PairSums {
   errorSq(const Eigen::Isometry3d& T) const;
 };
 
-/** \brief Adds up pairs one by one. Sums are taken about the first pair, so that points
- * far from the origin lose no digits. */
+/** \brief Adds up pairs one by one. Sums are taken about the first pair: points far
+ * from the origin lose no digits. */
 class PairAccumulator {
 public:
-  /** What pairs must have to fix a motion, for error messages. */
+  /** Condition on pairs that fix a motion, for error messages. */
   static constexpr const char* kNeeds =
       "at least 3 that are not on one line are needed";
 

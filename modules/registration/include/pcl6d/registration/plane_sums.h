@@ -8,9 +8,9 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief All that a step of the metrics with normals needs to know of its pairs: the
- * normal equations A u = b of sum w |m - d - v(d)|^2_N for a small motion v, the twist u
- * about the centroid of the source points (book 4.1.2 with normals).
+/** \brief Sums over the pairs of the metrics with normals: the normal equations A u = b of
+ * sum w |m - d - v(d)|^2_N for a small motion v, the twist u about the centroid of the source
+ * points (book 4.1.2 with normals).
  *
  * d: source point, m: target point [m], w: weight, |e|^2_N = e . N e. Point to plane:
  * N = n n^T with the unit normal n in m. Plane to plane: planeToPlane(). Sums of parts are
@@ -40,25 +40,25 @@ struct PlaneSums {
   merge(const PlaneSums& a, const PlaneSums& b);
 };
 
-/** \brief N of Generalized-ICP: the inverse of the sum of two covariances that are 1
- * along a plane and epsilon across it, times 2 epsilon, so that two equal planes give their
- * distance. A normal of no length stands for a covariance that is 1 in all directions.
+/** \brief N of Generalized-ICP: the inverse of the sum of two covariances, 1 along a plane and
+ * epsilon across, times 2 epsilon. Two equal planes thereby give their distance. A normal of zero
+ * length means a covariance of 1 in every direction.
  * \param[in] n, m unit normals; their signs do not matter
- * \note Source: A. Segal, D. Haehnel, S. Thrun, "Generalized-ICP", RSS 2009; inverted in
- * closed form, as both covariances are a unit matrix less a dyad. */
+ * \note Source: A. Segal, D. Haehnel, S. Thrun, "Generalized-ICP", RSS 2009; inverted in closed
+ * form, since both covariances are a unit matrix minus a dyad. */
 Eigen::Matrix3d
 planeToPlane(const Eigen::Vector3d& n, const Eigen::Vector3d& m, double epsilon = 1e-3);
 
-/** \brief Adds up pairs, eight at a time, about the first source point, so that points far
- * from the origin lose no digits. The order of the pairs makes the bits. */
+/** \brief Adds up pairs, eight at a time, about the first source point: points far from the origin
+ * lose no digits. The bits depend on the order of the pairs. */
 class PlaneAccumulator {
 public:
-  /** What pairs must have to fix a motion, for error messages. */
+  /** Condition on pairs that fix a motion, for error messages. */
   static constexpr const char* kNeeds =
       "the normals must resist all six directions of motion";
 
-  /** \brief Adds a pair. The normal counts by its direction alone; pairs with a value
-   * that is not finite, and normals of no length (never estimated), are skipped. */
+  /** \brief Adds a pair. Only the direction of the normal counts; pairs with a value that is not
+   * finite, or a normal of zero length (never estimated), are skipped. */
   void
   add(const Eigen::Vector3d& source,
       const Eigen::Vector3d& target,
@@ -89,7 +89,7 @@ private:
   static constexpr std::size_t kLanes = 8;
   static constexpr std::size_t kSums = 39;
 
-  /** Values of the pairs that wait to be added, one in each lane. */
+  /** Values of the pairs to be added next, one in each lane. */
   struct Waiting {
     std::size_t count = 0;
     double weight[kLanes] = {};

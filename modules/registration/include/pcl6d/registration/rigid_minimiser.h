@@ -8,9 +8,9 @@
 #include <optional>
 
 /** \file
- * The closed forms of book 4.1.1: all minimise sum w |m - (R d + t)|^2 and differ in
- * rounding only. Each returns a proper rotation, also for planar and mirrored pairs.
- * S is the cross-covariance sum w d' m'^T [m^2] of the centred points. */
+ * The closed forms of book 4.1.1: each minimises sum w |m - (R d + t)|^2; the results differ in
+ * rounding only. Each returns a proper rotation, also for planar and mirrored pairs. S is the
+ * cross-covariance sum w d' m'^T [m^2] of the centred points. */
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief From the sums of matched points to the motion from source to target. */
@@ -28,17 +28,15 @@ rotationByQuaternion(const Eigen::Matrix3d& S);
 Eigen::Matrix3d
 rotationBySVD(const Eigen::Matrix3d& S);
 
-/** \brief The rotation by orthonormal matrices: the two dominant directions are matched
- * and their vector products give the third, so that planar pairs and mirrored ones need
- * no case of their own. \note Source: B. K. P. Horn, H. M. Hilden, S. Negahdaripour,
- * JOSA A 5(7), 1988. Book: 4.1.1. */
+/** \brief The rotation by orthonormal matrices. The two dominant directions are matched and their
+ * vector products give the third; planar and mirrored pairs need no special case. \note Source: B.
+ * K. P. Horn, H. M. Hilden, S. Negahdaripour, JOSA A 5(7), 1988. Book: 4.1.1. */
 Eigen::Matrix3d
 rotationByOrthonormal(const Eigen::Matrix3d& S);
 
-/** \brief What all minimisers of these pairs answer when the pairs do not fix a motion:
- * no pair, sums that are not finite, one pair, equal points, two pairs or pairs on one
- * line, a mirrored figure of rotation. \return of the whole family of minimisers the
- * one with the smallest rotation; nothing when the minimiser is unique */
+/** \brief Common result of the minimisers when the pairs do not fix a motion: no pair, sums that
+ * are not finite, one pair, equal points, two pairs or collinear pairs, a mirrored figure of
+ * rotation. \return the minimiser of the smallest rotation; empty when the minimiser is unique */
 std::optional<RigidEstimate>
 degenerateEstimate(const PairSums& sums);
 
@@ -59,15 +57,14 @@ minimiseByOrthonormal(const PairSums& sums);
 
 /** \brief Rotation and translation from one eigenproblem, by Walker's dual quaternion.
  *
- * The sums are taken about one offset for each side, as near to its centroid as half
- * the spread of the points: nearer, the dual part would vanish and Horn's matrix N
- * remain; farther, its sums would cancel. \note Source: M. W. Walker, L. Shao, R. A.
- * Volz, "Estimating 3-D location parameters using dual number quaternions", CVGIP:
- * Image Understanding 54(3), 1991. Book: 4.1.1. */
+ * The sums of each side are taken about an offset at half the spread of the points from the
+ * centroid: nearer, the dual part would vanish and leave Horn's matrix N; farther, its sums would
+ * cancel. \note Source: M. W. Walker, L. Shao, R. A. Volz, "Estimating 3-D location parameters
+ * using dual number quaternions", CVGIP: Image Understanding 54(3), 1991. Book: 4.1.1. */
 RigidEstimate
 minimiseByDualQuaternion(const PairSums& sums);
 
-/** \brief A rigid motion and the scale that was found with it. */
+/** \brief A rigid motion with a scale. */
 struct SimilarityEstimate {
   RigidEstimate rigid; ///< the best motion without the scale
   double scale = 1;    ///< > 0; how much larger the target is; 1 unless kOk
@@ -78,13 +75,13 @@ struct SimilarityEstimate {
 /** \brief Horn's unit quaternion with scale: the closed form of min sum w |m - (s R d +
  * t)|^2 over s, R and t.
  *
- * Rotation and scale are independent, so the rigid part (R and t = c_m - R c_d) is that
- * of minimiseByQuaternion(), and of the similarity t = c_m - s R c_d; to keep that t
- * without s would be wrong by |s - 1| |c_d|. Laser scans have one scale; another one tells
- * of wrong units or a range scale that is off. Noise of the source makes it too small, by
- * the noise's share of the source's variance. Where the pairs fix no rotation (equal points,
- * one point, a line, a mirrored figure of rotation), and where no scale above 0 is best, it
- * is 1. \note Source: Horn 1987, as above; the scale is Umeyama's (1991). */
+ * Rotation and scale are independent: the rigid part (R and t = c_m - R c_d) equals
+ * minimiseByQuaternion(). The similarity has t = c_m - s R c_d; this t without s would be off by
+ * |s - 1| |c_d|. Laser scans have scale 1; another scale indicates wrong units or a range scale
+ * error. Noise of the source makes the scale too small, by the noise's share of the source's
+ * variance. The scale is 1 where the pairs fix no rotation (equal points, one point, a line, a
+ * mirrored figure of rotation), and where no scale above 0 is best. \note Source: Horn 1987; the
+ * scale is Umeyama's (1991). */
 SimilarityEstimate
 similarityByQuaternion(const PairSums& sums);
 

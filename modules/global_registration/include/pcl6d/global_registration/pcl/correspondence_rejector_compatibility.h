@@ -12,14 +12,14 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Leaves the largest set of pairs found of which any two have the same distance in
- * source and target: compatiblePairs(). One motion brings them together; no motion is
- * drawn or guessed, as pcl::registration::CorrespondenceRejectorSampleConsensus and
- * CorrespondenceRejectorPoly do.
+/** \brief Correspondence rejector that keeps the largest mutually compatible set found: any two
+ * pairs have equal distances in source and target (compatiblePairs()). One motion brings the
+ * pairs together. No motion is drawn at random, unlike
+ * pcl::registration::CorrespondenceRejectorSampleConsensus and CorrespondenceRejectorPoly.
  *
- * Meant for pairs of features, of which 95 of 100 may be wrong. Works inside PCL's pipelines
- * and ICP6D, too: there it keeps moved things from pulling at the rest. The source may lie
- * anywhere: distances within it count, not where it is.
+ * Meant for feature matches, of which 95 of 100 may be wrong. Works inside PCL's pipelines and
+ * ICP6D, too, where dynamic objects no longer bias the fit. Only distances within the source
+ * count, not its pose.
  * \code
  * pcl6d::CorrespondenceRejectorCompatibility rejector;
  * rejector.setInputSource<pcl::PointXYZ>(source);
@@ -28,7 +28,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * pcl::Correspondences right;
  * rejector.getCorrespondences(right);
  * \endcode
- * \note Source: see compatiblePairs(). \ingroup global_registration */
+ * \note Source: see compatiblePairs().
+ * \ingroup global_registration */
 class CorrespondenceRejectorCompatibility : public SelectingRejector {
 public:
   using Ptr = pcl::shared_ptr<CorrespondenceRejectorCompatibility>;
@@ -38,9 +39,10 @@ public:
   : SelectingRejector("CorrespondenceRejectorCompatibility")
   {}
 
-  /** \brief How far apart [m] the points of a right pair may lie after the right motion.
-   * None, unless set: 1.25 median spacings of the sparser cloud, as points of two scans of a
-   * surface lie so far apart at most. \throws BadArgument unless finite and > 0 */
+  /** \brief The largest distance [m] between the points of a right pair after the right motion.
+   * Default: 1.25 median spacings of the sparser cloud, the largest distance of points from
+   * two scans of a surface.
+   * \throws BadArgument unless finite and > 0 */
   void
   setNoise(const std::optional<double>& noise);
   const std::optional<double>&
@@ -49,7 +51,7 @@ public:
     return noise_;
   }
 
-  /** \brief Of more pairs, so many are looked at, each against each; 3000 unless set.
+  /** \brief The largest number of pairs compared pair by pair; 3000 unless set.
    * \throws BadArgument unless in [3, 30000] */
   void
   setMaximumPairs(std::size_t pairs);
@@ -59,7 +61,7 @@ public:
     return options_.max_pairs;
   }
 
-  /** \param[in] num_threads 0: one per core; never changes the pairs */
+  /** \param[in] num_threads 0: a thread per core; never changes the pairs */
   void
   setNumberOfThreads(unsigned int num_threads)
   {
@@ -101,8 +103,7 @@ public:
   setTargetPoints(pcl::PCLPointCloud2::ConstPtr cloud) override;
 
 protected:
-  /** \throws BadArgument source or target is not set, or a pair has an index that they do
-   * not have */
+  /** \throws BadArgument source or target is not set, or a pair has an index out of range */
   pcl::Correspondences
   select(const pcl::Correspondences& original) override;
 
@@ -110,7 +111,7 @@ private:
   struct Side {
     bool is_set = false;
     Points points;
-    std::optional<double> spacing; ///< [m] once it was asked for
+    std::optional<double> spacing; ///< [m] set on first use
   };
 
   static void

@@ -10,9 +10,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Radii for the normals and descriptors of a cloud, from the cloud itself:
- * estimateFeatureScales() with the calls that users know from PCL's classes, whose
- * setRadiusSearch() wants a number that somebody has to know.
+/** \brief Estimates radii for the normals and descriptors of a cloud: estimateFeatureScales()
+ * with the calls of PCL's classes, whose setRadiusSearch() needs a known radius.
  *
  * Ranges count from the sensor_origin_ of the cloud. Indices are honoured.
  * \code
@@ -22,14 +21,15 @@ namespace PCL6D_EXPORTS pcl6d {
  * grid.setLeafSize(scale.voxel, scale.voxel, scale.voxel);
  * normals.setRadiusSearch(scale.normal_radius);
  * fpfh.setRadiusSearch(scale.feature_radius);
- * \endcode \ingroup global_registration */
+ * \endcode
+ * \ingroup global_registration */
 template <typename PointT>
 class FeatureScaleEstimation : public pcl::PCLBase<PointT> {
 public:
   using Ptr = pcl::shared_ptr<FeatureScaleEstimation<PointT>>;
   using ConstPtr = pcl::shared_ptr<const FeatureScaleEstimation<PointT>>;
 
-  /** \brief So many scales at most, each twice the one before; 1 unless set.
+  /** \brief The largest number of scales, each twice the previous scale; 1 unless set.
    * \throws BadArgument 0 */
   void
   setMaximumScales(std::size_t count)
@@ -43,8 +43,8 @@ public:
     return count_;
   }
 
-  /** \return the finest first; none for points without extent
-   * \throws BadArgument no cloud is set, or an index is not that of a point */
+  /** \return the finest first; empty for points without extent
+   * \throws BadArgument no cloud is set, or an index is out of range */
   std::vector<FeatureScale>
   compute()
   {

@@ -12,19 +12,19 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Places one scan on another without any guess, and says whether it is the only
- * place: placeScan() as a pcl::Registration, where code says
- * pcl::SampleConsensusPrerejective or pcl::registration::FPCSInitialAlignment.
+/** \brief Registers two scans without an initial pose, and tests whether the pose is unique:
+ * placeScan() as a pcl::Registration, in place of pcl::SampleConsensusPrerejective or
+ * pcl::registration::FPCSInitialAlignment.
  *
- * hasConverged() is true only for a place that is *unique*: good by surfaces and rays, and
- * no other nearly as good. It is matched finely then: no ICP is needed after it.
- * getFinalTransformation() is the best place, or the guess if there is none; a guess changes
- * nothing else. Of equal rooms, bays of shelves, levels of a car park no pair of scans can
- * tell which is which: see the README of the module.
+ * hasConverged() is true only for a *unique* pose: supported by surfaces and rays, with no
+ * second pose that fits nearly as well. Such a pose is matched finely: no ICP is needed after
+ * align(). getFinalTransformation() is the best pose, or the guess without a candidate; a guess
+ * changes no other result. No pair of scans can tell equal rooms, bays of shelves or levels of
+ * a car park apart: see the README of the module.
  *
- * Clouds must be scans: unreduced, in one piece, seen from one place, their sensor_origin_,
- * as RegistrationVerifier has it. Each is made ready by its own range gate and voxel, the
- * target once for all sources. Points that are not finite are left out.
+ * Clouds must be scans: unreduced, in one piece, seen from one position, their sensor_origin_,
+ * as in RegistrationVerifier. Each scan is prepared with its own range gate and voxel, the
+ * target once for every source. Non-finite points are skipped.
  * \code
  * pcl6d::GlobalRegistration<pcl::PointXYZ, pcl::PointXYZ> placing;
  * placing.setInputTarget(target);
@@ -33,7 +33,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * if (!placing.hasConverged())
  *   std::cerr << toString(placing.answer()) << ": " << placing.reason() << '\n';
  * \endcode
- * \note Source: algorithms.md G \ingroup global_registration */
+ * \note Source: algorithms.md G
+ * \ingroup global_registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class GlobalRegistration : public CoarseRegistration<PointSource, PointTarget, Scalar> {
 public:
@@ -46,8 +47,8 @@ public:
 
   GlobalRegistration() : Base("GlobalRegistration") {}
 
-  /** \brief All knobs at once. \throws BadArgument naming the first field that breaks its
-   * rule, with its value */
+  /** \brief Sets every option.
+   * \throws BadArgument naming the first invalid field and its value */
   void
   setOptions(const PairPlacerOptions& options)
   {
@@ -59,7 +60,8 @@ public:
     return placer_.options();
   }
 
-  /** \brief So many places are kept. \throws BadArgument 0 */
+  /** \brief The largest number of candidates kept.
+   * \throws BadArgument 0 */
   void
   setMaximumCandidates(std::size_t candidates)
   {
@@ -71,8 +73,8 @@ public:
     return options().search.candidates;
   }
 
-  /** \brief The largest second score / score of a unique place. \throws BadArgument unless
-   * in [0, 1] */
+  /** \brief The largest second score / score of a unique pose.
+   * \throws BadArgument unless in [0, 1] */
   void
   setMaximumAmbiguity(double ambiguity)
   {
@@ -84,9 +86,10 @@ public:
     return options().search.max_ambiguity;
   }
 
-  /** \brief The largest share of surfaces that the other scan looked through, of a unique
-   * place: 0.01 unless set. More lets scans among people and in traffic be placed, and folds
-   * of symmetric halls. \throws BadArgument unless in [0, 1] */
+  /** \brief The largest share of surfaces that rays of the other scan pass through, for a
+   * unique pose: 0.01 unless set. A larger share accepts scans among people and in traffic,
+   * but also folds of symmetric halls.
+   * \throws BadArgument unless in [0, 1] */
   void
   setMaximumContradiction(double share)
   {
@@ -98,7 +101,7 @@ public:
     return options().search.max_contradiction;
   }
 
-  /** \brief The least share of surfaces that meet at a unique place: 0.2 unless set.
+  /** \brief The least overlap of a unique pose, as share of surfaces: 0.2 unless set.
    * \throws BadArgument unless in [0, 1] */
   void
   setMinimumOverlap(double share)
@@ -111,7 +114,8 @@ public:
     return options().search.min_overlap;
   }
 
-  /** \brief The edge [m] of the cubes by which both are reduced; none: each by its own.
+  /** \brief The voxel edge [m] for the reduction of both scans; default: each scan by its own
+   * voxel.
    * \throws BadArgument unless finite and > 0 */
   void
   setVoxel(const std::optional<double>& voxel)
@@ -124,7 +128,7 @@ public:
     return options().parameters.voxel;
   }
 
-  /** \brief Whether a source is also looked for as if it lay on its side. */
+  /** \brief Whether to search also for a source that lies on its side. */
   void
   setAnyAxis(bool any_axis)
   {
@@ -136,8 +140,9 @@ public:
     return options().search.any_axis;
   }
 
-  /** \brief Which way is up in each cloud, about: z unless set; of a camera that looks along
-   * z it is -y. \throws BadArgument no unit vector */
+  /** \brief The approximate up direction of each cloud: z unless set; -y for a camera that
+   * looks along z.
+   * \throws BadArgument no unit vector */
   void
   setExpectedUp(const Eigen::Vector3d& target, const Eigen::Vector3d& source)
   {
@@ -147,23 +152,23 @@ public:
     });
   }
 
-  /** \param[in] num_threads 0: one per core; never changes the result */
+  /** \param[in] num_threads 0: a thread per core; never changes the result */
   void
   setNumberOfThreads(unsigned int num_threads)
   {
     change([&](PairPlacerOptions& o) { o.search.num_threads = num_threads; });
   }
 
-  /** \return what the last align() came to */
+  /** \return the result of the last align() */
   PlaceAnswer
   answer() const
   {
     return found_.answer;
   }
 
-  /** \return the places that it looked at, the best first, also those not accepted:
-   * T_first_second moves the source cloud onto the target, within a third of a voxel; their
-   * evidence is in the frames of the scanners */
+  /** \return the candidates, the best first, including rejected candidates. T_first_second
+   * moves the source cloud onto the target, within a third of a voxel; the evidence is in the
+   * scanner frames */
   const std::vector<PlaceCandidate>&
   candidates() const
   {
@@ -171,10 +176,16 @@ public:
   }
 
   /** \return why the answer is not unique, in words */
-  const std::string&
+  std::string
   reason() const
   {
-    return found_.reason;
+    return toWords(found_.rejection);
+  }
+  /** \return why the answer is not unique; false as a condition if it is */
+  const Rejection&
+  rejection() const
+  {
+    return found_.rejection;
   }
 
 protected:
@@ -204,7 +215,7 @@ private:
     placer_.setOptions(options);
   }
 
-  mutable PairPlacer placer_; // remembers what it made of the clouds
+  mutable PairPlacer placer_; // caches the prepared clouds
   mutable PlaceResult found_;
 };
 

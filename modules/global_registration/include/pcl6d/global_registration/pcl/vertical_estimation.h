@@ -10,8 +10,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Which way is up in a cloud, from its surfaces: estimateVertical() with the calls that
- * users know from PCL's classes, which have none for it.
+/** \brief Estimates the up direction of a cloud from its surfaces: estimateVertical() with the
+ * calls of PCL's classes. PCL has no class for the vertical.
  *
  * The surfaces were seen from the sensor_origin_ of the cloud. Indices are honoured.
  * \code
@@ -21,7 +21,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * const pcl6d::VerticalEstimate found = vertical.compute();
  * if (found.is_sure)
  *   const Eigen::Matrix3d R_level_cloud = pcl6d::uprightRotation(found.up);
- * \endcode \ingroup global_registration */
+ * \endcode
+ * \ingroup global_registration */
 template <typename PointT, typename PointNT = pcl::Normal>
 class VerticalEstimation : public pcl::PCLBase<PointT> {
 public:
@@ -29,8 +30,8 @@ public:
   using ConstPtr = pcl::shared_ptr<const VerticalEstimation<PointT, PointNT>>;
   using NormalCloud = pcl::PointCloud<PointNT>;
 
-  /** \brief The normals of the cloud, one per point, of any unit length; zero and NaN ones
-   * are skipped. Null, unless set: they are made of the reduced points. */
+  /** \brief The normals of the cloud, one per point, of any length; zero and NaN normals are
+   * skipped. Null, unless set: normals are estimated from the reduced points. */
   void
   setInputNormals(const typename NormalCloud::ConstPtr& normals)
   {
@@ -47,7 +48,7 @@ public:
   void
   setExpectedUp(const Eigen::Vector3d& up)
   {
-    uprightRotation(up); // which checks it
+    uprightRotation(up); // checks the length
     expected_ = up;
   }
   const Eigen::Vector3d&
@@ -56,7 +57,7 @@ public:
     return expected_;
   }
 
-  /** \param[in] num_threads 0: one per core; never changes the result */
+  /** \param[in] num_threads 0: a thread per core; never changes the result */
   void
   setNumberOfThreads(unsigned int num_threads)
   {
@@ -64,8 +65,8 @@ public:
   }
 
   /** \return as estimateVertical(), in the frame of the cloud
-   * \throws BadArgument no cloud is set, an index is not that of a point, or the normals are
-   * not one per point */
+   * \throws BadArgument no cloud is set, an index is out of range, or the number of normals
+   * differs from the number of points */
   VerticalEstimate
   compute();
 

@@ -14,26 +14,25 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Explicit Loop Closing Heuristic (book 5.1.3) as a drop-in for
- * pcl::registration::ELCH: clouds in world coordinates, of which the last sees again what
- * the first has seen.
+ * pcl::registration::ELCH: clouds in world coordinates; the last cloud revisits the first.
  *
  * compute() registers the end of the loop with its start, both with their neighbours, and
- * spreads the motion over the graph. Then the clouds are moved, as in PCL, and each vertex
- * holds the motion that moved its own.
+ * distributes the motion over the graph. Then the clouds are moved, as in PCL, and each vertex
+ * stores the motion of its cloud.
  *
  * Differences:
- * - setModifyInputClouds(false) leaves the caller's clouds as they are: vertices then hold
- *   new ones;
- * - clouds turn about the place of their scanner, by default their centroid, so that the
- *   result does not depend on the origin of the world (PCL: about the origin);
- * - edges cost what setEdgeCovariance() says of some of them or, if it has said nothing of
- *   any, their length (PCL: 1 each); edges without a covariance among others with one
- *   count as the mean of those;
- * - a registration that fails closes nothing, see status() (PCL: closes the loop by
- *   whatever came out); one of ours that ended at its iteration limit does close it;
- * - calls without a meaning throw BadArgument (PCL: PCL_ERROR, or undefined), and the end
- *   of the loop must be set;
- * - LoopGraph has edges with a property, and so is another type than PCL's;
+ * - setModifyInputClouds(false) leaves the caller's clouds unchanged: vertices then have new
+ *   clouds;
+ * - clouds turn about their scanner position, by default their centroid, so that the result
+ *   does not depend on the world origin (PCL: about the origin);
+ * - edges cost their covariance from setEdgeCovariance() or, if no edge has a covariance,
+ *   their length (PCL: 1 each); an edge without a covariance counts as the mean of the edges
+ *   with a covariance;
+ * - a failed registration closes no loop, see status() (PCL: closes the loop by any result);
+ *   an ICP6D that ended at its iteration limit does close the loop;
+ * - meaningless calls throw BadArgument (PCL: PCL_ERROR, or undefined), and the end of the
+ *   loop must be set;
+ * - LoopGraph has edges with a property, and is therefore a different type from PCL's;
  * - unless set, getReg() is an ICP6D, not a pcl::IterativeClosestPoint.
  * \code
  * pcl6d::ELCH<pcl::PointXYZ> elch;
@@ -46,7 +45,8 @@ namespace PCL6D_EXPORTS pcl6d {
  *   map += *(*elch.getLoopGraph())[3].cloud;
  * \endcode
  * \note Source: J. Sprickerhof, A. Nüchter, K. Lingemann, J. Hertzberg, "An Explicit Loop
- * Closing Technique for 6D SLAM", ECMR 2009. \ingroup graph_relaxation */
+ * Closing Technique for 6D SLAM", ECMR 2009.
+ * \ingroup graph_relaxation */
 template <typename PointT>
 class ELCH : public pcl::PCLBase<PointT> {
 public:
@@ -61,13 +61,13 @@ public:
 
   /** \brief A scan. */
   struct Vertex {
-    PointCloudPtr cloud; ///< in world coordinates [m]; after compute() the moved one
+    PointCloudPtr cloud; ///< in world coordinates [m]; after compute() the moved cloud
     Eigen::Affine3f transform = Eigen::Affine3f::Identity(); ///< of the last compute()
-    /** Where the scanner stood [m]; the centroid of the cloud unless given. */
+    /** Position of the scanner [m]; the centroid of the cloud unless given. */
     std::optional<Eigen::Vector3d> position;
   };
 
-  /** \brief Two scans that were matched. */
+  /** \brief A match of two scans. */
   struct Edge {
     std::optional<Covariance> covariance; ///< of the match, see setEdgeCovariance()
   };
@@ -84,13 +84,14 @@ public:
   /** \brief An empty graph, ICP6D for the loop. */
   ELCH();
 
-  /** \brief Adds a scan, joined to the one before.
-   * \param[in] cloud in world coordinates [m] \throws BadArgument it is null */
+  /** \brief Adds a scan, joined to the previous scan.
+   * \param[in] cloud in world coordinates [m]
+   * \throws BadArgument null */
   void
   addPointCloud(const PointCloudPtr& cloud);
 
-  /** \brief The same with the place of the scanner in the world [m].
-   * \throws BadArgument it is not finite */
+  /** \brief Adds a scan with its scanner position in the world [m].
+   * \throws BadArgument position not finite */
   void
   addPointCloud(const PointCloudPtr& cloud, const Eigen::Vector3d& position);
 
@@ -100,14 +101,14 @@ public:
     return loop_graph_;
   }
 
-  /** \throws BadArgument it is null */
+  /** \throws BadArgument null */
   void
   setLoopGraph(const LoopGraphPtr& loop_graph);
 
-  /** \brief How precisely two scans were matched; the looser, the more of the error their
-   * edge takes. \param[in] covariance translation [m], rotation [rad]; in the axes of the
-   * world, of importance only for setWeightsPerAxis()
-   * \throws BadArgument there is no such edge, or costOfCovariance() refuses */
+  /** \brief Sets the covariance of a match; the larger, the more of the error its edge takes.
+   * \param[in] covariance translation [m], rotation [rad]; in the world axes, relevant only for
+   * setWeightsPerAxis()
+   * \throws BadArgument an unknown edge, or an invalid covariance, see costOfCovariance() */
   void
   setEdgeCovariance(VertexId a, VertexId b, const Covariance& covariance);
 
@@ -119,7 +120,7 @@ public:
     options_.per_axis = per_axis;
   }
 
-  /** \brief The scan that starts the loop, which stays; 0 unless set. */
+  /** \brief The first scan of the loop, which stays fixed; 0 unless set. */
   void
   setLoopStart(VertexId loop_start)
   {
@@ -131,7 +132,7 @@ public:
     return loop_start_;
   }
 
-  /** \brief The scan that ends the loop; must be set. */
+  /** \brief The last scan of the loop; must be set. */
   void
   setLoopEnd(VertexId loop_end)
   {
@@ -143,8 +144,9 @@ public:
     return loop_end_;
   }
 
-  /** \brief What registers the end of the loop with its start; ICP6D without a limit of
-   * the distance unless set. \throws BadArgument it is null */
+  /** \brief The registration of the end of the loop with its start; ICP6D without a limit of
+   * the distance unless set.
+   * \throws BadArgument null */
   void
   setReg(const RegistrationPtr& reg);
   RegistrationPtr
@@ -153,21 +155,21 @@ public:
     return reg_;
   }
 
-  /** \return the motion of the last scan that closes the loop: set, or that of the last
-   * compute(); the identity before */
+  /** \return the motion of the last scan that closes the loop: set, or from the last compute();
+   * identity before */
   Eigen::Matrix4f
   getLoopTransform() const
   {
     return loop_transform_;
   }
 
-  /** \brief Gives that motion, in the world; nothing is registered from now on.
-   * \throws BadArgument it is not rigid */
+  /** \brief Sets the closing motion, in the world; no registration runs from now on.
+   * \throws BadArgument not rigid */
   void
   setLoopTransform(const Eigen::Matrix4f& loop_transform);
 
-  /** \brief Whether the points in the caller's clouds are moved, as PCL does; true unless
-   * set. Else the moved clouds are new ones, in the graph. */
+  /** \brief Whether the points in the caller's clouds are moved, as in PCL; true unless set.
+   * Else the graph gets new, moved clouds. */
   void
   setModifyInputClouds(bool modify)
   {
@@ -175,24 +177,23 @@ public:
   }
 
   /** \brief Closes the loop between start and end, and joins them by an edge.
-   * \throws BadArgument start and end are no two scans of the graph, a vertex has no cloud,
-   * or one without a finite point has no position; nothing has changed then */
+   * \throws BadArgument start and end are not two scans of the graph, a vertex has no cloud, or
+   * a cloud without a finite point has no position; the graph is unchanged then */
   void
   compute();
 
-  /** \return of the last compute(): kOk, the loop is closed; kRankDeficient, so it is, but
-   * no edges join start and end, and weights are by index; kMaxIterations, so it is, but by an
-   * ICP6D that ended at its iteration limit; kDiverged, nothing has changed:
-   * the registration did not converge, or it turns the scan by half a turn. kTooFewPairs
-   * before the first compute(). ICP6D says more in its result() */
+  /** \return the status of the last compute(). kOk: the loop is closed. kRankDeficient: closed,
+   * but with weights by index, as no edges connect start and end. kMaxIterations: closed by an
+   * ICP6D that ended at its iteration limit. kDiverged: no change; the registration did not
+   * converge, or turns the scan by half a turn. kTooFewPairs: before the first compute(). See
+   * ICP6D's result() for details */
   Status
   status() const
   {
     return status_;
   }
 
-  /** \return the motions of the last compute() in double, one per vertex; empty if it has
-   * changed nothing */
+  /** \return the motions of the last compute() in double, one per vertex; empty without a change */
   const std::vector<Eigen::Isometry3d>&
   corrections() const
   {
@@ -220,7 +221,7 @@ private:
   Eigen::Matrix4f loop_transform_ = Eigen::Matrix4f::Identity();
   bool register_loop_ = true;
   bool modify_input_clouds_ = true;
-  bool is_at_rest_ = true; ///< the registration that gave the motion
+  bool is_at_rest_ = true; ///< the registration of the closing motion converged
   ErrorDiffusionOptions options_;
   Status status_ = Status::kTooFewPairs;
   std::vector<Eigen::Isometry3d> corrections_;

@@ -10,24 +10,24 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Globally consistent scan matching with the interface of pcl::registration::LUM,
- * whose graph type it shares: changing the class name is enough.
+/** \brief Globally consistent scan matching with the interface and graph type of
+ * pcl::registration::LUM: changing the class name is enough.
  *
- * Where PCL's class diverges as soon as scans are turned (its derivative belongs to another
- * order of the angles) and solves a dense system in float, this one runs GraphSlam: right
- * for all headings, sparse, in double, and honest: see result(). Calls that PCL answers
- * with a PCL_ERROR do the same here; without an answer the poses stay as they were.
+ * PCL's class diverges when scans are turned (its derivative belongs to a different order of
+ * the angles), and solves a dense system in float. This class runs GraphSlam: correct for every
+ * heading, sparse, in double, with a status in result(). Calls that PCL answers with a
+ * PCL_ERROR print PCL_ERROR here, too; the poses are then unchanged.
  *
  * Differences:
- * - links weigh by the variance of their pairs (PCL: by their sum of squares, so that
- *   cinv_ and cinvd_ of an edge are larger by the degrees of freedom);
- * - poses that are not finite are left alone, and result() says kDiverged (PCL: NaN);
- * - what PCL leaves undefined throws BadArgument: see compute(), setLoopGraph(),
+ * - links weigh by the variance of their pairs (PCL: by their sum of squares, so that cinv_
+ *   and cinvd_ of an edge are larger by the degrees of freedom);
+ * - non-finite poses are not changed, and result() says kDiverged (PCL: NaN);
+ * - undefined behaviour of PCL throws BadArgument: see compute(), setLoopGraph(),
  *   getTransformedCloud();
- * - computeEdge() and incidenceCorrection() are not there for derived classes.
+ * - derived classes have no computeEdge() and incidenceCorrection().
  *
- * The poses in the graph stay PCL's float vectors (x, y, z, roll, pitch, yaw);
- * getPose3d() gives the same in double.
+ * The poses in the graph stay PCL's float vectors (x, y, z, roll, pitch, yaw); getPose3d()
+ * gives the pose in double.
  * \code
  * pcl6d::LUM<pcl::PointXYZ> lum;
  * lum.addPointCloud(cloud_0);
@@ -37,7 +37,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * if (lum.result().status != pcl6d::Status::kOk)
  *   std::cerr << pcl6d::toString(lum.result().status) << '\n';
  * \endcode
- * \note Source: see GraphSlam. Book: 5.2. \ingroup graph_relaxation */
+ * \note Source: see GraphSlam. Book: 5.2.
+ * \ingroup graph_relaxation */
 template <typename PointT>
 class LUM {
 public:
@@ -71,7 +72,7 @@ public:
   typename SLAMGraph::vertices_size_type
   getNumVertices() const;
 
-  /** \brief 0 or fewer: compute() changes nothing, as PCL's. */
+  /** \brief With 0 or fewer, compute() changes nothing, like PCL's. */
   void
   setMaxIterations(int max_iterations)
   {
@@ -84,8 +85,8 @@ public:
     return options_.max_iterations;
   }
 
-  /** \brief Stop when no pose moved more [m] and none turned more [rad]. 0: at what float
-   * poses can hold, 1e-7. */
+  /** \brief Stop when no pose moved by more than the threshold [m] or turned by more [rad]. 0:
+   * the resolution of float poses, 1e-7. */
   void
   setConvergenceThreshold(float threshold)
   {
@@ -98,7 +99,7 @@ public:
     return threshold_;
   }
 
-  /** \brief All other knobs; max_iterations and both epsilons are set by the setters
+  /** \brief The remaining options; max_iterations and both epsilons are set by the setters
    * above. */
   GraphSlamOptions&
   options()
@@ -106,13 +107,13 @@ public:
     return options_;
   }
 
-  /** \brief Adds a scan. The pose of the first one is fixed at zero. \param[in] cloud may
-   * be null until it is needed */
+  /** \brief Adds a scan. The first pose is fixed at zero.
+   * \param[in] cloud may be null until its first use */
   Vertex
   addPointCloud(const PointCloudPtr& cloud, const Vector6f& pose = Vector6f::Zero());
 
-  /** \brief Without such a vertex: PCL_ERROR, and nothing happens, here and below; getters
-   * return null, zero or the identity then, as PCL's. */
+  /** \brief An unknown vertex: PCL_ERROR without effect, here and below; getters then return
+   * null, zero or the identity, like PCL's. */
   void
   setPointCloud(const Vertex& vertex, const PointCloudPtr& cloud);
   PointCloudPtr
@@ -124,7 +125,7 @@ public:
   Vector6f
   getPose(const Vertex& vertex) const;
 
-  /** \brief The same in double. Kept until the float pose in the graph is changed. */
+  /** \brief Sets the pose in double. Kept until the float pose in the graph is changed. */
   void
   setPose3d(const Vertex& vertex, const Eigen::Isometry3d& pose);
   Eigen::Isometry3d
@@ -133,32 +134,33 @@ public:
   Eigen::Affine3f
   getTransformation(const Vertex& vertex) const;
 
-  /** \brief Adds or replaces the pairs of an edge: query indices in the source's cloud,
-   * match indices in the target's. Both the same: PCL_ERROR, and nothing happens. */
+  /** \brief Adds or replaces the pairs of an edge: query indices in the source's cloud, match
+   * indices in the target's. Source equal to target: PCL_ERROR without effect. */
   void
   setCorrespondences(const Vertex& source,
                      const Vertex& target,
                      const pcl::CorrespondencesPtr& correspondences);
 
-  /** \return null without such an edge, with a PCL_ERROR */
+  /** \return null for an unknown edge, with a PCL_ERROR */
   pcl::CorrespondencesPtr
   getCorrespondences(const Vertex& source, const Vertex& target) const;
 
-  /** \brief Moves all scans but the first; writes the graph's poses, and per edge C^-1 and
-   * C^-1 D about the world's origin in PCL's order x, y, z, turns about x, z, y. Fewer than
-   * 2 vertices: PCL_ERROR, and nothing happens. \throws BadArgument one of options()
-   * breaks its rule, a vertex with pairs has no cloud, or an index is not in its cloud */
+  /** \brief Moves every scan except the first; writes the graph's poses, and per edge C^-1 and
+   * C^-1 D about the world origin in PCL's order x, y, z, turns about x, z, y. Fewer than 2
+   * vertices: PCL_ERROR without effect.
+   * \throws BadArgument an invalid field of options(), a vertex with pairs but no cloud, or an
+   * index out of range */
   void
   compute();
 
-  /** \return what the last compute() came to; links in the order of the graph's edges */
+  /** \return the result of the last compute(); links in the order of the graph's edges */
   const GraphSlamResult&
   result() const
   {
     return result_;
   }
 
-  /** \throws BadArgument there is no cloud, here and below */
+  /** \throws BadArgument a vertex without a cloud, here and below */
   PointCloudPtr
   getTransformedCloud(const Vertex& vertex) const;
 
@@ -181,12 +183,12 @@ private:
       poses_; ///< in double, valid while equal to the graph's
 };
 
-/** \brief (x, y, z, roll, pitch, yaw) of a pose as PCL's LUM holds it. */
+/** \brief (x, y, z, roll, pitch, yaw) of a pose in the format of PCL's LUM. */
 Eigen::Matrix<float, 6, 1>
 lumPose(const Eigen::Isometry3d& pose);
 
-/** \brief C^-1 and C^-1 D about the world's origin, as PCL's LUM keeps them per edge: in
- * the order x, y, z, turns about x, z, y. */
+/** \brief C^-1 and C^-1 D about the world origin, in the format of an edge of PCL's LUM: in the
+ * order x, y, z, turns about x, z, y. */
 void
 lumEdge(const LinkReport& link,
         Eigen::Matrix<float, 6, 6>& information,

@@ -12,16 +12,16 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The seam between pcl::Registration and the searches for a first guess: a class for
- * one of them adds search().
+/** \brief Base class of the searches for an initial pose, as a pcl::Registration: a derived class
+ * adds search().
  *
- * hasConverged() is true only if one placement is clearly the best; else result() says whether
- * others are as good or none explains enough. getFinalTransformation() is the best placement,
- * or the guess if there is none. Good to about a voxel: ICP6D starts there.
+ * hasConverged() is true only if one placement is clearly the best; else result() distinguishes
+ * equally good placements from too little overlap. getFinalTransformation() is the best placement,
+ * or the guess without a placement. Good to about a voxel, enough to start ICP6D.
  *
- * Indices of the source are honoured, clouds may be empty. There is no iteration over pairs:
- * align() throws BadArgument if its limits, a rejector or an estimation were set. \ingroup
- * registration */
+ * Indices of the source are honoured, clouds may be empty. No pairs are iterated: align() throws
+ * BadArgument if limits of an iteration, a rejector or an estimation were set.
+ * \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class CoarseRegistration : public pcl::Registration<PointSource, PointTarget, Scalar> {
 public:
@@ -40,7 +40,7 @@ public:
   void
   setInputTarget(const typename Base::PointCloudTargetConstPtr& cloud) override;
 
-  /** \return what the last align() came to, in the frame of the target */
+  /** \return the result of the last align(), in the frame of the target */
   const CoarseEstimate&
   result() const
   {
@@ -50,7 +50,7 @@ public:
 protected:
   explicit CoarseRegistration(const std::string& name);
 
-  /** \param[in] target, source relative to their origins \param[in] guess of these */
+  /** \param[in] target, source relative to their origins \param[in] guess between these origins */
   virtual CoarseEstimate
   search(const Points& target,
          const Points& source,

@@ -11,24 +11,21 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Closest pairs of two clouds on our k-d tree, as a drop-in for
- * pcl::registration::CorrespondenceEstimation, and inside pcl::IterativeClosestPoint and
- * ICP6D.
+/** \brief Closest pairs of two clouds by pcl6d::KdTree: drop-in for
+ * pcl::registration::CorrespondenceEstimation, usable in pcl::IterativeClosestPoint and ICP6D.
  *
- * Exact, in parallel, the same pairs for any number of threads: of target points that are
- * equally near, the one with the smallest place among the searched ones. Pairs come in the
- * order of the source's indices; `distance` is the square [m^2], as in PCL. A pair at exactly
- * the maximum distance counts, as in PCL. Differences: points that are not finite have no pair
- * (PCL's search ends the program on them in debug builds); a changed cloud, index or
- * representation is noticed however it was set (PCL keeps the tree of the source when its
- * indices change, and does not see a representation that is set after the target).
+ * Exact and in parallel, with equal pairs for any number of threads: of equally near target points,
+ * the first of the searched points. Pairs come in the order of the source's indices; `distance` is
+ * the square [m^2], and a pair at exactly the maximum distance counts, both like in PCL.
+ * Differences: points that are not finite have no pair (PCL's search ends the program in debug
+ * builds); every change of a cloud, index or representation is noticed (PCL keeps the tree of the
+ * source when its indices change, and overlooks a representation set after the target).
  *
- * A tree that is given by setSearchMethodTarget() or setSearchMethodSource() is searched,
- * whatever it is; other trees than KdTree and CachedKdTree point by point. One that is
- * never to be rebuilt (force_no_recompute) is only built if it has no cloud. With a point
- * representation neighbours are searched by FLANN. A null cloud can be given through PCL's
- * base class only to the target's setter, which PCL does not survive. As in PCL 1.13, both point types
- * must be the same.
+ * A tree given by setSearchMethodTarget() or setSearchMethodSource() is used, whatever its class;
+ * trees other than KdTree and CachedKdTree are searched point by point. A tree with
+ * force_no_recompute is only built if it has no cloud. With a point representation FLANN searches
+ * for neighbours. Through PCL's base class a null cloud can only be given to the target's setter,
+ * and PCL crashes on it. Both point types must be equal, like in PCL 1.13.
  * \code
  * pcl6d::CorrespondenceEstimation<pcl::PointXYZ, pcl::PointXYZ> estimation;
  * estimation.setInputSource(source);
@@ -48,14 +45,14 @@ public:
 
   CorrespondenceEstimation();
 
-  /** \brief PCL's setters, which here take an empty cloud, too.
+  /** \brief PCL's setters; an empty cloud is allowed, too.
    * \throws BadArgument the cloud is null */
   void
   setInputSource(const typename Base::PointCloudSourceConstPtr& cloud);
   void
   setInputTarget(const typename Base::PointCloudTargetConstPtr& cloud);
 
-  /** \param[in] num_threads 0: one per core; never changes the pairs */
+  /** \param[in] num_threads 0: a thread per core; never changes the pairs */
   void
   setNumberOfThreads(unsigned int num_threads)
   {
@@ -63,30 +60,30 @@ public:
   }
 
   /** \brief The closest target point of each source point, within a distance.
-   * \param[out] correspondences are replaced
+   * \param[out] correspondences replaced
    * \param[in] max_distance [m] >= 0; a pair at exactly this distance counts
-   * \throws BadArgument a cloud is missing, an index is not that of a point, the distance is
-   * negative or NaN, or a tree that is not to be rebuilt is that of another cloud; the
-   * correspondences then stay as they were */
+   * \throws BadArgument a cloud is missing, an index is out of range, the distance is negative or
+   * NaN, or a tree with force_no_recompute belongs to another cloud; the correspondences then
+   * stay unchanged */
   void
   determineCorrespondences(
       pcl::Correspondences& correspondences,
       double max_distance = std::numeric_limits<double>::max()) override;
 
-  /** \brief The same, only pairs of which each is the other's closest. \throws BadArgument as
-   * above */
+  /** \brief determineCorrespondences() restricted to mutually closest pairs. \throws BadArgument
+   * see determineCorrespondences() */
   void
   determineReciprocalCorrespondences(
       pcl::Correspondences& correspondences,
       double max_distance = std::numeric_limits<double>::max()) override;
 
-  /** \brief A copy; trees of ours are copied, so that copies may be used at the same time
-   * (PCL: they share the tree). Others are shared, and rebuilt where needed. */
+  /** \brief A copy. Trees of pcl6d are copied, hence copies may be used concurrently (PCL: copies
+   * share the tree). Other trees are shared, and rebuilt where needed. */
   typename Base::Ptr
   clone() const override;
 
 private:
-  /** Checks what was set and builds the target's tree, unless it is built. */
+  /** Checks the settings and builds the target's tree, if needed. */
   void
   prepare(double max_distance);
   void
@@ -99,7 +96,7 @@ private:
   unsigned int num_threads_ = 0;
   typename Base::PointRepresentationConstPtr used_representation_; ///< of the trees
   typename Base::PointRepresentationConstPtr used_source_representation_;
-  pcl::Indices searched_source_; ///< what the source's tree was built from
+  pcl::Indices searched_source_; ///< indices of the points in the source's tree
   pcl::Indices searched_target_;
 };
 

@@ -13,15 +13,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The seam between PCL's interface of rejectors and a rule that chooses pairs: a class
- * for one rule adds select().
+/** \brief Base class of rejectors of pairs, with PCL's interface: the class of a rule
+ * adds select().
  *
- * What is left keeps the order of the input, and both may be the same vector. Pairs without a
- * partner (a negative index) or with a distance that is NaN are left out. \ingroup
- * registration */
+ * The remaining pairs keep the order of the input; input and output may be one vector. Pairs
+ * without a partner (a negative index) or with a NaN distance are left out.
+ * \ingroup registration */
 class SelectingRejector : public pcl::registration::CorrespondenceRejector {
 public:
-  /** \brief The pairs that are left of some. \throws BadArgument see select() */
+  /** \brief The remaining pairs of the given pairs. \throws BadArgument see select() */
   void
   getRemainingCorrespondences(const pcl::Correspondences& original,
                               pcl::Correspondences& remaining) override
@@ -29,9 +29,8 @@ public:
     remaining = select(original);
   }
 
-  /** \brief The same of the input. PCL's method, which a pointer to its class still calls,
-   * leaves the output as it was where the input is empty. \throws BadArgument no input is
-   * set */
+  /** \brief The remaining pairs of the input. PCL's method, still called through a pointer to PCL's
+   * class, leaves the output unchanged for an empty input. \throws BadArgument no input is set */
   void
   getCorrespondences(pcl::Correspondences& correspondences)
   {
@@ -64,12 +63,12 @@ protected:
 
 namespace registration {
 
-/** \return the pairs that can be judged: both indices and the distance are there */
+/** \return the usable pairs: with both indices and a distance */
 pcl::Correspondences
 usablePairs(const pcl::Correspondences& pairs);
 
-/** \return so many of the closest pairs, in their order; ties: the smallest index of the
- * source, then of the target */
+/** \return the `count` closest pairs, in their order; ties: the smallest index of the source,
+ * then of the target */
 pcl::Correspondences
 closestPairs(const pcl::Correspondences& pairs, std::size_t count);
 
@@ -79,7 +78,7 @@ requireIndicesOfPairs(const pcl::Correspondences& pairs,
                       std::size_t num_source,
                       std::size_t num_target);
 
-/** \brief A cloud of any point type, kept for a getter that names the type. */
+/** \brief A cloud of any point type, kept for a typed getter. */
 class AnyCloud {
 public:
   template <typename PointT>
@@ -90,7 +89,7 @@ public:
     type_ = &typeid(PointT);
   }
 
-  /** \return null if none was set \throws BadArgument it is of another point type */
+  /** \return null if no cloud was set \throws BadArgument the cloud has another point type */
   template <typename PointT>
   typename pcl::PointCloud<PointT>::ConstPtr
   get() const

@@ -7,9 +7,8 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Leaves each target point its closest source point, as a drop-in for
- * pcl::registration::CorrespondenceRejectorOneToOne. Of several that are equally near the one
- * with the smallest index stays (PCL: any of them), and the pairs keep their order (PCL: that
- * of the target's indices).
+ * pcl::registration::CorrespondenceRejectorOneToOne. Of several equally near points the smallest
+ * index stays (PCL: any), and the pairs keep their order (PCL: the order of the target's indices).
  * \note Source: T. Zinsser, J. Schmidt, H. Niemann, "A refined ICP algorithm for robust 3-D
  * correspondence estimation", ICIP 2003. \ingroup registration */
 class CorrespondenceRejectorOneToOne : public SelectingRejector {

@@ -13,17 +13,18 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Leaves the pairs within the overlap of two scans: out go those whose target point is
- * on the boundary of the target.
+/** \brief Leaves the pairs within the overlap of two scans: rejects pairs with a target point on
+ * the boundary of the target.
  *
- * Source points beyond the overlap have their closest points on the rim of the target, and pull
- * the source towards it; a limit of the distance only bounds that. A point is on the boundary
- * if its neighbours, in the plane that they span, leave a gap of more than the boundary angle
- * around it, or if it has fewer than 3. Edges between two faces are no boundary; holes and
- * the shadows behind objects are, as they should be. Where the points of a line of a scanner
- * stand much closer than its lines, set a radius that reaches the next line.
+ * Source points beyond the overlap have their closest points on the rim of the target, and pull the
+ * source towards the rim; a limit of the distance only bounds this pull. A point is on the boundary
+ * if its neighbours, in their common plane, leave a gap of more than the boundary angle around the
+ * point, or if the point has fewer than 3 neighbours. Edges between two faces are no boundary;
+ * holes and the shadows behind objects are. Where the points along a scan line are much closer than
+ * the lines, set a radius that reaches the next line.
  *
- * Works inside PCL's pipelines and ICP6D. Points are judged when a pair first needs it, once.
+ * Works inside PCL's pipelines and ICP6D. Each point is tested once, when a pair first
+ * needs the result.
  * \note Sources: G. Turk, M. Levoy, "Zippered polygon meshes from range images", SIGGRAPH
  * 1994 (the rule); G. H. Bendels, R. Schnabel, R. Klein, "Detecting holes in point set
  * surfaces", WSCG 2006 (the angle). \ingroup registration */
@@ -35,8 +36,8 @@ public:
   CorrespondenceRejectorOverlap() : SelectingRejector("CorrespondenceRejectorOverlap")
   {}
 
-  /** \brief The gap between neighbours [rad] above which a point is on the boundary; a right
-   * angle unless set, as in pcl::BoundaryEstimation. \throws BadArgument unless in (0, 2 pi) */
+  /** \brief The gap between neighbours [rad] above which a point is on the boundary; a right angle
+   * unless set, like in pcl::BoundaryEstimation. \throws BadArgument unless in (0, 2 pi) */
   void
   setBoundaryAngle(double angle);
   double
@@ -45,9 +46,8 @@ public:
     return angle_;
   }
 
-  /** \brief The number of nearest points that are looked at. 30 unless set: of so many that
-   * stand anywhere around a point, 1 % leave a gap of a right angle by chance. \throws
-   * BadArgument unless > 2 */
+  /** \brief The number of nearest points used. 30 unless set: of 30 points at random around a
+   * point, 1 % leave a gap of a right angle by chance. \throws BadArgument unless > 2 */
   void
   setKSearch(int neighbours);
   int
@@ -56,7 +56,7 @@ public:
     return neighbours_;
   }
 
-  /** \brief All points within this radius [m] are looked at instead; 0, off, unless set.
+  /** \brief Uses the points within this radius [m] instead; 0, off, unless set.
    * \throws BadArgument unless >= 0 */
   void
   setRadiusSearch(double radius);
@@ -66,7 +66,7 @@ public:
     return radius_;
   }
 
-  /** \param[in] num_threads 0: one per core; never changes the pairs */
+  /** \param[in] num_threads 0: a thread per core; never changes the pairs */
   void
   setNumberOfThreads(unsigned int num_threads)
   {
@@ -91,13 +91,13 @@ public:
   void
   setTargetPoints(pcl::PCLPointCloud2::ConstPtr cloud) override;
 
-  /** \return whether a target point is on the boundary; one that is not finite is
-   * \throws BadArgument no target is set, or it has no such point */
+  /** \return whether a target point is on the boundary; true for a point that is not finite
+   * \throws BadArgument no target is set, or the index is out of range */
   bool
   isBoundary(int index);
 
 protected:
-  /** \throws BadArgument no target is set, or a pair has an index that it does not */
+  /** \throws BadArgument no target is set, or the index of a pair is out of range */
   pcl::Correspondences
   select(const pcl::Correspondences& original) override;
 
@@ -109,7 +109,7 @@ private:
   void
   forget();
   void
-  judge(std::vector<int> indices);
+  evaluate(std::vector<int> indices);
   Place
   placeOf(const Eigen::Vector3f& point) const;
 
@@ -117,7 +117,7 @@ private:
   int neighbours_ = 30;
   double radius_ = 0; ///< [m]
   unsigned int num_threads_ = 0;
-  Points target_; ///< relative to a place near them
+  Points target_; ///< relative to a nearby place
   std::shared_ptr<const PointTree> tree_;
   std::vector<Place> places_;
 };

@@ -11,12 +11,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Leaves the pairs whose normals point the same way, as a drop-in for
+/** \brief Leaves the pairs with like normals: drop-in for
  * pcl::registration::CorrespondenceRejectorSurfaceNormal.
  *
- * The cosine is that of the directions (PCL: the scalar product, whatever the lengths). Pairs
- * with a normal of no length or that is not finite are left out. Clouds and normals may be
- * set in any order without initializeDataContainer(); clouds of points do not take part, as in PCL.
+ * The cosine is between directions (PCL: the scalar product, whatever the lengths). Pairs with a
+ * normal of zero length or not finite are left out. Clouds and normals may be set in any order
+ * without initializeDataContainer(); clouds of points are ignored, like in PCL.
  * \ingroup registration */
 class CorrespondenceRejectorSurfaceNormal : public SelectingRejector {
 public:
@@ -27,8 +27,8 @@ public:
   : SelectingRejector("CorrespondenceRejectorSurfaceNormal")
   {}
 
-  /** \brief Cosine of the angle that the normals must stay below; 1 unless set, as in PCL,
-   * which no pair does: a warning then says so. \throws BadArgument NaN */
+  /** \brief Cosine of the largest angle between normals; 1 unless set, like in PCL: rejects every
+   * pair, with a warning. \throws BadArgument NaN */
   void
   setThreshold(double threshold);
   double
@@ -37,7 +37,7 @@ public:
     return threshold_;
   }
 
-  /** \brief Forgets all clouds. */
+  /** \brief Forgets the clouds and normals. */
   template <typename PointT, typename NormalT>
   void
   initializeDataContainer()
@@ -60,7 +60,7 @@ public:
     requireGiven(cloud, "the input target");
     target_.cloud.set<PointT>(cloud);
   }
-  /** \return null if none was set \throws BadArgument it was set with another point type */
+  /** \return null if no cloud was set \throws BadArgument the cloud has another point type */
   template <typename PointT>
   typename pcl::PointCloud<PointT>::ConstPtr
   getInputSource() const
@@ -97,7 +97,7 @@ public:
   {
     setNormals<NormalT>(normals, target_);
   }
-  /** \return null if none was set \throws BadArgument it was set with another type */
+  /** \return null if no normals were set \throws BadArgument the normals have another type */
   template <typename NormalT>
   typename pcl::PointCloud<NormalT>::ConstPtr
   getInputNormals() const
@@ -132,7 +132,7 @@ public:
   setTargetPoints(pcl::PCLPointCloud2::ConstPtr cloud) override;
 
 protected:
-  /** \throws BadArgument normals are missing, or a pair has an index that they do not */
+  /** \throws BadArgument normals are missing, or the index of a pair is out of range */
   pcl::Correspondences
   select(const pcl::Correspondences& original) override;
 

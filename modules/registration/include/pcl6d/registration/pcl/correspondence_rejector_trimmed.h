@@ -6,9 +6,9 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Leaves a share of the pairs, the closest ones, as a drop-in for
- * pcl::registration::CorrespondenceRejectorTrimmed. As many as there, in their order (PCL:
- * shuffled), ties by index.
+/** \brief Leaves a share of the pairs, the closest: drop-in for
+ * pcl::registration::CorrespondenceRejectorTrimmed. The number of remaining pairs equals PCL's;
+ * pairs stay in order (PCL: shuffled), ties by index.
  * \note Source: D. Chetverikov, D. Svirko, D. Stepanov, P. Krsek, "The trimmed iterative
  * closest point algorithm", ICPR 2002. \ingroup registration */
 class CorrespondenceRejectorTrimmed : public SelectingRejector {
@@ -19,8 +19,8 @@ public:
   CorrespondenceRejectorTrimmed() : SelectingRejector("CorrespondenceRejectorTrimmed")
   {}
 
-  /** \brief The share that is left, at least 0 and at most 1; 0.5 unless set.
-   * \throws BadArgument it is NaN */
+  /** \brief The remaining share, at least 0 and at most 1; 0.5 unless set.
+   * \throws BadArgument NaN */
   void
   setOverlapRatio(float ratio);
   float
@@ -29,7 +29,7 @@ public:
     return overlap_ratio_;
   }
 
-  /** \brief No fewer pairs are left, unless there are fewer; 0 unless set. */
+  /** \brief Least number of remaining pairs, if the input has enough; 0 unless set. */
   void
   setMinCorrespondences(unsigned int count)
   {

@@ -11,13 +11,13 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Leaves the closest pairs, and finds their share itself, as a drop-in for
- * pcl::registration::CorrespondenceRejectorVarTrimmed: that share f, within the bounds, which
- * minimises the fractional RMSD, rms(f) / f^0.95, of two scans that overlap in part.
+/** \brief Leaves the closest pairs, and finds their share automatically: drop-in for
+ * pcl::registration::CorrespondenceRejectorVarTrimmed. The share f, within the bounds, minimises
+ * the fractional RMSD, rms(f) / f^0.95, of two partly overlapping scans.
  *
- * The pairs that are left are the closest ones, ties by index (PCL compares each pair with the
- * distance at another place of its half-sorted list, and leaves as many, but others). Distances
- * are those of the pairs; of the points, if both clouds are given.
+ * The closest pairs remain, ties by index (PCL compares each pair with the distance at another
+ * place of its half-sorted list, and leaves other pairs, of equal number). Distances are taken from
+ * the pairs, or from the points if both clouds are given.
  * \note Source: J. M. Phillips, R. Liu, C. Tomasi, "Outlier robust ICP for minimizing
  * fractional RMSD", 3DIM 2007: equation 2, exponent for three dimensions. \ingroup
  * registration */
@@ -30,21 +30,21 @@ public:
   : SelectingRejector("CorrespondenceRejectorVarTrimmed")
   {}
 
-  /** \return the square of the largest distance that was left [m^2], as in PCL */
+  /** \return the square of the largest remaining distance [m^2], like in PCL */
   double
   getTrimmedDistance() const
   {
     return trimmed_distance_;
   }
-  /** \return the share that was left */
+  /** \return the remaining share */
   double
   getTrimFactor() const
   {
     return factor_;
   }
 
-  /** \brief The bounds of the share; 0.05 and 0.95 unless set. \throws BadArgument it is
-   * outside [0, 1]; by the selection, if the least is above the largest */
+  /** \brief The bounds of the share; 0.05 and 0.95 unless set. \throws BadArgument outside [0, 1];
+   * thrown by the selection, if the least is above the largest */
   void
   setMinRatio(double ratio);
   double
@@ -60,7 +60,7 @@ public:
     return max_ratio_;
   }
 
-  /** \brief Clouds whose distances count instead of those of the pairs. They are read at each
+  /** \brief Clouds to compute distances from, instead of the pairs' distances; read at each
    * selection. \throws BadArgument null */
   template <typename PointT>
   void
@@ -86,8 +86,8 @@ public:
     requireGiven(tree, "the search method");
   }
 
-  /** \brief Clouds as PCL's pipelines hand them over; not asked for, as their pairs have
-   * their distances. \throws BadArgument null, or without coordinates */
+  /** \brief Clouds from PCL's pipelines; not required, since pairs come with distances.
+   * \throws BadArgument null, or without coordinates */
   void
   setSourcePoints(pcl::PCLPointCloud2::ConstPtr cloud) override;
   void

@@ -10,13 +10,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Places one scan on another without any guess: alignByFeatures() as a
- * pcl::Registration, where code says pcl::SampleConsensusPrerejective or
- * pcl::SampleConsensusInitialAlignment.
+/** \brief Registration without an initial pose: alignByFeatures() as a pcl::Registration, in place
+ * of pcl::SampleConsensusPrerejective or pcl::SampleConsensusInitialAlignment.
  *
- * It makes its own features. Points were seen from the sensor_origin_ of their cloud, the
- * origin unless set: what a ray went through denies a placement. A guess does not change what
- * is found; if nothing is, it is given back.
+ * Features are computed by the class. Points were measured from the sensor_origin_ of their cloud,
+ * the origin unless set: points in measured free space contradict a placement. A guess does not
+ * influence the search, and is returned if no placement is found.
  * \code
  * pcl6d::FeatureAlignment<pcl::PointXYZ, pcl::PointXYZ> coarse;
  * coarse.setInputSource(source);
@@ -37,8 +36,8 @@ public:
   : CoarseRegistration<PointSource, PointTarget, Scalar>("FeatureAlignment")
   {}
 
-  /** \brief Sizes, and what is accepted.
-   * \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \brief Sizes and thresholds.
+   * \throws BadArgument naming the first invalid field and its value */
   void
   setOptions(const FeatureAlignmentOptions& options)
   {
@@ -51,7 +50,7 @@ public:
     return options_;
   }
 
-  /** \param[in] num_threads 0: one per core; never changes the result */
+  /** \param[in] num_threads 0: a thread per core; never changes the result */
   void
   setNumberOfThreads(unsigned int num_threads)
   {

@@ -9,15 +9,14 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Generalized-ICP as a drop-in for pcl::GeneralizedIterativeClosestPoint: ICP6D
- * with Metric::kGicp. Takes one Gauss-Newton step between two searches, so that PCL's
- * settings of the inner optimizer have no counterpart. Its defaults are PCL's: 5 m, 200
- * iterations, at rest below 5e-4 m (setTransformationEpsilon(), here not squared) and 2e-3 rad
- * in a step.
+/** \brief Generalized-ICP: drop-in for pcl::GeneralizedIterativeClosestPoint, ICP6D with
+ * Metric::kGicp. Takes one Gauss-Newton step between two searches, hence PCL's settings of the
+ * inner optimizer have no effect. The defaults are PCL's: 5 m, 200 iterations, at rest below
+ * 5e-4 m (setTransformationEpsilon(), here not squared) and 2e-3 rad in a step.
  *
- * Covariances may be given instead of normals, for one side or both. Those that are 1 along a
- * plane and 1e-3 across it, as PCL's own, cost no more than normals; any others take part in
- * each step as they are.
+ * Covariances may be given instead of normals, for one side or both. Covariances of 1 along a plane
+ * and 1e-3 across, PCL's own for example, cost no more than normals; other covariances enter each
+ * step unchanged.
  * \note Source: A. Segal, D. Haehnel, S. Thrun, "Generalized-ICP", RSS 2009.
  * \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
@@ -37,29 +36,30 @@ public:
 
   GICP6D();
 
-  /** \brief As of ICP6D; as in PCL, forgets the covariances of that side. */
+  /** \brief See ICP6D; forgets the covariances of the side, like in PCL. */
   void
   setInputSource(const typename Base::Base::PointCloudSourceConstPtr& cloud) override;
   void
   setInputTarget(const typename Base::Base::PointCloudTargetConstPtr& cloud) override;
 
-  /** \brief The covariances of all points of the cloud, to be set after it; null or empty:
-   * they are estimated, 1 along a plane and 1e-3 across it (PCL's unit; those that are given
-   * for one side only must be in it). With indices, each point keeps that of its index (PCL:
-   * of its place among the indices). Those of points that are not finite do not matter.
+  /** \brief The covariances of the cloud's points, to be set after the cloud; null or empty:
+   * estimated, 1 along a plane and 1e-3 across (PCL's unit, mandatory if only one side is given).
+   * With indices, each point keeps the covariance of its index (PCL: of its place among the
+   * indices). Covariances of points that are not finite do not matter.
    *
-   * align() throws BadArgument if there is not one for each point, if one is not symmetric and
-   * positive, if another metric, an estimation or a robust kernel is set beside covariances
-   * that are no planes. Eigenvalues below 1e-9 of the largest count as that. */
+   * align() throws BadArgument if their number differs from the number of points, if a covariance
+   * is not symmetric and positive, or if another metric, an estimation or a robust kernel is
+   * combined with covariances other than planes. Eigenvalues below 1e-9 of the largest are raised
+   * to this value. */
   void
   setSourceCovariances(const MatricesVectorPtr& covariances);
   void
   setTargetCovariances(const MatricesVectorPtr& covariances);
 
   /** \return the matrix of the Mahalanobis distance between a point, by its place among the
-   * indices, and its partner at the final pose: the inverse of the sum of both covariances
-   * [PCL's unit]; the unit matrix if it has none, as in PCL
-   * \throws BadArgument there is no such point, or align() was not called */
+   * indices, and its partner at the final pose: the inverse of the sum of both covariances [PCL's
+   * unit]; the unit matrix without a partner, like in PCL
+   * \throws BadArgument the index is out of range, or align() was not called */
   Eigen::Matrix3d
   mahalanobis(std::size_t index) const;
 
@@ -71,8 +71,8 @@ public:
                      const Eigen::Matrix3d& dCost_dR_T,
                      Vector6d& g) const;
 
-  /** \brief PCL's inner optimizer, which PCL itself can only call inside align().
-   * \throws BadArgument always: there is none here */
+  /** \brief PCL's inner optimizer, which PCL itself only calls inside align().
+   * \throws BadArgument always: no inner optimizer exists here */
   void
   estimateRigidTransformationBFGS(const PointCloudSource& source,
                                   const pcl::Indices& source_indices,
@@ -92,8 +92,7 @@ public:
     return this->options_.rotation_epsilon;
   }
 
-  /** \brief PCL's name for setNormalNeighbours(); less than 3 count as 3, more than 64 as
-   * 64. */
+  /** \brief PCL's name for setNormalNeighbours(); clamped to [3, 64]. */
   void
   setCorrespondenceRandomness(int neighbours)
   {
@@ -102,11 +101,11 @@ public:
   int
   getCorrespondenceRandomness() const
   {
-    return static_cast<int>(this->normal_neighbours_);
+    return static_cast<int>(this->normal_settings_.neighbours);
   }
 
   /** \brief PCL's settings of the optimizer between two searches, kept for their getters. The
-   * one step that stands in its place is exact for the linear problem, and ICP repeats it. */
+   * single step in place of the optimizer is exact for the linear problem, and repeated by ICP. */
   void
   setMaximumOptimizerIterations(int count)
   {
@@ -152,7 +151,7 @@ protected:
   addStep(const Sides& sides, const IcpOptions& options, IcpHooks& hooks) override;
 
 private:
-  struct Run; ///< what the last align() took of both clouds
+  struct Run; ///< data of both clouds in the last align()
 
   int optimizer_iterations_ = 20;
   double translation_gradient_ = 1e-2;

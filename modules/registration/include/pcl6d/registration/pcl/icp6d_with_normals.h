@@ -5,9 +5,9 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief ICP by points and planes as a drop-in for pcl::IterativeClosestPointWithNormals:
- * ICP6D with Metric::kPlane, and its symmetric objective. Normals that the points do not have
- * are estimated. \ingroup registration */
+/** \brief Point-to-plane ICP: drop-in for pcl::IterativeClosestPointWithNormals, ICP6D with
+ * Metric::kPlane and its symmetric objective. Missing normals are estimated.
+ * \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class ICP6DWithNormals : public ICP6D<PointSource, PointTarget, Scalar> {
 public:
@@ -34,7 +34,8 @@ public:
     return this->options_.symmetric;
   }
 
-  /** \brief Whether then a normal is turned towards its partner's; true unless set. */
+  /** \brief With the symmetric objective: whether a normal is turned towards its partner's;
+   * true unless set. */
   void
   setEnforceSameDirectionNormals(bool enforce)
   {

@@ -9,17 +9,16 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief ICP of several pairs of clouds that share one motion, as a drop-in for
- * pcl::JointIterativeClosestPoint: ICP6D whose source points look for partners in the target
- * of their own pair alone. For the pose of one sensor on another from several observations.
+/** \brief ICP of several pairs of clouds with one common motion: drop-in for
+ * pcl::JointIterativeClosestPoint. An ICP6D in which source points have partners only in the
+ * target of their own pair. For the relative pose of two sensors from several observations.
  *
- * All settings of ICP6D count, metrics, normals and weights among them, but for a scale
- * and indices, which align() refuses. Rejectors and estimations see all clouds of a side as
- * one, as in PCL; a correspondence estimation is cloned for each pair, unless there is one
- * for each (addCorrespondenceEstimation()). Differences: the output of align() is all
- * sources, moved, in turn (PCL: empty); getFitnessScore() looks for the partners in the target
- * of the pair (PCL: of all sources in the first target); the clouds of the base class stay
- * those of the first pair.
+ * Every setting of ICP6D is supported, metrics, normals and weights included, but a scale or
+ * indices are an error in align(). Rejectors and estimations get the clouds of a side joined into
+ * one, like in PCL; a correspondence estimation is cloned for each pair, unless set per pair
+ * (addCorrespondenceEstimation()). Differences: the output of align() is the moved sources, in turn
+ * (PCL: empty); getFitnessScore() searches in the target of the pair (PCL: in the first target for
+ * every source); the base class keeps the clouds of the first pair.
  * \code
  * pcl6d::JointICP6D<pcl::PointXYZ, pcl::PointXYZ> icp;
  * for (const auto& seen : observations) {
@@ -41,21 +40,21 @@ public:
 
   JointICP6D() { this->reg_name_ = "JointICP6D"; }
 
-  /** \brief There are several. \throws BadArgument always (PCL: warns and does nothing) */
+  /** \brief Not supported, use addInputSource(). \throws BadArgument always (PCL: only warns) */
   void
   setInputSource(const typename Pcl::PointCloudSourceConstPtr& cloud) override;
   void
   setInputTarget(const typename Pcl::PointCloudTargetConstPtr& cloud) override;
 
-  /** \brief Adds one side of a pair; the n-th source belongs to the n-th target. Empty clouds
-   * are taken. \throws BadArgument the cloud is null */
+  /** \brief Adds one side of a pair; the n-th source belongs to the n-th target. Empty clouds are
+   * allowed. \throws BadArgument the cloud is null */
   void
   addInputSource(const typename Pcl::PointCloudSourceConstPtr& cloud);
   void
   addInputTarget(const typename Pcl::PointCloudTargetConstPtr& cloud);
 
-  /** \brief Adds the correspondence estimation of a pair: none, or one for each.
-   * \throws BadArgument it is null */
+  /** \brief Adds the correspondence estimation of a pair: for no pair, or one per pair.
+   * \throws BadArgument null */
   void
   addCorrespondenceEstimation(
       const typename Pcl::CorrespondenceEstimationPtr& estimation);
@@ -78,21 +77,21 @@ public:
   }
 
   using Base::getFitnessScore;
-  /** \return the mean squared distance [m^2] of all source points to the targets of their
-   * pairs, after the motion; as in PCL, the largest double if there is none
-   * \param[in] max_range [m^2] squares above it do not count, as in PCL */
+  /** \return the mean squared distance [m^2] of the source points to the targets of their pairs,
+   * after the motion; the largest double without a distance, like in PCL
+   * \param[in] max_range [m^2] larger squares are left out, like in PCL */
   double
   getFitnessScore(double max_range = std::numeric_limits<double>::max());
 
 protected:
-  /** \throws BadArgument there are no pairs, or not as many sources as targets (PCL prints
-   * it), and see ICP6D */
+  /** \throws BadArgument no pairs, or different numbers of sources and targets (PCL prints a
+   * message), and see ICP6D */
   void
   computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
 
 private:
-  struct Target;  ///< all targets as one, each with its tree
-  struct Sources; ///< the same of the sources
+  struct Target;  ///< the joined targets, each with its tree
+  struct Sources; ///< the joined sources
   using Finder = decltype(IcpHooks::find);
 
   void

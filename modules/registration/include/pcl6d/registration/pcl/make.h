@@ -16,9 +16,8 @@
 #include <vector>
 
 /** \file
- * PCL's classes by the words of the command line: what a program reads from its own options
- * becomes an object behind a pointer to PCL's base class. Where there is no such word,
- * BadArgument lists all.
+ * Makes PCL classes from words of the command line: an option of a program becomes an object
+ * behind a pointer to PCL's base class. For an unknown word, BadArgument lists the known words.
  * \code
  * pcl::IterativeClosestPoint<PointT, PointT> icp; // PCL's own
  * icp.setTransformationEstimation(pcl6d::registration::make<PointT, PointT>("helix"));
@@ -28,7 +27,7 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \return a minimiser of the distances of points: one of minimiserNames()
- * \throws BadArgument no such word \ingroup registration */
+ * \throws BadArgument unknown word \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 typename pcl::registration::TransformationEstimation<PointSource, PointTarget, Scalar>::
     Ptr
@@ -36,7 +35,7 @@ typename pcl::registration::TransformationEstimation<PointSource, PointTarget, S
 
 /** \return a minimiser of the distances from points to planes: one of planeMinimiserNames();
  * the target's points must have normals
- * \throws BadArgument no such word \ingroup registration */
+ * \throws BadArgument unknown word \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 typename pcl::registration::TransformationEstimation<PointSource, PointTarget, Scalar>::
     Ptr
@@ -49,21 +48,22 @@ registrationNames();
 
 /** \return ICP6D, ICP6DWithNormals, GICP6D, NDT6D, OverlapAlignment or FeatureAlignment, with
  * its defaults
- * \throws BadArgument no such word \ingroup registration */
+ * \throws BadArgument unknown word \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 typename pcl::Registration<PointSource, PointTarget, Scalar>::Ptr
 makeRegistration(const std::string& name);
 
-/** \return the search for a word of searchMethodNames(). kdtree and remembered are KdTree: it
- * is ICP6D that remembers neighbours, when it is given one; approximate finds
- * neighbours up to a tenth farther; flann is PCL's own class
- * \throws BadArgument no such word \ingroup registration */
+/** \return the search for a word of searchMethodNames(). kdtree and remembered are KdTree: with a
+ * KdTree, ICP6D remembers neighbours; approximate finds neighbours up to a tenth farther; flann is
+ * PCL's own class
+ * \throws BadArgument unknown word \ingroup registration */
 template <typename PointT>
 typename pcl::search::Search<PointT>::Ptr
 makeSearch(const std::string& name);
 
-/** \return the same as a pcl::search::KdTree, the only type that pcl::Registration takes
- * \throws BadArgument no such word, or octree or brute-force, which are no k-d trees */
+/** \return the search for a word as a pcl::search::KdTree, the only type accepted by
+ * pcl::Registration
+ * \throws BadArgument unknown word, or octree or brute-force, which are no k-d trees */
 template <typename PointT>
 typename pcl::search::KdTree<PointT>::Ptr
 makeKdTree(const std::string& name);

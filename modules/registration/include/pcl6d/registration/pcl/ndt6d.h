@@ -12,17 +12,16 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The normal distributions transform as a drop-in for
- * pcl::NormalDistributionsTransform, which says honestly whether it converged.
+/** \brief The normal distributions transform: drop-in for pcl::NormalDistributionsTransform with a
+ * reliable hasConverged().
  *
- * hasConverged() is true only if a step fell below the epsilons and the distributions leave
- * no motion open (PCL: at the iteration limit, too, unless setIterationLimitConverges()). The
- * epsilon is a length in metres, and so large a turn in radians, unless
- * setTransformationRotationEpsilon() (a cosine, as in PCL) says otherwise; 1e-3 unless set
- * (PCL: 0.1, with which it stops after the first short step). setMaximumIterations: 35 unless
- * set. Sums are in double, about a place near the target; the same bits for any number of
- * threads. Without effect, as in PCL: setMaxCorrespondenceDistance, rejectors and
- * estimations.
+ * hasConverged() is true only if a step fell below the epsilons and the distributions leave no
+ * motion open (PCL: at the iteration limit, too, unless setIterationLimitConverges()). The epsilon
+ * is a length in metres, and likewise a turn in radians, unless set by
+ * setTransformationRotationEpsilon() (a cosine, like in PCL); 1e-3 unless set (PCL: 0.1, which
+ * stops after the first short step). setMaximumIterations: 35 unless set. Sums are in double, about
+ * a place near the target; bit-identical for any number of threads. Without effect, like in PCL:
+ * setMaxCorrespondenceDistance, rejectors and estimations.
  * \code
  * pcl6d::NDT6D<pcl::PointXYZ, pcl::PointXYZ> ndt;
  * ndt.setResolution(1);
@@ -73,6 +72,21 @@ public:
     grid_.reset();
   }
 
+  /** \brief Whether cells with their points on one line have no plane, see Distribution. kAuto
+   * unless set: applied if the target, seen from the origin, is a scan of lines or rings;
+   * otherwise results are bit-identical to kNever. */
+  void
+  setLineGrowth(LineGrowth growth)
+  {
+    line_growth_ = growth;
+    grid_.reset();
+  }
+  LineGrowth
+  getLineGrowth() const
+  {
+    return line_growth_;
+  }
+
   /** \brief The longest step [m, rad]; 0.1 unless set. */
   void
   setStepSize(double step_size)
@@ -85,8 +99,8 @@ public:
     return options_.step_size;
   }
 
-  /** \brief The share of points that belong to no distribution; 0.55 unless set. PCL's
-   * spelling, and the right one. */
+  /** \brief The share of points outside the distributions; 0.55 unless set. In PCL's spelling and
+   * in correct spelling. */
   void
   setOulierRatio(double ratio)
   {
@@ -125,21 +139,21 @@ public:
     return this->nr_iterations_;
   }
 
-  /** \brief As ICP6D::setIterationLimitConverges(). */
+  /** \brief See ICP6D::setIterationLimitConverges(). */
   void
   setIterationLimitConverges(bool converges)
   {
     iteration_limit_converges_ = converges;
   }
 
-  /** \param[in] num_threads 0: one per core; never changes the result */
+  /** \param[in] num_threads 0: a thread per core; never changes the result */
   void
   setNumberOfThreads(unsigned int num_threads)
   {
     options_.num_threads = num_threads;
   }
 
-  /** \return what the last align() came to, in the frame of the target */
+  /** \return the result of the last align(), in the frame of the target */
   const NdtResult&
   result() const
   {
@@ -147,7 +161,7 @@ public:
   }
 
 protected:
-  /** \throws BadArgument a setting breaks its rule */
+  /** \throws BadArgument a setting is invalid */
   void
   computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
 
@@ -157,6 +171,7 @@ private:
 
   float resolution_ = 1;
   std::size_t least_points_ = 6;
+  LineGrowth line_growth_ = LineGrowth::kAuto;
   bool iteration_limit_converges_ = false;
   NdtOptions options_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(); ///< of the grid [m]

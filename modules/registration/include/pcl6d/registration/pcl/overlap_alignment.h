@@ -11,7 +11,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A better guess where the given one is off by metres: searchByOverlap() as a
+/** \brief Improves an initial pose with an error of metres: searchByOverlap() as a
  * pcl::Registration.
  * \code
  * pcl6d::OverlapAlignment<pcl::PointXYZ, pcl::PointXYZ> coarse;
@@ -33,8 +33,8 @@ public:
   : CoarseRegistration<PointSource, PointTarget, Scalar>("OverlapAlignment")
   {}
 
-  /** \brief The window about the guess, the sizes of cubes, and what is accepted.
-   * \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \brief The window about the guess, the sizes of cubes, and thresholds.
+   * \throws BadArgument naming the first invalid field and its value */
   void
   setOptions(const OverlapSearchOptions& options)
   {
@@ -47,7 +47,7 @@ public:
     return options_;
   }
 
-  /** \param[in] num_threads 0: one per core; never changes the result */
+  /** \param[in] num_threads 0: a thread per core; never changes the result */
   void
   setNumberOfThreads(unsigned int num_threads)
   {

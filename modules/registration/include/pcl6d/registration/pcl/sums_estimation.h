@@ -12,13 +12,13 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The seam between PCL's estimation classes and our minimisers, which work on
- * sums over pairs: PCL's four overloads, once. A minimiser adds only minimise().
+/** \brief Base class of the transformation estimations: PCL's four overloads on top of the
+ * minimisers, which work on sums over pairs. A derived class adds only minimise().
  *
  * Sums run in double whatever the Scalar. Pairs with NaN are skipped.
- * \tparam Accumulator adds up pairs: PairAccumulator (point to point), or
- * PlaneAccumulator (point to plane), whose one step per pass over the pairs is repeated
- * until it rests \ingroup registration */
+ * \tparam Accumulator adds up pairs: PairAccumulator (point to point), or PlaneAccumulator (point
+ * to plane), whose one step per pass over the pairs is repeated until convergence
+ * \ingroup registration */
 template <typename PointSource,
           typename PointTarget,
           typename Scalar = float,
@@ -37,15 +37,15 @@ public:
   virtual RigidEstimate
   minimise(const Sums& sums) const = 0;
 
-  /** \brief What an ICP of ours does between two searches: a linearised minimiser takes
-   * one step, all others minimise. */
+  /** \brief The motion of ICP6D between two searches: a linearised minimiser takes one step, the
+   * others minimise. */
   virtual RigidEstimate
   step(const Sums& sums) const
   {
     return minimise(sums);
   }
 
-  /** \brief What PCL's overloads give out: \return the matrix of a motion that was found
+  /** \brief Result of PCL's overloads: \return the matrix of the motion found
    * \param[in] sums of the last pass over the pairs */
   virtual Eigen::Matrix4d
   toMatrix(const Eigen::Isometry3d& motion, const Sums& /*sums*/) const
@@ -54,7 +54,7 @@ public:
   }
 
   /** \throws BadArgument the two sides differ in size
-   * \throws ComputeFailed the pairs do not fix a motion; the matrix stays as it was */
+   * \throws ComputeFailed the pairs do not fix a motion; the matrix stays unchanged */
   void
   estimateRigidTransformation(const SourceCloud& source,
                               const TargetCloud& target,
@@ -92,8 +92,8 @@ template <typename PointSource, typename PointTarget, typename Scalar>
 using PlaneEstimation =
     SumsEstimation<PointSource, PointTarget, Scalar, PlaneAccumulator>;
 
-/** \param[in] needs what the pairs must have \throws ComputeFailed the estimate is
- * anything but kOk */
+/** \param[in] needs condition on the pairs, for the message \throws ComputeFailed the
+ * estimate is not kOk */
 void
 throwUnlessOk(const RigidEstimate& estimate, std::size_t num_pairs, const char* needs);
 
@@ -101,15 +101,15 @@ throwUnlessOk(const RigidEstimate& estimate, std::size_t num_pairs, const char* 
 void
 requireSameSize(std::size_t num_source, std::size_t num_target);
 
-/** \return true: what a minimiser makes of PairSums needs no second pass */
+/** \return true: a minimiser of PairSums needs no second pass */
 inline bool
 isFinal(const PairSums&, const Eigen::Isometry3d&)
 {
   return true;
 }
 
-/** \return whether a step on these sums has come to rest: turn and shift are within
- * 1e-10 rad and 1e-10 of the spread of the points */
+/** \return whether the steps have converged: turn and shift are within 1e-10 rad and 1e-10 of the
+ * spread of the points */
 bool
 isFinal(const PlaneSums& sums, const Eigen::Isometry3d& step);
 

@@ -12,7 +12,7 @@ namespace PCL6D_EXPORTS pcl6d {
  * pcl::registration::TransformationEstimationDualQuaternion.
  *
  * \throws BadArgument the two sides differ in size
- * \throws ComputeFailed fewer than 3 pairs, or all pairs on one line \ingroup registration */
+ * \throws ComputeFailed fewer than 3 pairs, or collinear pairs \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class TransformationEstimationDualQuaternion
 : public SumsEstimation<PointSource, PointTarget, Scalar> {

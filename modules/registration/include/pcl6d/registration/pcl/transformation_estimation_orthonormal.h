@@ -11,7 +11,7 @@ namespace PCL6D_EXPORTS pcl6d {
  * rotationByOrthonormal().
  *
  * \throws BadArgument the two sides differ in size
- * \throws ComputeFailed fewer than 3 pairs, or all pairs on one line \ingroup registration */
+ * \throws ComputeFailed fewer than 3 pairs, or collinear pairs \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class TransformationEstimationOrthonormal
 : public SumsEstimation<PointSource, PointTarget, Scalar> {

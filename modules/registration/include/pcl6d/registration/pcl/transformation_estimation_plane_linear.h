@@ -9,15 +9,16 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Rigid motion from points to planes by planeStepByLinear(), repeated with the
- * same pairs until it rests (at most 20 passes over them).
+/** \brief Rigid motion from points to planes by planeStepByLinear(), repeated over
+ * fixed pairs until convergence (at most 20 passes).
  *
- * The target point type must have a normal; pairs whose normal is NaN or of no length
- * are skipped. Drop-in for pcl::registration::TransformationEstimationPointToPlaneLLS.
+ * The target point type must have a normal; pairs with a normal that is NaN or of zero
+ * length are skipped. Drop-in for
+ * pcl::registration::TransformationEstimationPointToPlaneLLS.
  *
  * \throws BadArgument the two sides differ in size
- * \throws ComputeFailed some motion leaves all distances as they are (a single plane, a
- * corridor), or the passes do not come to rest \ingroup registration */
+ * \throws ComputeFailed a motion leaves every distance unchanged (a single plane, a
+ * corridor), or the passes do not converge \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class TransformationEstimationPlaneLinear
 : public PlaneEstimation<PointSource, PointTarget, Scalar> {

@@ -15,7 +15,7 @@ namespace PCL6D_EXPORTS pcl6d {
  * Drop-in for pcl::registration::TransformationEstimationSVD.
  *
  * \throws BadArgument the two sides differ in size
- * \throws ComputeFailed fewer than 3 pairs, or all pairs on one line
+ * \throws ComputeFailed fewer than 3 pairs, or collinear pairs
  * \note Source: B. K. P. Horn, "Closed-form solution of absolute orientation using unit
  * quaternions", JOSA A 4(4), 1987. Book: 4.1.1. \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>

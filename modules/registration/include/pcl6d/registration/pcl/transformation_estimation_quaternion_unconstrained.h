@@ -7,12 +7,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The linearised quaternion as published, which does not reach the minimum: see
- * minimiseByQuaternionUnconstrained(). For comparison only.
+/** \brief The published, unconstrained form of the linearised quaternion, which does
+ * not reach the minimum: see minimiseByQuaternionUnconstrained(). For comparison only.
  *
  * \throws BadArgument the two sides differ in size
- * \throws ComputeFailed fewer than 3 pairs, all pairs on one line, or a turn of nearly
- * half a circle \ingroup registration */
+ * \throws ComputeFailed fewer than 3 pairs, collinear pairs, or a turn of nearly half a
+ * circle \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class TransformationEstimationQuaternionUnconstrained
 : public SumsEstimation<PointSource, PointTarget, Scalar> {

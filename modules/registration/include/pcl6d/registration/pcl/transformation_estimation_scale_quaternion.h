@@ -9,13 +9,13 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Closed-form motion and scale between matched points by the unit quaternion:
  * similarityByQuaternion(). The counterpart of
- * pcl::registration::TransformationEstimationSVDScale, with its meaning of the matrix: s R
- * and t, where R is that of TransformationEstimationQuaternion.
+ * pcl::registration::TransformationEstimationSVDScale, with its meaning of the matrix: s R and t,
+ * with R from TransformationEstimationQuaternion.
  *
- * Inside pcl::IterativeClosestPoint the scale is applied in each iteration. ICP6D takes the
- * rigid part, unless it is told to estimate the scale (ICP6D::setEstimateScale()).
+ * Inside pcl::IterativeClosestPoint the scale is applied in each iteration. ICP6D takes the rigid
+ * part, unless set to estimate the scale (ICP6D::setEstimateScale()).
  * \throws BadArgument the two sides differ in size
- * \throws ComputeFailed fewer than 3 pairs, or all pairs on one line \ingroup registration */
+ * \throws ComputeFailed fewer than 3 pairs, or collinear pairs \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class TransformationEstimationScaleQuaternion
 : public SumsEstimation<PointSource, PointTarget, Scalar> {

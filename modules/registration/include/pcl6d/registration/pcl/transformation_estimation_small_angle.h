@@ -11,8 +11,8 @@ namespace PCL6D_EXPORTS pcl6d {
  * inside ICP6D one step per search.
  *
  * \throws BadArgument the two sides differ in size
- * \throws ComputeFailed fewer than 3 pairs, all pairs on one line, or a turn of nearly
- * half a circle \ingroup registration */
+ * \throws ComputeFailed fewer than 3 pairs, collinear pairs, or a turn of nearly half a
+ * circle \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class TransformationEstimationSmallAngle
 : public SumsEstimation<PointSource, PointTarget, Scalar> {

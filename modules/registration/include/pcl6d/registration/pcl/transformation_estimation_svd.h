@@ -7,13 +7,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Closed-form rigid motion between matched points by the singular value
- * decomposition: rotationBySVD(). Drop-in for
- * pcl::registration::TransformationEstimationSVD that sums in double and never answers
- * with a reflection.
+/** \brief Closed-form rigid motion between matched points by the singular value decomposition:
+ * rotationBySVD(). Drop-in for pcl::registration::TransformationEstimationSVD with sums in double
+ * and never a reflection.
  *
  * \throws BadArgument the two sides differ in size
- * \throws ComputeFailed fewer than 3 pairs, or all pairs on one line \ingroup registration */
+ * \throws ComputeFailed fewer than 3 pairs, or collinear pairs \ingroup registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class TransformationEstimationSVD
 : public SumsEstimation<PointSource, PointTarget, Scalar> {

@@ -95,7 +95,7 @@ ELCH<PointT>::requireScans() const
             "given");
 }
 
-/** \return the scan and those that edges join to it, as one cloud */
+/** \return the scan and its adjacent scans, as one cloud */
 template <typename PointT>
 typename ELCH<PointT>::PointCloudPtr
 ELCH<PointT>::withNeighbours(VertexId vertex) const
@@ -107,8 +107,8 @@ ELCH<PointT>::withNeighbours(VertexId vertex) const
   return all;
 }
 
-/** \return the motion that closes the loop; none if the registration did not converge, nor
- * ended at the iteration limit, where it says so */
+/** \return the motion that closes the loop; empty if the registration neither converged nor
+ * reported its iteration limit */
 template <typename PointT>
 std::optional<Eigen::Matrix4f>
 ELCH<PointT>::loopMotion()
@@ -130,7 +130,7 @@ ELCH<PointT>::loopMotion()
   return found;
 }
 
-/** \return poses that stand where the scanners stood, in the axes of the world */
+/** \return poses at the scanner positions, with the world axes */
 template <typename PointT>
 std::vector<Eigen::Isometry3d>
 ELCH<PointT>::positions() const

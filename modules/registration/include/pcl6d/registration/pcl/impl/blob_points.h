@@ -11,12 +11,12 @@
 #include <string>
 
 /** \file
- * What rejectors of pairs make of the clouds that PCL's pipelines hand over. */
+ * Conversion of the clouds from PCL's pipelines, for rejectors of pairs. */
 namespace PCL6D_EXPORTS pcl6d {
 namespace registration {
 
-/** \return a cloud as PCL's pipelines hand it over, as points of a type
- * \param[in] field that it must have \throws BadArgument it is null, or has no such field */
+/** \return a cloud from PCL's pipelines, as points of a type
+ * \param[in] field mandatory field \throws BadArgument the cloud is null, or lacks the field */
 template <typename PointT>
 typename pcl::PointCloud<PointT>::ConstPtr
 cloudOfBlob(const pcl::PCLPointCloud2::ConstPtr& blob, const std::string& field)

@@ -28,7 +28,8 @@ CoarseRegistration<PointSource, PointTarget, Scalar>::setInputSource(
   if (!cloud)
     throw BadArgument(this->reg_name_ + ": the input source is null");
   if (this->use_indices_ && this->indices_)
-    requireIndices(*this->indices_, cloud->size()); // align() of PCL's class reads them
+    requireIndices(*this->indices_, cloud->size()); // align() of PCL's class
+                                                    // reads the indices
   this->source_cloud_updated_ = true;
   pcl::PCLBase<PointSource>::setInputCloud(cloud);
 }
@@ -44,7 +45,7 @@ CoarseRegistration<PointSource, PointTarget, Scalar>::setInputTarget(
   this->target_cloud_updated_ = true;
 }
 
-/** \return what PCL's setters write and nothing reads here */
+/** \return the settings of PCL's setters that are not used here */
 template <typename PointSource, typename PointTarget, typename Scalar>
 typename CoarseRegistration<PointSource, PointTarget, Scalar>::Unused
 CoarseRegistration<PointSource, PointTarget, Scalar>::unused() const

@@ -17,7 +17,7 @@
 namespace PCL6D_EXPORTS pcl6d {
 namespace registration {
 
-/** \return whether a search counts other coordinates than x, y, z */
+/** \return whether a search uses coordinates other than x, y, z */
 template <typename PointT>
 bool
 isOfOtherCoordinates(const pcl::search::KdTree<PointT>& tree)
@@ -27,15 +27,13 @@ isOfOtherCoordinates(const pcl::search::KdTree<PointT>& tree)
          (!representation->isTrivial() || representation->getNumberOfDimensions() != 3);
 }
 
-/** \return the limit below which a core accepts all squared distances up to the square of
- * a distance [m], which is included */
+/** \return the limit [m^2] for a core that includes the square of a distance [m] */
 float
 limitThatIncludes(double max_distance);
 
-/** \brief Finds the closest of some points to each of others, nearer than a limit; in parallel.
- * \param[in] points those of the tree
- * \param[in,out] found of each query; before, what is likely to be found, or nothing: for
- * speed only */
+/** \brief Finds the closest point to each query, nearer than a limit; in parallel.
+ * \param[in] points the points of the tree
+ * \param[in,out] found per query; before: likely neighbours, or empty, for speed only */
 void
 findClosest(const PointTree& tree,
             const Points& points,
@@ -44,7 +42,7 @@ findClosest(const PointTree& tree,
             unsigned int num_threads,
             std::vector<Neighbour>& found);
 
-/** \return the tree, if it is one of ours and counts x, y, z */
+/** \return the tree, if it is a pcl6d::KdTree over x, y, z; else null */
 template <typename PointT>
 std::shared_ptr<KdTree<PointT>>
 ourTree(const typename pcl::search::KdTree<PointT>::Ptr& tree)
@@ -53,8 +51,8 @@ ourTree(const typename pcl::search::KdTree<PointT>::Ptr& tree)
   return ours && !isOfOtherCoordinates<PointT>(*tree) ? ours : nullptr;
 }
 
-/** \return the points as a tree of ours counts their coordinates
- * \param[in] indices null: all */
+/** \return the points in the local coordinates of a pcl6d tree
+ * \param[in] indices null: every point */
 template <typename PointT, typename Tree>
 Points
 localPoints(const pcl::PointCloud<PointT>& cloud,
@@ -67,8 +65,8 @@ localPoints(const pcl::PointCloud<PointT>& cloud,
   return points;
 }
 
-/** \return the closest of the searched points to each query by a tree of ours, as indices of
- * the cloud */
+/** \return the closest searched point to each query by a pcl6d::KdTree, with
+ * indices of the cloud */
 template <typename PointT>
 std::vector<Neighbour>
 closestByOurs(const KdTree<PointT>& tree,
@@ -109,7 +107,7 @@ hasFinitePoint(const pcl::search::KdTree<PointT>& tree)
   });
 }
 
-/** \return the closest point of any tree of PCL's interface; index -1: none
+/** \return the closest point by any tree of PCL's interface; index -1: not found
  * \param[in] limit [m^2], included */
 template <typename PointT>
 Neighbour
@@ -258,7 +256,7 @@ CorrespondenceEstimation<PointSource, PointTarget, Scalar>::determineCorresponde
   correspondences = std::move(pairs);
 }
 
-/** Leaves the pairs whose target point has their source point as its closest. */
+/** Leaves the mutually closest pairs. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
 CorrespondenceEstimation<PointSource, PointTarget, Scalar>::chooseReciprocal(

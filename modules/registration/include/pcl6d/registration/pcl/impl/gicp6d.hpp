@@ -18,22 +18,22 @@ using Covariances = std::vector<Eigen::Matrix3d>;
 
 /** \brief Checks a covariance, and bounds its eigenvalues from below.
  * \param[in] name, index for the message
- * \throws BadArgument it is not finite, symmetric and positive */
+ * \throws BadArgument not finite, symmetric and positive */
 Eigen::Matrix3d
 checkedCovariance(const Eigen::Matrix3d& covariance,
                   const char* name,
                   std::size_t index);
 
-/** \return the direction in which each covariance is least */
+/** \return the direction of least variance of each covariance */
 Normals
 leastDirections(const Covariances& covariances);
 
-/** \return whether all are 1 along a plane and epsilon across it; an empty set is */
+/** \return whether every covariance is 1 along a plane and epsilon across; true for an empty set */
 bool
 arePlanes(const Covariances& covariances, double epsilon);
 
-/** \return a covariance that is 1 along a plane and epsilon across; 1 in all directions where
- * the normal has no length */
+/** \return a covariance of 1 along a plane and epsilon across; 1 in every direction for a normal
+ * of zero length */
 Eigen::Matrix3d
 covarianceOf(const Eigen::Vector3f& normal, double epsilon);
 Covariances
@@ -53,7 +53,7 @@ struct GicpSides {
   Covariances of_target;
 };
 
-/** \return the Gauss-Newton step of the sum of all Mahalanobis distances at a pose */
+/** \return the Gauss-Newton step of the sum of the pairs' Mahalanobis distances at a pose */
 RigidEstimate
 gicpStep(const GicpSides& sides,
          const Eigen::Isometry3d& T,
@@ -66,7 +66,7 @@ derivativeByAngles(const Eigen::Vector3d& roll_pitch_yaw,
                    const Eigen::Matrix3d& dCost_dR_T);
 
 /** \return the covariances of chosen points, checked
- * \throws BadArgument there is not one for each point of the cloud */
+ * \throws BadArgument not one covariance per point of the cloud */
 template <typename Given>
 Covariances
 chosenCovariances(const Given& given,
@@ -104,7 +104,7 @@ GICP6D<PointSource, PointTarget, Scalar>::GICP6D()
 {
   this->reg_name_ = "GICP6D";
   this->setMetric(Metric::kGicp);
-  this->max_iterations_ = 200; // all as in PCL
+  this->max_iterations_ = 200; // PCL's values
   this->corr_dist_threshold_ = 5;
   this->transformation_epsilon_ = 5e-4;
   this->options_.rotation_epsilon = 2e-3;
@@ -174,7 +174,7 @@ GICP6D<PointSource, PointTarget, Scalar>::targetNormals(const pcl::Indices& indi
       *target_covariances_, this->target_->size(), indices, points, "the target"));
 }
 
-/** Covariances that are planes are in the normals; others need a step of their own. */
+/** Covariances of planes are represented by normals; others need a step of their own. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
 GICP6D<PointSource, PointTarget, Scalar>::addStep(const Sides& sides,

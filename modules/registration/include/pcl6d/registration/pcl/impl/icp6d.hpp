@@ -16,28 +16,30 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** The target as the core takes it; its coordinates are relative to origin, and so are
- * poses. Made once for many sources. */
+/** The target in the form of the core; coordinates and poses are relative to origin.
+ * Made once for many sources. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 struct ICP6D<PointSource, PointTarget, Scalar>::Target {
   typename Base::KdTreePtr made_from;
-  pcl::IndicesConstPtr searched;                    ///< of the tree; null: all
-  pcl::Indices indices;                             ///< the same, spelt out
+  pcl::IndicesConstPtr searched;                    ///< of the tree; null: every point
+  pcl::Indices indices;                             ///< `searched`, written out
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< [m]
   Points points;
   std::shared_ptr<const PointTree> tree;
   SearchMemory memory = SearchMemory::kNeighbours;
   std::function<Neighbour(const Eigen::Vector3f&, float)> search;
   std::function<std::vector<Neighbour>(const Eigen::Vector3f&, std::size_t)> search_k;
-  Normals normals; ///< if a metric needed them
-  std::size_t normal_neighbours = 0;
+  Normals normals;                         ///< if needed by a metric
+  std::optional<ScanNormals> normals_made; ///< settings of the normals;
+                                           ///< empty: not yet made
 };
 
-/** What one run takes of both clouds. */
+/** Data of both clouds for one run. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 struct ICP6D<PointSource, PointTarget, Scalar>::Sides {
   std::shared_ptr<const Target> target;
@@ -57,7 +59,7 @@ ICP6D<PointSource, PointTarget, Scalar>::ICP6D()
       this->nr_iterations_, this->transformation_, *this->correspondences_);
 }
 
-/** What was set by the convergence criteria counts as if it had been set here. */
+/** Takes over the settings made through the convergence criteria. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
 ICP6D<PointSource, PointTarget, Scalar>::takeCriteria()
@@ -94,13 +96,13 @@ ICP6D<PointSource, PointTarget, Scalar>::startPose(const Matrix4& guess)
   return start;
 }
 
-/** PCL's setters are not virtual and write members of the base; they are read here. */
+/** PCL's setters are not virtual and write members of the base, which are read here. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 IcpOptions
 ICP6D<PointSource, PointTarget, Scalar>::effectiveOptions() const
 {
   IcpOptions options = options_;
-  options.max_iterations = std::max(1, this->max_iterations_); // PCL tries at least one
+  options.max_iterations = std::max(1, this->max_iterations_); // PCL does at least one
   options.max_distance =
       std::max(this->corr_dist_threshold_, std::numeric_limits<double>::min());
   const double epsilon = this->transformation_epsilon_;
@@ -136,7 +138,7 @@ ICP6D<PointSource, PointTarget, Scalar>::effectiveOptions() const
   return options;
 }
 
-/** Makes the target for the core, unless it is made. */
+/** Makes the target for the core, if needed. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
 ICP6D<PointSource, PointTarget, Scalar>::makeTarget()
@@ -173,16 +175,16 @@ ICP6D<PointSource, PointTarget, Scalar>::makeTarget()
   }
 }
 
-/** Adds the normals of the target, unless they are there. */
+/** Adds the normals of the target, if missing. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
 ICP6D<PointSource, PointTarget, Scalar>::makeNormals(const IcpOptions& options)
 {
-  if (made_->normal_neighbours == normal_neighbours_)
+  if (made_->normals_made == normal_settings_)
     return;
   made_->normals =
       targetNormals(made_->indices, made_->points, made_->tree.get(), options);
-  made_->normal_neighbours = normal_neighbours_;
+  made_->normals_made = normal_settings_;
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -206,7 +208,7 @@ ICP6D<PointSource, PointTarget, Scalar>::sourceNormals(const Points& points,
                                                        const IcpOptions& options) const
 {
   return registration::normalsOf(
-      *this->input_, *this->indices_, points, nullptr, normal_neighbours_, options);
+      *this->input_, *this->indices_, points, nullptr, normal_settings_, options);
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -217,7 +219,7 @@ ICP6D<PointSource, PointTarget, Scalar>::targetNormals(const pcl::Indices& indic
                                                        const IcpOptions& options) const
 {
   return registration::normalsOf(
-      *this->target_, indices, points, tree, normal_neighbours_, options);
+      *this->target_, indices, points, tree, normal_settings_, options);
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -225,7 +227,7 @@ void
 ICP6D<PointSource, PointTarget, Scalar>::forgetTargetNormals()
 {
   if (made_)
-    made_->normal_neighbours = 0;
+    made_->normals_made.reset();
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/export.h>
+#include <pcl6d/filters/line_growth.h>
 #include <pcl6d/registration/icp.h>
 #include <pcl6d/registration/pcl/correspondence_estimation.h>
 #include <pcl6d/registration/pcl/sums_estimation.h>
@@ -24,18 +25,18 @@
 #include <utility>
 
 /** \file
- * What PCL's users may plug into a registration, as hooks of the core. */
+ * Adapters from PCL's plug-in classes of a registration to hooks of the core. */
 namespace PCL6D_EXPORTS pcl6d {
 namespace registration {
 
 using Rejector =
     std::function<std::vector<IcpPair>(const Eigen::Isometry3d&, std::vector<IcpPair>)>;
 
-/** \return one rejector that applies some in turn */
+/** \return one rejector that applies several in turn */
 Rejector
 inTurn(std::vector<Rejector> rejectors);
 
-/** \return a rejector that leaves pairs which are each other's closest
+/** \return a rejector that leaves mutually closest pairs
  * \param[in] target is kept by reference */
 Rejector
 reciprocal(const Points& source, const Points& target, unsigned int num_threads);
@@ -49,13 +50,13 @@ requireGiven(const Pointer& pointer, const std::string& name)
     throw BadArgument("ICP6D: " + name + " is null");
 }
 
-/** \return given normals, or those estimated if none is of any length
+/** \return the given normals, or estimated normals if each given normal has zero length
  * \param[in] tree over the points; null: made here */
 Normals
 givenOrEstimated(Normals given,
                  const Points& points,
                  const PointTree* tree,
-                 std::size_t neighbours,
+                 const ScanNormals& settings,
                  const IcpOptions& options);
 
 template <typename PointT>
@@ -67,14 +68,14 @@ allOf(const pcl::PointCloud<PointT>& cloud)
   return all;
 }
 
-/** \return the normals of chosen points of a cloud, whose coordinates are points */
+/** \return the normals of the chosen points of a cloud; `points`: their coordinates */
 template <typename PointT>
 Normals
 normalsOf(const pcl::PointCloud<PointT>& cloud,
           const pcl::Indices& indices,
           const Points& points,
           const PointTree* tree,
-          std::size_t neighbours,
+          const ScanNormals& settings,
           const IcpOptions& options)
 {
   Normals given;
@@ -83,15 +84,15 @@ normalsOf(const pcl::PointCloud<PointT>& cloud,
     for (const auto index : indices)
       given.emplace_back(cloud[index].getNormalVector3fMap());
   }
-  return givenOrEstimated(std::move(given), points, tree, neighbours, options);
+  return givenOrEstimated(std::move(given), points, tree, settings, options);
 }
 
-/** \return the place of each point of a cloud among the searched ones, -1: not searched;
- * empty if all are \param[in] searched null: all */
+/** \return the place of each point of a cloud among the searched points, -1: not searched; empty if
+ * every point is searched \param[in] searched null: every point */
 std::vector<int>
 placesIn(const pcl::IndicesConstPtr& searched, std::size_t cloud_size);
 
-/** \return the indices of the points that are finite */
+/** \return the indices of the finite points */
 template <typename PointT>
 pcl::IndicesPtr
 finiteOf(const pcl::PointCloud<PointT>& cloud)
@@ -103,7 +104,7 @@ finiteOf(const pcl::PointCloud<PointT>& cloud)
   return finite;
 }
 
-/** \return the search of any class of PCL's, which gives places among searched points */
+/** \return the search of any PCL class, with results as places among the searched points */
 template <typename PointT>
 std::function<Neighbour(const Eigen::Vector3f&, float)>
 searchOf(const typename pcl::search::KdTree<PointT>::Ptr& tree)
@@ -124,7 +125,7 @@ searchOf(const typename pcl::search::KdTree<PointT>::Ptr& tree)
       };
 }
 
-/** \return the same for several points, nearest first */
+/** \return the search for several points, nearest first */
 template <typename PointT>
 std::function<std::vector<Neighbour>(const Eigen::Vector3f&, std::size_t)>
 searchOfSeveral(const typename pcl::search::KdTree<PointT>::Ptr& tree)
@@ -147,7 +148,7 @@ searchOfSeveral(const typename pcl::search::KdTree<PointT>::Ptr& tree)
   };
 }
 
-/** \return whether an estimation is one of those that scale, PCL's or ours */
+/** \return whether an estimation includes a scale, of PCL or pcl6d */
 template <typename PointSource, typename PointTarget, typename Scalar>
 bool
 hasScale(
@@ -162,11 +163,11 @@ hasScale(
          dynamic_cast<const Ours*>(&estimation);
 }
 
-/** \throws BadArgument a matrix that an estimation made is finite and no motion */
+/** \throws BadArgument the matrix of an estimation is finite, but no motion */
 void
 requireMotion(const Eigen::Matrix4d& matrix);
 
-/** \return whether icp() itself can do what an estimation does */
+/** \return whether icp() itself implements an estimation */
 template <typename PointSource,
           typename PointTarget,
           typename Scalar,
@@ -182,7 +183,7 @@ isOurs(const Estimation& estimation)
       &estimation);
 }
 
-/** \brief Calls PCL's classes with the source as it lies at a pose. */
+/** \brief Calls PCL's classes with the source moved to a pose. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 class PclAdapter
 : public std::enable_shared_from_this<PclAdapter<PointSource, PointTarget, Scalar>> {
@@ -262,7 +263,7 @@ public:
     return [self = this->shared_from_this(),
             estimation](const Eigen::Isometry3d& T, const std::vector<IcpPair>& pairs) {
       self->moveTo(T);
-      // Some estimations of PCL print what they miss, and leave the motion as it was.
+      // On errors, several estimations of PCL print a message and leave the motion unchanged.
       typename Registration::Matrix4 motion =
           Registration::Matrix4::Constant(std::numeric_limits<Scalar>::quiet_NaN());
       estimation->estimateRigidTransformation(
@@ -328,7 +329,7 @@ private:
   }
 
   typename SourceCloud::Ptr source_; ///< the chosen points
-  pcl::IndicesPtr finite_;           ///< of them
+  pcl::IndicesPtr finite_;           ///< finite chosen points
   typename SourceCloud::Ptr moved_;
   typename TargetCloud::ConstPtr target_;
   typename pcl::search::KdTree<PointTarget>::Ptr tree_;

@@ -11,10 +11,10 @@
 #include <utility>
 
 /** \file
- * How ICP6D takes part in the iteration: observers, and PCL's classes that are plugged in. */
+ * Hooks of ICP6D into the iteration: observers, and plugged-in PCL classes. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** Observers of each iteration: what PCL keeps of it, and the caller's. */
+/** Observers of each iteration: the state kept by PCL, and the caller's observer. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
 ICP6D<PointSource, PointTarget, Scalar>::addObservers(IcpHooks& hooks,
@@ -45,8 +45,8 @@ ICP6D<PointSource, PointTarget, Scalar>::addObservers(IcpHooks& hooks,
     };
 }
 
-/** Calls PCL's visualisation callback as pcl::IterativeClosestPoint does: all chosen points
- * after the step, and the indices of both sides of the pairs. */
+/** Calls PCL's visualisation callback with the arguments of pcl::IterativeClosestPoint: the chosen
+ * points after the step, and the indices of both sides of the pairs. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
 ICP6D<PointSource, PointTarget, Scalar>::showPairs(const IcpIteration& seen,

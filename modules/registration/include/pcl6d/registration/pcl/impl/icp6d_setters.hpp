@@ -12,7 +12,7 @@
 #include <utility>
 
 /** \file
- * The setters of ICP6D that check what they are given. */
+ * The setters of ICP6D that check their arguments. */
 namespace PCL6D_EXPORTS pcl6d {
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -109,7 +109,8 @@ typename pcl::registration::DefaultConvergenceCriteria<Scalar>::Ptr
 ICP6D<PointSource, PointTarget, Scalar>::getConvergeCriteria()
 {
   takeCriteria();
-  if (this->transformation_estimation_) // null through PCL's base class: align() says so
+  if (this->transformation_estimation_) // null through PCL's base class:
+                                        // align() reports it
     criteria_->show(effectiveOptions());
   return criteria_;
 }

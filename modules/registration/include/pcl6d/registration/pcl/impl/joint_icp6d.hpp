@@ -8,6 +8,7 @@
 
 #include <pcl/types.h>
 
+#include <optional>
 #include <utility>
 
 namespace PCL6D_EXPORTS pcl6d {
@@ -17,8 +18,8 @@ struct JointICP6D<PointSource, PointTarget, Scalar>::Target
 : registration::JointTarget {
   typename PointCloudTarget::Ptr cloud = pcl::make_shared<PointCloudTarget>();
   pcl::Indices all; ///< of the cloud
-  Normals normals;  ///< if a metric needed them
-  std::size_t normal_neighbours = 0;
+  Normals normals;  ///< if needed by a metric
+  std::optional<ScanNormals> normals_made;
 };
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -27,7 +28,7 @@ struct JointICP6D<PointSource, PointTarget, Scalar>::Sources {
   pcl::IndicesPtr all = pcl::make_shared<pcl::Indices>();
   std::vector<Points> parts; ///< the points of each source
   Points points;             ///< of all
-  Normals normals;           ///< if the metric needs them
+  Normals normals;           ///< if needed by the metric
 };
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -52,7 +53,7 @@ JointICP6D<PointSource, PointTarget, Scalar>::addInputSource(
     const typename Pcl::PointCloudSourceConstPtr& cloud)
 {
   registration::requireGiven(cloud, "an input source");
-  if (sources_.empty()) // what align() of PCL's class asks for
+  if (sources_.empty()) // align() of PCL's class needs a source
     Base::setInputSource(cloud);
   sources_.push_back(cloud);
 }
@@ -99,7 +100,7 @@ JointICP6D<PointSource, PointTarget, Scalar>::requirePairs(
     throw BadArgument("JointICP6D: a scale cannot be estimated");
 }
 
-/** Joins the targets, unless they are joined. */
+/** Joins the targets, if needed. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
 JointICP6D<PointSource, PointTarget, Scalar>::makeTarget(unsigned int num_threads)
@@ -116,13 +117,13 @@ JointICP6D<PointSource, PointTarget, Scalar>::makeTarget(unsigned int num_thread
   joint_->make(std::move(parts), num_threads);
 }
 
-/** Adds the normals of all targets, each from its own cloud, unless they are there. */
+/** Adds the normals of the targets, each from its own cloud, if missing. */
 template <typename PointSource, typename PointTarget, typename Scalar>
 void
 JointICP6D<PointSource, PointTarget, Scalar>::makeTargetNormals(
     const IcpOptions& options)
 {
-  if (joint_->normal_neighbours == this->normal_neighbours_)
+  if (joint_->normals_made == this->normal_settings_)
     return;
   joint_->normals.clear();
   for (std::size_t i = 0; i < targets_.size(); ++i) {
@@ -130,11 +131,11 @@ JointICP6D<PointSource, PointTarget, Scalar>::makeTargetNormals(
                                                     registration::allOf(*targets_[i]),
                                                     joint_->parts[i],
                                                     joint_->trees[i].get(),
-                                                    this->normal_neighbours_,
+                                                    this->normal_settings_,
                                                     options);
     joint_->normals.insert(joint_->normals.end(), normals.begin(), normals.end());
   }
-  joint_->normal_neighbours = this->normal_neighbours_;
+  joint_->normals_made = this->normal_settings_;
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -152,7 +153,7 @@ JointICP6D<PointSource, PointTarget, Scalar>::makeSources(
                                                       registration::allOf(*source),
                                                       points,
                                                       nullptr,
-                                                      this->normal_neighbours_,
+                                                      this->normal_settings_,
                                                       options);
       sources.normals.insert(sources.normals.end(), normals.begin(), normals.end());
     }
@@ -162,7 +163,7 @@ JointICP6D<PointSource, PointTarget, Scalar>::makeSources(
   return sources;
 }
 
-/** \return what finds the pairs of one source and target */
+/** \return the finder of pairs of one source and target */
 template <typename PointSource, typename PointTarget, typename Scalar>
 typename JointICP6D<PointSource, PointTarget, Scalar>::Finder
 JointICP6D<PointSource, PointTarget, Scalar>::finder(const Sources& sources,
@@ -214,7 +215,7 @@ JointICP6D<PointSource, PointTarget, Scalar>::hooks(const Sources& sources,
       sources.cloud,
       sources.all,
       joint_->cloud,
-      pcl::make_shared<KdTree<PointTarget>>(), // all points are searched
+      pcl::make_shared<KdTree<PointTarget>>(), // every point is searched
       joint_->origin);
   this->plugIn(adapter, {}, options, hooks);
   return hooks;

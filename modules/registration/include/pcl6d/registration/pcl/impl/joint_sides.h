@@ -9,7 +9,7 @@
 #include <vector>
 
 /** \file
- * What JointICP6D needs that is free of point types. */
+ * The parts of JointICP6D that are free of point types. */
 namespace PCL6D_EXPORTS pcl6d {
 namespace registration {
 
@@ -17,22 +17,22 @@ namespace registration {
 struct JointTarget {
   std::vector<Points> parts; ///< relative to the origin
   std::vector<std::shared_ptr<const PointTree>> trees;
-  std::vector<std::size_t> begin; ///< where each part starts among all points
-  Points points;                  ///< all
+  std::vector<std::size_t> begin;                   ///< start of each part in `points`
+  Points points;                                    ///< of the targets, in turn
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< [m]
 
   void
   make(std::vector<Points> targets, unsigned int num_threads);
 
-  /** \return the nearest points of the target that a point belongs to
-   * \param[in] point one of all */
+  /** \return the nearest points within a point's own target
+   * \param[in] point one of `points` */
   std::vector<Neighbour>
   nearestOfItsTarget(const Eigen::Vector3f& point, std::size_t k) const;
 };
 
 using FindPairs = decltype(IcpHooks::find);
 
-/** \return what finds the pairs of one source and target; keeps both by reference */
+/** \return the finder of pairs of one source and target; keeps both by reference */
 FindPairs
 pairFinder(const Points& source,
            const PointTree& tree,
@@ -40,8 +40,9 @@ pairFinder(const Points& source,
            bool is_reciprocal,
            unsigned int num_threads);
 
-/** \return what finds the pairs of all, as places among all points; keeps the target by
- * reference \param[in] source_begin where each source starts among all source points */
+/** \return the finder of the pairs of every source, with indices into the joined
+ * points; keeps the target by reference \param[in] source_begin start of each source
+ * in the joined source points */
 FindPairs
 jointFinder(std::vector<FindPairs> finders,
             std::vector<std::size_t> source_begin,

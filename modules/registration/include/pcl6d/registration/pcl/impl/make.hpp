@@ -29,20 +29,20 @@
 namespace pcl6d {
 namespace registration {
 
-/** What makeRegistration() knows: metrics, NDT, and starts from bad guesses. */
+/** Kinds of makeRegistration(): metrics, NDT, and searches for an initial pose. */
 enum class RegistrationKind { kPoint, kPlane, kGicp, kNdt, kOverlap, kFeatures };
 
-/** \throws BadArgument no such word */
+/** \throws BadArgument unknown word */
 PCL6D_EXPORTS RegistrationKind
 registrationKindFromName(const std::string& name);
 
-/** \throws BadArgument as there is no k-d tree of this search */
+/** \throws BadArgument always: this search has no k-d tree */
 [[noreturn]] PCL6D_EXPORTS void
 refuseNoKdTree(SearchMethod method);
 
 constexpr float kTenth = 0.1F; ///< how much farther `--search approximate` allows
 
-/** Makes a class, and hands it out as its base. */
+/** Makes an object of a class behind a pointer to its base. */
 template <typename Base, typename Class>
 typename Base::Ptr
 madeAs()

@@ -72,7 +72,8 @@ NDT6D<PointSource, PointTarget, Scalar>::computeTransformation(PointCloudSource&
     for (auto& p : points)
       p -= origin;
     origin_ = origin.template cast<double>();
-    grid_ = std::make_shared<DistributionGrid>(points, resolution_, least_points_);
+    grid_ = std::make_shared<DistributionGrid>(
+        points, resolution_, least_points_, line_growth_);
   }
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   start.matrix() = guess.template cast<double>();

@@ -10,7 +10,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** Adds the pair of T p and its partner, in double. */
+/** Adds the pair of T p and the partner, in double. */
 template <typename PointSource, typename PointTarget>
 void
 addPair(PairAccumulator& accumulator,

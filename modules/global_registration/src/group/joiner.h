@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "group/group_ties.h"
+#include "group/joint_placement.h"
+#include "group/scan_blocks.h"
+#include "pair/place_hypotheses.h"
+
+#include <pcl6d/global_registration/scan_joiner.h>
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace pcl6d::global_registration {
+
+/** \brief A group, and the reason why it is separate from a larger group. */
+struct JoinedGroup {
+  ScanGroup scans;
+  Rejection rejection;
+};
+
+/** \brief One run of joinScans(); scans in the order of their content. */
+class Joiner {
+public:
+  using Known = std::vector<std::optional<KnownPlace>>;
+
+  /** Scans and options are kept by reference.
+   * \param[in] known by index in scans, in place of JoinOptions::known
+   * \param[in] pairs to compare, the smaller index first; empty: every pair */
+  Joiner(const ScanList& scans,
+         const JoinOptions& options,
+         Known known,
+         std::vector<ScanPlaces> pairs);
+
+  /** \param[in,out] result gets the numbers of pairs */
+  void
+  run(JoinedScans& result);
+
+  const std::vector<JoinedGroup>&
+  groups() const
+  {
+    return groups_;
+  }
+  const Rejection&
+  rejectionOf(std::size_t scan) const
+  {
+    return rejections_[scan];
+  }
+
+  bool
+  isKnown(std::size_t scan) const
+  {
+    return scan < known_.size() && known_[scan].has_value();
+  }
+
+private:
+  std::vector<ScanPlaces>
+  comparedPairs() const;
+  void
+  place(std::vector<RankedPair> pairs);
+  void
+  leaveTorn();
+  void
+  dropSingles();
+  void
+  testAgain();
+  void
+  growKnown();
+  void
+  addGrown(const PlaceHypothesis& seed);
+  void
+  cutDisconnected(ScanGroup& group);
+  std::size_t
+  rankOf(const ScanGroup& group) const;
+  void
+  sortGroups();
+  void
+  mergeGroups();
+  bool
+  merge(JoinedGroup& to, JoinedGroup& from);
+  Rejection
+  settleBlock(const ScanGroup& to,
+              const ScanGroup& block,
+              const BlockPlace& place,
+              Eigen::Isometry3d& T_group_block);
+  Rejection
+  contradictionOf(const ScanGroup& block,
+                  const Eigen::Isometry3d& T_group_block,
+                  const ScanGroup& group) const;
+  std::size_t
+  grow(ScanGroup& group);
+  void
+  join(std::size_t scan, const Settled& settled, ScanGroup& group);
+  std::size_t
+  clearest(const std::vector<std::vector<Place>>& places,
+           const std::vector<bool>& is_refused) const;
+  bool
+  recheck(ScanGroup& group);
+
+  const ScanList& scans_;
+  const JoinOptions& options_;
+  Known known_; // by index in scans_, or empty
+  std::vector<ScanPlaces> pairs_;
+  PlaceHypotheses hypotheses_;
+  JointPlacement placement_;
+  std::vector<bool> joined_;
+  std::vector<Rejection> rejections_;
+  std::vector<RankedPair> ranked_;
+  std::set<ScanPlaces> placed_; // pairs
+  std::set<ScanPlaces> tried_;
+  JoinedBy joined_by_;
+  std::vector<LinkEvidence> links_; // of joined scans
+  std::vector<JoinedGroup> groups_;
+};
+
+} // namespace pcl6d::global_registration

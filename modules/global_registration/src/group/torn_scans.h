@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "group/joined_by.h"
+
+#include <cstddef>
+#include <functional>
+#include <set>
+#include <vector>
+
+namespace pcl6d::global_registration {
+
+/** \brief Finds members of groups that another group would accept as well, though the groups
+ * are not merged: typical of equal rooms, such as two branches of a building. Includes parts
+ * joined by way of one scan if half of their scans are torn.
+ * \param[in] groups the scans of each, in the order of joining
+ * \param[in] has_place whether the scan has a pose in the given other group, tested by the
+ * whole group; called once */
+std::set<std::size_t>
+tornScans(const std::vector<std::vector<std::size_t>>& groups,
+          const JoinedBy& joined_by,
+          const std::function<bool(std::size_t scan, std::size_t group)>& has_place);
+
+} // namespace pcl6d::global_registration

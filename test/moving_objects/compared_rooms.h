@@ -83,8 +83,8 @@ describe(const RunChanges& found)
     text << toString(one.kind) << " at "
          << one.box.T_world_box.translation().transpose() << ", size "
          << one.box.size.transpose() << ", " << one.points.size() << " voxels, "
-         << one.confidence << ", by " << one.witnesses << "; distance " << one.distance
-         << " +- " << one.lod << '\n';
+         << one.confidence << ", by " << one.num_observers << "; distance "
+         << one.distance << " +- " << one.lod << '\n';
   return text.str();
 }
 

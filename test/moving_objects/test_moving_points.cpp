@@ -68,7 +68,7 @@ TEST(MovingPoints, TwoScansTellWhatOneOfThemSawThrough)
   });
   const auto motion = motionOf(scans);
   const Told walker = toldOf(scans, motion, Met::kMover, kFoot);
-  // What the walker hides, and what only one of them sees, nobody can judge.
+  // What the walker hides, and what only one of them sees, nobody can classify.
   EXPECT_GT(shareOf(walker.dynamic, walker.points - walker.unknown), 0.99)
       << testing::PrintToString(walker);
   EXPECT_LT(shareOf(walker.unknown, walker.points), 0.3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What cannot be judged, and what must not be asked.
+// What cannot be evaluated, and what must not be asked.
 #include "moving_room.h"
 #include "support/points.h"
 #include "visibility/rays.h"
@@ -40,10 +40,10 @@ count(const std::vector<PointMotion>& motion, PointMotion kind)
 TEST_F(RaysAlone, OneScanKnowsNothing)
 {
   const Points points = sphereOf(3);
-  const auto alone = MovingPoints({sphere(3)}).judge(0, points);
+  const auto alone = MovingPoints({sphere(3)}).classify(0, points);
   EXPECT_EQ(alone, std::vector<PointMotion>(points.size(), PointMotion::kUnknown));
-  const auto with_mute = MovingPoints({sphere(3), SeenScan()}).judge(0, points);
-  EXPECT_EQ(with_mute, alone) << "a scan without rays judges nobody";
+  const auto with_mute = MovingPoints({sphere(3), SeenScan()}).classify(0, points);
+  EXPECT_EQ(with_mute, alone) << "a scan without rays observers nobody";
   EXPECT_EQ(MovingPoints(std::vector<SeenScan>{}).size(), 0u);
 }
 
@@ -55,11 +55,11 @@ TEST_F(RaysAlone, JudgeWithoutSurfaces)
   };
   const Points points = scanAround(20000, {0, 0, 0}, rangeOf);
   images_.emplace_back(points);
-  SeenScan judged;
-  judged.rays = &images_.back();
-  const MovingPoints judges({judged, sphere(4)});
-  EXPECT_EQ(judges.background(), 0) << "is told by surfaces";
-  const auto motion = judges.judge(0, points);
+  SeenScan evaluated;
+  evaluated.rays = &images_.back();
+  const MovingPoints observers({evaluated, sphere(4)});
+  EXPECT_EQ(observers.background(), 0) << "is told by surfaces";
+  const auto motion = observers.classify(0, points);
   for (std::size_t i = 0; i < points.size(); ++i)
     ASSERT_EQ(motion[i],
               points[i].norm() < 3 ? PointMotion::kDynamic : PointMotion::kStatic)
@@ -75,9 +75,9 @@ TEST_F(RaysAlone, FewMissesMayBeChance)
       return way.x() > 1 - cap ? 2.0 : 4.0;
     });
     images_.emplace_back(points);
-    SeenScan judged;
-    judged.rays = &images_.back();
-    return count(MovingPoints({judged, sphere(4)}).judge(0, points),
+    SeenScan evaluated;
+    evaluated.rays = &images_.back();
+    return count(MovingPoints({evaluated, sphere(4)}).classify(0, points),
                  PointMotion::kDynamic);
   };
   EXPECT_EQ(told(2e-4), 0u);
@@ -93,26 +93,60 @@ TEST_F(RaysAlone, ALineOfCellsMayBeAnEdge)
       return way.x() > 0.9 && std::abs(way.z()) < half_width ? 2.0 : 4.0;
     });
     images_.emplace_back(points);
-    SeenScan judged;
-    judged.rays = &images_.back();
-    return count(MovingPoints({judged, sphere(4)}).judge(0, points),
+    SeenScan evaluated;
+    evaluated.rays = &images_.back();
+    return count(MovingPoints({evaluated, sphere(4)}).classify(0, points),
                  PointMotion::kDynamic);
   };
   EXPECT_EQ(told(0.004), 0u);
   EXPECT_GT(told(0.1), 100u);
 }
 
+TEST_F(RaysAlone, APlateSeenAtAFlatAngleMayBePassedBeside)
+{
+  // A plate of 0.6 x 0.6 m below two scanners. Both others are 0.06 m above its plane and 7 m away,
+  // where their rays are 0.17 m apart and the plate is 5 mm high; upright it would fill 12 rays.
+  const auto told = [&](bool is_upright) {
+    const Eigen::Vector3d plate(0.8, 0, -0.6);
+    const Eigen::Vector3d normal =
+        is_upright ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
+    const Points points = scanAround(20000, {0, 0, 0}, [&](const Eigen::Vector3d& way) {
+      const double range = plate.dot(normal) / way.dot(normal);
+      const Eigen::Vector3d off = range * way - plate;
+      return range > 0 && off.cwiseAbs().maxCoeff() < 0.3 ? range : 20.0;
+    });
+    images_.emplace_back(points);
+    SeenScan evaluated;
+    evaluated.rays = &images_.back();
+    std::vector<SeenScan> scans = {evaluated, evaluated}; // the second one hits it, too
+    for (const double y : {0.0, 1.0}) {
+      SeenScan& other = scans.emplace_back();
+      other.T_world_scan.translation() = Eigen::Vector3d(-6, y, -0.54);
+      images_.emplace_back(scanAround(
+          20000, {0, 0, 0}, [&](const Eigen::Vector3d& way) { // to the sphere
+            const Eigen::Vector3d from = other.T_world_scan.translation();
+            const double b = from.dot(way);
+            return std::sqrt(b * b + 20 * 20 - from.squaredNorm()) - b;
+          }));
+      other.rays = &images_.back();
+    }
+    return count(MovingPoints(scans).classify(0, points), PointMotion::kDynamic);
+  };
+  EXPECT_EQ(told(false), 0U);
+  EXPECT_GT(told(true), 100U);
+}
+
 TEST_F(RaysAlone, PointsThatAreNoneAreUnknown)
 {
-  const MovingPoints judges({sphere(3), sphere(3)});
+  const MovingPoints observers({sphere(3), sphere(3)});
   const auto motion =
-      judges.judge(0, {{kNan, 0, 0}, {3, 0, 0}, {0, 0, 0}, {0, kInfinity, 0}});
+      observers.classify(0, {{kNan, 0, 0}, {3, 0, 0}, {0, 0, 0}, {0, kInfinity, 0}});
   EXPECT_EQ(motion,
             (std::vector<PointMotion>{PointMotion::kUnknown,
                                       PointMotion::kStatic,
                                       PointMotion::kUnknown,
                                       PointMotion::kUnknown}));
-  EXPECT_TRUE(judges.judge(0, {}).empty());
+  EXPECT_TRUE(observers.classify(0, {}).empty());
 }
 
 TEST_F(RaysAlone, ScansThatSeeNothingOfEachOtherKnowNothing)
@@ -121,7 +155,7 @@ TEST_F(RaysAlone, ScansThatSeeNothingOfEachOtherKnowNothing)
   far.T_world_scan.translation().x() = 1000;
   const Points points = sphereOf(3);
   EXPECT_EQ(
-      count(MovingPoints({sphere(3), far}).judge(0, points), PointMotion::kUnknown),
+      count(MovingPoints({sphere(3), far}).classify(0, points), PointMotion::kUnknown),
       points.size());
 }
 
@@ -130,10 +164,10 @@ TEST_F(RaysAlone, ScansOfTooFewPointsForAnImageJudgeNobody)
   images_.emplace_back(Points{{3, 0, 0}});
   SeenScan tiny;
   tiny.rays = &images_.back();
-  const MovingPoints judges({sphere(3), tiny});
-  EXPECT_EQ(judges.judge(0, {{2, 0, 0}}),
+  const MovingPoints observers({sphere(3), tiny});
+  EXPECT_EQ(observers.classify(0, {{2, 0, 0}}),
             std::vector<PointMotion>{PointMotion::kUnknown});
-  EXPECT_EQ(judges.judge(1, {{3, 0, 0}}),
+  EXPECT_EQ(observers.classify(1, {{3, 0, 0}}),
             std::vector<PointMotion>{PointMotion::kStatic})
       << "but is judged";
 }
@@ -184,10 +218,10 @@ TEST_F(RaysAlone, RefusesWhatBreaksARule)
 
 TEST_F(RaysAlone, RefusesScansThatAreNotThere)
 {
-  const MovingPoints judges({sphere(3), SeenScan()});
-  EXPECT_EQ(badArgumentOf([&] { (void)judges.judge(2, {}); }),
+  const MovingPoints observers({sphere(3), SeenScan()});
+  EXPECT_EQ(badArgumentOf([&] { (void)observers.classify(2, {}); }),
             "scan = 2, but must be one of 2");
-  EXPECT_EQ(badArgumentOf([&] { (void)judges.judge(1, {}); }),
+  EXPECT_EQ(badArgumentOf([&] { (void)observers.classify(1, {}); }),
             "rays of the scan = none, but must be there");
 }
 
@@ -218,12 +252,12 @@ TEST(BlindScans, WhereAllContradictsNothingIsTold)
     room.step = 0.025;
     scans.push_back(room.scan(tripod(0, 0, 0.3 * i), random));
   }
-  MovingScans judges;
+  MovingScans observers;
   for (const TrueScan& scan : scans)
-    judges.add(scan.points, scan.T_world_scan);
-  EXPECT_TRUE(judges.isBlind());
-  EXPECT_GT(judges.judges().background(), 0.5);
-  EXPECT_EQ(count(judges.motion(0, scans[0].points), PointMotion::kUnknown),
+    observers.add(scan.points, scan.T_world_scan);
+  EXPECT_TRUE(observers.isBlind());
+  EXPECT_GT(observers.observers().background(), 0.5);
+  EXPECT_EQ(count(observers.motion(0, scans[0].points), PointMotion::kUnknown),
             scans[0].points.size());
 }
 

@@ -37,9 +37,9 @@ TEST(MovingScans, NumberScansAsTheyCome)
   EXPECT_EQ(scans.add(walkerScene()[0].points, walkerScene()[0].T_world_scan), 0u);
   EXPECT_EQ(scans.add(walkerScene()[1].points, walkerScene()[1].T_world_scan), 1u);
   EXPECT_EQ(scans.size(), 2u);
-  EXPECT_EQ(scans.judges().size(), 2u);
+  EXPECT_EQ(scans.observers().size(), 2u);
   scans.add(walkerScene()[2].points, walkerScene()[2].T_world_scan);
-  EXPECT_EQ(scans.judges().size(), 3u) << "also after they have judged";
+  EXPECT_EQ(scans.observers().size(), 3u) << "also after they have judged";
 }
 
 TEST(MovingScans, DeriveTheVoxelUnlessItIsGiven)
@@ -84,36 +84,37 @@ TEST(MovingScans, NoReturnsAreNoRays)
   // Of a black piece of the wall no echo comes back, which is written as 60 m but in one scan:
   // as rays, these would have passed where it stands.
   std::vector<TrueScan> scans = walkerScene();
-  MovingScans judges;
+  MovingScans observers;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     for (Eigen::Vector3f& p : scans[i].points) {
       const Eigen::Vector3d place = scans[i].T_world_scan * p.cast<double>();
       if (i != 2 && place.x() > 4.9 && std::abs(place.y()) < 2)
         p *= 60 / p.norm();
     }
-    judges.add(scans[i].points, scans[i].T_world_scan);
+    observers.add(scans[i].points, scans[i].T_world_scan);
   }
-  EXPECT_FALSE(judges.isBlind());
-  const auto motion = judges.motion(1, scans[1].points);
+  EXPECT_FALSE(observers.isBlind());
+  const auto motion = observers.motion(1, scans[1].points);
   for (std::size_t p = 0; p < motion.size(); ++p) {
     if (scans[1].points[p].norm() > 50) {
       ASSERT_EQ(motion[p], PointMotion::kUnknown) << "beyond the range gate";
     }
   }
-  const Told room = toldOf({scans[2]}, {judges.motion(2, scans[2].points)}, Met::kRoom);
+  const Told room =
+      toldOf({scans[2]}, {observers.motion(2, scans[2].points)}, Met::kRoom);
   EXPECT_LT(room.dynamic, 3u);
 }
 
 TEST(MovingScans, JudgeAPartOfAScan)
 {
-  MovingScans judges = added();
+  MovingScans observers = added();
   Points thinned;
   std::vector<Met> met;
   for (std::size_t p = 0; p < walkerScene()[2].points.size(); p += 3) {
     thinned.push_back(walkerScene()[2].points[p]);
     met.push_back(walkerScene()[2].met[p]);
   }
-  const auto motion = judges.motion(2, thinned);
+  const auto motion = observers.motion(2, thinned);
   std::size_t mover = 0, told = 0;
   for (std::size_t i = 0; i < met.size(); ++i) {
     mover += met[i] == Met::kMover ? 1 : 0;

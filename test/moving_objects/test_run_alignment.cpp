@@ -140,14 +140,13 @@ TEST(RunAlignment, RefusesWrongInput)
   EXPECT_EQ(badArgumentOf([&] { alignRuns(a.run, b.run, wrong); }),
             "reach = -1, but must be finite and > 0");
   b.run[0].T_world_scan.linear() *= 2;
-  EXPECT_EQ(
-      badArgumentOf([&] { alignRuns(a.run, b.run, alignmentOptions()); }),
-      "second run: scan 0 has a pose that is no rigid motion, or a covariance that "
-      "is not finite");
+  EXPECT_EQ(badArgumentOf([&] { alignRuns(a.run, b.run, alignmentOptions()); }),
+            "second run: scan 0 has a pose that is not rigid, or a covariance with "
+            "infinite values or NaN");
   const Normals few(3, Eigen::Vector3f::UnitZ());
   a.run[0].normals = &few;
   EXPECT_NE(badArgumentOf([&] {
               alignRuns(a.run, b.run, alignmentOptions());
-            }).find("first run: scan 0 has 3 normals, but must have one for each"),
+            }).find("first run: scan 0 has 3 normals, but must have a normal for each"),
             std::string::npos);
 }

@@ -68,7 +68,7 @@ TEST(RunChanges, TellWhatVanishedAndNothingElse)
             1.5 * kChangeTol);
   EXPECT_NEAR(crate.box.size.z(), kCrate.sizes().z(), 2 * kChangeTol);
   EXPECT_GT(crate.confidence, 0.999);
-  EXPECT_GE(crate.witnesses, 2u);
+  EXPECT_GE(crate.num_observers, 2u);
   EXPECT_EQ(found.second.changed, 0u);
 }
 
@@ -186,7 +186,7 @@ TEST(RunChanges, AreFoundByOneScanOfEachRun)
   const RunChanges found = findChanges(a.run, b.run, changesOptions());
   ASSERT_EQ(found.changes.size(), 1u) << describe(found);
   EXPECT_EQ(found.changes[0].kind, ChangeKind::kVanished);
-  EXPECT_EQ(found.changes[0].witnesses, 1u);
+  EXPECT_EQ(found.changes[0].num_observers, 1u);
 }
 
 TEST(RunChanges, OfPlacesThatTheOtherRunDidNotSeeAreNone)
@@ -259,12 +259,12 @@ TEST(RunChanges, RefuseWrongOptionsAndIncompleteScans)
             "depth = 0, but must be finite and > 0");
   RoomRun a({}, driveThrough(0, 1), 3);
   a.run[0].rays = nullptr;
-  EXPECT_EQ(
-      badArgumentOf([&] { findChanges(a.run, {}, changesOptions()); }),
-      "first run: scan 0 has no points, normals or rays, but must have all three");
-  EXPECT_EQ(
-      badArgumentOf([&] { findChanges({}, a.run, changesOptions()); }),
-      "second run: scan 0 has no points, normals or rays, but must have all three");
+  EXPECT_EQ(badArgumentOf([&] { findChanges(a.run, {}, changesOptions()); }),
+            "first run: scan 0 has no points, normals or rays, but needs points, "
+            "normals and rays");
+  EXPECT_EQ(badArgumentOf([&] { findChanges({}, a.run, changesOptions()); }),
+            "second run: scan 0 has no points, normals or rays, but needs points, "
+            "normals and rays");
 }
 
 TEST(RunChanges, HaveNamesForTheirKinds)

@@ -153,7 +153,7 @@ TEST_F(RecordFileTest, IsForOneAtATime)
     const RecordFile other(path);
     FAIL() << "opened twice";
   } catch (const pcl6d::IoFailed& e) {
-    EXPECT_NE(std::string(e.what()).find("another process is writing it"),
+    EXPECT_NE(std::string(e.what()).find("another process is writing this file"),
               std::string::npos)
         << e.what();
   }

@@ -85,7 +85,7 @@ struct RunFiles : TempFolder {
             3,
             pcl6d::LinkKind::kLoop,
             pcl6d::LinkVerdict::kRefused,
-            "few pairs, \"far\"",
+            pcl6d::Rejection::stated("few pairs, \"far\""),
             1.5,
             7,
             NAN,
@@ -171,7 +171,7 @@ TEST(RunFolder, NoticesFilesThatAreNotThoseOfItsRun)
   writeText(files / "scans/scan003.pcd", scan); // of the same size
   const RunFolder run = RunFolder::finished(files.path(), "unfinished");
   EXPECT_NO_THROW(run.readMap());
-  const std::string changed = "scan003.pcd: does not hold what its run wrote";
+  const std::string changed = "scan003.pcd: differs from the file of the run";
   EXPECT_NE(messageOf([&] { run.readScan(1); }).find(changed), std::string::npos);
   EXPECT_NE(messageOf([&] { run.requireWhole(); }).find(changed), std::string::npos);
   EXPECT_NE(
@@ -304,7 +304,7 @@ TEST(RunLinks, ComeBackAsTheyWereWritten)
   EXPECT_EQ(links[0].to, 3u);
   EXPECT_EQ(links[0].kind, pcl6d::LinkKind::kLoop);
   EXPECT_FALSE(links[0].counts());
-  EXPECT_EQ(links[0].reason, RunFiles::link().reason);
+  EXPECT_EQ(toWords(links[0].rejection), toWords(RunFiles::link().rejection));
   EXPECT_EQ(links[0].distance, 1.5);
   EXPECT_EQ(links[0].pairs, 7u);
   EXPECT_TRUE(std::isnan(links[0].rms));

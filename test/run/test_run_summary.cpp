@@ -12,10 +12,13 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <nlohmann/json.hpp>
+
 #include <fstream>
 #include <limits>
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 using pcl6d::IoFailed;
 using pcl6d::readRunSummary;
 using pcl6d::RunResult;
@@ -67,13 +70,26 @@ summaryOf(std::size_t scans)
     scan.overlap = 0.8;
     scan.iterations = 12;
     scan.correction = 1e-3 / 3;
-    scan.reason = "none";
+    if (i == 2) {
+      scan.rejections = {{pcl6d::RejectReason::kOverlapTooSmall, 0.08, 0.1},
+                         {pcl6d::RejectReason::kNoPoseInMap,
+                          {pcl6d::RejectReason::kSecondPose, 0.9, 0.8}},
+                         {pcl6d::RejectReason::kIcpFailed, pcl6d::Status::kDiverged}};
+      scan.rejections[0].deviations = 4.5;
+      scan.rejections[0].text = "säule";
+    }
     if (i == 1) // not looked for in others
-      scan.motion = {true, "why not", 0.1, 0.05, 0.02, 3, {}};
+      scan.motion = {true, pcl6d::Rejection::stated("why not"), 0.1, 0.05, 0.02, 3, {}};
     summary.scans.push_back(scan);
   }
-  summary.graph_stages = {
-      {pcl6d::StageKind::kRelaxation, true, "why", 0.1, 0.2, 3, 0.5, {}}};
+  summary.graph_stages = {{pcl6d::StageKind::kRelaxation,
+                           true,
+                           pcl6d::RejectReason::kNoCycle,
+                           0.1,
+                           0.2,
+                           3,
+                           0.5,
+                           {}}};
   summary.links_used = 5;
   summary.links_refused = 2;
   summary.floating = {"b.pcd"};
@@ -133,6 +149,46 @@ TEST(RunResult, ComesBackAsItWas)
   EXPECT_FALSE(back.scans[0].covariance);
   EXPECT_EQ(back.options[0].why, "because");
   EXPECT_EQ(back.graph_stages[0].rounds, 3);
+  EXPECT_EQ(back.graph_stages[0].rejection.reason, pcl6d::RejectReason::kNoCycle);
+  EXPECT_EQ(back.scans[2].rejections, summary.scans[2].rejections);
+  EXPECT_TRUE(back.scans[0].rejections.empty());
+}
+
+TEST(RunResult, OfAnEarlierVersionHasItsReasonsInWords)
+{
+  const TempFolder folder;
+  RunResult summary = summaryOf(1);
+  summary.scans[0].rejections = {pcl6d::Rejection::stated("overlap 0.1")};
+  summary.graph_stages.clear();
+  pcl6d::writeRunSummary(folder / "new.json", summary);
+  auto json = Json::parse(readText(folder / "new.json"));
+  json["scans"][0].erase("rejections");
+  std::ofstream(folder / "old.json") << json;
+  EXPECT_EQ(readRunSummary(folder / "old.json").scans[0].rejections,
+            summary.scans[0].rejections);
+}
+
+TEST(RunResult, RefusesRejectionsThatNoRunWrote)
+{
+  const TempFolder folder;
+  RunResult summary = summaryOf(1);
+  summary.scans[0].rejections = {{pcl6d::RejectReason::kTooFewPairs, 2, 3}};
+  pcl6d::writeRunSummary(folder / "run.json", summary);
+  const auto json = Json::parse(readText(folder / "run.json"));
+  const auto expectRefused = [&](const Json& rejections) {
+    Json broken = json;
+    broken["scans"][0]["rejections"] = rejections;
+    std::ofstream(folder / "broken.json") << broken;
+    EXPECT_THROW(readRunSummary(folder / "broken.json"), pcl6d::IoFailed) << rejections;
+  };
+  expectRefused("few pairs");
+  expectRefused(Json::array({{{"reason", "bad luck"}}}));
+  expectRefused(Json::array({{{"measured", 2}}}));
+  expectRefused(Json::array({{{"reason", "icp-failed"}, {"status", "asleep"}}}));
+  Json deep{{"reason", "stated"}};
+  for (int k = 0; k < 20; ++k)
+    deep = {{"reason", "stated"}, {"cause", deep}};
+  expectRefused(Json::array({deep}));
 }
 
 TEST(RunResult, NumbersThatAreNotFiniteComeBackAsNoNumber)
@@ -142,6 +198,36 @@ TEST(RunResult, NumbersThatAreNotFiniteComeBackAsNoNumber)
   summary.scans[0].rms = std::numeric_limits<double>::infinity();
   pcl6d::writeRunSummary(folder / "a.json", summary);
   EXPECT_TRUE(std::isnan(readRunSummary(folder / "a.json").scans[0].rms));
+}
+
+TEST(RunResult, ADriveHoldsItsKeyframesAndComesBack)
+{
+  const TempFolder folder;
+  RunResult summary = summaryOf(3); // indices 0, 2, 4
+  summary.drive.emplace();
+  summary.drive->files = {"a", "b", "c", "d", "e"};
+  summary.drive->lost = {1, 3};
+  summary.drive->way = 12.5;
+  summary.drive->seconds = 1.0 / 3;
+  pcl6d::writeRunSummary(folder / "a.json", summary);
+  const auto back = readRunSummary(folder / "a.json").drive;
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->first, 0);
+  EXPECT_EQ(back->files, summary.drive->files);
+  EXPECT_EQ(back->lost, summary.drive->lost);
+  EXPECT_EQ(back->way, 12.5);
+  EXPECT_EQ(back->seconds, 1.0 / 3);
+  const auto errorOf = [&](const RunResult& run) {
+    pcl6d::writeRunSummary(folder / "b.json", run);
+    return messageOf<IoFailed>([&] { readRunSummary(folder / "b.json"); });
+  };
+  RunResult broken = summary;
+  broken.drive->files.pop_back();
+  EXPECT_NE(errorOf(broken).find("/drive/files"), std::string::npos) << errorOf(broken);
+  broken = summary;
+  broken.drive->lost = {7};
+  EXPECT_NE(errorOf(broken).find("/drive/lost/0: 7"), std::string::npos)
+      << errorOf(broken);
 }
 
 TEST(RunResult, BrokenFilesAreNamedWithWhatIsWrong)
@@ -228,6 +314,28 @@ TEST(ContinuedFolder, KeepsStampsOnlyIfBothHaveThem)
   ScanFolder with(folder / "scans", options);
   with.continueRun(folder / "run", summary);
   EXPECT_EQ(with.stamps(), (std::vector<double>{1000.5, 1002.5, 2000.25}));
+}
+
+TEST(ContinuedFolder, LeavesOutTheSweepsBetweenKeyframes)
+{
+  const TempFolder folder;
+  RunResult summary = writeRun(folder / "run", 2, 1000.5); // indices 0 and 2
+  summary.scans[0].file = "a.xyz";
+  summary.scans[1].file = "c.xyz";
+  summary.drive.emplace();
+  summary.drive->files = {"a.xyz", "b.xyz", "c.xyz", "d.xyz"};
+  std::string rows;
+  for (const char* const stamp : {"0.5", "1.5", "2.5", "3.5"})
+    rows += std::string(stamp) + " 0 0 0 0 0 0 1\n";
+  std::ofstream(folder / "run" / "trajectory.tum") << rows;
+  EXPECT_EQ(pcl6d::stampsOfRun(folder / "run", summary),
+            (std::vector<double>{0.5, 2.5}));
+  writeScans(folder / "scans", {"a.xyz", "b.xyz", "c.xyz", "d.xyz", "e.xyz"});
+  ScanFolder scans(folder / "scans");
+  scans.continueRun(folder / "run", summary);
+  ASSERT_EQ(scans.size(), 3u);
+  EXPECT_EQ(scans.name(2), "e.xyz");
+  EXPECT_EQ(scans.index(2), 4);
 }
 
 TEST(ContinuedFolder, NamesWhatTheRunLacks)

@@ -164,7 +164,7 @@ TEST_F(HostileSummary, EachIndexIsThereOnce)
 TEST_F(HostileSummary, NamesOfFilesStayInTheirFolder)
 {
   for (const char* name : {"../scan.pcd", "/etc/passwd", "..", ".", "", "a/b.pcd"})
-    expectRefused("/scans/0/file", name, "the name of a file, without its folder");
+    expectRefused("/scans/0/file", name, "the name of a file, without a folder");
   expectRefused("/scans/0/file", "\x1b[2J.pcd", "control characters");
   expectRefused("/scans/0/file", std::string("a\0b", 3), "control characters");
   EXPECT_NE(errorAfter([](Json& json) {

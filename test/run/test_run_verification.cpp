@@ -87,14 +87,16 @@ doubtful()
   wrong.shift = 1.5;
   wrong.deviation = 0.25;
   wrong.open_directions = 2;
-  wrong.reason = "rays go through 30 of 41 \"patches\", and more";
+  wrong.rejection =
+      pcl6d::Rejection::stated("rays go through 30 of 41 \"patches\", and more");
   map.scans.resize(3);
   map.scans[0].tied = map.scans[1].tied = map.scans[1].abstains = true;
+  map.scans[1].off_centre = true;
   map.scans[0].bound = 0;
   map.scans[1].bound = 0.1 / 7;
   map.scans[1].noticed = noticedFrom(0.1 / 3, kInfinity, kInfinity);
   map.scans[2].doubt = "with b.pcd: säule";
-  map.doubts = {"1 scan not tied to the rest: c.pcd", "two"};
+  map.doubts = {"1 scan not connected to the rest: c.pcd", "two"};
   return map;
 }
 
@@ -133,6 +135,7 @@ TEST(RunVerification, ComesBackAsItWas)
     const auto &found = back.verification->scans[i], &was = run.verification->scans[i];
     EXPECT_EQ(found.tied, was.tied);
     EXPECT_EQ(found.abstains, was.abstains);
+    EXPECT_EQ(found.off_centre, was.off_centre);
     EXPECT_EQ(found.bound, was.bound);
     EXPECT_EQ(found.doubt, was.doubt);
     ASSERT_EQ(found.noticed.has_value(), was.noticed.has_value());
@@ -279,10 +282,9 @@ TEST(Verdict, OfAnUnconvergedMatchIsANoteWhereRaysConfirmThePlace)
   run.scans[1].state = pcl6d::ScanState::kUnconverged;
   EXPECT_TRUE(has(verdictOf(run), "NOT TO BE TRUSTED: 1 scan did not converge"));
   run.verification.emplace().trust = MapTrust::kGood;
-  EXPECT_TRUE(
-      has(verdictOf(run),
-          "note: 1 scan did not converge, but points and rays confirm where they "
-          "are: b.pcd"));
+  EXPECT_TRUE(has(
+      verdictOf(run),
+      "note: 1 scan did not converge, but points and rays confirm the poses: b.pcd"));
 }
 
 TEST(Verdict, OfADoubtfulMapGivesEachDoubt)

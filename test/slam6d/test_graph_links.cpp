@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "graph_links.h"
+#include "graph/graph_links.h"
 #include "support/points.h"
 
 #include <pcl6d/common/pose.h>

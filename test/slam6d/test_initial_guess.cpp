@@ -14,6 +14,7 @@
 using pcl6d::InitialGuess;
 using pcl6d::Points;
 using pcl6d::Random;
+using pcl6d::RecoveryEffort;
 using pcl6d::ScanState;
 using pcl6d::Slam6D;
 using pcl6d::Slam6DOptions;
@@ -53,7 +54,7 @@ expectTruth(const Slam6DResult& result)
   const auto& truth = turned().truth;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     SCOPED_TRACE("scan " + std::to_string(i));
-    EXPECT_EQ(result.scans[i].reason, "");
+    EXPECT_TRUE(result.scans[i].rejections.empty());
     const auto error = pcl6d::distanceBetween(truth[0].inverse() * truth[i],
                                               result.scans[0].T_world_scan.inverse() *
                                                   result.scans[i].T_world_scan);
@@ -73,7 +74,7 @@ TEST(InitialGuessOfFeatures, RegistersTurnedScansWithoutPoses)
 TEST(InitialGuessOfFeatures, IsNeededForTurnedScans)
 {
   Slam6DOptions options = optionsOf(InitialGuess::kOdometry);
-  options.recover = false; // which finds them, too
+  options.recovery = RecoveryEffort::kOff; // which finds them, too
   EXPECT_FALSE(registered(turned().scans, kNone, options).trusted());
 }
 
@@ -109,10 +110,12 @@ TEST(InitialGuessOfFeatures, DoesNotPlaceUnrelatedScans)
   const Slam6DResult result =
       registered(scans, kNone, optionsOf(InitialGuess::kFeatures));
   EXPECT_EQ(result.scans[1].state, ScanState::kPredicted);
-  EXPECT_EQ(result.scans[1].reason.find("features: "), 0u) << result.scans[1].reason;
+  EXPECT_EQ(result.scans[1].rejections.front().reason,
+            pcl6d::RejectReason::kNoInitialPose);
+  EXPECT_EQ(toWords(result.scans[1].rejections).find("features: "), 0u);
   EXPECT_FALSE(result.scans[1].covariance);
   EXPECT_EQ(result.scans[2].state, ScanState::kMatched)
-      << "against the last but one: " << result.scans[2].reason;
+      << "against the last but one: " << toWords(result.scans[2].rejections);
   EXPECT_FALSE(result.trusted());
 }
 
@@ -124,7 +127,7 @@ TEST(InitialGuessOfFeatures, DoesNotPlaceScansOfAPipe)
   const Slam6DResult result =
       registered(scans, kNone, optionsOf(InitialGuess::kFeatures));
   EXPECT_EQ(result.scans[1].state, ScanState::kPredicted);
-  EXPECT_FALSE(result.scans[1].reason.empty());
+  EXPECT_FALSE(result.scans[1].rejections.empty());
 }
 
 TEST(InitialGuessByOverlap, RepairsOdometryThatIsFarOff)
@@ -144,7 +147,7 @@ TEST(InitialGuessByOverlap, RepairsOdometryThatIsFarOff)
     Slam6DOptions options = optionsOf(guess);
     options.voxel = 0.1;
     options.max_distance_start = 0.5; // [m] out of reach without a search
-    options.recover = false;
+    options.recovery = RecoveryEffort::kOff;
     const Slam6DResult result = registered(scans, odometry, options);
     EXPECT_EQ(result.trusted(), guess == InitialGuess::kOverlap);
     double largest = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "metascan.h"
+#include "matching/metascan.h"
 #include "support/points.h"
 #include "support/poses.h"
 

@@ -2,7 +2,7 @@
 // Scans that cannot be matched where the odometry expects them, and all after them: jumps,
 // turns, scans of elsewhere and pieces that meet the map again later, with exact truth.
 #include "corridor_drive.h"
-#include "recovery.h"
+#include "recovery/recovery.h"
 #include "registered_run.h"
 #include "support/points.h"
 
@@ -12,11 +12,14 @@
 #include <string>
 #include <vector>
 
+using pcl6d::BadArgument;
 using pcl6d::distanceBetween;
 using pcl6d::MapTrust;
 using pcl6d::poseFromEuler;
+using pcl6d::Progress;
 using pcl6d::Random;
 using pcl6d::RecoveredBy;
+using pcl6d::RecoveryEffort;
 using pcl6d::ScanResult;
 using pcl6d::ScanState;
 using pcl6d::Slam6D;
@@ -47,10 +50,10 @@ expectTruth(const Slam6DResult& result,
     const ScanResult& scan = result.scans[i];
     if (std::find(but.begin(), but.end(), i) != but.end()) {
       EXPECT_EQ(scan.state, ScanState::kPredicted);
-      EXPECT_NE(scan.reason, "");
+      EXPECT_FALSE(scan.rejections.empty());
       continue;
     }
-    EXPECT_NE(scan.state, ScanState::kPredicted) << scan.reason;
+    EXPECT_NE(scan.state, ScanState::kPredicted) << toWords(scan.rejections);
     const auto off =
         distanceBetween(run.truth[0].inverse() * run.truth[i],
                         result.scans[0].T_world_scan.inverse() * scan.T_world_scan);
@@ -119,13 +122,50 @@ TEST(Recovery, FindsScansBehindATurnOfTheOdometry)
 TEST(Recovery, IsLeftOutWhereNotWanted)
 {
   Slam6DOptions options;
-  options.recover = false;
+  options.recovery = RecoveryEffort::kOff;
   const Slam6DResult result = registered(makeCorridorRun(14, 8, 10), options);
   EXPECT_EQ(result.scans[8].recovered, RecoveredBy::kNone);
   EXPECT_GT(
       distanceBetween(makeCorridorRun(9, 8, 10).truth[8], result.scans[8].T_world_scan)
           .translation,
       5);
+}
+
+TEST(Recovery, EffortsHaveWords)
+{
+  for (const std::string& word : recoveryEffortNames())
+    EXPECT_EQ(toString(recoveryEffortFromName(word)), word);
+  EXPECT_EQ(recoveryEffortNames().size(), 3u);
+  EXPECT_THROW(recoveryEffortFromName("everywhere"), BadArgument);
+  EXPECT_EQ(Slam6DOptions().recovery, RecoveryEffort::kBounded);
+}
+
+TEST(Recovery, BoundedComparesFourScansOfAPiece)
+{
+  DriftingRun run = makeCorridorRun(6, 6, 0);
+  Random random(4);
+  for (int i = 0; i < 6; ++i) { // a piece of another room, 0.3 m apart
+    run.scans.push_back(otherRoom().scan(
+        poseFromEuler({0.3 * i - 0.2, 0, 0}, {0, 0, 0.1}), random, 0.03));
+    run.odometry.push_back(run.odometry.back() * movedBy(0.35));
+  }
+  const auto comparedBy = [&](RecoveryEffort effort) {
+    Slam6DOptions options;
+    options.recovery = effort;
+    std::size_t most = 0; // all scans, or all pairs
+    Slam6D slam(options);
+    slam.setProgressCallback([&](const Progress& now) {
+      if (now.stage == "recovering")
+        most = std::max(most, now.total);
+    });
+    for (std::size_t i = 0; i < run.scans.size(); ++i)
+      slam.addScan(run.scans[i], run.odometry[i]);
+    EXPECT_TRUE(slam.optimize());
+    EXPECT_EQ(slam.result().count(ScanState::kPredicted), 6u);
+    return most;
+  };
+  EXPECT_EQ(comparedBy(RecoveryEffort::kBounded), 4u * 6u);
+  EXPECT_EQ(comparedBy(RecoveryEffort::kThorough), 6u * 6u);
 }
 
 TEST(Recovery, LosesNothingBehindAScanOfElsewhere)
@@ -178,9 +218,15 @@ TEST(Recovery, PiecesWithoutAPlaceKeepTheirShapeAndAreNamed)
         0.3,
         kShareOfVoxel * result.parameters.voxel.value)
         << i;
-    EXPECT_NE(scans[i].reason.find("lost together with 3 other scans"),
-              std::string::npos)
-        << scans[i].reason;
+    {
+      const auto& rejections = scans[i].rejections;
+      const auto together = std::find_if(
+          rejections.begin(), rejections.end(), [](const pcl6d::Rejection& one) {
+            return one.reason == pcl6d::RejectReason::kLostTogether;
+          });
+      ASSERT_NE(together, rejections.end()) << toWords(rejections);
+      EXPECT_EQ(together->measured, 3);
+    }
   }
 }
 

@@ -110,7 +110,7 @@ expectSameRun(const Slam6DResult& a, const Slam6DResult& b)
   }
   ASSERT_EQ(a.stages.size(), b.stages.size());
   for (std::size_t k = 0; k < a.stages.size(); ++k) {
-    EXPECT_EQ(a.stages[k].reason, b.stages[k].reason);
+    EXPECT_EQ(a.stages[k].rejection, b.stages[k].rejection);
     EXPECT_EQ(a.stages[k].agreement_after, b.stages[k].agreement_after);
     EXPECT_EQ(a.stages[k].history.size(), b.stages[k].history.size());
   }

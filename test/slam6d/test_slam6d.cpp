@@ -4,6 +4,7 @@
 
 using pcl6d::Points;
 using pcl6d::Random;
+using pcl6d::RecoveryEffort;
 using pcl6d::ScanState;
 using pcl6d::Slam6D;
 using pcl6d::Slam6DOptions;
@@ -205,7 +206,8 @@ TEST(Slam6D, DoesNotBelievePairsAsFarApartAsThoseOfUnrelatedClouds)
   EXPECT_GE(blob.overlap, options.min_overlap) << "which is not the reason";
   EXPECT_EQ(blob.status, Status::kOk) << "nor is this";
   EXPECT_GT(blob.rms, 0.6 * 0.5) << "this is";
-  EXPECT_NE(blob.reason.find("unrelated points"), std::string::npos) << blob.reason;
+  EXPECT_EQ(blob.rejections.front().reason, pcl6d::RejectReason::kUnrelatedPoints);
+  EXPECT_EQ(blob.rejections.front().measured, blob.rms);
   EXPECT_EQ(blob.state, ScanState::kPredicted);
   EXPECT_FALSE(blob.covariance);
   EXPECT_LT(pcl6d::distanceBetween(run.odometry[1], blob.T_world_scan).translation,
@@ -238,7 +240,7 @@ TEST(Slam6D, DoesNotBelieveUnrelatedHeapsOfPointsByAnyMetric)
     options.metric = metric;
     const auto heap = registered(run, options).scans[1];
     EXPECT_EQ(heap.state, ScanState::kPredicted);
-    EXPECT_NE(heap.reason, "");
+    EXPECT_FALSE(heap.rejections.empty());
   }
 }
 
@@ -282,15 +284,17 @@ TEST(Slam6D, DoesNotBelieveAMatchThatDeniesTheOdometry)
   Slam6DOptions options;
   options.voxel = 0.1;
   options.max_distance_start = 1.0;
-  options.recover = false; // which would ask points and rays
+  options.recovery = RecoveryEffort::kOff; // which would ask points and rays
   const auto careful = registered(run, options).scans.back();
   EXPECT_EQ(careful.state, ScanState::kPredicted);
-  EXPECT_NE(careful.reason.find("correction"), std::string::npos) << careful.reason;
+  EXPECT_EQ(careful.rejections.front().reason,
+            pcl6d::RejectReason::kCorrectionTooLarge);
+  EXPECT_EQ(careful.rejections.front().measured, careful.correction);
   EXPECT_NEAR(careful.correction, 0.3, kShareOfUnion * *options.voxel);
   options.max_correction = std::numeric_limits<double>::infinity();
   const auto trusting = registered(run, options).scans.back();
   EXPECT_EQ(trusting.state, ScanState::kMatched);
-  EXPECT_EQ(trusting.reason, "");
+  EXPECT_TRUE(trusting.rejections.empty());
   const auto error =
       pcl6d::distanceBetween(run.truth.back(), trusting.T_world_scan).translation;
   EXPECT_LT(error, kShareOfUnion * *options.voxel);

@@ -73,7 +73,7 @@ TEST_P(SameBitsOf, ForEveryNumberOfThreadsAndMetric)
                                           one.scans[i].T_world_scan))
             << "scan " << i;
         EXPECT_EQ(more.scans[i].rms, one.scans[i].rms);
-        EXPECT_EQ(more.scans[i].reason, one.scans[i].reason);
+        EXPECT_EQ(more.scans[i].rejections, one.scans[i].rejections);
       }
     }
   }

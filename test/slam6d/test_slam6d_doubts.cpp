@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Matches that Slam6D must not believe, whatever ICP says.
-#include "agreement.h"
+#include "matching/agreement.h"
 #include "room_scans.h"
 #include "support/constants.h"
 #include "support/points.h"
@@ -16,6 +16,7 @@
 using pcl6d::Metric;
 using pcl6d::Points;
 using pcl6d::Random;
+using pcl6d::RecoveryEffort;
 using pcl6d::ScanResult;
 using pcl6d::ScanState;
 using pcl6d::Slam6D;
@@ -51,11 +52,13 @@ TEST(Slam6DDoubts, AMatchMustNotLetFewerPointsMeet)
   options.voxel = 0.1;
   options.max_distance = 3; // far too wide
   options.max_distance_start = 0;
-  options.recover = false; // which finds the place in spite of all that
+  options.recovery = RecoveryEffort::kOff; // which finds the place in spite of all that
   const ScanResult torn = secondOf(pair.first, pair.second, pair.truth, options);
   EXPECT_EQ(torn.status, Status::kOk) << toString(torn.status);
   EXPECT_EQ(torn.state, ScanState::kPredicted);
-  EXPECT_EQ(torn.reason.find("agreement fell from 0."), 0u) << torn.reason;
+  const pcl6d::Rejection& lost = torn.rejections.front();
+  EXPECT_EQ(lost.reason, pcl6d::RejectReason::kAgreementLost);
+  EXPECT_LT(lost.measured, lost.needed);
   EXPECT_GT(torn.correction, 0.1) << "which would have been the damage";
   EXPECT_FALSE(torn.covariance);
   EXPECT_LT(pcl6d::distanceBetween(torn.T_world_scan, pair.truth).translation, 1e-12);
@@ -70,8 +73,8 @@ TEST(Slam6DDoubts, AMatchThatLetsMorePointsMeetIsBelieved)
   options.voxel = 0.1;
   options.max_distance_start = 0.6; // [m] less wide than what is torn
   const ScanResult matched = secondOf(pair.first, pair.second, odometry, options);
-  EXPECT_EQ(matched.state, ScanState::kMatched) << matched.reason;
-  EXPECT_EQ(matched.reason, "");
+  EXPECT_EQ(matched.state, ScanState::kMatched) << toWords(matched.rejections);
+  EXPECT_TRUE(matched.rejections.empty());
   EXPECT_LT(pcl6d::distanceBetween(matched.T_world_scan, pair.truth).translation, 0.05);
 }
 
@@ -88,13 +91,16 @@ TEST_P(Corridors, AreNotCalledMatched)
     const Points first = scan(random, 0), second = scan(random, 1.3);
     ScanResult result = secondOf(first, second, odometry, options);
     EXPECT_EQ(result.state, ScanState::kPredicted);
-    EXPECT_NE(result.reason, "");
+    EXPECT_FALSE(result.rejections.empty());
     EXPECT_FALSE(result.covariance);
     EXPECT_EQ(pcl6d::distanceBetween(result.T_world_scan, odometry).translation, 0);
     if (options.metric == Metric::kGicp) {
       EXPECT_EQ(result.status, Status::kRankDeficient);
-      EXPECT_EQ(result.reason,
-                "ICP: rank-deficient; in the map: another place is nearly as good");
+      ASSERT_EQ(result.rejections.size(), 2u) << toWords(result.rejections);
+      EXPECT_EQ(result.rejections[0].reason, pcl6d::RejectReason::kIcpFailed);
+      EXPECT_EQ(result.rejections[1].reason, pcl6d::RejectReason::kNoPoseInMap);
+      EXPECT_EQ(result.rejections[1].causes.front().reason,
+                pcl6d::RejectReason::kSecondPose);
     }
     // Nor without the doubt about long ways, which some steps along the pipe raise.
     options.max_correction = std::numeric_limits<double>::infinity();

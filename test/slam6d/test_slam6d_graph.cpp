@@ -64,8 +64,8 @@ TEST(Slam6DGraph, RelaxationBringsADriftedRingNearerToTheTruth)
   EXPECT_EQ(relaxed().stages.front().kind, pcl6d::StageKind::kMatching);
   const StageResult& stage = relaxed().stages.back();
   EXPECT_EQ(stage.kind, pcl6d::StageKind::kRelaxation);
-  EXPECT_FALSE(stage.undone) << stage.reason;
-  EXPECT_EQ(stage.reason, "");
+  EXPECT_FALSE(stage.undone) << stage.rejection;
+  EXPECT_FALSE(stage.rejection);
   EXPECT_GT(stage.rounds, 0);
   EXPECT_GT(stage.agreement_after, stage.agreement_before);
   EXPECT_LE(stage.agreement_after, 1);
@@ -86,7 +86,7 @@ TEST(Slam6DGraph, GivesLinksGraphAndCovariances)
   std::size_t used = 0;
   for (const ScanLink& link : result.links) {
     used += link.verdict == LinkVerdict::kUsed && link.kind != LinkKind::kLoop;
-    EXPECT_EQ(link.verdict == LinkVerdict::kUsed, link.reason.empty()) << link.reason;
+    EXPECT_EQ(link.verdict == LinkVerdict::kUsed, !link.rejection) << link.rejection;
     EXPECT_LT(link.from, link.to);
   }
   EXPECT_EQ(result.graph.links.size(), used);
@@ -131,7 +131,7 @@ TEST(Slam6DGraph, AStageThatIsUndoneLeavesThePosesBitForBit)
   const StageResult* stage = stageOf(with, "relaxation");
   ASSERT_NE(stage, nullptr);
   EXPECT_TRUE(stage->undone);
-  EXPECT_EQ(stage->reason, "the links close no cycle");
+  EXPECT_EQ(stage->rejection.reason, pcl6d::RejectReason::kNoCycle);
   pcl6d::test::expectSameBits(with, without);
 }
 

@@ -67,8 +67,8 @@ TEST(Slam6DLoops, AreClosedBeforeRelaxing)
   EXPECT_EQ(whole().stages[2].kind, StageKind::kRelaxation);
   // The ends are 12 cm apart: closing them costs the scans around them more than it gains,
   // relaxation does it without.
-  EXPECT_EQ(whole().stages[1].undone, !whole().stages[1].reason.empty());
-  EXPECT_FALSE(whole().stages[2].undone) << whole().stages[2].reason;
+  EXPECT_EQ(whole().stages[1].undone, bool(whole().stages[1].rejection));
+  EXPECT_FALSE(whole().stages[2].undone) << whole().stages[2].rejection;
   EXPECT_LT(positionRms(whole(), block()),
             0.7 * positionRms(matchedNearSighted(), block()));
 }
@@ -175,7 +175,7 @@ TEST(Slam6DLoops, AreSpreadScanByScanBySimultaneousMatching)
   const StageResult& stage = result.stages.back();
   EXPECT_EQ(stage.kind, StageKind::kRelaxation);
   EXPECT_GT(stage.rounds, 0);
-  EXPECT_FALSE(stage.undone) << stage.reason;
+  EXPECT_FALSE(stage.undone) << stage.rejection;
   EXPECT_GT(stage.agreement_after, stage.agreement_before - 0.01);
   EXPECT_LT(positionRms(result, block()),
             1.05 * positionRms(matchedNearSighted(), block()));

@@ -129,7 +129,7 @@ TEST(Slam6DMoving, ChangesNothingWhereNothingMoves)
   const Slam6D asked = optimized(still);
   const Slam6D not_asked = optimized(still, nobody_asks);
   ASSERT_TRUE(asked.result().moving);
-  EXPECT_LE(asked.result().moving->moving, asked.result().moving->judged / 1000);
+  EXPECT_LE(asked.result().moving->moving, asked.result().moving->evaluated / 1000);
   EXPECT_FALSE(not_asked.result().moving);
   expectSameBits(asked.result(), not_asked.result());
 }

@@ -4,8 +4,12 @@
 #include "support/drift.h"
 #include "support/points.h"
 
+#include <pcl6d/common/error.h>
+#include <pcl6d/slam6d/auto_parameters.h>
+#include <pcl6d/slam6d/scan_preparation.h>
 #include <pcl6d/slam6d/slam6d.h>
 
+#include <cmath>
 #include <sstream>
 #include <tuple>
 
@@ -224,4 +228,35 @@ TEST(Slam6DParameters, ScaleWithTheWorld)
   const auto a = registered(room), b = registered(toy);
   EXPECT_NEAR(b.parameters.voxel.value, 0.1 * a.parameters.voxel.value, 1e-3);
   EXPECT_TRUE(b.trusted());
+}
+
+TEST(Slam6DParameters, PlanarScansAreGatedBeforeTheyAreRaised)
+{
+  // A 2D scanner in a round room of 3 m; each tenth ray has no echo, some hit the robot.
+  constexpr float kCode = 8.18f; // [m]
+  pcl6d::Points scan;
+  for (int i = 0; i < 360; ++i) {
+    const float range = i % 10 == 3 ? kCode : i % 60 == 7 ? 0.f : 3.f;
+    const double angle = i * M_PI / 180;
+    scan.emplace_back(range * std::cos(angle), range * std::sin(angle), 0.f);
+  }
+  const Slam6DParameters p =
+      pcl6d::deriveParameters(Slam6DOptions(), {scan, scan, scan});
+  EXPECT_GT(p.planar_rows.value, 0);
+  EXPECT_FALSE(p.planar_rows.given);
+  EXPECT_NEAR(p.max_range.value, kCode, 0.1);
+  const pcl6d::Points raised = pcl6d::gateScan(scan, "scan", p);
+  EXPECT_GT(raised.size(), 13 * 300U);
+  for (const auto& point : raised) {
+    EXPECT_LT(point.head<2>().norm(), 3.1f); // no ledge of a ray without echo
+    EXPECT_GT(point.head<2>().norm(), 1.f);  // no post where the scanner stands
+  }
+  Slam6DOptions never;
+  never.planar_rows = 0;
+  EXPECT_EQ(
+      pcl6d::gateScan(scan, "scan", pcl6d::deriveParameters(never, {scan, scan, scan}))
+          .size(),
+      318U); // as measured: 36 codes and 6 at the robot are out
+  never.planar_rows = -1;
+  EXPECT_THROW(never.validate(), pcl6d::BadArgument);
 }

@@ -111,7 +111,7 @@ expectHonest(const DriftingRun& run)
   for (const auto& scan : result.scans) {
     EXPECT_TRUE(scan.T_world_scan.matrix().allFinite());
     if (scan.state == ScanState::kPredicted)
-      EXPECT_FALSE(scan.reason.empty());
+      EXPECT_FALSE(scan.rejections.empty());
   }
   if (largestError(result, run) > kOff)
     EXPECT_FALSE(result.trusted());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What Slam6D says of the map that it made, and the change of agreement.
-#include "agreement.h"
 #include "corridor_drive.h"
+#include "matching/agreement.h"
 #include "registered_run.h"
 #include "support/constants.h"
 #include "support/loose_scans.h"
@@ -18,6 +18,7 @@ using pcl6d::MapTrust;
 using pcl6d::MapVerification;
 using pcl6d::Points;
 using pcl6d::Random;
+using pcl6d::RecoveryEffort;
 using pcl6d::ScanState;
 using pcl6d::Slam6DOptions;
 using pcl6d::Slam6DResult;
@@ -41,7 +42,7 @@ pcl6d::Slam6DOptions
 notRecovering()
 {
   pcl6d::Slam6DOptions options;
-  options.recover = false;
+  options.recovery = RecoveryEffort::kOff;
   return options;
 }
 
@@ -256,9 +257,9 @@ TEST(Slam6DVerification, NamesAllScansBehindAJumpOfTheOdometry)
   EXPECT_FALSE(result.trusted());
   EXPECT_EQ(looseOf(*result.verification),
             (std::set<std::size_t>{8, 9, 10, 11, 12, 13}));
-  EXPECT_EQ(
-      result.verification->doubts.at(0).find("6 scans not tied to the rest: scan 8, "),
-      0u)
+  EXPECT_EQ(result.verification->doubts.at(0).find(
+                "6 scans not connected to the rest: scan 8, "),
+            0u)
       << result.verification->doubts[0];
 }
 
@@ -273,7 +274,8 @@ TEST(Slam6DVerification, NamesFilesWithoutTheirFolders)
   EXPECT_TRUE(slam.optimize());
   const MapVerification& map = *slam.result().verification;
   ASSERT_FALSE(map.doubts.empty());
-  EXPECT_EQ(map.doubts[0].find("1 scan not tied to the rest: b.pcd (with a.pcd: "), 0u)
+  EXPECT_EQ(map.doubts[0].find("1 scan not connected to the rest: b.pcd (with a.pcd: "),
+            0u)
       << map.doubts[0];
 }
 

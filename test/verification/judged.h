@@ -7,10 +7,10 @@ namespace pcl6d::test {
 
 inline const double kBackground = contradictionBackground({});
 
-inline LinkOpinion
-judged(const LinkEvidence& evidence)
+inline LinkTestResult
+evaluated(const LinkEvidence& evidence)
 {
-  return judgeLink(evidence, kBackground);
+  return testLink(evidence, kBackground);
 }
 
 } // namespace pcl6d::test

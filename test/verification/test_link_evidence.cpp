@@ -11,14 +11,14 @@
 #include <vector>
 
 using pcl6d::contradictionBackground;
-using pcl6d::judgeLink;
 using pcl6d::LinkEvidence;
 using pcl6d::linkEvidence;
-using pcl6d::LinkOpinion;
+using pcl6d::LinkTestResult;
 using pcl6d::LinkTrust;
 using pcl6d::Points;
 using pcl6d::Random;
-using pcl6d::test::judged;
+using pcl6d::testLink;
+using pcl6d::test::evaluated;
 using pcl6d::test::kBackground;
 using pcl6d::test::kNan;
 using pcl6d::test::kRayStep;
@@ -31,10 +31,10 @@ using Vector = Eigen::Vector3d;
 
 namespace {
 
-LinkOpinion
-judgedAt(const VerifiedScans& scans, const Eigen::Isometry3d& T)
+LinkTestResult
+testedAt(const VerifiedScans& scans, const Eigen::Isometry3d& T)
 {
-  return judged(linkEvidence(scans[0], scans[1], T));
+  return evaluated(linkEvidence(scans[0], scans[1], T));
 }
 
 /** A room with closets along its walls, none of which half a turn maps to another. */
@@ -61,10 +61,10 @@ TEST(LinkEvidence, OfATrueLinkIsGood)
   EXPECT_LT(evidence.sight.contradicted_patches, 3u);
   EXPECT_LT(evidence.leaving(), 0.05 * kVoxel);
   EXPECT_FALSE(evidence.abstained);
-  const LinkOpinion opinion = judged(evidence);
-  EXPECT_EQ(opinion.trust, LinkTrust::kGood);
-  EXPECT_LT(opinion.probability_wrong, 1e-3);
-  EXPECT_EQ(opinion.reason, "");
+  const LinkTestResult test_result = evaluated(evidence);
+  EXPECT_EQ(test_result.trust, LinkTrust::kGood);
+  EXPECT_LT(test_result.probability_wrong, 1e-3);
+  EXPECT_FALSE(test_result.rejection);
 }
 
 TEST(LinkEvidence, GivesPosesAQuarterOfTheErrorThatPairsShare)
@@ -76,9 +76,9 @@ TEST(LinkEvidence, GivesPosesAQuarterOfTheErrorThatPairsShare)
     LinkEvidence other = evidence;
     other.fit.covariance += (of_shared - 1) * evidence.fit.shared;
     other.fit.shared.setZero();
-    return pcl6d::linkCheck(0, 1, other, judged(other)).covariance;
+    return pcl6d::linkCheck(0, 1, other, evaluated(other)).covariance;
   };
-  const auto given = pcl6d::linkCheck(0, 1, evidence, judged(evidence)).covariance;
+  const auto given = pcl6d::linkCheck(0, 1, evidence, evaluated(evidence)).covariance;
   EXPECT_TRUE(given.isApprox(varianceOf(1.0 / 16), 1e-9));
   EXPECT_LT(given.trace(), varianceOf(1).trace());
   EXPECT_GT(given.trace(), varianceOf(0).trace());
@@ -95,8 +95,9 @@ TEST(LinkEvidence, LeavesByTheWholeShift)
         linkEvidence(scans[0], scans[1], shifted(pair.T_first_second, shift));
     EXPECT_NEAR(evidence.leaving(), way, 0.03 * way + 0.002) << way;
     EXPECT_LT((evidence.fit.step.head<3>() + shift).norm(), 0.03 * way + 0.003);
-    EXPECT_EQ(judged(evidence).trust, way < 0.05 ? LinkTrust::kGood : LinkTrust::kWrong)
-        << way << ": " << judged(evidence).reason;
+    EXPECT_EQ(evaluated(evidence).trust,
+              way < 0.05 ? LinkTrust::kGood : LinkTrust::kWrong)
+        << way << ": " << evaluated(evidence).rejection;
   }
 }
 
@@ -108,7 +109,7 @@ TEST(LinkEvidence, OfATurnedScanIsAgainstIt)
     const Eigen::Isometry3d T =
         pair.T_first_second *
         Eigen::AngleAxisd(degrees * M_PI / 180, Vector(1, 2, 2) / 3);
-    EXPECT_EQ(judgedAt(scans, T).trust, LinkTrust::kWrong) << degrees;
+    EXPECT_EQ(testedAt(scans, T).trust, LinkTrust::kWrong) << degrees;
   }
 }
 
@@ -137,10 +138,11 @@ TEST(LinkEvidence, DoesNotDependOnUnits)
           found.deviation() / scale / expected.deviation(), 1, tolerance + 1e-6);
       EXPECT_NEAR(
           found.leaving() / scale, expected.leaving(), (tolerance + 1e-6) * kVoxel);
-      EXPECT_EQ(judged(found).trust, judged(expected).trust);
-      const double probability = judged(expected).probability_wrong;
-      EXPECT_NEAR(
-          judged(found).probability_wrong, probability, 1e-6 + tolerance * probability);
+      EXPECT_EQ(evaluated(found).trust, evaluated(expected).trust);
+      const double probability = evaluated(expected).probability_wrong;
+      EXPECT_NEAR(evaluated(found).probability_wrong,
+                  probability,
+                  1e-6 + tolerance * probability);
     }
   }
 }
@@ -159,8 +161,9 @@ TEST(LinkEvidence, IsTheSameTheOtherWayRound)
     EXPECT_NEAR(static_cast<double>(back.sight.contradicted_patches),
                 static_cast<double>(there.sight.contradicted_patches),
                 0.01 * patches);
-    EXPECT_EQ(judged(back).trust, judged(there).trust);
-    EXPECT_NEAR(judged(back).probability_wrong, judged(there).probability_wrong, 1e-4);
+    EXPECT_EQ(evaluated(back).trust, evaluated(there).trust);
+    EXPECT_NEAR(
+        evaluated(back).probability_wrong, evaluated(there).probability_wrong, 1e-4);
   }
 }
 
@@ -172,13 +175,13 @@ TEST(LinkEvidence, DoesNotDependOnTheFramesOfTheScans)
   VerifiedScans turned;
   for (const Points* points : {&pair.first, &pair.second})
     turned.add(pcl6d::transformed(*points, turn));
-  const auto judgedWith = [&](const Vector& shift) {
-    return judgedAt(turned,
+  const auto testedWith = [&](const Vector& shift) {
+    return testedAt(turned,
                     turn * shifted(pair.T_first_second, shift) * turn.inverse());
   };
-  EXPECT_EQ(judgedWith({0, 0, 0}).trust, LinkTrust::kGood);
-  EXPECT_EQ(judgedWith({0.2, 0, 0}).trust, LinkTrust::kWrong);
-  EXPECT_EQ(judgedWith({1, 0, 0}).trust, LinkTrust::kWrong);
+  EXPECT_EQ(testedWith({0, 0, 0}).trust, LinkTrust::kGood);
+  EXPECT_EQ(testedWith({0.2, 0, 0}).trust, LinkTrust::kWrong);
+  EXPECT_EQ(testedWith({1, 0, 0}).trust, LinkTrust::kWrong);
 }
 
 TEST(LinkEvidence, RaysFindAFoldThatSurfacesDoNot)
@@ -194,9 +197,9 @@ TEST(LinkEvidence, RaysFindAFoldThatSurfacesDoNot)
   EXPECT_GT(fold.fit.overlap, 0.75 * truth.fit.overlap);
   EXPECT_LT(fold.fit.residual, 2 * truth.fit.residual);
   EXPECT_LT(fold.leaving(), 3 * fold.deviation()) << "ICP would stay there";
-  EXPECT_EQ(judged(truth).trust, LinkTrust::kGood);
-  EXPECT_EQ(judged(fold).trust, LinkTrust::kWrong);
-  EXPECT_EQ(judged(fold).reason.find("rays go through "), 0u) << judged(fold).reason;
+  EXPECT_EQ(evaluated(truth).trust, LinkTrust::kGood);
+  EXPECT_EQ(evaluated(fold).trust, LinkTrust::kWrong);
+  EXPECT_EQ(evaluated(fold).rejection.reason, pcl6d::RejectReason::kPatchesViolated);
 }
 
 TEST(LinkEvidence, OfAFoldWithLittleToTellIsNeverGood)
@@ -204,22 +207,23 @@ TEST(LinkEvidence, OfAFoldWithLittleToTellIsNeverGood)
   const PillarRoom room;
   const ScannedPair pair(room);
   const VerifiedScans scans = pair.verified();
-  const LinkOpinion opinion =
-      judgedAt(scans,
+  const LinkTestResult test_result =
+      testedAt(scans,
                pair.T_world_first.inverse() * pcl6d::test::foldOf(room) *
                    pair.T_world_first * pair.T_first_second);
-  EXPECT_NE(opinion.trust, LinkTrust::kGood);
-  EXPECT_NE(opinion.reason, "");
+  EXPECT_NE(test_result.trust, LinkTrust::kGood);
+  EXPECT_TRUE(test_result.rejection);
 }
 
 TEST(LinkEvidence, OfScansThatSeeNothingInCommonIsWeak)
 {
   const ScannedPair pair;
   const VerifiedScans scans = pair.verified();
-  const LinkOpinion opinion =
-      judgedAt(scans, shifted(pair.T_first_second, {100, 0, 0}));
-  EXPECT_EQ(opinion.trust, LinkTrust::kWeak);
-  EXPECT_EQ(opinion.reason, "only 0 patches of surface in common");
+  const LinkTestResult test_result =
+      testedAt(scans, shifted(pair.T_first_second, {100, 0, 0}));
+  EXPECT_EQ(test_result.trust, LinkTrust::kWeak);
+  EXPECT_EQ(test_result.rejection.reason, pcl6d::RejectReason::kTooFewPatches);
+  EXPECT_EQ(test_result.rejection.measured, 0);
 }
 
 TEST(LinkEvidence, OfIdenticalScansIsGood)
@@ -227,7 +231,7 @@ TEST(LinkEvidence, OfIdenticalScansIsGood)
   const VerifiedScans scans = ScannedPair().verified();
   const LinkEvidence evidence =
       linkEvidence(scans[0], scans[0], Eigen::Isometry3d::Identity());
-  EXPECT_EQ(judged(evidence).trust, LinkTrust::kGood);
+  EXPECT_EQ(evaluated(evidence).trust, LinkTrust::kGood);
   EXPECT_EQ(evidence.leaving(), 0);
   EXPECT_EQ(evidence.deviation(), 0.1 * kVoxel) << "not 0";
 }
@@ -249,11 +253,11 @@ TEST(LinkEvidence, AlongACorridorItIsOpenAndTiesNothing)
     EXPECT_GT(std::sqrt(evidence.fit.covariance(0, 0)), 1) << "[m] along the corridor";
     EXPECT_GT(evidence.deviation(), 1);
     EXPECT_LT(std::sqrt(evidence.fit.covariance(1, 1)), 0.1 * kVoxel);
-    EXPECT_EQ(judged(evidence).trust, LinkTrust::kWeak);
-    EXPECT_EQ(judged(evidence).reason,
-              "the surfaces leave 1 motion open, as along a corridor");
+    EXPECT_EQ(evaluated(evidence).trust, LinkTrust::kWeak);
+    EXPECT_EQ(evaluated(evidence).rejection,
+              pcl6d::Rejection(pcl6d::RejectReason::kFreeDirections, 1));
   }
-  EXPECT_EQ(judgedAt(scans, shifted(truth, {0, 0.3, 0})).trust, LinkTrust::kWrong);
+  EXPECT_EQ(testedAt(scans, shifted(truth, {0, 0.3, 0})).trust, LinkTrust::kWrong);
 }
 
 TEST(LinkEvidence, OfAMirroredOrScaledScanIsAgainstIt)
@@ -269,9 +273,9 @@ TEST(LinkEvidence, OfAMirroredOrScaledScanIsAgainstIt)
   feet.add(ScannedPair::scaled(pair.second, 1 / 0.3048));
   upside_down.add(pcl6d::transformed(
       pair.second, Eigen::Isometry3d(Eigen::AngleAxisd(M_PI, Vector::UnitX()))));
-  EXPECT_EQ(judgedAt(mirrored, pair.T_first_second).trust, LinkTrust::kWrong);
-  EXPECT_EQ(judgedAt(feet, pair.T_first_second).trust, LinkTrust::kWrong);
-  EXPECT_EQ(judgedAt(upside_down, pair.T_first_second).trust, LinkTrust::kWrong);
+  EXPECT_EQ(testedAt(mirrored, pair.T_first_second).trust, LinkTrust::kWrong);
+  EXPECT_EQ(testedAt(feet, pair.T_first_second).trust, LinkTrust::kWrong);
+  EXPECT_EQ(testedAt(upside_down, pair.T_first_second).trust, LinkTrust::kWrong);
 }
 
 TEST(LinkEvidence, OfASmallPartInCommonIsNeverWrongAtTheTruth)
@@ -285,10 +289,10 @@ TEST(LinkEvidence, OfASmallPartInCommonIsNeverWrongAtTheTruth)
       if (p.normalized().dot(Eigen::Vector3f(2, 1, -1).normalized()) > share)
         part.push_back(p);
     scans.add(part);
-    const LinkOpinion right = judgedAt(scans, pair.T_first_second);
-    EXPECT_NE(right.trust, LinkTrust::kWrong) << share << ": " << right.reason;
-    const LinkOpinion wrong =
-        judgedAt(scans, shifted(pair.T_first_second, {1, 0.5, 0.3}));
+    const LinkTestResult right = testedAt(scans, pair.T_first_second);
+    EXPECT_NE(right.trust, LinkTrust::kWrong) << share << ": " << right.rejection;
+    const LinkTestResult wrong =
+        testedAt(scans, shifted(pair.T_first_second, {1, 0.5, 0.3}));
     EXPECT_NE(wrong.trust, LinkTrust::kGood) << share;
   }
 }
@@ -302,10 +306,10 @@ TEST(LinkEvidence, OfEmptyOrTinyScansIsWeak)
   scans.add(Points(50, {kNan, kNan, kNan}));
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t k = 1; k < 4; ++k) {
-      const LinkOpinion opinion =
-          judged(linkEvidence(scans[i], scans[k], Eigen::Isometry3d::Identity()));
-      EXPECT_EQ(opinion.trust, LinkTrust::kWeak);
-      EXPECT_TRUE(std::isfinite(opinion.probability_wrong));
+      const LinkTestResult test_result =
+          evaluated(linkEvidence(scans[i], scans[k], Eigen::Isometry3d::Identity()));
+      EXPECT_EQ(test_result.trust, LinkTrust::kWeak);
+      EXPECT_TRUE(std::isfinite(test_result.probability_wrong));
     }
 }
 
@@ -319,7 +323,7 @@ TEST(LinkEvidence, DoesNotSeePointsThatAreNotFinite)
   scans.add(holes);
   const LinkEvidence plain = linkEvidence(scans[0], scans[1], pair.T_first_second);
   const LinkEvidence with = linkEvidence(scans[0], scans[2], pair.T_first_second);
-  EXPECT_EQ(judged(with).trust, LinkTrust::kGood);
+  EXPECT_EQ(evaluated(with).trust, LinkTrust::kGood);
   EXPECT_EQ(with.sight.patches, plain.sight.patches);
 }
 
@@ -329,9 +333,9 @@ TEST(LinkEvidence, OfAWrongOriginIsAgainstAWrongPose)
   VerifiedScans scans;
   scans.add(pair.first);
   scans.add(pair.second, kVoxel, {100, 0, 0}); // far outside of the room
-  EXPECT_EQ(judgedAt(scans, shifted(pair.T_first_second, {0.2, 0, 0})).trust,
+  EXPECT_EQ(testedAt(scans, shifted(pair.T_first_second, {0.2, 0, 0})).trust,
             LinkTrust::kWrong);
-  EXPECT_EQ(judgedAt(scans, shifted(pair.T_first_second, {1, 0, 0})).trust,
+  EXPECT_EQ(testedAt(scans, shifted(pair.T_first_second, {1, 0, 0})).trust,
             LinkTrust::kWrong);
 }
 
@@ -358,13 +362,28 @@ TEST(LinkEvidence, WithoutRaysTheSurfacesSpeakAlone)
   ASSERT_TRUE(scans[2].abstains());
   const LinkEvidence half = linkEvidence(scans[0], scans[2], pair.T_first_second);
   EXPECT_TRUE(half.abstained);
-  EXPECT_NE(judged(half).trust, LinkTrust::kGood);
+  EXPECT_NE(evaluated(half).trust, LinkTrust::kGood);
   const LinkEvidence none =
       linkEvidence(scans[2], scans[2], Eigen::Isometry3d::Identity());
   EXPECT_EQ(none.sight.points(), 0u);
-  EXPECT_EQ(judged(none).trust, LinkTrust::kUnverified);
-  EXPECT_EQ(judged(none).reason,
-            "a scan has too few surfaces, or its rays contradict its own points");
+  EXPECT_EQ(evaluated(none).trust, LinkTrust::kUnverified);
+  EXPECT_EQ(evaluated(none).rejection.reason, pcl6d::RejectReason::kTooFewSurfaces);
+}
+
+TEST(LinkEvidence, OfCutOutsInACommonFrameIsOfSurfacesAlone)
+{
+  const ScannedPair pair;
+  const Eigen::Isometry3d offset(Eigen::Translation3d(6, 31, 49));
+  VerifiedScans scans;
+  for (const Points* points : {&pair.first, &pair.second})
+    scans.add(pcl6d::transformed(*points, offset));
+  ASSERT_TRUE(scans[0].isOffCentre() && scans[1].isOffCentre());
+  const LinkEvidence link =
+      linkEvidence(scans[0], scans[1], offset * pair.T_first_second * offset.inverse());
+  EXPECT_TRUE(link.abstained && link.off_centre);
+  EXPECT_EQ(link.sight.points(), 0u);
+  EXPECT_EQ(evaluated(link).trust, LinkTrust::kUnverified);
+  EXPECT_EQ(evaluated(link).rejection.reason, pcl6d::RejectReason::kOffCentre);
 }
 
 TEST(LinkEvidence, ThatAbstainsWithoutCommonSurfacesIsWeak)
@@ -372,8 +391,9 @@ TEST(LinkEvidence, ThatAbstainsWithoutCommonSurfacesIsWeak)
   // Nobody says anything: that ties no scans.
   VerifiedScans scans;
   scans.add(pcl6d::test::spoilt(ScannedPair().first));
-  const LinkOpinion opinion =
-      judged(linkEvidence(scans[0], scans[0], pcl6d::poseFromEuler({100, 0, 0}, {})));
-  EXPECT_EQ(opinion.trust, LinkTrust::kWeak);
-  EXPECT_EQ(opinion.reason, "only 0 patches of surface in common");
+  const LinkTestResult test_result = evaluated(
+      linkEvidence(scans[0], scans[0], pcl6d::poseFromEuler({100, 0, 0}, {})));
+  EXPECT_EQ(test_result.trust, LinkTrust::kWeak);
+  EXPECT_EQ(test_result.rejection.reason, pcl6d::RejectReason::kTooFewPatches);
+  EXPECT_EQ(test_result.rejection.measured, 0);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is said of a map whose links are judged.
+// What is said of a map whose links are evaluated.
 #include "map_doubts.h"
 
 #include <gtest/gtest.h>
 
 namespace {
 using pcl6d::LinkCheck;
-using pcl6d::LinkOpinion;
+using pcl6d::LinkTestResult;
 using pcl6d::LinkTrust;
 using pcl6d::MapTrust;
 using pcl6d::MapVerification;
@@ -29,7 +29,7 @@ struct Ring {
         map.links.push_back(link);
       }
     }
-    opinions.resize(map.links.size());
+    test_results.resize(map.links.size());
   }
 
   /** One link of every eighth scan asks for a shift, that of so many scans in all. */
@@ -39,9 +39,9 @@ struct Ring {
     for (std::size_t w = 0; w < wrong; ++w) {
       const std::size_t k = 4 * 8 * w;
       map.links[k].trust = LinkTrust::kWrong;
-      map.links[k].reason = "surfaces ask for a shift of 0.3 m";
-      opinions[k].elsewhere = 0;
-      opinions[k].beside = 1;
+      map.links[k].rejection = {pcl6d::RejectReason::kShifted, 0.3, 0.1};
+      test_results[k].elsewhere = 0;
+      test_results[k].beside = 1;
     }
   }
 
@@ -49,13 +49,13 @@ struct Ring {
   told() const
   {
     MapVerification result = map;
-    MapDoubts(scans, names, opinions).tell(result);
+    MapDoubts(scans, names, test_results).tell(result);
     return result;
   }
 
   std::deque<VerifiedScan> scans;
   std::vector<std::string> names;
-  std::vector<LinkOpinion> opinions;
+  std::vector<LinkTestResult> test_results;
   MapVerification map;
 };
 } // namespace
@@ -68,7 +68,8 @@ TEST(MapDoubts, AFewOutvotedLinksAreNamedAndManyContradictTheMap)
   const MapVerification good = few.told();
   EXPECT_EQ(good.trust, MapTrust::kGood);
   ASSERT_EQ(good.doubts.size(), 1U);
-  EXPECT_NE(good.doubts[0].find("most links of these scans agree"), std::string::npos);
+  EXPECT_NE(good.doubts[0].find("most links of these scans are consistent"),
+            std::string::npos);
 
   Ring many(100);
   many.contradictBySurfaces(12);
@@ -86,7 +87,7 @@ TEST(MapDoubts, ALinkThatRaysAndSurfacesAreAgainstIsProof)
   Ring ring(40);
   ring.contradictBySurfaces(1);
   EXPECT_EQ(ring.told().trust, MapTrust::kGood);
-  ring.opinions[0].elsewhere = 1;
+  ring.test_results[0].elsewhere = 1;
   EXPECT_EQ(ring.told().trust, MapTrust::kDoubtful);
 }
 

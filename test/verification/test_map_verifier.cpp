@@ -104,7 +104,7 @@ expectSame(const MapVerification& a, const MapVerification& b)
     EXPECT_EQ(of_a.contradicted, of_b.contradicted);
     EXPECT_EQ(of_a.shift, of_b.shift);
     EXPECT_EQ(of_a.deviation, of_b.deviation);
-    EXPECT_EQ(of_a.reason, of_b.reason);
+    EXPECT_EQ(of_a.rejection, of_b.rejection);
   }
 }
 } // namespace
@@ -151,7 +151,7 @@ TEST_F(MapOfARoom, NamesTheScanThatIsDisplacedAndNoOther)
     EXPECT_FALSE(map.trusted());
     EXPECT_EQ(looseOf(map), std::set<std::size_t>{i});
     ASSERT_EQ(map.doubts.size(), 1u);
-    EXPECT_EQ(map.doubts[0].find("1 scan not tied to the rest: scan " +
+    EXPECT_EQ(map.doubts[0].find("1 scan not connected to the rest: scan " +
                                  std::to_string(i) + " (with scan "),
               0u)
         << map.doubts[0];
@@ -171,7 +171,7 @@ TEST_F(MapOfARoom, NamesTheSmallerPartBehindABreak)
     EXPECT_EQ(looseOf(map),
               first_behind == 2 ? (std::set<std::size_t>{0, 1})
                                 : (std::set<std::size_t>{4, 5}));
-    EXPECT_EQ(map.doubts[0].find("2 scans not tied to the rest: "), 0u)
+    EXPECT_EQ(map.doubts[0].find("2 scans not connected to the rest: "), 0u)
         << map.doubts[0];
   }
 }
@@ -356,9 +356,35 @@ TEST(MapVerifier, LeavesScansThatAbstainUnverified)
   EXPECT_TRUE(map.scans[2].abstains);
   EXPECT_EQ(
       map.doubts.back().find("1 scan cannot be verified: too few surfaces, or rays "
-                             "that contradict its own points"),
+                             "contradicting points of their own scan"),
       0u)
       << map.doubts.back();
+}
+
+TEST(MapVerifier, ComparesOnlySurfacesOfCutOutsInACommonFrame)
+{
+  // The room looks alike after half a turn: with rays from the wrong origin a second pose fits.
+  const Eigen::Isometry3d offset(Eigen::Translation3d(6, 31, 49));
+  VerifiedScans scans;
+  Poses poses;
+  Random random(1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    scans.add(pcl6d::transformed(PillarRoom().scan(way()[i], random, 0.04), offset));
+    poses.push_back(way()[i] * offset.inverse());
+  }
+  const std::deque<pcl6d::VerifiedScan>& all = scans.all();
+  pcl6d::MapVerifierOptions options;
+  options.unsure.assign(3, true);
+  const MapVerification map =
+      pcl6d::MapVerifier(all, {"a", "b", "c"}, options).verify(poses);
+  EXPECT_EQ(map.trust, MapTrust::kUnverified);
+  EXPECT_TRUE(map.trusted());
+  EXPECT_EQ(map.links.size(), 3u) << "a and c are compared, too, by their surfaces";
+  for (const auto& scan : map.scans)
+    EXPECT_TRUE(scan.tied && scan.abstains && scan.off_centre);
+  ASSERT_EQ(map.doubts.size(), 1u);
+  EXPECT_EQ(map.doubts[0].find("3 scans not centred on the scanner"), 0u)
+      << map.doubts[0];
 }
 
 TEST(MapVerifier, DoesNotTieScansThatAbstainAndShareNothing)
@@ -385,6 +411,7 @@ TEST(MapVerifier, TellsScansOfOneNameApart)
   const MapVerification map =
       MapVerifier(scans.all(), {"same", "same", "same"}).verify(poses);
   ASSERT_FALSE(map.doubts.empty());
-  EXPECT_EQ(map.doubts[0].find("1 scan not tied to the rest: same (with same: "), 0u)
+  EXPECT_EQ(map.doubts[0].find("1 scan not connected to the rest: same (with same: "),
+            0u)
       << map.doubts[0];
 }

@@ -73,7 +73,7 @@ TEST(PoseMistake, NamesTheUnit)
   };
   EXPECT_EQ(with(1 / 0.3048),
             "positions are in feet, scans in metres? Then 4 of 4 pairs of scans would "
-            "agree, as given 0");
+            "agree, with the given poses: 0");
   EXPECT_PRED2(
       begins, with(1000), "positions are in millimetres, scans in metres? Then ");
   EXPECT_PRED2(begins, with(0.3048), "scans are in feet, positions in metres? Then ");
@@ -85,11 +85,10 @@ TEST(PoseMistake, NamesTurnedAxes)
   Poses poses;
   for (const auto& pose : straightWay())
     poses.push_back(half_turn * pose * half_turn.inverse());
-  EXPECT_PRED2(
-      begins,
-      likelyPoseMistake(scansOf().all(), poses),
-      "axes of the poses are turned against those of the scans: x, y, z of the "
-      "scans are (-x, -y, z) of the poses? Then ");
+  EXPECT_PRED2(begins,
+               likelyPoseMistake(scansOf().all(), poses),
+               "axes of the poses are turned against the axes of the scans: x, y, z of "
+               "the scans are (-x, -y, z) of the poses? Then ");
 }
 
 TEST(PoseMistake, NamesMirroredScans)

@@ -55,8 +55,8 @@ TEST(Ties, AreNotOneLinkThatContradictsALittle)
   const Ties ties = triangles({link(2, 3, LinkTrust::kGood, 2, 98)});
   EXPECT_EQ(ties.tied, kFirstThree);
   EXPECT_EQ(ties.cut_from[3],
-            "rays go through 2 of 98 patches of surface between them and the rest");
-  EXPECT_EQ(ties.cut_from[4], "");
+            pcl6d::Rejection(pcl6d::RejectReason::kInconsistentTogether, 2, 98));
+  EXPECT_FALSE(ties.cut_from[4]);
 }
 
 TEST(Ties, CountLinksBesideTheOneThatHolds)

@@ -12,7 +12,7 @@ Eigen::Matrix3d
 uprightAxes(const Eigen::Vector3d& up)
 {
   Eigen::Matrix3d axes;
-  const bool is_flat = std::abs(up.x()) > 0.7; // not along the axis that is projected
+  const bool is_flat = std::abs(up.x()) > 0.7; // not along the projected axis
   const Eigen::Vector3d start =
       is_flat ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
   axes.col(2) = up;
@@ -41,7 +41,7 @@ fromSides(const Points& points,
 ChangeBox
 boxAbout(const Points& points, const Eigen::Vector3d& up)
 {
-  constexpr int kTurns = 90; // a box is itself again after a quarter
+  constexpr int kTurns = 90; // a box is symmetric after a quarter turn
   const Eigen::Matrix3d upright = uprightAxes(up);
   double least = std::numeric_limits<double>::infinity();
   ChangeBox best;

@@ -5,15 +5,16 @@
 
 namespace pcl6d::moving_objects {
 
-/** \return the upright box about points whose sides are nearest to them, of turns by a
- * degree: of a thing of which two sides were seen, the box has these
+/** \return the upright box around points with sides nearest to the points, among turns by a
+ * degree: of an object with two visible sides, the box has both
  * \note Source: X. Zhang et al., "Efficient L-shape fitting for vehicle detection using laser
  * scanners", IV 2017: closeness
- * \param[in] points [m] at least one \param[in] up unit vector */
+ * \param[in] points [m] at least one
+ * \param[in] up unit vector */
 ChangeBox
 boxAbout(const Points& points, const Eigen::Vector3d& up);
 
-/** \return a motion from a frame with this z axis, its x and y axes as they come */
+/** \return a rotation from a frame with z axis `up`; its x and y axes are arbitrary */
 Eigen::Matrix3d
 uprightAxes(const Eigen::Vector3d& up);
 

@@ -14,40 +14,40 @@
 namespace pcl6d::moving_objects {
 
 namespace {
-/** Beyond so many voxels residuals of points hang together by less than a third
- * (algorithms.md T.3), so that patches of this edge are witnesses of their own ... */
+/** [voxels] Beyond this distance residuals of points are correlated by less than a third
+ * (algorithms.md T.3): patches with this edge count as independent ... */
 constexpr double kPatchVoxels = 3;
-/** ... and a plane has so many voxels in one. */
+/** ... and a plane has this many voxels in a patch. */
 constexpr double kVoxelsOfPatch = kPatchVoxels * kPatchVoxels;
 
-/** A patch is seen through with so many gone voxels, and half of all (algorithms.md T.1). */
+/** Least gone voxels of a patch seen through; half of its voxels are needed, too (T.1). */
 constexpr std::size_t kLeastGone = 3;
 
-/** A thing of fewer voxels has no shape: of a cube of three voxels two sides are seen, without
- * its foot, in twelve. */
+/** Smaller objects have no shape [voxels]: the two visible sides of a cube of three voxels,
+ * without its foot, have twelve. */
 constexpr std::size_t kLeastVoxels = 8;
 
-/** A sheet of fewer voxels, two patches and a half, may be a part of a larger thing. */
+/** A sheet with fewer voxels, two patches and a half, may be part of a larger object. */
 constexpr std::size_t kMostOfPart = 24;
-/** Points of a sheet lie up to half a voxel, and noise, on both sides. */
+/** Points of a sheet lie on both sides, by up to half a voxel and the noise. */
 constexpr double kSheetVoxels = 1.5;
-/** A sheet of its own as flat as that has so many voxels, four by four: smaller ones are the
- * rims of plates that were seen along. */
+/** A separate sheet as flat as this needs four by four voxels: smaller sheets are the rims of
+ * plates seen edge-on. */
 constexpr double kFlatVoxels = 0.5;
 constexpr std::size_t kLeastOfSheet = 16;
 
-/** A thing stands out where less than so large a share of it is next to what is there: the
- * foot of a cube of three voxels is a third, leaves and edges are nearly all fringe. */
+/** Largest share of an object next to unchanged points: the foot of a cube of three voxels is a
+ * third; leaves and edges lie nearly everywhere next to unchanged points. */
 constexpr double kMostFringe = 0.7;
 
-/** Of a thing the other run saw through most of what it saw: it has fewer voxels in its box of
- * which nothing is known. Of trees behind trees it is the other way round. */
+/** Largest ratio of unknown voxels in the box of an object to its own: of a real object most
+ * voxels are violated. For trees behind trees the ratio is larger. */
 constexpr double kMostUnknown = 1;
 
-/** So many scans beyond the first count as patches: their poses err alike. */
+/** The most further scans that count as patches: the errors of poses are correlated. */
 constexpr std::uint32_t kMostFurther = 3;
 
-/** Gone voxels that are near each other, as places in SeenThrough::gone. */
+/** Clusters of neighbouring gone voxels, by their indices in SeenThrough::gone. */
 using Cluster = std::vector<std::size_t>;
 
 std::vector<Cluster>
@@ -72,7 +72,7 @@ clustersOf(const std::vector<GoneVoxel>& gone, double gap, unsigned int num_thre
   return clusters;
 }
 
-/** \return the number of places in a box, or by so much beside it [m] */
+/** \return the number of positions in a box, or outside by up to a margin [m] */
 std::size_t
 countIn(const ChangeBox& box,
         double beside,
@@ -92,14 +92,14 @@ countIn(const ChangeBox& box,
   return count;
 }
 
-/** \return whether it is large enough and stands out */
+/** \return whether the object is large enough and differs from unchanged surfaces */
 bool
 isThing(const Cluster& cluster,
         const std::vector<GoneVoxel>& gone,
         const ChangeBox& box,
         const RunChangesOptions& options)
 {
-  // Points are in the middle of what they stand for: a voxel is missing at the ends.
+  // Points are centres of voxels: half a voxel is missing at each end.
   const double longest = box.size.maxCoeff() + options.voxel;
   const auto fringe = std::count_if(
       cluster.begin(), cluster.end(), [&](std::size_t i) { return gone[i].on_fringe; });
@@ -119,14 +119,14 @@ placesOf(const Cluster& cluster, const std::vector<GoneVoxel>& gone)
   return places;
 }
 
-/** A thing that parts may be of. */
+/** An object that may have parts. */
 struct Whole {
   std::size_t cluster;
   ChangeBox box;
   PointTree tree;
 };
 
-/** \return whether all places lie in a box, or by so much beside it [m] */
+/** \return whether every position lies in a box, or outside by up to a margin [m] */
 bool
 areInside(const Points& places, const ChangeBox& box, double beside)
 {
@@ -138,7 +138,7 @@ areInside(const Points& places, const ChangeBox& box, double beside)
   });
 }
 
-/** \return whether all places are within the longest edge of a thing from it */
+/** \return whether every position is within the longest edge of an object from the object */
 bool
 areNear(const Points& places, const Whole& whole)
 {
@@ -148,10 +148,10 @@ areNear(const Points& places, const Whole& whole)
   });
 }
 
-/** \return of each cluster, the largest first, the one that it is a part of; itself if of
- * none. A part lies in the box of what it is of, as the legs of a table do; or it is small and
- * thin, and within its longest edge: what was seen of a thing through gaps, and points in the
- * air behind its edges, where beams were divided. */
+/** \return for each cluster, the largest first, the cluster of which it is a part; else itself.
+ * A part lies in the box of the whole, like the legs of a table. Or a part is small and thin,
+ * and within the longest edge of the whole: pieces of an object seen through gaps, and points
+ * in the air behind its edges, from divided beams. */
 std::vector<std::size_t>
 wholesOf(const std::vector<Cluster>& clusters,
          const std::vector<GoneVoxel>& gone,
@@ -175,10 +175,10 @@ wholesOf(const std::vector<Cluster>& clusters,
   return wholes;
 }
 
-/** Things of a run, and what remains. */
+/** Objects of a run, and the remaining clusters. */
 struct Things {
   std::vector<Change> things;
-  std::vector<Cluster> clusters; ///< of each, with parts that are not among its points
+  std::vector<Cluster> clusters; ///< of each object, without its parts
   std::vector<char> is_of_thing; ///< of each gone voxel
 
   void
@@ -190,14 +190,14 @@ struct Things {
   }
 };
 
-/** \return the median number of scans that saw through */
+/** \return the median number of scans that violate the points */
 std::size_t
-usualWitnesses(const Cluster& cluster, const std::vector<GoneVoxel>& gone)
+usualObservers(const Cluster& cluster, const std::vector<GoneVoxel>& gone)
 {
-  std::vector<double> witnesses;
+  std::vector<double> num_observers;
   for (const std::size_t i : cluster)
-    witnesses.push_back(gone[i].witnesses);
-  return static_cast<std::size_t>(upperMedian(std::move(witnesses)));
+    num_observers.push_back(gone[i].num_observers);
+  return static_cast<std::size_t>(upperMedian(std::move(num_observers)));
 }
 
 Things
@@ -230,7 +230,7 @@ thingsOf(const SeenThrough& seen, const RunChangesOptions& options)
     if (static_cast<double>(hidden) >
         kMostUnknown * static_cast<double>(thing.points.size()))
       continue;
-    thing.witnesses = usualWitnesses(clusters[k], seen.gone);
+    thing.num_observers = usualObservers(clusters[k], seen.gone);
     things[k] = found.things.size();
     found.things.push_back(std::move(thing));
     found.clusters.emplace_back();
@@ -239,7 +239,7 @@ thingsOf(const SeenThrough& seen, const RunChangesOptions& options)
   return found;
 }
 
-/** Patches of a run, and how many were seen through outside of things. */
+/** Patches of a run, and the number seen through outside of objects. */
 struct Patches {
   std::size_t all = 0;
   std::size_t by_chance = 0;
@@ -270,7 +270,7 @@ patchesOf(const SeenThrough& seen, const Things& things, double patch)
   return patches;
 }
 
-/** Gives things their confidence, and keeps those that are sure enough. */
+/** Computes the confidence of objects, and keeps the objects with enough confidence. */
 std::vector<Change>
 sureThings(Things found,
            ChangeKind kind,
@@ -282,7 +282,7 @@ sureThings(Things found,
   std::vector<Change> sure;
   for (std::size_t k = 0; k < found.things.size(); ++k) {
     Change& thing = found.things[k];
-    const auto further = std::min<std::size_t>(thing.witnesses - 1, kMostFurther);
+    const auto further = std::min<std::size_t>(thing.num_observers - 1, kMostFurther);
     const double patches = static_cast<double>(thing.points.size()) / kVoxelsOfPatch +
                            static_cast<double>(further);
     thing.kind = kind;
@@ -310,7 +310,7 @@ changedThings(SeenThrough& first, SeenThrough& second, const RunChangesOptions& 
   const double edge = kPatchVoxels * options.voxel;
   const Patches a = patchesOf(first, of_first, edge);
   const Patches b = patchesOf(second, of_second, edge);
-  // Laplace's rule: what was not met in N places may be met in the next one.
+  // Laplace's rule: an event not seen in N trials may occur in the next.
   const double places = static_cast<double>(a.all + b.all + 1);
   ChangedThings changed;
   changed.background =

@@ -7,20 +7,20 @@
 
 namespace pcl6d::moving_objects {
 
-/** \brief Things that one run has where the other one saw through, in two runs. */
+/** \brief Objects of either run in the free space of the other. */
 struct ChangedThings {
   std::vector<Change> vanished, appeared;
   double background = 0; ///< as of RunChanges
 };
 
-/** \brief Makes things of gone voxels, leaves out what is too small, a fringe, or may be
- * chance, and counts in the tallies what is left. */
+/** \brief Clusters gone voxels to objects, removes objects that are too small, a fringe, or
+ * probably chance, and counts the remaining objects in the tallies. */
 ChangedThings
 changedThings(SeenThrough& first,
               SeenThrough& second,
               const RunChangesOptions& options);
 
-/** \return 1 / (1 + N b^n): how sure n patches are no chance, as findChanges() tells */
+/** \return 1 / (1 + N b^n): the confidence that n patches are not by chance, see findChanges() */
 double
 confidenceOf(double places, double background, double patches);
 

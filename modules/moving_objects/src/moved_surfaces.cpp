@@ -16,13 +16,13 @@ namespace {
 /** Core points of an area, of both runs together: three times three of each. */
 constexpr std::size_t kLeastCores = 18;
 
-/** Significant core points within so many voxels of a thing are of that thing. */
+/** [voxels] Significant core points this near to an object belong to the object. */
 constexpr double kOfThingVoxels = 3;
 
-/** A core point that has moved. */
+/** A core point with a significant change. */
 struct MovedCore {
   Eigen::Vector3f place;
-  double change; ///< [m] towards the scanner, from the first run to the second one
+  double change; ///< [m] towards the scanner, from the first run to the second
   double lod;    ///< [m]
 };
 
@@ -39,7 +39,7 @@ addMoved(const std::vector<SurfaceDistance>& distances,
       moved.push_back({one.place, sign * one.distance, one.lod});
 }
 
-/** \return groups of core points that are next to each other and moved the same way */
+/** \return groups of neighbouring core points with a change in one direction */
 std::vector<std::vector<std::size_t>>
 areasOf(const std::vector<MovedCore>& cores, double reach, unsigned int num_threads)
 {
@@ -108,8 +108,8 @@ movedSurfaces(const std::vector<SurfaceDistance>& first,
   std::vector<Change> changes;
   for (const auto& area : areasOf(cores, 2 * spacing, options.num_threads)) {
     Change change = surfaceOf(cores, area, options.up);
-    // All of an area may err alike. Beyond z deviations, both ways, is less of a normal
-    // distribution than exp(-z^2 / 2).
+    // The errors of an area may be correlated. Beyond z deviations, on both sides,
+    // lies a share of a normal distribution below exp(-z^2 / 2).
     const double z = 1.96 * change.distance / change.lod;
     change.confidence = 1 / (1 + places * portableExp(-z * z / 2));
     if (change.confidence >= options.min_confidence)

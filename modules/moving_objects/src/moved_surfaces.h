@@ -7,8 +7,8 @@
 
 namespace pcl6d::moving_objects {
 
-/** \brief Areas whose distance chance would not give, but for what is next to things.
- * \param[in] first, second at core points of either run, to the other one */
+/** \brief Areas with a distance too large for chance, except next to objects.
+ * \param[in] first, second at core points of either run, to the other run */
 std::vector<Change>
 movedSurfaces(const std::vector<SurfaceDistance>& first,
               const std::vector<SurfaceDistance>& second,

@@ -16,27 +16,27 @@
 namespace pcl6d::moving_objects {
 
 namespace {
-/** Edges of boxes that are alike differ by no more than so many voxels, which each end may be
- * off by half of, and the share that is hidden on one side only. */
+/** [voxels] Largest difference of the edges of similar boxes, half for the error of each end;
+ * in addition the hidden share, on one side only. */
 constexpr double kEdgeVoxels = 2;
 constexpr double kEdgeShare = 0.25;
 
-/** Fewer voxels have no shape that could be known again. */
+/** Objects with fewer voxels have no recognisable shape. */
 constexpr std::size_t kLeastOfShape = 20;
 
-/** Of the thing of which less was seen so many points meet the other one within a voxel ... */
+/** Least share of points within a voxel of the second object, for the less visible object ... */
 constexpr double kLeastOfLess = 0.9;
-/** ... and so many the other way: of two boxes of which one was seen from three sides
- * and one from two, two thirds. */
+/** ... and for the more visible: of two views of a box, from three sides and from two, two
+ * thirds overlap. */
 constexpr double kLeastOfMore = 0.65;
 
-/** So many points of a thing are matched, from starts about the vertical by 15 degrees. */
+/** Number of matched points of an object, from starts every 15 degrees about the vertical. */
 constexpr std::size_t kPoints = 400;
 constexpr int kTurnsTried = 24;
-constexpr std::size_t kPolished = 4; ///< of the starts, the best
-constexpr int kSteps = 20;           ///< of matching
+constexpr std::size_t kPolished = 4; ///< number of best starts that are refined
+constexpr int kSteps = 20;           ///< iterations of matching
 
-/** A thing ready to be matched. */
+/** An object prepared for matching. */
 struct Shape {
   explicit Shape(const Change& thing) : box(thing.box)
   {
@@ -53,7 +53,7 @@ struct Shape {
   PointTree tree;
 };
 
-/** \return whether two edges of the boxes are alike: of the third one side may be hidden */
+/** \return whether two edges of the boxes are equal; one side of the third may be hidden */
 bool
 areAlike(const ChangeBox& a, const ChangeBox& b, double voxel)
 {
@@ -65,14 +65,14 @@ areAlike(const ChangeBox& a, const ChangeBox& b, double voxel)
   std::sort(first.data(), first.data() + 3);
   std::sort(second.data(), second.data() + 3);
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) // the edges left out
+    for (int k = 0; k < 3; ++k) // the excluded edges
       if (isEqual(first[i == 0 ? 1 : 0], second[k == 0 ? 1 : 0]) &&
           isEqual(first[i == 2 ? 1 : 2], second[k == 2 ? 1 : 2]))
         return true;
   return false;
 }
 
-/** \return the share of points that have a partner after a motion */
+/** \return the share of points with a partner after a motion */
 double
 meeting(const Shape& of, const Shape& on, const Eigen::Isometry3d& motion, double reach)
 {
@@ -85,10 +85,10 @@ meeting(const Shape& of, const Shape& on, const Eigen::Isometry3d& motion, doubl
   return static_cast<double>(met) / static_cast<double>(of.points.size());
 }
 
-/** A motion and how well it fits. */
+/** A motion and the quality of its fit. */
 struct Fit {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  double less = 0, more = 0; ///< the smaller and the larger share of points that meet
+  double less = 0, more = 0; ///< the smaller and the larger share of paired points
 
   double
   agreement() const
@@ -110,7 +110,7 @@ fitAt(const Shape& from, const Shape& to, const Eigen::Isometry3d& motion, doubl
   return {motion, std::min(there, back), std::max(there, back)};
 }
 
-/** Pairs of points of both ways, each with its nearest one. */
+/** Pairs of points in both directions, by nearest neighbour. */
 struct MetPairs {
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs; ///< from, to
 
@@ -162,13 +162,13 @@ polished(const Shape& from, const Shape& to, Eigen::Isometry3d motion, double vo
   return motion;
 }
 
-/** \return motions to begin with: turns about the vertical, and all ways to lay one box into
- * the other, as things fall over */
+/** \return start motions: turns about the vertical, and every orientation of one box in the
+ * other, because objects fall over */
 std::vector<Eigen::Isometry3d>
 startsOf(const Shape& from, const Shape& to, const Eigen::Vector3d& up)
 {
   std::vector<Eigen::Matrix3d> turns;
-  turns.reserve(kTurnsTried + 24); // a box has 24 ways to lie in itself
+  turns.reserve(kTurnsTried + 24); // a box has 24 orientations in itself
   for (int k = 0; k < kTurnsTried; ++k)
     turns.push_back(rotationFromVector(radians(360.0 * k / kTurnsTried) * up));
   const Eigen::Matrix3d from_box = from.box.T_world_box.linear().transpose();
@@ -213,7 +213,7 @@ fitOf(const Change& vanished, const Change& appeared, const RunChangesOptions& o
   return best;
 }
 
-/** A vanished and an appeared thing that may be one. */
+/** A vanished and an appeared object that may be one object. */
 struct Pair {
   std::size_t vanished, appeared;
   Fit fit;
@@ -224,7 +224,7 @@ movedThing(Change before, Change after, const Fit& fit)
 {
   after.kind = ChangeKind::kMoved;
   after.confidence = std::min(before.confidence, after.confidence);
-  after.witnesses = std::min(before.witnesses, after.witnesses);
+  after.num_observers = std::min(before.num_observers, after.num_observers);
   after.before = before.box;
   after.points_before = std::move(before.points);
   after.motion = fit.motion;

@@ -7,8 +7,9 @@
 
 namespace pcl6d::moving_objects {
 
-/** \brief Makes one of each vanished and appeared thing that have equal shape, the most alike
- * first; they leave the lists. \return what moved */
+/** \brief Merges vanished and appeared objects of equal shape, the most similar pair first, and
+ * removes both from the lists.
+ * \return the moved objects */
 std::vector<Change>
 takeMoved(std::vector<Change>& vanished,
           std::vector<Change>& appeared,

@@ -12,46 +12,51 @@
 namespace pcl6d::moving_objects {
 
 namespace {
-/** A hit counts as so many misses: rays pass beside thin things, but never end at nothing. */
+/** Weight of a hit in misses: rays may pass beside thin objects, but never end in empty space. */
 constexpr int kHitInMisses = 2;
 
-/** Places so many cells apart are neighbours: one that is empty may lie between them, and
+/** [cells] Neighbours are at most this far apart: an empty cell may lie between two points, and
  * cells are squares. */
 constexpr double kNearCells = 3;
-/** Or so many standard deviations: what differs by noise alone is near. */
+/** [standard deviations] Largest difference of neighbours along the ray, by noise alone. */
 constexpr double kNearSigmas = 6;
 
-/** A cluster with fewer misses, less twice its hits, may be chance: the least number of points
- * that say something of a patch of sightEvidence(). */
-constexpr int kLeastMisses = 4;
+/** Least misses minus twice the hits of a dynamic cluster: two scans saw through four places
+ * each, the least number of points in a patch of sightEvidence(). Fewer may be chance. */
+constexpr int kLeastMisses = 8;
 
-/** A thing that others saw in its place has moved if so many saw through most of it: one alone may
- * be where it is not. */
-constexpr int kClearJudges = 2;
+/** Number of misses for a dynamic cluster although every observer with a miss sees it at a flat
+ * angle, like the side of an object that passes the observer: four times the least. Without a
+ * limit 0.2 % of the dynamic points of a crowd are lost. */
+constexpr int kManyMisses = 32;
 
-/** What grows, grows by so many places at most: enough for legs, heads and sides. */
+/** A cluster with hits is dynamic if at least this number of scans saw through most of its
+ * places: the pose of a single scan may be wrong. */
+constexpr int kClearObservers = 2;
+
+/** Rounds of region growing, one neighbour each: enough for legs, heads and sides. */
 constexpr int kGrowths = 12;
 
-/** A half of a thing reaches a quarter of its length from the middle of that half; the other end is
- * three times as far. What nobody saw through belongs to a thing within so many times the distance
- * from its middle of what was seen through. */
+/** Reach of an object, as multiple of the extent of its seen-through places from their middle.
+ * The middle of one half of an object is a quarter of the length from the near end, and three
+ * quarters from the far end. */
 constexpr float kTimesAsFar = 3;
 
-/** A surface that is within so many standard deviations of the middle of a thing may be its own. */
+/** [standard deviations] A surface this near to the middle of an object may be its own. */
 constexpr float kSideSigmas = 3;
 
 constexpr std::size_t kPlacesPerBlock = 256;
 
 constexpr int kNobody = -1;
 
-/** [cells] Narrower things are a single line. Places lie anywhere in their cells, so widthOf() a
- * line is up to 1; two lines have 1.7, and down to 1.25 where points lie closer than cells. */
+/** [cells] Narrower objects are a single line. Points lie anywhere in their cells, so widthOf()
+ * is up to 1 for a line. Two lines have 1.7, down to 1.25 where points are denser than cells. */
 constexpr double kLineCells = 1.1;
 
-/** [cells] Where places are farther apart, as those of reduced points are, a line tells nothing. */
+/** [cells] If points are farther apart, like reduced points, a line gives no information. */
 constexpr double kDenseCells = 1.5;
 
-/** \return how far points spread across the direction in which they spread most */
+/** \return the spread of points across the direction of their largest spread */
 double
 widthOf(const std::vector<Eigen::Vector3d>& points)
 {
@@ -62,17 +67,32 @@ widthOf(const std::vector<Eigen::Vector3d>& points)
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& p : points)
     scatter += (p - middle) * (p - middle).transpose() / count;
-  // Of points spread evenly over a width its variance is width^2 / 12.
+  // The variance of points spread evenly over a width is width^2 / 12.
   return std::sqrt(12 * std::max(0.0, symmetricEigenvalues<3>(scatter)(1)));
+}
+
+/** \return [m] the width of points across the rays from a position */
+double
+seenWidthOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& from)
+{
+  Eigen::Vector3d ray = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points)
+    ray += p - from;
+  ray.normalize();
+  std::vector<Eigen::Vector3d> seen;
+  seen.reserve(points.size());
+  for (const Eigen::Vector3d& p : points)
+    seen.push_back(p - ray.dot(p - from) * ray);
+  return widthOf(seen);
 }
 } // namespace
 
-MovingClusters::MovingClusters(const JudgedPlaces& judged,
-                               const Jury& jury,
+MovingClusters::MovingClusters(const TestedPositions& observed,
+                               const ObserverVotes& votes_of_observers,
                                unsigned int num_threads)
-: judged_(judged)
-, jury_(jury)
-, votes_(jury.votes())
+: observed_(observed)
+, observer_votes_(votes_of_observers)
+, votes_(votes_of_observers.votes())
 , num_threads_(num_threads)
 , mover_(votes_.size(), kNobody)
 , excess_(votes_.size(), 0)
@@ -80,8 +100,9 @@ MovingClusters::MovingClusters(const JudgedPlaces& judged,
   for (std::size_t place = 0; place < votes_.size(); ++place) {
     if (votes_[place].misses == 0)
       continue;
-    excess_[place] = votes_[place].numMisses() -
-                     kHitInMisses * __builtin_popcount(jury.lastingHits(place));
+    excess_[place] =
+        votes_[place].numMisses() -
+        kHitInMisses * __builtin_popcount(votes_of_observers.lastingHits(place));
     if (isCandidate(place))
       candidates_.push_back(place);
   }
@@ -102,16 +123,16 @@ MovingClusters::isHit(std::size_t place) const
 float
 MovingClusters::reachOf(std::size_t place) const
 {
-  const double range = (judged_.places[place] - judged_.origin).norm();
+  const double range = (observed_.places[place] - observed_.origin).norm();
   return static_cast<float>(
-      std::max(kNearCells * judged_.cell * range, kNearSigmas * judged_.noise));
+      std::max(kNearCells * observed_.cell * range, kNearSigmas * observed_.noise));
 }
 
 std::vector<Neighbour>
 MovingClusters::near(std::size_t place) const
 {
   const float reach = reachOf(place);
-  return tree_.withinRadius(judged_.places[place], reach * reach);
+  return tree_.withinRadius(observed_.places[place], reach * reach);
 }
 
 void
@@ -138,7 +159,7 @@ MovingClusters::findClusters()
         ++others[k];
     }
   std::map<std::size_t, std::vector<std::size_t>> clusters; // by first candidate
-  std::map<std::size_t, std::pair<double, double>> strewn;  // hit, all places near
+  std::map<std::size_t, std::pair<double, double>> strewn;  // hits, and points nearby
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     const std::size_t first = components.firstOf(k);
     clusters[first].push_back(candidates_[k]);
@@ -154,21 +175,22 @@ MovingClusters::findClusters()
     const Eigen::Vector3f middle = middleOf(cluster).cast<float>();
     float farthest = 0;
     for (const std::size_t place : cluster)
-      farthest = std::max(farthest, (judged_.places[place] - middle).norm());
+      farthest = std::max(farthest, (observed_.places[place] - middle).norm());
     movers_.push_back({stayedFor(cluster), middle, kTimesAsFar * farthest});
   }
 }
 
-/** \return whether enough scans saw through the cluster: two scans must have seen through most of
- * its places, or one if a single scan says anything of most of them. If it was hit half as often
- * as it was missed, always two: a thing that left is missed as a whole, while of a standing thing
- * one scan misses this part and another scan that part. */
+/** \return whether enough scans saw through the cluster: two scans must have seen through most
+ * of its points, or one if only a single scan observed most of the points. If the hits are
+ * half of the misses or more, two are always needed: every observer misses an object that
+ * left, while different scans miss different parts of a static object. */
 bool
 MovingClusters::moves(const std::vector<std::size_t>& cluster) const
 {
   int excess = 0;
   std::size_t hits = 0, misses = 0;
-  std::vector<std::pair<std::size_t, std::size_t>> of(jury_.judges().size());
+  std::vector<std::pair<std::size_t, std::size_t>> of(
+      observer_votes_.observers().size());
   for (const std::size_t place : cluster) {
     excess += excess_[place];
     for (std::size_t j = 0; j < of.size(); ++j) {
@@ -184,9 +206,9 @@ MovingClusters::moves(const std::vector<std::size_t>& cluster) const
     telling += 2 * (missed + hit) >= cluster.size() ? 1 : 0;
   }
   const bool was_seen_there = 2 * hits > misses;
-  if (clear < (was_seen_there ? kClearJudges : std::min(kClearJudges, telling)))
+  if (clear < (was_seen_there ? kClearObservers : std::min(kClearObservers, telling)))
     return false;
-  return excess >= kLeastMisses && !isPassedBeside(cluster);
+  return excess >= kLeastMisses && !isPassedBeside(cluster, excess);
 }
 
 Eigen::Vector3d
@@ -194,43 +216,52 @@ MovingClusters::middleOf(const std::vector<std::size_t>& cluster) const
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const std::size_t place : cluster)
-    sum += judged_.places[place].cast<double>();
+    sum += observed_.places[place].cast<double>();
   return sum / static_cast<double>(cluster.size());
 }
 
-/** Whether some hit most of a cluster that is thinner than the gaps between the rays of all who
- * saw through it, as a pole: these may have passed beside it. */
+/** \return whether the rays of every scan that saw through most of the cluster may have passed
+ * beside: seen from these scans, the cluster is narrower than the gaps between their rays.
+ * Then either
+ * - scans hit most of the cluster, like a pole or the top of a table; or
+ * - the cluster is wide, but each of these scans sees it at a flat angle, and missed few of
+ *   its places. */
 bool
-MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster) const
+MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster,
+                               int excess) const
 {
   const Eigen::Vector3d middle = middleOf(cluster);
   std::vector<Eigen::Vector3d> places;
   places.reserve(cluster.size());
   for (const std::size_t place : cluster)
-    places.push_back(judged_.places[place].cast<double>());
+    places.push_back(observed_.places[place].cast<double>());
   const double width = widthOf(places);
-  bool is_hit = false;
-  for (std::size_t j = 0; j < jury_.judges().size(); ++j) {
+  bool is_hit = false, is_flat = true;
+  for (std::size_t j = 0; j < observer_votes_.observers().size(); ++j) {
+    const Observer& classify = observer_votes_.observers()[j];
     std::size_t hit = 0, missed = 0;
     for (const std::size_t place : cluster) {
       hit += votes_[place].hits >> j & 1U;
       missed += votes_[place].misses >> j & 1U;
     }
     is_hit = is_hit || 2 * hit > cluster.size();
-    if (2 * missed > cluster.size() &&
-        jury_.judges()[j].gapAt(middle.cast<float>()) < width)
+    if (2 * missed <= cluster.size())
+      continue;
+    const double gap = classify.gapAt(middle.cast<float>());
+    if (seenWidthOf(places, classify.originInObserved().cast<double>()) >= gap)
       return false;
+    is_flat = is_flat && width >= gap;
   }
-  return is_hit;
+  return is_hit || (is_flat && excess < kManyMisses);
 }
 
-/** \return who saw a thing that moved where it is, as it stayed for a while: those who hit most
- * of it */
+/** \return the scans that observed a dynamic object while at rest: scans that hit most of its
+ * places */
 std::uint16_t
 MovingClusters::stayedFor(const std::vector<std::size_t>& cluster) const
 {
   unsigned stayed = 0;
-  for (std::size_t j = 0; j < jury_.judges().size(); ++j) {
+  for (std::size_t j = 0; j < observer_votes_.observers().size(); ++j) {
     std::size_t hit = 0;
     for (const std::size_t place : cluster)
       hit += votes_[place].hits >> j & 1U;
@@ -239,26 +270,26 @@ MovingClusters::stayedFor(const std::vector<std::size_t>& cluster) const
   return static_cast<std::uint16_t>(stayed);
 }
 
-/** \return whether a place may be of the surface of a mover: then what is known of the mover lies
- * behind that surface, or on it, seen from the scanner. It stands before the ground and the walls
- * about it. */
+/** \return whether a place may belong to the surface of a dynamic object: seen from the
+ * scanner, the known points of the object lie behind the surface or on it. The object is in
+ * front of the ground and the walls around. */
 bool
 MovingClusters::isSideOf(const Mover& mover, std::size_t place) const
 {
-  const Eigen::Vector3f& at = judged_.places[place];
+  const Eigen::Vector3f& at = observed_.places[place];
   if ((mover.middle - at).norm() > mover.reach)
     return false;
-  const Eigen::Vector3f normal = normalOf(jury_.judged(), at);
-  const float side = normal.dot(judged_.origin - at) < 0 ? -1 : 1; // to the scanner
+  const Eigen::Vector3f normal = normalOf(observer_votes_.observed(), at);
+  const float side = normal.dot(observed_.origin - at) < 0 ? -1 : 1; // to the scanner
   return !normal.isZero() && side * normal.dot(mover.middle - at) <=
-                                 kSideSigmas * static_cast<float>(judged_.noise);
+                                 kSideSigmas * static_cast<float>(observed_.noise);
 }
 
-/** \return the moving thing that a further place belongs to; kNobody: none. At least a quarter of
- * its neighbours must belong to the thing. In addition the place is hit, or more than half of its
- * neighbours move (both only for places near the thing), or it lies where the front of the thing
- * would be (isSideOf()). A place on a surface of a scan that came when the thing was gone belongs
- * to none. */
+/** \return the dynamic object of a further place; kNobody without an object. At least a quarter
+ * of the neighbours must belong to the object. In addition, one of three conditions holds: the
+ * place is hit; more than half of its neighbours are dynamic (both only near the object); or
+ * the place is on the expected front of the object (isSideOf()). A place on a surface measured
+ * after the object left belongs to no object. */
 int
 MovingClusters::ownerOf(std::size_t place, bool is_near) const
 {
@@ -283,10 +314,10 @@ MovingClusters::ownerOf(std::size_t place, bool is_near) const
       !isSideOf(movers_[static_cast<std::size_t>(owner)], place))
     return kNobody;
   if (votes_[place].misses != 0 && votes_[place].numMisses() >= votes_[place].numHits())
-    return owner; // things passed there at several times
-  for (std::size_t j = 0; j < jury_.judges().size(); ++j)
+    return owner; // objects passed at several times
+  for (std::size_t j = 0; j < observer_votes_.observers().size(); ++j)
     if ((hits & ~stayed & 1U << j) != 0 &&
-        jury_.judges()[j].supports(judged_.places[place]))
+        observer_votes_.observers()[j].supports(observed_.places[place]))
       return kNobody;
   return owner;
 }
@@ -306,7 +337,7 @@ MovingClusters::grow()
           border.push_back(static_cast<std::size_t>(n.index));
     std::sort(border.begin(), border.end());
     border.erase(std::unique(border.begin(), border.end()), border.end());
-    std::vector<int> owners; // as all were before this round
+    std::vector<int> owners; // before this round
     owners.reserve(border.size());
     for (const std::size_t place : border)
       owners.push_back(ownerOf(place, round < kGrowths));
@@ -319,9 +350,9 @@ MovingClusters::grow()
   }
 }
 
-/** Drops each thing that is a single line of cells, seen from the scanner. The edge of a table
- * looks like this: the scanner sees the top at a flat angle, so that its last row of points lies
- * along the edge, and rays of other scans pass beside it by the error of the poses. */
+/** Removes each object that is a single line of cells, seen from the scanner. The edge of a
+ * table has this form. The scanner sees the top at a flat angle, so the last row of points lies
+ * along the edge, and rays of other scans pass beside the edge, by the error of the poses. */
 void
 MovingClusters::dropLines()
 {
@@ -331,16 +362,17 @@ MovingClusters::dropLines()
     if (mover_[place] == kNobody)
       continue;
     const auto mover = static_cast<std::size_t>(mover_[place]);
-    const Eigen::Vector3d ray = (judged_.places[place] - judged_.origin).cast<double>();
+    const Eigen::Vector3d ray =
+        (observed_.places[place] - observed_.origin).cast<double>();
     directions[mover].push_back(ray.normalized());
-    const auto nearest = tree_.nearestK(judged_.places[place], 2);
-    const double apart = kDenseCells * judged_.cell * ray.norm();
+    const auto nearest = tree_.nearestK(observed_.places[place], 2);
+    const double apart = kDenseCells * observed_.cell * ray.norm();
     dense[mover] += nearest.size() == 2 && nearest[1].distance_sq < apart * apart;
   }
   std::vector<bool> is_line;
   for (std::size_t m = 0; m < directions.size(); ++m)
     is_line.push_back(2 * dense[m] > directions[m].size() &&
-                      widthOf(directions[m]) < kLineCells * judged_.cell);
+                      widthOf(directions[m]) < kLineCells * observed_.cell);
   for (int& mover : mover_)
     if (mover != kNobody && is_line[static_cast<std::size_t>(mover)])
       mover = kNobody;
@@ -350,7 +382,7 @@ std::vector<PointMotion>
 MovingClusters::decide()
 {
   if (!candidates_.empty()) {
-    tree_ = PointTree(judged_.places, num_threads_);
+    tree_ = PointTree(observed_.places, num_threads_);
     findClusters();
     grow();
     dropLines();

@@ -9,21 +9,21 @@
 
 namespace pcl6d::moving_objects {
 
-/** \brief The places of a scan, and how near each other they are. */
-struct JudgedPlaces {
+/** \brief The tested places of a scan, with their resolution. */
+struct TestedPositions {
   const Points& places;   ///< [m] in the scan's frame
   Eigen::Vector3f origin; ///< [m] of its rays
-  double cell = 0;        ///< [rad] that the places are apart, seen from there
+  double cell = 0;        ///< [rad] angular distance of places, seen from the origin
   double noise = 0;       ///< [m] standard deviation of a point
 };
 
-/** \brief Puts places together that were seen through, and tells which of these clusters
- * are things that moved (see MovingPoints). */
+/** \brief Clusters places with misses, and classifies the clusters as dynamic or static (see
+ * MovingPoints). */
 class MovingClusters {
 public:
-  /** Keeps references. \param[in] jury of these places */
-  MovingClusters(const JudgedPlaces& judged,
-                 const Jury& jury,
+  /** Keeps references. */
+  MovingClusters(const TestedPositions& observed,
+                 const ObserverVotes& votes_of_observers,
                  unsigned int num_threads);
 
   /** \return one per place */
@@ -32,9 +32,9 @@ public:
 
 private:
   struct Mover {
-    std::uint16_t stayed;   ///< who saw it while it stayed
-    Eigen::Vector3f middle; ///< [m] of the places that were seen through
-    float reach;            ///< [m] from there, that its surface may have
+    std::uint16_t stayed;   ///< observers of the object while at rest
+    Eigen::Vector3f middle; ///< [m] of the places with misses
+    float reach;            ///< [m] largest distance of its surface from the middle
   };
 
   float
@@ -50,7 +50,7 @@ private:
   bool
   moves(const std::vector<std::size_t>& cluster) const;
   bool
-  isPassedBeside(const std::vector<std::size_t>& cluster) const;
+  isPassedBeside(const std::vector<std::size_t>& cluster, int excess) const;
   Eigen::Vector3d
   middleOf(const std::vector<std::size_t>& cluster) const;
   std::uint16_t
@@ -64,8 +64,8 @@ private:
   void
   dropLines();
 
-  const JudgedPlaces judged_;
-  const Jury& jury_;
+  const TestedPositions observed_;
+  const ObserverVotes& observer_votes_;
   const std::vector<Votes>& votes_;
   unsigned int num_threads_;
   PointTree tree_;

@@ -20,36 +20,36 @@ namespace pcl6d {
 namespace {
 using namespace moving_objects;
 
-/** So many of the nearest scans are asked what they see, spread over time ... */
+/** Number of nearby scans considered as observers, spread over time ... */
 constexpr std::size_t kAsked = 32;
-/** ... out of so many times as many. */
+/** ... from this multiple of the nearest scans. */
 constexpr std::size_t kSpread = 8;
-/** Those who stand farther away than such a share of a scan's surface see little of it. */
+/** The reach of a scan is this quantile of its ranges: scans beyond see little. */
 constexpr double kReachShare = 0.9;
-/** So many judges look at all places: what two of them hit and none saw through stands, as most
- * places do. */
+/** Number of first observers, used for every place: a place with two hits and no miss is
+ * static, like most places. */
 constexpr std::size_t kFirst = 3;
 constexpr int kSettled = 2;
 
-/** So many scans, evenly over all, tell how far rays contradict scans that fit: each by so many
- * points, seen by so many others, of which the one that contradicts least counts. So many points
- * tell a share of 5 % to 0.7 %. */
+/** For the background: number of scans, evenly chosen; points of each; and observers of each,
+ * of which the observer with the fewest contradictions counts. A share of 5 % is then accurate
+ * to 0.7 %. */
 constexpr std::size_t kLookedAt = 24, kPatchPoints = 1000, kFitting = 8;
 
-/** So many points that say something tell a share of 5 % to a half. */
+/** Least free or confirmed points for a background: a share of 5 % to a half. */
 constexpr std::size_t kLeastSaid = 100;
-/** Cubes of sightEvidence(), whose counts are not used. */
+/** Edge of the cubes of sightEvidence(); the counts per cube are not used. */
 constexpr double kCountedCube = 6;
 
-/** Rays that contradict more even where scans fit best say nothing: the bound of verification. A
- * scanner of 2002 in a corridor with glass has 0.1, one that moved while it scanned 0.03 to 0.4,
- * others 0 to 0.02, with crowds, too. */
+/** Largest background, as in verification: above, ray tests are inconclusive. A scanner of 2002
+ * in a corridor with glass has 0.1, a scanner in motion during scans 0.03 to 0.4; the
+ * remaining data sets have 0 to 0.02, with crowds, too. */
 constexpr double kMostBackground = 0.05;
 
-/** [rad] Of a scan with too few points for an image of its own. */
+/** [rad] Cell width for a scan with too few points for its own image. */
 constexpr double kFinest = 0.0061;
 
-/** \return [m] how far the surfaces of a scan reach; infinite if it has none */
+/** \return [m] the reach of the surfaces of a scan; infinite without surfaces */
 float
 reachOf(const SeenScan& scan)
 {
@@ -86,7 +86,7 @@ requireSeen(const SeenScan& scan, std::size_t i)
   require(scan.tree && scan.normals && scan.normals->size() == scan.surface->size(),
           (name + "normals of the surface").c_str(),
           scan.normals ? scan.normals->size() : 0,
-          "with a tree, one per point");
+          "equal to the number of points of the tree");
   require(std::isfinite(scan.voxel) && scan.voxel > 0,
           (name + "voxel").c_str(),
           scan.voxel,
@@ -131,29 +131,29 @@ MovingPoints::isBlind() const
   return background_ > kMostBackground;
 }
 
-/** \return the share of points of a scan that the rays of the scan contradict that fits it best, of
- * a few near by; -1: none sees enough of it */
+/** \return the violated share of a scan's points, by the best-fitting of a few nearby scans;
+ * -1: no scan observes enough points */
 double
 MovingPoints::contradictionOf(std::size_t scan) const
 {
-  const SeenScan& judged = scans_[scan];
-  if (!judged.surface)
+  const SeenScan& observed = scans_[scan];
+  if (!observed.surface)
     return -1;
   Points some;
   const std::size_t step =
-      std::max<std::size_t>(1, judged.surface->size() / kPatchPoints);
-  for (std::size_t i = 0; i < judged.surface->size(); i += step)
-    some.push_back((*judged.surface)[i]);
+      std::max<std::size_t>(1, observed.surface->size() / kPatchPoints);
+  for (std::size_t i = 0; i < observed.surface->size(); i += step)
+    some.push_back((*observed.surface)[i]);
   double least = -1;
   for (const std::size_t other : around(scan, kFitting)) {
     PlaceUncertainty uncertainty;
-    uncertainty.noise = judged.rays->noise();
+    uncertainty.noise = observed.rays->noise();
     const SightEvidence seen =
         sightEvidence(*scans_[other].rays,
                       some,
-                      scans_[other].T_world_scan.inverse() * judged.T_world_scan,
+                      scans_[other].T_world_scan.inverse() * observed.T_world_scan,
                       uncertainty,
-                      kCountedCube * judged.voxel);
+                      kCountedCube * observed.voxel);
     if (seen.free + seen.confirmed < kLeastSaid)
       continue;
     const double share = seen.contradiction();
@@ -163,46 +163,50 @@ MovingPoints::contradictionOf(std::size_t scan) const
 }
 
 std::vector<PointMotion>
-MovingPoints::judge(std::size_t scan, const Points& points) const
+MovingPoints::classify(std::size_t scan, const Points& points) const
 {
   require(scan < scans_.size(), "scan", scan, "one of " + std::to_string(size()));
-  const SeenScan& judged = scans_[scan];
-  require(judged.rays != nullptr, "rays of the scan", "none", "there");
+  const SeenScan& observed = scans_[scan];
+  require(observed.rays != nullptr, "rays of the scan", "none", "there");
   std::vector<PointMotion> motion(points.size(), PointMotion::kUnknown);
   if (isBlind())
     return motion;
-  const RayImage& rays = *judged.rays;
+  const RayImage& rays = *observed.rays;
   const double cell = rays.resolution() > 0 ? rays.resolution() : kFinest;
   const RayBuckets buckets = bucketsOf(points, rays.origin(), cell, rays.noise());
   if (buckets.places.empty())
     return motion;
 
-  Jury jury(candidatesFor(scan), judged, buckets.places, options_.num_threads);
+  ObserverVotes votes_of_observers(
+      candidatesFor(scan), observed, buckets.places, options_.num_threads);
   std::vector<std::uint32_t> open(buckets.places.size());
   std::iota(open.begin(), open.end(), 0U);
   const auto leaveOpen = [&](auto&& is_open) {
-    open.erase(std::remove_if(
-                   open.begin(),
-                   open.end(),
-                   [&](std::uint32_t place) { return !is_open(jury.votes()[place]); }),
+    open.erase(std::remove_if(open.begin(),
+                              open.end(),
+                              [&](std::uint32_t place) {
+                                return !is_open(votes_of_observers.votes()[place]);
+                              }),
                open.end());
   };
-  const std::size_t chosen = jury.choose(open, options_.neighbours);
-  jury.ask(open, 0, kFirst);
+  const std::size_t chosen = votes_of_observers.choose(open, options_.neighbours);
+  votes_of_observers.ask(open, 0, kFirst);
   leaveOpen([](const Votes& v) { return v.misses != 0 || v.numHits() < kSettled; });
-  jury.ask(open, kFirst, chosen);
+  votes_of_observers.ask(open, kFirst, chosen);
   leaveOpen([](const Votes& v) { return v.misses == 0 && v.hits == 0; });
-  jury.ask(open, chosen, jury.choose(open, options_.neighbours));
-  const JudgedPlaces places{buckets.places, rays.origin(), cell, rays.noise()};
-  const auto decided = MovingClusters(places, jury, options_.num_threads).decide();
+  votes_of_observers.ask(
+      open, chosen, votes_of_observers.choose(open, options_.neighbours));
+  const TestedPositions places{buckets.places, rays.origin(), cell, rays.noise()};
+  const auto decided =
+      MovingClusters(places, votes_of_observers, options_.num_threads).decide();
   for (std::size_t i = 0; i < points.size(); ++i)
     if (buckets.bucket[i] != RayBuckets::kNone)
       motion[i] = decided[buckets.bucket[i]];
   return motion;
 }
 
-/** Scans that were near at other times: of those around, as far as its surfaces reach, so many as
- * can be asked, evenly over their order, as a thing that moves is elsewhere only after a while. */
+/** Observers from other times: of the scans within reach of the surfaces, the allowed number,
+ * evenly over their order, because an object moves away only after a while. */
 std::vector<std::size_t>
 MovingPoints::around(std::size_t scan, std::size_t count) const
 {
@@ -214,7 +218,7 @@ MovingPoints::around(std::size_t scan, std::size_t count) const
   std::vector<std::size_t> near;
   for (const Neighbour& n : places_.nearestK(here, count * kSpread + 1)) {
     if (near.size() >= count && n.distance_sq > reach * reach)
-      break; // the nearest come first
+      break; // the order is by distance
     const std::size_t other = by_place_[static_cast<std::size_t>(n.index)];
     if (other != scan)
       near.push_back(other);
@@ -227,10 +231,10 @@ MovingPoints::around(std::size_t scan, std::size_t count) const
   return spread;
 }
 
-std::vector<Judge>
+std::vector<Observer>
 MovingPoints::candidatesFor(std::size_t scan) const
 {
-  std::vector<Judge> candidates;
+  std::vector<Observer> candidates;
   for (const std::size_t other : around(scan, kAsked))
     candidates.emplace_back(scans_[other],
                             scans_[scan],

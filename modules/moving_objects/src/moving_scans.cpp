@@ -6,6 +6,7 @@
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/moving_objects/moving_scans.h>
 #include <pcl6d/visibility/range_noise.h>
+#include <pcl6d/visibility/ray_origin.h>
 
 #include <cmath>
 #include <utility>
@@ -13,7 +14,7 @@
 namespace pcl6d {
 
 namespace {
-/** Normals as those that scans are matched by: of so many points, reduced by so many voxels. */
+/** Normals as in matching: number of points, and voxel of their reduction. */
 constexpr std::size_t kNormalNeighbours = 10;
 constexpr double kNormalVoxels = 3;
 
@@ -25,7 +26,7 @@ reducedBy(double voxel, const Points& points)
   return reducePoints(points, reduction);
 }
 
-/** \return the points as seen from the scanner */
+/** \return the points in the frame of the scanner */
 Points
 seenFrom(const Eigen::Vector3f& origin, const Points& measured)
 {
@@ -36,7 +37,7 @@ seenFrom(const Eigen::Vector3f& origin, const Points& measured)
 }
 } // namespace
 
-/** A scan in the frame whose origin is where the scanner stood. */
+/** A scan in the frame with the scanner at the origin. */
 struct MovingScans::Kept {
   Eigen::Vector3f origin;
   double min_range = 0, max_range = 0, voxel = 0; // [m]
@@ -62,7 +63,7 @@ struct MovingScans::Kept {
     points = gateByRange(points, min_range, max_range);
     RayImageOptions image;
     image.noise = rangeNoise(points);
-    rays = RayImage(points, image);
+    rays = plausibleRays(points, image);
     surface = reducedBy(voxel, points);
     tree = PointTree(surface, num_threads);
     const Points patches = reducedBy(kNormalVoxels * voxel, surface);
@@ -97,7 +98,7 @@ void
 MovingScans::setNumberOfThreads(unsigned int num_threads)
 {
   options_.num_threads = num_threads;
-  judges_.reset();
+  observers_.reset();
 }
 
 std::size_t
@@ -107,7 +108,7 @@ MovingScans::add(const Points& measured,
                  const Eigen::Vector3f& origin)
 {
   require(origin.allFinite(), "origin of the rays", origin.transpose(), "finite");
-  std::vector<SeenScan> poses(size() + 1); // their rules, before any work
+  std::vector<SeenScan> poses(size() + 1); // checks both arguments before any work
   poses.back().T_world_scan = T_world_scan;
   poses.back().sigma = sigma;
   (void)MovingPoints(std::move(poses));
@@ -117,7 +118,7 @@ MovingScans::add(const Points& measured,
   scan->seen.T_world_scan.translate(origin.cast<double>());
   scan->seen.sigma = sigma;
   scans_.push_back(scan);
-  judges_.reset();
+  observers_.reset();
   return scans_.size() - 1;
 }
 
@@ -135,30 +136,30 @@ MovingScans::voxel(std::size_t scan) const
 }
 
 const MovingPoints&
-MovingScans::judges()
+MovingScans::observers()
 {
-  if (!judges_) {
+  if (!observers_) {
     std::vector<SeenScan> seen;
     for (const auto& scan : scans_)
       seen.push_back(scan->seen);
-    judges_ = std::make_shared<const MovingPoints>(std::move(seen), options_);
+    observers_ = std::make_shared<const MovingPoints>(std::move(seen), options_);
   }
-  return *judges_;
+  return *observers_;
 }
 
 bool
 MovingScans::isBlind()
 {
-  return judges().isBlind();
+  return observers().isBlind();
 }
 
 std::vector<PointMotion>
 MovingScans::motion(std::size_t scan, const Points& measured)
 {
-  const Kept& judged = kept(scan);
-  Points points = seenFrom(judged.origin, measured);
-  maskOutOfRange(judged.min_range, judged.max_range, points);
-  return judges().judge(scan, points);
+  const Kept& observed = kept(scan);
+  Points points = seenFrom(observed.origin, measured);
+  maskOutOfRange(observed.min_range, observed.max_range, points);
+  return observers().classify(scan, points);
 }
 
 } // namespace pcl6d

@@ -11,8 +11,8 @@ namespace pcl6d::moving_objects {
 namespace {
 constexpr double kFace = 1.5707963267948966; // [rad] width of a face of the cube
 
-/** Ranges farther apart than so many standard deviations, and the width of the cell, are of
- * two things: the tolerance of RayImage. */
+/** Ranges farther apart than this number of standard deviations, plus the width of the cell,
+ * belong to two surfaces: the tolerance of RayImage. */
 constexpr float kSameSigmas = 3;
 
 struct Ray {
@@ -20,7 +20,7 @@ struct Ray {
   std::uint32_t point;
 };
 
-/** The rays sorted by cells, as a counting sort does: where those of each begin. */
+/** The rays sorted by cells (counting sort): the first ray of each cell. */
 struct SortedRays {
   std::vector<Ray> rays;
   std::vector<std::uint32_t> begin; // of each cell, and the end of the last

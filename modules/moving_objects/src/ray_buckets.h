@@ -9,8 +9,8 @@
 
 namespace pcl6d::moving_objects {
 
-/** \brief The points of a scan put together where no image of rays can tell them apart:
- * in one cell of directions, with no gap in range between them. */
+/** \brief The points of a scan in buckets that no ray image can resolve: in one cell of
+ * directions, with no gap in range. */
 struct RayBuckets {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 

@@ -15,11 +15,10 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = MotionCovariance;
 
-/** A direction with less of the pairs' information, per pair, is open: as
- * Localizability::kOpen. */
+/** A direction with less information per pair is open, as in Localizability::kOpen. */
 constexpr double kOpen = 0.01;
 
-/** Steps of reweighting: weights change by less than 1 % after four of them. */
+/** Steps of reweighting: after four steps, weights change by less than 1 %. */
 constexpr int kReweightings = 5;
 
 Vector6
@@ -31,7 +30,7 @@ jacobianOf(const PlanePair& pair, const Eigen::Vector3d& centre)
   return j;
 }
 
-/** Geman and McClure, half way at two standard deviations. */
+/** Geman and McClure; the weight is a half at two standard deviations. */
 double
 weightOf(double left, double scale)
 {
@@ -44,7 +43,7 @@ double
 scaleOf(const std::vector<PlanePair>& pairs, const RobustMotion& fit)
 {
   constexpr double kOfMedian = 1.4826; // of a normal distribution
-  constexpr double kLeast = 1e-6;      // [m] exact points have weights, too
+  constexpr double kLeast = 1e-6;      // [m] exact points need weights, too
   std::vector<double> sizes;
   sizes.reserve(pairs.size());
   for (const PlanePair& pair : pairs)
@@ -53,10 +52,10 @@ scaleOf(const std::vector<PlanePair>& pairs, const RobustMotion& fit)
   return std::max(kLeast, kOfMedian * upperMedian(std::move(sizes)));
 }
 
-/** What the directions of an eigen system know. */
+/** Inverse and open directions of an information matrix. */
 struct Directions {
   Matrix6 inverse; ///< of the information, without open directions
-  Matrix6 open;    ///< covariance of those
+  Matrix6 open;    ///< covariance of the open directions
 };
 
 Directions
@@ -154,7 +153,7 @@ robustMotion(const std::vector<PlanePair>& pairs, double cube)
     known = directionsOf(H, weights, spread);
     fit.step = known.inverse * b;
   }
-  // Few cubes leave directions without an error: a tenth of that of independent points.
+  // Few cubes may show no error in a direction: take a tenth of the independent error.
   const Matrix6 gradients =
       clustered(pairs, fit, cube) + 0.1 * fit.scale * fit.scale * H;
   fit.covariance = known.inverse * gradients * known.inverse + known.open;

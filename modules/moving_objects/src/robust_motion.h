@@ -10,14 +10,14 @@
 
 namespace pcl6d::moving_objects {
 
-/** \brief A point and the plane that it should lie on, in the world. */
+/** \brief A point and its target plane, in the world. */
 struct PlanePair {
   Eigen::Vector3d place;
   Eigen::Vector3d normal; ///< unit vector of the plane
   double residual;        ///< [m] along the normal, from the point to the plane
 };
 
-/** \brief The small motion of points that brings them onto their planes. */
+/** \brief The small motion that moves points onto their planes. */
 struct RobustMotion {
   /** velocity of the centre, then rotation, in the axes of the world [m, rad] */
   Eigen::Matrix<double, 6, 1> step = Eigen::Matrix<double, 6, 1>::Zero();
@@ -29,15 +29,15 @@ struct RobustMotion {
   /** \return the step as a motion of points in the world */
   Eigen::Isometry3d
   motion() const;
-  /** \return its covariance, with the square of what is left of the step, as a motion about
-   * another place in the axes of the world */
+  /** \return its covariance, plus the square of the remaining step, as a motion about a given
+   * point in the world axes */
   MotionCovariance
   uncertaintyAbout(const Eigen::Vector3d& place) const;
 };
 
-/** \brief Point to plane with weights of Geman and McClure: what has changed does not pull.
- * The covariance takes the pairs in cubes as one, as their errors hang together; motions
- * that the planes leave open take no step, and are as uncertain as the points are spread.
+/** \brief Point to plane with weights of Geman and McClure: changes do not bias the fit. The
+ * covariance counts the pairs in a cube as one, as their errors are correlated. Motions left
+ * open by the planes get no step, and the spread of the points as uncertainty.
  * \param[in] cube [m] > 0
  * \return pairs 0: fewer than 12
  * \note Source: algorithms.md T.3 (H^-1 (sum g_k g_k^T) H^-1 over cubes) */

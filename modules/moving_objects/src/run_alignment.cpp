@@ -16,22 +16,22 @@ using moving_objects::robustMotion;
 using moving_objects::RunSurface;
 
 namespace {
-/** So many points of a scan are paired: enough for all its surfaces. */
+/** Number of paired points of a scan: enough to cover its surfaces. */
 constexpr std::size_t kPointsOfScan = 2000;
 
-/** Points in cubes of so many voxels count as one: beyond, residuals hang together by less
- * than 5 % (algorithms.md T.3). */
+/** [voxels] Points in a cube with this edge count as one: beyond, residuals are correlated by
+ * less than 5 % (algorithms.md T.3). */
 constexpr double kCubeVoxels = 16;
 
-/** Steps of matching: pairs are looked for anew, within half of the distance until ... */
+/** Iterations of matching: pairs are searched again, within half of the distance, until ... */
 constexpr int kMostSteps = 12;
-/** ... it is so many standard deviations of the residuals, or a voxel. */
+/** ... the distance reaches this number of standard deviations of the residuals, or a voxel. */
 constexpr double kReachSigmas = 4;
 
-/** So many pairs of a scan settle where it lies: fewer are a corner of something. */
+/** Pairs needed to correct the pose of a scan: fewer cover only a corner. */
 constexpr std::size_t kFewestPairs = 100;
 
-/** Surfaces that face less alike are no pair: 45 degrees. */
+/** Least cosine between the normals of a pair: 45 degrees. */
 constexpr float kFacing = 0.7071F;
 
 /** The points of a scan on the planes of the other run. */
@@ -85,7 +85,7 @@ moveAll(const Eigen::Isometry3d& motion, ComparedRun& run)
     scan.T_world_scan = motion * scan.T_world_scan;
 }
 
-/** Moves the second run in one piece. */
+/** Moves the second run as one rigid piece. */
 void
 moveInOnePiece(const RunSurface& on,
                const RunAlignmentOptions& options,
@@ -115,7 +115,7 @@ moveInOnePiece(const RunSurface& on,
   }
 }
 
-/** Moves each scan by itself. \return rms [m] */
+/** Moves each scan separately. \return rms [m] */
 double
 moveEach(const RunSurface& on, const RunAlignmentOptions& options, ComparedRun& second)
 {
@@ -138,7 +138,7 @@ moveEach(const RunSurface& on, const RunAlignmentOptions& options, ComparedRun& 
   return std::sqrt(sum / static_cast<double>(second.size()));
 }
 
-/** Sets the covariances of a run by its fits to the other one. */
+/** Sets the covariances of a run from its fits to the other run. */
 void
 setCovariances(const RunSurface& on,
                const RunAlignmentOptions& options,

@@ -18,15 +18,16 @@ requireComplete(const ComparedRun& run, const char* name)
     const std::string where =
         std::string(name) + ": scan " + std::to_string(i) + " has ";
     if (!scan.points || !scan.normals || !scan.rays)
-      throw BadArgument(where + "no points, normals or rays, but must have all three");
+      throw BadArgument(
+          where + "no points, normals or rays, but needs points, normals and rays");
     if (scan.normals->size() != scan.points->size())
       throw BadArgument(where + std::to_string(scan.normals->size()) +
-                        " normals, but must have one for each of its " +
+                        " normals, but must have a normal for each of the " +
                         std::to_string(scan.points->size()) + " points");
     if (!isRigid(scan.T_world_scan) || !scan.covariance.allFinite())
-      throw BadArgument(where +
-                        "a pose that is no rigid motion, or a covariance that is "
-                        "not finite");
+      throw BadArgument(
+          where +
+          "a pose that is not rigid, or a covariance with infinite values or NaN");
   }
 }
 
@@ -65,7 +66,7 @@ poseVariance(const ComparedScan& scan,
   Eigen::Matrix<double, 6, 1> j;
   j.head<3>() = direction;
   j.tail<3>() = (place - scan.T_world_scan.translation()).cross(direction);
-  // A covariance that is only nearly positive would make it negative by rounding.
+  // Rounding may make the variance of a nearly singular covariance negative.
   return std::max(0.0, j.dot(scan.covariance * j));
 }
 

@@ -8,8 +8,8 @@
 
 namespace pcl6d::moving_objects {
 
-/** \brief The points of all scans of a run in the world, to be searched. Of a voxel at most
- * four scans are kept: more say nothing new of where its surface is, and cost time. */
+/** \brief The points of a run in the world, with a search tree. Of a voxel at most four scans
+ * are kept: further scans do not improve the position of the surface, and cost time. */
 class RunSurface {
 public:
   /** \param[in] voxel [m] of the reduction of the scans */
@@ -25,7 +25,7 @@ public:
   {
     return normals_;
   }
-  /** \return of each point its scan */
+  /** \return the scan of each point */
   const std::vector<std::uint32_t>&
   scans() const
   {
@@ -44,8 +44,9 @@ private:
   PointTree tree_;
 };
 
-/** \return variance [m^2] of a place of a scan along a direction, by its pose
- * \param[in] place [m] in the world \param[in] direction unit vector in the world */
+/** \return variance [m^2] of a point of a scan along a direction, by its pose
+ * \param[in] place [m] in the world
+ * \param[in] direction unit vector in the world */
 double
 poseVariance(const ComparedScan& scan,
              const Eigen::Vector3d& place,

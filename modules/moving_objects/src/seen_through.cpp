@@ -12,38 +12,39 @@ namespace pcl6d::moving_objects {
 namespace {
 enum class State : std::uint8_t { kUnknown, kThere, kShifted, kGone, kRestless };
 
-/** A surface of the other run within so many voxels is the same one: two reductions of one
- * plane have their points so far apart. */
+/** [voxels] Largest distance of points from two reductions of one plane; a surface of the other
+ * run within it is unchanged. */
 constexpr double kThereVoxels = 1;
 
-/** Shifted surfaces face alike within 45 degrees. */
+/** Shifted surfaces have normals within 45 degrees: cosine. */
 constexpr float kSameSide = 0.7071F;
 
-/** What is there within so many voxels of a gone voxel makes it a fringe. */
+/** [voxels] Unchanged points this near to a gone voxel make the voxel a fringe. */
 constexpr double kFringeVoxels = 1.5;
 
-/** Rays that pass a place by the tolerance of an image end on the plane through it farther on
- * by that over the cosine of their incidence. A plane that is still there may be missed by one
- * cell and a half, where the cells below are empty: so rays have gone through it if they ended
- * farther on than this. In standard deviations, of which a tolerance is three. */
+/** Least distance of the end of a ray behind a point, to have passed through its surface, in
+ * standard deviations. A ray that passes a point by the tolerance of an image ends on the
+ * plane of the point, farther by the tolerance over the cosine of its incidence. If the cells
+ * below are empty, rays miss an unchanged plane by up to one cell and a half; a tolerance is
+ * three standard deviations. */
 constexpr float kThroughPlane = 4.5F;
 
-/** What moves within a run was seen through by so many times the scans of it that saw it: the
- * legs of a chair are missed by some. */
+/** A point is dynamic within its run if the number of violating scans exceeds the number of
+ * scans that hit the point by this factor: a few scans miss the legs of a chair. */
 constexpr std::uint32_t kRestlessTimes = 2;
 
-/** Rays that graze a surface by less than 6 deg miss what is thin, as the top of a table: they
- * say nothing of it. */
+/** Rays at a grazing angle below 6 deg miss thin objects, like the top of a table, and are not
+ * used. */
 constexpr float kGrazing = 0.1F;
 
-/** What is known of the points of a scan. */
+/** State of the points of a scan. */
 struct ScanStates {
   Points places; ///< [m] in the world
   std::vector<State> states;
-  std::vector<std::uint32_t> witnesses;
+  std::vector<std::uint32_t> num_observers;
 };
 
-/** \return whether a surface that faces alike lies on the normal of a point */
+/** \return whether a surface with similar orientation lies on the normal of a point */
 bool
 isShifted(const Eigen::Vector3f& place,
           const Eigen::Vector3f& normal,
@@ -66,18 +67,18 @@ isShifted(const Eigen::Vector3f& place,
   return false;
 }
 
-/** What rays say of places. */
+/** Counts of the rays of several scans at given points. */
 struct ViewCounts {
   std::vector<std::uint32_t> free, confirmed;
 };
 
-/** Places of a scan that rays are asked for. */
+/** Points of a scan to be tested by rays. */
 struct Asked {
   const ComparedScan& scan;
-  Points places, normals; ///< in the world; zero normals: none
+  Points places, normals; ///< in the world; zero: no normal
 };
 
-/** \return whether the rays went through the surface of a place, not along it */
+/** \return whether the rays passed through the surface of a point, not along it */
 bool
 wentThrough(const SightOfPlace& seen,
             const Eigen::Vector3f& normal,
@@ -90,7 +91,7 @@ wentThrough(const SightOfPlace& seen,
          (cosine > kGrazing && seen.sigmas * cosine > kThroughPlane);
 }
 
-/** Asks all scans of a run but one. */
+/** Tests points by every scan of a run except one. */
 ViewCounts
 countsOf(const ComparedRun& run,
          const ComparedScan* without,
@@ -124,8 +125,8 @@ countsOf(const ComparedRun& run,
   return counts;
 }
 
-/** The rays of all scans of the other run: who saw through outvotes who did not. What the
- * other scans of its own run saw through, too, moves in it, or is no surface. */
+/** Tests points by the rays of the other run: the majority decides. Points violated by scans of
+ * their own run, too, are dynamic within the run, or not on a surface. */
 void
 askRays(const ComparedScan& scan,
         const ComparedRun& own,
@@ -144,7 +145,7 @@ askRays(const ComparedScan& scan,
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < open.size(); ++k) {
     const std::size_t i = open[k];
-    states.witnesses[i] = counts.free[k];
+    states.num_observers[i] = counts.free[k];
     states.states[i] = counts.confirmed[k] > 0 ? State::kThere : State::kUnknown;
     if (counts.free[k] <= counts.confirmed[k])
       continue;
@@ -168,7 +169,7 @@ statesOf(const ComparedScan& scan,
   ScanStates states;
   states.places = transformed(*scan.points, scan.T_world_scan);
   states.states.resize(states.places.size(), State::kThere);
-  states.witnesses.resize(states.places.size());
+  states.num_observers.resize(states.places.size());
   const double there = kThereVoxels * options.voxel;
   const Eigen::Matrix3f R = scan.T_world_scan.linear().cast<float>();
   std::vector<std::size_t> open;
@@ -188,7 +189,7 @@ statesOf(const ComparedScan& scan,
 /** Sums of the points in a voxel. */
 struct Voxel {
   Eigen::Vector3d gone = Eigen::Vector3d::Zero(), other = Eigen::Vector3d::Zero();
-  std::uint32_t num_gone = 0, num_there = 0, num_unknown = 0, witnesses = 0;
+  std::uint32_t num_gone = 0, num_there = 0, num_unknown = 0, num_observers = 0;
 };
 
 void
@@ -220,7 +221,7 @@ voxelsOf(const std::vector<ScanStates>& scans, double voxel)
       const bool is_unknown = state == State::kUnknown || state == State::kRestless;
       ++(is_gone ? one.num_gone : is_unknown ? one.num_unknown : one.num_there);
       (is_gone ? one.gone : one.other) += scan.places[i].cast<double>();
-      one.witnesses = std::max(one.witnesses, scan.witnesses[i]);
+      one.num_observers = std::max(one.num_observers, scan.num_observers[i]);
     }
   return voxels;
 }
@@ -232,7 +233,7 @@ seenThrough(const SurfacedRun& of,
             const RunChangesOptions& options)
 {
   std::vector<ScanStates> scans(of.run.size());
-  constexpr std::size_t kBatch = 8; // to show how far it is
+  constexpr std::size_t kBatch = 8; // to report progress
   for (std::size_t begin = 0; begin < scans.size(); begin += kBatch) {
     const std::size_t end = std::min(begin + kBatch, scans.size());
     parallelFor(end - begin, options.num_threads, [&](std::size_t k) {
@@ -248,7 +249,7 @@ seenThrough(const SurfacedRun& of,
     if (one.num_gone > one.num_there)
       result.gone.push_back({(one.gone / one.num_gone).cast<float>(),
                              one.num_gone,
-                             one.witnesses,
+                             one.num_observers,
                              false});
     else if (one.num_there + one.num_unknown > 0) {
       const auto others = static_cast<double>(one.num_there + one.num_unknown);

@@ -10,23 +10,23 @@
 
 namespace pcl6d::moving_objects {
 
-/** \brief A voxel of a run most of whose points another run saw through. */
+/** \brief A voxel of a run with violations by the other run at most of its points. */
 struct GoneVoxel {
-  Eigen::Vector3f place = Eigen::Vector3f::Zero(); ///< [m] mean of these points
+  Eigen::Vector3f place = Eigen::Vector3f::Zero(); ///< [m] mean of the violated points
   std::uint32_t points = 0;
-  std::uint32_t witnesses = 0; ///< scans that saw through one of them, at most
-  bool on_fringe = false;      ///< what is there still is next to it
+  std::uint32_t num_observers = 0; ///< largest number of violating scans of a point
+  bool on_fringe = false;          ///< next to unchanged points
 };
 
-/** \brief What of a run is gone. */
+/** \brief The changes of one run against the other. */
 struct SeenThrough {
-  std::vector<GoneVoxel> gone; ///< in the order in which the scans have them
-  Points there;                ///< [m] of the voxels of which most is there still
-  Points unknown;              ///< [m] of those of which nothing is known
+  std::vector<GoneVoxel> gone; ///< in the order of the scans
+  Points there;                ///< [m] of the voxels with mostly unchanged points
+  Points unknown;              ///< [m] of the voxels without a result
   RunTally tally;
 };
 
-/** \brief Asks the surfaces and the rays of another run for every point of a run. */
+/** \brief Tests every point of a run by the surfaces and the rays of another run. */
 SeenThrough
 seenThrough(const SurfacedRun& of,
             const SurfacedRun& by,

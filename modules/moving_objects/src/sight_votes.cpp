@@ -13,100 +13,104 @@ namespace pcl6d::moving_objects {
 namespace {
 constexpr std::size_t kLookedAtOnce = 2048;
 
-/** Judges of one scan: the bits of Votes. */
-constexpr std::size_t kMostJudges = 16;
+/** The most observers of a scan: the number of bits of Votes. */
+constexpr std::size_t kMostObservers = 16;
 
-/** Of so many places it is asked who sees them: a share of 5 % of them is known to a quarter. */
+/** Sampled points for the choice of observers: a share of 5 % is estimated to a quarter. */
 constexpr std::size_t kSample = 256;
 
-/** Points within so many standard deviations of a surface are on it. */
+/** [standard deviations] Points this near to a surface are on the surface. */
 constexpr float kOnSurfaceSigmas = 3;
 
-/** A surface is where its nearest reduced point is, within so many voxels: points of
+/** [voxels] Largest distance of a surface point from its nearest reduced point: points of
  * neighbouring voxels are up to twice the diagonal's half apart. */
 constexpr double kReach = 1.75;
 
-/** The normal of a reduced point holds for its patch: a place that is off by a voxel may be
- * off the plane by such a share of it, by the bend of the surface. */
+/** The normal of a reduced point is valid for its patch: a voxel away, the surface may deviate
+ * from the plane by this share of a voxel, by its curvature. */
 constexpr float kBend = 0.1F;
 
-/** Of places that are near a surface of another scan, so large a share is on that very surface;
- * of a normal distribution 80 % lie within 1.28 standard deviations. So many say enough. */
+/** The error of the poses of two scans comes from this quantile of the distances of points near
+ * a surface of both: half of a normal distribution is within 0.6745 deviations. */
 constexpr double kMeetingShare = 0.5;
 constexpr double kMeetingSigmas = 0.6745;
 constexpr std::size_t kLeastMeeting = 16;
 } // namespace
 
-Judge::Judge(const SeenScan& judge, const SeenScan& judged, std::ptrdiff_t later)
-: judge_(&judge)
+Observer::Observer(const SeenScan& classify,
+                   const SeenScan& observed,
+                   std::ptrdiff_t later)
+: observer_(&classify)
 , later_(later)
-, T_judge_judged_((judge.T_world_scan.inverse() * judged.T_world_scan).cast<float>())
-, noise_(judged.rays ? judged.rays->noise() : 0)
-, variance_(judge.sigma.translation * judge.sigma.translation +
-            judged.sigma.translation * judged.sigma.translation)
-, turn_of_judged_(judged.sigma.rotation)
-, turn_of_judge_(judge.sigma.rotation)
+, T_observer_observed_(
+      (classify.T_world_scan.inverse() * observed.T_world_scan).cast<float>())
+, noise_(observed.rays ? observed.rays->noise() : 0)
+, variance_(classify.sigma.translation * classify.sigma.translation +
+            observed.sigma.translation * observed.sigma.translation)
+, turn_of_observed_(observed.sigma.rotation)
+, turn_of_observer_(classify.sigma.rotation)
 {}
 
 float
-Judge::sigmaOf(const Eigen::Vector3f& place, const Eigen::Vector3f& seen) const
+Observer::sigmaOf(const Eigen::Vector3f& place, const Eigen::Vector3f& seen) const
 {
-  const double a = turn_of_judged_ * place.norm(), b = turn_of_judge_ * seen.norm();
+  const double a = turn_of_observed_ * place.norm(),
+               b = turn_of_observer_ * seen.norm();
   return static_cast<float>(std::sqrt(noise_ * noise_ + variance_ + a * a + b * b));
 }
 
 std::vector<SightOfPlace>
-Judge::look(const Points& places) const
+Observer::look(const Points& places) const
 {
   Points seen;
   std::vector<float> sigmas;
   seen.reserve(places.size());
   sigmas.reserve(places.size());
   for (const Eigen::Vector3f& place : places) {
-    seen.emplace_back(T_judge_judged_ * place);
+    seen.emplace_back(T_observer_observed_ * place);
     sigmas.push_back(sigmaOf(place, seen.back()));
   }
-  return judge_->rays->look(seen, sigmas);
+  return observer_->rays->look(seen, sigmas);
 }
 
 bool
-Judge::isMiss(const SightOfPlace& seen,
-              const Eigen::Vector3f& place,
-              const Eigen::Vector3f& normal) const
+Observer::isMiss(const SightOfPlace& seen,
+                 const Eigen::Vector3f& place,
+                 const Eigen::Vector3f& normal) const
 {
   if (normal.isZero())
     return true;
-  const Eigen::Vector3f ray = T_judge_judged_ * place - judge_->rays->origin();
+  const Eigen::Vector3f ray = T_observer_observed_ * place - observer_->rays->origin();
   const float slope =
-      std::abs((T_judge_judged_.linear() * normal).dot(ray.normalized()));
-  // look() tells the distance in thirds of its tolerance, which is right from 45 deg on.
+      std::abs((T_observer_observed_.linear() * normal).dot(ray.normalized()));
+  // look() gives the distance in thirds of its tolerance, valid from 45 deg on.
   const float tolerance = 3 * seen.beyond / seen.sigmas;
   return seen.beyond * slope > tolerance;
 }
 
-/** \return [m] across the surface, at a place in the judge's frame; none: it has none there */
+/** \return [m] across the surface, at a point in the observer's frame; empty without a surface */
 std::optional<float>
-Judge::distanceToSurface(const Eigen::Vector3f& seen) const
+Observer::distanceToSurface(const Eigen::Vector3f& seen) const
 {
-  const auto reach = static_cast<float>(kReach * judge_->voxel);
-  const Neighbour nearest = judge_->tree->nearest(seen, reach * reach);
+  const auto reach = static_cast<float>(kReach * observer_->voxel);
+  const Neighbour nearest = observer_->tree->nearest(seen, reach * reach);
   if (nearest.index < 0)
     return std::nullopt;
   const auto at = static_cast<std::size_t>(nearest.index);
-  const Eigen::Vector3f off = seen - (*judge_->surface)[at];
-  const Eigen::Vector3f& normal = (*judge_->normals)[at];
+  const Eigen::Vector3f off = seen - (*observer_->surface)[at];
+  const Eigen::Vector3f& normal = (*observer_->normals)[at];
   const float across = normal.isZero() ? off.norm() : std::abs(normal.dot(off));
   return std::max(0.0F, across - kBend * off.norm());
 }
 
 void
-Judge::calibrate(const Points& sample)
+Observer::calibrate(const Points& sample)
 {
   if (!hasSurface())
     return;
   std::vector<float> apart;
   for (const Eigen::Vector3f& place : sample)
-    if (const auto distance = distanceToSurface(T_judge_judged_ * place))
+    if (const auto distance = distanceToSurface(T_observer_observed_ * place))
       apart.push_back(*distance);
   if (apart.size() < kLeastMeeting)
     return;
@@ -114,27 +118,27 @@ Judge::calibrate(const Points& sample)
                                               static_cast<double>(apart.size() - 1));
   std::nth_element(apart.begin(), apart.begin() + at, apart.end());
   const double sigma = apart[static_cast<std::size_t>(at)] / kMeetingSigmas;
-  const double own = judge_->rays->noise();
+  const double own = observer_->rays->noise();
   variance_ = std::max(variance_, sigma * sigma - noise_ * noise_ - own * own);
 }
 
 bool
-Judge::tellsWhere(const Eigen::Vector3f& place) const
+Observer::tellsWhere(const Eigen::Vector3f& place) const
 {
-  const double own = judge_->rays->noise();
-  const double sigma = sigmaOf(place, T_judge_judged_ * place);
+  const double own = observer_->rays->noise();
+  const double sigma = sigmaOf(place, T_observer_observed_ * place);
   return kOnSurfaceSigmas * std::sqrt(sigma * sigma + own * own) + gapAt(place) <=
-         kReach * judge_->voxel;
+         kReach * observer_->voxel;
 }
 
 bool
-Judge::supports(const Eigen::Vector3f& place) const
+Observer::supports(const Eigen::Vector3f& place) const
 {
   if (!hasSurface())
     return true;
-  const Eigen::Vector3f seen = T_judge_judged_ * place;
+  const Eigen::Vector3f seen = T_observer_observed_ * place;
   const auto distance = distanceToSurface(seen);
-  const float own = static_cast<float>(judge_->rays->noise());
+  const float own = static_cast<float>(observer_->rays->noise());
   const float sigma = sigmaOf(place, seen);
   return distance &&
          *distance <= kOnSurfaceSigmas * std::sqrt(sigma * sigma + own * own);
@@ -151,43 +155,45 @@ normalOf(const SeenScan& scan, const Eigen::Vector3f& place)
                            : (*scan.normals)[static_cast<std::size_t>(nearest.index)];
 }
 
-Jury::Jury(std::vector<Judge> candidates,
-           const SeenScan& judged,
-           const Points& places,
-           unsigned int num_threads)
+ObserverVotes::ObserverVotes(std::vector<Observer> candidates,
+                             const SeenScan& observed,
+                             const Points& places,
+                             unsigned int num_threads)
 : candidates_(std::move(candidates))
-, judged_(judged)
+, observed_(observed)
 , places_(places)
 , num_threads_(num_threads)
 , votes_(places.size())
 {}
 
 void
-Jury::ask(const std::vector<std::uint32_t>& which, std::size_t first, std::size_t end)
+ObserverVotes::ask(const std::vector<std::uint32_t>& which,
+                   std::size_t first,
+                   std::size_t end)
 {
   parallelBlocks(which.size(), kLookedAtOnce, num_threads_, [&](const Block& block) {
-    look(which, block.begin, block.end, {first, std::min(end, judges_.size())});
+    look(which, block.begin, block.end, {first, std::min(end, observers_.size())});
   });
 }
 
-/** Whoever tells most of what is least known comes next. */
+/** The next observer: the scan with most information on the least observed points. */
 std::size_t
-Jury::choose(const std::vector<std::uint32_t>& which, std::size_t count)
+ObserverVotes::choose(const std::vector<std::uint32_t>& which, std::size_t count)
 {
   Points sample;
   const std::size_t step = std::max<std::size_t>(1, which.size() / kSample);
   for (std::size_t i = 0; i < which.size(); i += step)
     sample.push_back(places_[which[i]]);
-  const std::size_t first = judges_.size();
-  count = std::min(count, kMostJudges - first);
-  std::vector<std::vector<std::uint8_t>> says(candidates_.size()); // of each place
+  const std::size_t first = observers_.size();
+  count = std::min(count, kMostObservers - first);
+  std::vector<std::vector<std::uint8_t>> says(candidates_.size()); // of each point
   parallelFor(candidates_.size(), num_threads_, [&](std::size_t c) {
     for (const SightOfPlace& seen : candidates_[c].look(sample))
       says[c].push_back(
           seen.sight == Sight::kFree || seen.sight == Sight::kConfirmed ? 1 : 0);
   });
   std::vector<double> worth(sample.size(), 1);
-  std::vector<Judge> rest;
+  std::vector<Observer> rest;
   std::vector<bool> taken(candidates_.size(), false);
   for (std::size_t n = 0; n < count; ++n) {
     std::size_t best = candidates_.size();
@@ -204,8 +210,8 @@ Jury::choose(const std::vector<std::uint32_t>& which, std::size_t count)
     if (best == candidates_.size())
       break;
     taken[best] = true;
-    judges_.push_back(candidates_[best]);
-    judges_.back().calibrate(sample);
+    observers_.push_back(candidates_[best]);
+    observers_.back().calibrate(sample);
     for (std::size_t p = 0; p < sample.size(); ++p)
       worth[p] /= says[best][p] ? 2 : 1;
   }
@@ -214,33 +220,32 @@ Jury::choose(const std::vector<std::uint32_t>& which, std::size_t count)
       rest.push_back(candidates_[c]);
   candidates_ = std::move(rest);
   orderInTime(first);
-  return judges_.size();
+  return observers_.size();
 }
 
-/** Puts the new judges in order: those farthest in time first, as they know most of what moves
- * slowly. */
+/** Sorts the new observers: the farthest in time first, because these detect slow motion best. */
 void
-Jury::orderInTime(std::size_t first)
+ObserverVotes::orderInTime(std::size_t first)
 {
-  const auto nearer = [](const Judge& a, const Judge& b) {
+  const auto nearer = [](const Observer& a, const Observer& b) {
     return std::abs(a.later()) < std::abs(b.later()) ||
            (std::abs(a.later()) == std::abs(b.later()) && a.later() < b.later());
   };
-  std::sort(judges_.begin() + static_cast<std::ptrdiff_t>(first),
-            judges_.end(),
-            [&](const Judge& a, const Judge& b) { return nearer(b, a); });
+  std::sort(observers_.begin() + static_cast<std::ptrdiff_t>(first),
+            observers_.end(),
+            [&](const Observer& a, const Observer& b) { return nearer(b, a); });
   before_.clear();
   after_.clear();
-  for (std::size_t j = 0; j < judges_.size(); ++j)
-    (judges_[j].later() < 0 ? before_ : after_).push_back(j);
+  for (std::size_t j = 0; j < observers_.size(); ++j)
+    (observers_[j].later() < 0 ? before_ : after_).push_back(j);
   for (auto* side : {&before_, &after_})
     std::sort(side->begin(), side->end(), [&](std::size_t a, std::size_t b) {
-      return nearer(judges_[a], judges_[b]);
+      return nearer(observers_[a], observers_[b]);
     });
 }
 
 std::uint16_t
-Jury::lastingHits(std::size_t place) const
+ObserverVotes::lastingHits(std::size_t place) const
 {
   const Votes& vote = votes_[place];
   unsigned lasting = 0;
@@ -256,10 +261,10 @@ Jury::lastingHits(std::size_t place) const
 }
 
 void
-Jury::look(const std::vector<std::uint32_t>& which,
-           std::size_t begin,
-           std::size_t end,
-           Bench bench)
+ObserverVotes::look(const std::vector<std::uint32_t>& which,
+                    std::size_t begin,
+                    std::size_t end,
+                    Bench bench)
 {
   Points some;
   for (std::size_t i = begin; i < end; ++i)
@@ -268,7 +273,7 @@ Jury::look(const std::vector<std::uint32_t>& which,
   std::vector<bool> is_known(some.size(), false);
   for (std::size_t j = bench.first; j < bench.end; ++j) {
     const unsigned bit = 1U << j;
-    const auto seen = judges_[j].look(some);
+    const auto seen = observers_[j].look(some);
     for (std::size_t k = 0; k < seen.size(); ++k) {
       Votes& vote = votes_[which[begin + k]];
       if (seen[k].sight == Sight::kConfirmed)
@@ -276,9 +281,9 @@ Jury::look(const std::vector<std::uint32_t>& which,
       if (seen[k].sight != Sight::kFree)
         continue;
       if (!is_known[k])
-        normals[k] = normalOf(judged_, some[k]);
+        normals[k] = normalOf(observed_, some[k]);
       is_known[k] = true;
-      if (judges_[j].isMiss(seen[k], some[k], normals[k]))
+      if (observers_[j].isMiss(seen[k], some[k], normals[k]))
         vote.misses = static_cast<std::uint16_t>(vote.misses | bit);
     }
   }
@@ -286,20 +291,20 @@ Jury::look(const std::vector<std::uint32_t>& which,
     checkSurfaces(which[i], bench);
 }
 
-/** Where nobody saw through a place, only the hits that rays know too inexactly are asked for
- * their surface. */
+/** Without a miss at a place, the surface test is used only for hits whose rays are too
+ * inaccurate. */
 void
-Jury::checkSurfaces(std::size_t place, Bench bench)
+ObserverVotes::checkSurfaces(std::size_t place, Bench bench)
 {
   Votes& vote = votes_[place];
   for (std::size_t j = bench.first; j < bench.end; ++j) {
-    if (!judges_[j].hasSurface())
+    if (!observers_[j].hasSurface())
       continue;
     const unsigned bit = 1U << j;
     if (vote.misses == 0 &&
-        ((vote.hits & bit) == 0 || judges_[j].tellsWhere(places_[place])))
+        ((vote.hits & bit) == 0 || observers_[j].tellsWhere(places_[place])))
       continue;
-    const bool on_surface = judges_[j].supports(places_[place]);
+    const bool on_surface = observers_[j].supports(places_[place]);
     vote.hits =
         static_cast<std::uint16_t>(on_surface ? vote.hits | bit : vote.hits & ~bit);
     if (on_surface)

@@ -10,9 +10,9 @@
 
 namespace pcl6d::moving_objects {
 
-/** \brief What the judges say of a place, a bit for each of them. */
+/** \brief Results of the observers at a place, a bit for each observer. */
 struct Votes {
-  std::uint16_t misses = 0; ///< saw through it
+  std::uint16_t misses = 0; ///< rays passed through
   std::uint16_t hits = 0;   ///< measured a surface there
 
   int
@@ -27,12 +27,12 @@ struct Votes {
   }
 };
 
-/** \brief A scan that judges the places of another. */
-class Judge {
+/** \brief An observer of another scan. */
+class Observer {
 public:
-  /** Keeps references to the scans. \param[in] later how many scans after the judged one it
-   * was measured; negative: before */
-  Judge(const SeenScan& judge, const SeenScan& judged, std::ptrdiff_t later);
+  /** Keeps references to the scans.
+   * \param[in] later number of scans from the observed scan to the observer; negative: before */
+  Observer(const SeenScan& classify, const SeenScan& observed, std::ptrdiff_t later);
 
   std::ptrdiff_t
   later() const
@@ -40,13 +40,13 @@ public:
     return later_;
   }
 
-  /** \return what its rays say of places in the frame of the judged scan */
+  /** \return the ray test of places in the frame of the observed scan */
   std::vector<SightOfPlace>
   look(const Points& places) const;
 
-  /** \brief Whether a ray that passed a place would have ended farther behind it than rays do
-   * that meet the surface of the place itself, within their cell, where they graze it.
-   * \param[in] normal of the place, in the judged scan's frame; zero: not known */
+  /** \brief Whether a ray that passed a place ended too far behind to have met the surface of
+   * the place within its cell at a grazing angle.
+   * \param[in] normal of the place, in the frame of the observed scan; zero: not known */
   bool
   isMiss(const SightOfPlace& seen,
          const Eigen::Vector3f& place,
@@ -55,29 +55,37 @@ public:
   bool
   hasSurface() const
   {
-    return judge_->surface != nullptr;
+    return observer_->surface != nullptr;
   }
 
-  /** \return [m] between its rays at a place in the frame of the judged scan */
+  /** \return [m] between its rays at a place in the frame of the observed scan */
   double
   gapAt(const Eigen::Vector3f& place) const
   {
-    const Eigen::Vector3f ray = T_judge_judged_ * place - judge_->rays->origin();
-    return judge_->rays->resolution() * ray.norm();
+    const Eigen::Vector3f ray =
+        T_observer_observed_ * place - observer_->rays->origin();
+    return observer_->rays->resolution() * ray.norm();
   }
 
-  /** \brief Finds how far the surfaces of both scans are apart where they meet, which tells how
-   * exactly their relative pose, their surfaces and their points are known: from now on places
-   * are taken to be as inexact. \param[in] sample of places of the judged scan */
+  /** \return [m] origin of its rays, in the frame of the observed scan */
+  Eigen::Vector3f
+  originInObserved() const
+  {
+    return T_observer_observed_.inverse() * observer_->rays->origin();
+  }
+
+  /** \brief Estimates the joint error of the relative pose, the surfaces and the points, from
+   * the distance of the surfaces of both scans where they meet; used for later tests.
+   * \param[in] sample of places of the observed scan */
   void
   calibrate(const Points& sample);
 
-  /** \return whether its rays know where they ended near a place at least as exactly as its
-   * reduced surface: from far, a hit says that something is near, not that it is there */
+  /** \return whether its rays locate a hit near a place at least as accurately as its reduced
+   * surface. From far, a hit only means a surface nearby */
   bool
   tellsWhere(const Eigen::Vector3f& place) const;
 
-  /** \return whether a place lies on one of its surfaces; true if it has none */
+  /** \return whether a place lies on one of its surfaces; true without surfaces */
   bool
   supports(const Eigen::Vector3f& place) const;
 
@@ -87,45 +95,47 @@ private:
   float
   sigmaOf(const Eigen::Vector3f& place, const Eigen::Vector3f& seen) const;
 
-  const SeenScan* judge_;
+  const SeenScan* observer_;
   std::ptrdiff_t later_;
-  Eigen::Isometry3f T_judge_judged_;
-  double noise_;          ///< [m] of the judged points
-  double variance_;       ///< [m^2] of both translations
-  double turn_of_judged_; ///< [rad] sigma
-  double turn_of_judge_;  ///< [rad] sigma
+  Eigen::Isometry3f T_observer_observed_;
+  double noise_;            ///< [m] of the observed points
+  double variance_;         ///< [m^2] of both translations
+  double turn_of_observed_; ///< [rad] sigma
+  double turn_of_observer_; ///< [rad] sigma
 };
 
 /** \return the normal of the surface of a scan at one of its places; zero: not known */
 Eigen::Vector3f
 normalOf(const SeenScan& scan, const Eigen::Vector3f& place);
 
-/** \brief The scans that judge the places of one scan, at most 16, and what they say. */
-class Jury {
+/** \brief The observers of one scan, at most 16, and their results. */
+class ObserverVotes {
 public:
-  /** Keeps references. \param[in] candidates who may be asked
-   * \param[in] judged whose places are judged \param[in] places [m] in its frame */
-  Jury(std::vector<Judge> candidates,
-       const SeenScan& judged,
-       const Points& places,
-       unsigned int num_threads);
+  /** Keeps references.
+   * \param[in] candidates possible observers
+   * \param[in] places [m] in the frame of the observed scan */
+  ObserverVotes(std::vector<Observer> candidates,
+                const SeenScan& observed,
+                const Points& places,
+                unsigned int num_threads);
 
-  /** \brief Takes in more judges: those of the candidates that have most to say of some places,
-   * so that each is seen by several. \return how many there are now */
+  /** \brief Adds the candidates with most results at the given places, so that several
+   * observers see each place.
+   * \return the number of observers */
   std::size_t
   choose(const std::vector<std::uint32_t>& which, std::size_t count);
 
-  /** \brief Some judges look at some places. A hit counts where the place lies on a surface of
-   * who measured it; this is asked where there is a miss, too, or where the rays alone cannot
-   * tell. */
+  /** \brief Tests the given places by a range of observers. A hit counts where the place lies
+   * on a surface of the observer; tested where a miss exists, too, or where the rays alone are
+   * inconclusive. */
   void
   ask(const std::vector<std::uint32_t>& which, std::size_t first, std::size_t end);
 
-  /** \return the scan whose places they judge */
+  /** \return the observed scan */
   const SeenScan&
-  judged() const
+  observed() const
   {
-    return judged_;
+    return observed_;
   }
 
   /** \return one per place */
@@ -134,24 +144,24 @@ public:
   {
     return votes_;
   }
-  /** \brief Hits by judges who saw the place after, or before, another saw through it, counted
-   * in time from the judged scan on: what is there, is gone and is there again is hit or missed
-   * by chance, as a thin thing. Hits before the first miss tell no more than that the thing
-   * stayed for a while. \return a bit for each of them */
+  /** \brief Hits by observers after, or before, a miss, counted in time from the observed scan
+   * on. A thin object is hit, missed and hit again by chance. Hits before the first miss mean
+   * only that the object stayed for a while.
+   * \return a bit for each observer */
   std::uint16_t
   lastingHits(std::size_t place) const;
 
-  /** \return in the order of the bits of votes */
-  const std::vector<Judge>&
-  judges() const
+  /** \return the observers in the order of the bits of votes */
+  const std::vector<Observer>&
+  observers() const
   {
-    return judges_;
+    return observers_;
   }
 
 private:
   void
   orderInTime(std::size_t first);
-  struct Bench { ///< judges [first, end)
+  struct Bench { ///< range of observers [first, end)
     std::size_t first, end;
   };
   void
@@ -162,12 +172,12 @@ private:
   void
   checkSurfaces(std::size_t place, Bench bench);
 
-  std::vector<Judge> candidates_;
-  const SeenScan& judged_;
+  std::vector<Observer> candidates_;
+  const SeenScan& observed_;
   const Points& places_;
   unsigned int num_threads_;
-  std::vector<Judge> judges_;
-  std::vector<std::size_t> before_, after_; ///< judges, those near in time first
+  std::vector<Observer> observers_;
+  std::vector<std::size_t> before_, after_; ///< observers, nearest in time first
   std::vector<Votes> votes_;
 };
 

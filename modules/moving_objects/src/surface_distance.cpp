@@ -18,25 +18,25 @@ using moving_objects::RunSurface;
 using moving_objects::SurfacedRun;
 
 namespace {
-/** A patch with a larger share of its spread across it is no plane: of a plane with noise of
- * half a voxel, seen within three voxels, it is 0.05. */
+/** Largest share of the spread of a planar patch across the plane: for a plane with noise of
+ * half a voxel, seen within three voxels, the share is 0.05. */
 constexpr float kMostCurvature = 0.05F;
 
-/** Points that face less alike are of another surface: 60 degrees. */
+/** Least cosine of normals of one surface: 60 degrees. */
 constexpr float kAlike = 0.5F;
 
 constexpr double kOf95 = 1.96; ///< standard deviations: 95 % of a normal distribution
 
-/** What a run has in a cylinder. */
+/** Points of a run in a cylinder. */
 struct InCylinder {
   double mean = 0;    ///< [m] along the normal
   double within = 0;  ///< [m^2] variance of points about the means of their scans
-  double between = 0; ///< [m^2] variance of these means; 0 of one scan
+  double between = 0; ///< [m^2] variance of the means; 0 for one scan
   double pose = 0;    ///< [m^2] variance by the poses of the scans, in the mean
   Eigen::Vector3d middle =
       Eigen::Vector3d::Zero(); ///< [m] of the points, from the core
-  double tilt = 0; ///< sine of the angle between their normals and that of the core
-  std::size_t points = 0; ///< 0: nothing
+  double tilt = 0; ///< sine of the angle between their normals and the core's normal
+  std::size_t points = 0; ///< 0: no points
   std::size_t scans = 0;
 };
 
@@ -118,13 +118,13 @@ inCylinder(const SurfacedRun& of,
   return found;
 }
 
-/** A core point with what both runs have there. */
+/** A core point with the points of both runs around it. */
 struct Core {
   SurfaceDistance distance;
   InCylinder of, to;
 };
 
-/** \return places in the surface of one point per cell, the one next to its middle */
+/** \return positions on the surface: the point next to the middle of each cell */
 Points
 corePlaces(const RunSurface& surface, double spacing, Normals& facing)
 {
@@ -153,7 +153,7 @@ corePlaces(const RunSurface& surface, double spacing, Normals& facing)
   return places;
 }
 
-/** \return the median of what differs between scans where there are several; [m^2] */
+/** \return the median variance between scans, over cores with several scans; [m^2] */
 double
 usualBetween(const std::vector<std::optional<Core>>& cores, InCylinder Core::*run)
 {
@@ -164,11 +164,11 @@ usualBetween(const std::vector<std::optional<Core>>& cores, InCylinder Core::*ru
   return upperMedian(std::move(all));
 }
 
-/** \return by how much distances are larger than their deviations say; at least 1 */
+/** \return the ratio of distances to their stated deviations; at least 1 */
 double
 scaleOf(const std::vector<std::optional<Core>>& cores)
 {
-  // Of a normal distribution: half of all is within 0.6745, three quarters within 1.1503.
+  // Of a normal distribution: half lies within 0.6745, three quarters within 1.1503.
   constexpr double kHalf = 0.6745, kThreeQuarters = 1.1503;
   std::vector<double> ratios;
   for (const auto& core : cores)
@@ -188,8 +188,7 @@ varianceOf(const InCylinder& run, double usual)
   return (run.within + std::max(run.between, usual)) / static_cast<double>(run.scans);
 }
 
-/** \return [m^2] by how much a wrong normal displaces means of points that lie beside each
- * other */
+/** \return [m^2] variance by a wrong normal, for means of points beside each other */
 double
 tiltVariance(const Core& core)
 {
@@ -200,8 +199,8 @@ tiltVariance(const Core& core)
   return across * across * tilt * tilt;
 }
 
-/** \return per core point both runs there, without a level of detection; none where the
- * surface is no plane, or one of them has too few points */
+/** \return both runs at each core point, without a level of detection; empty where the
+ * surface is not planar, or a run has too few points */
 std::vector<std::optional<Core>>
 coresOf(const SurfacedRun& of,
         const SurfacedRun& to,

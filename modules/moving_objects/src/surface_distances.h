@@ -15,7 +15,7 @@ struct SurfacedRun {
   const RunSurface& surface;
 };
 
-/** \brief pcl6d::surfaceDistances() of runs whose surfaces are there already. */
+/** \brief pcl6d::surfaceDistances() of runs with given surfaces. */
 std::vector<SurfaceDistance>
 distancesBetween(const SurfacedRun& of,
                  const SurfacedRun& to,

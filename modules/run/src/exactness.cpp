@@ -9,7 +9,7 @@
 namespace pcl6d {
 
 namespace {
-/** \return a length for people: in cm below one metre, two digits */
+/** \return a length for people: in cm below 1 m, two digits */
 std::string
 lengthText(double metres)
 {

@@ -14,10 +14,10 @@
 namespace pcl6d {
 
 namespace {
-constexpr char kMagic[] = "pcl6d records 1\n"; ///< the number is that of the version
+constexpr char kMagic[] = "pcl6d records 1\n"; ///< the number is the version
 constexpr std::size_t kMagicSize = sizeof kMagic - 1;
 
-/** What stands before a record. */
+/** Header of a record. */
 struct Head {
   std::uint64_t size;
   std::uint64_t checksum; ///< CRC-32 of the size and the record
@@ -39,7 +39,7 @@ failWithErrno(const std::filesystem::path& path, const std::string& what)
   throw IoFailed(path.string() + ": " + what + ": " + std::strerror(errno));
 }
 
-/** \return false if it could not be written; errno says why */
+/** \return false if writing failed, with the reason in errno */
 bool
 writeAll(int file, const std::string& bytes)
 {
@@ -54,7 +54,7 @@ writeAll(int file, const std::string& bytes)
   return true;
 }
 
-/** A new file is there after a power cut when its folder knows of it. */
+/** Syncs the folder: only then does a new file survive a power cut. */
 void
 syncFolder(const std::filesystem::path& file)
 {
@@ -69,16 +69,16 @@ syncFolder(const std::filesystem::path& file)
 
 RecordFile::RecordFile(const std::filesystem::path& path) : path_(path)
 {
-  // What a link leads to, or would be made there, is nobody's journal.
+  // Links are not followed: the target is no journal of this program.
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
   if (file_ < 0 && errno == ELOOP)
-    throw IoFailed(path.string() + ": is a link, which is not followed");
+    throw IoFailed(path.string() + ": is a symbolic link: not followed");
   if (file_ < 0)
     failWithErrno(path, "cannot be opened");
   try {
-    // Some file systems know no locks.
+    // Locks are not supported by every file system.
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw IoFailed(path.string() + ": another process is writing it");
+      throw IoFailed(path.string() + ": another process is writing this file");
     const std::string content = text::readFile(path);
     const std::string head = content.substr(0, kMagicSize);
     if (head != std::string(kMagic).substr(0, head.size()))
@@ -108,7 +108,7 @@ RecordFile::~RecordFile()
     ::close(file_);
 }
 
-/** \return [bytes] up to the first record that is cut or damaged */
+/** \return [bytes] up to the first incomplete or damaged record */
 std::size_t
 RecordFile::readRecords(const std::string& content)
 {

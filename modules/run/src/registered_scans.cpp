@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/option_names.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/text.h>
@@ -7,6 +8,7 @@
 #include <pcl6d/run/run_folder.h>
 
 #include <charconv>
+#include <utility>
 
 namespace pcl6d {
 
@@ -21,18 +23,17 @@ summaryOf(const fs::path& folder)
   if (!text::isThere(folder / kRunSummary))
     return {};
   const RunFolder run(folder);
-  run.requireWhole("scans/"); // they are read as files
+  run.requireWhole("scans/"); // the scans are read from files
   return run.summary();
 }
 
-/** \return the folder that holds the scans: that of a run has them in a folder of its own
- */
+/** \return the folder of the scans: for a run, its subfolder scans/ */
 ScanFolder
 openFolder(const fs::path& path, const ScanFolderOptions& options, bool is_run)
 {
   if (!is_run)
     return ScanFolder(path, options);
-  ScanFolderOptions near = options; // the run has moved what was far
+  ScanFolderOptions near = options; // the run has moved far points
   near.keep_coordinates = true;
   if (!options.poses_file.empty())
     throw BadArgument("poses_file = " + options.poses_file.string() +
@@ -42,14 +43,14 @@ openFolder(const fs::path& path, const ScanFolderOptions& options, bool is_run)
   return ScanFolder(path / "scans", near);
 }
 
-/** \return the number of a scan that the run wrote */
+/** \return the number of a scan written by the run */
 std::uint32_t
 indexOf(const fs::path& scan, const RunResult& summary)
 {
   for (const auto& entry : summary.scans)
     if (scanName(entry.index) == scan.stem().string())
       return static_cast<std::uint32_t>(entry.index);
-  throw IoFailed(scan.string() + ": the summary of the run does not tell of this scan");
+  throw IoFailed(scan.string() + ": the summary of the run lacks the scan");
 }
 } // namespace
 
@@ -80,12 +81,19 @@ RegisteredScans::RegisteredScans(const fs::path& path, const ScanFolderOptions& 
     readRun(path / kRunSummary);
 }
 
+RegisteredScans::RegisteredScans(ScanFolder folder)
+: folder_(std::move(folder)), world_offset_(pcl6d::worldOffset(folder_.initialPose(0)))
+{
+  for (std::size_t i = 0; i < folder_.size(); ++i)
+    indices_.push_back(static_cast<std::uint32_t>(folder_.index(i)));
+}
+
 void
 RegisteredScans::readRun(const fs::path& summary_file)
 {
   world_offset_ = summary_->world_offset;
-  min_range_ = lengthOfRun(*summary_, "min-range", summary_file);
-  max_range_ = lengthOfRun(*summary_, "max-range", summary_file);
+  min_range_ = lengthOfRun(*summary_, kMinRangeOption, summary_file);
+  max_range_ = lengthOfRun(*summary_, kMaxRangeOption, summary_file);
   for (std::size_t i = 0; i < folder_.size(); ++i)
     indices_[i] = indexOf(folder_.file(i), *summary_);
 }
@@ -94,7 +102,7 @@ Eigen::Isometry3d
 RegisteredScans::pose(std::size_t i) const
 {
   Eigen::Isometry3d pose = folder_.initialPose(i);
-  if (summary_) // its VIEWPOINTs are relative
+  if (summary_) // VIEWPOINTs of a run are relative
     pose.translation() += world_offset_;
   return pose;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/number_range.h>
+#include <pcl6d/common/option_names.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/object_io.h>
 #include <pcl6d/io/plane_io.h>
@@ -22,7 +23,7 @@ constexpr const char* kTrajectory = "trajectory.kitti";
 constexpr const char* kMap = "map.pcd";
 constexpr const char* kMoving = "moving.pcd";
 
-/** \return the values of a field; none if the cloud has no such field */
+/** \return the values of a field; empty if the field is missing */
 template <typename T>
 std::vector<T>
 valuesOf(const pcl::PCLPointCloud2& cloud, const std::string& name)
@@ -54,7 +55,7 @@ RunFolder::RunFolder(const fs::path& path) : path_(path)
 {
   std::error_code error;
   if (!fs::is_directory(path, error))
-    text::fail(path, "there is no such folder");
+    text::fail(path, "no such folder");
   has_summary_ = has(kSummary);
   if (has_summary_) {
     summary_ = readRunSummary(path / kSummary);
@@ -99,7 +100,7 @@ RunFolder::requireWhole(const std::string& start) const
       requireAsWritten(path_ / name, written, true);
 }
 
-/** \return the file \throws IoFailed it does not hold what the run wrote */
+/** \return the file \throws IoFailed the file differs from the run's output */
 fs::path
 RunFolder::asWritten(const fs::path& file) const
 {
@@ -140,8 +141,8 @@ RunFolder::missing() const
 {
   const bool interrupted = has_summary_ && !summary_.complete;
   const bool no_graph = interrupted || summary_.scans.size() == 1 ||
-                        (valueOf(summary_, "loop-closing") == "none" &&
-                         valueOf(summary_, "relaxation") == "none");
+                        (valueOf(summary_, kLoopClosingOption) == "none" &&
+                         valueOf(summary_, kRelaxationOption) == "none");
   std::vector<std::string> missing;
   for (const std::string name : {kSummary, kTrajectory, "frames", "scans", kMap}) {
     const bool left_out = interrupted && (name == "scans" || name == kMap);
@@ -181,7 +182,7 @@ RunFolder::requireScan(std::size_t place) const
   if (!text::isThere(file))
     text::fail(file,
                "is missing, though " + (path_ / "summary.json").string() +
-                   " tells of it");
+                   " lists the file");
 }
 
 fs::path
@@ -216,8 +217,8 @@ Trajectory
 RunFolder::initialTrajectory() const
 {
   Trajectory trajectory;
-  for (const auto& scan : summary_.scans)
-    trajectory.poses.push_back(relative(scan.initial_pose));
+  for (std::size_t i = 0; i < summary_.scans.size(); ++i)
+    trajectory.poses.push_back(relative(initialPoseOf(summary_, i)));
   return trajectory;
 }
 
@@ -268,7 +269,7 @@ RunFolder::readStandingScan(std::size_t place) const
     return {};
   Scan scan = pcl6d::readScan(file);
   if (!summary_.moving || summary_.moving->removed)
-    return scan; // a field of that name is not of the run
+    return scan; // the field "dynamic" is from another source
   const auto moved = fieldValues(scan.cloud, "dynamic");
   if (!moved)
     return scan;

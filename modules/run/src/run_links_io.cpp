@@ -14,11 +14,15 @@
 namespace pcl6d {
 
 namespace {
-/** What a link must have. */
+/** Required columns of a link. */
 constexpr std::array<std::string_view, 6> kNeeded =
     {"from", "to", "kind", "verdict", "pairs", "rms"};
 
-/** In quotes, which a comma in a reason needs. */
+/** Required columns of a link's test. */
+constexpr std::array<std::string_view, 6> kNeededOfCheck =
+    {"from", "to", "trust", "shift", "deviation", "open_directions"};
+
+/** Quotes a text, required for commas in a reason. */
 std::string
 inQuotes(const std::string& text)
 {
@@ -28,7 +32,7 @@ inQuotes(const std::string& text)
   return quoted + '"';
 }
 
-/** \return the cells of a row; those in double quotes may hold commas */
+/** \return the cells of a row; cells in double quotes may contain commas */
 std::vector<std::string>
 cellsOf(std::string_view row)
 {
@@ -48,16 +52,18 @@ cellsOf(std::string_view row)
   return cells;
 }
 
-/** The rows of a table by the names of its columns. */
+/** The rows of a table, accessed by column name. */
 class Table {
 public:
-  Table(const std::filesystem::path& path, std::string_view content)
+  Table(const std::filesystem::path& path,
+        std::string_view content,
+        const std::array<std::string_view, 6>& needed)
   : path_(path), lines_(content)
   {
     if (!lines_.next())
       text::fail(path, "is empty, but must have a line with the names of its columns");
     columns_ = cellsOf(lines_.line());
-    for (const std::string_view name : kNeeded)
+    for (const std::string_view name : needed)
       if (std::find(columns_.begin(), columns_.end(), name) == columns_.end())
         text::failAt(path, 1, "has no column " + text::quoted(name));
   }
@@ -78,7 +84,7 @@ public:
     return true;
   }
 
-  /** Takes a field from the column of its name. */
+  /** Reads a field from the column of its name. */
   template <typename Value>
   void
   operator()(const char* name, Value& value) const
@@ -90,6 +96,8 @@ public:
         cells_[static_cast<std::size_t>(column - columns_.begin())];
     if constexpr (std::is_same_v<Value, std::string>)
       value = cell;
+    else if constexpr (std::is_same_v<Value, Rejection>)
+      value = Rejection::stated(cell);
     else if constexpr (std::is_enum_v<Value>)
       takeWord(cell, value);
     else if (!text::parseNumber(cell, value))
@@ -110,7 +118,7 @@ private:
   std::vector<std::string> cells_;
 };
 
-/** Writes the fields that it visits, with commas between. */
+/** Writes the visited fields, separated by commas. */
 struct CellWriter {
   std::ostream& csv;
   const char* comma = "";
@@ -122,11 +130,13 @@ struct CellWriter {
     csv << std::exchange(comma, ",");
     if constexpr (std::is_same_v<Value, std::string>)
       csv << inQuotes(value);
+    else if constexpr (std::is_same_v<Value, Rejection>)
+      csv << inQuotes(toWords(value));
     else if constexpr (std::is_enum_v<Value>)
       csv << toString(value);
     else if constexpr (!std::is_pointer_v<Value>)
       csv << value;
-    else if (value) // an empty cell if there is none
+    else if (value) // empty cell for null
       csv << *value;
   }
 };
@@ -174,7 +184,7 @@ readRunLinks(const std::filesystem::path& path,
 {
   const std::string content = text::readFile(path);
   std::vector<RunLink> links;
-  for (Table table(path, content); table.next();) {
+  for (Table table(path, content, kNeeded); table.next();) {
     try {
       visitLinkFields(links.emplace_back(), table);
     } catch (const BadArgument& error) {
@@ -183,6 +193,38 @@ readRunLinks(const std::filesystem::path& path,
     const std::string wrong = fault ? fault(links.back()) : std::string();
     if (!wrong.empty())
       table.fail(wrong);
+  }
+  return links;
+}
+
+std::vector<LinkCheck>
+readLinkChecks(const std::filesystem::path& path)
+{
+  const std::string content = text::readFile(path);
+  std::vector<LinkCheck> links;
+  for (Table table(path, content, kNeededOfCheck); table.next();) {
+    LinkCheck& link = links.emplace_back();
+    std::string least, most, turn;
+    table("from", link.from);
+    table("to", link.to);
+    try {
+      table("trust", link.trust);
+    } catch (const BadArgument& error) {
+      table.fail(error.what());
+    }
+    table("shift", link.shift);
+    table("deviation", link.deviation);
+    table("open_directions", link.open_directions);
+    table("reason", link.rejection);
+    table("noticed_least", least);
+    table("noticed_most", most);
+    table("noticed_turn", turn);
+    if (least.empty() && most.empty() && turn.empty())
+      continue;
+    NoticedError& noticed = link.noticed.emplace();
+    table("noticed_least", noticed.least);
+    table("noticed_most", noticed.most);
+    table("noticed_turn", noticed.turn);
   }
   return links;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "control_json.h"
+#include "rejection_json.h"
 #include "summary_reader.h"
 #include "verification_json.h"
 
@@ -56,7 +58,7 @@ jsonOf(const Covariance& covariance)
   return rows;
 }
 
-/** Writes the fields that it visits. */
+/** Writes each visited field. */
 struct Writer {
   Json& json;
   template <typename Value>
@@ -64,6 +66,21 @@ struct Writer {
   operator()(const char* name, const Value& value) const
   {
     json[name] = jsonOf(value);
+  }
+  /** In words for people, and as data where there is something to say. */
+  void
+  operator()(const char* name, const Rejection& rejection) const
+  {
+    json["reason"] = toWords(rejection);
+    if (rejection)
+      json[name] = run_files::jsonOfRejection(rejection);
+  }
+  void
+  operator()(const char* name, const std::vector<Rejection>& rejections) const
+  {
+    json["reason"] = toWords(rejections);
+    if (!rejections.empty())
+      json[name] = run_files::jsonOfRejections(rejections);
   }
 };
 
@@ -114,7 +131,7 @@ toJson(const MotionWithinScan& motion)
   return json;
 }
 
-/** The name of the scan's file comes with its bytes if JSON does not hold it as it is. */
+/** The file name of the scan is also written in bytes if JSON cannot represent it. */
 Json
 toJson(const ScanResult& scan)
 {
@@ -172,6 +189,14 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
                       {"blind", run.moving->blind},
                       {"background", run.moving->background},
                       {"unknown", run.moving->unknown}};
+  if (run.control)
+    json["control"] = run_files::jsonOfControl(*run.control);
+  if (run.drive)
+    json["drive"] = {{"first_sweep", run.drive->first},
+                     {"lost", run.drive->lost},
+                     {"way", run.drive->way},
+                     {"seconds", run.drive->seconds},
+                     {"files", run.drive->files}};
   json["scans"] = Json::array();
   for (const ScanResult& scan : run.scans)
     json["scans"].push_back(toJson(scan));

@@ -5,6 +5,7 @@
 #include <pcl6d/io/pose_graph_io.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
+#include <pcl6d/run/control_table.h>
 #include <pcl6d/run/run_links_io.h>
 #include <pcl6d/run/run_summary.h>
 #include <pcl6d/run/run_writer.h>
@@ -30,13 +31,34 @@ kindOf(ScanState state)
   }
   return FrameKind::kInvalid;
 }
+
+/** \return the poses of all scans, or of all sweeps of a drive, with stamps or indices */
+Trajectory
+trajectoryOf(const RunResult& run, const std::vector<double>& stamps)
+{
+  Trajectory all;
+  if (!run.drive) {
+    all.stamps = stamps;
+    for (const ScanResult& scan : run.scans) {
+      all.poses.push_back(scan.T_world_scan);
+      if (stamps.empty())
+        all.stamps.push_back(scan.index);
+    }
+    return all;
+  }
+  all.poses = run.drive->poses;
+  all.stamps = run.drive->stamps;
+  for (std::size_t i = all.stamps.size(); i < all.poses.size(); ++i)
+    all.stamps.push_back(run.drive->first + static_cast<double>(i));
+  return all;
+}
 } // namespace
 
 RunWriter::RunWriter(std::filesystem::path folder, const RunResult& run)
 : folder_(std::move(folder)), run_(run)
 {}
 
-/** \return the file of a scan, in a subfolder that is made */
+/** \return the file of a scan in a subfolder, created if missing */
 std::filesystem::path
 RunWriter::in(const std::string& subfolder,
               std::size_t place,
@@ -49,12 +71,10 @@ RunWriter::in(const std::string& subfolder,
 void
 RunWriter::writePoses(const std::vector<double>& stamps) const
 {
-  Trajectory trajectory;
-  for (std::size_t i = 0; i < run_.scans.size(); ++i) {
-    const Eigen::Isometry3d& pose = run_.scans[i].T_world_scan;
-    trajectory.poses.push_back(run_.moved ? run_.moved->asGiven(pose) : pose);
-    trajectory.stamps.push_back(stamps.empty() ? run_.scans[i].index : stamps.at(i));
-  }
+  Trajectory trajectory = trajectoryOf(run_, stamps);
+  if (run_.moved)
+    for (Eigen::Isometry3d& pose : trajectory.poses)
+      pose = run_.moved->asGiven(pose);
   std::filesystem::create_directories(folder_);
   writeTrajectoryKitti(folder_ / "trajectory.kitti", trajectory);
   writeTrajectoryTum(folder_ / "trajectory.tum", trajectory);
@@ -66,7 +86,7 @@ void
 RunWriter::writeFramesOf(std::size_t place) const
 {
   const ScanResult& scan = run_.scans[place];
-  std::vector<Frame> frames = {{scan.initial_pose, FrameKind::kInvalid},
+  std::vector<Frame> frames = {{initialPoseOf(run_, place), FrameKind::kInvalid},
                                {scan.matched_pose, kindOf(scan.state)}};
   for (const StageResult& stage : run_.graph_stages)
     if (stage.kind != StageKind::kMatching)
@@ -88,6 +108,13 @@ RunWriter::writeGraph(const PoseGraph& graph) const
   }
   writePoseGraphG2o(folder_ / "graph.g2o", named);
   writeRunLinks(folder_ / "links.csv", run_.links);
+}
+
+void
+RunWriter::writeControl() const
+{
+  if (run_.control)
+    writeControlTable(folder_ / "control.csv", run_);
 }
 
 void

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "control_json.h"
+#include "rejection_json.h"
 #include "summary_reader.h"
 #include "verification_json.h"
 
@@ -22,8 +24,8 @@ using Covariance = std::optional<Eigen::Matrix<double, 6, 6>>;
 
 constexpr const char* kProgram = "pcl_slam6d";
 
-// Poses and covariances are written to the last bit. What is left is what rounding makes of
-// products of poses and of inverses; a number that somebody changed is far more.
+// Tolerance of poses and covariances, which are written exactly: rounding in products of poses and
+// in inverses is smaller, the effect of a changed number is far larger.
 constexpr double kRounding = 1e-6;
 
 bool
@@ -32,7 +34,7 @@ isControl(char c)
   return static_cast<unsigned char>(c) < ' ' || c == '\x7f';
 }
 
-/** \return whether it is the name of a file in a folder, and not a way out of it */
+/** \return whether the name is a file name in a folder, without a path out of the folder */
 bool
 isFileName(const std::string& name)
 {
@@ -43,7 +45,7 @@ isFileName(const std::string& name)
 Eigen::Isometry3d
 poseFrom(const JsonValue& json)
 {
-  const Eigen::Isometry3d pose = json.pose();
+  Eigen::Isometry3d pose = json.pose();
   json.require(isRigid(pose, kRounding), "a rigid motion");
   return pose;
 }
@@ -66,7 +68,7 @@ covarianceFrom(const JsonValue& json)
   return covariance;
 }
 
-/** Reads the fields that it visits. */
+/** Reads each visited field. */
 struct Reader {
   const JsonValue& json;
 
@@ -97,20 +99,41 @@ struct Reader {
     value = field.integer();
     field.require(value >= 0, ">= 0");
   }
+  /** Runs of earlier versions have the words alone. */
   void
-  operator()(const char* name, RecoveredBy& value) const // older runs have none
+  operator()(const char* name, Rejection& value) const
+  {
+    const auto field = json.find(name);
+    value = field ? rejectionFrom(*field) : statedReason();
+  }
+  void
+  operator()(const char* name, std::vector<Rejection>& value) const
+  {
+    if (const auto field = json.find(name))
+      value = rejectionsFrom(*field);
+    else if (const Rejection stated = statedReason())
+      value = {stated};
+  }
+  void
+  operator()(const char* name, RecoveredBy& value) const // missing in older runs
   {
     if (const auto field = json.find(name))
       take(*field, value);
   }
   void
-  operator()(const char* name, double& value) const // one that is not finite is null
+  operator()(const char* name, double& value) const // null: not finite
   {
     const JsonValue field = json / name;
     value = field.isNull() ? std::numeric_limits<double>::quiet_NaN() : field.number();
   }
 
 private:
+  Rejection
+  statedReason() const
+  {
+    return Rejection::stated((json / "reason").text());
+  }
+
   template <typename Enum>
   static void
   take(const JsonValue& field, Enum& value)
@@ -153,7 +176,7 @@ scanFrom(const JsonValue& json)
                "a name without control characters");
   if (const auto bytes = json.find(kFileBytes))
     scan.file = bytesFrom(*bytes);
-  file.require(isFileName(scan.file), "the name of a file, without its folder");
+  file.require(isFileName(scan.file), "the name of a file, without a folder");
   return scan;
 }
 
@@ -180,7 +203,7 @@ textsFrom(const JsonValue& json)
   return texts;
 }
 
-/** Names that JSON cannot hold come back as those of the scans. */
+/** Restores names that JSON cannot represent from the names of the scans. */
 std::vector<std::string>
 floatingFrom(const JsonValue& json, const std::vector<ScanResult>& scans)
 {
@@ -213,7 +236,7 @@ optionFrom(const std::string& name, const JsonValue& json)
           why ? why->text() : std::string()};
 }
 
-/** \return whether the path stays in its folder, and means one file in one way */
+/** \return whether the path stays in its folder, and is normalised */
 bool
 isInside(const std::string& path)
 {
@@ -309,6 +332,27 @@ movingFrom(const JsonValue& json, const std::vector<ScanResult>& scans)
   moving.unknown = (json / "unknown").number();
   return moving;
 }
+
+DriveResult
+driveFrom(const JsonValue& json, const std::vector<ScanResult>& scans)
+{
+  DriveResult drive;
+  drive.first = static_cast<int>((json / "first_sweep").count());
+  for (const JsonValue& file : (json / "files").elements())
+    drive.files.push_back(file.text());
+  const auto holds = [&drive](int index) {
+    return index >= drive.first && drive.placeOf(index) < drive.files.size();
+  };
+  for (const ScanResult& scan : scans)
+    (json / "files").require(holds(scan.index), "every scan of the map and more");
+  for (const JsonValue& lost : (json / "lost").elements()) {
+    drive.lost.push_back(static_cast<int>(lost.count()));
+    lost.require(holds(drive.lost.back()), "the index of a sweep");
+  }
+  drive.way = (json / "way").number();
+  drive.seconds = (json / "seconds").number();
+  return drive;
+}
 } // namespace
 
 RunResult
@@ -325,15 +369,19 @@ runFrom(const JsonValue& json)
                           (stage / "peak_memory_mb").number()});
   run.scans = scansFrom(json / "scans");
   readGraph(json / "graph", run);
-  if (const auto verification = json.find("verification")) { // older runs have none
+  if (const auto verification = json.find("verification")) { // missing in older runs
     run.verification = verificationFrom(*verification);
     (*verification / "scans")
         .require(run.verification->scans.size() == run.scans.size(),
                  "one check per scan");
   }
-  if (const auto moving = json.find("moving")) // older runs have none
+  if (const auto moving = json.find("moving")) // missing in older runs
     run.moving = movingFrom(*moving, run.scans);
-  if (const auto files = json.find("files")) // older runs have none
+  if (const auto control = json.find("control")) // only with control points
+    run.control = controlFrom(*control, run.scans.size());
+  if (const auto drive = json.find("drive")) // only of keyframes
+    run.drive = driveFrom(*drive, run.scans);
+  if (const auto files = json.find("files")) // missing in older runs
     run.files = filesFrom(*files);
   return run;
 }

@@ -6,15 +6,14 @@
 
 #include <string>
 
-/** \file Reading of summary.json, which may come from anybody: nothing in it is believed
- * before it is checked. */
+/** \file Reading of summary.json from untrusted sources: every value is checked before use. */
 namespace pcl6d::run_files {
 
-/** The key of the bytes of a scan's name, in hexadecimal digits, where JSON cannot hold
- * them or should not: names that are no UTF-8, or have control characters. */
+/** Key of a scan's name in bytes, as hexadecimal digits, for names that JSON cannot or should not
+ * contain: not UTF-8, or with control characters. */
 constexpr const char* kFileBytes = "file_bytes";
 
-/** \return whether JSON holds the name as it is, and a terminal may show it */
+/** \return whether JSON represents the name exactly, and a terminal can show it safely */
 bool
 isPlainName(const std::string& name);
 
@@ -22,14 +21,14 @@ isPlainName(const std::string& name);
 std::string
 hexOf(const std::string& bytes);
 
-/** \return the name as JSON shows it: what is no UTF-8 is replaced */
+/** \return the name as shown in JSON: bytes outside UTF-8 are replaced */
 std::string
 shownName(const std::string& name);
 
-/** \return the run that a summary tells of. Checked are: types; numbers finite and in their
- * range; poses rigid; covariances symmetric and without negative variances; each index of a
- * scan once; names of files, which name nothing outside of their folder.
- * \throws IoFailed naming file and place */
+/** \return the run described by a summary, after checks of types; finite numbers within their
+ * range; rigid poses; symmetric covariances without negative variances; unique indices of scans;
+ * and file names without a path out of their folder.
+ * \throws IoFailed naming file and entry */
 RunResult
 runFrom(const JsonValue& json);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/median.h>
 #include <pcl6d/io/text.h>
+#include <pcl6d/run/control_table.h>
 #include <pcl6d/run/run_writer.h>
 #include <pcl6d/run/verification_io.h>
 
@@ -38,7 +39,7 @@ filesIn(ScanState state, const RunResult& run)
   return listed(files);
 }
 
-/** Scans that were not matched, and those that nothing joins to the first one. */
+/** Scans without a match, and scans without links to the first scan. */
 void
 describeLoose(const RunResult& run, std::ostream& text)
 {
@@ -47,12 +48,11 @@ describeLoose(const RunResult& run, std::ostream& text)
         return scan.start == InitialGuess::kGlobal;
       });
   if (const auto failed = countScans(run.scans, ScanState::kPredicted))
-    text
-        << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
-        << (is_global
-                ? " without a clear place (fits nowhere, or in several), beside the map"
-                : " could not be matched, predicted pose kept")
-        << filesIn(ScanState::kPredicted, run);
+    text << "\nNOT TO BE TRUSTED: " << text::counted(failed, "scan")
+         << (is_global ? " without a clear place (fits nowhere, or in several; only "
+                         "upright scans are compared), beside the map"
+                       : " could not be matched, predicted pose kept")
+         << filesIn(ScanState::kPredicted, run);
   if (run.floating.empty())
     return;
   const std::string count = text::counted(run.floating.size(), "scan");
@@ -67,7 +67,7 @@ describeLoose(const RunResult& run, std::ostream& text)
          << (run.floating.size() > 1 ? ", ..." : "");
 }
 
-/** Scans that were lost and found again, and how. */
+/** Scans that were lost and recovered, and how. */
 void
 describeRecovered(const RunResult& run, std::ostream& text)
 {
@@ -87,7 +87,7 @@ describeRecovered(const RunResult& run, std::ostream& text)
   }
 }
 
-/** The worst numbers of the matched scans, so that a bad match shows without --verbose. */
+/** The worst numbers of the matched scans, to show a bad match without --verbose. */
 void
 describeQuality(const RunResult& run, std::ostream& text)
 {
@@ -118,11 +118,11 @@ describeStages(const RunResult& run, std::ostream& text)
 {
   text << std::fixed << std::setprecision(3);
   for (const auto& stage : run.graph_stages) {
-    if (stage.kind == StageKind::kMatching)
+    if (stage.kind == StageKind::kMatching || stage.kind == StageKind::kControl)
       continue;
-    text << '\n' << toString(stage.kind) << (stage.undone ? " not taken: " : ": ");
+    text << '\n' << toString(stage.kind) << (stage.undone ? " reverted: " : ": ");
     if (stage.undone)
-      text << stage.reason;
+      text << toWords(stage.rejection);
     else
       text << "agreement " << stage.agreement_before << " to " << stage.agreement_after;
     if (stage.rounds > 0)
@@ -130,12 +130,12 @@ describeStages(const RunResult& run, std::ostream& text)
   }
 }
 
-/** How the scanner moved while it took its scans: a line. */
+/** A line on the motion of the scanner within scans. */
 void
 describeMotion(const RunResult& run, std::ostream& text)
 {
   std::vector<double> ways, turns, times;
-  std::map<std::string, std::size_t> reasons; // why a scan was left as it was
+  std::map<std::string, std::size_t> reasons; // why a scan was not deskewed
   for (const ScanResult& scan : run.scans)
     if (scan.motion && scan.motion->undone) {
       ways.push_back(scan.motion->translation);
@@ -143,7 +143,7 @@ describeMotion(const RunResult& run, std::ostream& text)
       times.push_back(scan.motion->seconds);
     }
     else if (scan.motion)
-      ++reasons[scan.motion->reason];
+      ++reasons[toWords(scan.motion->rejection)];
   std::size_t left = 0;
   std::string words;
   for (const auto& [reason, count] : reasons) {
@@ -153,7 +153,7 @@ describeMotion(const RunResult& run, std::ostream& text)
   if (ways.size() + left == 0)
     return;
   constexpr double kDegrees = 180 / M_PI;
-  text << "\nmotion within scans: undone in " << ways.size() << " of "
+  text << "\nmotion within scans: deskewed " << ways.size() << " of "
        << text::counted(ways.size() + left, "scan");
   if (!ways.empty())
     text << std::fixed << std::setprecision(3) << ", about " << upperMedian(ways)
@@ -166,7 +166,7 @@ describeMotion(const RunResult& run, std::ostream& text)
     text << "; left as they were: " << left << words << ')';
 }
 
-/** What verification says, and why. */
+/** The result of the verification, with reasons. */
 void
 describeVerification(const RunResult& run, std::ostream& text)
 {
@@ -181,7 +181,7 @@ describeVerification(const RunResult& run, std::ostream& text)
              : map.trusted()              ? "\nunverified: "
                                           : "\nNOT TO BE TRUSTED: ")
          << doubt;
-  if (map.scans.size() != run.scans.size()) // as of a run that was not verified whole
+  if (map.scans.size() != run.scans.size()) // if not every scan was verified
     return;
   std::vector<std::string> files;
   for (const ScanResult& scan : run.scans)
@@ -190,7 +190,7 @@ describeVerification(const RunResult& run, std::ostream& text)
   text << (exactness.empty() ? "" : "\n") << exactness;
 }
 
-/** What moved, and what became of it. */
+/** Dynamic points, and their output files. */
 void
 describeMoving(const RunResult& run, std::ostream& text)
 {
@@ -225,6 +225,28 @@ describeMoving(const RunResult& run, std::ostream& text)
   text << std::setprecision(0) << " (" << 100 * moving.unknown
        << " % of the places were seen by no other scan)";
 }
+
+/** The sweeps with keyframes that are the scans of the map. */
+void
+describeDrive(const RunResult& run, std::ostream& text)
+{
+  if (!run.drive)
+    return;
+  const DriveResult& drive = *run.drive;
+  text << std::fixed << std::setprecision(1) << "\nthe scans are the keyframes of "
+       << text::counted(drive.files.size(), "sweep") << " along " << drive.way << " m";
+  if (drive.seconds > 0)
+    text << " in " << drive.seconds << " s (" << drive.way / drive.seconds << " m/s, "
+         << static_cast<double>(drive.files.size() - 1) / drive.seconds
+         << " sweeps a second)";
+  if (drive.lost.empty())
+    return;
+  std::vector<std::string> files;
+  for (const int lost : drive.lost)
+    files.push_back(drive.files.at(drive.placeOf(lost)));
+  text << "\nNOT TO BE TRUSTED: " << text::counted(drive.lost.size(), "sweep")
+       << " could not be matched, and their poses are predictions" << listed(files);
+}
 } // namespace
 
 std::string
@@ -249,6 +271,7 @@ verdictOf(const RunResult& run)
     text << countScans(run.scans, ScanState::kFixed) +
                 countScans(run.scans, ScanState::kMatched)
          << " of " << all << " registered";
+  describeDrive(run, text);
   describeLoose(run, text);
   describeRecovered(run, text);
   if (const auto limit = countScans(run.scans, ScanState::kUnconverged)) {
@@ -256,13 +279,13 @@ verdictOf(const RunResult& run)
         run.verification && run.verification->trust == MapTrust::kGood;
     text << (is_confirmed ? "\nnote: " : "\nNOT TO BE TRUSTED: ")
          << text::counted(limit, "scan")
-         << (is_confirmed
-                 ? " did not converge, but points and rays confirm where they are"
-                 : " did not converge (bad initial pose, little overlap, "
-                   "--metascan too small?)")
+         << (is_confirmed ? " did not converge, but points and rays confirm the poses"
+                          : " did not converge (bad initial pose, little overlap, "
+                            "--metascan too small?)")
          << filesIn(ScanState::kUnconverged, run);
   }
   describeVerification(run, text);
+  text << controlWords(run);
   describeQuality(run, text);
   describeStages(run, text);
   describeMoving(run, text);

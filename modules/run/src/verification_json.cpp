@@ -22,7 +22,7 @@ numberOrNull(double value)
                               : nlohmann::ordered_json();
 }
 
-/** Lengths, angles and bounds, which are not negative; null is infinite. */
+/** Lengths, angles and bounds, not negative; null: infinite. */
 double
 sizeOrInfinity(const JsonValue& json)
 {
@@ -61,9 +61,11 @@ scanCheckFrom(const JsonValue& json)
   ScanCheck scan;
   scan.tied = (json / "tied").boolean();
   scan.abstains = (json / "abstains").boolean();
+  if (const auto off_centre = json.find("off_centre")) // missing in older runs
+    scan.off_centre = off_centre->boolean();
   if (const JsonValue bound = json / "bound"; !bound.isNull())
     scan.bound = sizeOrInfinity(bound);
-  if (const auto noticed = json.find("noticed")) // runs of earlier versions have none
+  if (const auto noticed = json.find("noticed")) // missing in older runs
     scan.noticed = noticedFrom(*noticed);
   scan.doubt = (json / "doubt").text();
   return scan;
@@ -80,6 +82,7 @@ jsonOfVerification(const MapVerification& map)
     scans.push_back(
         {{"tied", scan.tied},
          {"abstains", scan.abstains},
+         {"off_centre", scan.off_centre},
          {"bound",
           scan.bound ? nlohmann::ordered_json(*scan.bound) : nlohmann::ordered_json()},
          {"noticed", jsonOfNoticed(scan.noticed)},

@@ -6,16 +6,16 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-/** \file The verdict of a verification in JSON, the same in every file that holds it. */
+/** \file The verdict of a verification in JSON, equal in every file. */
 namespace pcl6d::run_files {
 
-/** \return all but the links, which stand in a table of their own */
+/** \return the verdict without its links, which are written to a separate table */
 nlohmann::ordered_json
 jsonOfVerification(const MapVerification& map);
 
 /** \brief Inverse of jsonOfVerification().
- * \throws IoFailed naming file and place: what is missing, of another type or out of its
- * range, no such word */
+ * \throws IoFailed naming file and entry: missing, of another type or out of range, an unknown
+ * word */
 MapVerification
 verificationFrom(const JsonValue& json);
 

@@ -16,11 +16,9 @@ constexpr const char* kSummaryFile = "summary.json";
 [[noreturn]] void
 failChanged(const fs::path& file, const std::string& difference)
 {
-  text::fail(
-      file,
-      difference +
-          ": it was changed since, or copied in part, or its run was stopped while "
-          "it was replaced (the same run again mends that)");
+  text::fail(file,
+             difference + ": changed after the run, copied in part, or the run was "
+                          "stopped during replacement (start the run again)");
 }
 } // namespace
 
@@ -59,14 +57,14 @@ requireAsWritten(const fs::path& file, const WrittenFile& written, bool whole)
 {
   std::error_code error;
   const auto size = fs::file_size(file, error);
-  if (error) // not there, or no file, which its reader tells
+  if (error) // missing or no file: reported by the reader
     return;
   if (size != written.bytes)
     failChanged(file,
                 "has " + text::counted(size, "byte") + ", but its run wrote " +
                     std::to_string(written.bytes));
   if (whole && !(writtenFile(file) == written))
-    failChanged(file, "does not hold what its run wrote");
+    failChanged(file, "differs from the file of the run");
 }
 
 } // namespace pcl6d

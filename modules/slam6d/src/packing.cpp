@@ -5,7 +5,8 @@
 
 namespace pcl6d {
 
-// Beside the records: found by their types. Each is for both ways.
+// In the namespace of the records, for argument-dependent lookup. Each function both packs and
+// unpacks.
 
 template <typename Archive>
 void

@@ -6,8 +6,7 @@
 
 #include <string>
 
-/** \file Results as bytes. The fields are those of run_fields.h, and those that no file
- * keeps. */
+/** \file Serialisation of results: the fields of run_fields.h, and the fields kept in no file. */
 namespace pcl6d::slam6d {
 
 /** \return the bytes of a result */
@@ -16,7 +15,7 @@ packed(const ScanResult& scan);
 std::string
 packed(const Slam6DResult& result);
 
-/** \throws IoFailed there are too few bytes, or too many */
+/** \throws IoFailed too few bytes, or too many */
 void
 unpack(const std::string& bytes, ScanResult& scan);
 void

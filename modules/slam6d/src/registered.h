@@ -7,8 +7,8 @@
 
 namespace pcl6d::slam6d {
 
-/** \return whether a scan was matched, or is one that keeps its pose: other scans may be held
- * against it */
+/** \return whether a scan was matched or is fixed, which qualifies the scan for matching and
+ * testing further scans */
 inline bool
 isRegistered(const ScanResult& scan)
 {
@@ -16,7 +16,7 @@ isRegistered(const ScanResult& scan)
          scan.state == ScanState::kUnconverged;
 }
 
-/** \return the same of each scan */
+/** \return isRegistered() of each scan */
 inline std::vector<bool>
 areRegistered(const Slam6DResult& result)
 {

@@ -12,7 +12,7 @@ using slam6d::packed;
 using slam6d::unpack;
 
 namespace {
-/** What a record is of. */
+/** The content of a record. */
 enum class RecordKind : std::uint8_t { kConditions, kMatched, kRelaxed };
 
 std::string
@@ -36,7 +36,7 @@ conditionsOf(const std::string& record)
   std::size_t size = 0;
   unpacker.value(kind);
   if (kind != RecordKind::kConditions)
-    throw IoFailed("the journal does not begin with its conditions");
+    throw IoFailed("the journal does not begin with the conditions of the run");
   unpacker.value(size);
   RunJournal::Conditions conditions;
   for (std::size_t i = 0; i < size; ++i) {
@@ -47,13 +47,13 @@ conditionsOf(const std::string& record)
   return conditions;
 }
 
-/** \return the first condition that differs, in words; empty if none does */
+/** \return the first different condition, in words; empty if equal */
 std::string
 differenceOf(const RunJournal::Conditions& before, const RunJournal::Conditions& now)
 {
   for (std::size_t i = 0; i < std::max(before.size(), now.size()); ++i) {
     if (i >= before.size() || i >= now.size() || before[i].first != now[i].first)
-      return "it is of another version of the program";
+      return "is of another version of the program";
     if (before[i].second != now[i].second)
       return now[i].first + " was " + before[i].second + ", and is " + now[i].second +
              " now";
@@ -131,9 +131,8 @@ RunJournal::matched(std::size_t scan, std::uint64_t inputs)
     throw IoFailed(
         (scan < names_.size() ? names_[scan] : "scan " + std::to_string(scan)) +
         ": has changed since the interrupted run that " + path_.string() +
-        " keeps (its points, its initial pose, the derived parameters, or a scan "
-        "before it); that needs a fresh "
-        "start");
+        " keeps (points, initial pose, derived parameters, or a scan before); start "
+        "afresh");
   return known->second.second;
 }
 

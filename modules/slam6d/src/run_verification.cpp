@@ -14,17 +14,17 @@
 namespace pcl6d::slam6d {
 
 namespace {
-/** So many scans of each process travel at a time, a few megabytes each. */
+/** Number of scans of each process sent at a time, a few megabytes each. */
 constexpr std::size_t kSharedAtATime = 8;
 
-/** Those of matching take pairs as independent, which they are not. */
+/** The covariances from matching treat pairs as independent, and are replaced. */
 void
 takeCovariances(const MapVerification& map, std::vector<ScanResult>& scans)
 {
   for (std::size_t i = 0; i < map.scans.size(); ++i) {
     ScanResult& scan = scans[i];
     if (!map.scans[i].covariance || scan.state == ScanState::kPredicted)
-      continue; // predicted poses have none
+      continue; // predicted poses have no covariance
     PoseCovariance turn = PoseCovariance::Zero();
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
         scan.T_world_scan.linear();
@@ -49,7 +49,7 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
   while (scans_.size() < reduced.size()) {
     const std::size_t done = scans_.size();
     std::size_t count = reduced.size() - done;
-    if (sharing_) // bytes of all that travel at a time are in memory
+    if (sharing_) // the bytes sent at a time must fit into memory
       count = std::min(count, kSharedAtATime * sharing_->numRanks());
     std::vector<VerifiedScan> ready(count);
     parallelFor(count, num_threads_, [&](std::size_t k) {
@@ -66,31 +66,51 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
 }
 
 void
-RunVerification::verify(const std::vector<std::string>& names,
-                        Slam6DResult& result) const
+RunVerification::verify(const std::vector<std::string>& names, Slam6DResult& result)
+{
+  std::vector<Verified> map;
+  for (const ScanResult& scan : result.scans)
+    map.push_back({scan.T_world_scan,
+                   isWithoutPrior(scan.start) ||
+                       scan.recovered == RecoveredBy::kEverywhere ||
+                       scan.recovered == RecoveredBy::kTogether});
+  const auto isSame = [](const Verified& a, const Verified& b) {
+    return a.T_world_scan.matrix() == b.T_world_scan.matrix() &&
+           a.is_unsure == b.is_unsure;
+  };
+  if (!result.verification ||
+      !std::equal(map.begin(), map.end(), verified_.begin(), verified_.end(), isSame)) {
+    result.verification = verdictOn(map, names, result.scans);
+    verified_ = std::move(map);
+  }
+  takeCovariances(*result.verification, result.scans);
+}
+
+MapVerification
+RunVerification::verdictOn(const std::vector<Verified>& scans,
+                           const std::vector<std::string>& names,
+                           const std::vector<ScanResult>& results) const
 {
   std::vector<Eigen::Isometry3d> poses;
   MapVerifierOptions options;
   options.num_threads = num_threads_;
   options.sharing = sharing_;
-  for (const ScanResult& scan : result.scans) {
+  for (const Verified& scan : scans) {
     poses.push_back(scan.T_world_scan);
-    options.unsure.push_back(isWithoutPrior(scan.start) ||
-                             scan.recovered == RecoveredBy::kEverywhere ||
-                             scan.recovered == RecoveredBy::kTogether);
+    options.unsure.push_back(scan.is_unsure);
   }
-  std::vector<std::string> files; // names may be whole paths, which words do not need
+  std::vector<std::string> files; // file names without directories, for the text of the
+                                  // verdict
   for (const std::string& name : names)
     files.push_back(std::filesystem::path(name).filename().string());
   MapVerification map = MapVerifier(scans_, files, options).verify(poses);
   boundPoses(poses, map, num_threads_);
-  takeCovariances(map, result.scans);
-  explainDoubts(result.scans, map);
-  result.verification = std::move(map);
+  explainDoubts(results, map);
+  return map;
 }
 
-/** Where much is loose or was lost, or rays are no judges, the initial poses may be wrong as a
- * whole. */
+/** If many scans are disconnected or were lost, or rays cannot verify, the initial poses may be
+ * systematically wrong. */
 void
 RunVerification::explainDoubts(const std::vector<ScanResult>& scans,
                                MapVerification& map) const
@@ -108,7 +128,7 @@ RunVerification::explainDoubts(const std::vector<ScanResult>& scans,
   for (const ScanResult& scan : scans) {
     if (scan.start == InitialGuess::kGlobal ||
         (scan.start == InitialGuess::kFeatures && !is_loose))
-      return; // which started from no pose
+      return; // started without initial poses
     initial.push_back(scan.initial_pose);
   }
   const std::string mistake = likelyPoseMistake(scans_, initial, num_threads_);

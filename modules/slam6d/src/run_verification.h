@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "agreement.h"
+#include "matching/agreement.h"
 
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/registration/icp_model.h>
@@ -15,23 +15,23 @@
 
 namespace pcl6d::slam6d {
 
-/** The verdict on the map of a run: its scans as rays and surfaces, kept from when their
- * measured points are there to when all poses are known. */
+/** The verdict on the map of a run. Keeps the scans as rays and surfaces from the time their
+ * measured points are available until all poses are known. */
 class RunVerification {
 public:
   explicit RunVerification(unsigned int num_threads) : num_threads_(num_threads) {}
 
-  /** \param[in] sharing of the work between processes; null: this one does all */
+  /** \param[in] sharing of the work between processes; null: a single process */
   void
   setSharing(WorkSharing* sharing)
   {
     sharing_ = sharing;
   }
 
-  /** Takes in the scans that are new.
-   * \param[in] reduced, measured of all scans; the former are kept by reference, the latter
-   * are needed of those that this process owns
-   * \param[in] normals how surfaces are made where reduced scans have no normals
+  /** Adds the new scans.
+   * \param[in] reduced, measured of all scans; reduced is kept by reference, measured is needed
+   * only for scans owned by this process
+   * \param[in] normals options of the normals, for reduced scans without normals
    * \param[in] voxel [m] of the reduction */
   void
   prepare(const std::deque<IcpModel>& reduced,
@@ -39,26 +39,39 @@ public:
           const IcpModel::Options& normals,
           double voxel);
 
-  /** \return those that were taken in */
+  /** \return the scans added before */
   const std::deque<VerifiedScan>&
   scans() const
   {
     return scans_;
   }
 
-  /** \param[in] names of the scans
+  /** Verifies the map, unless the poses are unchanged since the previous verdict.
+   * \param[in] names of the scans
    * \param[in,out] result gets its verification, and the covariances of its scans */
   void
-  verify(const std::vector<std::string>& names, Slam6DResult& result) const;
+  verify(const std::vector<std::string>& names, Slam6DResult& result);
 
 private:
+  /** Input of a verdict, for each scan. */
+  struct Verified {
+    Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
+    bool is_unsure = false; ///< found without a prior: the pose may be ambiguous
+  };
+
+  MapVerification
+  verdictOn(const std::vector<Verified>& map,
+            const std::vector<std::string>& names,
+            const std::vector<ScanResult>& scans) const;
+
   void
   explainDoubts(const std::vector<ScanResult>& scans, MapVerification& map) const;
 
   unsigned int num_threads_;
   WorkSharing* sharing_ = nullptr;
-  std::deque<std::optional<IcpModel>> surfaces_; ///< where reduced ones have no normals
+  std::deque<std::optional<IcpModel>> surfaces_; ///< for reduced scans without normals
   std::deque<VerifiedScan> scans_;
+  std::vector<Verified> verified_; ///< the last time
 };
 
 } // namespace pcl6d::slam6d

@@ -49,6 +49,12 @@ Slam6D::addRegistered(const Points& points,
   implementation_->addRegistered(points, earlier, name, group);
 }
 
+void
+Slam6D::addStage(std::shared_ptr<SlamStage> stage, SlamStage::Place place)
+{
+  implementation_->addStage(std::move(stage), place);
+}
+
 bool
 Slam6D::optimize()
 {
@@ -58,13 +64,13 @@ Slam6D::optimize()
 void
 Slam6D::cancel()
 {
-  implementation_->cancelled_ = true;
+  implementation_->context.cancelled = true;
 }
 
 const Slam6DResult&
 Slam6D::result() const
 {
-  return implementation_->result_;
+  return implementation_->result();
 }
 
 std::vector<PointMotion>
@@ -76,13 +82,13 @@ Slam6D::motionOf(std::size_t scan, const Points& points) const
 void
 Slam6D::setProgressCallback(ProgressCallback callback)
 {
-  implementation_->progress = std::move(callback);
+  implementation_->context.progress = std::move(callback);
 }
 
 void
 Slam6D::setMemory(TaskMemory* memory)
 {
-  implementation_->memory = memory;
+  implementation_->context.memory = memory;
 }
 
 void
@@ -94,7 +100,7 @@ Slam6D::setSharing(WorkSharing* sharing)
 void
 Slam6D::setObserver(Observer observer)
 {
-  implementation_->observer = std::move(observer);
+  implementation_->context.observer = std::move(observer);
 }
 
 } // namespace pcl6d

@@ -13,11 +13,13 @@ Slam6DResult::count(ScanState state) const
 bool
 Slam6DResult::trusted() const
 {
-  // Where points and rays confirm the whole map, it does not matter that a match, stopped at
-  // its iteration limit, did not say that it had come to rest.
+  // If points and rays confirm the whole map, a match stopped at its iteration limit counts as
+  // converged.
   const bool is_confirmed = verification && verification->trust == MapTrust::kGood;
   const std::size_t matched = count(ScanState::kFixed) + count(ScanState::kMatched) +
                               (is_confirmed ? count(ScanState::kUnconverged) : 0);
+  if (control && (!control->adjusted || !control->doubt.empty()))
+    return false;
   return floating.empty() && (!verification || verification->trusted()) &&
          matched == scans.size();
 }
@@ -32,7 +34,7 @@ runResultOf(const Slam6DResult& result,
   for (std::size_t i = 0; i < run.scans.size(); ++i) {
     run.scans[i].file = files.at(i);
     run.scans[i].index = indices.at(i);
-    if (result.stages.empty()) // then no other pose was matched
+    if (result.stages.empty()) // no stage has changed the poses
       run.scans[i].matched_pose = run.scans[i].T_world_scan;
   }
   if (!run.scans.empty())
@@ -47,6 +49,7 @@ runResultOf(const Slam6DResult& result,
   for (const std::size_t i : result.floating)
     run.floating.push_back(files.at(i));
   run.verification = result.verification;
+  run.control = result.control;
   run.trusted = result.trusted();
   return run;
 }

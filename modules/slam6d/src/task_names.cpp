@@ -31,10 +31,9 @@ taskOf(std::uint64_t inputs,
 {
   Fingerprint sum;
   sum.add(inputs);
-  const Slam6DParameters& p = result.parameters;
-  for (const Parameter& one :
-       {p.min_range, p.max_range, p.voxel, p.max_distance, p.max_distance_start})
-    sum.add(one.value);
+  Slam6DParameters parameters = result.parameters;
+  for (const Parameter* parameter : parametersOf(parameters))
+    sum.add(parameter->value);
   for (std::size_t i = 0; i < improved; ++i)
     sum.add(result.scans[i].T_world_scan);
   for (const auto& [from, to] : links) {

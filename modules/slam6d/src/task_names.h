@@ -8,22 +8,22 @@
 #include <cstdint>
 #include <vector>
 
-/** \file What a task of a run works on, as one number, by which a journal knows it again. */
+/** \file A hash of the input of a task, by which a journal identifies the task. */
 namespace pcl6d::slam6d {
 
-/** \return what a scan and all before it are
- * \param[in] before the same of the scan before; of no account for the first
- * \param[in] place of the scan in the run */
+/** \return the hash of a scan and all scans before
+ * \param[in] before the hash of the previous scan; ignored for the first
+ * \param[in] place index of the scan in the run */
 std::uint64_t
 inputsOf(std::uint64_t before,
          std::size_t place,
          const Points& points,
          const ScanResult& scan);
 
-/** \return the name of a task
+/** \return the hash of a task
  * \param[in] inputs of its last scan \param[in] result with the parameters
- * \param[in] improved so many first scans an earlier optimize() has moved
- * \param[in] links that were given */
+ * \param[in] improved number of first scans moved by an earlier optimize()
+ * \param[in] links given by the user or stages */
 std::uint64_t
 taskOf(std::uint64_t inputs,
        const Slam6DResult& result,

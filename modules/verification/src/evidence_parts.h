@@ -3,13 +3,12 @@
 
 #include <pcl6d/verification/link_evidence.h>
 
-/** \file What the evidence of a link is made of; shared by those that judge it at its place
- * and at others. */
+/** \file The parts of a link's evidence, shared by the tests at its pose and at displaced poses. */
 namespace pcl6d::verification {
 
-/** \brief Where the surfaces would move a link to, in a few steps, and how well they say it.
- * \param[in] points of a scan that are paired \param[in] steps > 0
- * \param[in] with_covariance false leaves it zero, which takes less time */
+/** \brief The shift of a link towards its best surface fit, in a few steps, with its covariance.
+ * \param[in] points number of paired points of a scan \param[in] steps > 0
+ * \param[in] with_covariance false: left zero, to save time */
 SurfaceFit
 settledFit(const VerifiedScan& first,
            const VerifiedScan& second,
@@ -19,12 +18,11 @@ settledFit(const VerifiedScan& first,
            int steps,
            bool with_covariance);
 
-/** \brief What the rays of both scans say of the points of the other; those of a scan that
- * abstains say nothing.
- * \param[in] fit of the surfaces: where they fit best they are as far apart as noise alone
- * does not show, as ranges are off alike for all points of a wall
- * \param[out] contradictions if given: points of the second scan that the rays of the first
- * contradict */
+/** \brief Tests the points of each scan by the rays of the other, unless the rays are unusable.
+ * \param[in] fit of the surfaces: its residual adds to the noise, because range errors common to
+ * all points of a wall exceed the noise
+ * \param[out] contradictions if given: points of the second scan contradicted by rays of the
+ * first */
 SightEvidence
 sightBothWays(const VerifiedScan& first,
               const VerifiedScan& second,
@@ -33,27 +31,27 @@ sightBothWays(const VerifiedScan& first,
               const SurfaceFit& fit,
               std::vector<Contradiction>* contradictions = nullptr);
 
-/** \brief Log likelihood ratios of two kinds of wrong places against the right one, by what
- * rays contradict. */
+/** \brief Log likelihood ratios of two kinds of wrong poses against the right pose, by contradicted
+ * patches. */
 struct RaysAgainst {
-  double usual = 0; ///< places that contradict much
+  double usual = 0; ///< poses with many contradictions
   double even =
-      0; ///< places along even surfaces, such as a corridor's, contradict little
+      0; ///< poses along even surfaces, e.g. in a corridor: few contradictions
 };
 
-/** \param[in] background share that right links contradict \param[in] precision how evenly
- * they share it: the sum of both parameters of a beta distribution */
+/** \param[in] background share contradicted in right links \param[in] precision of this share
+ * between links: the sum of both parameters of a beta distribution */
 RaysAgainst
 raysAgainst(std::size_t contradicted,
             std::size_t patches,
             double background,
             double precision);
 
-/** \return that of wrong places of either kind, as often as they are */
+/** \return the log likelihood ratio of both kinds, weighted by their frequency */
 double
 logRatioOf(const RaysAgainst& against);
 
-/** \return the probability of a wrong place of either kind, with the prior */
+/** \return the probability of a wrong pose of either kind, with the prior */
 double
 probabilityOf(const RaysAgainst& against);
 

@@ -3,6 +3,7 @@
 #include "evidence_parts.h"
 #include "surface_pairs.h"
 
+#include <pcl6d/registration/reduced_scans.h>
 #include <pcl6d/registration/twist.h>
 #include <pcl6d/verification/link_evidence.h>
 
@@ -13,7 +14,7 @@ namespace pcl6d {
 using namespace verification;
 
 namespace {
-/** A part of the points, evenly. */
+/** An even selection of the points. */
 Points
 sampleOf(const Points& points)
 {
@@ -44,10 +45,7 @@ lookFrom(const VerifiedScan& from,
                        contradictions);
 }
 
-/** Pairs are as far apart, in voxels, as matching by planes pairs them. */
-constexpr double kPairVoxels = 1.7;
-
-/** Surfaces that move to where they fit best, step by step. */
+/** Fits surfaces to each other in several steps, up to the least residual. */
 class Settling {
 public:
   Settling(const VerifiedScan& first,
@@ -61,7 +59,7 @@ public:
     moved_ = fit_.step;
   }
 
-  /** Makes so many steps, or fewer that lead there. A step that loses all pairs is none. */
+  /** Takes up to the given number of steps. A step without any pairs is reverted. */
   void
   go(int steps, double voxel)
   {
@@ -92,7 +90,7 @@ public:
     return T_;
   }
 
-  /** \return the last fit, with the whole way as its step */
+  /** \return the last fit, with the sum of all steps */
   SurfaceFit
   result(bool with_covariance) const
   {
@@ -112,7 +110,7 @@ private:
   SurfaceFitOptions options_;
   Eigen::Isometry3d T_;
   SurfacePairs pairs_; // at T_
-  SurfaceFit fit_;     // of these
+  SurfaceFit fit_;     // from pairs_
   Twist moved_;
 };
 
@@ -120,7 +118,7 @@ SurfaceFitOptions
 optionsOf(double voxel, std::size_t points)
 {
   SurfaceFitOptions options;
-  options.max_distance = kPairVoxels * voxel;
+  options.max_distance = kPlanePairVoxels * voxel;
   options.points = points;
   options.covariance = false;
   return options;
@@ -177,8 +175,8 @@ withThingsOnce(LinkEvidence evidence)
 }
 
 namespace {
-/** Goes on where surfaces go on moving, and takes the place where they end if rays say
- * more for it and no more against it: scans near a door slide through it as well. */
+/** Continues a fit before convergence. The final pose is taken if more patches are confirmed and no
+ * more are contradicted: scans near a door can also slide through it. */
 void
 settleFarther(const VerifiedScan& first,
               const VerifiedScan& second,
@@ -206,6 +204,7 @@ linkEvidence(const VerifiedScan& first,
   evidence.T_first_second = T_first_second;
   evidence.voxel = std::max(first.voxel(), second.voxel());
   evidence.abstained = first.abstains() || second.abstains();
+  evidence.off_centre = first.isOffCentre() || second.isOffCentre();
   Settling surfaces(
       first, second, T_first_second, optionsOf(evidence.voxel, kPairedPoints));
   surfaces.go(kSteps - 1, evidence.voxel);
@@ -219,8 +218,8 @@ linkEvidence(const VerifiedScan& first,
 }
 
 namespace {
-/** \return the matrix that turns a small motion about the centroid of the pairs, in the
- * frame of the first scan, into one about the second scan's origin in its axes */
+/** \return the matrix from a small motion about the centroid of the pairs, in the frame of the
+ * first scan, to a motion about the second scan's origin in its axes */
 Eigen::Matrix<double, 6, 6>
 intoSecondScan(const LinkEvidence& evidence)
 {
@@ -241,20 +240,20 @@ LinkCheck
 linkCheck(std::size_t from,
           std::size_t to,
           const LinkEvidence& evidence,
-          const LinkOpinion& opinion)
+          const LinkTestResult& test_result)
 {
   LinkCheck link;
   link.from = from;
   link.to = to;
-  link.trust = opinion.trust;
-  link.probability_wrong = opinion.probability_wrong;
-  link.elsewhere = opinion.elsewhere;
+  link.trust = test_result.trust;
+  link.probability_wrong = test_result.probability_wrong;
+  link.elsewhere = test_result.elsewhere;
   link.patches = evidence.sight.patches;
   link.contradicted = evidence.sight.contradicted_patches;
   link.shift = evidence.leaving();
   link.deviation = evidence.deviation();
   link.open_directions = evidence.fit.open_directions;
-  link.reason = opinion.reason;
+  link.rejection = test_result.rejection;
   const Eigen::Matrix<double, 6, 6> J = intoSecondScan(evidence);
   constexpr double kLeftOut = 1 - kSharedByPoses * kSharedByPoses;
   link.covariance =

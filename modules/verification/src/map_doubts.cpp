@@ -12,11 +12,11 @@
 namespace pcl6d::verification {
 
 namespace {
-/** Words name so many scans. */
+/** The most scans named in a message. */
 constexpr std::size_t kMostNamed = 8;
 
-/** So large a share of the links of a right map may be wrong, and three standard deviations
- * more. (0 of 1212 right links of bench_verification were.) */
+/** Share of the links of a right map that may be wrong by chance; three standard deviations
+ * are added. (0 of 1212 right links of bench_verification were wrong.) */
 constexpr double kWrongByChance = 0.01;
 
 std::size_t
@@ -37,7 +37,7 @@ listed(const std::vector<std::string>& names)
              : text;
 }
 
-/** \return of each scan how many more of its links hold it than are wrong */
+/** \return for each scan the number of its good links minus the number of wrong ones */
 std::vector<int>
 votesOf(const MapVerification& map)
 {
@@ -56,8 +56,7 @@ silenceOf(double background)
   std::ostringstream text; // read by people
   text << "rays contradict " << std::fixed << std::setprecision(0) << 100 * background
        << " % of the surface even where scans fit best (glass, motion during the scan, "
-          "errors of the scanner?): they cannot say whether scans are at places that "
-          "look alike";
+          "errors of the scanner?): rays cannot tell equal-looking places apart";
   return text.str();
 }
 } // namespace
@@ -65,25 +64,26 @@ silenceOf(double background)
 std::string
 MapDoubts::told(const LinkCheck& link) const
 {
-  return names_[link.from] + " and " + names_[link.to] + " (" + link.reason + ")";
+  return names_[link.from] + " and " + names_[link.to] + " (" +
+         toWords(link.rejection) + ")";
 }
 
-/** \return why a scan is not tied: the link of it that says most */
+/** \return why a scan is disconnected: its most informative link */
 std::string
 MapDoubts::reasonFor(std::size_t scan, const MapVerification& map) const
 {
   const LinkCheck* telling = nullptr;
   for (const LinkCheck& link : map.links)
-    if ((link.from == scan || link.to == scan) && !link.reason.empty() &&
+    if ((link.from == scan || link.to == scan) && link.rejection &&
         (!telling || link.patches > telling->patches))
       telling = &link;
   if (!telling)
-    return "no other scan sees the same surfaces";
+    return "no second scan has these surfaces";
   const std::size_t other = telling->from == scan ? telling->to : telling->from;
-  return "with " + names_[other] + ": " + telling->reason;
+  return "with " + names_[other] + ": " + toWords(telling->rejection);
 }
 
-/** \return the tied scans of which a second place was found, with where it is */
+/** \return the connected scans with an ambiguous pose, with the second pose */
 std::vector<std::string>
 MapDoubts::twins(const MapVerification& map) const
 {
@@ -94,15 +94,15 @@ MapDoubts::twins(const MapVerification& map) const
   return twins;
 }
 
-/** \return whether scans are not tied to the rest */
+/** \return whether scans are disconnected */
 bool
 MapDoubts::tellLoose(MapVerification& map) const
 {
   std::vector<std::string> loose;
-  std::string why; // the link that would have held them, or that of the first one
+  std::string why; // the rejected link, or the link of the first scan
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     ScanCheck& scan = map.scans[i];
-    if (scan.tied || scans_[i].isTooSmall()) // nothing can tell where that is
+    if (scan.tied || scans_[i].isTooSmall()) // its pose cannot be tested
       continue;
     if (scan.doubt.empty())
       scan.doubt = reasonFor(i, map);
@@ -114,13 +114,13 @@ MapDoubts::tellLoose(MapVerification& map) const
   }
   if (!loose.empty())
     map.doubts.push_back(text::counted(loose.size(), "scan") +
-                         " not tied to the rest: " + listed(loose) + " (" + why +
+                         " not connected to the rest: " + listed(loose) + " (" + why +
                          "); better initial poses or scans in between would help");
   return !loose.empty();
 }
 
-/** Glass, doors and things that move deceive rays, and a small overlap deceives surfaces: one
- * of both against the most of both scans' links is no proof; many such links are. */
+/** Glass, doors and moving objects disturb rays, a small overlap disturbs surfaces: one wrong
+ * link between scans with mostly good links is no proof; many wrong links are. */
 MapDoubts::Against
 MapDoubts::against(const MapVerification& map, bool is_silent) const
 {
@@ -133,7 +133,7 @@ MapDoubts::against(const MapVerification& map, bool is_silent) const
         !map.scans[link.to].tied)
       continue;
     const bool both_object =
-        !is_silent && opinions_[k].elsewhere > 0.5 && opinions_[k].beside > 0.5;
+        !is_silent && test_results_[k].elsewhere > 0.5 && test_results_[k].beside > 0.5;
     const bool is_alone = votes[link.from] >= 0 && votes[link.to] >= 0 && !both_object;
     (is_alone ? found.alone : found.proven).push_back(k);
     all.push_back(k);
@@ -155,7 +155,7 @@ MapDoubts::tellContradicted(const std::vector<std::size_t>& links,
       if (map.scans[i].doubt.empty())
         map.scans[i].doubt = "contradicts " +
                              names_[i == link.from ? link.to : link.from] + ": " +
-                             link.reason;
+                             toWords(link.rejection);
   }
   if (!contradicted.empty())
     map.doubts.push_back("scans contradict each other: " + listed(contradicted));
@@ -165,24 +165,30 @@ MapDoubts::tellContradicted(const std::vector<std::size_t>& links,
 bool
 MapDoubts::tellAbstaining(MapVerification& map) const
 {
-  std::vector<std::string> abstaining;
+  std::vector<std::string> abstaining, off_centre;
   for (std::size_t i = 0; i < scans_.size(); ++i)
     if (map.scans[i].abstains)
-      abstaining.push_back(names_[i]);
+      (map.scans[i].off_centre ? off_centre : abstaining).push_back(names_[i]);
+  if (!off_centre.empty())
+    map.doubts.push_back(
+        text::counted(off_centre.size(), "scan") +
+        " not centred on the scanner (rays from the origin would cross surfaces of "
+        "their own scan): free-space tests are off, only surfaces were compared: " +
+        listed(off_centre));
   if (!abstaining.empty())
     map.doubts.push_back(
         text::counted(abstaining.size(), "scan") +
-        " cannot be verified: too few surfaces, or rays that contradict "
-        "its own points (merged scans, motion during the scan?): " +
+        " cannot be verified: too few surfaces, or rays contradicting points of their "
+        "own scan (merged scans, motion during the scan?): " +
         listed(abstaining));
-  return !abstaining.empty();
+  return !abstaining.empty() || !off_centre.empty();
 }
 
 void
 MapDoubts::tell(MapVerification& map) const
 {
   const bool is_silent = map.background > kMostBackground;
-  const std::vector<std::string> twins = this->twins(map); // before others get a doubt
+  const std::vector<std::string> twins = this->twins(map); // before further doubts
   const bool is_loose = tellLoose(map);
   const Against against = this->against(map, is_silent);
   tellContradicted(against.proven, map);
@@ -193,8 +199,8 @@ MapDoubts::tell(MapVerification& map) const
   for (const std::size_t k : against.alone)
     outvoted.push_back(told(map.links[k]));
   if (!outvoted.empty())
-    map.doubts.push_back("most links of these scans agree with the map, one does not "
-                         "(glass, things that moved, little in common?): " +
+    map.doubts.push_back("most links of these scans are consistent, a single link is "
+                         "not (glass, dynamic objects, little overlap?): " +
                          listed(outvoted));
   if (!twins.empty())
     map.doubts.push_back(

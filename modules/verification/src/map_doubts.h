@@ -12,26 +12,26 @@
 
 namespace pcl6d::verification {
 
-/** What is said of a map whose links are judged: its doubts in words, and its trust. */
-class PCL6D_EXPORTS MapDoubts { // shown to its test
+/** The doubts about a map with tested links, in words, and its verdict. */
+class PCL6D_EXPORTS MapDoubts { // exported for its test
 public:
-  /** \param[in] scans, names, opinions of the links: kept by reference */
+  /** \param[in] scans, names, test_results results of the links' tests: all kept by reference */
   MapDoubts(const std::deque<VerifiedScan>& scans,
             const std::vector<std::string>& names,
-            const std::vector<LinkOpinion>& opinions)
-  : scans_(scans), names_(names), opinions_(opinions)
+            const std::vector<LinkTestResult>& test_results)
+  : scans_(scans), names_(names), test_results_(test_results)
   {}
 
-  /** \param[in,out] map with its links, its background, and the scans that are tied, abstain or
-   * have a second place; gets doubts, the scans' reasons, and trust */
+  /** \param[in,out] map with its links, its background, and its scans, whether connected, without
+   * usable rays or ambiguous; gets doubts, the scans' reasons, and the verdict */
   void
   tell(MapVerification& map) const;
 
 private:
-  /** Wrong links between scans that are both tied. */
+  /** Wrong links between connected scans. */
   struct Against {
-    std::vector<std::size_t> proven; ///< they contradict the map
-    std::vector<std::size_t> alone;  ///< most other links of both scans say otherwise
+    std::vector<std::size_t> proven; ///< contradict the map
+    std::vector<std::size_t> alone;  ///< outvoted by most links of both scans
   };
 
   std::vector<std::string>
@@ -52,7 +52,7 @@ private:
 
   const std::deque<VerifiedScan>& scans_;
   const std::vector<std::string>& names_;
-  const std::vector<LinkOpinion>& opinions_;
+  const std::vector<LinkTestResult>& test_results_;
 };
 
 } // namespace pcl6d::verification

@@ -10,12 +10,13 @@
 #include <pcl6d/verification/twin_search.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
 namespace pcl6d {
 
-// For other processes.
+// For transfer to other processes.
 
 template <typename Archive>
 void
@@ -30,7 +31,7 @@ void
 packFields(Archive& archive, LinkEvidence& evidence)
 {
   archive(evidence.sight, evidence.fit, evidence.T_first_second);
-  archive(evidence.voxel, evidence.abstained);
+  archive(evidence.voxel, evidence.abstained, evidence.off_centre);
 }
 
 template <typename Archive>
@@ -41,16 +42,16 @@ packFields(Archive& archive, NoticedError& noticed)
 }
 
 namespace {
-/** Of the scans whose points are nearest, so many are asked how much their rays say. */
+/** Number of nearest scans that are candidates for links of a scan. */
 constexpr std::size_t kAsked = 12;
 
-/** So many points of a scan are enough to ask. */
+/** Number of sampled points of a scan to estimate how informative a link is. */
 constexpr std::size_t kAskedPoints = 300;
 
-/** Less speaks too little for a link: the share of the points asked for, both ways. */
+/** Least share of informative points for a link, in both directions. */
 constexpr double kLeastSpeaking = 0.05;
 
-/** A second place is as good if so large a share of the surface is confirmed there. */
+/** A second pose is as good with this share of the confirmed surface, or more. */
 constexpr double kTwinShare = 0.5;
 
 Eigen::Vector3d
@@ -63,7 +64,11 @@ centreOf(const Points& points)
                         : Eigen::Vector3d(sum / static_cast<double>(points.size()));
 }
 
-/** \return how many points of a sample the rays speak of */
+/** [voxels] Distance within which points of two scans without rays are on a common surface. */
+constexpr double kSameSurface = 2;
+
+/** \return the number of sampled points confirmed or contradicted by rays; without a valid ray
+ * origin, the number of points on a surface */
 std::size_t
 spokenOf(const VerifiedScan& rays,
          const VerifiedScan& points,
@@ -72,7 +77,13 @@ spokenOf(const VerifiedScan& rays,
   const Points& all = points.surfaces().points();
   const std::size_t stride = std::max<std::size_t>(1, all.size() / kAskedPoints);
   std::size_t spoken = 0;
+  const auto reach = static_cast<float>(std::pow(kSameSurface * rays.voxel(), 2));
   for (std::size_t i = 0; i < all.size(); i += stride) {
+    if (rays.isOffCentre()) {
+      const Eigen::Vector3f place = (T * all[i].cast<double>()).cast<float>();
+      spoken += rays.surfaces().tree().nearest(place, reach).index >= 0 ? 1 : 0;
+      continue;
+    }
     const Sight sight = rays.rays()
                             .look((T * all[i].cast<double>()).cast<float>(),
                                   static_cast<float>(points.noise()))
@@ -82,7 +93,7 @@ spokenOf(const VerifiedScan& rays,
   return spoken;
 }
 
-/** \return the good link of a scan that sees most of it; null if it has none */
+/** \return the consistent link of a scan with the most common surface; null if none */
 const LinkCheck*
 surestLinkOf(std::size_t scan, const MapVerification& map)
 {
@@ -111,7 +122,7 @@ MapVerifier::MapVerifier(const std::deque<VerifiedScan>& scans,
   require(options_.unsure.empty() || options_.unsure.size() == scans_.size(),
           "unsure",
           options_.unsure.size(),
-          "one per scan, or none");
+          "empty or equal to the number of scans");
   for (const VerifiedScan& scan : scans_)
     centres_.push_back(centreOf(scan.surfaces().points()));
 }
@@ -126,7 +137,7 @@ MapVerifier::speaking(const Pair& pair,
          spokenOf(scans_[b], scans_[a], T_a_b.inverse());
 }
 
-/** Each scan with the one before, and with the earlier ones whose rays say most. */
+/** Links of each scan: to the scan before, and to the most informative earlier scans. */
 std::vector<MapVerifier::Pair>
 MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
 {
@@ -140,7 +151,7 @@ MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
     std::partial_sort(
         near.begin(), near.begin() + static_cast<long>(asked), near.end());
     near.resize(asked);
-    std::vector<std::pair<std::size_t, std::size_t>> most; // speaking, scan
+    std::vector<std::pair<std::size_t, std::size_t>> most; // informative points, scan
     for (const auto& [distance, k] : near)
       if (k + 1 != i) {
         const std::size_t count = speaking({k, i}, poses);
@@ -159,8 +170,8 @@ MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
   return pairs;
 }
 
-/** \return whether a scan at another place is as good a link with the scan beside it as at its
- * own, and no other scan that it has a good link with now contradicts it there */
+/** \return whether a second pose of a scan is as good a link with a neighbour as its present pose,
+ * and is not contradicted by any other scan with a consistent link */
 bool
 MapVerifier::fitsElsewhere(std::size_t scan,
                            std::size_t beside,
@@ -173,7 +184,7 @@ MapVerifier::fitsElsewhere(std::size_t scan,
   };
   const LinkEvidence there = evidenceAt(beside, T_world_scan);
   const LinkEvidence here = evidenceAt(beside, poses[scan]);
-  if (judgeLink(there, map.background).trust != LinkTrust::kGood ||
+  if (testLink(there, map.background).trust != LinkTrust::kGood ||
       static_cast<double>(there.sight.confirmed_patches) <
           kTwinShare * static_cast<double>(here.sight.confirmed_patches))
     return false;
@@ -182,14 +193,14 @@ MapVerifier::fitsElsewhere(std::size_t scan,
     if ((link.from != scan && link.to != scan) || other == beside ||
         link.trust != LinkTrust::kGood)
       continue;
-    if (judgeLink(evidenceAt(other, T_world_scan), map.background).trust ==
+    if (testLink(evidenceAt(other, T_world_scan), map.background).trust ==
         LinkTrust::kWrong)
       return false;
   }
   return true;
 }
 
-/** Looks for second places of the scans whose own was found without a prior pose. */
+/** Finds second poses of scans placed without a prior pose. */
 void
 MapVerifier::findTwins(const std::vector<Eigen::Isometry3d>& poses,
                        MapVerification& map) const
@@ -204,8 +215,8 @@ MapVerifier::findTwins(const std::vector<Eigen::Isometry3d>& poses,
       map.scans[i].doubt = doubts[i];
 }
 
-/** Looks for a second place of a scan, beside the scan before and beside the one that it
- * has most in common with. \return where it is, in words; empty: there is none */
+/** Finds a second pose of a scan, relative to the scan before and to the scan with the largest
+ * overlap. \return its description; empty: none */
 std::string
 MapVerifier::twinOf(std::size_t scan,
                     const std::vector<Eigen::Isometry3d>& poses,
@@ -236,7 +247,7 @@ MapVerifier::twinOf(std::size_t scan,
   return "";
 }
 
-/** From how far on the surest link of each scan would notice an error. */
+/** Detectable shift of the most certain link of each scan. */
 void
 MapVerifier::probe(const std::vector<Eigen::Isometry3d>& poses,
                    MapVerification& map) const
@@ -288,11 +299,11 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
   MapVerification map;
   map.scans.resize(scans_.size());
   map.background = contradictionBackground(evidence_);
-  opinions_.clear();
+  test_results_.clear();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    opinions_.push_back(judgeLink(evidence_[k], map.background));
+    test_results_.push_back(testLink(evidence_[k], map.background));
     map.links.push_back(
-        linkCheck(pairs[k].first, pairs[k].second, evidence_[k], opinions_.back()));
+        linkCheck(pairs[k].first, pairs[k].second, evidence_[k], test_results_.back()));
   }
   if (scans_.empty())
     return map;
@@ -301,19 +312,20 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
   for (std::size_t k = 0; k < map.links.size(); ++k)
     if (ties.cut[k] && map.links[k].trust == LinkTrust::kGood) {
       map.links[k].trust = LinkTrust::kWeak;
-      map.links[k].reason = ties.cut_from[map.links[k].from];
+      map.links[k].rejection = ties.cut_from[map.links[k].from];
     }
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     map.scans[i].abstains = scans_[i].abstains();
+    map.scans[i].off_centre = scans_[i].isOffCentre();
     map.scans[i].tied = ties.tied[i];
     if (!ties.tied[i])
-      map.scans[i].doubt = ties.cut_from[i];
+      map.scans[i].doubt = toWords(ties.cut_from[i]);
   }
   if (!options_.unsure.empty())
     findTwins(T_world_scan, map);
   if (options_.probe)
     probe(T_world_scan, map);
-  verification::MapDoubts(scans_, names_, opinions_).tell(map);
+  verification::MapDoubts(scans_, names_, test_results_).tell(map);
   return map;
 }
 

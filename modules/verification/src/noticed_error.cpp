@@ -13,13 +13,13 @@ namespace pcl6d {
 using namespace verification;
 
 namespace {
-/** Each displacement is so many times the one before: the answer is that exact. */
+/** Ratio of successive displacements: the precision of the result. */
 constexpr double kLadder = 1.5;
 
-/** The first displacement, in standard deviations: fewer are never noticed. */
+/** The first displacement, in standard deviations: smaller ones are never detected. */
 constexpr double kFirst = 3;
 
-/** Judges a link at displaced poses. */
+/** Tests a link at displaced poses. */
 class DisplacedLink {
 public:
   DisplacedLink(const VerifiedScan& first,
@@ -30,7 +30,7 @@ public:
   {}
 
   /** \param[in] motion about the centroid of the pairs, in the frame of the first scan
-   * \return whether the link, moved by it, would no longer be called good */
+   * \return whether the displaced link would no longer be good */
   bool
   isNoticed(const Twist& motion) const
   {
@@ -41,15 +41,15 @@ public:
     LinkEvidence there = evidence_;
     const SurfaceFit fit = settledFit(
         first_, second_, T, evidence_.voxel, kProbedPoints, kProbedSteps, false);
-    there.fit.step = fit.step; // its deviation is that of all points
-    if (judgeLink(there, background_).trust != LinkTrust::kGood)
+    there.fit.step = fit.step; // the deviation stays: from all points
+    if (testLink(there, background_).trust != LinkTrust::kGood)
       return true;
     there.sight = sightBothWays(first_, second_, T, evidence_.voxel, there.fit);
-    return judgeLink(there, background_).trust != LinkTrust::kGood;
+    return testLink(there, background_).trust != LinkTrust::kGood;
   }
 
-  /** \param[in] unit a motion of size 1 \return the least size noticed both ways; infinite
-   * if none up to the limit is */
+  /** \param[in] unit a motion of size 1 \return the detectable size in both directions;
+   * infinite if no size up to the limit is detected */
   double
   leastNoticed(const Twist& unit, double first, double limit) const
   {
@@ -73,7 +73,7 @@ noticedError(const VerifiedScan& first,
              const LinkEvidence& evidence,
              double background)
 {
-  if (judgeLink(evidence, background).trust != LinkTrust::kGood)
+  if (testLink(evidence, background).trust != LinkTrust::kGood)
     return std::nullopt;
   const DisplacedLink link(first, second, evidence, background);
   const SurfaceFit& fit = evidence.fit;
@@ -82,7 +82,7 @@ noticedError(const VerifiedScan& first,
   noticed.most = noticed.turn = 0;
   const auto shifts = symmetricEigen<3>(fit.covariance.topLeftCorner<3, 3>());
   const auto turns = symmetricEigen<3>(fit.covariance.bottomRightCorner<3, 3>());
-  for (int k = 2; k >= 0; --k) { // the weakest first
+  for (int k = 2; k >= 0; --k) { // the least sensitive direction first
     Twist shift = Twist::Zero(), turn = Twist::Zero();
     shift.head<3>() = shifts.vectors.col(k);
     turn.tail<3>() = turns.vectors.col(k);
@@ -92,7 +92,7 @@ noticedError(const VerifiedScan& first,
       noticed.weakest = shifts.vectors.col(k);
     }
     noticed.least = std::min(noticed.least, size);
-    // Turns that move the pairs by as much, up to a straight angle.
+    // Turns with an equal displacement of the pairs, up to a straight angle.
     noticed.turn = std::max(
         noticed.turn, link.leastNoticed(turn, start / fit.spread, 3.141592653589793));
   }

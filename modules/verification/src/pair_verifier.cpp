@@ -8,7 +8,7 @@
 namespace pcl6d {
 
 namespace {
-/** Points as the scanner sees them, with its place as origin. */
+/** Points in the frame of the scanner, with the scanner at the origin. */
 Points
 fromOrigin(const PairVerifier::Cloud& cloud)
 {
@@ -37,11 +37,11 @@ verifyLink(const PreparedScans& scans,
   verdict.evidence =
       linkEvidence(scans.scans()[first], scans.scans()[second], T_first_second);
   verdict.background = contradictionBackground({verdict.evidence});
-  verdict.opinion = judgeLink(verdict.evidence, verdict.background);
-  if (verdict.opinion.trust == LinkTrust::kGood &&
+  verdict.test_result = testLink(verdict.evidence, verdict.background);
+  if (verdict.test_result.trust == LinkTrust::kGood &&
       scans.firstLike(first) == scans.firstLike(second)) {
-    verdict.opinion.trust = LinkTrust::kUnverified;
-    verdict.opinion.reason = "both scans hold the very same points";
+    verdict.test_result.trust = LinkTrust::kUnverified;
+    verdict.test_result.rejection = RejectReason::kSamePoints;
   }
   return verdict;
 }

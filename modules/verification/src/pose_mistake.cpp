@@ -15,15 +15,15 @@ namespace pcl6d {
 using namespace verification;
 
 namespace {
-/** So many pairs of scans are asked. */
+/** Number of tested pairs of scans. */
 constexpr std::size_t kAskedPairs = 6;
 
-/** What poses would have to be changed by: positions times scale, axes turned. */
+/** A change of the poses: a factor of the positions, and turned axes. */
 struct PoseMistake {
   std::string words;
   double scale = 1;
   Eigen::Matrix3d axes =
-      Eigen::Matrix3d::Identity(); ///< of the scans, by the poses' axes
+      Eigen::Matrix3d::Identity(); ///< axes of the scans in terms of the poses' axes
 };
 
 /** "(y, -x, z)" */
@@ -56,7 +56,7 @@ addUnits(std::vector<PoseMistake>& mistakes)
   }
 }
 
-/** The 47 other ways to name the axes: half turns first, then quarter turns, then mirrors. */
+/** The 47 other assignments of axes: half turns, then quarter turns, then mirrors. */
 void
 addAxes(std::vector<PoseMistake>& mistakes)
 {
@@ -73,10 +73,10 @@ addAxes(std::vector<PoseMistake>& mistakes)
       const bool is_mirror = axes.determinant() < 0;
       found.push_back(
           {(is_mirror ? 10 : 0) + (axes.isDiagonal(0) ? 0 : 1),
-           {(is_mirror ? "scans are mirrored against the poses (left-handed "
-                         "coordinates read as right-handed?): "
-                       : "axes of the poses are turned against those of the "
-                         "scans: ") +
+           {(is_mirror
+                 ? "scans are mirrored against the poses (left-handed "
+                   "coordinates read as right-handed?): "
+                 : "axes of the poses are turned against the axes of the scans: ") +
                 std::string("x, y, z of the scans are ") + axesText(axes) +
                 " of the poses",
             1,
@@ -99,14 +99,14 @@ without(const PoseMistake& mistake, const Eigen::Isometry3d& T)
   return right;
 }
 
-/** \return whether rays confirm the place that surfaces settle at */
+/** \return whether rays confirm the pose found by the surface fit */
 bool
 agree(const VerifiedScan& first, const VerifiedScan& second, const Eigen::Isometry3d& T)
 {
   const double voxel = std::max(first.voxel(), second.voxel());
   const SurfaceFit fit =
       settledFit(first, second, T, voxel, kProbedPoints, kSteps, false);
-  if (fit.pairs == 0 || fit.displacement() > voxel) // it has no place there
+  if (fit.pairs == 0 || fit.displacement() > voxel) // surfaces do not fit here
     return false;
   const SightEvidence sight = sightBothWays(first, second, T, voxel, fit);
   return sight.patches >= kLeastPatches && sight.confirmation() >= kLeastConfirmation &&
@@ -116,7 +116,7 @@ agree(const VerifiedScan& first, const VerifiedScan& second, const Eigen::Isomet
                                    kBackgroundPrecision)) < kWrongAbove / 2;
 }
 
-/** \return the second of each pair of scans that follow each other and move most */
+/** \return the later scans of the pairs of successive scans with the longest steps */
 std::vector<std::size_t>
 farthestSteps(const std::vector<Eigen::Isometry3d>& poses)
 {
@@ -141,7 +141,7 @@ likelyPoseMistake(const std::deque<VerifiedScan>& scans,
           "poses",
           T_world_scan.size(),
           "one per scan");
-  std::vector<PoseMistake> mistakes(1); // none
+  std::vector<PoseMistake> mistakes(1); // first: no mistake
   addUnits(mistakes);
   addAxes(mistakes);
   const std::vector<std::size_t> asked = farthestSteps(T_world_scan);
@@ -153,13 +153,15 @@ likelyPoseMistake(const std::deque<VerifiedScan>& scans,
       agreeing[m] += agree(scans[i - 1], scans[i], T) ? 1 : 0;
     }
   });
-  const auto best = static_cast<std::size_t>( // of equals the first, the plainest
+  const auto best = static_cast<std::size_t>( // the first, simplest mistake among
+                                              // equals
       std::max_element(agreeing.begin(), agreeing.end()) - agreeing.begin());
   if (best == 0 || agreeing[best] < 2 || 2 * agreeing[best] <= asked.size() ||
       2 * agreeing[0] > agreeing[best])
     return {};
   return mistakes[best].words + "? Then " + std::to_string(agreeing[best]) + " of " +
-         std::to_string(asked.size()) + " pairs of scans would agree, as given " +
+         std::to_string(asked.size()) +
+         " pairs of scans would agree, with the given poses: " +
          std::to_string(agreeing[0]);
 }
 

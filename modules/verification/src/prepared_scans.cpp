@@ -10,7 +10,7 @@
 namespace pcl6d {
 
 namespace {
-/** Neighbours of a normal, and the voxels of its patch: as scans are matched. */
+/** Neighbours of a normal, and voxels of its patch, like in matching. */
 constexpr std::size_t kNormalNeighbours = 10;
 constexpr double kNormalPatchVoxels = 3;
 

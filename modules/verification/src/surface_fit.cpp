@@ -22,12 +22,12 @@ constexpr double kShifts[][3] = {{0, 0, 0},
                                  {0.5, 0, 0.5},
                                  {0, 0.5, 0.5}};
 
-/** Collects pairs and counts the points that were looked at. */
+/** Collects pairs and counts the tested points. */
 class PairCollector {
 public:
   explicit PairCollector(const SurfaceFitOptions& options) : options_(options) {}
 
-  /** Points of one scan against the surfaces of another. */
+  /** Pairs points of a scan with surfaces of another scan. */
   void
   add(const VerifiedScan& of,
       const VerifiedScan& in,
@@ -55,7 +55,7 @@ public:
       const Eigen::Vector3d normal = normals[k].cast<double>();
       const Eigen::Vector3d partner = in.surfaces().points()[k].cast<double>();
       const double missing = normal.dot(partner - place);
-      // The way back: where the first scan's point moves, the second one stays.
+      // Opposite direction: the point of the first scan moves, the second stays.
       pairs.push_back({T_first_in * (is_forward ? place : partner),
                        T_first_in.linear() * normal,
                        is_forward ? missing : -missing});
@@ -66,7 +66,7 @@ public:
   std::size_t looked_at = 0;
 
 private:
-  /** Not the two faces of a wall. */
+  /** \return whether the normals face the same way: the two faces of a wall are never paired. */
   static bool
   faceEachOther(const Eigen::Vector3f& n,
                 const Eigen::Vector3f& m,
@@ -87,7 +87,7 @@ jacobianOf(const SurfacePair& pair, const Eigen::Vector3d& centroid)
   return j;
 }
 
-/** sum over cubes of g g^T, of one grid, with the factor for few cubes. */
+/** sum over the cubes of a grid of g g^T, with the factor for few cubes. */
 Matrix6
 clustered(const std::vector<SurfacePair>& pairs,
           const SurfaceFit& fit,
@@ -113,8 +113,8 @@ clustered(const std::vector<SurfacePair>& pairs,
   return sum * (count / std::max(count - 6, 1.0));
 }
 
-/** \return the standard deviation of what the step leaves of residuals, by their median:
- * edges do not count */
+/** \return the standard deviation of the residuals after the step, from their median:
+ * edges have no influence */
 double
 usualResidual(const std::vector<SurfacePair>& pairs, const SurfaceFit& fit)
 {
@@ -129,10 +129,10 @@ usualResidual(const std::vector<SurfacePair>& pairs, const SurfaceFit& fit)
   return kOfMedian * *middle;
 }
 
-/** \return variances along the directions of an eigen system of errors that all pairs
- * share. Points of a scan lie denser where it stands, so that pairs of rough surfaces pull
- * scans together as they slide along what is oblique to their motion: in a gallery nearly
- * all, in a room with square walls nearly none.
+/** \return variances along the directions of an eigen system, of the error common to
+ * the pairs. Points are denser near the scanner, so pairs of rough surfaces pull the
+ * scans together by sliding along surfaces oblique to the motion: nearly every pair in a
+ * gallery, hardly any pair in a room with square walls.
  * \param[in] size [m] of the error of a pair */
 Twist
 sharedVariances(const std::vector<SurfacePair>& pairs,
@@ -152,10 +152,10 @@ sharedVariances(const std::vector<SurfacePair>& pairs,
   return (size * inverse.cwiseProduct(pull)).cwiseAbs2();
 }
 
-/** \return B^-1/2: from turns in which the pairs move by 1 m (rms) to turns [rad], as
- * localizabilityOf() has it. By the spread of all pairs alone, a roll about the long axis of
- * an elongated scan, whose levers are short, would count as unobserved. Turns about a line
- * of pairs count as if it had a thickness of a thousandth of its length. */
+/** \return B^-1/2: from turns with a displacement of the pairs of 1 m (rms) to turns [rad], defined
+ * by localizabilityOf(). With the spread of the pairs alone, a roll about the long axis of an
+ * elongated scan would count as unobserved, because its levers are short. Turns about a line of
+ * pairs use a thickness of a thousandth of its length. */
 Eigen::Matrix3d
 unitTurns(const std::vector<SurfacePair>& pairs, const SurfaceFit& fit)
 {
@@ -191,7 +191,7 @@ solve(const std::vector<SurfacePair>& pairs,
   unit.bottomRightCorner<3, 3>() = unitTurns(pairs, fit);
   const auto count = static_cast<double>(pairs.size());
   const auto eigen = symmetricEigen<6>(Matrix6(unit * H * unit / count));
-  // An open direction takes no step and is as uncertain as the pairs are spread.
+  // An open direction takes no step; its uncertainty is the spread of the pairs.
   Twist inverse = Twist::Zero(), open = Twist::Zero();
   for (int k = 0; k < 6; ++k)
     if (eigen.values(k) < Localizability::kOpen) {
@@ -210,7 +210,7 @@ solve(const std::vector<SurfacePair>& pairs,
     spread += clustered(pairs, fit, options.cube_voxels * voxel, shift) / 4;
   const double error = options.shared_error * usualResidual(pairs, fit);
   const Twist shared = sharedVariances(pairs, fit, error, V, inverse);
-  // Few cubes leave directions without an error: a tenth of that of independent points.
+  // Few cubes may show no error in a direction: take a tenth of the independent error.
   fit.shared = V * shared.asDiagonal() * V.transpose();
   fit.covariance =
       H_inverse * (spread + 0.1 * fit.residual * fit.residual * H) * H_inverse +

@@ -6,26 +6,26 @@
 #include <cstddef>
 #include <vector>
 
-/** \file The two halves of fitSurfaces(): pairs are searched for once, and may be asked for
- * the step alone or for its covariance, too. */
+/** \file The two halves of fitSurfaces(): pairs are searched for once, then used for the step alone
+ * or also for its covariance. */
 namespace pcl6d::verification {
 
 /** \brief A pair across a surface, in the frame of the first scan. */
 struct SurfacePair {
   Eigen::Vector3d place;  ///< [m] of the second scan's point
   Eigen::Vector3d normal; ///< unit
-  double residual;        ///< [m] what is missing along the normal
+  double residual;        ///< [m] distance to the partner along the normal
 };
 
-/** \brief What pairSurfaces() found. */
+/** \brief The result of pairSurfaces(). */
 struct SurfacePairs {
   std::vector<SurfacePair> pairs;
   std::size_t looked_at = 0; ///< points, of both scans
-  double voxel = 0;          ///< [m] the larger one of both scans
+  double voxel = 0;          ///< [m] of the coarser scan
 };
 
 /** \param[in] T_first_second pose of the second scan seen from the first
- * \throws BadArgument an option breaks its rule */
+ * \throws BadArgument an option is invalid */
 SurfacePairs
 pairSurfaces(const VerifiedScan& first,
              const VerifiedScan& second,

@@ -20,8 +20,8 @@ holds(const LinkCheck& link)
   return link.trust == LinkTrust::kGood || link.trust == LinkTrust::kUnverified;
 }
 
-/** A depth-first walk over the links that hold, and the links that alone hold what comes
- * behind them (R. Tarjan, "A note on finding the bridges of a graph", 1974). */
+/** Depth-first search over the links that connect scans, to find bridges: links whose removal
+ * disconnects scans (R. Tarjan, "A note on finding the bridges of a graph", 1974). */
 class Walk {
 public:
   Walk(std::size_t num_scans,
@@ -40,7 +40,7 @@ public:
         walkFrom(i, lowest);
   }
 
-  /** A link, and the scan behind it. */
+  /** A link, and the scan reached by it. */
   std::vector<std::pair<std::size_t, std::size_t>> bridges;
 
   /** \return whether a scan was reached through another */
@@ -52,7 +52,7 @@ public:
 
 private:
   struct Step {
-    std::size_t scan, by, next; ///< by: the link it was reached by
+    std::size_t scan, by, next; ///< by: the link that led to the scan
   };
 
   void
@@ -89,20 +89,20 @@ private:
 
   const std::vector<LinkCheck>& links_;
   std::vector<std::vector<std::size_t>> at_; ///< links of each scan
-  std::vector<std::size_t> entered_, left_;  ///< ticks of the clock; 0: not yet
+  std::vector<std::size_t> entered_, left_;  ///< order of visits; 0: not yet visited
   std::size_t clock_ = 0;
 };
 
-/** What all links across a cut say against it, one by one, by the background of the rest of
- * the map. The rays' part of each link is kept for a ladder of backgrounds. */
+/** The joint evidence of the links across a cut against these links, with the background of the
+ * rest of the map. The ray part of each link is stored for several backgrounds. */
 class CutEvidence {
 public:
   explicit CutEvidence(const std::vector<LinkCheck>& links)
   : links_(links), known_(links.size() * kLevels)
   {}
 
-  /** \return the log likelihood ratios. Links share half of their fate: of m links as much
-   * as of the root of m, each the mean of them. */
+  /** \return the log likelihood ratios. Links are correlated: m links count as sqrt(m) independent
+   * links, each with their mean. */
   RaysAgainst
   against(const std::vector<std::size_t>& cut, double background)
   {
@@ -154,7 +154,7 @@ private:
     return *known;
   }
 
-  /** A normal distribution of twice the deviation against that of once. */
+  /** Log ratio of two normal distributions: of twice the deviation, and of the deviation. */
   static double
   surfacesAgainst(const LinkCheck& link)
   {
@@ -166,10 +166,10 @@ private:
   }
 
   const std::vector<LinkCheck>& links_;
-  std::vector<std::optional<RaysAgainst>> known_; ///< kLevels of each link
+  std::vector<std::optional<RaysAgainst>> known_; ///< kLevels per link
 };
 
-/** Cuts what does not hold. */
+/** Cuts contradicted parts of the map. */
 class Cutter {
 public:
   Cutter(std::size_t num_scans, const std::vector<LinkCheck>& links)
@@ -186,8 +186,8 @@ public:
     join();
   }
 
-  /** Parts of scans that follow each other, the worst first: it may explain what others
-   * are contradicted by. */
+  /** Tests parts of consecutive scans, the worst first: its cut may explain contradictions of other
+   * parts. */
   void
   cutParts()
   {
@@ -203,7 +203,7 @@ public:
     }
   }
 
-  /** What a single link holds. */
+  /** Parts connected by a single link. */
   void
   cutBridges()
   {
@@ -229,7 +229,7 @@ public:
       ++sizes[part];
     const auto rest =
         std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) {
-          return a.second < b.second; // of equals the one with the first scan
+          return a.second < b.second; // among equals the part with the first scan
         });
     for (std::size_t i = 0; i < at_.size(); ++i)
       ties_.tied[i] = part_[i] == rest->first;
@@ -244,7 +244,7 @@ private:
     std::vector<std::size_t> links;
   };
 
-  /** \return the links from scans [first, end) to others */
+  /** \return the links from scans [first, end) to other scans */
   std::vector<std::size_t>
   crossingOf(std::size_t first, std::size_t end) const
   {
@@ -258,8 +258,8 @@ private:
     return crossing;
   }
 
-  /** Takes a cut if what it would cut says more against it, and holds now. What links to
-   * scans that nothing holds contradict is explained by these. */
+  /** Replaces the worst cut by a cut with more evidence against it and with a good link. Links
+   * already cut, and links between different components, are skipped. */
   void
   keepWorse(const std::vector<std::size_t>& crossing, Cut& worst)
   {
@@ -280,7 +280,7 @@ private:
       worst = std::move(cut);
   }
 
-  /** \return the share that the other links contradict, as good as some links tell it */
+  /** \return the contradicted share in the other links, regularised for few links */
   double
   backgroundBut(const std::vector<std::size_t>& links) const
   {
@@ -295,7 +295,7 @@ private:
            (patches + kKnownPatches);
   }
 
-  /** \return whether it was worse than what can be trusted, and thus cut */
+  /** \return whether the evidence exceeded the limit, and the part was cut */
   bool
   cut(const Cut& worst)
   {
@@ -309,9 +309,9 @@ private:
     }
     for (const std::size_t k : worst.links)
       for (const std::size_t i : {links_[k].from, links_[k].to})
-        ties_.cut_from[i] = "rays go through " + std::to_string(contradicted) + " of " +
-                            std::to_string(patches) +
-                            " patches of surface between them and the rest";
+        ties_.cut_from[i] = {RejectReason::kInconsistentTogether,
+                             static_cast<double>(contradicted),
+                             static_cast<double>(patches)};
     join();
     return true;
   }
@@ -333,7 +333,7 @@ private:
   std::size_t contradicted_ = 0, patches_ = 0; ///< of all links
   std::vector<bool> is_cut_;                   ///< one per link
   std::vector<std::vector<std::size_t>> at_;   ///< links of each scan
-  std::vector<std::size_t> part_;              ///< of each scan: what holds it
+  std::vector<std::size_t> part_;              ///< of each scan: its component
   Ties ties_;
 };
 } // namespace
@@ -344,7 +344,7 @@ tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double backgr
   if (num_scans == 0)
     return {};
   Cutter cutter(num_scans, links);
-  // Else rays are no judges, or too few links tell what right ones contradict.
+  // Else ray tests are inconclusive, or too few links remain for a background.
   if (background <= kMostBackground && links.size() >= kLeastLinks) {
     cutter.cutParts();
     cutter.cutBridges();

@@ -5,6 +5,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/icp.h>
+#include <pcl6d/registration/reduced_scans.h>
 #include <pcl6d/verification/twin_search.h>
 
 #include <algorithm>
@@ -17,31 +18,31 @@
 namespace pcl6d {
 
 namespace {
-/** A plan has cells of so many voxels, and no more than so many of them along a side, so
- * that few enough pairs of cells vote. */
+/** [voxels] Size of the cells of a plan; larger if a side would have too many cells, to limit the
+ * number of voting pairs. */
 constexpr double kCellVoxels = 3;
 constexpr int kMostCells = 128;
 
-/** Surfaces are upright whose normals are so near the level: cosine of 60 deg. */
+/** A surface is upright if its normal is nearly level: cosine of 60 deg. */
 constexpr double kLevelNormal = 0.5;
 
-/** So many cells of a plan vote: more tell nothing new. */
+/** Number of cells of a plan that vote: more cells add no information. */
 constexpr std::size_t kVoters = 1200;
 
-/** So many shifts of each quarter turn are matched. */
+/** Number of matched shifts of each quarter turn. */
 constexpr std::size_t kShiftsTried = 4;
 
-/** A place is another one if it is farther away than so many voxels, or turned by more. */
+/** Poses closer than this distance and turn are equal. */
 constexpr double kOtherVoxels = 6, kOtherTurn = 0.2; // [rad]
 
-/** A unit vector is so near the length of one: that of a pose that is rigid. */
+/** Tolerance of the length of unit vectors: for the rotation of a rigid pose. */
 constexpr double kUnitLength = 2e-3;
 
-/** The cells of a plan that upright surfaces fill, in the order of their filling. */
+/** The cells of a plan filled by upright surfaces, in the order of their filling. */
 using Plan = std::vector<Eigen::Vector2i>;
 
-/** The plan about the scan's own origin, wherever the scan stands.
- * \param[in] cell [m] as of cellFor() */
+/** The plan about the scan's own origin, whatever the pose of the scan.
+ * \param[in] cell [m] from cellFor() */
 Plan
 planOf(const VerifiedScan& scan, const Eigen::Matrix3d& R_level_scan, double cell)
 {
@@ -65,7 +66,7 @@ planOf(const VerifiedScan& scan, const Eigen::Matrix3d& R_level_scan, double cel
   return plan;
 }
 
-/** \return [m] a cell so that no point of a scan is farther away than half the most */
+/** \return [m] a cell size with all points of a scan within half the most cells */
 double
 cellFor(const VerifiedScan& scan)
 {
@@ -75,8 +76,8 @@ cellFor(const VerifiedScan& scan)
   return std::max(kCellVoxels * scan.voxel(), 2 * reach / kMostCells);
 }
 
-/** \return the shifts [cells] that most pairs of cells vote for, each a few cells from the
- * others, the best first */
+/** \return the shifts [cells] with the most votes of pairs of cells, the best first, each a few
+ * cells apart from the rest */
 std::vector<Eigen::Vector2i>
 votedShifts(const Plan& fixed, const Plan& moved)
 {
@@ -111,9 +112,8 @@ votedShifts(const Plan& fixed, const Plan& moved)
   return best;
 }
 
-/** \return places of the second scan from which matching is to start, in the frame of the
- * first one, turned so that up is z: those of a quarter turn behind those of the one before
- * it, those with most votes first */
+/** \return start poses of the second scan for matching, in the frame of the first scan turned
+ * upright: ordered by quarter turn, then by falling number of votes */
 std::vector<Eigen::Isometry3d>
 votedStarts(const VerifiedScan& first,
             const VerifiedScan& second,
@@ -139,18 +139,18 @@ votedStarts(const VerifiedScan& first,
   return starts;
 }
 
-/** \return the place that matching finds from a start, if it comes to rest */
+/** \return the matched pose from a start, if converged */
 std::optional<Eigen::Isometry3d>
 matchedFrom(const VerifiedScan& first,
             const VerifiedScan& second,
             const Eigen::Isometry3d& start)
 {
   const double voxel = std::max(first.voxel(), second.voxel());
-  IcpOptions options; // as Slam6D matches
+  IcpOptions options; // equal to Slam6D's
   options.metric = Metric::kGicp;
-  options.gicp_epsilon = 0.01;
+  options.gicp_epsilon = kReducedGicpEpsilon;
   options.facing_normals = true;
-  options.max_distance = 1.7 * voxel;
+  options.max_distance = kPlanePairVoxels * voxel;
   options.max_distance_start = 6 * voxel;
   options.distance_decay = 0.75;
   options.shrinking_stride = 3;

@@ -6,6 +6,7 @@
 #include <pcl6d/filters/scan_sampling.h>
 #include <pcl6d/verification/verified_scan.h>
 #include <pcl6d/visibility/range_noise.h>
+#include <pcl6d/visibility/ray_origin.h>
 #include <pcl6d/visibility/sight_evidence.h>
 
 #include <cmath>
@@ -13,7 +14,7 @@
 namespace pcl6d {
 
 namespace {
-/** \return the number of cubes with as many points as a patch needs to say something */
+/** \return the number of cubes with enough points for a patch */
 std::size_t
 patchesOf(const Points& points, double cube)
 {
@@ -50,7 +51,8 @@ VerifiedScan::VerifiedScan(const Points& measured,
   options.noise = rangeNoise(measured);
   options.between_lines =
       samplingOf(measured, origin).structure != ScanStructure::kEven;
-  rays_ = RayImage(measured, options);
+  is_off_centre_ = !isPlausibleOrigin(measured, origin);
+  rays_ = RayImage(is_off_centre_ ? Points() : measured, options);
   self_contradiction_ = pcl6d::selfContradiction(measured, origin, options.noise);
   patches_ = patchesOf(surfaces.points(), verification::kPatchVoxels * voxel);
 }
@@ -58,7 +60,8 @@ VerifiedScan::VerifiedScan(const Points& measured,
 bool
 VerifiedScan::abstains() const
 {
-  return self_contradiction_ > verification::kAbstainingShare || isTooSmall();
+  return is_off_centre_ || self_contradiction_ > verification::kAbstainingShare ||
+         isTooSmall();
 }
 
 bool

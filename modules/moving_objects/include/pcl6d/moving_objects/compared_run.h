@@ -13,23 +13,24 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A scan of one of two runs that are compared. What it points to is kept by
- * reference. */
+/** \brief A scan of one of two compared runs. The pointed-to data are kept by reference. */
 struct ComparedScan {
   const Points* points = nullptr;   ///< [m] reduced, finite, in its frame
-  const Normals* normals = nullptr; ///< of these, towards the scanner; zero: none
-  const RayImage* rays = nullptr;   ///< of all its measured points
+  const Normals* normals = nullptr; ///< of the points, towards the
+                                    ///< scanner; zero: no normal
+  const RayImage* rays = nullptr;   ///< of every measured point
   Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
-  /** of its pose relative to the other run, as a small motion about its origin in the axes
-   * of the world; see alignRuns() */
+  /** of its pose relative to the other run, as a small motion about its origin in the world
+   * axes; see alignRuns() */
   MotionCovariance covariance = MotionCovariance::Zero();
 };
 
 /** \brief The scans of a run. */
 using ComparedRun = std::vector<ComparedScan>;
 
-/** \throws BadArgument a scan lacks points, normals (one per point) or rays, or its pose is
- * no rigid motion. \param[in] name of the run, for the message */
+/** \throws BadArgument a scan lacks points, normals (one per point) or rays, or its pose is no
+ * rigid motion.
+ * \param[in] name of the run, for the message */
 void
 requireComplete(const ComparedRun& run, const char* name);
 

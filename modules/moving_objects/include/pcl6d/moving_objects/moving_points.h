@@ -14,24 +14,23 @@
 #include <vector>
 
 namespace pcl6d::moving_objects {
-class Judge;
+class Observer;
 }
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How exactly a pose is known: standard deviations along, and about, the axis on
- * which it is known least. */
+/** \brief Accuracy of a pose: standard deviations along, and about, its least accurate axis. */
 struct PoseSigma {
   double translation = 0; ///< [m] finite, >= 0
   double rotation = 0;    ///< [rad] finite, >= 0
 };
 
-/** \brief A scan as those that judge others see it. All pointers are kept, none is owned. */
+/** \brief A scan as an observer of other scans. Pointers are kept, not owned. */
 struct SeenScan {
-  const RayImage* rays =
-      nullptr; ///< of all its measured points; null: it judges nobody
-  /** its surfaces, reduced by a voxel: what a ray that ends near a place has hit. Without
-   * them what the rays say must do */
+  const RayImage* rays = nullptr; ///< of every measured point;
+                                  ///< null: the scan is no observer
+  /** surfaces, reduced by a voxel: the possible hits of rays that end near a point. Without
+   * surfaces the rays alone decide */
   const Points* surface = nullptr;
   const Normals* normals = nullptr; ///< one per point of the surface
   const PointTree* tree = nullptr;  ///< over the points of the surface
@@ -42,40 +41,42 @@ struct SeenScan {
 
 /** \brief Knobs of MovingPoints. */
 struct MovingPointsOptions {
-  /** so many other scans judge each scan, those that see most of it, and as many more what
-   * these did not see; in [1, 8] */
+  /** number of observers of a scan, chosen by common view; points without an observer get as
+   * many further observers; in [1, 8] */
   std::size_t neighbours = 8;
-  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
+  unsigned int num_threads = 0; ///< 0: a thread per core; never changes the result
 
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief Tells which points of registered scans moved, by the free space that other scans
- * measured through their places.
+/** \brief Classifies the points of registered scans as static or dynamic, by the free space
+ * that other scans measured.
  *
- * Points that another scan's image cannot tell apart, those within one of its cells and near in
- * range, are judged as one. Each of these is looked at in the images of the scans that see most of
- * the scan: they saw through its place (a miss), or measured a surface there (a hit, which must
- * lie on their surfaces), or cannot say. A miss counts where the ray ended farther behind than
- * grazing explains. A hit counts twice, as rays pass beside thin things but never end at nothing;
- * but not if all who saw through the place did so before, or after, the thing stayed there. Places
- * that were missed more often make clusters; one with few misses, or strewn with places that were
- * hit, as foliage and fences are, stays. What remains takes in what is near it, on no surface of
- * others, and surrounded by it, or before its middle: the parts of the thing that nobody saw through.
+ * Points that the image of an observer cannot resolve, within one of its cells and near in
+ * range, are tested as one place. Observers are the scans that see most of the scan. A ray of
+ * an observer passes through the place (a miss), measures a surface there (a hit, which must
+ * lie on the observer's surfaces), or is inconclusive. A miss counts where the ray ended
+ * farther behind than a grazing angle explains. A hit counts twice, because rays miss thin
+ * objects but never hit free space. Hits before the first miss, in time from the scan on, do
+ * not count: the object stayed for a while. Places with more misses form clusters. A cluster
+ * with few misses, or with many hit places in between, as foliage and fences, is static. A
+ * dynamic cluster grows by places nearby that lie on no surface of an observer, and are
+ * surrounded by the cluster or in front of its middle: the parts of the object without a miss.
  *
- * Same bits for any number of threads; judge() may be called from several. Idea: J. Schauer,
- * A. Nuechter, "The Peopleremover: removing dynamic objects from 3-D point cloud data by
+ * Bit-identical for any number of threads; const members are thread-safe. Idea: J. Schauer, A.
+ * Nuechter, "The Peopleremover: removing dynamic objects from 3-D point cloud data by
  * traversing a voxel occupancy grid", RA-L 2018, with images in place of the grid.
  * \code
- * const pcl6d::MovingPoints judges(seen_scans);
- * const auto motion = judges.judge(3, points_of_scan_3); // one per point
- * \endcode \ingroup moving_objects */
+ * const pcl6d::MovingPoints moving(seen_scans);
+ * const auto motion = moving.classify(3, points_of_scan_3); // one per point
+ * \endcode
+ * \ingroup moving_objects */
 class MovingPoints {
 public:
-  /** \throws BadArgument an option breaks its rule; a pose is not a rigid motion, a sigma is
-   * negative or not finite; a surface without tree, normals or voxel */
+  /** \throws BadArgument an invalid option; a pose is not a rigid motion, a sigma is negative
+   * or not finite; a surface without tree, normals or voxel */
   explicit MovingPoints(std::vector<SeenScan> scans,
                         const MovingPointsOptions& options = {});
 
@@ -85,32 +86,32 @@ public:
     return scans_.size();
   }
 
-  /** \return the share of surface points that rays contradict even between the scans that fit
-   * best: what errors of scanner and poses make, glass too; 0 without surfaces. With things
-   * that move alone it is small, as each of them is in the way of few scans */
+  /** \return the share of surface points violated by rays even between the scans that fit best:
+   * the effect of scanner and pose errors, and of glass; 0 without surfaces. Dynamic objects
+   * alone add little, as each blocks the rays of few scans */
   double
   background() const
   {
     return background_;
   }
 
-  /** \return whether that is too much for rays to tell what moved: then all is unknown */
+  /** \return whether the background is too large to classify points: every point is then unknown */
   bool
   isBlind() const;
 
-  /** \brief Tells which points of a scan moved, by the rays of the other scans.
+  /** \brief Classifies points of a scan by the rays of the other scans.
    * \param[in] scan the index of the scan; it must have rays
-   * \param[in] points [m] measured points of this scan, in its frame: the whole scan or a part
-   * \return one value a point. It is kUnknown where a coordinate is not finite or no other scan
-   * sees the point, and everywhere if isBlind()
+   * \param[in] points [m] measured points of the scan, in its frame: the whole scan or a part
+   * \return one value a point: kUnknown for a non-finite coordinate or without an observer, and
+   * everywhere if isBlind()
    * \throws BadArgument the index is too large, or the scan has no rays */
   std::vector<PointMotion>
-  judge(std::size_t scan, const Points& points) const;
+  classify(std::size_t scan, const Points& points) const;
 
 private:
   std::vector<std::size_t>
   around(std::size_t scan, std::size_t count) const;
-  std::vector<moving_objects::Judge>
+  std::vector<moving_objects::Observer>
   candidatesFor(std::size_t scan) const;
 
   std::vector<SeenScan> scans_;
@@ -120,7 +121,7 @@ private:
 
   double background_ = 0;
   std::vector<std::size_t> by_place_; ///< scans with rays, in the order of origins_
-  Points origins_;                    ///< [m] of these, relative to the first of them
+  Points origins_;                    ///< [m] ray origins, relative to the first
   PointTree places_;                  ///< over origins_
 };
 

@@ -11,42 +11,44 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief MovingPoints for whoever has nothing but points and poses: makes of each scan the
- * image of its rays and its reduced surface, keeps these, and not the points.
+/** \brief MovingPoints from points and poses alone: computes the ray image and the reduced
+ * surface of each scan, and stores only the two, not the points.
  *
- * Range gate and voxel are derived from each scan (deriveScanParameters()): missing echoes that
- * were written as the largest range, and the scanner's own housing, are no rays. About 1 MB a
- * scan. Copies share what was made. \code
+ * Range gate and voxel are derived from each scan (deriveScanParameters()): missing echoes
+ * recorded as the largest range, and the scanner's own housing, are no rays. About 1 MB a scan.
+ * Copies share the computed data.
+ * \code
  * pcl6d::MovingScans scans;
  * for (std::size_t i = 0; i < clouds.size(); ++i)
  *   scans.add(clouds[i], T_world_scan[i]);
  * const auto motion = scans.motion(3, clouds[3]); // one per point
- * \endcode \ingroup moving_objects */
+ * \endcode
+ * \ingroup moving_objects */
 class MovingScans {
 public:
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an invalid option */
   explicit MovingScans(const MovingPointsOptions& options = {});
 
-  /** \brief The edge of the voxels that reduce surfaces, for scans that are added from now on.
-   * Points farther away than 2^18 voxels are beyond the range gate.
-   * \param[in] voxel [m] none: derived from each of them
-   * \throws BadArgument it is not finite and > 0 */
+  /** \brief Sets the voxel edge of surfaces, for scans added from now on. Points farther away
+   * than 2^18 voxels are beyond the range gate.
+   * \param[in] voxel [m] empty: derived from each scan
+   * \throws BadArgument unless finite and > 0 */
   void
   setVoxel(const std::optional<double>& voxel);
 
-  /** \brief How many threads may run; never changes the result. \param[in] num_threads 0: one
-   * per core */
+  /** \brief Sets the largest number of threads; never changes the result.
+   * \param[in] num_threads 0: a thread per core */
   void
   setNumberOfThreads(unsigned int num_threads);
 
-  /** \brief Takes in a scan; scans count in the order of time.
-   * \param[in] measured all its points [m], not reduced; NaN are left out. Without points it
-   * judges nobody
-   * \param[in] sigma of the pose, relative to those of its neighbours
-   * \param[in] origin [m] where the scanner stood, in the scan's frame
-   * \return its number, from 0
-   * \throws BadArgument the pose is not a rigid motion, a sigma is negative or not finite, or the
-   * origin is not finite; the scan is not taken in then */
+  /** \brief Adds a scan, in the order of time.
+   * \param[in] measured every point [m], not reduced; NaN are skipped. A scan without points is
+   * no observer
+   * \param[in] sigma of the pose, relative to the poses of its neighbours
+   * \param[in] origin [m] position of the scanner, in the scan's frame
+   * \return its index, from 0
+   * \throws BadArgument the pose is not a rigid motion, a sigma is negative or not finite, or
+   * the origin is not finite; the scan is not added then */
   std::size_t
   add(const Points& measured,
       const Eigen::Isometry3d& T_world_scan,
@@ -59,25 +61,27 @@ public:
     return scans_.size();
   }
 
-  /** \return [m] the voxel of a scan's surface \throws BadArgument there is no such scan */
+  /** \return [m] the voxel of a scan's surface
+   * \throws BadArgument an index out of range */
   double
   voxel(std::size_t scan) const;
 
-  /** \brief What the other scans say of points of one scan.
-   * \param[in] measured all of them [m] in its frame, as clusters need the points around them;
-   * reduced ones will do
-   * \return one per point: unknown, too, for those beyond the range gate
-   * \throws BadArgument there is no such scan */
+  /** \brief Classifies the points of one scan by the other scans.
+   * \param[in] measured every point [m] of the scan in its frame, as clusters need the points
+   * around; reduced points will do
+   * \return one per point: unknown, too, beyond the range gate
+   * \throws BadArgument an index out of range */
   std::vector<PointMotion>
   motion(std::size_t scan, const Points& measured);
 
-  /** \return whether rays contradict scans too much to tell what moved: all is unknown then */
+  /** \return whether rays contradict scans too much to classify points: every point is then
+   * unknown */
   bool
   isBlind();
 
-  /** \return of the scans added so far; its scans are as seen from where the scanner stood */
+  /** \return MovingPoints of the scans added so far, with scan frames at the scanner positions */
   const MovingPoints&
-  judges();
+  observers();
 
 private:
   struct Kept;
@@ -87,7 +91,8 @@ private:
   MovingPointsOptions options_;
   std::optional<double> voxel_;
   std::vector<std::shared_ptr<const Kept>> scans_;
-  std::shared_ptr<const MovingPoints> judges_; ///< null: not made since the last scan
+  std::shared_ptr<const MovingPoints>
+      observers_; ///< null: not made since the last scan
 };
 
 } // namespace pcl6d

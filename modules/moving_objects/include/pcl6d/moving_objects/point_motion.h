@@ -7,11 +7,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What the other scans say of a measured point. \ingroup moving_objects */
+/** \brief Classification of a measured point by other scans.
+ * \ingroup moving_objects */
 enum class PointMotion : std::uint8_t {
-  kUnknown, ///< none of them saw its place
-  kStatic,  ///< its surface was there at other times, too
-  kDynamic  ///< its place was free at other times: it moved, or was moved
+  kUnknown, ///< no other scan observed its position
+  kStatic,  ///< its surface was measured at other times, too
+  kDynamic  ///< its position was free at other times: the object moved
 };
 
 /** \return "unknown", "static" or "dynamic" */

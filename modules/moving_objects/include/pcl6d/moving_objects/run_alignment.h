@@ -11,36 +11,37 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief Knobs of alignRuns(). */
 struct RunAlignmentOptions {
   double voxel = 0.05; ///< [m] of the reduction of the scans; finite, > 0
-  double reach = 4;    ///< voxels: pairs are farther apart by less at first; > 0
-  bool move = true;    ///< false: poses stay, only their covariances are found
-  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  double reach = 4;    ///< voxels: largest distance of pairs in the first step; > 0
+  bool move = true;    ///< false: poses are fixed, only covariances are computed
+  unsigned int num_threads = 0; ///< 0: a thread per core; never changes the result
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief What alignRuns() found. */
+/** \brief Result of alignRuns(). */
 struct RunAlignment {
-  /** of the second run, in one piece, before its scans were moved each by itself */
+  /** of the second run, as one piece, before the separate motion of its scans */
   Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
-  std::size_t pairs = 0; ///< of points of both runs; 0: they have nothing in common
-  double overlap = 0;    ///< share of the points looked at that have a partner
+  std::size_t pairs = 0; ///< of points of both runs; 0: no common surfaces
+  double overlap = 0;    ///< share of the tested points with a partner
   double residual = 0;   ///< [m] standard deviation of the pairs across their surfaces
-  /** [m] by which the scans of the second run were moved by themselves, rms */
+  /** [m] motion of the scans of the second run relative to the piece, rms */
   double bending = 0;
 };
 
-/** \brief Brings a run that lies nearly right exactly onto another one, and finds how well
- * each scan lies on the other run.
+/** \brief Aligns a nearly registered run with another run, and finds the covariance of each
+ * scan relative to the other run.
  *
- * The second run is moved in one piece by its points on the planes of the first, robustly, so
- * that what has changed does not pull; then each of its scans by itself, as far as its surfaces
- * fix it, as the paths of two runs bend differently. The first run stays. The covariance of
- * every scan of both runs is set: that of its robust fit to the other run, by cubes of points,
- * and the square of the step that is left. A scan without points in common takes the largest
- * one of its run.
- * \throws BadArgument an option breaks its rule, or a scan is not complete
- * \note Source: algorithms.md T.3; weights of Geman and McClure \ingroup moving_objects */
+ * The second run moves as one rigid piece by its points on the planes of the first, robustly,
+ * so that changes do not bias the fit. Then each of its scans moves separately, as far as its
+ * surfaces fix the pose, because the paths of two runs bend differently. The first run stays
+ * fixed. The covariance of every scan of both runs is set: the covariance of its robust fit to
+ * the other run, by cubes of points, plus the square of the remaining step. A scan without
+ * common points takes the largest covariance of its run.
+ * \throws BadArgument an invalid option, or a scan is not complete
+ * \note Source: algorithms.md T.3; weights of Geman and McClure
+ * \ingroup moving_objects */
 RunAlignment
 alignRuns(ComparedRun& first,
           ComparedRun& second,

@@ -10,43 +10,43 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A file of records that grows by its end, and may be cut there at any moment: each
- * record has its length and a checksum before it.
+/** \brief A file of appended records, whose writing may be interrupted at any moment: each record
+ * is preceded by its length and a checksum.
  *
- * Opening it reads all records up to the first that is cut or damaged, and drops the rest.
- * It is locked while it is open, where the file system knows locks. What was appended
- * survives the end of the process and of the machine. \ingroup run */
+ * Opening reads all records up to the first incomplete or damaged record, and drops the rest. The
+ * open file is locked if the file system supports locks. Appended records survive the end of the
+ * process and of the machine. \ingroup run */
 class RecordFile {
 public:
-  /** \brief Opens the file, or makes it.
-   * \throws IoFailed it cannot be opened or made, is a link, is of another kind or version,
-   * or another process has it open */
+  /** \brief Opens or creates the file.
+   * \throws IoFailed the file cannot be opened or created, is a link, is of another kind or
+   * version, or is open in another process */
   explicit RecordFile(const std::filesystem::path& path);
   ~RecordFile();
   RecordFile(const RecordFile&) = delete;
   RecordFile&
   operator=(const RecordFile&) = delete;
 
-  /** \return the records that were found when it was opened */
+  /** \return the records found when the file was opened */
   const std::vector<std::string>&
   records() const
   {
     return records_;
   }
 
-  /** \return [bytes] what was cut or damaged then, and dropped */
+  /** \return [bytes] dropped when the file was opened */
   std::size_t
   dropped() const
   {
     return dropped_;
   }
 
-  /** \throws IoFailed it cannot be written, as on a full disk; the file ends with the record
-   * before then */
+  /** \throws IoFailed the record cannot be written, e.g. on a full disk; the file then ends with
+   * the previous record */
   void
   append(const std::string& record);
 
-  /** \brief Removes the file; nothing can be appended any more. */
+  /** \brief Removes the file; append() is no longer possible. */
   void
   remove();
 

@@ -14,23 +14,26 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return a length [m] that a run worked with, given or derived: "voxel", "max-range"
- * \param[in] file its summary, for messages
- * \throws IoFailed there is no such option, or it is no number \ingroup run */
+/** \return a length [m] used by a run, given or derived: "voxel", "max-range"
+ * \param[in] file the run's summary, for messages
+ * \throws IoFailed the option is missing or no number \ingroup run */
 double
 lengthOfRun(const RunResult& summary,
             const std::string& name,
             const std::filesystem::path& file);
 
-/** \brief The scans of a folder and their poses: raw ones, or those of a finished run of
- * pcl_slam6d, which is known by its summary.json. \ingroup run */
+/** \brief The scans of a folder with their poses: raw scans, or the scans of a finished run of
+ * pcl_slam6d, recognised by its summary.json. \ingroup run */
 class RegisteredScans {
 public:
-  /** \param[in] path the folder \param[in] options of the scans; a run takes no poses
-   * \throws IoFailed, BadArgument as ScanFolder; the run's summary is broken, or it was
-   * interrupted ahead of its scans; poses are given for a run */
+  /** \param[in] path the folder \param[in] options of the scans; no poses are accepted for a run
+   * \throws IoFailed, BadArgument as ScanFolder; the run's summary is broken, or the run was
+   * interrupted before its scans were written; poses are given for a run */
   explicit RegisteredScans(const std::filesystem::path& path,
                            const ScanFolderOptions& options = {});
+
+  /** \brief Raw scans from an open folder, e.g. of a source. */
+  explicit RegisteredScans(ScanFolder folder);
 
   const ScanFolder&
   folder() const
@@ -43,26 +46,26 @@ public:
   pose(std::size_t i) const;
 
   /** \return the number NNN of the i-th scan in the files of the run; of raw scans the
-   * place in the folder */
+   * index in the folder */
   std::uint32_t
   index(std::size_t i) const
   {
     return indices_[i];
   }
 
-  /** \return what joined points are relative to [m]: the world offset of the run, or what
-   * a run on these poses would take */
+  /** \return the offset [m] subtracted from joined points: the world offset of the run, or the
+   * offset that a run with these poses would use */
   const Eigen::Vector3d&
   worldOffset() const
   {
     return world_offset_;
   }
 
-  /** \return how points that lie far from the origin of their files were brought near */
+  /** \return the shift applied to points far from the origin of their files */
   const std::optional<MovedPoints>&
   moved() const;
 
-  /** \return the ranges [m] that the run took for surfaces; all if it is none */
+  /** \return the range gate [m] of the run; unlimited for raw scans */
   double
   minRange() const
   {
@@ -78,7 +81,7 @@ public:
   std::string
   poseSource() const;
 
-  /** \return what the run tells of itself; none for raw scans */
+  /** \return the summary of the run; none for raw scans */
   const std::optional<RunResult>&
   summary() const
   {

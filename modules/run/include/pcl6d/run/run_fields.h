@@ -30,7 +30,7 @@ visitScanFields(Scan& scan, Visit&& visit)
   visit("overlap", scan.overlap);
   visit("iterations", scan.iterations);
   visit("correction", scan.correction);
-  visit("reason", scan.reason);
+  visit("rejections", scan.rejections);
   visit("recovered", scan.recovered);
 }
 
@@ -40,7 +40,7 @@ void
 visitMotionFields(Motion& motion, Visit&& visit)
 {
   visit("undone", motion.undone);
-  visit("reason", motion.reason);
+  visit("rejection", motion.rejection);
   visit("seconds", motion.seconds);
   visit("translation", motion.translation);
   visit("rotation", motion.rotation);
@@ -63,7 +63,7 @@ visitStageFields(Stage& stage, Visit&& visit)
 {
   visit("name", stage.kind);
   visit("undone", stage.undone);
-  visit("reason", stage.reason);
+  visit("rejection", stage.rejection);
   visit("agreement_before", stage.agreement_before);
   visit("agreement_after", stage.agreement_after);
   visit("rounds", stage.rounds);
@@ -79,7 +79,7 @@ visitLinkFields(Link& link, Visit&& visit)
   visit("to", link.to);
   visit("kind", link.kind);
   visit("verdict", link.verdict);
-  visit("reason", link.reason);
+  visit("reason", link.rejection);
   visit("distance", link.distance);
   visit("pairs", link.pairs);
   visit("rms", link.rms);
@@ -88,7 +88,7 @@ visitLinkFields(Link& link, Visit&& visit)
   visit("weight", link.weight);
 }
 
-/** \brief For writing: numbers that may be missing come as pointers.
+/** \brief For writing only: optional numbers are passed as pointers.
  * \param[in] link a LinkCheck */
 template <typename Link, typename Visit>
 void
@@ -103,14 +103,14 @@ visitLinkCheckFields(Link& link, Visit&& visit)
   visit("shift", link.shift);
   visit("deviation", link.deviation);
   visit("open_directions", link.open_directions);
-  // Written only: the covariance and the motion that the surfaces ask for are not kept.
+  // Written only: the covariance and the shift required by surfaces are not kept.
   visit("noticed_least", link.noticed ? &link.noticed->least : nullptr);
   visit("noticed_most", link.noticed ? &link.noticed->most : nullptr);
   visit("noticed_turn", link.noticed ? &link.noticed->turn : nullptr);
-  visit("reason", link.reason);
+  visit("reason", link.rejection);
 }
 
-/** \brief The values of the words in files. \throws BadArgument there is no such word */
+/** \brief Sets a value from its word in files. \throws BadArgument unknown word */
 inline void
 takeWord(const std::string& word, ScanState& state)
 {

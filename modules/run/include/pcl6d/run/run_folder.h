@@ -22,25 +22,24 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The map of a run: map.pcd. */
 struct RunMap {
-  Points points; ///< [m] relative to the world offset
-  std::vector<std::uint32_t>
-      scans;                      ///< index NNN of each point's scan; empty: not known
-  std::vector<float> intensities; ///< one per point, or empty
+  Points points;                    ///< [m] relative to the world offset
+  std::vector<std::uint32_t> scans; ///< index NNN of each point's scan; empty: unknown
+  std::vector<float> intensities;   ///< for each point, or empty
 };
 
 /** \brief The points on the planes of a run: planes.pcd. */
 struct RunPlanePoints {
   Points points; ///< [m] relative to the world offset
   std::vector<std::uint32_t>
-      plane_of; ///< per point its plane's id (place + 1); 0: none
+      plane_of; ///< for each point: its plane's id (index + 1); 0: none
 };
 
-/** \brief What pcl_slam6d left in a folder (share/doc/run_folder.md), as far as it is
- * there: also of an interrupted run, or of one of which files are gone.
+/** \brief The output folder of pcl_slam6d (share/doc/run_folder.md), complete or not: also of an
+ * interrupted run, or with deleted files.
  *
- * The summary is read at once, all else when it is asked for. What is not there is empty,
- * and named by missing(); what is there but broken is an error when it is read. So is a file
- * whose size or checksum is not that of the summary, as it is of another run.
+ * The constructor reads the summary; the remaining files are read on request. Missing files give
+ * empty results, and are listed by missing(). Broken files are errors when read, also files whose
+ * size or checksum differs from the summary, because they belong to another run.
  * \code
  * const pcl6d::RunFolder run("out");
  * const pcl6d::RunMap map = run.readMap();
@@ -48,23 +47,23 @@ struct RunPlanePoints {
  * \ingroup run */
 class RunFolder {
 public:
-  /** \throws IoFailed there is no such folder, it holds nothing of a run, or its summary is
-   * broken or that of another program */
+  /** \throws IoFailed the folder does not exist, contains no file of a run, or its summary is
+   * broken or from another program */
   explicit RunFolder(const std::filesystem::path& path);
 
-  /** \brief The folder of a run whose result is known; nothing is read. */
+  /** \brief The folder of a run with known result; no file is read. */
   RunFolder(const std::filesystem::path& path, RunResult result);
 
-  /** \brief Looks at the content of the files that the summary tells of.
-   * \param[in] start of their paths in the folder, such as "scans/"; all by default
-   * \throws IoFailed one differs from what the run wrote */
+  /** \brief Checks the content of the files listed in the summary.
+   * \param[in] start beginning of their paths in the folder, e.g. "scans/"; by default every file
+   * \throws IoFailed a file differs from the run's output */
   void
   requireWhole(const std::string& start = {}) const;
 
-  /** \return the folder of a finished run \param[in] unfinished what is wrong with one that
-   * was interrupted: "the run was interrupted; run it again"
-   * \throws IoFailed it has no summary, a broken one, or that of another program, was
-   * interrupted, or a file has not the size that the summary tells */
+  /** \return the folder of a finished run \param[in] unfinished message for an interrupted run:
+   * "the run was interrupted; run it again"
+   * \throws IoFailed the summary is missing, broken, or from another program; the run was
+   * interrupted; or the size of a file differs from the summary */
   static RunFolder
   finished(const std::filesystem::path& path, const std::string& unfinished);
 
@@ -74,8 +73,8 @@ public:
     return path_;
   }
 
-  /** \brief What the run tells of itself; without summary.json only the scans are in it,
-   * with poses from trajectory.kitti and the first ones of frames/. */
+  /** \brief The summary of the run. Without summary.json, only the scans are in it, with poses from
+   * trajectory.kitti and the first poses of frames/. */
   const RunResult&
   summary() const
   {
@@ -88,23 +87,23 @@ public:
     return has_summary_;
   }
 
-  /** \return the files that a finished run has and this one has not, each with the reason
-   * if it is known: "map.pcd (the run was interrupted)" */
+  /** \return the files missing in comparison with a finished run, each with the reason if known:
+   * "map.pcd (the run was interrupted)" */
   std::vector<std::string>
   missing() const;
 
-  /** \return whether the folder holds a file or folder of this name */
+  /** \return whether a file or folder of this name exists */
   bool
   has(const std::string& name) const;
 
-  /** \return the file of a scan, in its own frame, and that of the map: for those that need
-   * all fields of the points \throws IoFailed it does not hold what the run wrote */
+  /** \return the file of a scan in its own frame, or of the map: for access to all fields of the
+   * points \throws IoFailed the file differs from the run's output */
   std::filesystem::path
   scanFile(std::size_t place) const;
   std::filesystem::path
   mapFile() const;
-  /** \brief Makes sure that the file of a scan is there; its content is not looked at.
-   * \throws IoFailed it is missing */
+  /** \brief Checks that the file of a scan exists, without reading its content.
+   * \throws IoFailed the file is missing */
   void
   requireScan(std::size_t place) const;
 
@@ -112,12 +111,12 @@ public:
   Trajectory
   trajectory() const;
 
-  /** \return the poses that the run started from, relative to the world offset */
+  /** \return the initial poses of the run, relative to the world offset */
   Trajectory
   initialTrajectory() const;
 
-  /** \return per scan its poses through the run as of frames/, relative to the world
-   * offset; no frames where the file is missing \throws IoFailed a file is broken */
+  /** \return for each scan its poses during the run from frames/, relative to the world offset; no
+   * frames if the file is missing \throws IoFailed a file is broken */
   std::vector<std::vector<Frame>>
   readHistory() const;
 
@@ -125,30 +124,30 @@ public:
   RunMap
   readMap() const;
 
-  /** \return what moved while the scans were taken, relative to the world offset; empty if nothing
-   * did, or nobody asked \throws IoFailed moving.pcd is broken */
+  /** \return the dynamic points of the scans, relative to the world offset; empty without dynamic
+   * points, or without a search for them \throws IoFailed moving.pcd is broken */
   RunMap
   readMoving() const;
 
-  /** \return a scan with all its fields, but without the points that moved; empty if the file is
-   * missing \param[in] place in summary().scans \throws IoFailed the file is broken */
+  /** \return a scan with all its fields, without dynamic points; empty if the file is missing
+   * \param[in] place in summary().scans \throws IoFailed the file is broken */
   Scan
   readStandingScan(std::size_t place) const;
 
-  /** \return the points of a scan in its own frame [m], but those that moved; none if the file is
-   * missing \param[in] place in summary().scans \throws IoFailed the file is broken */
+  /** \return the static points of a scan in its own frame [m]; empty if the file is missing
+   * \param[in] place in summary().scans \throws IoFailed the file is broken */
   Points
   readScan(std::size_t place) const;
 
-  /** \return the same with its intensities and its index for each point */
+  /** \return readScan() with intensities and the scan's index for each point */
   RunMap
   readScanCloud(std::size_t place) const;
 
-  /** \param[in] fault as of readRunLinks() \throws IoFailed links.csv is broken */
+  /** \param[in] fault like in readRunLinks() \throws IoFailed links.csv is broken */
   std::vector<RunLink>
   readLinks(const std::function<std::string(const RunLink&)>& fault = {}) const;
 
-  /** \return the poses and what was measured between them; its ids are indices NNN of scans
+  /** \return the poses and the measured relative poses; ids are indices NNN of scans
    * \throws IoFailed graph.g2o is broken */
   PoseGraph
   readGraph() const;

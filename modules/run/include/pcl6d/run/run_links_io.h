@@ -21,11 +21,17 @@ writeRunLinks(const std::filesystem::path& path, const std::vector<RunLink>& lin
 void
 writeLinkChecks(const std::filesystem::path& path, const std::vector<LinkCheck>& links);
 
-/** \brief Reads links.csv by the names of its columns; those that do not matter to a graph
- * (reason, distance, overlap, condition, weight) may be missing.
- * \param[in] fault tells what is wrong with a link, or nothing; empty: nothing is
- * \throws IoFailed naming file, line, value and rule: unreadable, a column is missing, a row
- * has another number of columns, no number or word where one belongs, a fault \ingroup run */
+/** \brief Reads verification.csv: scans by their numbers, trust, shift, deviation, open directions,
+ * detectable errors and reason; further columns are optional.
+ * \throws IoFailed as readRunLinks() \ingroup run */
+std::vector<LinkCheck>
+readLinkChecks(const std::filesystem::path& path);
+
+/** \brief Reads links.csv by its column names; columns irrelevant to a graph (reason, distance,
+ * overlap, condition, weight) are optional.
+ * \param[in] fault returns the fault of a link, or an empty text; empty function: no check
+ * \throws IoFailed naming file, line, value and rule: unreadable, a column is missing, a row has
+ * another number of columns, an invalid number or word, a fault \ingroup run */
 std::vector<RunLink>
 readRunLinks(const std::filesystem::path& path,
              const std::function<std::string(const RunLink&)>& fault = {});

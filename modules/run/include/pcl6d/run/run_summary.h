@@ -8,15 +8,13 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-using RunSummary = RunResult; ///< its name in the last version
-
 /** \brief Writes summary.json (fields: share/doc/run_folder.md), atomically.
  * \throws IoFailed the file cannot be written \ingroup run */
 void
 writeRunSummary(const std::filesystem::path& path, const RunResult& result);
 
-/** \brief Inverse of writeRunSummary(). \throws IoFailed naming the file and what is
- * missing or wrong in it: no JSON, another schema_version, a field of another kind
+/** \brief Inverse of writeRunSummary(). \throws IoFailed naming the file and the missing or wrong
+ * entry: no JSON, another schema_version, a field of another type
  * \ingroup run */
 RunResult
 readRunSummary(const std::filesystem::path& path);

@@ -15,9 +15,9 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Writes the folder of a run (share/doc/run_folder.md), which RunFolder reads.
  *
- * Poses come first, so that an interrupted run leaves at least them; the summary comes last.
- * Each file is written at once or not at all. Points and poses in scans/ and map.pcd are
- * relative to the world offset of the run.
+ * Poses are written first, to be available after an interruption; the summary is written last.
+ * Each file is written atomically. Points and poses in scans/ and map.pcd are relative to the
+ * world offset of the run.
  * \code
  * const pcl6d::RunWriter writer("out", run);
  * writer.writePoses(stamps);
@@ -33,13 +33,13 @@ public:
   /** Keeps a reference to the run. */
   RunWriter(std::filesystem::path folder, const RunResult& run);
 
-  /** \brief trajectory.kitti and trajectory.tum, whose poses mean what the given ones meant
-   * (RunResult::moved), and frames/.
+  /** \brief trajectory.kitti and trajectory.tum, with the poses of all scans, or of all sweeps of a
+   * drive, in the frame of the given poses (RunResult::moved), and frames/.
    * \param[in] stamps of the scans [s]; empty: their indices */
   void
   writePoses(const std::vector<double>& stamps = {}) const;
 
-  /** \brief graph.g2o and links.csv. \param[in] graph its links, between places of scans */
+  /** \brief graph.g2o and links.csv. \param[in] graph with links between indices of scans */
   void
   writeGraph(const PoseGraph& graph) const;
 
@@ -47,7 +47,11 @@ public:
   void
   writeVerification() const;
 
-  /** \brief A scan with its pose as VIEWPOINT into scans/. Thread-safe.
+  /** \brief control.csv, if control points were given. */
+  void
+  writeControl() const;
+
+  /** \brief Writes a scan, with its pose as VIEWPOINT, into scans/. Thread-safe.
    * \param[in] cloud all fields, in the scan's own frame [m] */
   void
   writeScan(std::size_t place, const pcl::PCLPointCloud2& cloud) const;
@@ -56,7 +60,7 @@ public:
   void
   writeMap(const pcl::PCLPointCloud2& map) const;
 
-  /** \brief moving.pcd: what moved, which is not in the map. */
+  /** \brief moving.pcd: the dynamic points, left out of the map. */
   void
   writeMoving(const pcl::PCLPointCloud2& points) const;
 
@@ -76,8 +80,8 @@ private:
   const RunResult& run_;
 };
 
-/** \return in words: how many scans were registered, which are not to be trusted, the worst
- * numbers, and what became of each stage \ingroup run */
+/** \return the verdict in words: number of registered scans, unreliable scans, worst numbers, and
+ * the result of each stage \ingroup run */
 std::string
 verdictOf(const RunResult& run);
 

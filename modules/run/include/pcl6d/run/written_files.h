@@ -8,22 +8,21 @@
 #include <map>
 #include <string>
 
-/** \file The files of a run, by which a reader knows that they are those of its summary. */
+/** \file Sizes and checksums of a run's files, by which a reader detects files of another run. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return size and checksum of a file \throws IoFailed it cannot be read \ingroup run */
+/** \return size and checksum of a file \throws IoFailed the file cannot be read \ingroup run */
 WrittenFile
 writtenFile(const std::filesystem::path& file);
 
-/** \return those of all files below a folder but its summary.json, by their paths in it
+/** \return size and checksum of all files in a folder except summary.json, by relative path
  * \throws IoFailed a file cannot be read \ingroup run */
 std::map<std::string, WrittenFile>
 writtenFiles(const std::filesystem::path& folder);
 
-/** \brief Makes sure that a file is as it was written. One that is not there is none that was
- * changed.
- * \param[in] whole whether its content is looked at, too, not only its size
- * \throws IoFailed it differs \ingroup run */
+/** \brief Checks that a file is unchanged since it was written. A missing file passes the check.
+ * \param[in] whole whether to check the content, too, instead of the size alone
+ * \throws IoFailed the file has changed \ingroup run */
 void
 requireAsWritten(const std::filesystem::path& file,
                  const WrittenFile& written,

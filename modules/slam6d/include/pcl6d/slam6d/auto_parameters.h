@@ -10,15 +10,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Fills in what the user left open, from the first scans of a run. Derived
- * values are rounded to two digits (max_range below a code: four), so that giving the
- * printed value gives the same run. */
+/** \brief Derives the options without a given value from the first scans of a run. Derived values
+ * are rounded to two digits (max_range below a code: four): giving the printed value reproduces
+ * the run. */
 Slam6DParameters
 deriveParameters(const Slam6DOptions& options, const std::vector<Points>& scans);
 
-/** \brief Fills in what is known when scans were matched: how far apart the ends of a loop and
- * linked scans may be, how many scans are between the ends of a loop, and how many pairs of
- * points it needs. \param[in] scans with their poses and reduced points
+/** \brief Derives the parameters that require matched scans: largest distances of loop ends and of
+ * linked scans, number of scans between the ends of a loop, and number of point pairs of a loop.
+ * \param[in] scans with their poses and reduced points
  * \param[in,out] parameters with median_range and voxel */
 void
 deriveLoopParameters(const Slam6DOptions& options,

@@ -9,11 +9,11 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Runs that were to be joined (Slam6D::addRegistered()) have no place on each other.
+/** \brief Runs to be joined (Slam6D::addRegistered()) do not overlap, or fit in several ways.
  * \ingroup slam6d */
 class GroupsApart : public ComputeFailed {
 public:
-  /** \param[in] group its number \param[in] reason in words, for people */
+  /** \param[in] group number of the run \param[in] reason in words, for people */
   GroupsApart(std::size_t group, const std::string& reason)
   : ComputeFailed("registered group " + std::to_string(group) +
                   " has no place on the first one: " + reason)
@@ -21,7 +21,7 @@ public:
   , reason_(reason)
   {}
 
-  /** \return the number of the group that is not joined to the first one */
+  /** \return the number of the group not joined to the first group */
   std::size_t
   group() const
   {

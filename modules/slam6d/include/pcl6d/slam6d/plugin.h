@@ -16,7 +16,7 @@
 #include <string>
 
 /** \file
- * What a plug-in of pcl_slam6d includes (share/doc/plugins.md). It is a shared library that
+ * Interface for plug-ins of pcl_slam6d (share/doc/plugins.md). A plug-in is a shared library that
  * adds parts under words of the command line:
  * \code
  * void
@@ -28,38 +28,38 @@
  * \endcode */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Leaves out or moves points of a scan: takes the cloud in the scanner's frame [m]
- * and returns what is to be registered and written; any filter of PCL that works on
- * pcl::PCLPointCloud2 fits. Several threads may call it at once, for several scans. */
+/** \brief Removes or moves points of a scan: takes the cloud in the scanner's frame [m] and returns
+ * the cloud to be registered and written. Every PCL filter on pcl::PCLPointCloud2 fits. Called
+ * concurrently for several scans. */
 using ScanFilter = std::function<pcl::PCLPointCloud2(const pcl::PCLPointCloud2&)>;
 
-/** \brief Where a plug-in puts its parts.
+/** \brief Receives the parts of a plug-in.
  *
- * Names are words of small letters, digits and dashes that begin with a letter, and no words
- * that the option has already. All functions must return the same for the same input,
- * whatever thread calls them: the suite promises the same bits for any number of threads.
- * What they throw ends the run with the plug-in's name in the message.
- * \throws BadArgument by all: the name is no such word or is taken, or there is no function */
+ * Names are words of small letters, digits and dashes, begin with a letter, and differ from the
+ * existing words of the option. All functions must return equal results for equal input in every
+ * thread: the suite promises the same bits for any number of threads. An exception from a part
+ * ends the run with the plug-in's name in the message.
+ * \throws BadArgument by all functions: invalid or existing name, or null function */
 class PluginRegistry {
 public:
   /** \brief `--minimiser NAME`: the step from the sums of matched points to the motion. */
   virtual void
   addMinimiser(const std::string& name, RigidMinimiser step) = 0;
 
-  /** \brief `--plane-minimiser NAME`: the same of points and planes. */
+  /** \brief `--plane-minimiser NAME`: the step for pairs of points and planes. */
   virtual void
   addPlaneMinimiser(const std::string& name, PlaneMinimiser step) = 0;
 
-  /** \brief `--search NAME`: how the nearest points are found. What it finds is checked. */
+  /** \brief `--search NAME`: the search for nearest points. The found points are checked. */
   virtual void
   addSearch(const std::string& name, SearchMaker search) = 0;
 
-  /** \brief `--filter NAME`: what each scan goes through when it is read. */
+  /** \brief `--filter NAME`: a filter of each scan when read. */
   virtual void
   addFilter(const std::string& name, ScanFilter filter) = 0;
 
-  /** \brief `--format NAME`: a reader of scans. \param[in] extension of their files, with the
-   * dot; it may be one that other formats have */
+  /** \brief `--format NAME`: a reader of scans. \param[in] extension of the files, with the dot;
+   * may equal the extension of another format */
   virtual void
   addReader(const std::string& name,
             const std::string& extension,
@@ -69,18 +69,18 @@ protected:
   ~PluginRegistry() = default;
 };
 
-/** \brief Something in which a plug-in and the program that loads it must agree. */
+/** \brief A property that must be equal in a plug-in and in the program. */
 struct PluginFact {
   const char* what;
   const char* text;     ///< of versions, the first two numbers count
   std::uint64_t number; ///< a size [bytes] or a setting
 };
 
-/** The number of this interface; a change that old plug-ins do not survive adds one. */
+/** Version of this interface; incremented by each change that breaks compiled plug-ins. */
 constexpr std::uint32_t kPluginAbi = 1;
 
-/** \brief What a plug-in shows as the symbol `pcl6d_plugin`. The first member stays where it
- * is whatever the number; the others may be read if the number is that of the program. */
+/** \brief The exported symbol `pcl6d_plugin`. The position of the first member is the same in all
+ * versions; the members after it are valid only if abi equals the program's. */
 struct Plugin {
   std::uint32_t abi;
   std::uint32_t num_facts;
@@ -107,7 +107,8 @@ struct Plugin {
 #endif
 #endif
 
-/** Of the file that includes this: static, lest a plug-in shows the program its own. */
+/** Properties of the including file. Static, to keep a plug-in from exporting the program's
+ * copy. */
 static constexpr PluginFact kPluginFacts[] = {
     {"version of pcl6d", PCL6D_VERSION, 0},
     {"version of PCL", PCL_VERSION_PRETTY, 0},
@@ -130,8 +131,8 @@ static constexpr PluginFact kPluginFacts[] = {
 static constexpr std::uint32_t kNumPluginFacts =
     sizeof(kPluginFacts) / sizeof(kPluginFacts[0]);
 
-/** Shows a function of type void (pcl6d::PluginRegistry&) as the plug-in of this library; once,
- * outside all namespaces. `name` is text for people. */
+/** Exports a function of type void (pcl6d::PluginRegistry&) as the plug-in of this library. To be
+ * used once, outside all namespaces. `name` is text for people. */
 #define PCL6D_PLUGIN(name, add)                                                        \
   extern "C" [[gnu::visibility("default")]] const pcl6d::Plugin pcl6d_plugin;          \
   extern "C" [[gnu::visibility("default")]] const pcl6d::Plugin pcl6d_plugin = {       \

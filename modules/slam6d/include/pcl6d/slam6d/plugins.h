@@ -14,11 +14,11 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The parts of one kind that plug-ins have added, by their words. */
+/** \brief The parts of one kind added by plug-ins, by name. */
 template <typename Part>
 class PluginParts {
 public:
-  /** \return the part, or null if no plug-in has added one of this name */
+  /** \return the part, or null if no plug-in has added this name */
   const Part*
   find(const std::string& name) const
   {
@@ -26,7 +26,7 @@ public:
     return found == parts_.end() ? nullptr : &found->second;
   }
 
-  /** \return all words, in alphabetical order */
+  /** \return the names in alphabetical order */
   std::vector<std::string>
   names() const
   {
@@ -36,7 +36,7 @@ public:
     return names;
   }
 
-  /** \return false if there is such a name already */
+  /** \return false if the name exists already */
   bool
   add(const std::string& name, Part part)
   {
@@ -47,13 +47,12 @@ private:
   std::map<std::string, Part> parts_;
 };
 
-/** \brief Loads plug-ins, and holds what they add.
+/** \brief Loads plug-ins, and keeps their parts.
  *
- * A library is loaded from the path that is given alone, never looked for, and stays until
- * the process ends. Its code then runs with all rights of the process, from before it can be
- * checked: load what you trust. What its parts throw comes out as ComputeFailed, and what they
- * return is checked: a motion that is not rigid and a point that does not exist are errors
- * as well. Messages name the part and the file.
+ * A library is loaded only from the given path, without a search, and stays loaded until the
+ * process ends. Its code runs with all rights of the process, before any check: load only trusted
+ * libraries. Exceptions of parts become ComputeFailed. Returned values are checked: a motion that
+ * is not rigid or a point outside the cloud is an error. Messages name the part and the file.
  * \code
  * pcl6d::Plugins plugins;
  * plugins.load("build/libmy_parts.so");
@@ -62,7 +61,7 @@ private:
  * \endcode \ingroup slam6d */
 class Plugins {
 public:
-  /** \brief A plug-in that is there. */
+  /** \brief A loaded plug-in. */
   struct Loaded {
     std::filesystem::path file; ///< absolute, without symbolic links
     std::string name;           ///< for people
@@ -70,16 +69,16 @@ public:
     std::uint64_t fingerprint;  ///< of the bytes of the file
   };
 
-  /** \brief Loads a library and takes in its parts: all of them, or none. A file that is
-   * there already, under whatever path, changes nothing.
-   * \throws IoFailed naming the file: it is missing, no shared library, no plug-in, made for
-   * another program (ABI), or throws while it adds its parts. What its static objects throw
-   * cannot be caught: std::terminate()
-   * \throws BadArgument naming the file: one of its names is taken, or no word */
+  /** \brief Loads a library and adds its parts: either every part, or no part. A file already
+   * loaded, even by another path, has no effect.
+   * \throws IoFailed naming the file: missing, no shared library, no plug-in, built for another
+   * program (ABI), or throwing while adding parts. Exceptions of static objects cannot be caught:
+   * std::terminate()
+   * \throws BadArgument naming the file: a name exists already, or is invalid */
   void
   load(const std::filesystem::path& file);
 
-  /** \return in the order in which they were loaded */
+  /** \return the plug-ins in the order of loading */
   const std::vector<Loaded>&
   loaded() const
   {
@@ -112,7 +111,7 @@ public:
     return parts_.formats;
   }
 
-  /** All parts, of whatever kind. */
+  /** The parts of all kinds. */
   struct Parts {
     PluginParts<RigidMinimiser> minimisers;
     PluginParts<PlaneMinimiser> plane_minimisers;

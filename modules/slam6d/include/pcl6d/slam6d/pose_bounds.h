@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/map_verification.h>
+#include <pcl6d/common/pose_graph.h>
 
 #include <Eigen/Geometry>
 
@@ -10,22 +11,35 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How exactly the links of a verified map fix its poses: fills covariance and bound of
- * every scan that they tie to the first one; of none if that is not tied itself, or where
- * links are so unlike that doubles do not hold their sum.
+/** \brief Accuracy of the poses of a verified map: fills covariance and bound of every scan
+ * connected to the first scan by links. No scan gets them if the first scan is disconnected, or if
+ * the links differ too much in size for doubles.
  *
- * Links that rays confirm, with those whose surfaces ask for a shift, are measurements of a
- * graph: each says by how much its surfaces would move its scans, with what covariance. The
- * covariance of a pose is that of the optimum of this graph, times chi2 per degree of freedom
- * if cycles close worse than the links promise, times the root of the links per pose, as
- * links of a scan share its errors, plus the square of the way from the pose to that optimum.
- * \param[in,out] map of MapVerifier, of these poses
+ * Links confirmed by rays, also those whose surfaces require a shift, are the measurements of a
+ * graph: each link measures the shift of its scans by their surfaces, with a covariance. The
+ * covariance of a pose is taken from the optimum of this graph. It is multiplied by chi2 per
+ * degree of freedom if cycles close worse than the links predict, and by the root of the links per
+ * pose, because links of a scan share its errors. The squared shift from the pose to the optimum
+ * is added.
+ * \param[in,out] map result of MapVerifier for these poses
  * \param[in] num_threads 0: one per core; never changes the result
- * \throws BadArgument not one pose per scan of the map
+ * \throws BadArgument number of poses and of scans differ
  * \note Source: share/doc/trust.md \ingroup slam6d */
 void
 boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
            MapVerification& map,
+           unsigned int num_threads = 0);
+
+/** \brief The links of a verified map as measured relative poses, for an adjustment with further
+ * observations. Each link measures the shift of its scans by their surfaces, with the covariance
+ * used by boundPoses(). Covariances are multiplied by the largest squared shift from a pose to the
+ * optimum of the links, in standard deviations per degree of freedom, if above 1: weakly
+ * constrained scans keep moving when surface shifts are followed.
+ * \return the graph of all scans; scans disconnected from the first scan have no links \throws
+ * BadArgument number of poses and of scans differ \ingroup slam6d */
+PoseGraph
+linksOfMap(const std::vector<Eigen::Isometry3d>& T_world_scan,
+           const MapVerification& map,
            unsigned int num_threads = 0);
 
 } // namespace pcl6d

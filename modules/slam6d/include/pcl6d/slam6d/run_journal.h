@@ -13,34 +13,34 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Results of tasks in a file: those of a run that was killed are there when it is
- * started again. The file is made when there is a first result to keep. \code
+/** \brief Results of tasks in a file: a run that was killed continues with them at its next start.
+ * The file is created with the first result. \code
  * RunJournal journal("out/.pcl6d-journal", {{"voxel", "0.1"}});
  * slam.setMemory(&journal);
  * if (slam.optimize())
- *   journal.remove();
+ * journal.remove();
  * \endcode \ingroup slam6d */
 class RunJournal : public TaskMemory {
 public:
-  /** What results follow from besides the scans: options by their names. */
+  /** Inputs of the results besides the scans: options by name. */
   using Conditions = std::vector<std::pair<std::string, std::string>>;
 
   /** \param[in] names of the scans, for messages; may be empty
-   * \throws IoFailed as RecordFile; or the journal was written under other conditions: the
-   * message names the first that differs */
+   * \throws IoFailed as RecordFile; or the journal was written under different conditions, the
+   * first of which is named in the message */
   RunJournal(const std::filesystem::path& path,
              const Conditions& conditions,
              std::vector<std::string> names = {});
 
-  /** \return the number of scans that an interrupted run has matched */
+  /** \return the number of scans matched by an interrupted run */
   std::size_t
   numMatched() const
   {
     return matched_.size();
   }
 
-  /** \throws IoFailed the journal has the scan, but with other points, poses or parameters:
-   * it has changed since */
+  /** \throws IoFailed the journal has the scan with different points, poses or parameters: the scan
+   * has changed since */
   std::optional<ScanResult>
   matched(std::size_t scan, std::uint64_t inputs) override;
   void

@@ -16,53 +16,70 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The values that a run works with. */
+/** \brief The parameter values used by a run. */
 struct Slam6DParameters : ScanParameters {
   Parameter max_distance;       ///< [m]
   Parameter max_distance_start; ///< [m]
-  // Known when loops are looked for:
+  /** [m] between the rows of raised planar scans; 0: scans are not raised, and registered in six
+   * degrees of freedom */
+  Parameter planar_rows;
+  // Derived before the search for loops:
   Parameter loop_distance; ///< [m] between the ends of a loop
   Parameter loop_gap;      ///< scans between the ends of a loop
-  Parameter loop_pairs;    ///< of points that a loop needs
+  Parameter loop_pairs;    ///< point pairs of a loop
   Parameter link_distance; ///< [m] between linked scans, of LinkRule::kDistance
 };
 
-/** \brief What the scans say of things that moved while they were taken. */
+/** \brief Numbers of static and dynamic points found by the scans. */
 struct MovingSummary {
-  std::size_t judged = 0;  ///< reduced points of all scans
-  std::size_t moving = 0;  ///< of these, points that moved
-  std::size_t unknown = 0; ///< of these, points whose places no other scan saw
-  double background = 0; ///< share of points that rays contradict where scans fit best
-  bool blind = false;    ///< that is too much to tell what moved: nothing was left out
+  std::size_t evaluated = 0; ///< tested reduced points of all scans
+  std::size_t moving = 0;    ///< dynamic points
+  std::size_t unknown = 0;   ///< points in space unseen by any other scan
+  double background = 0;     ///< share of points contradicted by rays at the best poses
+  bool blind = false; ///< background too high to find dynamic points: all were kept
+};
+
+/** \brief Result of a trial start without initial poses (Slam6DOptions::order_first). */
+struct StartResult {
+  InitialGuess guess = InitialGuess::kGlobal; ///< kOdometry: in the order of the scans
+  std::size_t registered = 0;                 ///< scans
+  std::size_t connected =
+      0;                   ///< scans connected with the first scan by the verification
+  bool is_complete = true; ///< false: stopped, with too many unmatched scans
+  bool is_kept = false;    ///< is the final result
 };
 
 /** \brief The result of Slam6D. */
 struct Slam6DResult {
-  std::vector<ScanResult> scans; ///< in the order in which they were added
+  std::vector<ScanResult> scans; ///< in the order of addition
   Slam6DParameters parameters;
+  /** the starts tried with Slam6DOptions::order_first, in order; else empty */
+  std::vector<StartResult> starts;
   double matching_seconds = 0;
-  double motion_seconds = 0; ///< of finding the motion within scans as they were added
+  double motion_seconds = 0; ///< time of the first estimation of motion within scans
   std::vector<StageResult> stages;
-  std::vector<ScanLink> links; ///< all links and loop candidates, with their verdicts
-  /** the links that count as measured relative poses, and the final poses */
+  std::vector<ScanLink> links; ///< links and loop candidates, with their verdicts
+  /** the links used as measured relative poses, and the final poses */
   PoseGraph graph;
-  std::vector<std::size_t> floating;   ///< scans that no link joins to the first one
-  std::optional<MovingSummary> moving; ///< at the final poses; none if not asked for
-  std::optional<MapVerification>
-      verification; ///< of the final poses; none if not asked for
+  std::vector<std::size_t> floating;   ///< scans not connected to the first scan
+  std::optional<MovingSummary> moving; ///< at the final poses; none if disabled
+  std::optional<MapVerification> verification; ///< of the final poses; none if disabled
+
+  std::optional<ControlResult> control; ///< none: no control points given
 
   /** \return the number of scans in a state */
   std::size_t
   count(ScanState state) const;
 
-  /** \return whether every scan is fixed or matched and joined to the first one, and the
-   * verification has nothing against the map */
+  /** \return whether every scan is fixed or matched and connected to the first scan, and the
+   * verification has no doubts about the map. With control points, the map must also be adjusted,
+   * and any outliers among the control points be identified with certainty */
   bool
   trusted() const;
 };
 
-/** \brief What a run folder keeps of a result: scans, stages and links under the numbers
- * of their files, and whether it is to be trusted.
+/** \brief The part of a result kept in a run folder: scans, stages and links under the numbers of
+ * their files, and whether the map is reliable.
  * \param[in] files name of each scan \param[in] indices number NNN of each scan */
 RunResult
 runResultOf(const Slam6DResult& result,

@@ -8,16 +8,16 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What Slam6D asks before each task, and tells after it, so that a run that was
- * interrupted goes on where it was. Tasks: matching of a scan, and the graph stage (loops and
- * relaxation). Each is named by a hash of all that it follows from: points and initial poses
- * of the scans so far, parameters, given links, poses that an earlier optimize() relaxed. Options are not in it; who keeps results
- * longer than a process must compare those. \ingroup slam6d */
+/** \brief A cache of task results, queried by Slam6D before each task and filled afterwards: an
+ * interrupted run continues from it. Tasks are the matching of a scan, and the graph stage (loops
+ * and relaxation). The name of a task is a hash of its inputs: points and initial poses of the
+ * scans up to it, parameters, given links, and poses relaxed by an earlier optimize(). Options are
+ * not part of the hash; a cache that outlives the process must compare them. \ingroup slam6d */
 class TaskMemory {
 public:
   virtual ~TaskMemory() = default;
 
-  /** \return the result of a scan, if it is known \param[in] scan its place
+  /** \return the result of a scan, if known \param[in] scan index
    * \param[in] inputs the name of the task */
   virtual std::optional<ScanResult>
   matched(std::size_t scan, std::uint64_t inputs) = 0;
@@ -25,7 +25,7 @@ public:
   virtual void
   keepMatched(std::size_t scan, std::uint64_t inputs, const ScanResult& result) = 0;
 
-  /** \return the result after loops and relaxation, without verification, if it is known */
+  /** \return the result after loops and relaxation, without verification, if known */
   virtual std::optional<Slam6DResult>
   relaxed(std::uint64_t inputs) = 0;
 

@@ -20,26 +20,26 @@ class WorkSharing;
 
 /** \brief Knobs of MapVerifier. */
 struct MapVerifierOptions {
-  /** so many links of each scan with earlier ones are judged, besides that with the scan
-   * before: those whose rays have most to say; > 0 */
+  /** number of tested links from each scan to earlier scans, in addition to the previous scan: the
+   * links with the most informative rays; > 0 */
   std::size_t links_per_scan = 4;
-  /** per scan: its place was found without a prior pose, by features say, so that a second
-   * one is looked for; empty: none was */
+  /** for each scan: registered without a prior pose, e.g. by features, which requires a search for
+   * a second pose; empty: no scan */
   std::vector<bool> unsure;
-  /** displaces the link of each scan that sees most, to find which errors it would notice */
+  /** displaces the most certain link of each scan, to find the detectable shift */
   bool probe = true;
   unsigned int num_threads = 0;   ///< 0: one per core; never changes the result
-  WorkSharing* sharing = nullptr; ///< of the work between processes; null: none
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  WorkSharing* sharing = nullptr; ///< between processes; null: none
+  /** \throws BadArgument naming the first invalid field, with its value */
   void
   validate() const;
 };
 
-/** \brief The verdict on a map: which scans see each other, what they say of their relative
- * poses, which are tied to the rest, and what contradicts the map.
+/** \brief The verdict on a map: overlapping scans, tests of their relative poses, connected scans,
+ * and contradictions.
  *
- * Links are chosen by how much the rays have to say, not by how well the scans agree, and
- * not by the links that the map was made of: so it judges maps of any program.
+ * Links are chosen by the information in their rays, not by the agreement of the scans, and
+ * independently of the links used to register them: the verdict applies to maps of any program.
  * \code
  * pcl6d::MapVerifier verifier(scans, names);
  * const pcl6d::MapVerification verdict = verifier.verify(poses);
@@ -48,17 +48,17 @@ class MapVerifier {
 public:
   /** \param[in] scans kept by reference
    * \param[in] names of the scans, for people; one per scan
-   * \throws BadArgument an option breaks its rule, or not one name per scan */
+   * \throws BadArgument an option is invalid, or the numbers of names and scans differ */
   MapVerifier(const std::deque<VerifiedScan>& scans,
               std::vector<std::string> names,
               const MapVerifierOptions& options = {});
 
   /** \param[in] T_world_scan one per scan
-   * \throws BadArgument not one pose per scan, or one is not a rigid motion */
+   * \throws BadArgument the numbers of poses and scans differ, or a pose is not a rigid motion */
   MapVerification
   verify(const std::vector<Eigen::Isometry3d>& T_world_scan);
 
-  /** \return the evidence of the links of the last verify(), in their order */
+  /** \return the evidence of the links of the last verify(), in order */
   const std::vector<LinkEvidence>&
   evidence() const
   {
@@ -92,7 +92,7 @@ private:
   MapVerifierOptions options_;
   std::vector<Eigen::Vector3d> centres_; ///< [m] of the points, in their scan's frame
   std::vector<LinkEvidence> evidence_;
-  std::vector<LinkOpinion> opinions_; ///< one per link
+  std::vector<LinkTestResult> test_results_; ///< one per link
 };
 
 } // namespace pcl6d

@@ -13,28 +13,28 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What two scans say of a pose, and what is to be made of it. */
+/** \brief The verdict on a relative pose of two scans, with its evidence. */
 struct PairVerdict {
-  LinkOpinion opinion;
+  LinkTestResult test_result;
   LinkEvidence evidence;
-  double background = 0; ///< share of patches that a right link of them may contradict
+  double background = 0; ///< share of patches that may be contradicted in a right link
 };
 
-/** \brief The verdict on a link, as that of a map of two scans. Scans that hold the very
- * same points are no evidence: the link is at best unverified.
- * \param[in] T_first_second pose of the second place seen from the first */
+/** \brief Verifies a link as a map of two scans. Identical scans are no evidence: the link is at
+ * best unverified.
+ * \param[in] T_first_second pose of the second scan seen from the first */
 PairVerdict
 verifyLink(const PreparedScans& scans,
            std::size_t first,
            std::size_t second,
            const Eigen::Isometry3d& T_first_second);
 
-/** \brief Judges poses of two clouds: the compiled core of RegistrationVerifier. What is
- * made of the clouds stays until one of them, or a parameter, changes.
+/** \brief Verifies poses of two clouds: the compiled core of RegistrationVerifier. Prepared clouds
+ * are kept until a cloud or a parameter changes.
  * \ingroup verification */
 class PairVerifier {
 public:
-  /** \brief A cloud in its own frame [m], and where in it the scanner stood. */
+  /** \brief A cloud in its own frame [m], and the position of the scanner in it. */
   struct Cloud {
     Points points;
     Eigen::Vector3f origin = Eigen::Vector3f::Zero();
@@ -45,12 +45,12 @@ public:
   void
   setTarget(Cloud cloud);
 
-  /** \brief Range gate and reduction; what is left open is derived from both clouds.
-   * \throws BadArgument naming the value that breaks its rule */
+  /** \brief Range gate and reduction; empty options are derived from both clouds.
+   * \throws BadArgument naming the invalid value */
   void
   setParameters(const ScanParameterOptions& options);
 
-  /** \return the parameters, derived where they were left open
+  /** \return the parameters, given or derived
    * \throws BadArgument, ComputeFailed as verify() */
   const ScanParameters&
   parameters();

@@ -12,16 +12,16 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Which usual mistake would explain that scans contradict poses: positions in another
- * unit (feet, inches, centimetres, millimetres), axes that are turned or mirrored against those
- * of the scans (a left-handed file read as right-handed).
+/** \brief Finds a usual mistake that explains poses contradicted by their scans: positions in
+ * another unit (feet, inches, centimetres, millimetres), or axes turned or mirrored against the
+ * axes of the scans (a left-handed file read as right-handed).
  *
- * Scans that follow each other, those that moved most, are judged at the poses as they would be
- * without each mistake. \param[in] T_world_scan as given, before anything was matched; one per
- * scan
+ * The consecutive scans with the longest steps are tested at the poses corrected for each mistake.
+ * \param[in] T_world_scan as given, before matching; one per scan
  * \param[in] num_threads 0: one per core; never changes the result
- * \return in words, with how many pairs of scans then agree; empty if no mistake explains most of
- * them, or if the poses agree as they are \throws BadArgument not one pose per scan
+ * \return the mistake in words, with the number of pairs that agree after correction; empty if no
+ * mistake explains most pairs, or if the given poses agree \throws BadArgument number of poses and
+ * of scans differ
  * \ingroup verification */
 std::string
 likelyPoseMistake(const std::deque<VerifiedScan>& scans,

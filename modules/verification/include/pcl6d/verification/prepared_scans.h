@@ -15,8 +15,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Measured points made ready to be verified, as a run prepares them: range gate,
- * reduction, normals, rays. Of each scan the reduced points stay, not the measured ones.
+/** \brief Measured points prepared for verification, like in a run: range gate, reduction, normals,
+ * rays. The reduced points of each scan are kept, the measured points are not.
  * \code
  * pcl6d::PreparedScans prepared(2, pcl6d::deriveScanParameters({}, {first, second}));
  * prepared.set(0, first, "first");
@@ -36,15 +36,16 @@ public:
   PreparedScans&
   operator=(PreparedScans&&) = default;
 
-  /** \brief Prepares the scan of a place; other places at the same time, if wanted.
+  /** \brief Prepares a scan; different scans may be prepared concurrently.
+   * \param[in] place index of the scan
    * \param[in] measured [m] with the origin of the rays at 0
    * \param[in] name for messages
-   * \throws ComputeFailed fewer than 3 points lie within the range gate, or the scan is too
-   * large for the voxels */
+   * \throws ComputeFailed fewer than 3 points lie within the range gate, or the scan is too large
+   * for the voxels */
   void
   set(std::size_t place, const Points& measured, const std::string& name);
 
-  /** \return the scans, once all are set */
+  /** \return the scans, valid once each is set */
   const std::deque<VerifiedScan>&
   scans() const
   {
@@ -57,8 +58,8 @@ public:
     return parameters_;
   }
 
-  /** \return the first place that holds the very same points; itself if none does. Links of
-   * such scans say nothing of their poses */
+  /** \return the index of the first scan with identical points; its own index if unique. Links
+   * between identical scans are no evidence of their poses */
   std::size_t
   firstLike(std::size_t place) const;
 

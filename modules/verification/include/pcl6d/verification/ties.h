@@ -11,19 +11,17 @@
 namespace PCL6D_EXPORTS pcl6d {
 namespace verification {
 
-/** \brief Which scans good links join to the largest part of a map. */
+/** \brief The scans connected by consistent links to the largest component of a map. */
 struct Ties {
-  std::vector<bool> tied; ///< one per scan
-  std::vector<std::string>
-      cut_from;          ///< one per scan: why links do not tie it, or empty
-  std::vector<bool> cut; ///< one per link: it does not hold, with others
+  std::vector<bool> tied;          ///< connected; one per scan
+  std::vector<Rejection> cut_from; ///< one per scan: why its links were cut, or empty
+  std::vector<bool> cut;           ///< for each link: rejected together with the cut
 };
 
-/** \brief Joins scans by good and unverified links, unless all links between two parts of a
- * map together say that one part is elsewhere: a jump of the odometry to a place that looks
- * alike leaves some links across it that seem good. Parts that are looked at: scans that
- * follow each other, as errors of the odometry displace all that follow, and what a single
- * link holds.
+/** \brief Connects scans by consistent and unverified links, except the links between two parts of
+ * a map that jointly contradict their relative pose: after a jump of the odometry to a similar
+ * place, a few links across the jump may seem consistent. Tested parts: consecutive scans, because
+ * an odometry error displaces all later scans, and parts connected by a single link.
  * \param[in] background of the map */
 Ties
 tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background);

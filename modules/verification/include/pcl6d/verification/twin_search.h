@@ -10,15 +10,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Other places of a scan relative to another one where its surfaces come to lie on
- * the other's: turned by quarters about the vertical, and shifted as far as the scans reach.
+/** \brief Finds second poses of a scan relative to another scan at which the surfaces of both
+ * coincide: turned by quarters about the vertical, and shifted within the range of the scans.
  *
- * Upright surfaces are drawn into plans, whose cells vote for shifts; the best few of each
- * quarter turn are matched (GICP). Which of them is as good as the first place is not asked
- * here: linkEvidence() and judgeLink() tell.
- * \param[in] T_first_second the place that is known, which is not found again
+ * Upright surfaces are drawn into plans, whose cells vote for shifts; the best few shifts of each
+ * quarter turn are matched (GICP). The found poses are not tested against the known pose: see
+ * linkEvidence() and testLink().
+ * \param[in] T_first_second the known pose, excluded from the result
  * \param[in] up unit vector upwards in the frame of the first scan
- * \return T_first_second of other places: by quarter turns, those with most votes first
+ * \return T_first_second of second poses, by quarter turn, then by number of votes
  * \throws BadArgument T_first_second is not a rigid motion, or up no unit vector
  * \note Source: algorithms.md T.2, G.1 \ingroup verification */
 std::vector<Eigen::Isometry3d>

@@ -9,8 +9,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A scan made ready to be verified against others: its surfaces and its rays.
- * Made once, used for all of its links. \ingroup verification */
+/** \brief A scan prepared for verification: its surfaces and its rays. Prepared once for all links
+ * of the scan. \ingroup verification */
 class VerifiedScan {
 public:
   VerifiedScan() = default;
@@ -25,8 +25,8 @@ public:
                double voxel,
                const Eigen::Vector3f& origin = Eigen::Vector3f::Zero());
 
-  /** \brief A scan that another process has made ready: all but its surfaces is to be
-   * unpacked (packing.h). \param[in] surfaces kept by reference */
+  /** \brief A scan prepared by another process: all members except its surfaces are to be unpacked
+   * (packing.h). \param[in] surfaces kept by reference */
   explicit VerifiedScan(const IcpModel& surfaces) : surfaces_(&surfaces) {}
 
   template <typename Archive>
@@ -34,6 +34,7 @@ public:
   packFields(Archive& archive, VerifiedScan& scan)
   {
     archive(scan.voxel_, scan.rays_, scan.self_contradiction_, scan.patches_);
+    archive(scan.is_off_centre_);
   }
 
   const IcpModel&
@@ -57,23 +58,31 @@ public:
   {
     return rays_.noise();
   }
-  /** \return the share of its own points that its rays contradict */
+  /** \return the share of the scan's own points contradicted by its rays */
   double
   selfContradiction() const
   {
     return self_contradiction_;
   }
-  /** \return the number of its patches of surface: what others can confirm or contradict */
+  /** \return the number of surface patches, which scans can confirm or contradict */
   std::size_t
   patches() const
   {
     return patches_;
   }
-  /** \return whether its rays say nothing: they contradict its own points, as of merged
-   * scans or after motion during the scan, or it has too few patches */
+  /** \return whether the origin cannot be the scanner's position, e.g. in cut-outs in a common
+   * frame: the scan then has no rays (isPlausibleOrigin()) */
+  bool
+  isOffCentre() const
+  {
+    return is_off_centre_;
+  }
+  /** \return whether the rays are unusable: they contradict the scan's own points, e.g. in merged
+   * scans or after motion during the scan; the origin is not the scanner; or the scan has too few
+   * patches */
   bool
   abstains() const;
-  /** \return whether it has too few patches of surface to be verified by anything */
+  /** \return whether the scan has too few surface patches to be verified */
   bool
   isTooSmall() const;
 
@@ -83,6 +92,7 @@ private:
   RayImage rays_;
   double self_contradiction_ = 0;
   std::size_t patches_ = 0;
+  bool is_off_centre_ = false;
 };
 
 } // namespace pcl6d

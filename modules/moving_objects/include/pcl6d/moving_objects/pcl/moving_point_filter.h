@@ -12,22 +12,24 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Takes what moved out of registered scans, as a pcl::FilterIndices: keeps points that
- * are static, or that no other scan can judge; with setNegative(true) those that moved. Points
- * that are not finite never pass.
+/** \brief Removes dynamic points from registered scans, as a pcl::FilterIndices: keeps static
+ * points and points without an observer; with setNegative(true) the dynamic points. Non-finite
+ * points never pass.
  *
- * All scans of a sequence are added first; then any of them is filtered. Clouds must be scans:
- * unreduced, in one piece, seen from one place. That place is the cloud's sensor_origin_ in its
- * own coordinates; what a VIEWPOINT of a PCD file is by PCL6D (the pose of the scan in the world)
- * is no such place: call setOrigin() with 0 before adding such clouds. sensor_orientation_ is not
- * looked at. With setIndices() only the chosen points pass, but all are looked at: a thing is
- * told by all of its points. \code
+ * Add every scan of a sequence first; then any scan can be filtered. Clouds must be scans:
+ * unreduced, in one piece, seen from one position: the cloud's sensor_origin_ in its own
+ * coordinates. The VIEWPOINT of a PCD file by PCL6D (the pose of the scan in the world) is no
+ * such position: call setOrigin() with 0 before adding such clouds. sensor_orientation_ is
+ * ignored. With setIndices() only the chosen points pass, but every point is used: an object is
+ * detected by its points together.
+ * \code
  * pcl6d::MovingPointFilter<pcl::PointXYZI> filter;
  * for (std::size_t i = 0; i < clouds.size(); ++i)
  *   filter.addScan(clouds[i], T_world_scan[i]);
  * filter.setInputScan(3);
  * filter.filter(*standing);
- * \endcode \ingroup moving_objects */
+ * \endcode
+ * \ingroup moving_objects */
 template <typename PointT>
 class MovingPointFilter : public pcl::FilterIndices<PointT> {
 public:
@@ -38,15 +40,16 @@ public:
   /** \param[in] extract_removed_indices fill getRemovedIndices() */
   explicit MovingPointFilter(bool extract_removed_indices = false);
 
-  /** \brief The edge of the voxels that reduce surfaces [m], for scans that are added from now
-   * on; none: derived from each of them. \throws BadArgument it is not finite and > 0 */
+  /** \brief Sets the voxel edge of surfaces [m], for scans added from now on; empty: derived
+   * from each scan.
+   * \throws BadArgument unless finite and > 0 */
   void
   setVoxel(const std::optional<double>& voxel)
   {
     scans_.setVoxel(voxel);
   }
 
-  /** \brief Where the scanner stood in the clouds that are added from now on [m]; none: their
+  /** \brief Sets the scanner position in clouds added from now on [m]; empty: their
    * sensor_origin_. */
   void
   setOrigin(const std::optional<Eigen::Vector3f>& origin)
@@ -54,17 +57,19 @@ public:
     origin_ = origin;
   }
 
-  /** \brief How many threads may run; never changes the result. \param[in] num_threads 0: one
-   * per core */
+  /** \brief Sets the largest number of threads; never changes the result.
+   * \param[in] num_threads 0: a thread per core */
   void
   setNumberOfThreads(unsigned int num_threads)
   {
     scans_.setNumberOfThreads(num_threads);
   }
 
-  /** \brief Takes in a scan, in the order of time. The cloud is kept by its pointer.
-   * \param[in] T_world_scan \param[in] sigma of the pose, relative to those of its neighbours
-   * \return its number, from 0 \throws BadArgument the cloud is null, or as MovingScans::add() */
+  /** \brief Adds a scan, in the order of time. The cloud is kept by its pointer.
+   * \param[in] T_world_scan
+   * \param[in] sigma of the pose, relative to the poses of its neighbours
+   * \return its index, from 0
+   * \throws BadArgument the cloud is null, or as MovingScans::add() */
   std::size_t
   addScan(const PointCloudConstPtr& cloud,
           const Eigen::Isometry3d& T_world_scan,
@@ -77,22 +82,24 @@ public:
     return clouds_.size();
   }
 
-  /** \brief Filters an added scan next; setInputCloud() with its cloud does the same.
-   * \throws BadArgument there is no such scan */
+  /** \brief Filters an added scan next; like setInputCloud() with its cloud.
+   * \throws BadArgument an index out of range */
   void
   setInputScan(std::size_t scan);
 
-  /** \brief Filters other points of an added scan next, in its frame: a part of it, or reduced
-   * ones. \throws BadArgument there is no such scan, or the cloud is null */
+  /** \brief Filters given points of an added scan next, in its frame: a part of the scan, or
+   * reduced points.
+   * \throws BadArgument an index out of range, or the cloud is null */
   void
   setInputScan(std::size_t scan, const PointCloudConstPtr& cloud);
 
-  /** \return one per point of an added cloud \throws BadArgument there is no such scan */
+  /** \return one per point of an added cloud
+   * \throws BadArgument an index out of range */
   std::vector<PointMotion>
   motion(std::size_t scan);
 
-  /** \return whether rays contradict scans too much to tell what moved: all is unknown then, so
-   * that all points are kept */
+  /** \return whether rays contradict scans too much to classify points: every point is then
+   * unknown, and kept */
   bool
   isBlind()
   {
@@ -100,8 +107,7 @@ public:
   }
 
 protected:
-  /** \throws BadArgument the input cloud is not that of an added scan, or an index is not that
-   * of a point */
+  /** \throws BadArgument the input cloud was not added, or an index is out of range */
   void
   applyFilter(pcl::Indices& indices) override;
 
@@ -115,7 +121,7 @@ private:
   std::vector<PointCloudConstPtr> clouds_;
   std::optional<Eigen::Vector3f> origin_;
   std::size_t chosen_ = 0;          ///< by setInputScan()
-  PointCloudConstPtr chosen_cloud_; ///< that goes with it
+  PointCloudConstPtr chosen_cloud_; ///< cloud for chosen_
 };
 
 } // namespace pcl6d

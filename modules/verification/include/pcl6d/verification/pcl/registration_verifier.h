@@ -12,24 +12,23 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Whether the result of a registration is to be believed, for any
- * pcl::Registration: neither its fitness nor hasConverged() tells a right pose from a wrong
- * one that fits as well.
+/** \brief Verifies the result of a registration, for any pcl::Registration: neither its fitness nor
+ * hasConverged() distinguishes a right pose from a wrong pose that fits as well.
  *
- * Points of each scan that stand where the rays of the other went through contradict the
- * pose, and so do surfaces that ask for another place. Clouds must be scans: unreduced, in
- * one piece, seen from one place. That place is the cloud's sensor_origin_ in its own
- * coordinates, as pcl::NormalEstimation takes it; what a VIEWPOINT of a PCD file is by PCL6D
- * (the pose of the scan in the world) is no such place: call setSourceOrigin() and
- * setTargetOrigin() with 0 after reading one.
+ * The pose is contradicted by points of each scan that are crossed by rays of the other, and by
+ * surfaces that require a shift. Clouds must be scans: unreduced, complete, and seen from one
+ * position. This position is the cloud's sensor_origin_ in its own coordinates, as in
+ * pcl::NormalEstimation. The VIEWPOINT in PCD files of PCL6D is a different quantity, the pose of
+ * the scan in the world: call setSourceOrigin() and setTargetOrigin() with 0 after reading such a
+ * file.
  * \code
  * icp.align(aligned);
  * pcl6d::RegistrationVerifier<Point, Point> verifier;
  * verifier.setInputSource(source);
  * verifier.setInputTarget(target);
  * const pcl6d::PairVerdict verdict = verifier.verify(icp.getFinalTransformation());
- * if (verdict.opinion.trust != pcl6d::LinkTrust::kGood)
- *   std::cerr << verdict.opinion.reason << '\n';
+ * if (verdict.test_result.trust != pcl6d::LinkTrust::kGood)
+ *   std::cerr << verdict.test_result.rejection << '\n';
  * \endcode
  * \note Source: share/doc/trust.md \ingroup verification */
 template <typename PointSource, typename PointTarget = PointSource>
@@ -41,47 +40,47 @@ public:
   using PointCloudSource = pcl::PointCloud<PointSource>;
   using PointCloudTarget = pcl::PointCloud<PointTarget>;
 
-  /** \brief The cloud that was moved; copied. \throws BadArgument it is null */
+  /** \brief The moved cloud; copied. \throws BadArgument the cloud is null */
   void
   setInputSource(const typename PointCloudSource::ConstPtr& cloud);
 
-  /** \brief The cloud that stayed; copied. \throws BadArgument it is null */
+  /** \brief The fixed cloud; copied. \throws BadArgument the cloud is null */
   void
   setInputTarget(const typename PointCloudTarget::ConstPtr& cloud);
 
-  /** \brief Where the scanner stood in the source [m]; none: its sensor_origin_. */
+  /** \brief Position of the scanner in the source [m]; none: sensor_origin_ of the cloud. */
   void
   setSourceOrigin(const std::optional<Eigen::Vector3f>& origin);
 
-  /** \brief Where the scanner stood in the target [m]; none: its sensor_origin_. */
+  /** \brief Position of the scanner in the target [m]; none: sensor_origin_ of the cloud. */
   void
   setTargetOrigin(const std::optional<Eigen::Vector3f>& origin);
 
-  /** \brief Range gate and reduction; what is left open is derived from both clouds.
-   * \throws BadArgument naming the value that breaks its rule */
+  /** \brief Range gate and reduction; empty options are derived from both clouds.
+   * \throws BadArgument naming the invalid value */
   void
   setParameters(const ScanParameterOptions& options)
   {
     core_.setParameters(options);
   }
 
-  /** \brief The same as they are used. \throws BadArgument, ComputeFailed as verify() */
+  /** \brief The parameters in use. \throws BadArgument, ComputeFailed as verify() */
   const ScanParameters&
   parameters()
   {
     return core_.parameters();
   }
 
-  /** \brief Judges a pose; several of the same clouds take the time of one.
-   * \param[in] T_target_source as getFinalTransformation() gives it
-   * \throws BadArgument a cloud is not set, its origin is not finite, or the pose is no
-   * rigid motion
-   * \throws ComputeFailed a cloud has fewer than 3 points within the range gate, or is too
-   * large for the voxels */
+  /** \brief Verifies a pose; clouds are prepared only once for several poses.
+   * \param[in] T_target_source e.g. from getFinalTransformation()
+   * \throws BadArgument a cloud is not set, its origin is not finite, or the pose is no rigid
+   * motion
+   * \throws ComputeFailed a cloud has fewer than 3 points within the range gate, or is too large
+   * for the voxels */
   PairVerdict
   verify(const Eigen::Matrix4f& T_target_source);
 
-  /** \brief The same of a pose in double. */
+  /** \brief Verifies a pose in double precision. */
   PairVerdict
   verify(const Eigen::Matrix4d& T_target_source);
 

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl6d/common/components.h>
+#include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/error.h>
+#include <pcl6d/common/require.h>
+#include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
+#include <pcl6d/registration/twist.h>
+#include <pcl6d/slam6d/pose_bounds.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl6d {
+
+namespace {
+/** 95 % quantile of chi2 with 3 degrees of freedom. */
+constexpr double kChi2Of95 = 7.814727903251179;
+
+/** \return T as a small motion: translation, and twice the vector part of the quaternion */
+Twist
+smallMotion(const Eigen::Isometry3d& T)
+{
+  Eigen::Quaterniond q(T.linear());
+  if (q.w() < 0)
+    q.coeffs() = -q.coeffs();
+  Twist motion;
+  motion << T.translation(), 2 * q.vec();
+  return motion;
+}
+
+/** Limit of LinkCheck::elsewhere below which rays confirm a pose. */
+constexpr double kElsewhereBelow = 0.01;
+
+/** \return whether a link is a measurement: consistent or unverified, or confirmed by rays while
+ * its surfaces require a shift. The measured value is the error of the relative pose in the map. */
+bool
+measures(const LinkCheck& link, const MapVerification& map)
+{
+  const bool holds =
+      link.trust == LinkTrust::kGood || link.trust == LinkTrust::kUnverified;
+  return (holds || (link.elsewhere < kElsewhereBelow && link.shift > 0)) &&
+         link.open_directions == 0 && link.covariance.diagonal().minCoeff() > 0 &&
+         map.scans[link.from].tied && map.scans[link.to].tied;
+}
+
+/** \return the graph of the scans connected with the first scan */
+PoseGraph
+graphOf(const std::vector<Eigen::Isometry3d>& poses,
+        const MapVerification& map,
+        std::vector<std::size_t>& scans)
+{
+  Components joined(poses.size());
+  for (const LinkCheck& link : map.links)
+    if (measures(link, map))
+      joined.join(link.from, link.to);
+  std::vector<std::size_t> vertex(poses.size());
+  PoseGraph graph;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (joined.firstOf(i) == joined.firstOf(0)) {
+      vertex[i] = scans.size();
+      scans.push_back(i);
+      graph.poses.push_back(poses[i]);
+    }
+  for (const LinkCheck& link : map.links)
+    if (measures(link, map) && joined.firstOf(link.from) == joined.firstOf(0)) {
+      PoseLink measured;
+      measured.from = vertex[link.from];
+      measured.to = vertex[link.to];
+      measured.T_from_to =
+          poses[link.from].inverse() * poses[link.to] * motionFromTwist(link.pull);
+      const Matrix6 information = inverted<6>(link.covariance);
+      measured.information = 0.5 * (information + information.transpose());
+      graph.links.push_back(measured);
+    }
+  return graph;
+}
+
+/** \param[in] scans of the graph \return mean squared shift required by surfaces, in standard
+ * deviations: above 1 the links' covariances are too small (a posteriori variance factor of
+ * geodesy). Weakly constrained scans keep moving in one direction when surface shifts are
+ * followed, which no cycle reveals. */
+double
+varianceFactorOf(const MapVerification& map, const std::vector<std::size_t>& scans)
+{
+  std::vector<bool> is_in_graph(map.scans.size(), false);
+  for (const std::size_t i : scans)
+    is_in_graph[i] = true;
+  double sum = 0;
+  std::size_t links = 0;
+  for (const LinkCheck& link : map.links)
+    if (is_in_graph[link.from] && measures(link, map) && link.deviation > 0) {
+      const double sigmas = link.shift / link.deviation;
+      sum += sigmas * sigmas;
+      ++links;
+    }
+  return links > 0 ? sum / static_cast<double>(links) : 1;
+}
+
+/** \return the factor on the covariances from the links. Reasons: cycles do not close, surfaces
+ * require larger shifts than the covariances allow, and links of a scan share its errors: m links
+ * of a scan have the information of sqrt(m) independent links, which fits the NEES of simulated
+ * scenes. */
+double
+excessOf(const PoseGraphResult& result,
+         std::size_t links,
+         const std::vector<std::size_t>& scans,
+         const MapVerification& map)
+{
+  const std::size_t conditions = 6 * links, unknowns = 6 * (scans.size() - 1);
+  const double links_per_pose =
+      static_cast<double>(links) / static_cast<double>(scans.size() - 1);
+  const double unclosed =
+      conditions > unknowns
+          ? result.chi2_after / static_cast<double>(conditions - unknowns)
+          : 1;
+  return std::max({1.0, unclosed, varianceFactorOf(map, scans)}) *
+         std::sqrt(std::max(1.0, links_per_pose));
+}
+
+/** \return the squared Mahalanobis length of a small motion, per degree of freedom */
+double
+meanSquare(const Eigen::Isometry3d& motion, const Matrix6& covariance)
+{
+  const Twist way = smallMotion(motion);
+  return way.dot(solveSymmetric<6>(covariance, way)) / 6;
+}
+
+/** \return [m] the longest half axis of the 95 % ellipsoid of the position */
+double
+boundOf(const Matrix6& covariance)
+{
+  const auto axes = symmetricEigenvalues<3>(covariance.topLeftCorner<3, 3>());
+  return std::sqrt(kChi2Of95 * std::max(0.0, axes(2)));
+}
+} // namespace
+
+void
+boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
+           MapVerification& map,
+           unsigned int num_threads)
+{
+  require(T_world_scan.size() == map.scans.size(),
+          "poses",
+          T_world_scan.size(),
+          "one per scan");
+  for (ScanCheck& scan : map.scans) {
+    scan.covariance.reset();
+    scan.bound.reset();
+  }
+  if (map.scans.empty() || !map.scans[0].tied)
+    return;
+  std::vector<std::size_t> scans;
+  PoseGraph graph = graphOf(T_world_scan, map, scans);
+  map.scans[0].covariance = Matrix6::Zero();
+  map.scans[0].bound = 0;
+  if (scans.size() < 2)
+    return;
+  PoseGraphOptions options;
+  options.num_threads = num_threads;
+  const std::size_t links = graph.links.size();
+  PoseGraphOptimizer optimizer(std::move(graph), options);
+  const PoseGraphResult& best = optimizer.optimize();
+  std::vector<Matrix6> covariances;
+  try {
+    covariances = optimizer.marginalCovariances();
+  } catch (const ComputeFailed&) {
+    return; // links too different in size for doubles: no covariance is better than a wrong one
+        // result
+  }
+  const double excess = excessOf(best, links, scans, map);
+  for (std::size_t v = 1; v < scans.size(); ++v) {
+    const Twist way = smallMotion(T_world_scan[scans[v]].inverse() * best.poses[v]);
+    ScanCheck& scan = map.scans[scans[v]];
+    scan.covariance = excess * covariances[v] + way * way.transpose();
+    scan.bound = boundOf(*scan.covariance);
+  }
+}
+
+PoseGraph
+linksOfMap(const std::vector<Eigen::Isometry3d>& T_world_scan,
+           const MapVerification& map,
+           unsigned int num_threads)
+{
+  require(T_world_scan.size() == map.scans.size(),
+          "poses",
+          T_world_scan.size(),
+          "one per scan");
+  PoseGraph all;
+  all.poses = T_world_scan;
+  if (map.scans.empty() || !map.scans[0].tied)
+    return all;
+  std::vector<std::size_t> scans;
+  PoseGraph graph = graphOf(T_world_scan, map, scans);
+  if (scans.size() < 2)
+    return all;
+  all.links = graph.links;
+  PoseGraphOptions options;
+  options.num_threads = num_threads;
+  PoseGraphOptimizer optimizer(std::move(graph), options);
+  const PoseGraphResult& best = optimizer.optimize();
+  const double excess = excessOf(best, all.links.size(), scans, map);
+  double farthest = 1;
+  try {
+    const std::vector<Matrix6> covariances = optimizer.marginalCovariances();
+    for (std::size_t v = 1; v < scans.size(); ++v)
+      farthest = std::max(farthest,
+                          meanSquare(T_world_scan[scans[v]].inverse() * best.poses[v],
+                                     excess * covariances[v]));
+  } catch (const ComputeFailed&) {
+    all.links.clear(); // like boundPoses()
+  }
+  for (PoseLink& link : all.links) {
+    link.from = scans[link.from];
+    link.to = scans[link.to];
+    link.information /= excess * farthest;
+  }
+  return all;
+}
+
+} // namespace pcl6d

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/kept_scans.h"
+
+#include <pcl6d/slam6d/auto_parameters.h>
+#include <pcl6d/slam6d/scan_preparation.h>
+
+#include <optional>
+#include <utility>
+
+namespace pcl6d {
+
+// Serialisation for the other processes.
+
+template <typename Archive>
+void
+packFields(Archive& archive, Parameter& parameter)
+{
+  archive(parameter.value, parameter.given, parameter.why);
+}
+
+template <typename Archive>
+void
+packFields(Archive& archive, Slam6DParameters& p)
+{
+  archive(p.median_range);
+  for (Parameter* parameter : parametersOf(p))
+    archive(*parameter);
+}
+} // namespace pcl6d
+
+namespace pcl6d::slam6d {
+
+namespace {
+/** Number of scans kept in full until the parameters are derived from them. */
+constexpr std::size_t kScansForParameters = 16;
+
+/** Scans that each process prepares at a time when processes share the work. */
+constexpr std::size_t kPreparedAtATime = 4;
+} // namespace
+
+/** A scan as prepared by its owner. */
+struct PreparedScan {
+  std::optional<IcpModel> model; ///< of an own scan
+  Points gated;                  ///< of an own scan
+  Points points;                 ///< reduced; of another process's scan
+  Normals normals;               ///< of points; empty for metrics without normals
+};
+
+void
+packFields(Packer& packer, PreparedScan& scan)
+{
+  packer(scan.model->points(), scan.model->normals());
+}
+
+void
+packFields(Unpacker& unpacker, PreparedScan& scan)
+{
+  unpacker(scan.points, scan.normals);
+}
+
+void
+KeptScans::add(const Points& points, const std::string& name)
+{
+  unreduced_.push_back(points);
+  names_.push_back(name);
+}
+
+void
+KeptScans::forget(std::size_t place)
+{
+  names_.resize(place);
+  if (reduced_.size() + unreduced_.size() > place)
+    unreduced_.pop_back();
+}
+
+bool
+KeptScans::isFull(bool has_parameters) const
+{
+  if (!has_parameters)
+    return unreduced_.size() >= kScansForParameters;
+  return unreduced_.size() >= (sharing_ ? kPreparedAtATime * sharing_->numRanks() : 1);
+}
+
+Slam6DParameters
+KeptScans::derive(const Slam6DOptions& options) const
+{
+  Slam6DParameters parameters;
+  if (isFirst())
+    parameters = deriveParameters(options, {unreduced_.begin(), unreduced_.end()});
+  return sharing_ ? sharing_->fromFirst(parameters) : parameters;
+}
+
+void
+KeptScans::keep(IcpModel reduced, Points gated, std::vector<ScanResult>& scans)
+{
+  scans[reduced_.size()].reduced = reduced.points().size();
+  reduced_.push_back(std::move(reduced));
+  measured_.emplace_back(std::move(gated));
+  unreduced_.pop_front();
+}
+
+void
+KeptScans::prepare(const ScanMatcher& matcher,
+                   const Slam6DParameters& parameters,
+                   std::vector<ScanResult>& scans)
+{
+  if (sharing_)
+    return prepareShared(matcher, parameters, scans);
+  while (!unreduced_.empty()) {
+    const std::string& name = names_[reduced_.size()];
+    Points gated = gateScan(unreduced_.front(), name, parameters);
+    IcpModel model = matcher.prepare(reduceScan(gated, name, parameters, reduction()));
+    keep(std::move(model), std::move(gated), scans);
+  }
+}
+
+void
+KeptScans::prepareShared(const ScanMatcher& matcher,
+                         const Slam6DParameters& parameters,
+                         std::vector<ScanResult>& scans)
+{
+  const std::size_t done = reduced_.size();
+  std::vector<PreparedScan> prepared(unreduced_.size());
+  const auto place = [&](std::size_t k) { return done + k; };
+  sharedFor(sharing_, options_.num_threads, prepared, place, [&](std::size_t k) {
+    const std::string& name = names_[done + k];
+    prepared[k].gated = gateScan(unreduced_[k], name, parameters);
+    prepared[k].model =
+        matcher.prepare(reduceScan(prepared[k].gated, name, parameters, reduction()));
+  });
+  for (PreparedScan& scan : prepared) {
+    if (!scan.model && scan.normals.empty())
+      scan.model = matcher.prepare(std::move(scan.points)); // a metric without normals
+    else if (!scan.model)
+      scan.model.emplace(
+          std::move(scan.points), std::move(scan.normals), matcher.modelOptions(true));
+    if (isFirst() && scan.gated.empty()) // the first process matches all scans
+      scan.gated = gateScan(unreduced_.front(), names_[reduced_.size()], parameters);
+    keep(*std::move(scan.model), std::move(scan.gated), scans);
+  }
+}
+
+ReductionOptions
+KeptScans::reduction() const
+{
+  ReductionOptions reduction;
+  reduction.method = options_.reduction;
+  reduction.points_per_voxel = options_.reduction_points;
+  reduction.seed = options_.seed;
+  return reduction;
+}
+
+} // namespace pcl6d::slam6d

@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recovery/recovery.h"
+#include "registered.h"
+
+#include <pcl6d/common/parallel.h>
+#include <pcl6d/common/portable_math.h>
+#include <pcl6d/common/pose.h>
+#include <pcl6d/global_registration/scan_joiner.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace pcl6d::slam6d {
+
+namespace {
+/** Number of scans that test a pose: the latest, and the nearest of the rest. */
+constexpr std::size_t kLatest = 8, kNearest = 8;
+
+/** Quick check of a match by the latest kLookedAt scans: above kSuspicious, the full test follows.
+ * The limit lies between the values of right and wrong poses (contradictionOfPlace()); a needless
+ * full test only costs time. */
+constexpr std::size_t kLookedAt = 2;
+constexpr double kSuspicious = 0.01;
+
+/** Number of map links from which the background of contradictions at right poses is estimated, to
+ * a third of its value. */
+constexpr std::size_t kUsualLinks = 6;
+
+/** Number of scans of a piece that are tested, evenly spaced. */
+constexpr std::size_t kAskedOfPiece = 12;
+
+/** Number of scans in a search without prediction, at about 10 ms per scan. */
+constexpr std::size_t kLatestEverywhere = 24, kNearestEverywhere = 40;
+
+/** Number of scans from which the deviation of the odometry is estimated. */
+constexpr std::size_t kCorrections = 20;
+
+/** Range of a search about the prediction, in deviations: 99.7 %. */
+constexpr double kDeviations = 3;
+
+/** Turns [rad] tried from the prediction. The spacing is half the basin of ICP, which is 15 to 20
+ * deg about each start (book, 4.2). */
+constexpr double kTurns[] = {0, 0.35, -0.35, 0.7, -0.7};
+
+/** Largest pair distance at the start of matching [voxels], equal to the default of a run. */
+constexpr double kReachVoxels = 12;
+
+/** Motion since the last registered scan. */
+struct Way {
+  std::size_t last = 0;  ///< last registered scan
+  std::size_t steps = 0; ///< since last
+  Eigen::Isometry3d T_world_last = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d odometry = Eigen::Isometry3d::Identity(); ///< predicted, since last
+  /** previous motion repeated; the odometry if unknown */
+  Eigen::Isometry3d carried = Eigen::Isometry3d::Identity();
+  double deviation = 0; ///< [m] of the odometry over all steps
+};
+
+/** \return [m] rms correction of the latest scans registered from odometry */
+double
+deviationOfStep(const std::vector<ScanResult>& scans, std::size_t before, double least)
+{
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = before; i-- > 0 && count < kCorrections;)
+    if (isRegistered(scans[i]) && scans[i].state != ScanState::kFixed &&
+        scans[i].recovered == RecoveredBy::kNone) {
+      sum += scans[i].correction * scans[i].correction;
+      ++count;
+    }
+  return std::max(least, count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0);
+}
+
+std::optional<Way>
+wayTo(std::size_t scan, const std::vector<ScanResult>& scans, double voxel)
+{
+  Way way;
+  std::vector<std::size_t> accepted; // the last two
+  for (std::size_t i = scan; i-- > 0 && accepted.size() < 2;)
+    if (isRegistered(scans[i]))
+      accepted.push_back(i);
+  if (accepted.empty())
+    return std::nullopt;
+  way.last = accepted[0];
+  way.steps = scan - way.last;
+  way.T_world_last = scans[way.last].T_world_scan;
+  way.odometry = way.T_world_last.inverse() * scans[scan].T_world_scan;
+  way.carried = way.odometry;
+  if (accepted.size() == 2 && accepted[0] == accepted[1] + 1)
+    way.carried = repeated(scans[accepted[1]].T_world_scan.inverse() * way.T_world_last,
+                           way.steps);
+  way.deviation =
+      deviationOfStep(scans, scan, voxel) * std::sqrt(static_cast<double>(way.steps));
+  return way;
+}
+
+/** Poses by odometry, by the motion before, by mixtures of both, and the pose of the last scan. */
+std::vector<Eigen::Isometry3d>
+motionsOf(const Way& way)
+{
+  Eigen::Isometry3d turned = way.carried, moved = way.odometry;
+  turned.translation() = way.odometry.translation();
+  moved.translation() = way.carried.translation();
+  std::vector<Eigen::Isometry3d> guesses;
+  for (const auto& motion : {way.odometry,
+                             turned,
+                             way.carried,
+                             moved,
+                             Eigen::Isometry3d(Eigen::Isometry3d::Identity())})
+    guesses.push_back(way.T_world_last * motion);
+  return guesses;
+}
+
+/** Rodrigues' formula, with equal bits on every machine. */
+Eigen::Matrix3d
+turnAbout(const Eigen::Vector3d& axis, double angle)
+{
+  const SinCos turn = portableSinCos(angle);
+  Eigen::Matrix3d cross;
+  cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
+  return Eigen::Matrix3d::Identity() + turn.sin * cross +
+         (1 - turn.cos) * cross * cross;
+}
+
+/** A long search takes the time of this many matches (16 to 27 with lidars and cameras). */
+constexpr std::size_t kMatchesOfSearch = 24;
+
+/** Number of long searches without success that are always allowed: a few seconds. */
+constexpr std::size_t kLeastSearches = 2;
+
+/** Long searches are made for the first scans lost in a row, then ever more rarely: if surroundings
+ * lack features, most of the next scans lack features, too.
+ * \param[in] is_bounded limits the time of failed searches to the time of matching */
+bool
+isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans, bool is_bounded)
+{
+  const auto is_due = [](std::size_t lost) { // 0, 1, 3, 7, ... in a row
+    return (lost & (lost + 1)) == 0;
+  };
+  std::size_t lost = 0, failed = 0, matched = 0;
+  for (std::size_t i = 0; i < scan; ++i) {
+    if (scans[i].state == ScanState::kPredicted)
+      failed += is_due(lost++) ? 1 : 0;
+    else
+      lost = 0;
+    matched += isRegistered(scans[i]) ? 1 : 0;
+  }
+  return is_due(lost) &&
+         (!is_bounded || failed < std::max(kLeastSearches, matched / kMatchesOfSearch));
+}
+} // namespace
+
+bool
+isBounded(const Slam6DOptions& options)
+{
+  return options.recovery == RecoveryEffort::kBounded;
+}
+
+Eigen::Isometry3d
+repeated(const Eigen::Isometry3d& motion, std::size_t count)
+{
+  Eigen::Isometry3d all = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 0; i < count; ++i)
+    all = all * motion;
+  return all;
+}
+
+Recovery::Recovery(const Slam6DOptions& options,
+                   const std::deque<VerifiedScan>& verified)
+: options_(options), verified_(verified)
+{}
+
+const PlaceableScan&
+Recovery::placeable(std::size_t scan)
+{
+  if (placeable_.size() < verified_.size())
+    placeable_.resize(verified_.size());
+  if (!placeable_[scan])
+    placeable_[scan].emplace(verified_[scan]);
+  return *placeable_[scan];
+}
+
+/** \return indices of registered scans except this scan: the latest before, then the nearest */
+std::vector<std::size_t>
+Recovery::around(std::size_t scan,
+                 const Eigen::Vector3d& position,
+                 const std::vector<ScanResult>& scans,
+                 std::size_t latest,
+                 std::size_t nearest) const
+{
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = scan; i-- > 0 && chosen.size() < latest;)
+    if (isRegistered(scans[i]))
+      chosen.push_back(i);
+  std::vector<std::pair<double, std::size_t>> others;
+  for (std::size_t i = 0; i < scans.size() && nearest > 0; ++i)
+    if (i != scan && isRegistered(scans[i]) &&
+        std::find(chosen.begin(), chosen.end(), i) == chosen.end())
+      others.emplace_back((scans[i].T_world_scan.translation() - position).norm(), i);
+  std::sort(others.begin(), others.end());
+  for (std::size_t k = 0; k < std::min(nearest, others.size()); ++k)
+    chosen.push_back(others[k].second);
+  return chosen;
+}
+
+std::vector<KnownScan>
+Recovery::knownAround(std::size_t scan,
+                      const Eigen::Vector3d& position,
+                      const std::vector<ScanResult>& scans)
+{
+  std::vector<KnownScan> known;
+  for (const std::size_t i : around(scan, position, scans, kLatest, kNearest))
+    known.push_back({&placeable(i), scans[i].T_world_scan});
+  return known;
+}
+
+/** \return the evidence of the latest links between consecutive scans, matched at their predicted
+ * poses */
+std::vector<LinkEvidence>
+Recovery::usualBefore(std::size_t scan, const std::vector<ScanResult>& scans) const
+{
+  std::vector<std::size_t> seconds;
+  for (std::size_t i = scan; i-- > 1 && seconds.size() < kUsualLinks;)
+    if (isRegistered(scans[i]) && isRegistered(scans[i - 1]) &&
+        scans[i].recovered == RecoveredBy::kNone)
+      seconds.push_back(i);
+  std::vector<LinkEvidence> links(seconds.size());
+  parallelFor(links.size(), options_.num_threads, [&](std::size_t k) {
+    const std::size_t i = seconds[k];
+    links[k] =
+        linkEvidence(verified_[i - 1],
+                     verified_[i],
+                     scans[i - 1].T_world_scan.inverse() * scans[i].T_world_scan);
+  });
+  return links;
+}
+
+Rejection
+Recovery::rejectionOf(std::size_t scan,
+                      const Eigen::Isometry3d& T_world_scan,
+                      const std::vector<ScanResult>& scans,
+                      PlaceNeeds needs)
+{
+  return rejectionOfPose(placeable(scan),
+                         knownAround(scan, T_world_scan.translation(), scans),
+                         T_world_scan,
+                         needs,
+                         usualBefore(scan, scans),
+                         options_.num_threads);
+}
+
+bool
+Recovery::areRaysReliable(std::size_t scan, const std::vector<ScanResult>& scans) const
+{
+  const auto usual = usualBefore(scan, scans);
+  const double background = contradictionBackground(usual);
+  return std::any_of(usual.begin(), usual.end(), [&](const LinkEvidence& link) {
+    return testLink(link, background).trust == LinkTrust::kGood;
+  });
+}
+
+bool
+Recovery::seemsContradicted(std::size_t scan,
+                            const Eigen::Isometry3d& T_world_scan,
+                            const std::vector<ScanResult>& scans)
+{
+  std::vector<KnownScan> last;
+  for (const std::size_t i :
+       around(scan, T_world_scan.translation(), scans, kLookedAt, 0))
+    last.push_back({&placeable(i), scans[i].T_world_scan});
+  return contradictionOfPlace(placeable(scan), last, T_world_scan) > kSuspicious;
+}
+
+/** \return poses around a pose: turned about the vertical, and shifted to four sides
+ * \param[in] up in the frame of the pose \param[in] by [m] */
+std::vector<Eigen::Isometry3d>
+Recovery::spread(const Eigen::Isometry3d& about,
+                 const Eigen::Vector3d& up,
+                 double by) const
+{
+  const Eigen::Matrix3d level = uprightRotation(up).transpose(); // columns: axes
+  std::vector<Eigen::Isometry3d> poses;
+  for (const double turn : kTurns)
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      Eigen::Isometry3d pose = about;
+      pose.translation() += about.linear() * level * Eigen::Vector3d(x * by, y * by, 0);
+      pose.linear() = about.linear() * turnAbout(up, turn);
+      poses.push_back(pose);
+    }
+  return poses;
+}
+
+/** \return options of guesses where the odometry leads \param[in] deviation [m] of the odometry */
+GuessOptions
+Recovery::guessOptions(std::size_t scan,
+                       const std::vector<ScanResult>& scans,
+                       double deviation) const
+{
+  GuessOptions options;
+  options.num_threads = options_.num_threads;
+  options.usual = usualBefore(scan, scans);
+  options.needs = PlaceNeeds::kConfirmed;
+  options.reach =
+      std::min(kDeviations * deviation, kReachVoxels * verified_[scan].voxel());
+  return options;
+}
+
+std::optional<Recovery::Found>
+Recovery::findByMotion(std::size_t scan, const std::vector<ScanResult>& scans)
+{
+  const auto way = wayTo(scan, scans, verified_[scan].voxel());
+  if (!way)
+    return std::nullopt;
+  const GuessedPlace place =
+      placeByGuesses(placeable(scan),
+                     knownAround(scan, scans[scan].T_world_scan.translation(), scans),
+                     motionsOf(*way),
+                     guessOptions(scan, scans, way->deviation));
+  if (!place.accepted)
+    return std::nullopt;
+  return Found{place.T_world_scan,
+               place.guess == 0 ? RecoveredBy::kSearch : RecoveredBy::kMotion};
+}
+
+std::optional<Recovery::Found>
+Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
+{
+  if (const auto found = findByMotion(scan, scans))
+    return found;
+  const auto way = wayTo(scan, scans, verified_[scan].voxel());
+  if (!way || !isSearchDue(scan, scans, isBounded(options_)))
+    return std::nullopt;
+  GuessOptions options = guessOptions(scan, scans, way->deviation);
+  options.needs = PlaceNeeds::kConnected;
+  const double by = std::max(kDeviations * way->deviation, options.reach);
+  const Eigen::Vector3d up = placeable(scan).vertical().up;
+  std::vector<Eigen::Isometry3d> guesses =
+      spread(way->T_world_last * way->odometry, up, by);
+  const auto more = spread(way->T_world_last, up, by);
+  guesses.insert(guesses.end(), more.begin(), more.end());
+  const GuessedPlace place =
+      placeByGuesses(placeable(scan),
+                     knownAround(scan, scans[scan].T_world_scan.translation(), scans),
+                     guesses,
+                     options);
+  if (place.accepted)
+    return Found{place.T_world_scan, RecoveredBy::kSearch};
+  return findEverywhere(scan, scans);
+}
+
+std::optional<Eigen::Isometry3d>
+Recovery::findBefore(const std::vector<std::size_t>& piece,
+                     const std::vector<ScanResult>& own,
+                     const std::vector<ScanResult>& scans)
+{
+  const std::size_t last = piece.back();
+  if (last + 1 >= scans.size() || !isRegistered(scans[last + 1]))
+    return std::nullopt;
+  const ScanResult& next = scans[last + 1];
+  const Eigen::Isometry3d predicted =
+      next.T_world_scan * next.initial_pose.inverse() * scans[last].initial_pose;
+  const GuessOptions options =
+      guessOptions(last, scans, deviationOfStep(scans, last, verified_[last].voxel()));
+  const GuessedPlace found =
+      placeByGuesses(placeable(last),
+                     knownAround(last, predicted.translation(), scans),
+                     {predicted},
+                     options);
+  if (!found.accepted)
+    return std::nullopt;
+  const Eigen::Isometry3d T_world_piece =
+      found.T_world_scan * own[last].T_world_scan.inverse();
+  const std::size_t asked = std::min(piece.size(), kAskedOfPiece);
+  for (std::size_t k = 0; k < asked; ++k) {
+    const std::size_t i = piece[k * piece.size() / asked];
+    const Eigen::Isometry3d T = T_world_piece * own[i].T_world_scan;
+    if (rejectionOfPose(placeable(i),
+                        knownAround(i, T.translation(), scans),
+                        T,
+                        PlaceNeeds::kNoContradiction,
+                        options.usual,
+                        options_.num_threads))
+      return std::nullopt;
+  }
+  return T_world_piece;
+}
+
+std::optional<Recovery::Found>
+Recovery::findEverywhere(std::size_t scan, const std::vector<ScanResult>& scans)
+{
+  const auto others = around(scan,
+                             scans[scan].T_world_scan.translation(),
+                             scans,
+                             kLatestEverywhere,
+                             kNearestEverywhere);
+  std::deque<PlaceableScan> list;
+  JoinOptions join;
+  for (const std::size_t i : others) {
+    list.push_back(placeable(i));
+    join.known.emplace_back(KnownPlace{0, scans[i].T_world_scan});
+  }
+  list.push_back(placeable(scan));
+  join.known.emplace_back(std::nullopt);
+  join.num_threads = options_.num_threads;
+  const JoinedScans joined = joinScans(list, join);
+  const JoinedScan& placed = joined.scans.back();
+  if (placed.group != joined.scans.front().group)
+    return std::nullopt;
+  return Found{placed.T_group_scan, RecoveredBy::kEverywhere};
+}
+
+} // namespace pcl6d::slam6d

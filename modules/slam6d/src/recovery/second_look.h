@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/slam6d/slam6d_result.h>
+
+#include <cstddef>
+
+/** \file Handling of a map with disconnected components. */
+namespace pcl6d::slam6d {
+
+/** \return whether consistent links fail to connect all matched scans, although consistent links
+ * exist: a map of two components, with a wrong match between them */
+bool
+hasDisconnected(const Slam6DResult& result);
+
+/** \return whether more scans would be disconnected from the map than remain: recovering them costs
+ * about as much as the run did \param[in] keeps number of first scans left unchanged */
+bool
+isMostlyDisconnected(std::size_t keeps, const Slam6DResult& result);
+
+/** \brief Marks the scans disconnected from the first scan as lost.
+ * \param[in] keeps number of first scans left unchanged: scans of an earlier run */
+void
+disconnect(std::size_t keeps, Slam6DResult& result);
+
+/** \return the number of registered scans connected by the verification */
+std::size_t
+countConnected(const Slam6DResult& result);
+
+/** \return whether fewer scans are lost or disconnected than before */
+bool
+isBetterConnected(const Slam6DResult& now, const Slam6DResult& before);
+
+/** \brief Restores the matched poses of scans that were never lost. */
+void
+keepMatchedPoses(const Slam6DResult& before, Slam6DResult& now);
+
+} // namespace pcl6d::slam6d

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prepare_scans.h"
+#include "stages.h"
+
+#include <pcl6d/filters/planar_scan.h>
+
+#include <algorithm>
+
+namespace pcl6d::slam6d {
+
+namespace {
+/** \return whether the initial poses lie in the plane of the first pose */
+bool
+startInPlane(const std::vector<ScanResult>& scans)
+{
+  return std::all_of(scans.begin(), scans.end(), [&](const ScanResult& scan) {
+    return isInPlane(scans.front().initial_pose, scan.initial_pose);
+  });
+}
+
+/** \return the parameters derived from the first scans, treated as planar only if their initial
+ * poses lie in a plane */
+Slam6DParameters
+deriveFromScans(const SlamState& state)
+{
+  const Slam6DOptions& given = state.options;
+  if (given.planar_rows || state.isWithoutSequence() ||
+      startInPlane(state.result.scans))
+    return state.scans.derive(given);
+  Slam6DOptions options = given;
+  options.planar_rows = 0;
+  Slam6DParameters parameters = state.scans.derive(options);
+  parameters.planar_rows = {}; // the user gave no value
+  return parameters;
+}
+
+class PrepareScans : public Stage {
+  StageEnd
+  run(SlamState& state, SlamContext&) override
+  {
+    Slam6DOptions& options = state.options;
+    if (options.motion.gives_poses && state.motion.anyMoved())
+      options.initial_guess = InitialGuess::kOdometry;
+    prepareWaiting(state);
+    if (options.verify || !options.control.points.empty() || options.leave_out_moving ||
+        state.isWithoutSequence() || isRecovering(options))
+      state.verification.prepare(state.scans.reduced(),
+                                 state.scans.measured(),
+                                 state.map->matcher().modelOptions(true),
+                                 state.result.parameters.voxel.value);
+    return StageEnd::kDone;
+  }
+};
+} // namespace
+
+void
+prepareWaiting(SlamState& state)
+{
+  if (!state.map) {
+    state.result.parameters = deriveFromScans(state);
+    state.map.emplace(
+        state.options, state.result.parameters, state.scans, state.recovery);
+  }
+  state.scans.prepare(
+      state.map->matcher(), state.result.parameters, state.result.scans);
+}
+
+StagePtr
+prepareScans()
+{
+  return std::make_unique<PrepareScans>();
+}
+
+} // namespace pcl6d::slam6d

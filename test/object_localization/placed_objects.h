@@ -3,6 +3,7 @@
 
 #include "object_localization/detection_room.h"
 #include "object_localization/localization_cases.h"
+#include "support/folders.h"
 
 #include <pcl6d/object_localization/model_store.h>
 #include <pcl6d/object_localization/object_localizer.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../support/temp_folder.h"
+#include "support/folders.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/object_localization/model_store.h>
@@ -122,7 +123,7 @@ TEST_F(ModelStore, ReadsSingleMeshesAndClouds)
   EXPECT_FALSE(board.mesh.triangles.empty());
   EXPECT_NEAR(board.model.box().sizes().x(), 0.19, 1e-6);
   expectEnds(refusalOf(folder() / "cloud.xyz"),
-             "m: if it is in millimetres, scale it by 0.001");
+             "m: for a model in millimetres use the scale 0.001");
 }
 
 TEST_F(ModelStore, TellsWhatIsWrongAndWhere)
@@ -154,7 +155,7 @@ TEST_F(ModelStore, TellsWhatIsWrongAndWhere)
   expectEnds(refusal(R"({"class": "a", "file": "model.ply", "schema_version": 2})"),
              "/schema_version: 2, but must be 1");
   expectEnds(refusal(R"({"class": "a", "file": "model.ply", "scale": 1000})"),
-             "m: if it is in millimetres, scale it by 0.001");
+             "m: for a model in millimetres use the scale 0.001");
   std::ofstream(folder() / "model.ply") << "no mesh";
   EXPECT_NE(refusal(R"({"class": "a", "file": "model.ply"})").find("model.ply"),
             std::string::npos);

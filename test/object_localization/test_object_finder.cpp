@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Models and a scan in memory, as a user of the library has them.
 #include "object_localization/placed_objects.h"
+#include "support/folders.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/object_localization/object_finder.h>

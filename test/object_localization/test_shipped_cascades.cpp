@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "object_localization/detection_room.h"
+#include "support/folders.h"
 
 #include <pcl6d/object_localization/cascade_file.h>
 #include <pcl6d/object_localization/model_store.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The dominant planes of a recorded scan, listed by hand in test/data.
 #include "support/data_folder.h"
+#include "support/folders.h"
 
 #include <pcl6d/filters/pcl/range_gate.h>
 #include <pcl6d/filters/range_statistics.h>

@@ -2,7 +2,7 @@
 // Motion correction: how times are stored, and what is refused.
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
-#include <pcl6d/filters/motion_correction.h>
+#include <pcl6d/deskew/motion_correction.h>
 
 #include <gtest/gtest.h>
 

@@ -175,7 +175,7 @@ TEST(StereoCalibrationFile, NamesWhatIsWrong)
   refused(matrixEntry("T", 3, {0, 0, 0}), "baseline = 0");
   refused(
       "T: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ .nan, 0, 0 ]\n",
-      "entry T holds a value that is not finite");
+      "entry T holds infinity or NaN");
   writeText(file, calibrationText(realRig()) + "image_width: 640\n");
   expectRefused<IoFailed>(
       [&] {

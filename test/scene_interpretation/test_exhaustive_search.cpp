@@ -82,7 +82,7 @@ private:
   tryAll(std::size_t depth)
   {
     if (depth == order_.size()) {
-      judge();
+      evaluate();
       return;
     }
     for (std::size_t label = 0; label <= none(); ++label)
@@ -93,7 +93,7 @@ private:
   }
 
   void
-  judge()
+  evaluate()
   {
     std::int64_t sum = 0;
     for (std::size_t i = 0; i < planes_.size(); ++i)

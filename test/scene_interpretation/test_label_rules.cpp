@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/box_room.h"
 #include "support/constants.h"
+#include "support/folders.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>
@@ -94,7 +95,7 @@ TEST(LabelRules, NameFileAndPlaceOfWhatIsUnknown)
       {R"({"labels": [{"name": "a", "size": [1, 2]}]})",
        "my.json: /labels/0: unknown condition 'size'"},
       {R"({"labels": [{"name": "a", "area": [2, 1]}]})",
-       "my.json: /labels/0/area: the range [2,1] is empty, so that no plane fits"},
+       "my.json: /labels/0/area: the range [2,1] is empty: no plane fits"},
       {R"({"labels": [{"name": "a", "area": [2, "x"]}]})",
        "my.json: /labels/0/area/1: \"x\" is neither a number nor null"},
       {R"({"labels": [{"name": "a", "orientation": "tilted"}]})",
@@ -139,7 +140,7 @@ TEST(LabelRules, ThatContradictEachOtherAreRefused)
       {withRules(R"("constraints": [{"between": ["a", "b"], "holds": "above"},
         {"between": ["b", "w"], "holds": "above"},
         {"between": ["w", "a"], "holds": "above"}])"),
-       "'a' is always above 'b', and that above 'a', by way of other labels"},
+       "'a' is always above 'b', and that above 'a', by way of further labels"},
       {withRules(R"("constraints": [{"between": ["a", "b"], "holds": "above"}],
         "needs": [{"label": "a", "of": "b", "holds": {"any": ["under", "equalheight"]}}])"),
        "label 'a' can never be assigned: my.json: /needs/0 (under or equalheight) "
@@ -148,7 +149,7 @@ TEST(LabelRules, ThatContradictEachOtherAreRefused)
       {R"({"labels": [{"name": "a", "orientation": "vertical", "inclination": [0, 30]}]})",
        "label 'a' can never be assigned: vertical, and inclined by less than 80 deg"},
       {R"({"labels": [{"name": "a", "bottom": [1, null], "top": [null, 0.5]}]})",
-       "label 'a' can never be assigned: its bottom is higher than its top"},
+       "label 'a' can never be assigned: the bottom is higher than the top"},
       {R"({"labels": [{"name": "a", "area": [null, -1]}]})",
        "label 'a' can never be assigned: area is never below 0"},
       {R"({"extends": "book", "labels": [{"name": "cellar"}],

@@ -183,10 +183,10 @@ TEST(SemanticMapIo, NamesFileAndPlaceOfWhatIsWrong)
       {[](json& m) { m["relations"][0] = 1; }, "/relations/0", "text"},
       {[](json& m) { m["relations"][0] = "plane:99 parallel plane:1"; },
        "/relations/0",
-       "things"},
+       "in this map"},
       {[](json& m) { m["relations"][0] = "plane parallel plane:1"; },
        "/relations/0",
-       "things"},
+       "in this map"},
       {[](json& m) { m["relations"][0] = "plane:1 likes plane:2"; },
        "/relations/0",
        "predicate"}};

@@ -242,7 +242,7 @@ TEST(SimulatorOnTheMove, RefusesDrivesThatCannotBe)
           o.motion = ScanMotion::kStop;
           spoil(o);
         },
-        "where it stops for each scan");
+        "with a stop for each scan");
   };
   standing([](auto& o) { o.period = 9; });
   standing([](auto& o) { o.turn_rate = 1; });

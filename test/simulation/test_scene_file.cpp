@@ -203,9 +203,9 @@ TEST_F(SceneFile, NamesWhatIsWrongAndWhere)
                 "/bodies/1: begin of an opening = 1, but must be after the last one");
   expectRefused(replaced(kYard, "\"end\": \"stop\"", "\"end\": \"crash\""),
                 "/moving/0/end: 'crash', but must be stop, return or closed");
-  expectRefused(replaced(kYard, "[[-4, -4, 0], ", "[[-4, -4], "),
-                "/waypoints: 2 numbers are a place on the terrain, but there is no "
-                "terrain");
+  expectRefused(
+      replaced(kYard, "[[-4, -4, 0], ", "[[-4, -4], "),
+      "/waypoints: 2 numbers are a place on the terrain, but the scene has no terrain");
   expectRefused(replaced(kYard, "\"steps\": 4", "\"steps\": 4.5"),
                 "/bodies/3/steps: 4.5 is not a whole number up to a million");
 }
@@ -222,8 +222,8 @@ TEST_F(SceneFile, RefusesTerrainsThatTakeMoreMemoryThanTheFileIsWorth)
       "/bodies/1: cell = 1, but must be larger: the rectangle would have more than "
       "2 million cells");
   expectRefused(scene("[1000, 2000]"),
-                "/bodies/1/cell: too small: all terrains together would have more "
-                "than 2 million");
+                "/bodies/1/cell: too small: the terrains together would have more than "
+                "2 million");
 }
 
 TEST_F(SceneFile, NamesWhatIsNoDescriptionAtAll)

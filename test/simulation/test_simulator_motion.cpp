@@ -2,7 +2,7 @@
 // The simulator on the move, and motion correction of what it scans.
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
-#include <pcl6d/filters/motion_correction.h>
+#include <pcl6d/deskew/motion_correction.h>
 #include <pcl6d/scanner/scanner_presets.h>
 #include <pcl6d/simulation/scene_builder.h>
 #include <pcl6d/simulation/simulator.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "support/folders.h"
+
 #include <boost/process.hpp>
 
 #include <chrono>

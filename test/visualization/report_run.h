@@ -73,17 +73,18 @@ makeReportData(int scans = 10)
                           {"min-overlap", "0.1", "given", ""}};
   data.summary.stages = {{"reading", 1.5, 100}, {"matching", 3.5, 200}};
   data.summary.graph_stages = {
-      {StageKind::kRelaxation, true, "no gain", 0.5, 0.5, 3, 1, {}}};
+      {StageKind::kRelaxation, true, Rejection::stated("no gain"), 0.5, 0.5, 3, 1, {}}};
   for (int i = 0; i < scans; ++i)
     data.summary.scans.push_back(makeReportScan(i));
   data.summary.scans.back().state = ScanState::kPredicted;
-  data.summary.scans.back().reason = "overlap below --min-overlap";
+  data.summary.scans.back().rejections = {
+      Rejection::stated("overlap below --min-overlap")};
   for (std::size_t i = 1; i < data.summary.scans.size(); ++i)
     data.summary.links.push_back({i - 1,
                                   i,
                                   LinkKind::kSequence,
                                   LinkVerdict::kUsed,
-                                  "",
+                                  {},
                                   2,
                                   400,
                                   0.02,
@@ -94,7 +95,7 @@ makeReportData(int scans = 10)
                                 data.summary.scans.size() - 1,
                                 LinkKind::kLoop,
                                 LinkVerdict::kRefused,
-                                "too few pairs",
+                                Rejection::stated("too few pairs"),
                                 18,
                                 3,
                                 0.3,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drawing.h"
+#include "support/folders.h"
 #include "support/temp_folder.h"
 
 #include <boost/process.hpp>
@@ -97,6 +98,25 @@ TEST(PrivateDisplay, ThatDoesNotStartIsAnError)
       folder / "a.png", "end", environmentWith("PATH", folder.path().string()));
   EXPECT_EQ(drawing.wait(), 1);
   EXPECT_NE(drawing.line().find("Xvfb did not start"), std::string::npos)
+      << drawing.line();
+}
+
+TEST(PrivateDisplay, ThatNeverAnswersIsAnErrorAfterItsTime)
+{
+  const TempFolder folder; // the server halts as soon as it can be connected to
+  writeText(folder / "Xvfb",
+            "#!/bin/sh\n"
+            "cd \"$(/usr/bin/dirname \"$0\")\"\n"
+            "/usr/bin/Xvfb \"$@\" > number &\n"
+            "until [ -s number ]; do /bin/sleep 0.1; done\n"
+            "kill -STOP $!\n"
+            "/bin/cat number\n"
+            "wait\n");
+  fs::permissions(folder / "Xvfb", fs::perms::owner_all);
+  Drawing drawing(
+      folder / "a.png", "end", environmentWith("PATH", folder.path().string()));
+  EXPECT_EQ(drawing.wait(), 1);
+  EXPECT_NE(drawing.line().find("Xvfb did not start within"), std::string::npos)
       << drawing.line();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The private display on a bad day: a user's display, many at once, killed at any time.
 #include "drawing.h"
+#include "support/folders.h"
 #include "support/temp_folder.h"
 
 #include <boost/process.hpp>

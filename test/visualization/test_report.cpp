@@ -251,7 +251,8 @@ TEST(Report, IsNotBrokenByNames)
   const std::string odd =
       "a</script><script>alert(1)</script><!-- \"'&\\ \n\u2028 {{run}}";
   ReportData data = makeReportData();
-  data.title = data.summary.scans[1].file = data.summary.links[0].reason = odd;
+  data.title = data.summary.scans[1].file = odd;
+  data.summary.links[0].rejection = pcl6d::Rejection::stated(odd);
   data.summary.options[0].value = data.objects[0].object_class = odd;
   const std::string page = pageOf(data);
   EXPECT_EQ(count(page, "</script"), count(pageOf(makeReportData()), "</script"));

@@ -2,6 +2,7 @@
 // The page in a browser, and the page as npm makes it.
 #include "report_run.h"
 #include "support/browser.h"
+#include "support/folders.h"
 
 #include <boost/process.hpp>
 #include <gtest/gtest.h>
@@ -129,8 +130,9 @@ TEST_F(ReportInABrowser, TellsThatNothingMovedOrWhyThatIsNotKnown)
 TEST_F(ReportInABrowser, WorksOnAPhoneWithOddNames)
 {
   ReportData data = makeReportData(300);
-  data.title = data.summary.scans[1].file = data.summary.links[0].reason =
-      "</script><b onclick=\"x\">'&" + std::string(80, 'w');
+  const std::string odd = "</script><b onclick=\"x\">'&" + std::string(80, 'w');
+  data.title = data.summary.scans[1].file = odd;
+  data.summary.links[0].rejection = pcl6d::Rejection::stated(odd);
   data.summary.scans[4].T_world_scan.translation().setConstant(
       std::numeric_limits<double>::quiet_NaN());
   const auto outcome = open(data, 390, 844);

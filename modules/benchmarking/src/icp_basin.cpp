@@ -26,8 +26,8 @@ threadSeconds()
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/** \return the largest distance from 0 up to which every run of a line through the grid is
- * correct; none if the nearest is not */
+/** \return the largest distance from 0 up to which every run of a line through the grid
+ * is correct; empty if the nearest run is not */
 class Reach {
 public:
   void
@@ -111,12 +111,12 @@ public:
       if (!findBest(variant.metric))
         basin_.best.push_back(bestPose(variant, guess));
     basin_.disagreements = disagreementsOf(basin_.best, o_);
-    std::vector<IcpVariant> believed;
+    std::vector<IcpVariant> accepted;
     for (const IcpVariant& variant : variants_)
       if (findBest(variant.metric)->doubt.empty())
-        believed.push_back(variant);
-    total_ = believed.size() * starts_.size();
-    for (const IcpVariant& variant : believed)
+        accepted.push_back(variant);
+    total_ = accepted.size() * starts_.size();
+    for (const IcpVariant& variant : accepted)
       if (!addRow(variant)) {
         basin_.complete = false;
         break;
@@ -170,7 +170,7 @@ private:
   {
     variant.search = SearchMethod::kRemembered;
     IcpBestPose best =
-        judgedBestPose(variant.metric, match(variant, guess, o_.num_threads), o_);
+        evaluatedBestPose(variant.metric, match(variant, guess, o_.num_threads), o_);
     if (best.doubt.empty())
       best.doubt = doubtOfReturn(
           best, match(variant, best.result.T_target_source, o_.num_threads), o_);
@@ -247,7 +247,7 @@ requireSteps(const char* name, int steps)
   require(steps >= 1 && steps % 2 == 1,
           name,
           steps,
-          "odd, so that 0 is among the offsets, and >= 1");
+          "odd and >= 1: 0 must be among the offsets");
 }
 
 void
@@ -258,7 +258,7 @@ requireSmall(int steps_xy, int steps_yaw)
   require(starts <= kMostStarts,
           "steps_xy",
           steps_xy,
-          "so small that there are at most 100000 starts");
+          "smaller: at most 100000 starts are allowed");
 }
 } // namespace
 
@@ -273,7 +273,7 @@ evaluateIcpBasin(const Points& target,
   options.validate();
   require(!variants.empty(), "variants", "none", "one at least");
   for (const IcpVariant& variant : variants)
-    withVariant({}, variant); // is there such a minimiser?
+    withVariant({}, variant); // throws if the minimiser is unknown
   require(isRigid(guess), "guess", "not rigid", "a rigid motion");
   return BasinMeasurement(target, source, variants, options, observer).measure(guess);
 }

@@ -23,7 +23,7 @@ doubtOf(const IcpResult& best, const IcpBasinOptions& options)
   else if (best.overlap < options.min_overlap)
     doubt << "overlap " << best.overlap << " is less than " << options.min_overlap;
   else if (best.rms > largest_rms)
-    doubt << "rms " << best.rms << " m is that of unrelated points (more than "
+    doubt << "rms " << best.rms << " m means unrelated points (more than "
           << largest_rms << " m)";
   return doubt.str();
 }
@@ -51,7 +51,9 @@ rootOfSquares(double a, double b)
 } // namespace
 
 IcpBestPose
-judgedBestPose(Metric metric, const IcpResult& result, const IcpBasinOptions& options)
+evaluatedBestPose(Metric metric,
+                  const IcpResult& result,
+                  const IcpBasinOptions& options)
 {
   IcpBestPose best;
   best.metric = metric;

@@ -26,7 +26,7 @@ icpVariants(const IcpMethods& methods, IcpCombination combination)
     for (const std::string& minimiser : minimisers)
       for (const SearchMethod search : methods.searches) {
         const IcpVariant variant{metric, minimiser, search};
-        withVariant({}, variant); // is there such a minimiser?
+        withVariant({}, variant); // throws if the minimiser is unknown
         const bool is_first =
             metric == methods.metrics.front() && minimiser == minimisers.front();
         if ((combination == IcpCombination::kAll || is_first ||

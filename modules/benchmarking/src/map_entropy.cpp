@@ -18,7 +18,7 @@
 
 namespace pcl6d {
 namespace {
-/** \brief Sums over the points around a place, about that place. */
+/** \brief Moments of the points around a position, relative to the position. */
 struct PointMoments {
   std::size_t count = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -29,15 +29,15 @@ struct PointMoments {
   covariance() const;
 };
 
-/** \brief Points sorted into cells as large as a radius, so that all points within it are
- * in 27 cells, summed without a list of them: a map has thousands around each place. */
+/** \brief Points sorted into cells of edge length radius: the neighbours of a position lie in
+ * 27 cells. Sums need no list of neighbours, of which a map has thousands per position. */
 class PointGrid {
 public:
-  /** \param[in] points [m] those not finite are left out
+  /** \param[in] points [m] points that are not finite are left out
    * \throws BadArgument a point does not fit into the grid (voxelKey()) */
   PointGrid(const Points& points, double radius);
 
-  /** \return the sums over the points within the radius of a finite place */
+  /** \return the sums over the points within the radius of a finite position */
   PointMoments
   momentsAround(const Eigen::Vector3f& place) const;
 
@@ -48,8 +48,8 @@ private:
   std::array<std::vector<float>, 3> xyz_; ///< of the points, cell by cell
 };
 
-/** Several sums side by side, point i in lane i modulo kLanes, so that a vector register
- * holds eight and the order of the additions does not depend on the CPU. */
+/** Several sums side by side, point i in lane i modulo kLanes: a vector register holds
+ * eight lanes, and the order of the additions does not depend on the CPU. */
 constexpr std::size_t kLanes = 8;
 constexpr std::size_t kSums = 10; // count, x y z, xx xy xz yy yz zz
 
@@ -57,7 +57,7 @@ struct LaneSums {
   float of[kSums][kLanes] = {};
 };
 
-/** A run of points; at most kRun, so that float keeps its digits. */
+/** A run of points; at most kRun, to preserve the digits of float. */
 struct Run {
   const float* x;
   const float* y;
@@ -163,8 +163,8 @@ PointGrid::momentsAround(const Eigen::Vector3f& place) const
       addTo(moments, sums);
     }
   };
-  // A key has 21 bits for each axis, x in front. Behind the grid's edge a step leads to a
-  // cell elsewhere, whose points are not within the radius.
+  // A key has 21 bits for each axis, x in front. At the edge of the grid a step wraps
+  // to a distant cell, whose points are not within the radius.
   const VoxelKey middle = voxelKey(place, radius_), y = VoxelKey{1} << 21, x = y << 21;
   for (const VoxelKey column : {middle - x, middle, middle + x})
     for (const VoxelKey row : {column - y, column, column + y}) {

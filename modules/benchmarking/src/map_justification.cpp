@@ -14,7 +14,7 @@
 namespace pcl6d {
 
 namespace {
-/** What the scans are matched against, and which of their points. */
+/** Target of the matching, and the selection of points. */
 struct Method {
   const char* name;
   bool has_metascan;
@@ -25,7 +25,7 @@ constexpr Method kMethods[] = {{"map", false, true},
                                {"metascan + map", true, true},
                                {"map, no ground", false, false}};
 
-/** A method on its way through the scans. */
+/** Matching of the scans by one method. */
 class Matching {
 public:
   Matching(const Method& method,

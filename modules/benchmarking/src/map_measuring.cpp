@@ -18,7 +18,7 @@
 
 namespace pcl6d::benchmarking {
 namespace {
-/** \return the planes of one scan, laid into the world
+/** \return the planes of one scan, in the world
  * \param[in] points [m] finite, in the scan's frame, the scanner at the origin */
 std::vector<PlaneSegment>
 planesOfScan(const Points& points, const Eigen::Isometry3d& T_world_scan)
@@ -35,16 +35,16 @@ planesOfScan(const Points& points, const Eigen::Isometry3d& T_world_scan)
     for (auto& ring : segment.outline)
       for (auto& corner : ring)
         corner = T_world_scan * corner;
-    segment.points.clear(); // places in a scan say nothing of the map
+    segment.points.clear(); // indices within a scan are useless for the map
   }
   return segments;
 }
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kPairSample = 200;     ///< points that measure a pair, each way
+constexpr std::size_t kPairSample = 200;     ///< points for measuring a pair, each way
 constexpr std::size_t kEntropySample = 1000; ///< places of a scan
 constexpr double kMapCells = 5;              ///< per radius of the entropy
-constexpr std::size_t kPlaneScans = 50;      ///< that planes are looked for in
+constexpr std::size_t kPlaneScans = 50;      ///< number of scans searched for planes
 constexpr double kGateVoxels = 1.5;          ///< of the thickness of planes
 constexpr double kLeastGate = 0.1;           ///< [m]
 constexpr std::uint64_t kSeed = 1;
@@ -66,8 +66,7 @@ prepared(const std::vector<Points>& clouds, double voxel, unsigned int num_threa
   return result;
 }
 
-/** Measured points, at most one per cell of each scan, so that a scan from near by does not
- * outvote the others. */
+/** Measured points, at most one per cell of each scan: a near, dense scan must not dominate. */
 Points
 thinnedMap(const std::vector<MapScan>& scans,
            const Poses& poses,
@@ -88,7 +87,7 @@ thinnedMap(const std::vector<MapScan>& scans,
   return map;
 }
 
-/** Means of what has an entropy. */
+/** Mean over points that have an entropy. */
 struct SpreadSum {
   double entropy = 0;
   double variance = 0;

@@ -7,8 +7,8 @@
 
 namespace pcl6d::benchmarking {
 
-/** \brief The scans of a map, prepared once, and its measures one after the other. The
- * world is moved by whole metres so that the first scan is near its origin. */
+/** \brief Computes the measures of a map one by one from scans prepared once. The world
+ * is moved by whole metres, with the first scan near the origin. */
 class MapMeasuring {
 public:
   MapMeasuring(const std::vector<Points>& scans,
@@ -18,11 +18,11 @@ public:
   MapMeasuring&
   operator=(const MapMeasuring&) = delete;
 
-  /** \brief Which scans see each other, and how well they agree. First of all. */
+  /** \brief Finds overlapping scans and their agreement. Must come first. */
   void
   measureAgreement(MapQuality& quality);
 
-  /** \brief Distances between scans that see each other, steps and revisits among them. */
+  /** \brief Distances between overlapping scans, including steps and revisits. */
   void
   measureDistances(MapQuality& quality) const;
 
@@ -30,8 +30,8 @@ public:
   void
   measureSpread(MapQuality& quality) const;
 
-  /** \brief Thickness of the planes of single scans, at most 50 of them, evenly chosen:
-   * what they show is seen by others, too. */
+  /** \brief Thickness of the planes of at most 50 scans, evenly chosen: other scans see
+   * mostly the same planes. */
   void
   measurePlanes(MapQuality& quality) const;
 

@@ -19,10 +19,10 @@ using namespace benchmarking;
 
 namespace {
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-/** With fewer scans no one stands out: there is no crowd to stand out of. */
+/** Least number of scans for outliers: fewer scans have no meaningful median. */
 constexpr std::size_t kCrowd = 5;
 
-/** A measure of single scans by which one may stand out. */
+/** A measure of single scans for the search of outliers. */
 struct Measure {
   const char* name;
   double least_spread;                               ///< see robustScores()

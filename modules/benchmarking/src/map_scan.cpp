@@ -96,7 +96,7 @@ distancesBetween(const MapScan& scan,
       continue;
     const Eigen::Vector3f& normal = target.surface.normals()[on.index];
     if (faces == Faces::kApart && normal.dot(R * scan.normals[i]) < 0)
-      continue; // the other face of a wall
+      continue; // the opposite face of a wall
     result.point.push_back(std::sqrt(next.distance_sq));
     if (!normal.isZero())
       result.plane.push_back(

@@ -11,21 +11,22 @@
 
 namespace pcl6d::benchmarking {
 
-/** \brief A cloud made ready to be measured, in its own frame. */
+/** \brief A cloud prepared for measuring, in its own frame. */
 struct MapScan {
-  /** \param[in] measured [m]; what is not finite is left out
+  /** \param[in] measured [m]; points that are not finite are left out
    * \param[in] voxel [m] of the surface and of the sample
    * \throws BadArgument fewer than 3 finite points, or too large for the grid */
   MapScan(const Points& measured, double voxel);
 
   Points measured;  ///< the finite points
   PointTree tree;   ///< over them
-  IcpModel surface; ///< their means, one per voxel, with normals
+  IcpModel surface; ///< means of the measured points, one per voxel, with normals
   Points sample;    ///< measured points, one per voxel, at most 2000
   Normals normals;  ///< of the surface at the sample
 };
 
-/** \return the least n for which every n-th of a sample are at most so many; >= 1 */
+/** \return the least stride n >= 1 for which a sample of every n-th element has at most
+ * `most` elements */
 inline std::size_t
 strideFor(std::size_t size, std::size_t most)
 {
@@ -35,7 +36,7 @@ strideFor(std::size_t size, std::size_t most)
 /** \brief Distances of single points to a surface [m]. */
 struct MeasuredDistances {
   std::vector<float> point; ///< to the nearest measured point
-  std::vector<float> plane; ///< along the normal of the surface there
+  std::vector<float> plane; ///< along the normal of the nearest surface
   std::size_t looked = 0;   ///< points, matched or not
 
   void
@@ -45,12 +46,12 @@ struct MeasuredDistances {
   statistics(double within) const;
 };
 
-/** \brief Whether normals tell the faces of a thin wall apart: those of scans do, as they
- * look to the scanner. */
+/** \brief Whether normals separate the two faces of a thin wall: normals of scans do,
+ * as they point to the scanner. */
 enum class Faces { kApart, kUnknown };
 
 /** \brief Measures at most `most` points of the sample of a scan.
- * \param[in] max_distance [m] beyond which points do not belong together */
+ * \param[in] max_distance [m] largest distance of corresponding points */
 MeasuredDistances
 distancesBetween(const MapScan& scan,
                  const MapScan& target,

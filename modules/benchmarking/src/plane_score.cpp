@@ -40,7 +40,7 @@ isShare(std::size_t part, std::size_t whole, double share)
   return static_cast<double>(part) >= share * static_cast<double>(whole);
 }
 
-/** What a plane of one side has on the other: partners that lie on it. */
+/** Partners of a plane in the other segmentation that lie on this plane. */
 struct Partners {
   std::vector<std::uint32_t> planes;
   std::size_t points = 0;
@@ -161,8 +161,8 @@ private:
     for (std::uint32_t found = 1; found < overlaps_.found.size(); ++found) {
       if (found_done_[found])
         continue;
-      const bool judged = 2 * on_small[found] < overlaps_.found[found];
-      ++(judged ? score_.noise : score_.not_judged);
+      const bool evaluated = 2 * on_small[found] < overlaps_.found[found];
+      ++(evaluated ? score_.noise : score_.not_evaluated);
     }
   }
 

@@ -13,7 +13,7 @@
 
 namespace pcl6d {
 namespace {
-/** \brief A bounded plane, seen from one side, and which points belong to it. */
+/** \brief A bounded plane, seen from one side, with a test for its points. */
 class PlanePatch {
 public:
   /** \param[in] segment with a hull of at least 3 corners
@@ -28,12 +28,12 @@ public:
   }
 
   /** \return whether the middle of another patch lies within the hull and the gate, and
-   * both look the same way */
+   * both normals point the same way */
   bool
   covers(const PlanePatch& other) const;
 
-  /** \return the points over the outline, within the gate, whose normals look the way of
-   * the patch; ascending */
+  /** \return the points over the outline, within the gate, with normals on the patch's
+   * side; ascending */
   std::vector<std::size_t>
   membersOf(const MapPoints& map) const;
 
@@ -41,7 +41,7 @@ public:
   void
   fit(const Points& points, const std::vector<std::size_t>& members);
 
-  /** \return the plane, oriented by orientPlane(), its hull laid onto it */
+  /** \return the plane, oriented by orientPlane(), with the hull projected onto the plane */
   Plane
   plane() const;
 
@@ -60,11 +60,11 @@ private:
   Plane given_;
   double gate_;
   double min_cosine_;
-  Eigen::Vector3d normal_; ///< to where it was seen from
+  Eigen::Vector3d normal_; ///< towards its observer
   double offset_;
   Eigen::Vector3d centre_;           ///< mean of the hull's corners [m]
   double radius_ = 0;                ///< [m] of the hull about its centre
-  Eigen::Matrix<double, 2, 3> axes_; ///< of the plane as given
+  Eigen::Matrix<double, 2, 3> axes_; ///< of the given plane
   Rings hull_;                       ///< one ring
   Rings outline_;                    ///< outer rings and holes
 };
@@ -154,7 +154,7 @@ PlanePatch::plane() const
   return plane;
 }
 
-/** The points of one plane, and what they add to the scans they came from. */
+/** The points of one plane, and their contribution to each scan. */
 struct Collected {
   ThickPlane plane;
   std::vector<double> sum_sq; ///< [m^2] per scan
@@ -176,7 +176,7 @@ checkMap(const MapPoints& map, std::size_t num_scans)
     require(scan < num_scans, "scan of a point", scan, "one of the scans");
 }
 
-/** Largest first, without those that show the surface of a larger one. */
+/** Largest first, without patches on the surface of a larger patch. */
 std::vector<PlanePatch>
 differentPatches(const std::vector<PlaneSegment>& planes,
                  const PlaneThicknessOptions& options)

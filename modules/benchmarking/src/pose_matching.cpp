@@ -39,15 +39,15 @@ matchEqualIndices(std::size_t estimate_count, std::size_t reference_count)
     throw BadArgument(
         "the estimate has " + std::to_string(estimate_count) +
         " poses, but the reference has " + std::to_string(reference_count) +
-        "; without time stamps in both the counts must be equal; for selected "
-        "scans take trajectory.tum, whose stamps are their indices");
+        "; without time stamps in both files the counts must be equal; for selected "
+        "scans take trajectory.tum with scan indices as stamps");
   PoseMatching matching;
   for (std::size_t i = 0; i < estimate_count; ++i)
     matching.pairs.push_back({i, i});
   return matching;
 }
 
-/** \return whether every stamp is the index of one of count poses */
+/** \return whether every stamp is an index below count */
 bool
 areIndices(const std::vector<double>& stamps, std::size_t count)
 {
@@ -58,7 +58,7 @@ areIndices(const std::vector<double>& stamps, std::size_t count)
          });
 }
 
-/** One of the two has no stamps. */
+/** For at most one trajectory with stamps. */
 PoseMatching
 matchByIndex(const Trajectory& estimate, const Trajectory& reference)
 {
@@ -108,7 +108,7 @@ matchByTime(const std::vector<double>& estimate,
   return matching;
 }
 
-/** Leaves out the pairs whose reference is not trusted. */
+/** Leaves out pairs with an untrusted reference pose. */
 void
 keepTrusted(const std::vector<bool>& trusted, PoseMatching& matching)
 {

@@ -5,7 +5,7 @@
 
 namespace pcl6d::benchmarking {
 
-/** \throws BadArgument a pair points outside its trajectories */
+/** \throws BadArgument a pair points outside a trajectory */
 void
 checkPairs(const Trajectory& estimate,
            const Trajectory& reference,

@@ -11,7 +11,7 @@ namespace pcl6d {
 using namespace benchmarking;
 
 namespace {
-/** The stretches of one length from every pose that has one. */
+/** The stretches of one length, from every pose with enough path ahead. */
 std::vector<RelativeError>
 stretchesOf(const Trajectory& estimate,
             const Trajectory& reference,
@@ -20,7 +20,7 @@ stretchesOf(const Trajectory& estimate,
             double length)
 {
   std::vector<RelativeError> stretches;
-  std::size_t to = 0; // paths do not fall, so neither do the ends
+  std::size_t to = 0; // path lengths never decrease, nor do the end rows
   for (std::size_t from = 0; from < pairs.size(); ++from) {
     while (to < pairs.size() && paths[to] <= paths[from] + length)
       ++to;

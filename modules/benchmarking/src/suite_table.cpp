@@ -21,13 +21,13 @@ using benchmarking::fixedText;
 /** A column of numbers. */
 struct Column {
   std::string key;   ///< in CSV and JSON
-  std::string title; ///< in Markdown; empty: not there
+  std::string title; ///< in Markdown; empty: left out
   double unit;       ///< Markdown shows value x unit
   int digits;        ///< behind the point, in Markdown
   std::function<Number(const SuiteRow&)> value;
 };
 
-/** A column of one number of the errors. */
+/** A column with one number of the errors. */
 Column
 errorColumn(const std::string& key,
             const std::string& title,
@@ -56,7 +56,7 @@ stepColumn(const std::string& key,
           }};
 }
 
-/** A column of what is lost per metre. */
+/** A column with drift per metre. */
 Column
 driftColumn(const std::string& key,
             const std::string& title,
@@ -121,7 +121,7 @@ columns()
   return kColumns;
 }
 
-/** The columns of a Markdown table that have something to tell about these rows. */
+/** The columns of a Markdown table that are not empty for the rows. */
 std::vector<const Column*>
 columnsFor(const std::vector<SuiteRow>& rows)
 {
@@ -135,7 +135,7 @@ columnsFor(const std::vector<SuiteRow>& rows)
   return shown;
 }
 
-/** \return the shortest text that gives the same number when read */
+/** \return the shortest text that reads back as an equal number */
 std::string
 exactly(const Number& value)
 {

@@ -9,7 +9,7 @@
 namespace pcl6d {
 
 namespace {
-/** \return the value below which a share of the values lies; puts them in order so far */
+/** \return the quantile of the values at a share; reorders the values */
 double
 quantile(std::vector<float>& values, double share)
 {

@@ -26,14 +26,13 @@ statisticsOf(const std::vector<PoseError>& errors, double PoseError::*kind)
 
 using Columns = Eigen::Matrix3Xd;
 
-/** Turns the centred positions d onto m by the SVD of S = sum d m^T, if they determine
- * a rotation. \return whether they do */
+/** Rotation R of the centred positions d onto m by the SVD of S = sum d m^T.
+ * \return false: the positions do not determine a rotation */
 bool
 rotationBetween(const Columns& d, const Columns& m, Eigen::Matrix3d& R)
 {
   const auto [U, s, V] = singularValues(d * m.transpose());
-  // Below this spread a set is a point within rounding; s is the product of two
-  // spreads.
+  // Below this spread a set is a point up to rounding; s is the product of two spreads.
   constexpr double kPoint = 1e-18; // [m^2], per pair
   const bool mirrored = (V * U.transpose()).determinant() < 0;
   const auto count = static_cast<double>(d.cols());
@@ -127,8 +126,8 @@ revisitsFor(const Trajectory& reference,
   if (!options.loops)
     return findRevisits(reference, pairs, options.revisits);
   if (options.interpolation_gap)
-    throw BadArgument("loops are given by the poses of the reference, which "
-                      "interpolation replaces: give one of both");
+    throw BadArgument("loops are given by poses of the reference, but interpolation "
+                      "replaces these poses: give loops or interpolate");
   return revisitsOf(*options.loops, pairs);
 }
 } // namespace
@@ -139,7 +138,7 @@ evaluateTrajectory(const Trajectory& estimate,
                    const TrajectoryEvaluationOptions& options)
 {
   if (options.interpolation_gap && estimate.stamps.empty())
-    throw BadArgument("the estimate has no time stamps, which interpolation needs");
+    throw BadArgument("the estimate has no time stamps, needed for interpolation");
   TrajectoryEvaluation evaluation;
   evaluation.path_length = pathLength(reference);
   const Trajectory compared =

@@ -16,7 +16,7 @@ checkStamps(const std::vector<double>& stamps, const char* what)
     require(std::isfinite(stamps[i]) && (i == 0 || stamps[i] > stamps[i - 1]),
             what,
             stamps[i],
-            "finite and larger than the one before");
+            "finite and larger than the previous stamp");
 }
 
 Eigen::Isometry3d

@@ -68,12 +68,12 @@ countRun(const TrustRun& run, TrustCounts& counts)
   counts.by_matching += doubted && right && run.doubted_by_matching;
 }
 
-/** Counts of runs by what they have in common. */
+/** Counts of runs, grouped by a key. */
 class CountsBy {
 public:
   using Key = std::function<TrustCounts(const TrustRun&)>;
 
-  /** \param[in] key names what a run belongs to */
+  /** \param[in] key returns the group of a run */
   explicit CountsBy(Key key) : key_(std::move(key)) {}
 
   void
@@ -120,12 +120,12 @@ countsBy(const std::vector<TrustRun>& runs, const CountsBy::Key& key)
   return counts.take();
 }
 
-/** Calls with the scans whose place a map claims to know. */
+/** Calls take with the scans that a map claims to be right. */
 template <typename Take>
 void
 forEachClaim(const TrustRun& run, const Take& take)
 {
-  bool is_origin = true; // the first one not named: errors are relative to it
+  bool is_origin = true; // the first scan not named: origin of the errors
   for (const TrustScan& scan : run.scans) {
     if (scan.named || !std::isfinite(scan.error))
       continue;
@@ -135,7 +135,7 @@ forEachClaim(const TrustRun& run, const Take& take)
   }
 }
 
-/** The row of bounds up to a size, of all (bound, error) that there are. */
+/** A row of bounds up to a size, from the list of (bound, error). */
 BoundCounts
 boundsBetween(double above,
               double up_to,

@@ -40,8 +40,8 @@ shareText(const TrustShare& share)
   return text;
 }
 
-/** A table of counts. \param[in] head names of the columns that name the rows
- * \param[in] names of a row, as many */
+/** A table of counts. \param[in] head names of the leading columns
+ * \param[in] names of a row, one per leading column */
 template <typename Names>
 std::string
 countsMarkdown(const std::vector<TrustCounts>& rows,
@@ -92,7 +92,7 @@ describe(const TrustRun& run)
          (worst->bound ? "" : " (no bound is stated)") + end + '\n';
 }
 
-/** A list of the runs that are so, the largest errors first. */
+/** A list of the selected runs, the largest errors first. */
 template <typename Is>
 std::string
 listOf(const std::string& title, const std::vector<TrustRun>& runs, const Is& is)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/mpi/mpi_sharing.h>
 
-// The C++ bindings, which MPI gave up, ask for a library of their own.
+// The deprecated C++ bindings of MPI would need an extra library.
 #define OMPI_SKIP_MPICXX
 #define MPICH_SKIP_MPICXX
 #include <algorithm>
@@ -17,8 +17,7 @@ namespace {
 /** MPI counts in int: longer messages go in parts. */
 constexpr std::size_t kLargestPart = std::size_t{1} << 30; // [bytes]
 
-/** Fields of a header: the size of what follows, whether it tells of a failure, of which
- * item. */
+/** Fields of a header: size of the message, failure flag, failed item. */
 using Header = std::array<std::uint64_t, 3>;
 
 void
@@ -32,7 +31,7 @@ require(int code, const char* what)
 void
 wait(MPI_Request& request)
 {
-  constexpr int kEager = 200; // tries before it sleeps
+  constexpr int kEager = 200; // polls before sleeping
   constexpr std::chrono::microseconds kLongest(1000);
   std::chrono::microseconds pause(20);
   for (int tries = 0;; ++tries) {
@@ -49,7 +48,7 @@ wait(MPI_Request& request)
   }
 }
 
-/** One rank's bytes to all others. */
+/** Sends the bytes of a rank to every rank. */
 void
 broadcast(std::string& bytes, int from)
 {
@@ -67,7 +66,7 @@ broadcast(std::string& bytes, int from)
   }
 }
 
-/** One rank's bytes to the first one. */
+/** Sends the bytes of a rank to the first rank. */
 void
 send(std::string& bytes, int from, int rank)
 {
@@ -89,7 +88,7 @@ MpiSharing::MpiSharing()
   int started = 0, level = 0, rank = 0, size = 1;
   require(MPI_Initialized(&started), "starting");
   if (started != 0)
-    throw IoFailed("MPI was started before in this process");
+    throw IoFailed("MPI was already started in the process");
   require(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level), "starting");
   require(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "starting");
   require(MPI_Comm_size(MPI_COMM_WORLD, &size), "starting");

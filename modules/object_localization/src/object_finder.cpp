@@ -21,10 +21,9 @@ detectorOf(const StoredModel& stored, const ObjectFinderOptions& options)
   if (options.use_reflectance && stored.reflectance_cascade)
     cascades.push_back(readCascade(*stored.reflectance_cascade));
   if (cascades.empty())
-    throw BadArgument(
-        "the model of class '" + stored.model.objectClass() +
-        "' has no such cascade: train one with pcl_slam6d_objects train, or "
-        "take --proposals clusters");
+    throw BadArgument("the model of class '" + stored.model.objectClass() +
+                      "' has no cascade for this channel: train a cascade with "
+                      "pcl_slam6d_objects train, or use --proposals clusters");
   if (cascades.size() == 1)
     return ObjectDetector(std::move(cascades[0]), options.detector);
   return ObjectDetector(

@@ -5,12 +5,12 @@
 namespace pcl6d::scanner {
 
 /** \throws BadArgument rows or columns below 1, or more than 1e8 pixels; the message
- * states the memory that a range image of that size would take */
+ * states the memory of the range image */
 void
 requireImageSize(int rows, int cols);
 
 /** \throws BadArgument lines or samples below 1, or more than 1e8 samples; the message
- * states the memory that they would take */
+ * states the memory of the scan */
 void
 requireScanSize(double num_lines, double samples_per_line);
 

@@ -10,9 +10,9 @@ namespace pcl6d::scene_interpretation {
 namespace {
 constexpr std::size_t kNone = NetworkSolution::kNone;
 
-/* Depth-first search over the variables of one component. A value that conflicts with
- * a chosen one is blocked; a variable all of whose values are blocked can add nothing
- * more, and no branch is entered that cannot beat the best. */
+/* Depth-first branch and bound over the variables of one component. A value in conflict
+ * with a chosen value is blocked; a variable without open values adds nothing. Branches
+ * that cannot beat the best solution are skipped. */
 class Search {
 public:
   Search(const ConstraintNetwork& network,
@@ -140,19 +140,19 @@ private:
   std::vector<std::size_t> order_;
   NetworkSolution& solution_;
   std::size_t node_limit_;
-  std::vector<int> blocked_;      // per value: chosen values that conflict with it
-  std::vector<std::size_t> open_; // per variable: values that are not blocked
+  std::vector<int> blocked_; // per value: number of chosen values in conflict with it
+  std::vector<std::size_t> open_; // per variable: number of values that are not blocked
   std::vector<std::size_t> chosen_;
   std::vector<bool> is_decided_;
   std::vector<std::size_t> needy_; // chosen values with needs
   std::vector<std::size_t> best_choice_;
   std::int64_t worth_ = 0;
-  std::int64_t reachable_ = 0; // worth of the undecided variables that may get a value
+  std::int64_t reachable_ = 0; // worth of the undecided variables with open values
   std::int64_t best_ = -1;
 };
 
-// Arc consistency. As "none" goes with everything, conflicts rule out no value before
-// others are chosen; a need that nothing can meet does.
+// Arc consistency. "none" is compatible with every value, so conflicts rule out no
+// value before others are chosen; a need without a supporting value does.
 std::vector<bool>
 supportedValues(const ConstraintNetwork& network)
 {
@@ -174,7 +174,7 @@ supportedValues(const ConstraintNetwork& network)
   return is_supported;
 }
 
-// Variables that can have an influence on each other, each list by falling worth.
+// Groups of variables that can influence each other, each by falling worth.
 std::vector<std::vector<std::size_t>>
 componentOrders(const ConstraintNetwork& network, const std::vector<bool>& is_supported)
 {
@@ -220,7 +220,7 @@ solve(const ConstraintNetwork& network, std::size_t node_limit)
   bool is_complete = true;
   const auto orders = componentOrders(network, is_supported);
   for (std::size_t c = 0; c < orders.size(); ++c) {
-    // A component may use its even share of the nodes that are left.
+    // Limit of a component: an even share of the remaining nodes.
     const std::size_t left = node_limit - std::min(solution.nodes, node_limit);
     const std::size_t share = solution.nodes + left / (orders.size() - c);
     Search(network, domains, orders[c], solution, share).run();

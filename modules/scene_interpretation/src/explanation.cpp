@@ -41,7 +41,7 @@ misfitText(const Condition& condition, double value)
          "]";
 }
 
-/* One plane of a labelled scene: says of each label why it is not the plane's. */
+/* Explains, for one plane of a labelled scene, why each other label is rejected. */
 class Explainer {
 public:
   Explainer(const LabelProblem& problem,
@@ -97,7 +97,7 @@ private:
     return {};
   }
 
-  // Another plane whose need only this one, with its present label, meets.
+  // Another plane whose need is met only by this plane with its present label.
   std::optional<std::size_t>
   dependant() const
   {
@@ -116,7 +116,7 @@ private:
     return {};
   }
 
-  Rejection
+  RejectedLabel
   rejection(std::size_t label) const
   {
     const std::string& name = rules_.labels[label].name;
@@ -133,10 +133,10 @@ private:
                     toString(need.rule) + "'",
                 {}};
     if (const auto other = dependant())
-      return {name, nameOf(*other) + " needs it as it is", other};
+      return {name, nameOf(*other) + " needs this label", other};
     if (hasLabel(plane_) && labels_[plane_] < label)
       return {name, rules_.labels[labels_[plane_]].name + " comes first", {}};
-    return {name, "a better labelling has another one here, or was not found", {}};
+    return {name, "a better labelling has another label here, or was not found", {}};
   }
 
   const LabelProblem& problem_;

@@ -36,7 +36,7 @@ requireFinite(const std::vector<Plane>& planes)
   }
 }
 
-// Where the sensor is, as seen from a plane whose side is not known otherwise.
+// Direction from a plane towards the sensor, where the visible side is unknown.
 Eigen::Vector3d
 towardsSensor(const Plane& plane, const Eigen::Vector3d& sensor)
 {
@@ -80,7 +80,7 @@ ConstraintNetwork
 LabelProblem::network(unsigned int num_threads) const
 {
   ConstraintNetwork network;
-  std::vector<std::size_t> first; // per plane its first value
+  std::vector<std::size_t> first; // index of each plane's first value
   for (std::size_t i = 0; i < planes_.size(); ++i) {
     first.push_back(network.values.size());
     network.worth.push_back(std::llround(planes_[i].area * kWorthPerSquareMetre));

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-/** \file What a set of rules says of the planes of a scene. Internal to the module
+/** \file Application of a set of rules to the planes of a scene. Internal to the module
  * scene_interpretation. */
 namespace pcl6d::scene_interpretation {
 
-/** \brief Planes, rules and storeys as one question. */
+/** \brief The labelling problem of planes, rules and storeys. */
 class LabelProblem {
 public:
   LabelProblem(const std::vector<ScenePlane>& planes,
@@ -36,11 +36,11 @@ public:
     return planes_.size();
   }
 
-  /** \return why the plane by itself cannot carry the label; none if it can */
+  /** \return why the plane by itself cannot carry the label; nullopt if it can */
   std::optional<std::string>
   misfit(std::size_t plane, std::size_t label) const;
 
-  /** \return the constraint that forbids i the label a beside j with the label b */
+  /** \return the constraint that forbids label a for i beside label b for j */
   const PairRule*
   forbids(std::size_t i, std::size_t a, std::size_t j, std::size_t b) const;
 
@@ -48,7 +48,7 @@ public:
   bool
   meets(const NeedRule& need, std::size_t i, std::size_t j) const;
 
-  /** \brief The network of all labels that fit. */
+  /** \brief Builds the network of every label that fits. */
   ConstraintNetwork
   network(unsigned int num_threads) const;
 
@@ -59,8 +59,8 @@ private:
   const RelationTolerances& tolerances_;
 };
 
-/** \brief Explains a labelling. \param[in] labels per plane the place of its label in
- * the rules; labels.size() for none */
+/** \brief Explains a labelling. \param[in] labels per plane the index of its label in
+ * the rules; labels.size() for no label */
 std::vector<LabelExplanation>
 explain(const LabelProblem& problem, const std::vector<std::size_t>& labels);
 

@@ -41,7 +41,7 @@ wallsOf(const std::vector<FittedPlane>& planes,
   return walls;
 }
 
-// The angle by which two walls miss being parallel or orthogonal.
+// Deviation of two walls from parallel or orthogonal [rad].
 double
 missOf(const Wall& a, const Wall& b)
 {
@@ -61,7 +61,8 @@ meanHeading(const std::vector<Wall>& walls, const std::vector<FittedPlane>& plan
   return portableAtan2(sine, cosine) / 4;
 }
 
-// The walls with the most area that go with one of them; they leave the list.
+// Moves the walls of the frame with the most area out of the list. A frame consists of
+// the walls in agreement with one wall.
 std::vector<Wall>
 takeLargestFrame(std::vector<Wall>& walls,
                  const std::vector<FittedPlane>& planes,
@@ -108,13 +109,14 @@ addFrame(const std::vector<Wall>& walls,
   }
 }
 
-// How the exact normals of a plane change with the unknowns: a turn of everything
-// (first three, unless the vertical is kept), and a turn of each heading about it.
+// Derivatives of the exact normal of a plane by the unknowns: a common turn (first
+// three, unless the vertical is kept), and a turn of each heading about the vertical.
 Eigen::MatrixXd
 derivative(const ExactDirection& direction, bool keep_up, const DirectionFrames& frames)
 {
   const Eigen::Index turn = keep_up ? 0 : 3;
-  const Eigen::Index skipped = keep_up ? 0 : 1; // the first heading turns with all
+  const Eigen::Index skipped = keep_up ? 0 : 1; // first heading: turned by the common
+                                                // turn
   const auto count = static_cast<Eigen::Index>(frames.headings.size());
   const Eigen::Vector3d n = frames.normal(direction);
   Eigen::MatrixXd J =
@@ -130,7 +132,7 @@ derivative(const ExactDirection& direction, bool keep_up, const DirectionFrames&
 Eigen::VectorXd
 pseudoSolve(const Eigen::MatrixXd& H, const Eigen::VectorXd& g)
 {
-  constexpr double kSmall = 1e-10; // relative: directions that nothing determines
+  constexpr double kSmall = 1e-10; // relative: undetermined directions
   const auto eigen = symmetricEigen<Eigen::Dynamic>(H);
   const Eigen::VectorXd& values = eigen.values;
   Eigen::VectorXd part = eigen.vectors.transpose() * g;

@@ -10,20 +10,21 @@
  * scene_interpretation. */
 namespace pcl6d::scene_interpretation {
 
-/** \brief A plane as the sums of its points know it. */
+/** \brief A plane and the sums of its points. */
 struct FittedPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();    ///< about the centroid [m^2]
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero(); ///< of the normal [rad^2]
-  /// n^T information n: what a normal n costs, its pseudo-inverse [1 / rad^2]; without
-  /// errors of poses the scatter over the variance of the noise
+  /// Information matrix [1 / rad^2], pseudo-inverse of the covariance: n^T information
+  /// n is the cost of a normal n. Without errors of poses, the scatter over the
+  /// variance of the noise
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   double area = 0;   ///< [m^2]
   double points = 0; ///< number of them
 };
 
-/** \brief What the exact normal of a plane is to be. */
+/** \brief The exact normal required of a plane. */
 struct ExactDirection {
   enum class Kind { kFree, kUp, kAlong, kAcross };
   Kind kind = Kind::kFree;
@@ -35,15 +36,16 @@ struct DirectionFrames {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   std::vector<Eigen::Vector3d> headings;
 
-  /** \return the direction, not that of kFree */
+  /** \return the direction; kind must not be kFree */
   Eigen::Vector3d
   normal(const ExactDirection& direction) const;
 };
 
-/** \brief Gathers upright planes into frames of parallel and orthogonal ones: each time
- * that with the most area within `significance` standard deviations of one plane.
- * \param[in,out] directions the planes to gather are of kind kAlong; those in
- * `alone` get a frame of their own */
+/** \brief Groups upright planes into frames of parallel and orthogonal planes, in
+ * turns: the frame with the most area within `significance` standard deviations of one
+ * plane.
+ * \param[in,out] directions planes of kind kAlong are grouped; planes in `alone` get a
+ * frame of their own */
 DirectionFrames
 gatherFrames(const std::vector<FittedPlane>& planes,
              const Eigen::Vector3d& up,
@@ -51,8 +53,7 @@ gatherFrames(const std::vector<FittedPlane>& planes,
              const std::vector<bool>& alone,
              std::vector<ExactDirection>& directions);
 
-/** \brief Turns frames to where the sum of n^T information n over all planes is
- * smallest.
+/** \brief Turns frames to the minimum of the sum of n^T information n over the planes.
  * \param[in] keep_up only the headings change */
 void
 optimiseFrames(const std::vector<FittedPlane>& planes,

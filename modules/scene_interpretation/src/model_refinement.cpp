@@ -144,7 +144,7 @@ private:
     return shortestRotation(from, to).toRotationMatrix();
   }
 
-  // By what factor a plane breaks the limits of turning and moving; its words.
+  // Factor by which a plane exceeds the limits of turn and move, with the reason.
   std::pair<double, std::string>
   objection(std::size_t plane) const
   {
@@ -165,7 +165,8 @@ private:
                 rounded(options_.max_move) + " m"};
   }
 
-  // Takes out the plane that objects most. \return false: none does
+  // Takes out the plane that exceeds its limits most. \return false: every plane is
+  // within its limits
   bool
   refuseWorst()
   {

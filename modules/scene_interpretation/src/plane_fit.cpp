@@ -38,7 +38,7 @@ fitNormal(const RefinementOptions& options, FittedPlane& fit)
   fit.normal = eigen.vectors.col(0);
   if (fit.normal.dot(before) < 0)
     fit.normal = -fit.normal;
-  constexpr double kPatch = 1.0;           // [m^2] with one error of the map
+  constexpr double kPatch = 1.0;           // [m^2] patch with one independent map error
   constexpr double kLeastVariance = 1e-20; // [rad^2] of planes without any error
   const double noise = std::max(lambda(0), 0.0) / std::max(fit.points - 3, 1.0);
   const double patches = std::max(fit.area / kPatch, 1.0);

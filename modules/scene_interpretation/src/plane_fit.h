@@ -5,16 +5,16 @@
 
 #include <pcl6d/scene_interpretation/model_refinement.h>
 
-/** \file Planes as the sums of their points know them. Internal to the module
+/** \file Planes from sums of their points. Internal to the module
  * scene_interpretation. */
 namespace pcl6d::scene_interpretation {
 
-/** \return centroid and scatter of a segment's points; its normal as it is */
+/** \return centroid and scatter of a segment's points, with the segment's normal */
 FittedPlane
 fitted(const PlaneSegment& segment, const Points& points);
 
-/** \brief The least-squares normal and its covariance: the noise of the points, and
- * what the errors of poses do to a plane of this size.
+/** \brief Computes the least-squares normal and its covariance: noise of the points,
+ * and errors of poses for a plane of this size.
  * \return false: the points lie on no plane */
 bool
 fitNormal(const RefinementOptions& options, FittedPlane& fit);
@@ -22,7 +22,7 @@ fitNormal(const RefinementOptions& options, FittedPlane& fit);
 /** \brief A turn of a normal. */
 struct Turn {
   double angle = 0;       ///< [rad]
-  double uncertainty = 0; ///< [rad] standard deviation of the normal along it
+  double uncertainty = 0; ///< [rad] standard deviation of the normal along the turn
 };
 
 Turn

@@ -51,12 +51,12 @@ bool
 isRecessed(const ScenePlane& i, const ScenePlane& j, const RelationTolerances& t)
 {
   if (i.side_known && j.side_known && i.normal.dot(j.normal) < 0)
-    return false; // the back of a wall is no place for a door of its front
+    return false; // no door of the front is on the back of a wall
   return isOnto(i, j, t) && isInside(j.corners, j.normal, i.centre, t.touch) &&
          (!j.side_known || inFront(i, j) < t.in_front);
 }
 
-// The leaf i turns about one of its upright edges, which is at the wall j.
+// Whether the leaf i turns about one of its upright edges, near the wall j.
 bool
 isHinged(const ScenePlane& i, const ScenePlane& j, const RelationTolerances& t)
 {

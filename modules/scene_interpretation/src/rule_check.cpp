@@ -9,7 +9,7 @@ namespace pcl6d::scene_interpretation {
 namespace {
 constexpr std::size_t kRelations = 11;
 
-// A way in which two planes may lie: which relations hold of i to j, and of j to i.
+// A combination of relations of two planes: from i to j, and from j to i.
 struct World {
   std::array<bool, kRelations> forward{};
   std::array<bool, kRelations> backward{};
@@ -28,7 +28,7 @@ struct World {
   }
 };
 
-// Every combination of relations that geometry allows, by counting through choices.
+// Every combination of relations that geometry allows, by enumeration.
 std::vector<World>
 makeWorlds()
 {
@@ -81,7 +81,7 @@ isTrue(const RelationRule& rule, const std::array<bool, kRelations>& facts)
   return !part(rule.parts.front());
 }
 
-// Whether planes that lie as their labels ask for can lie so to each other.
+// Whether planes oriented by their labels can have these relations.
 bool
 fitsOrientations(const World& world, const LabelRule& a, const LabelRule& b)
 {
@@ -133,7 +133,8 @@ private:
     return rules_.labels[label].name;
   }
 
-  // Whether there is a world that all constraints on the pair of labels allow.
+  // Whether the constraints on the pair of labels allow a combination that meets the
+  // condition.
   bool
   someWorld(std::size_t a,
             std::size_t b,
@@ -191,7 +192,7 @@ private:
         highest = condition.high;
     }
     if (lowest > highest)
-      cannot("its bottom is higher than its top");
+      cannot("the bottom is higher than the top");
   }
 
   void
@@ -206,7 +207,7 @@ private:
              places(need.label, need.partner));
   }
 
-  // Whether the constraints say that a is always above b.
+  // Whether the constraints imply that a is always above b.
   bool
   isAlwaysAbove(std::size_t a, std::size_t b) const
   {
@@ -232,7 +233,7 @@ private:
       for (std::size_t b = a + 1; b < count; ++b)
         if (above[a][b] && above[b][a])
           fail("'" + name(a) + "' is always above '" + name(b) + "', and that above '" +
-               name(a) + "', by way of other labels");
+               name(a) + "', by way of further labels");
   }
 
   const LabelRules& rules_;

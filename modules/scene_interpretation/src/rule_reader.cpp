@@ -37,7 +37,7 @@ readCondition(Measure measure, const JsonValue& json)
   condition.low = unit * bound(range[0], condition.low);
   condition.high = unit * bound(range[1], condition.high);
   if (condition.low > condition.high)
-    json.fail("the range " + json.excerpt() + " is empty, so that no plane fits");
+    json.fail("the range " + json.excerpt() + " is empty: no plane fits");
   return condition;
 }
 

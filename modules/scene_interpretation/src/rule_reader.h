@@ -9,15 +9,15 @@
 /** \file Reading of LabelRules. Internal to the module scene_interpretation. */
 namespace pcl6d::scene_interpretation {
 
-/** \brief Adds labels, constraints and needs of a file to rules.
- * \throws IoFailed as readLabelRules(), contradictions left out */
+/** \brief Adds labels, constraints and needs of a file to rules. \throws IoFailed see
+ * readLabelRules(), except contradictions */
 void
 addRules(const JsonValue& json, LabelRules& rules);
 
-/** \brief Makes sure that rules can be kept at all: no label whose conditions exclude
- * each other, no constraint that no two planes with its labels can fulfil, no labels
- * above each other in a circle, no need without a possible partner.
- * \throws IoFailed naming file, place and what contradicts what */
+/** \brief Checks that rules can be satisfied: no label with contradictory conditions,
+ * no constraint that its labels cannot fulfil, no cycle of labels above each other, no
+ * need without a possible partner.
+ * \throws IoFailed naming file, position and contradiction */
 void
 checkRules(const LabelRules& rules, const std::string& file);
 

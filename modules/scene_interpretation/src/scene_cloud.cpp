@@ -38,7 +38,7 @@ sceneParameters(const RegisteredScans& scans,
                 const ProgressCallback& progress)
 {
   ScanParameterOptions options = given;
-  if (scans.summary()) { // the run knows its range gate
+  if (scans.summary()) { // take the range gate of the run
     options.min_range = given.min_range.value_or(scans.minRange());
     options.max_range = given.max_range.value_or(scans.maxRange());
   }

@@ -18,7 +18,7 @@ constexpr Named<Measure> kMeasures[] = {{Measure::kArea, "area"},
                                         {Measure::kTop, "top"},
                                         {Measure::kGapToCeiling, "gap_to_ceiling"}};
 
-// Extents along the horizontal line in the plane, and across it.
+// Extents along and across the plane's horizontal line.
 void
 measureUpright(ScenePlane& plane)
 {
@@ -28,7 +28,8 @@ measureUpright(ScenePlane& plane)
   plane.length = extentAlong(plane.corners, plane.normal.cross(along));
 }
 
-// The sides of the smallest rectangle around the hull; one lies along an edge of it.
+// Sides of the smallest rectangle around the hull; one side lies along an edge of the
+// hull.
 void
 measureLevel(ScenePlane& plane)
 {

@@ -11,7 +11,7 @@ constexpr double kNear = 1.0;           // [m] in plan: beside a floor
 constexpr double kOver = 0.3;           // [m] in plan: under a ceiling
 constexpr double kMinCeilingArea = 1.0; // [m^2] no lintel, no board
 
-// A level of floors, by the largest of its planes.
+// Floors at one height, given by the largest plane.
 struct Level {
   double height = 0;
   double area = 0;
@@ -48,7 +48,7 @@ public:
     return levels;
   }
 
-  // The highest floor under a plane, those beside or under it first.
+  // Storey of the highest floor under a plane; floors beside or under the plane first.
   std::size_t
   storeyOf(std::size_t plane, const std::vector<Level>& levels) const
   {
@@ -107,8 +107,8 @@ private:
         });
   }
 
-  // A plane at the height of a floor belongs to it; one without headroom over or under
-  // a larger floor at the same place is a table or a step.
+  // A plane at the height of a floor belongs to the floor. Without headroom over or
+  // under a larger floor in plan, the plane is a table or a step.
   void
   addFloor(std::size_t plane, std::vector<Level>& levels) const
   {
@@ -131,7 +131,7 @@ private:
       levels.push_back({height, planes_[plane].area, {plane}});
   }
 
-  // No plane is known to have been seen from above: the lowest of the large ones.
+  // Fallback without a plane seen from above: the lowest large plane.
   void
   addLowest(std::vector<Level>& levels) const
   {
@@ -180,7 +180,8 @@ findStoreys(std::vector<ScenePlane>& planes,
   for (std::size_t i = 0; i < planes.size(); ++i) {
     planes[i].floor = result.storeys[result.storey_of[i]].floor;
     planes[i].ceiling = ceilings[i];
-    // A wall through several storeys is as high as its own.
+    // For a wall through several storeys, the centre is that of the part in its own
+    // storey.
     if (ceilings[i] && planes[i].bottom < *ceilings[i] && planes[i].top > *ceilings[i])
       planes[i].centre.z() = (planes[i].bottom + *ceilings[i]) / 2;
   }

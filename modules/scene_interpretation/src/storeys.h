@@ -9,8 +9,8 @@
 /** \file Storeys of a building. Internal to the module scene_interpretation. */
 namespace pcl6d::scene_interpretation {
 
-/** \brief Finds the storeys, the storey of each plane, and for each plane the height of
- * the floor of its storey and of the ceiling over it. */
+/** \brief Finds the storeys, the storey of each plane, and for each plane the heights
+ * of the storey's floor and of the ceiling above. */
 void
 findStoreys(std::vector<ScenePlane>& planes,
             const InterpretationOptions& options,

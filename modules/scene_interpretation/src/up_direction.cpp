@@ -12,7 +12,7 @@
 
 namespace pcl6d {
 namespace {
-constexpr std::size_t kLargest = 40; // planes whose edges are tried
+constexpr std::size_t kLargest = 40; // largest planes, whose intersections are tried
 constexpr double kLeastSine = 0.5;   // of the angle at an edge: 30 deg
 
 enum class Fit { kNone, kLevel, kUpright };
@@ -53,7 +53,7 @@ candidates(const std::vector<Plane>& planes)
   return directions;
 }
 
-// The direction that is best for all planes that fit, weighted by area.
+// Least-squares direction over the planes that fit, weighted by area.
 Eigen::Vector3d
 refined(const std::vector<Plane>& planes, const Eigen::Vector3d& up, const SinCos& tau)
 {

@@ -105,7 +105,7 @@ private:
         add(planeEntity(j), toString(relation), planeEntity(i));
   }
 
-  /** \return whether a plane is a part of an object: all of it lies in the box */
+  /** \return whether a plane is a part of an object: entirely in its box */
   bool
   isPart(std::size_t plane, std::size_t object) const
   {
@@ -115,7 +115,7 @@ private:
     });
   }
 
-  /** \return whether the box of an object lies in the box of another one */
+  /** \return whether the box of an object lies in the box of another object */
   bool
   isInside(const ObjectPose& inner, const ObjectPose& outer) const
   {
@@ -137,8 +137,8 @@ private:
         add(planeEntity(i), "in", objectEntity(object));
   }
 
-  /** \return distance of the foot of an object to a level plane below it [m]; infinite if
-   * it is over no part of it */
+  /** \return distance [m] of the foot of an object to a level plane below it; infinite
+   * if the foot is not over the plane */
   double
   gapTo(std::size_t plane, const ObjectShape& shape) const
   {

@@ -48,7 +48,8 @@ SemanticMapBuilder::setObjects(const std::vector<MapObject>& observations,
     for (const auto id : observations[i].scans)
       if (!map_.placeOf({EntityKind::kScan, id}))
         throw IoFailed(source + ": object " + std::to_string(i + 1) + ": scan " +
-                       std::to_string(id) + ", but the run has no such scan");
+                       std::to_string(id) +
+                       ", but the run has no scan with this index");
   map_.objects.clear();
   if (!options_.fuse)
     map_.objects = observations;

@@ -14,7 +14,8 @@
 namespace pcl6d {
 
 namespace {
-/** The four entries of a rectangle's sum, each for all windows, and its weight. */
+/** The four table entries of a rectangle for every window, and the rectangle's
+ * weight. */
 struct Corners {
   const std::uint32_t *a, *b, *c, *d;
   float weight;
@@ -117,7 +118,7 @@ constexpr std::uint16_t kNextIsEqual = 0x8000;
 constexpr std::uint16_t kWindow = 0x7fff;
 constexpr std::size_t kBlock = 64; // features per piece of work
 
-/** \return a number whose order is that of the float */
+/** \return an integer with the order of the float */
 std::uint32_t
 orderedBits(float value)
 {
@@ -129,7 +130,7 @@ orderedBits(float value)
 
 constexpr int kIndexBits = 16;
 
-/** \brief Sorts by the upper bits; what is equal keeps its order. */
+/** \brief Sorts by the upper bits; equal keys keep their order. */
 void
 sortByValue(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& spare)
 {
@@ -261,11 +262,11 @@ SortedFeatures::bestSplit(const std::vector<Weighted>& samples,
   return {true, feature, thresholdBehind(feature, best->place), best->gain};
 }
 
-/** The windows that end at one place of a tree while it grows. */
+/** The windows that reach one leaf of a growing tree. */
 struct GentleBoost::Leaf {
   std::vector<std::uint32_t> windows;
-  SortedFeatures::Split split; ///< the best one of them
-  int parent = -1;             ///< node; -1: this is the root
+  SortedFeatures::Split split; ///< best split of the windows
+  int parent = -1;             ///< node; -1: the root
   bool is_left = false;        ///< of the parent
 };
 

@@ -7,7 +7,7 @@
 
 namespace pcl6d {
 namespace {
-/** To the nearest, halves to even, as OpenCV rounds. */
+/** To the nearest integer, halves to even, like OpenCV. */
 int
 rounded(double x)
 {
@@ -23,7 +23,7 @@ clipped(ImageRect window, const GrayImage& image)
   return window;
 }
 
-/** OpenCV cuts the rows of an image into stripes, and may lose the last row by it. */
+/** OpenCV cuts the rows of an image into stripes, and may thereby lose the last row. */
 int
 endOfRows(int places_down, int step, int stripes)
 {

@@ -42,7 +42,7 @@ numbersOf(const pt::ptree& node, const char* name)
   for (double number = 0; text >> number;)
     numbers.push_back(number);
   if (!text.eof())
-    fail(std::string("<") + name + "> holds something that is no number");
+    fail(std::string("<") + name + "> holds text that is no number");
   return numbers;
 }
 

@@ -15,7 +15,7 @@ using namespace object_localization;
 
 namespace {
 constexpr std::size_t kFewestPositives = 10;
-constexpr std::size_t kFewestNegatives = 10; // fewer tell nothing
+constexpr std::size_t kFewestNegatives = 10; // fewer are not representative
 
 /** \return a share of the features, drawn by the seed, in their order */
 std::vector<HaarFeature>
@@ -27,7 +27,7 @@ drawFeatures(const std::vector<HaarFeature>& all, std::size_t count, std::uint64
   return some;
 }
 
-/** \return those windows that pass all stages there are */
+/** \return the windows that pass every stage of the cascade */
 std::vector<GrayImage>
 passing(const HaarCascade& cascade, const std::vector<GrayImage>& windows)
 {
@@ -52,7 +52,7 @@ checkPositives(const std::vector<GrayImage>& positives,
                         std::to_string(options.height));
 }
 
-/** One training: what does not change from stage to stage. */
+/** One training: the data shared by its stages. */
 class Trainer {
 public:
   Trainer(const std::vector<GrayImage>& positives,
@@ -66,7 +66,7 @@ public:
   , features_(haarFeatures(options.width, options.height, options.features))
   {}
 
-  /** \return false if the training is at its end */
+  /** \return false at the end of the training */
   bool
   addStage(CascadeTraining& training)
   {

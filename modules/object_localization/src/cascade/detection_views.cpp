@@ -57,7 +57,7 @@ DetectionViewOptions::validate() const
           max_range,
           "> min_range and finite");
   require(slice_depth >= 0.01, "slice_depth", slice_depth, ">= 0.01");
-  // Each slice is a picture of each view; more would fill memory before they are found empty.
+  // Each slice is a picture of each view; too many would exhaust memory.
   constexpr double kMostDepths = 5000;
   require(max_range <= kMostDepths * slice_depth,
           "max_range",

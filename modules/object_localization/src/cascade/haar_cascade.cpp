@@ -15,7 +15,7 @@ validateTree(const HaarTree& tree, std::size_t num_features)
   require(tree.leaves.size() == tree.nodes.size() + 1,
           "leaves of a tree",
           tree.leaves.size(),
-          std::to_string(nodes + 1) + ", one more than its nodes");
+          std::to_string(nodes + 1) + ": the number of nodes plus 1");
   for (int i = 0; i < nodes; ++i) {
     const auto& node = tree.nodes[static_cast<std::size_t>(i)];
     require(node.feature >= 0 && static_cast<std::size_t>(node.feature) < num_features,

@@ -7,7 +7,7 @@
 
 namespace pcl6d {
 namespace {
-/** What a kind of features looks like, in cells. */
+/** Shape of a kind of features, in cells. */
 struct Pattern {
   int cells_across; ///< of the whole
   int cells_down;
@@ -33,7 +33,7 @@ patterns()
   return all;
 }
 
-/** \return the feature whose whole starts at (x, y) and has cells of w x h pixels */
+/** \return the feature at (x, y) with cells of w x h pixels */
 HaarFeature
 featureOf(const Pattern& pattern, int x, int y, int w, int h, bool tilted)
 {

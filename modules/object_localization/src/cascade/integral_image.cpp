@@ -65,9 +65,10 @@ IntegralImage::sumUpright(const GrayImage& image)
   }
 }
 
-// The triangle of an entry is those of its upper neighbours on both sides, less what they
-// share, and the two pixels at its tip. Left of the image its edge is the only one that
-// counts, so that the triangle is that of the entry to the upper right; and likewise right.
+// The triangle of an entry is the sum of the triangles at its upper left and upper
+// right, minus their intersection, plus the two pixels at the tip. At the left border
+// the triangle equals that of the entry to the upper right; likewise at the right
+// border.
 void
 IntegralImage::sumTilted(const GrayImage& image)
 {

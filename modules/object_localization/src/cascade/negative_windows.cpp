@@ -9,7 +9,7 @@
 
 namespace pcl6d::object_localization {
 
-/** A window that passes all stages. */
+/** A window that passes every stage. */
 struct NegativeFinder::Alarm {
   std::uint64_t key = 0; ///< random: the smallest are drawn
   std::size_t image = 0;
@@ -80,7 +80,7 @@ NegativeFinder::allPlaces(const WindowScale& scale, std::size_t image) const
   return places;
 }
 
-// A window that failed once fails for ever: the next search looks at the others alone.
+// A window that failed once fails every longer cascade: the next search skips it.
 NegativeFinder::Alarms
 NegativeFinder::searchImage(const HaarCascade& cascade,
                             std::size_t image,

@@ -5,14 +5,14 @@
 
 namespace pcl6d::object_localization {
 
-/** \brief What a search for false alarms found. */
+/** \brief Result of a search for false alarms. */
 struct NegativeWindows {
   std::vector<GrayImage> windows; ///< of the cascade's size
-  std::size_t passed = 0;         ///< windows of the backgrounds that pass all stages
-  std::size_t tested = 0;         ///< those with enough contrast
+  std::size_t passed = 0;         ///< background windows that pass every stage
+  std::size_t tested = 0;         ///< background windows with enough contrast
 };
 
-/** \brief Finds false alarms of a cascade that grows. */
+/** \brief Finds false alarms of a growing cascade. */
 class NegativeFinder {
 public:
   /** Keeps a reference to the backgrounds. */
@@ -20,18 +20,19 @@ public:
                  double scale_factor,
                  unsigned int num_threads);
 
-  /** \brief Looks at the windows of the backgrounds as the detector does, and draws from
-   * those that pass all stages of the cascade. Which are drawn depends on the seed alone.
-   * \param[in] cascade the last one with more stages, or one without any at first */
+  /** \brief Tests the windows of the backgrounds like the detector, and draws from the
+   * windows that pass every stage. The seed alone decides the draw.
+   * \param[in] cascade the previous cascade with more stages; without stages in the
+   * first call */
   NegativeWindows
   find(const HaarCascade& cascade, std::size_t wanted, std::uint64_t seed);
 
 private:
   /** A window in an image. */
   struct Place {
-    std::uint16_t x, y; // of its corner in the image of its scale
+    std::uint16_t x, y; // corner in the image of its scale
   };
-  /** The windows of an image that passed so far. */
+  /** The windows of an image that have passed up to now. */
   struct Search {
     bool is_known = false;
     std::vector<std::vector<Place>> places; // by scale

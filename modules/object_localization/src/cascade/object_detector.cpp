@@ -10,7 +10,7 @@
 
 namespace pcl6d {
 
-/** A window that passed all stages. */
+/** A window that passed every stage. */
 struct ObjectDetector::Hit {
   ImageRect box;
   double range = 0; // [m]
@@ -58,15 +58,14 @@ checkCascades(const std::vector<HaarCascade>& cascades)
   for (const auto& cascade : cascades) {
     cascade.validate();
     if (!cascade.subject)
-      throw BadArgument(
-          "the cascade does not tell its channel and the object's size: it "
-          "was not trained by pcl_slam6d_objects train");
+      throw BadArgument("the cascade lacks the channel and the size of the object: not "
+                        "trained by pcl_slam6d_objects train");
   }
   if (cascades.size() == 1)
     return;
   const CascadeSubject &a = *cascades[0].subject, &b = *cascades[1].subject;
   if (a.channel == b.channel)
-    throw BadArgument("both cascades look at the same channel");
+    throw BadArgument("both cascades look at one channel");
   if (a.pixel != b.pixel || a.slice_depth != b.slice_depth)
     throw BadArgument("the cascades look at pictures of another pixel or slice depth");
 }
@@ -235,7 +234,7 @@ ObjectDetector::grouped(const std::vector<Hit>& hits,
 bool
 ObjectDetector::areOne(const DetectedObject& a, const DetectedObject& b) const
 {
-  constexpr double kOverlap = 0.3; // the channels differ in where they see the edges
+  constexpr double kOverlap = 0.3; // the channels locate edges differently
   return overlap(a.box, b.box) >= kOverlap &&
          std::abs(a.range - b.range) <= options_.views.slice_depth / 2;
 }
@@ -246,7 +245,7 @@ ObjectDetector::combined(std::vector<DetectedObject> a,
 {
   const std::size_t of_first = a.size();
   for (const auto& other : b) {
-    DetectedObject* same = nullptr; // the one that overlaps most
+    DetectedObject* same = nullptr; // detection with the largest overlap
     for (std::size_t i = 0; i < of_first; ++i)
       if (areOne(a[i], other) &&
           (!same || overlap(a[i].box, other.box) > overlap(same->box, other.box)))

@@ -11,12 +11,12 @@
 
 namespace pcl6d::object_localization {
 namespace {
-/** Which windows are positives, and how many answers reach a threshold. */
+/** Numbers of positives and negatives, and error rates at a threshold. */
 struct Classes {
   std::size_t positives;
   std::size_t negatives;
 
-  /** \return the largest threshold that lets the wanted share of positives pass */
+  /** \return the largest threshold at which the wanted share of positives passes */
   float
   threshold(const std::vector<double>& sums, double min_hit_rate) const
   {

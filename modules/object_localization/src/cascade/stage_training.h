@@ -5,20 +5,21 @@
 
 namespace pcl6d::object_localization {
 
-/** \brief A stage as it was trained, apart from its cascade. */
+/** \brief A trained stage with its own list of features. */
 struct TrainedStage {
-  HaarStage stage; ///< its nodes name places in `features`
+  HaarStage stage; ///< its nodes index `features`
   std::vector<HaarFeature> features;
   StageReport report;
   bool reached = false; ///< max_false_alarm
 };
 
-/** \return some of the places [0, size), drawn by the seed, in order */
+/** \return indices drawn by the seed from [0, size), ascending */
 std::vector<std::size_t>
 drawn(std::size_t size, std::size_t count, std::uint64_t seed);
 
-/** \param[in] features that the stage may use
- * \param[in] seed of which each of its trees may use \throws BadArgument too many windows */
+/** \param[in] features candidates of the stage
+ * \param[in] seed of the draw of features for each tree \throws BadArgument too many
+ * windows */
 TrainedStage
 trainStage(const std::vector<GrayImage>& positives,
            const std::vector<GrayImage>& negatives,
@@ -26,8 +27,7 @@ trainStage(const std::vector<GrayImage>& positives,
            const CascadeTrainingOptions& options,
            std::uint64_t seed);
 
-/** \brief Appends a stage and those of its features that it uses and the cascade does not
- * have yet. */
+/** \brief Appends a stage and the features of its nodes that are new to the cascade. */
 void
 append(HaarCascade& cascade, const TrainedStage& trained);
 

@@ -17,20 +17,20 @@ namespace {
 constexpr int kMostTries = 200;              // for one positive
 using Refusals = std::array<std::size_t, 5>; // per PlaceVerdict
 
-/** A positive, or why there is none. */
+/** A positive, or the reasons for its failure. */
 struct Positive {
   GrayImage window;
   Refusals refusals{};
 };
 
-/** \return what pictures of reflectance show */
+/** \return the depths shown by reflectance pictures */
 DepthSlice
 wholeDepth(const DetectionViews& views)
 {
   return {views.options().min_range, views.options().max_range};
 }
 
-/** Cuts positives out of scans into which it puts models. */
+/** Puts models into scans and cuts out positives. */
 class PositiveMaker {
 public:
   PositiveMaker(const std::vector<TriangleMesh>& meshes,
@@ -72,7 +72,7 @@ private:
                                           static_cast<double>(items.size()))];
   }
 
-  /** \return a slice that holds the object, as far as one does */
+  /** \return a slice that contains the object if possible */
   const DepthSlice&
   sliceOf(const ObjectInScan& object, Random& random) const
   {
@@ -167,7 +167,7 @@ makePositives(const PositiveMaker& maker,
     return windows;
   const char* const reasons[] = {"the window left the view, lacked contrast, or "
                                  "showed another range",
-                                 "no floor was seen there",
+                                 "no floor was seen at this place",
                                  "something stood there",
                                  "the scanner had too few samples on the object",
                                  "something hid it"};

@@ -17,7 +17,7 @@ sceneOf(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box)
   standing.translation() = -box.center();
   standing.translation().z() = -box.min().z();
   Surface material;
-  material.reflectance = 1; // times what is drawn for it
+  material.reflectance = 1; // times the drawn reflectance
   material.is_solid = false;
   TriangleScene scene;
   addMesh(scene, mesh, standing, material);
@@ -33,7 +33,7 @@ boxOf(const std::vector<Eigen::Vector3d>& vertices)
   return box;
 }
 
-/** \return the height of the floor at a place in plan, from the points around it */
+/** \return the height of the floor at a position in plan, from the points around it */
 std::optional<double>
 floorAt(const Points& points, const Eigen::Vector2d& place)
 {
@@ -50,13 +50,13 @@ floorAt(const Points& points, const Eigen::Vector2d& place)
   return *low;
 }
 
-/** \return whether something of the scan is where the object would be */
+/** \return whether points of the scan are inside the object's box */
 bool
 isBlocked(const Points& points,
           const Eigen::AlignedBox3d& box,
           const Eigen::Isometry3d& T_model_scan)
 {
-  constexpr double kFloor = 0.1; // [m] above it, points may be the floor's own
+  constexpr double kFloor = 0.1; // [m] points up to this height may be on the floor
   constexpr int kMost = 3;
   Eigen::AlignedBox3d inner = box;
   inner.min().z() += kFloor;
@@ -92,7 +92,7 @@ samplesOn(const RayCaster& caster,
   return samples;
 }
 
-/** Leaves out the points that the object hides. */
+/** Removes the points hidden by the object. */
 MeasuredPoints
 notHidden(const TrainingScan& scan,
           const TrainingModel& model,
@@ -134,8 +134,8 @@ cellOf(const Eigen::Vector3f& p)
   return static_cast<std::size_t>(row * kCols + col);
 }
 
-/** \return which samples the scan lets through: no point of it is near their direction
- * and clearly nearer */
+/** \return which samples are visible: no point of the scan is near their direction and
+ * clearly nearer */
 std::vector<bool>
 visible(const Points& samples, const TrainingScan& scan)
 {

@@ -29,7 +29,7 @@ private:
   RayCaster caster_; // in that frame
 };
 
-/** \brief A scan into which models are put. */
+/** \brief A scan to put models into. */
 class TrainingScan {
 public:
   /** Keeps a reference. */
@@ -55,25 +55,26 @@ private:
   std::vector<float> nearest_; // per half degree
 };
 
-/** \brief Points with reflectances, one each or none. */
+/** \brief Points with one reflectance each, or without reflectances. */
 struct MeasuredPoints {
   Points points;
   std::vector<float> reflectance;
 };
 
-/** \brief Why a place for an object was not taken. */
+/** \brief Why a position for an object was rejected. */
 enum class PlaceVerdict { kFree, kNoFloor, kBlocked, kTooFewSamples, kHidden };
 
-/** \brief A scan with an object that was not there. */
+/** \brief A scan with a model added. */
 struct ObjectInScan {
   PlaceVerdict verdict = PlaceVerdict::kFree;
-  MeasuredPoints scan; ///< what is left of it and the samples on the object
+  MeasuredPoints scan; ///< remaining points of the scan, and the samples on the object
   Eigen::Vector3d middle = Eigen::Vector3d::Zero(); ///< of the object [m]
-  double nearest = 0;                               ///< [m] range of its samples
+  double nearest = 0;                               ///< [m] smallest range of a sample
   double farthest = 0;                              ///< [m]
 };
 
-/** \brief Puts a model at a random place of a scan, by the random numbers alone. */
+/** \brief Puts a model at a random position in a scan, determined by the random numbers
+ * alone. */
 ObjectInScan
 putIntoScan(const TrainingModel& model,
             const ScannerPreset& scanner,

@@ -18,7 +18,7 @@ namespace pcl6d::object_localization {
 namespace {
 using Json = nlohmann::json;
 
-/** Mixes all that the result depends on into one number. */
+/** Hash of every input that determines the result. */
 class Fingerprint {
 public:
   void
@@ -105,7 +105,7 @@ TrainingState::TrainingState(std::filesystem::path folder,
   Fingerprint print = of(options);
   for (const auto& positive : positives)
     print.add(positive);
-  for (const auto& background : backgrounds) // their gates come from the same scans
+  for (const auto& background : backgrounds) // gates derive from the images' scans
     print.add(background.image);
   fingerprint_ = print.text();
 }
@@ -118,14 +118,14 @@ TrainingState::load(CascadeTraining& training) const
     return;
   const JsonValue json = readJson(file);
   if ((json / "fingerprint").text() != fingerprint_)
-    throw IoFailed(file.string() +
-                   ": of a training with other images or options; remove its folder "
-                   "or name another one");
+    throw IoFailed(file.string() + ": belongs to a training with different images or "
+                                   "options; remove the folder or give a new one");
   std::vector<StageReport> reports;
   for (const auto& stage : (json / "stages").elements())
     reports.push_back(reportOf(stage));
   HaarCascade cascade = readCascade(folder_ / "cascade.xml");
-  // A cascade may be ahead by one stage, if the second file was not written any more.
+  // The cascade may be ahead by one stage, if writing of the second file was
+  // interrupted.
   cascade.stages.resize(std::min(cascade.stages.size(), reports.size()));
   reports.resize(cascade.stages.size());
   training.cascade = std::move(cascade);

@@ -5,18 +5,18 @@
 
 namespace pcl6d::object_localization {
 
-/** \brief The stages that a training has finished, in a folder: `cascade.xml` and
- * `training.json`, with what tells this training from others. */
+/** \brief The finished stages of a training in a folder: `cascade.xml` and
+ * `training.json`, with a fingerprint of the training's inputs. */
 class TrainingState {
 public:
-  /** \param[in] folder empty: nothing is kept */
+  /** \param[in] folder empty: stages are not stored */
   TrainingState(std::filesystem::path folder,
                 const std::vector<GrayImage>& positives,
                 const std::vector<BackgroundImage>& backgrounds,
                 const CascadeTrainingOptions& options);
 
-  /** \brief Takes what an earlier call left; nothing if there is nothing.
-   * \throws IoFailed it belongs to another training, or is broken */
+  /** \brief Loads the stages stored by an earlier call, if any.
+   * \throws IoFailed the state belongs to another training, or is broken */
   void
   load(CascadeTraining& training) const;
 

@@ -36,7 +36,7 @@ std::optional<WindowGrid>
 WindowGate::grid(double scale_factor) const
 {
   const double smallest = heightAt(slice_.far_end) / tolerance_;
-  // At the border of a view things are less deep than far.
+  // At the border of a view, depth is smaller than range.
   const double u = width_tangent_ / 2;
   const double v = std::max(top_tangent_, height_tangent_ - top_tangent_);
   const double largest =
@@ -53,12 +53,12 @@ std::optional<double>
 WindowGate::rangeIn(const ImageRect& window) const
 {
   constexpr int kSide = 6;           // samples each way, from 1/7 to 6/7 of the window
-  constexpr std::size_t kFewest = 4; // of them on the object
+  constexpr std::size_t kFewest = 4; // samples on the object
   const auto inside = [](int length, int i) { return length * (i + 1) / (kSide + 1); };
   const double u = (0.5 - (window.x + 0.5 * window.width) / cols_) * width_tangent_;
   const double v =
       top_tangent_ - (window.y + 0.5 * window.height) / rows_ * height_tangent_;
-  // An object of this size is that far.
+  // Expected range of an object of this height in the window.
   const double wanted = height_ / window.height * std::sqrt(1 + u * u + v * v);
   const auto low = static_cast<float>(std::max(slice_.near_end, wanted / tolerance_));
   const auto high = static_cast<float>(std::min(slice_.far_end, wanted * tolerance_));
@@ -69,13 +69,14 @@ WindowGate::rangeIn(const ImageRect& window) const
     const float* const row = &ranges_[static_cast<std::size_t>(y * cols_)];
     for (int k = 0; k < kSide; ++k) {
       const float range = row[std::min(window.x + inside(window.width, k), cols_ - 1)];
-      if (range >= low && range <= high) // not if it is NaN
+      if (range >= low && range <= high) // false for NaN
         ranges[count++] = range;
     }
   }
   if (count < kFewest)
     return {};
-  // What is behind the object may be in reach as well.
+  // The background may be in reach as well: the lower quartile is more likely the
+  // object.
   const auto object = ranges.begin() + static_cast<std::ptrdiff_t>(count / 4);
   std::nth_element(
       ranges.begin(), object, ranges.begin() + static_cast<std::ptrdiff_t>(count));

@@ -31,7 +31,7 @@ checkSize(const Eigen::AlignedBox3d& box)
   std::ostringstream message;
   message << "the model is " << diameter << " m large, but must be at most "
           << ObjectModel::kLargestDiameter
-          << " m: if it is in millimetres, scale it by 0.001";
+          << " m: for a model in millimetres use the scale 0.001";
   throw BadArgument(message.str());
 }
 } // namespace
@@ -39,7 +39,7 @@ checkSize(const Eigen::AlignedBox3d& box)
 double
 WindowShape::pixelFor(double distance) const
 {
-  constexpr double kStep = 1e-5; // the numbers of a cascade's file hold it
+  constexpr double kStep = 1e-5; // resolution of the numbers in a cascade's file
   const double finest = std::floor(object_size / distance / height / kStep) * kStep;
   return std::min(DetectionViewOptions().pixel, std::max(finest, 100 * kStep));
 }
@@ -76,7 +76,8 @@ windowShapeOf(const std::vector<TriangleMesh>& models)
     const Eigen::AlignedBox3d box = boxOf(mesh);
     checkSize(box);
     const Eigen::Vector3d size = box.sizes();
-    // Turned about the vertical it shows between its longer side and its diagonal.
+    // Turned about the vertical, the visible width is between the longer side and the
+    // diagonal.
     const double across =
         (std::max(size.x(), size.y()) + std::hypot(size.x(), size.y())) / 2;
     width = std::max(width, across);

@@ -21,7 +21,7 @@ turnedUp(const Eigen::Vector3f& v, UpAxis up)
   return up == UpAxis::kZ ? v : Eigen::Vector3f(v.x(), -v.z(), v.y());
 }
 
-/** \return the normals of a cloud; none if it has none */
+/** \return the normals of a cloud; empty if the cloud has no normals */
 Normals
 normalsOf(const Scan& scan, UpAxis up)
 {
@@ -63,7 +63,7 @@ try {
   throw IoFailed(file.string() + ": " + e.what());
 }
 
-/** Reads one model.json and what it names. */
+/** Reads a model.json and the files named there. */
 class ModelReader {
 public:
   explicit ModelReader(const fs::path& folder)
@@ -148,7 +148,7 @@ private:
     return folder_ / name;
   }
 
-  // A cloud may show but one side of what is round.
+  // Only for meshes: a cloud may show one side of a round object only.
   void
   checkSymmetry(const StoredModel& stored, const ObjectSymmetry& symmetry) const
   {
@@ -199,7 +199,8 @@ readModelFile(const fs::path& file, const ModelFileOptions& options)
   try {
     checkObjectClass(file.stem().string());
   } catch (const BadArgument& e) {
-    throw IoFailed(file.string() + ": " + e.what() + ": rename it, or give its class");
+    throw IoFailed(file.string() + ": " + e.what() +
+                   ": rename the file, or give the class");
   }
   return readShape(file, file.stem().string(), options.units);
 }
@@ -246,8 +247,8 @@ readModels(const std::vector<std::string>& paths,
       if (models[i].model.objectClass() == models[j].model.objectClass())
         throw BadArgument("two models are of the class '" +
                           models[i].model.objectClass() +
-                          "': give one of them alone, or another name to one: to a "
-                          "folder in its model.json, to a file by its own name");
+                          "': give a single model with this name, or rename a folder's "
+                          "model in model.json, or rename the file");
   return models;
 }
 

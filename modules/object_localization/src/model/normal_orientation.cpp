@@ -12,7 +12,7 @@ namespace pcl6d {
 namespace {
 using Index = std::uint32_t;
 
-/** An edge of the graph from a point whose normal is settled. */
+/** An edge of the graph, from a point with oriented normal. */
 struct Edge {
   float turn; // 1 - |cosine| of the normals
   Index to;
@@ -45,7 +45,7 @@ public:
     return settled_[i];
   }
 
-  /** \return the points of the surface that holds the seed */
+  /** \return the points of the surface that contains the seed */
   std::vector<Index>
   from(Index seed)
   {
@@ -85,8 +85,8 @@ private:
   std::priority_queue<Edge, std::vector<Edge>, std::greater<Edge>> edges_;
 };
 
-/** Turns all normals of a surface if they point to its middle: those of the outermost
- * points, far from folds, decide by their lever. */
+/** Flips the normals of a surface if they point to its centroid. Points weigh by their
+ * distance: the outermost, far from folds, decide. */
 void
 turnOutwards(Normals& normals, const Points& points, const std::vector<Index>& surface)
 {

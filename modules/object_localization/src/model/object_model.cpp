@@ -14,8 +14,9 @@
 namespace pcl6d {
 
 namespace {
-/** \brief Spreads points evenly over a mesh, always the same, each with the normal of its
- * triangle. \param[in] spacing [m] > 0: one point per square of this side */
+/** \brief Spreads points evenly over a mesh, deterministically, with the normal of the
+ * triangle.
+ * \param[in] spacing [m] > 0: one point per square of this side */
 OrientedPoints
 sampleMesh(const TriangleMesh& mesh, double spacing)
 {
@@ -24,7 +25,7 @@ sampleMesh(const TriangleMesh& mesh, double spacing)
   constexpr double kStepU = 0.7548776662466927, kStepV = 0.5698402909980532;
   OrientedPoints samples;
   double due =
-      0.5; // points owed to the area so far: also tiny triangles get their share
+      0.5; // fraction of a point carried over, so that tiny triangles get their share
   double u = 0.5, v = 0.5;
   for (const auto& corners : mesh.triangles) {
     const Eigen::Vector3d& a = mesh.vertices[corners[0]];
@@ -48,7 +49,7 @@ sampleMesh(const TriangleMesh& mesh, double spacing)
 }
 
 constexpr std::size_t kFewestPoints = 10;
-constexpr double kSamplesAlong = 100; // of a mesh, along its diameter
+constexpr double kSamplesAlong = 100; // points of a mesh along its diameter
 
 Eigen::AlignedBox3d
 boxOf(const Points& points)
@@ -73,8 +74,8 @@ finiteOf(const Points& points, const Normals& normals)
   return finite;
 }
 
-/** Normals of a cloud that has none. Estimated normals point to the origin of the frame,
- * which means nothing for a model. */
+/** Estimates missing normals. Estimation orients normals to the origin, which is
+ * meaningless for a model. */
 void
 estimateOutwards(OrientedPoints& surface)
 {
@@ -114,7 +115,7 @@ ObjectModel::fromCloud(const std::string& object_class,
     std::ostringstream message;
     message << "model " << object_class << ": " << diameter
             << " m large, but must be at most " << kLargestDiameter
-            << " m: if it is in millimetres, scale it by 0.001";
+            << " m: for a model in millimetres use the scale 0.001";
     throw BadArgument(message.str());
   }
   if (surface.normals.empty())

@@ -8,7 +8,8 @@
 namespace pcl6d {
 
 namespace {
-/** A face with fewer points than the other one over this is an edge or noise. */
+/** A face with fewer points than the other face over this number is an edge or
+ * noise. */
 constexpr std::size_t kFaceShare = 3;
 
 struct Sums {

@@ -37,8 +37,8 @@ angularSpacingOf(const Points& points, const PointTree& tree)
                           : std::min(upperMedian(std::move(spacings)), kCoarsest);
 }
 
-/** \return the mean of the directions to points; its length is 1 in a narrow view and 0 all
- * around */
+/** \return the mean direction of points; its length is near 1 for a narrow view and
+ * near 0 for a view all around */
 Eigen::Vector3d
 meanDirection(const Points& points)
 {
@@ -49,8 +49,8 @@ meanDirection(const Points& points)
   return sum / static_cast<double>(points.size());
 }
 
-/** Cells as wide as the rays are apart, and twice as wide at most. The noise is that of the
- * surface where a place is looked at. */
+/** Cells one to two angular spacings wide. Noise is taken from the surface at the
+ * query. */
 RayImageOptions
 imageOptions(double angular_spacing)
 {

@@ -35,7 +35,7 @@ object_localization::explanation(const PoseCheck& check)
 namespace {
 using Places = std::vector<std::uint32_t>;
 
-/** \return how much of the smaller set is in the other one, too */
+/** \return share of the smaller set that is also in the other set */
 double
 sharedShare(const Places& a, const Places& b)
 {
@@ -47,8 +47,9 @@ sharedShare(const Places& a, const Places& b)
                             static_cast<double>(std::min(a.size(), b.size()));
 }
 
-/** Leaves out those whose places a better one has; best first.
- * \param[in] value of one, more is better \param[in] placesOf one */
+/** Drops elements that share indices with a better one; best first.
+ * \param[in] value of an element, larger is better \param[in] placesOf indices of an
+ * element */
 template <typename T, typename Value, typename PlacesOf>
 std::vector<T>
 withoutShared(std::vector<T> all, double max_shared, Value value, PlacesOf placesOf)

@@ -3,25 +3,25 @@
 
 #include "pose/object_refinement.h"
 
-/** \file Which of several poses are objects. Internal to the module. */
+/** \file Selects the poses of objects from candidates. Internal to the module. */
 namespace pcl6d::object_localization {
 
-/** \return the share of the facing surface that is seen, less for what contradicts */
+/** \return the visible fraction, times (1 - free-space violation) */
 double
 scoreOf(const PoseCheck& check);
 
-/** \return 1 if all that faces the scanner and was measured is seen, and nothing speaks
- * against a pose; 0 if all does */
+/** \return 1 if every measured facing element is supported without contradiction; 0 if
+ * no element is supported */
 double
 trust(const PoseCheck& check);
 
-/** \return how much of the scan a pose explains, less for what speaks against it; the
- * trust alone would prefer poses that show the scanner a small face */
+/** \return supporting elements times trust; trust alone would prefer poses with a small
+ * side towards the scanner */
 double
 explanation(const PoseCheck& check);
 
-/** \brief Leaves out those that explain what a better one explains.
- * \param[in] max_shared of the weaker one's support \return best first */
+/** \brief Drops candidates that explain the surface of a better one.
+ * \param[in] max_shared share of the weaker candidate's support \return best first */
 std::vector<ObjectCandidate>
 strongest(std::vector<ObjectCandidate> candidates, double max_shared);
 

@@ -17,16 +17,16 @@ namespace pcl6d {
 using namespace object_localization;
 
 namespace {
-/** Surfaces of the refinement are twice as fine as those of the votes. */
+/** Surface elements of the refinement are half as large as in the votes. */
 constexpr double kRefinement = 0.5;
-/** Before the last step a pose need not agree as well, by this factor. */
+/** Factor on min_agreement before the last step. */
 constexpr double kRoughAgreement = 0.6;
-/** Of a proposal: poses that are compared with the scan, and those made precise. */
+/** Per proposal: poses that are compared with the scan, and poses that are refined. */
 constexpr std::size_t kPlacings = 120;
 constexpr std::size_t kPlacingsRefined = 8;
 constexpr double kFieldReach = 3;  // elements
 constexpr double kPlacingGate = 3; // elements
-/** The same, of poses that the surface agrees with. */
+/** The gate for poses refined on the surface; elements. */
 constexpr double kSurfaceGate = 2;
 constexpr double kClusterDistance = 0.1; // of the diameter
 constexpr double kClusterAngle = 0.35;   // [rad], 20 deg
@@ -64,7 +64,7 @@ mostFacing(const OrientedPoints& surface)
   return most;
 }
 
-/** \return the shortest rotation that gives the z axis the direction that R gives it */
+/** \return the shortest rotation with the z axis of R */
 Eigen::Matrix3d
 withoutTurn(const Eigen::Matrix3d& R)
 {
@@ -197,8 +197,8 @@ ObjectLocalizer::surfaceOf(const LocalizationScene& scene) const
 bool
 ObjectLocalizer::mayBe(const ObjectProposal& proposal) const
 {
-  constexpr double kTaller = 0.2; // [m] of what is on it
-  constexpr double kLonger = 0.8; // [m] of what touches it
+  constexpr double kTaller = 0.2; // [m] of objects on top
+  constexpr double kLonger = 0.8; // [m] of touching objects
   const Eigen::Vector3d size = model_.box().sizes();
   return proposal.size.z() < size.z() + kTaller &&
          proposal.size.head<2>().norm() < size.head<2>().norm() + kLonger;
@@ -249,7 +249,7 @@ ObjectLocalizer::describe(ObjectCandidate candidate) const
   object.object_class = model_.objectClass();
   object.status = candidate.status;
   object.T_scene_object = candidate.T_scene_model;
-  if (model_.symmetry().isRound()) { // any turn is as good: no turn
+  if (model_.symmetry().isRound()) { // every turn fits: choose none
     object.status = Status::kRankDeficient;
     object.T_scene_object.linear() = withoutTurn(candidate.T_scene_model.linear());
   }

@@ -12,13 +12,13 @@ namespace pcl6d::object_localization {
 
 namespace {
 constexpr std::size_t kFewestFacing = 10; // points
-/** Of the size of an element: how far a pose that is right leaves them apart. */
+/** Tolerance for a correct pose, as a share of the element size. */
 constexpr double kStrictness = 0.4;
 /** Of the rms: farther pairs are of another surface. */
 constexpr double kGate = 3;
 constexpr int kRounds = 3;
 
-/** The part of a model that faces the scanner, which is at the origin of the scene. */
+/** The part of a model that faces the scanner at the origin of the scene. */
 OrientedPoints
 facingPart(const OrientedPoints& model, const Eigen::Isometry3d& T_scene_model)
 {
@@ -62,7 +62,7 @@ someOf(const Points& points)
   return some;
 }
 
-/** Of the scan's points, in which noise is averaged by their number, to the model. */
+/** From the scan's points, which average noise by their number, to the model. */
 IcpOptions
 pointIcp(double max_distance)
 {
@@ -151,7 +151,7 @@ ObjectRefinement::onPoints(const ObjectCandidate& candidate,
   return refined;
 }
 
-/** The points of the scan around an object that are on no large plane. */
+/** The points of the scan around an object, without points on large planes. */
 Points
 ObjectRefinement::pointsAround(const Eigen::Isometry3d& T_scene_model,
                                const OrientedPoints& dense,

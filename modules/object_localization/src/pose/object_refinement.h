@@ -7,10 +7,10 @@
 
 #include <optional>
 
-/** \file From a rough pose of an object to a precise one. Internal to the module. */
+/** \file Refinement of rough object poses. Internal to the module. */
 namespace pcl6d::object_localization {
 
-/** \brief A pose that may be that of an object. */
+/** \brief A candidate pose of an object. */
 struct ObjectCandidate {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   PoseCheck check;
@@ -20,36 +20,36 @@ struct ObjectCandidate {
   std::vector<std::uint32_t> points; ///< of the scan on the object, ascending
 };
 
-/** \brief [m] How far a point of the scan may be from the nearest one of the model. */
+/** \brief [m] Largest distance from a scan point to the nearest model point. */
 struct PairGate {
   double start = 0;
-  /** at the end, at least: the spacing of the model's points, between which those of the
-   * scan lie even if the pose is exact */
+  /** smallest gate, at the end: the spacing of the model's points, between which scan
+   * points lie even at the exact pose */
   double least = 0;
 };
 
-/** \brief Makes poses of one model in one scan precise, and checks them. */
+/** \brief Refines poses of one model in one scan, and checks them. */
 class ObjectRefinement {
 public:
-  /** \param[in] model in elements of the size of the surface's
-   * Keeps references to all three. */
+  /** \param[in] model in elements of the surface's size
+   * Keeps references to its arguments. */
   ObjectRefinement(const LocalizationScene& scene,
                    const SceneSurface& surface,
                    const ModelSurface& model)
   : scene_(scene), surface_(surface), model_(model), voxel_(model.element)
   {}
 
-  /** \brief ICP of the model's facing part to the surface, twice, as the pose says which
-   * part faces the scanner; then a lenient check. */
+  /** \brief ICP of the model's facing part to the surface, twice, as the facing part
+   * depends on the pose; then a lenient check. */
   ObjectCandidate
   onSurface(const Eigen::Isometry3d& guess) const;
 
-  /** \brief A pose as it is, checked with a surface of any element size. */
+  /** \brief Checks an unchanged pose, with a surface of any element size. */
   ObjectCandidate
   checked(const Eigen::Isometry3d& T_scene_model, const ModelSurface& model) const;
 
-  /** \brief ICP of a model to all points around it; then a strict check. Where ICP fails,
-   * nothing supports the candidate. \param[in] dense the model with all its points */
+  /** \brief ICP of a model to the points around it; then a strict check. If ICP fails,
+   * the check is empty. \param[in] dense the model with every point */
   ObjectCandidate
   onPoints(const ObjectCandidate& candidate,
            const OrientedPoints& dense,

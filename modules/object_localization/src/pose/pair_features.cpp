@@ -10,7 +10,7 @@ namespace pcl6d {
 
 namespace {
 constexpr int kCosines = 2048;         // table of angles
-constexpr float kFlatCosine = 0.9781F; // 12 deg: normals of one plane
+constexpr float kFlatCosine = 0.9781F; // 12 deg: parallel normals
 constexpr float kFlatSlope = 0.2079F;  // 12 deg: off the plane
 } // namespace
 

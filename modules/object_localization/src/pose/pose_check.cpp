@@ -16,21 +16,21 @@ namespace {
 /** \brief A piece of the surface of an object that faces the scanner. */
 struct FacingElement {
   std::uint32_t place;    ///< in the model
-  Eigen::Vector3d point;  ///< [m] in the scan's frame, whose origin is the scanner
+  Eigen::Vector3d point;  ///< [m] in the scan's frame, with the scanner at the origin
   Eigen::Vector3d normal; ///< unit, in the scan's frame
   double range;           ///< [m] > 0
   double cosine;          ///< of the angle between normal and sight, > 0
 };
 
-/** Steeper, a surface is not seen well enough to speak of it. */
+/** Surfaces at a more grazing angle are not tested. */
 constexpr double kGrazing = 0.17; // cosine of 80 deg
 
-/** Elements side by side on one surface differ in range by no more than so many of their
- * sizes, over the cosine. */
+/** Largest difference in range of adjacent elements on one surface, in element sizes
+ * over the cosine. */
 constexpr double kDepth = 2;
 
-/** A picture of an object as the scanner sees it: on a plane across the sight to its
- * middle, in pixels of an element. */
+/** Depth image of an object from the scanner: on a plane across the line of sight to
+ * its middle, with pixels of one element. */
 class Picture {
 public:
   Picture(const std::vector<FacingElement>& elements,
@@ -63,7 +63,7 @@ private:
   place(const FacingElement& e) const
   {
     constexpr double kWidest =
-        1000; // pixels off the middle, of what is beside the scanner
+        1000; // pixels off the middle, for elements beside the scanner
     const Eigen::Vector3d p = axes_ * e.point;
     const double depth = std::max(p.z(), 1e-3 * e.range) * pixel_;
     return (p.head<2>() / depth)
@@ -83,7 +83,7 @@ private:
            static_cast<std::size_t>(p.x());
   }
 
-  /** A pixel wider all around, so that elements close their gaps. */
+  /** Drawn one pixel wider all around, to close gaps between elements. */
   void
   draw(const FacingElement& e)
   {
@@ -102,9 +102,9 @@ private:
   std::vector<double> nearest_; // range by pixel
 };
 
-/** \brief The elements of a model that face the scanner and that no other one of them
- * hides.
- * \param[in] element [m] their size */
+/** \brief The elements of a model that face the scanner and are not hidden by another
+ * element.
+ * \param[in] element [m] size of the elements */
 std::vector<FacingElement>
 facingElements(const OrientedPoints& model,
                const Eigen::Isometry3d& T_scene_model,
@@ -135,21 +135,23 @@ facingElements(const OrientedPoints& model,
 
 constexpr double kSameSide = 0.5; // cosine of 60 deg
 constexpr float kSmooth = 0.94F;  // cosine of 20 deg
-/** A ray may meet an element within so many of its sizes, and certainly does closer. */
+/** A ray may meet an element within kRayWidth element sizes, and certainly does within
+ * kRayCore. */
 constexpr double kRayWidth = 0.75;
 constexpr double kRayCore = 0.4;
-/** In a coarse scan the next ray speaks for it, within so many of its spacings. */
+/** In a coarse scan the next ray stands for an element within this number of ray
+ * spacings. */
 constexpr double kRaySpacing = 0.6;
-/** An element in front is not wider than so many of those behind. */
+/** Largest width of an occluding element, in sizes of the hidden element. */
 constexpr double kNextElement = 4;
-/** The next ray is not farther away than so many spacings. */
+/** Largest distance to the next ray, in ray spacings. */
 constexpr double kNextRay = 2;
-/** Ranges differ by more than so many tolerances if they are of two surfaces. */
+/** Smallest difference in range between two surfaces, in tolerances. */
 constexpr double kApart = 2;
-/** Of a margin, as share: a standard deviation, as RayImage allows three. */
+/** Standard deviation as a share of a margin, as RayImage allows three. */
 constexpr double kSigma = 1.0 / 3;
 
-/** Sorts the elements of an object by what the scan's rays through them say. */
+/** Classifies the elements of an object by the scan's rays through them. */
 class RayCheck {
 public:
   RayCheck(const LocalizationScene& scene,
@@ -219,7 +221,7 @@ private:
     return true;
   }
 
-  /** Of an element that rays met elsewhere. */
+  /** For an element with rays that met another surface. */
   void
   addUnsupported(const FacingElement& e, double nearest, double farthest)
   {
@@ -232,9 +234,9 @@ private:
       ++check_.misfit;
   }
 
-  /** Where no ray met the element: is a piece of surface in front, which is wider than
-   * the element as it is nearer, or was there no ray around, or did all around go on behind
-   * it? Else nothing is known of it, and the others stand for it. */
+  /** For an element without a ray: occluded by a piece of surface in front (wider in
+   * angle, being nearer), unseen without rays around it, or refuted if every ray around
+   * passed behind it. Otherwise the element is not classified. */
   void
   addUnmet(const FacingElement& e)
   {
@@ -260,7 +262,7 @@ private:
       ++check_.refuted;
   }
 
-  /** Whether all rays around an element went on behind it. */
+  /** Whether every ray around an element passed behind it. */
   bool
   isFree(const FacingElement& e) const
   {
@@ -277,8 +279,8 @@ private:
   double squares_ = 0;
 };
 
-/** Whether two elements side by side are of one surface: where normals are known, those of
- * both agree and each is on the other's plane; else no step in range divides them. */
+/** Whether two adjacent elements belong to one surface. With normals: they agree, and
+ * each element is on the other's plane. Without: no step in range divides them. */
 bool
 areJoined(const Surfels& surfels, std::uint32_t a, std::uint32_t b, double tolerance)
 {
@@ -286,13 +288,13 @@ areJoined(const Surfels& surfels, std::uint32_t a, std::uint32_t b, double toler
   if (surfels.smooth[a] && surfels.smooth[b])
     return surfels.normals[b].dot(surfels.normals[a]) > kSmooth &&
            std::abs(surfels.normals[a].dot(way)) < static_cast<float>(tolerance);
-  constexpr float kSlope = 1.5F; // of a surface that is not seen too steeply
+  constexpr float kSlope = 1.5F; // of a surface at a moderate angle of incidence
   const float depth = std::abs(surfels.points[a].normalized().dot(way));
   const float aside = std::sqrt(std::max(way.squaredNorm() - depth * depth, 0.0F));
   return depth < kSlope * aside;
 }
 
-/** Counts the supporting elements from where the surface goes on beyond the object. */
+/** Counts the supporting elements whose surface continues beyond the object. */
 void
 checkContinuation(const SceneSurface& surface,
                   const PointTree& model_tree,

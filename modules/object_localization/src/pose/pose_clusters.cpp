@@ -12,7 +12,7 @@ struct Group {
   Eigen::Vector3d founder_middle;
   Eigen::Quaterniond founder;
   Eigen::Vector3d middles = Eigen::Vector3d::Zero();     // weighted sum
-  Eigen::Vector4d quaternions = Eigen::Vector4d::Zero(); // of one sign, weighted sum
+  Eigen::Vector4d quaternions = Eigen::Vector4d::Zero(); // weighted sum, signs aligned
   double votes = 0;
 };
 

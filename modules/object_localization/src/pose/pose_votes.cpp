@@ -11,8 +11,8 @@
 namespace pcl6d {
 
 namespace {
-/** The poses of a model that hold one of its points at a point of the scene: by point
- * and by turn about the normal. */
+/** Votes for the poses that put a model point on a scene point: by model point and by
+ * turn about the normal. */
 class Ballot {
 public:
   Ballot(const PairFeatureTable& table, int turn_steps)
@@ -21,7 +21,7 @@ public:
   , counts_(table.numPoints() * turns_)
   {}
 
-  /** Collects the votes of all pairs with a point of the scene. */
+  /** Collects the votes of every pair with a point of the scene. */
   std::optional<VotedPose>
   at(std::size_t reference, const OrientedPoints& scene, const PointTree& tree)
   {
@@ -54,7 +54,7 @@ private:
     }
   }
 
-  /** The highest sum of three turns side by side, at its centre of mass. */
+  /** The highest sum of three adjacent turns, at its centre of mass. */
   std::optional<VotedPose>
   winner(const Eigen::Isometry3f& frame) const
   {

@@ -7,10 +7,11 @@
 namespace pcl6d {
 
 namespace {
-/** A plane is large by its length and its area, in diameters. */
+/** Smallest length and area of a large plane, in diameters. */
 constexpr double kLargeLength = 1.3;
 constexpr double kLargeArea = 0.5;
-/** Planes are looked for in surfels of so many elements, which average their noise. */
+/** Surfel size for plane segmentation, in elements; larger surfels average the
+ * noise. */
 constexpr double kPlaneSurfel = 4;
 
 PlaneCloudOptions
@@ -27,7 +28,7 @@ directionsTo(const Points& points)
 {
   Points directions;
   for (const auto& p : points)
-    directions.push_back(p.normalized()); // the origin stays where it is
+    directions.push_back(p.normalized()); // the origin stays
   return directions;
 }
 

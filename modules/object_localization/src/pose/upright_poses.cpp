@@ -18,7 +18,8 @@ constexpr double kSlack = 3; // cells that points may be outside of the model
 struct Placing {
   double score;
   int heading;
-  Eigen::Vector2d shift; // [m] of points in the model's orientation, into its frame
+  Eigen::Vector2d shift; // [m] shift of points in the model's orientation, into its
+                         // frame
 };
 
 Eigen::Matrix3d
@@ -30,7 +31,7 @@ turnBy(double angle)
   return R;
 }
 
-/** \return how near points, moved by a shift, are to the surface: 1 on it, 0 off */
+/** \return nearness of shifted points to the surface: 1 on the surface, 0 off */
 double
 nearness(const DistanceField& model,
          const std::vector<Eigen::Vector3d>& points,
@@ -42,7 +43,7 @@ nearness(const DistanceField& model,
   return 1 - sum / (model.reach() * static_cast<double>(points.size()));
 }
 
-/** All shifts of points with one heading, in steps of a cell. */
+/** Scores every shift of points with one heading, in steps of a cell. */
 void
 addPlacings(const DistanceField& model,
             const Eigen::AlignedBox3d& box,
@@ -65,7 +66,7 @@ addPlacings(const DistanceField& model,
     }
 }
 
-/** The points in the frame of the base, a part of them that is enough. */
+/** An even subset of the points, in the frame of the base. */
 std::vector<Eigen::Vector3d>
 onBase(const Points& points, const Eigen::Isometry3d& T_base_scene, double bottom)
 {

@@ -11,14 +11,14 @@
 namespace pcl6d::object_localization {
 
 namespace {
-constexpr std::size_t kLeastSurfels = 20; // of a set that counts
+constexpr std::size_t kLeastSurfels = 20; // surfels of a tested set
 constexpr double kInwards =
     -0.3;                      // mean cosine, in plan, of normals and the way outwards
 constexpr double kReach = 0.4; // [of a cavity's width] from its inside to its outside
 constexpr double kSameWidth = 0.7; // least ratio of both widths
 constexpr double kSameTop = 0.2;   // [of the width] difference in height of both tops
 
-/** A set of surfels, as far as it matters here. */
+/** Outline of a set of surfels. */
 struct Shell {
   Points points;
   Eigen::AlignedBox3f box;
@@ -58,7 +58,7 @@ shellOf(const Surfels& surfels,
   return shell;
 }
 
-/** Whether two shells may have one rim. */
+/** Whether two shells may have a rim in common. */
 bool
 shareRim(const Shell& a, const Shell& b)
 {
@@ -66,7 +66,7 @@ shareRim(const Shell& a, const Shell& b)
          std::abs(a.top - b.top) < kSameTop * a.width;
 }
 
-/** \return the squared distance of two shells, as far as it is below a limit */
+/** \return the squared distance of two shells, at most a limit */
 float
 distanceSq(const Shell& a, const Shell& b, float limit)
 {

@@ -6,9 +6,10 @@
 /** \file Vessels. Internal to the module object_localization. */
 namespace pcl6d::object_localization {
 
-/** \brief Joins the inside of a vessel, as of a bowl, with its outside. A rim hides what
- * connects the two, but no object by itself faces its own middle from all around.
- * \param[in,out] sets of the graph, in the order of their first; stay so */
+/** \brief Joins the inside of a vessel, such as a bowl, with its outside. The rim hides
+ * their connection, but no separate object faces its own middle from all around.
+ * \param[in,out] sets of the graph, in the order of their first surfel, also
+ * afterwards */
 void
 joinCavities(const PlaneCloud& cloud,
              const SurfelGraph& graph,

@@ -15,10 +15,10 @@ namespace {
 constexpr std::uint32_t kNoPart = std::numeric_limits<std::uint32_t>::max();
 constexpr double kCreasePairs = 0.15;  // of a surfel's links, over the crease
 constexpr std::size_t kLeastSeed = 40; // surfels of a part away from its creases
-constexpr double kLeastShare = 0.05;   // the same, of the group
+constexpr double kLeastShare = 0.05;   // share of the group, away from the creases
 constexpr double kCavity = -0.2; // mean cosine between normals and the way outwards
 
-/** Divides one group. Places are those in the graph. */
+/** Divides one group. Indices are into the graph. */
 class CreaseDivision {
 public:
   CreaseDivision(const PlaneCloud& cloud,
@@ -71,7 +71,7 @@ private:
     return static_cast<double>(inwards) > kCreasePairs * static_cast<double>(all);
   }
 
-  /** Gives each surfel the part that is nearest along the surface. */
+  /** Assigns each surfel to the nearest part along the surface. */
   void
   flood(const SurfelSets& seeds)
   {
@@ -94,8 +94,8 @@ private:
     }
   }
 
-  /** \return the surfels of a part at its border with another, and those around them,
-   * which are clear of the crease */
+  /** \return the surfels of a part at its border with another, and their neighbours
+   * clear of the crease */
   std::vector<std::uint32_t>
   besideBorder(std::uint32_t part, std::uint32_t other) const
   {
@@ -122,7 +122,7 @@ private:
     return beside;
   }
 
-  /** Whether a part is around another: beside their border, its surface faces its own
+  /** Whether a part surrounds another: beside their border, its surface faces its own
    * middle. */
   bool
   isCavity(std::uint32_t part, std::uint32_t other, const Eigen::Vector3d& middle) const
@@ -152,7 +152,8 @@ private:
     return sums;
   }
 
-  /** Joins cavities with what is around them. What no part reached is with the first. */
+  /** Joins cavities with the part around them. Surfels that no part reached go to the
+   * first. */
   SurfelSets
   joined(std::size_t count) const
   {

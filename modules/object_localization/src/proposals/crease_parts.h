@@ -6,11 +6,12 @@
 /** \file Pieces of a group of surfels. Internal to the module object_localization. */
 namespace pcl6d::object_localization {
 
-/** \brief Divides a group along the creases into which its surface bends, as where a box
- * stands on another. What a crease encloses from within, as the bottom of a pot, stays
- * with what is around it.
- * \param[in] group places in the graph, ascending
- * \return the pieces, one if nothing divides it; disjoint, and all of the group */
+/** \brief Divides a group at concave creases, for example where a box stands on
+ * another. A surface enclosed by a crease, such as the bottom of a pot, stays with its
+ * surroundings.
+ * \param[in] group indices into the graph, ascending
+ * \return the pieces, disjoint and complete; the group itself if no crease divides
+ * it */
 SurfelSets
 divideAtCreases(const PlaneCloud& cloud,
                 const SurfelGraph& graph,

@@ -13,10 +13,10 @@ using namespace object_localization;
 
 namespace {
 constexpr std::size_t kFewest = 10; // points of an object
-constexpr double kBelow = 0.05; // [m] that its points may be below what it stands on
+constexpr double kBelow = 0.05;     // [m] largest depth of its points below the support
 
-/** Of what is in the box of a detection, the points of the nearest surface that is as deep
- * as the object: what is behind is background. */
+/** In the box of a detection, the points of the nearest surface, up to the depth of the
+ * object; points behind are background. */
 std::vector<std::uint32_t>
 foreground(const Points& points,
            const std::vector<std::size_t>& places,
@@ -43,7 +43,7 @@ foreground(const Points& points,
   return best;
 }
 
-/** \return which points are on planes that carry things, or on walls */
+/** \return which points are on supporting planes or on walls */
 std::vector<char>
 backgroundOf(const PlaneCloud& cloud,
              const PlaneSegments& planes,
@@ -62,7 +62,7 @@ backgroundOf(const PlaneCloud& cloud,
   return is_background;
 }
 
-/** \return the level plane next below the points, if there is one */
+/** \return the next level plane below the points; nullopt without one */
 std::optional<std::size_t>
 supportBelow(const SceneSupports& supports, const Points& points)
 {

@@ -26,8 +26,8 @@ along(const std::vector<Eigen::Vector3d>& corners, const Eigen::Vector3d& way)
   return extent;
 }
 
-/** \return the direction of the longer side of the smallest rectangle around a hull, one
- * of whose sides lies along an edge of it (Freeman and Shapira 1975) */
+/** \return the direction of the longer side of the smallest rectangle around a hull;
+ * one side lies along an edge of the hull (Freeman and Shapira 1975) */
 Eigen::Vector3d
 longerSide(const std::vector<Eigen::Vector3d>& hull, const Eigen::Vector3d& up)
 {

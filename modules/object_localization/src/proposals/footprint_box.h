@@ -12,9 +12,8 @@ struct FootprintBox {
   Eigen::Vector3d size;          ///< [m] the longer side first, then the height
 };
 
-/** \return the box over the smallest rectangle that holds the points in plan, from the
- * plane `up . p = height` to the highest point
- * \param[in] points at least one */
+/** \return the box over the smallest rectangle around the points in plan, from the
+ * plane `up . p = height` to the highest point \param[in] points at least one */
 FootprintBox
 footprintBox(const Points& points, const Eigen::Vector3d& up, double height);
 

@@ -34,14 +34,14 @@ public:
   std::vector<ObjectProposal>
   propose() const
   {
-    std::vector<std::vector<ObjectProposal>> families; // wholes, each with its parts
+    std::vector<std::vector<ObjectProposal>> families; // each whole with its parts
     SurfelSets sets = connectedSets(cloud_, graph_, supports_);
     joinCavities(cloud_, graph_, supports_.up, sets);
     for (const auto& set : sets)
       if (auto whole = standing(set))
         families.push_back(withParts(std::move(*whole), set));
       else if (set.size() >=
-               options_.min_points / 2) // too large, say: of several things
+               options_.min_points / 2) // too large, possibly several objects
         for (const auto& part : partsOf(set))
           if (auto piece = standing(part))
             families.push_back({std::move(*piece)});
@@ -90,7 +90,8 @@ private:
     return heights;
   }
 
-  /** \return the proposal, if the set stands on a plane and has the size of a thing */
+  /** \return the proposal, if the set stands on a plane and has the size of an
+   * object */
   std::optional<ObjectProposal>
   standing(const std::vector<std::uint32_t>& set) const
   {
@@ -99,7 +100,7 @@ private:
   }
 
   /** \return the level plane that a set touches from above, or else the base over which
-   * it seems to float */
+   * the set seems to float */
   std::optional<std::size_t>
   supportOf(const std::vector<std::uint32_t>& set) const
   {
@@ -125,7 +126,7 @@ private:
     return touched ? touched : below;
   }
 
-  /** \return the proposal, if the set has the size of a thing */
+  /** \return the proposal, if the set has the size of an object */
   std::optional<ObjectProposal>
   proposalOf(const std::vector<std::uint32_t>& set, std::size_t support) const
   {
@@ -173,7 +174,7 @@ private:
     return family;
   }
 
-  /** \return what level planes and creases divide a set into, disjoint */
+  /** \return the disjoint parts of a set, divided by level planes and creases */
   SurfelSets
   partsOf(const std::vector<std::uint32_t>& set) const
   {
@@ -184,7 +185,7 @@ private:
     return parts;
   }
 
-  /** \return what stands on level planes of a set, and the rest */
+  /** \return the objects on level planes of a set, and the rest */
   SurfelSets
   layersOf(const std::vector<std::uint32_t>& set) const
   {

@@ -18,7 +18,7 @@ constexpr double kCoplanarSine = 0.1;
 constexpr double kCoplanarDistance = 0.02; // [m]
 constexpr double kPlanMargin = 0.1;        // [m] around the hull of a wall
 
-/** Of each surfel the plane of most of its points. */
+/** Per surfel, the plane with most of its points. */
 std::vector<std::uint32_t>
 planesOfSurfels(const PlaneCloud& cloud, const PlaneSegments& planes)
 {
@@ -43,7 +43,7 @@ planesOfSurfels(const PlaneCloud& cloud, const PlaneSegments& planes)
   return result;
 }
 
-/** [m] within which a surfel is on a plane, up to noise. */
+/** [m] within which a surfel is on a plane, given its noise. */
 double
 toleranceOf(const Surfels& surfels, std::size_t i)
 {
@@ -51,8 +51,8 @@ toleranceOf(const Surfels& surfels, std::size_t i)
   return kDeviations * surfels.noise[i];
 }
 
-/** How many surfels, on no plane or on a small one, are just over a plane: the feet of
- * what stands on it. */
+/** Number of surfels just over a plane, on a small plane or none: feet of objects on
+ * it. */
 std::size_t
 countFeet(const PlaneCloud& cloud,
           const SceneSupports& supports,
@@ -77,7 +77,7 @@ countFeet(const PlaneCloud& cloud,
   return count;
 }
 
-/** \return the side of the plane that most feet are on, of the largest few planes */
+/** \return the side with the most feet, over the largest few planes */
 Eigen::Vector3d
 upByFeet(const PlaneCloud& cloud,
          const SceneSupports& supports,
@@ -96,7 +96,7 @@ upByFeet(const PlaneCloud& cloud,
   return up;
 }
 
-/** Sorts planes by their shapes and places. */
+/** Assigns roles to planes by shape and position. */
 class Roles {
 public:
   Roles(const PlaneSegments& planes,
@@ -136,7 +136,8 @@ private:
     return prisms_[k].side().dot(up_) > least_cosine_;
   }
 
-  /** Whether a larger plane below it is near enough for it to be the top of a thing. */
+  /** Whether a larger plane is near enough below plane k to make it the top of an
+   * object. */
   bool
   isOverAnother(std::size_t k) const
   {
@@ -151,7 +152,8 @@ private:
     return false;
   }
 
-  /** Whether it lies on the carrier of structure, as a wall beside a door. */
+  /** Whether plane k lies in the plane of a structure, for example a wall beside a
+   * door. */
   bool
   continuesStructure(std::size_t k, const std::vector<PlaneRole>& roles) const
   {
@@ -171,7 +173,7 @@ private:
   double least_cosine_;
 };
 
-/** Whether a surfel belongs to a plane that is no part of things, or is next to one. */
+/** Whether a surfel belongs to a base or structure, or is next to one. */
 bool
 isOnStructure(const Surfels& surfels,
               std::size_t i,
@@ -218,7 +220,7 @@ surfelsOfThings(const PlaneCloud& cloud,
                 const ProposalOptions& options)
 {
   const Surfels& surfels = cloud.surfels();
-  // below it, what hangs down beside a table shows that it does not stand on it
+  // below it, surfels that hang down beside a table do not stand on the table
   const double deepest = -3 * options.contact;
   std::vector<char> chosen(surfels.size(), 0);
   parallelBlocks(

@@ -9,16 +9,16 @@
 #include <limits>
 #include <vector>
 
-/** \file What the planes of a scene are to the things in it. Internal to the module
+/** \file Roles of the planes of a scene as supports of objects. Internal to the module
  * object_localization. */
 namespace pcl6d::object_localization {
 
-/** \brief What a plane is to things. */
+/** \brief The role of a plane. */
 enum class PlaneRole {
-  kThing,     ///< may be part of one
-  kRaised,    ///< the same, level, and may carry others
-  kBase,      ///< carries things and is none
-  kStructure, ///< neither, such as a wall
+  kThing,     ///< possibly part of an object
+  kRaised,    ///< level, possibly part of an object and a support of others
+  kBase,      ///< supports objects, not part of an object
+  kStructure, ///< not a support and not part of an object, such as a wall
 };
 
 /** \brief The planes of a scene with their roles. */
@@ -36,7 +36,7 @@ findSupports(const PlaneCloud& cloud,
              const PlaneSegments& planes,
              const ProposalOptions& options);
 
-/** \return the surfels that may be on things: over a base, not on one nor on structure;
+/** \return the surfels that may be on objects: over a base, not on a base or structure;
  * ascending */
 std::vector<std::uint32_t>
 surfelsOfThings(const PlaneCloud& cloud,

@@ -27,12 +27,12 @@ placesOf(const Surfels& surfels, const std::vector<std::uint32_t>& chosen)
   return points;
 }
 
-/** \return the distance [m] of surfels where they are dense, by the area of as many as
- * make a normal */
+/** \return the distance [m] of surfels where they are dense, from the area of the
+ * surfels that define a normal */
 float
 leastSpacing(const Surfels& all, const std::vector<std::uint32_t>& surfels)
 {
-  constexpr std::size_t kDense = 4; // one of so many is as dense
+  constexpr std::size_t kDense = 4; // one surfel in four is as dense
   std::vector<float> radii;
   for (const auto i : surfels)
     radii.push_back(all.radii[i]);
@@ -80,7 +80,7 @@ joinAdjacent(const SurfelGraph& graph,
         components.join(i, graph.links[k].other);
 }
 
-/** Joins what is on one plane and less than about a cell apart. */
+/** Joins surfels on one plane that are less than about a cell apart. */
 void
 joinOnPlanes(const PlaneCloud& cloud,
              const SurfelGraph& graph,

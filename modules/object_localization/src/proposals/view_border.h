@@ -8,13 +8,13 @@
 /** \file Where the view of a scan ends. Internal to the module object_localization. */
 namespace pcl6d::object_localization {
 
-/** \brief The directions that a scan covers: a camera's convex field of view, or a band of
- * elevations around a scanner that looks all around (its azimuth has no border here). */
+/** \brief The directions covered by a scan: a camera's convex field of view, or a band
+ * of elevations of an all-around scanner (azimuth without border). */
 class ViewBorder {
 public:
   explicit ViewBorder(const PlaneCloud& cloud);
 
-  /** \return whether all is in one direction, as seen by a camera */
+  /** \return whether every point is in one direction, as for a camera */
   bool
   isNarrow() const
   {
@@ -28,8 +28,8 @@ public:
     return angular_spacing_;
   }
 
-  /** \return whether a point lies where the view ends
-   * \param[in] point a place in PlaneCloud::points() */
+  /** \return whether a point lies at the border of the view \param[in] point index into
+   * PlaneCloud::points() */
   bool
   touches(std::size_t point) const;
 

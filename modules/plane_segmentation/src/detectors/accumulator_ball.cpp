@@ -77,7 +77,7 @@ AccumulatorBall::area(std::size_t cell) const
          static_cast<double>(width(slice));
 }
 
-/** Appends the cells of a slice whose range of turns touches that of a cell. */
+/** Appends the cells of a slice that touch a cell's range of turns. */
 void
 AccumulatorBall::appendTouching(const Place& place,
                                 std::size_t slice,

@@ -10,7 +10,7 @@
 namespace pcl6d::plane_segmentation {
 
 namespace {
-constexpr std::size_t kLanes = 4; // that sums run in, whatever the CPU: the same bits
+constexpr std::size_t kLanes = 4; // parallel partial sums on any CPU, for equal bits
 using DoubleLanes = double __attribute__((vector_size(8 * kLanes)));
 using FloatLanes = float __attribute__((vector_size(4 * kLanes)));
 
@@ -44,7 +44,7 @@ plainDistances(const float* x,
     distances[i] = std::abs(a * x[i] + b * y[i] + c * z[i] - offset);
 }
 
-/** From distances to those that count normals, too. */
+/** Mixes the angles of normals into distances. */
 PCL6D_SIMD_CLONES void
 mixInAngles(const ConsensusPoints& points,
             std::size_t begin,

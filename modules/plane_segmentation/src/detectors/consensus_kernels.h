@@ -15,10 +15,10 @@ struct LocalPlane {
   float offset = 0; ///< [m]
 };
 
-/** \brief Points are looked at in runs of so many, which stay in the nearest cache. */
+/** \brief Number of points in a run, small enough for the nearest cache. */
 constexpr std::size_t kConsensusRun = 512;
 
-/** \brief What counts as the distance of points [begin, begin + size) to a plane; see
+/** \brief Computes the distances of points [begin, begin + size) to a plane, see
  * PlaneConsensusOptions::max_distance. \param[in] size <= kConsensusRun
  * \param[out] distances size values, >= 0 */
 void
@@ -32,12 +32,12 @@ consensusDistances(const ConsensusPoints& points,
 std::size_t
 countBelow(const float* distances, std::size_t size, float limit);
 
-/** \return sum of 1 - (d / limit)^2 over those below the limit */
+/** \return sum of 1 - (d / limit)^2 over distances below the limit */
 double
 gainBelow(const float* distances, std::size_t size, float limit);
 
-/** \brief Writes the places of points [begin, begin + size) that are below the limit.
- * \param[out] places room for size + 1 values \return how many were written */
+/** \brief Writes the indices of points [begin, begin + size) with distances below the
+ * limit. \param[out] places room for size + 1 values \return the number of indices */
 std::size_t
 placesBelow(const ConsensusPoints& points,
             std::size_t begin,
@@ -46,8 +46,8 @@ placesBelow(const ConsensusPoints& points,
             float limit,
             std::uint32_t* places);
 
-/** \return sums over points [begin, begin + size) that are below the limit, relative to
- * ConsensusPoints::origin() */
+/** \return sums over points [begin, begin + size) with distances below the limit,
+ * relative to ConsensusPoints::origin() */
 PlaneMoments
 momentsBelow(const ConsensusPoints& points,
              std::size_t begin,

@@ -7,9 +7,9 @@
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kCentreSamples = 101; // so that some wild points do not matter
+constexpr std::size_t kCentreSamples = 101; // enough to make outliers irrelevant
 
-/** \return a number below a size, which depends on the key alone */
+/** \return a number below a size, a function of the key alone */
 std::size_t
 drawBelow(std::size_t size, std::uint64_t key)
 {
@@ -33,7 +33,7 @@ medianOfSome(const float* values, std::size_t size)
 ConsensusPoints::ConsensusPoints(std::size_t capacity, bool with_normals)
 : xs_(capacity + 1), ys_(capacity + 1), zs_(capacity + 1), places_(capacity + 1)
 {
-  // One more, as a point that is left out has been written before this shows.
+  // One more, as a point is written before it is found to be non-finite.
   if (!with_normals)
     return;
   for (auto& column : normals_)

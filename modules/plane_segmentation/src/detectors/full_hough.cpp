@@ -14,13 +14,13 @@ namespace {
 /** Parts of the points that vote before the peaks are compared. */
 constexpr std::size_t kAdaptiveBatches = 20;
 
-/** What voted, and for what. */
+/** Result of a vote: cells, and share of the voters. */
 struct Election {
   std::vector<HoughCell> cells;
   double share = 1; ///< of the surfels that voted
 };
 
-/** The transforms in which a point votes for all planes through it, and then the peaks
+/** Hough transforms in which each point votes for every plane through it before peaks
  * are taken. */
 class FullHough {
 public:
@@ -43,7 +43,7 @@ public:
   }
 
 private:
-  /** Votes once, and takes the peaks that are planes. */
+  /** Votes once, and takes the peaks with a plane. */
   void
   takePeaks()
   {
@@ -74,7 +74,7 @@ private:
     return election;
   }
 
-  /** Votes batch by batch until the largest peaks stay the same. */
+  /** Votes batch by batch until the largest peaks are stable. */
   Election
   adaptiveVote() const
   {
@@ -115,7 +115,7 @@ private:
     return largest;
   }
 
-  /** Whether peak after peak is within the window of that of the same rank. */
+  /** Whether each peak is within the window of the peak with the same rank. */
   bool
   sameRanks(const std::vector<HoughCell>& a, const std::vector<HoughCell>& b) const
   {
@@ -144,7 +144,7 @@ private:
     return voting;
   }
 
-  /** \return the fewest votes that a plane has if a share of the surfels votes */
+  /** \return the fewest votes of a plane if a share of the surfels votes */
   std::uint32_t
   fewest(double share) const
   {

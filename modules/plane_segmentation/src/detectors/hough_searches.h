@@ -7,24 +7,24 @@
 #include <pcl6d/plane_segmentation/plane_hough.h>
 
 /** \file
- * What the variants of the Hough transform share, and those in which a point votes for
- * all planes through it; see houghCandidates(). */
+ * Common parts of the Hough variants, and the variants in which a point votes for every
+ * plane through it; see houghCandidates(). */
 namespace pcl6d::plane_segmentation {
 
 constexpr int kHoughWindow = 4; ///< steps on each side of a peak
 
-/** \return a search in a cloud with nothing taken yet */
+/** \return a search in a cloud, without planes taken yet */
 PlaneSearch
 makeHoughSearch(const PlaneCloud& cloud, const HoughPlaneOptions& options);
 
-/** \return the patch that a peak of the votes is of; no slots: it is of none */
+/** \return the patch of a peak of the votes; without slots: no plane */
 Support
 supportOfPeak(const PlaneSearch& search,
               const AccumulatorBall& ball,
               const HoughCell& peak,
               double offset_cell);
 
-/** \brief The standard, probabilistic and adaptive variants: all votes are counted, then
+/** \brief The standard, probabilistic and adaptive variants: votes are counted, then
  * peaks are taken. */
 PlaneCandidates
 fullHough(const PlaneCloud& cloud, const HoughPlaneOptions& options);

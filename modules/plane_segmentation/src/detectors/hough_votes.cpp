@@ -11,7 +11,7 @@
 namespace pcl6d::plane_segmentation {
 
 namespace {
-/** The surfels that face into each cell of the ball. */
+/** The surfels with normals in each cell of the ball. */
 class SurfelsByDirection {
 public:
   SurfelsByDirection(const SurfelColumns& surfels, const AccumulatorBall& ball)
@@ -49,7 +49,7 @@ keyOf(std::size_t direction, std::int32_t offset)
          static_cast<std::int64_t>(direction);
 }
 
-/** Votes of each direction, one direction after the other. */
+/** Votes per direction, one direction after another. */
 class DirectionVotes {
 public:
   DirectionVotes(const SurfelColumns& surfels,
@@ -69,7 +69,7 @@ public:
   visit(std::size_t direction, const Visit& visit) const
   {
     const Eigen::Vector3f normal = facing_.centre(direction);
-    std::vector<std::uint32_t> votes; // made with the first one
+    std::vector<std::uint32_t> votes; // allocated with the first vote
     for (const std::uint32_t facing : facing_.of(direction))
       by_direction_.visit(facing, [&](std::size_t slot) {
         if (votes.empty())
@@ -90,7 +90,7 @@ private:
   std::int32_t middle_;
 };
 
-/** \return the cells of all directions by falling count */
+/** \return the cells of every direction by falling count */
 std::vector<HoughCell>
 byCount(const std::vector<std::vector<HoughCell>>& rows)
 {
@@ -126,7 +126,7 @@ reachOf(const SurfelColumns& surfels, double cell)
   float farthest = 0;
   for (std::size_t i = 0; i < surfels.size(); ++i)
     farthest = std::max(farthest, surfels.point(i).squaredNorm());
-  // Cells on either side of the origin: so many that float tells them apart.
+  // Largest number of cells on either side of the origin that float can tell apart.
   constexpr double kMost = 1 << 22;
   const double reach = std::sqrt(static_cast<double>(farthest));
   require(reach <= kMost * cell,

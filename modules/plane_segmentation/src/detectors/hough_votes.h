@@ -20,23 +20,23 @@ struct HoughCell {
   std::uint32_t votes = 0;
 };
 
-/** \brief How surfels vote for all planes through them. */
+/** \brief Voting of surfels for every plane through them. */
 struct HoughVoteOptions {
   double offset_cell = 0.1;    ///< [m]
-  double max_angle = 0.35;     ///< [rad] between a plane's normal and that of a surfel
+  double max_angle = 0.35;     ///< [rad] between the normals of a plane and of a surfel
   std::uint32_t min_votes = 1; ///< cells with fewer are left out
   unsigned int num_threads = 0;
 };
 
-/** \brief Lets each surfel vote for all planes through it.
+/** \brief Lets each surfel vote for every plane through it.
  * \return the cells by falling count, then by direction and offset */
-PCL6D_EXPORTS std::vector<HoughCell> // shown to its test
+PCL6D_EXPORTS std::vector<HoughCell> // exported for its test
 voteForAll(const SurfelColumns& surfels,
            const AccumulatorBall& ball,
            const HoughVoteOptions& options);
 
-/** \brief Which cells of an accumulator ball face so nearly the same way that surfels of
- * the one vote for planes of the other. */
+/** \brief For each cell of an accumulator ball, the cells within an angle: surfels of
+ * one cell vote for planes of the other. */
 class FacingDirections {
 public:
   /** \param[in] max_angle [rad] between the centres of the cells */
@@ -63,32 +63,32 @@ private:
   std::vector<std::vector<std::uint32_t>> facing_;
 };
 
-/** \brief Votes that come and go: counted batch by batch, and taken back. */
-class PCL6D_EXPORTS HoughVotes { // shown to its test
+/** \brief Votes that are counted batch by batch, and may be taken back. */
+class PCL6D_EXPORTS HoughVotes { // exported for its test
 public:
-  /** Keeps a reference to the ball. \param[in] options min_votes does not count */
+  /** Keeps a reference to the ball. \param[in] options min_votes is ignored */
   HoughVotes(const AccumulatorBall& ball, const HoughVoteOptions& options);
 
-  /** \brief Lets surfels vote, each for all planes through it. */
+  /** \brief Lets each surfel vote for every plane through it. */
   void
   add(const SurfelColumns& surfels)
   {
     count(surfels, 1);
   }
 
-  /** \brief Takes the votes of surfels back, all of which have voted. */
+  /** \brief Takes back the votes of surfels, which must have voted. */
   void
   remove(const SurfelColumns& surfels)
   {
     count(surfels, -1);
   }
 
-  /** \return the cells of so many votes, which is at least one, in the order of
-   * voteForAll() */
+  /** \return the cells with at least min_votes, ordered like voteForAll(); min_votes is
+   * at least one */
   std::vector<HoughCell>
   cells(std::uint32_t min_votes) const;
 
-  /** \return all votes for planes of a direction */
+  /** \return the number of votes for planes of a direction */
   std::uint64_t
   votesFor(std::size_t direction) const;
 
@@ -107,21 +107,22 @@ private:
   std::vector<std::vector<Count>> rows_; // of each direction, by offset
 };
 
-/** \return how many cells of this size [m] the surfels are from the origin, rounded up */
+/** \return the largest distance of a surfel from the origin in cells of this size [m],
+ * rounded up */
 std::int32_t
 reachOf(const SurfelColumns& surfels, double cell);
 
-/** \brief The peaks of the votes, one after the other: the cell with most votes that is
- * in no window of a peak before. */
+/** \brief Iterates over the peaks of the votes: the cell with most votes outside the
+ * windows of previous peaks. */
 class HoughPeaks {
 public:
-  /** \param[in] cells as of voteForAll() \param[in] steps that the window about a peak
-   * reaches to each side, in direction and in offset */
+  /** \param[in] cells see voteForAll() \param[in] steps half size of the window about a
+   * peak, in direction and in offset */
   HoughPeaks(std::vector<HoughCell> cells, const AccumulatorBall& ball, int steps)
   : cells_(std::move(cells)), ball_(ball), steps_(steps)
   {}
 
-  /** \return the next peak; null: there is none */
+  /** \return the next peak; null at the end */
   const HoughCell*
   next();
 

@@ -9,23 +9,24 @@
 
 namespace pcl6d::plane_segmentation {
 
-/** \brief How three surfels are drawn that may lie on one plane. */
+/** \brief Knobs of drawing three surfels that may lie on one plane. */
 struct TripleOptions {
-  int num_levels = 4;      ///< sizes of cells, from the finest; each is as likely
-  double min_distance = 0; ///< [m] between each two of them
-  double min_cosine = 0.9; ///< between the normal of each and that of their plane
-  /** Sine of the smallest angle that they make: the flatter, the less they say. */
+  int num_levels = 4;      ///< sizes of cells, from the finest; equally likely
+  double min_distance = 0; ///< [m] between every two surfels
+  double min_cosine = 0.9; ///< between the normals of a surfel and of the plane
+  /** Sine of the smallest angle of the triangle: flat triangles determine a plane
+   * poorly. */
   double min_sine = 0.2;
 };
 
-/** \brief The plane of three surfels, on the side to which their normals point. */
+/** \brief The plane of three surfels, oriented like their normals. */
 struct TriplePlane {
   Eigen::Vector3f normal;
   float offset = 0; ///< [m] normal . p
 };
 
 /** \brief Draws a surfel and two of its neighbours.
- * \return none if they do not make a plane that suits their normals */
+ * \return nullopt if their plane contradicts their normals */
 std::optional<TriplePlane>
 drawTriple(const RemainingSurfels& surfels,
            const TripleOptions& options,

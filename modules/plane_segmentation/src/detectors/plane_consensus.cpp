@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "detectors/consensus_judge.h"
+#include "detectors/consensus_scorer.h"
 
 #include <pcl6d/common/number_range.h>
 #include <pcl6d/common/parallel.h>
@@ -17,34 +17,36 @@ namespace pcl6d {
 using namespace plane_segmentation;
 
 namespace {
-constexpr std::size_t kScored = 1024;      // points that draws are scored on
-constexpr std::size_t kPerIteration = 256; // of these, a draw without a chance needs
-/** For an iteration, at least: where points are few, they cost less than PCL's one. */
+constexpr std::size_t kScored = 1024;      // points to score draws on
+constexpr std::size_t kPerIteration = 256; // scored points until a bad draw is dropped
+/** Per iteration, at least: for few points, these draws cost less than an iteration of
+ * PCL. */
 constexpr std::size_t kLeastDraws = 8;
 constexpr std::size_t kDrawBlock = 64;  // draws of a thread's step
 constexpr std::size_t kFirstRound = 16; // draws; each round doubles
 constexpr std::size_t kLargestRound = 4096;
-constexpr std::size_t kKept = 16;     // best draws of a round that are looked at
-constexpr std::size_t kTried = 4;     // of these, near no known plane, that are fitted
-constexpr std::size_t kFinalists = 8; // planes that are known at a time
-constexpr std::size_t kFinals = 3;    // of these that are fitted to all points
-/** A fit to all points may add so much to the score of a plane. */
+constexpr std::size_t kKept = 16;     // best draws of a round that are kept
+constexpr std::size_t kTried = 4;     // draws that are fitted, not near a known plane
+constexpr std::size_t kFinalists = 8; // largest number of known planes
+constexpr std::size_t kFinals = 3;    // known planes that are fitted to every point
+/** Largest share that a fit to every point may add to a score. */
 constexpr double kGainOfFit = 0.1;
-/** [max_distance] What a sample leaves open is less than this. */
+/** [max_distance] Accuracy of a plane found on a sample. */
 constexpr double kLastStep = 0.125;
-/** A look at all points takes as long as some draws of PCL's: one for so many draws. */
+/** Number of PCL's draws at the cost of one pass over the points. */
 constexpr std::size_t kDrawsPerLook = 4;
-/** Of fewer points the sample tells enough, and a look costs more than the rest. */
+/** For fewer points the sample is sufficient, and a pass costs more than the rest. */
 constexpr std::size_t kFewPoints = 16 * kScored, kDrawsPerLookAtFew = 10;
-/** Chance that a draw on a plane leads to it; others are too small for their noise. */
+/** Chance that a draw on a plane leads to it; the others are too small for their
+ * noise. */
 constexpr double kGoodConsensusDraw = 0.25;
-constexpr double kGoodBySample = 0.1; // where a sample of the points overlooks some
-/** Squared spread of a draw across its length; less is rounding
+constexpr double kGoodBySample = 0.1; // for a sample, which may miss good draws
+/** Smallest squared sine between the sides of a draw; less is rounding
  * (PlaneMoments::fit()). */
 constexpr float kLeastSquaredSine = 1e-9f;
 constexpr double kFinalSigmas = 3; // of a count from the sample, for the last choice
 
-/** Three points, and a plane through them. */
+/** Three points, and their plane. */
 using ConsensusDraft = ConsensusCandidate;
 
 class ConsensusSearch {
@@ -56,8 +58,8 @@ public:
   , some_(all.size() > kScored ? all.sample(kScored, mixBits(options.seed))
                                : ConsensusPoints(0))
   , sample_(all.size() > kScored ? some_ : all)
-  , judge_(sample_, options_, rule_, 1)
-  , final_judge_(all_, options_, rule_, options.num_threads)
+  , scorer_(sample_, options_, rule_, 1)
+  , final_scorer_(all_, options_, rule_, options.num_threads)
   {}
 
   PlaneConsensus
@@ -71,7 +73,7 @@ public:
     if (finalists_.empty())
       return result;
     const ConsensusCandidate best = winner();
-    auto places = final_judge_.placesOn(best);
+    auto places = final_scorer_.placesOn(best);
     if (places.size() < 3)
       return result;
     result.status = Status::kOk;
@@ -84,7 +86,7 @@ public:
   }
 
 private:
-  /** \return draws after which no better plane is missed, within the effort */
+  /** \return the number of draws for the given probability, within the effort */
   std::size_t
   drawsNeeded() const
   {
@@ -93,7 +95,7 @@ private:
                         static_cast<double>(options_.neighbours ? 1 : runs);
     if (finalists_.empty())
       return clampedTo<std::size_t>(effort);
-    if (judge_.isPerfect(finalists_.front().score))
+    if (scorer_.isPerfect(finalists_.front().score))
       return draws_;
     const double share = best_share_;
     const double good = &sample_ == &all_ ? kGoodConsensusDraw : kGoodBySample;
@@ -144,7 +146,7 @@ private:
     slots[0] = drawBelow(size, 4 * number);
     slots[1] = (slots[0] + 1 + drawBelow(size - 1, 4 * number + 1)) % size;
     slots[2] = drawBelow(size - 2, 4 * number + 2);
-    // The third is one of those that are left.
+    // The third is one of the remaining points.
     const auto [low, high] = std::minmax(slots[0], slots[1]);
     slots[2] += static_cast<std::size_t>(slots[2] >= low);
     slots[2] += static_cast<std::size_t>(slots[2] >= high);
@@ -179,7 +181,7 @@ private:
       if (!draft)
         continue;
       const double floor = best.size() < kKept ? -1 : best.back().score;
-      draft->score = judge_.scoreAbove(draft->plane, floor);
+      draft->score = scorer_.scoreAbove(draft->plane, floor);
       keepBest(best, *draft, kKept);
     }
     return best;
@@ -222,12 +224,12 @@ private:
     const std::size_t most = std::clamp<std::size_t>(count / kFirstRound, 1, kTried);
     for (const auto& draft : best)
       if (tried < most && !isKnown(draft)) {
-        addFinalist(judge_.improved(draft, false));
+        addFinalist(scorer_.improved(draft, false));
         ++tried;
       }
   }
 
-  /** \return whether a draw is near a plane that is better than it */
+  /** \return whether a draw is near a better plane */
   bool
   isKnown(const ConsensusDraft& draft) const
   {
@@ -236,7 +238,7 @@ private:
     });
   }
 
-  /** Two that are the same where their points are count once. */
+  /** Whether two planes are equal where their points are. */
   bool
   areSame(const ConsensusCandidate& a, const ConsensusCandidate& b) const
   {
@@ -269,7 +271,7 @@ private:
   void
   updateShare()
   {
-    best_share_ = static_cast<double>(judge_.countOn(finalists_.front())) /
+    best_share_ = static_cast<double>(scorer_.countOn(finalists_.front())) /
                   static_cast<double>(sample_.size());
   }
 
@@ -283,15 +285,15 @@ private:
     return best - candidate.score <= kFinalSigmas * std::sqrt(best + candidate.score);
   }
 
-  /** \return the best of the finalists by all points */
+  /** \return the best of the finalists on every point */
   ConsensusCandidate
   winner() const
   {
     std::vector<ConsensusCandidate> finals;
     for (const auto& finalist : finalists_)
       if (mayWin(finalist)) {
-        auto climbed = judge_.climbed(finalist, Climb(), false);
-        climbed.score = final_judge_.score(climbed.plane);
+        auto climbed = scorer_.climbed(finalist, Climb(), false);
+        climbed.score = final_scorer_.score(climbed.plane);
         keepBest(finals, climbed, kFinals);
       }
     std::optional<ConsensusCandidate> best;
@@ -299,7 +301,7 @@ private:
       if (best &&
           candidate.score + kGainOfFit * std::abs(candidate.score) < best->score)
         break;
-      const auto improved = final_judge_.improved(candidate, options_.refine);
+      const auto improved = final_scorer_.improved(candidate, options_.refine);
       if (!best || improved.score > best->score)
         best = improved;
     }
@@ -311,7 +313,7 @@ private:
     const std::size_t per_look =
         all_.size() < kFewPoints ? kDrawsPerLookAtFew : kDrawsPerLook;
     last.max_looks = std::min(draws_ / per_look, options_.max_iterations);
-    const auto climbed = final_judge_.climbed(*best, last, options_.refine);
+    const auto climbed = final_scorer_.climbed(*best, last, options_.refine);
     return climbed.score > best->score ? climbed : *best;
   }
 
@@ -319,9 +321,9 @@ private:
   const PlaneConsensusOptions& options_;
   const DirectionRule rule_;
   const ConsensusPoints some_;
-  const ConsensusPoints& sample_;    // in random order, or all points if they are few
-  const ConsensusJudge judge_;       // by the sample
-  const ConsensusJudge final_judge_; // by all points
+  const ConsensusPoints& sample_; // in random order, or every point if they are few
+  const ConsensusScorer scorer_;  // by the sample
+  const ConsensusScorer final_scorer_;        // by all points
   std::vector<ConsensusCandidate> finalists_; // best first
   double best_share_ = 0;                     // of the sample on the first
   std::size_t draws_ = 0;

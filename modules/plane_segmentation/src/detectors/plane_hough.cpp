@@ -17,8 +17,8 @@ using namespace plane_segmentation;
 
 namespace {
 constexpr std::size_t kBlock = 256;  // draws
-constexpr std::size_t kBatch = 2048; // draws that are made before they vote
-constexpr int kLevels = 3;           // sizes of the cells that points are drawn from
+constexpr std::size_t kBatch = 2048; // draws made before they vote
+constexpr int kLevels = 3;           // cell sizes to draw from
 
 constexpr Named<HoughVariant> kVariants[] = {
     {HoughVariant::kStandard, "standard"},
@@ -62,7 +62,7 @@ private:
     float offset = 0;
   };
 
-  /** \return the first cell with enough votes, or else that with most of them */
+  /** \return the first cell with enough votes, or else the cell with most votes */
   Votes
   vote()
   {

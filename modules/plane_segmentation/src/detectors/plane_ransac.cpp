@@ -17,19 +17,19 @@ using namespace plane_segmentation;
 namespace {
 constexpr std::size_t kBlock = 256;       // draws
 constexpr std::size_t kFirstDraws = 1024; // doubled from round to round
-constexpr std::size_t kSampleSize = 4096; // points that a draw is scored on
+constexpr std::size_t kSampleSize = 4096; // points to score a draw on
 constexpr int kLevels = 4;                // sizes of neighbourhoods
-/** Chance that the second and the third point of a draw are on the plane of the first
- * and tell its direction well enough for a fit to find the rest. */
+/** Chance that the second and third point of a draw are on the plane of the first, and
+ * determine its direction well enough for a fit to find the rest. */
 constexpr double kGoodDraw = 0.1;
-/** So many promising drafts are fitted before the best of them is taken. */
+/** Promising drafts to fit before the best is taken. */
 constexpr int kLooks = 4;
 
-/** A plane that may be taken. */
+/** A candidate plane. */
 struct Draft {
   Slab slab;
-  double size = 0;       ///< its points: estimated, or counted
-  std::size_t round = 0; ///< planes that had been taken when this was found out
+  double size = 0;       ///< number of its points: estimated, or counted
+  std::size_t round = 0; ///< number of planes taken when `size` was computed
 
   bool
   operator<(const Draft& other) const
@@ -88,7 +88,7 @@ private:
            static_cast<double>(surfels().size()) / static_cast<double>(sample_.size());
   }
 
-  /** Draws samples and keeps those that may be planes. */
+  /** Draws samples and keeps candidate planes. */
   void
   draw(std::size_t count)
   {
@@ -127,7 +127,7 @@ private:
     return draft;
   }
 
-  /** \return the points that a plane must have so that a larger one would have been
+  /** \return the number of points of a plane at which a larger plane would have been
    * drawn by now: (1 - n q / N)^draws = 1 - P, for small n q / N */
   double
   trustedSize() const
@@ -135,8 +135,8 @@ private:
     return -portableLog(1 - options_.probability) / (kGoodDraw * draws_per_surfel_);
   }
 
-  /** Takes the largest plane if it is large enough to be trusted.
-   * \return whether there was one */
+  /** Takes the largest plane if its size can be trusted.
+   * \return whether a plane was taken */
   bool
   takeBest()
   {
@@ -165,7 +165,7 @@ private:
     return true;
   }
 
-  /** \return whether the next draft is worth a look, with a plane of some size known */
+  /** \return whether the next draft may beat a plane of known size */
   bool
   mayBeat(std::size_t size) const
   {
@@ -185,7 +185,7 @@ private:
   TripleOptions triple_;
   SurfelColumns sample_; // to score draws on
   std::vector<Draft> heap_;
-  std::size_t num_taken_ = 0; // patches, curved ones too
+  std::size_t num_taken_ = 0; // patches, including curved patches
   std::size_t num_blocks_ = 0;
   double draws_per_surfel_ = 0;
 };

@@ -14,7 +14,7 @@ using namespace plane_segmentation;
 
 namespace {
 constexpr int kRounds = 3; // of growing a region, each from the plane of the last
-/** Of a surfel's place, by that of a point: the mean of twenty. */
+/** Noise of a surfel over the noise of a point: the mean of twenty. */
 constexpr double kSurfelNoise = 0.5;
 
 /** Grows regions one by one; a surfel belongs to one region at most. */
@@ -49,7 +49,7 @@ public:
     return !taken_[surfel];
   }
 
-  /** \return the surfels of the region about a seed; empty if it stays small */
+  /** \return the surfels of the region about a seed; empty for a small region */
   std::vector<std::uint32_t>
   grow(std::uint32_t seed)
   {
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  /** Grows from what of the region lies on a plane, which is then updated. */
+  /** Grows from the part of the region that lies on a plane, and updates the plane. */
   void
   growFrom(PlaneFit& plane)
   {
@@ -83,7 +83,8 @@ private:
     for (std::size_t next = 0; next < region_.size(); ++next) {
       const std::uint32_t i = region_[next];
       if (!surfels_.smooth[i])
-        continue; // the rim: part of it, but it leads on to other surfaces
+        continue; // the rim: part of the region, but not grown from, as it leads to
+                  // other surfaces
       for (std::size_t k = surfels_.link_begin[i]; k < surfels_.link_begin[i + 1]; ++k)
         join(surfels_.links[k], plane);
       if (region_.size() >= next_fit) {
@@ -94,7 +95,7 @@ private:
     update(plane);
   }
 
-  /** Takes a surfel that is on the plane and leaves it flat. */
+  /** Adds a surfel that is on the plane and keeps the region flat. */
   void
   join(std::uint32_t i, const PlaneFit& plane)
   {
@@ -135,7 +136,7 @@ private:
   const RegionGrowingOptions& options_;
   const double least_cosine_;
   std::vector<char> taken_;
-  std::vector<std::uint32_t> seen_; // the last growth that looked at a surfel
+  std::vector<std::uint32_t> seen_; // the last growth that tested a surfel
   std::uint32_t growth_ = 0;
   std::vector<std::uint32_t> region_;
   PlaneMoments sums_;  // of the region, weighted by 1 / sigma^2

@@ -14,11 +14,11 @@ namespace pcl6d::plane_segmentation {
 
 namespace {
 constexpr int kMaxFits = 5;
-/** A patch that grows by less than this share is fitted well enough. */
+/** A patch that grows by less than this share is final. */
 constexpr double kGrowth = 0.02;
-/** A patch is curved if a quadric explains so much of the squared distances to its plane
- * and their rms is so much of their reach, 1 / sqrt(3) if they fill the slab evenly:
- * less is rounding. */
+/** A patch is curved if a quadric explains kCurved of the squared distances to its
+ * plane, and their rms is at least kFilled of their reach (1 / sqrt(3) if they fill the
+ * slab evenly): less is rounding. */
 constexpr double kCurved = 0.85, kFilled = 0.01;
 
 /** Writes 1 for each surfel in the slab, else 0. \return how many are */
@@ -67,8 +67,8 @@ largestPatch(const RemainingSurfels& surfels, const Slab& slab)
   return largest;
 }
 
-/** \return the plane of least squares, turned as the one before; that one for surfels on
- * a line */
+/** \return the least-squares plane, oriented like `before`; `before` itself for
+ * collinear surfels */
 Slab
 fitted(const SurfelColumns& surfels,
        const std::vector<std::uint32_t>& slots,

@@ -5,36 +5,36 @@
 
 namespace pcl6d::plane_segmentation {
 
-/** \brief What is near a plane and faces its way. */
+/** \brief The space near a plane, with a range of normals. */
 struct Slab {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
   float offset = 0;     ///< [m] normal . p of its surfels
   float min_cosine = 0; ///< between the normal of a surfel and the plane's
-  float slack = 0;      ///< [m] that a surfel may be away beyond its reach
+  float slack = 0;      ///< [m] distance allowed beyond a surfel's reach
 };
 
 /** \return how many of the surfels are in a slab */
 std::size_t
 countInside(const SurfelColumns& surfels, const Slab& slab);
 
-/** \brief The patch of a surface about a plane: the largest connected one in the slab,
- * after some fits by least squares. */
+/** \brief The patch that supports a plane: the largest connected patch in the slab,
+ * after repeated least-squares fits. */
 struct Support {
   Slab slab;                        ///< as fitted, without slack
-  std::vector<std::uint32_t> slots; ///< ascending; none: no plane
+  std::vector<std::uint32_t> slots; ///< ascending; empty: no plane
 };
 
-/** \brief Fits a plane to the patch that supports it until that grows no more.
- * \param[in] slab first guess; its slack counts once */
+/** \brief Fits a plane to its supporting patch until the patch stops growing.
+ * \param[in] slab initial plane; its slack is used once */
 Support
 findSupport(const RemainingSurfels& surfels, Slab slab);
 
 /** \return whether a patch is a piece of a curved surface, such as a sphere: a quadric
- * explains most of what is left between the surfels and their plane */
+ * explains most of the distances between the surfels and their plane */
 bool
 isCurved(const SurfelColumns& surfels, const Support& support);
 
-/** \brief A search that takes one plane after the other out of a cloud. */
+/** \brief Takes planes out of a cloud one by one. */
 class PlaneSearch {
 public:
   /** \param[in] finest_cell [m], reach: see RemainingSurfels
@@ -56,23 +56,23 @@ public:
     return surfels_;
   }
 
-  /** \return a slab that finds the support of a plane */
+  /** \return a slab to find the support of a plane */
   Slab
   slab(const Eigen::Vector3f& normal, float offset) const
   {
     return {normal, offset, min_cosine_, 0};
   }
 
-  /** \return see findSupport(); no slots if they are too few */
+  /** \return see findSupport(); without slots if there are too few */
   Support
   supportOf(const Slab& guess) const;
 
-  /** \brief Removes a patch, which is a plane unless it is curved.
+  /** \brief Removes a patch, and stores it as a plane unless it is curved.
    * \return whether it is a plane */
   bool
   take(const Support& support);
 
-  /** \return the planes taken so far */
+  /** \return the planes taken up to now */
   const PlaneCandidates&
   found() const
   {

@@ -13,7 +13,7 @@ namespace pcl6d::plane_segmentation {
 namespace {
 constexpr std::size_t kProgressiveBatches = 20; // parts in which the points vote
 
-/** The transform that stops counting for a plane when it stands out. */
+/** Hough transform that tests a plane once the votes stand out. */
 class ProgressiveHough {
 public:
   ProgressiveHough(const PlaneCloud& cloud, const HoughPlaneOptions& options)
@@ -47,7 +47,7 @@ public:
   }
 
 private:
-  /** \return whether points were removed, so that what is left counts anew */
+  /** \return whether points were removed, so that counting restarts */
   bool
   takeNext()
   {
@@ -67,9 +67,10 @@ private:
     return false;
   }
 
-  /** Whether chance does not explain so many votes. Were the votes for its direction
-   * anywhere in the cloud, those of a cell were a Poisson variable of this mean m, which
-   * exceeds m + sqrt(2 m L) + L / 3 with a probability below exp(-L) (Bernstein). */
+  /** Whether chance fails to explain the votes of a cell. If the votes for its
+   * direction were spread evenly over the cloud, the votes of a cell would be Poisson
+   * with this mean m. They exceed m + sqrt(2 m L) + L / 3 with a probability below
+   * exp(-L) (Bernstein). */
   bool
   standsOut(const HoughCell& cell) const
   {
@@ -95,7 +96,7 @@ private:
            static_cast<std::int64_t>(direction);
   }
 
-  /** Whether there was no plane near it, and there are not twice the votes now. */
+  /** Whether a test failed near it, with at least half of the present votes. */
   bool
   wasLookedAt(const HoughCell& cell) const
   {

@@ -11,7 +11,7 @@ constexpr Named<PlaneMethod> kMethods[] = {
     {PlaneMethod::kRegionGrowing, "region-growing"},
     {PlaneMethod::kRansac, "ransac"},
     {PlaneMethod::kHough, "hough"}};
-const std::string kHoughPrefix = "hough-"; // of the words for its variants
+const std::string kHoughPrefix = "hough-"; // prefix of the words for its variants
 
 PlaneCandidates
 candidatesBy(const PlaneCloud& cloud,

@@ -13,9 +13,8 @@ namespace pcl6d::plane_segmentation {
 namespace {
 constexpr std::uint32_t kNone = 0xffffffff;
 
-/** The crossings of a level with the edges between neighbouring cells, and how they
- * follow each other. The edge from cell i to the right has the number 2 i, the one
- * upwards 2 i + 1. */
+/** The crossings of a level with the edges between adjacent cells, linked into rings.
+ * The edge from cell i to the right has the number 2 i, the edge upwards 2 i + 1. */
 class Crossings {
 public:
   Crossings(const Raster<float>& field, float level)
@@ -43,8 +42,9 @@ public:
   }
 
 private:
-  /** Joins the crossings of a square of four cells: a line starts where one, walking
-   * about the square to the left, leaves the inside, and ends where one last came in. */
+  /** Joins the crossings of a square of four cells, walking about the square to the
+   * left: a line starts where the walk leaves the inside, and ends where it last came
+   * in. */
   void
   addSquare(std::size_t x, std::size_t y)
   {
@@ -88,7 +88,7 @@ private:
   std::vector<std::uint32_t> next_;
 };
 
-/** Keeps the corners between two that are far from the line between these. */
+/** Keeps the corners between two corners that are far from their connecting line. */
 void
 keepBetween(const Ring& ring,
             std::size_t first,

@@ -7,9 +7,9 @@
 namespace pcl6d::plane_segmentation {
 
 namespace {
-constexpr double kFar = 1e12; // squared distance where there is no cell of the set
+constexpr double kFar = 1e12; // squared distance without a cell of the set
 
-/** The lower envelope of parabolas that stand on the values of one line. */
+/** The lower envelope of parabolas at the values of one line. */
 class Envelope {
 public:
   explicit Envelope(std::size_t size) : values_(size), feet_(size), begin_(size + 1) {}
@@ -20,8 +20,8 @@ public:
     return values_;
   }
 
-  /** \brief Makes each value the least, over all places, of the value there plus the
-   * squared distance to it. */
+  /** \brief Replaces each value by the minimum, over every position, of its value plus
+   * the squared distance. */
   void
   transform(std::vector<double>& result)
   {
@@ -54,7 +54,7 @@ private:
 
   std::vector<double> values_;
   std::vector<std::size_t> feet_; // of the parabolas of the envelope
-  std::vector<double> begin_;     // where each of them begins
+  std::vector<double> begin_;     // where each parabola begins
 };
 } // namespace
 

@@ -30,10 +30,10 @@ struct Raster {
   }
 };
 
-/** \brief The exact distance from each cell's centre to that of the nearest cell of a
- * set [cells]; very large without any.
- * \note Source: P. F. Felzenszwalb, D. P. Huttenlocher, "Distance transforms of sampled
- * functions", Theory of Computing 8, 2012. */
+/** \brief The exact distance between the centres of each cell and the nearest cell of a
+ * set [cells]; very large for an empty set. \note Source: P. F. Felzenszwalb, D. P.
+ * Huttenlocher, "Distance transforms of sampled functions", Theory of Computing 8,
+ * 2012. */
 Raster<float>
 distanceField(const Raster<char>& set);
 

@@ -5,9 +5,9 @@
 
 namespace pcl6d::plane_segmentation {
 
-/** \brief Whether points lie on a surface that is clearly curved: a second-order surface
- * explains most of their distances to the plane, and its slope changes by more than
- * what a sensor's distortion makes of a flat wall. */
+/** \brief Whether points lie on a clearly curved surface: a second-order surface
+ * explains most of their distances to the plane, and its slope changes by more than a
+ * sensor's distortion can cause on a flat wall. */
 bool
 isBent(const PlaneCloud& cloud, const PlanePart& part);
 

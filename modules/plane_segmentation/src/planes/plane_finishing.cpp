@@ -19,8 +19,8 @@ constexpr int kHops =
     4; // to neighbours of neighbours, once small parts are out of the way
 constexpr double kLeastRadius = 0.015; // [m]
 
-/** \return the radius [m] of the disc that outlines the part; that which suits half of
- * its surface, of which a far point stands for more than a near one */
+/** \return the radius [m] of the disc for the outline, chosen to suit half of the
+ * part's area; a far point stands for more area than a near point */
 double
 outlineRadius(const PlaneCloud& cloud, const PlanePart& part)
 {

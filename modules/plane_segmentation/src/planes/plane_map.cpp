@@ -19,7 +19,7 @@ namespace pcl6d {
 using namespace plane_segmentation;
 
 namespace {
-/** Of a cell: points of neighbouring cells are at most so far apart. */
+/** Largest distance of points of adjacent cells, in cells. */
 constexpr double kCellReach = 1.5;
 
 void
@@ -35,8 +35,8 @@ insertAround(const Eigen::Vector3f& place,
             voxelKey(place + step * Eigen::Vector3i(x, y, z).cast<float>(), coarse));
 }
 
-/** \brief What is kept of a plane of a map: sums of its points, one point of each cell
- * that they occupy, and coarse cells that tell what is near it. */
+/** \brief Data of a plane of a map: sums of its points, one point per occupied cell,
+ * and coarse cells to find near planes. */
 class MapPlane {
 public:
   /** \param[in] places [m] of its points in the world
@@ -47,8 +47,8 @@ public:
            double gap_radius,
            const PlaneMapOptions& options);
 
-  /** \brief Whether another part continues this one: it faces the same way, comes near,
-   * and there lies on the same plane. */
+  /** \brief Whether another part continues this part: equally oriented, near, and
+   * coplanar there. */
   bool
   isContinuedBy(const MapPlane& other, const PlaneMapOptions& options) const;
 
@@ -71,8 +71,8 @@ private:
   PlaneFit plane_; // the normal points to the side that was seen
   double gap_radius_;
   std::unordered_map<VoxelKey, Eigen::Vector3f> cells_; // a point of each
-  std::unordered_set<VoxelKey> near_; // coarse cells with points, and those around them
-  double coarse_;                     // [m] edge of a coarse cell
+  std::unordered_set<VoxelKey> near_; // coarse cells with points, and cells around them
+  double coarse_;                     // coarse cells with points, and cells around them
 };
 
 MapPlane::MapPlane(const std::vector<Eigen::Vector3d>& places,
@@ -170,10 +170,10 @@ partOf(const PlaneSegment& segment,
 struct PlaneMap::Content {
   PlaneMapOptions options;
   std::vector<MapPlane> planes;
-  std::vector<std::size_t> plane_of; // of each number that was given
+  std::vector<std::size_t> plane_of; // of each number that was returned
 
-  /** Adds a part to the first plane that it continues, or as a new one; other planes
-   * that it continues as well join that one. */
+  /** Adds a part to the first plane that it continues, or as a new plane. Merges
+   * further planes that the part continues into the first. */
   std::size_t
   add(MapPlane part)
   {

@@ -29,17 +29,17 @@ struct PlaneFit {
   }
 };
 
-/** \brief Weighted sums over points about a fixed place, from which the least-squares
- * plane follows (book 7.1.1). Sums of parts add up to those of the whole. */
+/** \brief Weighted sums over points about a fixed origin, for the least-squares plane
+ * (book 7.1.1). Sums of parts can be added. */
 class PlaneMoments {
 public:
-  /** \param[in] about [m] a place near the points, which saves digits */
+  /** \param[in] about [m] a position near the points, to save digits */
   explicit PlaneMoments(const Eigen::Vector3d& about = Eigen::Vector3d::Zero())
   : about_(about)
   {}
 
-  /** \brief Sums that are known, of points of weight 1 about the origin.
-   * \param[in] sum of p [m] \param[in] squares sum of p p^T [m^2] */
+  /** \brief Known sums of points of weight 1 about the origin. \param[in] sum of p [m]
+   * \param[in] squares sum of p p^T [m^2] */
   PlaneMoments(std::size_t count,
                const Eigen::Vector3d& sum,
                const Eigen::Matrix3d& squares)
@@ -60,7 +60,7 @@ public:
     ++count_;
   }
 
-  /** \brief Adds sums, which may be about another place. */
+  /** \brief Adds sums, which may be about another origin. */
   void
   add(const PlaneMoments& other);
 
@@ -74,7 +74,7 @@ public:
   double
   meanSquare(const PlaneFit& plane) const;
 
-  /** \return no plane: fewer than 3 points, or all on a line */
+  /** \return the plane; nullopt for fewer than 3 points, or collinear points */
   std::optional<PlaneFit>
   fit() const;
 

@@ -49,8 +49,8 @@ public:
     depth_ = distanceField(outside).cells;
   }
 
-  /** \return the rings around the points. \param[in] rim [m] how far the surface goes
-   * on behind the outermost points */
+  /** \return the rings around the points. \param[in] rim [m] extent of the surface
+   * beyond the outermost points */
   std::vector<Ring>
   rings(double rim) const
   {

@@ -7,13 +7,13 @@
 
 namespace pcl6d::plane_segmentation {
 
-/** \brief Gives a segment its hulls and area: Plane::hull, Plane::area and outline.
+/** \brief Computes hulls and area of a segment: Plane::hull, Plane::area and outline.
  *
- * The outline closes gaps between points that a disc of some radius does not fit into:
- * the boundary of the union of such discs about the points, moved back by their radius
- * (morphological closing, near to an alpha shape), and on by half the distance between
- * points, as the surface does not end at the outermost ones. Made on a raster of a
- * quarter of the radius. Corners are exact to about that.
+ * The outline closes gaps between points that are too narrow for a disc of the given
+ * radius: the boundary of the union of discs about the points, moved back by the radius
+ * (morphological closing, similar to an alpha shape). It is then moved out by half the
+ * point spacing, as the surface extends beyond the outermost points. Computed on a
+ * raster of a quarter of the radius, which is about the accuracy of the corners.
  * \param[in,out] segment with its plane oriented
  * \param[in] places [m] its points
  * \param[in] radius [m] of the disc, > 0 */

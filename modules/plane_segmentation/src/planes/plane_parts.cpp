@@ -16,10 +16,10 @@ namespace pcl6d::plane_segmentation {
 namespace {
 constexpr std::uint32_t kNoPart = 0xffffffff;
 constexpr std::size_t kBlockSize = 512; // surfels
-/** Where no normal tells, near edges and clutter, points must be so much closer. */
+/** Factor on the distance of points without a normal, near edges and in clutter. */
 constexpr double kEdge = 0.8;
 
-/** Which parts have points in each surfel. */
+/** The parts with points in each surfel. */
 class PartsInside {
 public:
   PartsInside(const PlaneCloud& cloud, const std::vector<PlanePart>& parts)
@@ -70,7 +70,7 @@ public:
   , least_cosine_(portableSinCos(options.max_angle).cos)
   {}
 
-  /** \return the part that a point belongs to, of those around it */
+  /** \return the part of a point, chosen from the parts around it */
   std::uint32_t
   ownerOf(std::uint32_t i, const std::vector<std::uint32_t>& around) const
   {
@@ -102,10 +102,10 @@ private:
   const double least_cosine_;
 };
 
-/** \brief Gives each point to the nearest, in standard deviations, of the planes that
- * have points about it, if it lies on that plane, was seen from the same side, and its
- * normal, where that is to be trusted, is the plane's.
- * \return per point of the cloud the place of its part, or kNoPart */
+/** \brief Assigns each point to the nearest plane, in standard deviations, of the
+ * planes with points around it. The point must lie on the plane, be seen from the same
+ * side and, if its normal is reliable, have the plane's normal.
+ * \return per point of the cloud the index of its part, or kNoPart */
 std::vector<std::uint32_t>
 claimPoints(const PlaneCloud& cloud,
             const std::vector<PlanePart>& parts,
@@ -149,7 +149,7 @@ turnToSensor(const PlaneCloud& cloud, PlanePart& part)
 constexpr double kLeastCosine = 0.94; // of the normals of one carrier plane: 20 deg
 /** How much farther, squared, points may be from a common plane than from their own. */
 constexpr double kGrowth = 1.3;
-constexpr double kShift = 1.5; // [sigma] beyond that, for what noise does not explain
+constexpr double kShift = 1.5;       // [sigma] added, for errors besides noise
 constexpr double kLargestStep = 3.0; // [sigma] between the planes where the parts meet
 
 bool
@@ -160,7 +160,7 @@ staysAsFlat(const PlanePart& part, const PlaneFit& common)
          kGrowth * own + kShift * kShift * std::max(part.sigma * part.sigma, own);
 }
 
-/** Whether both lie on one plane as well as each does on its own. */
+/** Whether one plane fits both parts about as well as their own planes. */
 bool
 shareCarrier(const PlanePart& a, const PlanePart& b)
 {
@@ -191,7 +191,7 @@ PlaneParts::start(const PlaneCandidates& candidates)
   fitAll();
 }
 
-/** Whether a point tells of the plane and not of an edge. */
+/** Whether a point supports the plane, and is not at an edge. */
 bool
 PlaneParts::supports(const PlanePart& part, std::uint32_t point) const
 {
@@ -316,7 +316,7 @@ PlaneParts::split(std::size_t min_points)
   fitAll();
 }
 
-/** Whether the parts come close to each other, and there without a step. */
+/** Whether the parts come close to each other without a step in between. */
 bool
 PlaneParts::touch(const PlanePart& a, const PlanePart& b) const
 {
@@ -341,7 +341,7 @@ PlaneParts::touch(const PlanePart& a, const PlanePart& b) const
          std::abs(step) < kLargestStep * std::max(a.sigma, b.sigma);
 }
 
-/** Joins a part with a larger one before it. */
+/** Joins a part with an earlier, larger part. */
 bool
 PlaneParts::mergeInto(std::size_t i)
 {

@@ -14,36 +14,36 @@ namespace pcl6d::plane_segmentation {
 struct PlanePart {
   PlaneFit plane;
   PlaneMoments sums;                 ///< of the points that the plane is fitted to
-  double sigma = 0;                  ///< [m] noise of these
-  std::vector<std::uint32_t> points; ///< places in PlaneCloud::points(), ascending
+  double sigma = 0;                  ///< [m] noise of the points
+  std::vector<std::uint32_t> points; ///< indices into PlaneCloud::points(), ascending
 };
 
-/** \brief The steps of finishPlanes(): parts are fitted, claim points, fall apart where
- * they are not connected, and join what continues them. */
+/** \brief The steps of finishPlanes(): parts are fitted, claim points, are split where
+ * disconnected, and merged with their continuations. */
 class PlaneParts {
 public:
   PlaneParts(const PlaneCloud& cloud, const PlaneOptions& options);
 
-  /** \brief Fits planes to candidates; those without one are left out. */
+  /** \brief Fits planes to candidates; candidates without a plane are left out. */
   void
   start(const PlaneCandidates& candidates);
 
-  /** \brief Gives each point to the nearest of the planes that are around it, and fits
-   * the planes to what they got. */
+  /** \brief Assigns each point to the nearest plane around it, and fits the planes to
+   * their points. */
   void
   claim();
 
-  /** \brief Parts that are not connected become parts of their own; those of less than
-   * so many points are dropped. */
+  /** \brief Splits parts into connected parts; drops parts with fewer than min_points
+   * points. */
   void
   split(std::size_t min_points);
 
-  /** \brief Parts of one carrier plane that are near each other become one. */
+  /** \brief Merges near parts of one carrier plane. */
   void
   merge();
 
-  /** \brief Drops what is too small to be a plane, so that it no longer claims points.
-   * Areas are estimates here, from the density of surfels. */
+  /** \brief Drops parts too small for a plane, to free their points. Areas are
+   * estimated from the density of surfels. */
   void
   dropSmall();
 

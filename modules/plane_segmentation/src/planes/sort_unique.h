@@ -8,9 +8,8 @@
 
 namespace pcl6d::plane_segmentation {
 
-/** \brief Sorts numbers below a bound and drops equal ones; by marks where they are
- * many.
- */
+/** \brief Sorts numbers below a bound and drops duplicates; uses marks for dense
+ * sets. */
 inline void
 sortUnique(std::vector<std::uint32_t>& numbers, std::size_t bound)
 {

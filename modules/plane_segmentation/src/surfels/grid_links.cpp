@@ -12,11 +12,11 @@ namespace pcl6d::plane_segmentation {
 
 namespace {
 constexpr std::size_t kBlockSize = 1024;                      // surfels
-constexpr std::size_t kCandidates = 4 * Surfels::kNeighbours; // looked at, at least
+constexpr std::size_t kCandidates = 4 * Surfels::kNeighbours; // visited, at least
 constexpr std::uint32_t kNone = 0xffffffff;
 
-/** Which surfels have points next to each other, as lists: those of surfel i are
- * others[begin[i]] .. others[begin[i + 1]]. */
+/** Lists of surfels with adjacent points: the list of surfel i is others[begin[i]] ..
+ * others[begin[i + 1]]. */
 struct Adjacency {
   std::vector<std::uint32_t> begin;
   std::vector<std::uint32_t> others;
@@ -34,7 +34,7 @@ surfelsOfCells(const Surfels& surfels, const PointGrid& grid)
   return cells;
 }
 
-/** \return pairs of surfels with points next to each other, both ways, some often */
+/** \return pairs of surfels with adjacent points, both ways, with duplicates */
 std::vector<std::pair<std::uint32_t, std::uint32_t>>
 adjacentPairs(const std::vector<std::uint32_t>& cells, std::size_t width)
 {
@@ -74,7 +74,7 @@ adjacencyOf(const Surfels& surfels, const PointGrid& grid)
   auto next = adjacency.begin;
   for (const auto& [from, to] : pairs)
     adjacency.others[next[from]++] = to;
-  // Each list in order, and each other surfel once.
+  // Sorts each list and drops duplicates.
   const auto others = adjacency.others.begin();
   std::uint32_t kept = 0;
   for (std::size_t i = 0; i < surfels.size(); ++i) {
@@ -98,7 +98,7 @@ public:
   : surfels_(surfels), adjacency_(adjacency), seen_by_(surfels.size(), kNone)
   {}
 
-  /** \return the nearest of those around it, nearest first, itself too */
+  /** \return the nearest surfels around a surfel, nearest first, itself included */
   const std::vector<std::pair<float, std::uint32_t>>&
   around(std::uint32_t start)
   {

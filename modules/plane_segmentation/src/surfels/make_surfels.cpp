@@ -18,9 +18,9 @@ constexpr std::size_t kBlockSize = 256;    // surfels
 constexpr std::size_t kFewNeighbours = 10; // on a strip
 constexpr double kLineTolerance = 1e-8;    // of squared spreads
 constexpr double kSmooth = 1.5;            // [sigma] rms of neighbours to their plane
-/** [rad] between ray and surface; what a scanner sees edge-on is its own scan line. */
+/** [rad] between ray and surface; edge-on, a scanner sees only its own scan line. */
 constexpr float kLeastIncidence = 0.02f;
-constexpr double kLeastSpread = 3; // [rms] or they are a line, not a plane
+constexpr double kLeastSpread = 3; // [rms] less: a line, not a plane
 
 void
 groupPoints(const Points& points, double voxel, Surfels& surfels)
@@ -64,7 +64,7 @@ linkByTree(Surfels& surfels, unsigned int num_threads)
 /** The plane of the nearest neighbours of a surfel. */
 struct Patch {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero(); // zero: none
-  float lift = 0;                                   // [m] along it, to the plane
+  float lift = 0; // [m] along the normal, to the plane
   float roughness = 0;
   bool smooth = false;
 };
@@ -123,7 +123,7 @@ fitSurfels(Surfels& surfels,
   surfels.normals.resize(size);
   surfels.roughness.resize(size);
   surfels.smooth.resize(size);
-  Points places(size); // moved ones, as the others still look at where they were
+  Points places(size); // moved positions, as later surfels still need the old positions
   parallelBlocks(size, kBlockSize, num_threads, [&](const Block& block) {
     for (std::size_t i = block.begin; i < block.end; ++i) {
       Patch patch = patchOf(surfels, i, Surfels::kNeighbours);

@@ -10,8 +10,8 @@ namespace pcl6d {
 namespace {
 constexpr std::size_t kMostBins = 8;
 constexpr std::size_t kLeastPerBin = 32;
-/** The lower quartile of a standard deviation that was estimated from some 20 to 100
- * points lies 8 to 13 % below the true one. */
+/** The lower quartile of standard deviations, each estimated from some 20 to 100
+ * points, is 8 to 13 % too low. */
 constexpr double kQuartileToSigma = 1.1;
 } // namespace
 

@@ -14,7 +14,7 @@ namespace pcl6d {
 using namespace plane_segmentation;
 
 namespace {
-constexpr std::size_t kSamples = 1000; // places at which the sensor's noise is measured
+constexpr std::size_t kSamples = 1000; // positions for measuring the sensor's noise
 constexpr double kLeastNoise = 5e-4;   // [m]
 constexpr double kLargestVoxel = 0.1;  // [m]
 
@@ -55,7 +55,7 @@ medianSpacing(const Points& points, const PointTree& tree)
   return upperMedian(distances);
 }
 
-/** \return rms [m] of points about their plane, unbiased; none if they have no plane */
+/** \return rms [m] of points about their plane, unbiased; nullopt without a plane */
 std::optional<double>
 residualOf(const PlaneMoments& sums)
 {
@@ -66,7 +66,8 @@ residualOf(const PlaneMoments& sums)
   return std::sqrt(plane->mean_square * count / (count - 3));
 }
 
-/** A first idea of the noise, from the nearest points of some, whatever the range. */
+/** First estimate of the noise, independent of range, from the nearest points of a
+ * sample. */
 double
 roughNoise(const Points& points, const PointTree& tree)
 {
@@ -83,7 +84,7 @@ roughNoise(const Points& points, const PointTree& tree)
   return upperMedian(residuals);
 }
 
-/** The noise over range, from the points around some surfels. */
+/** Noise over range, estimated from the points around a sample of surfels. */
 NoiseModel
 measuredNoise(const PlaneCloud& cloud)
 {
@@ -122,7 +123,7 @@ length(double a, double b)
   return std::sqrt(a * a + b * b);
 }
 
-/** Some points, and some standard deviations of their noise, wide. */
+/** Width of a few points, and of a few standard deviations of their noise. */
 double
 suitableVoxel(double spacing, double noise)
 {
@@ -137,11 +138,11 @@ PlaneCloudOptions::validate(std::size_t num_points) const
   require(viewpoints.empty() || viewpoints.size() == num_points,
           "viewpoints",
           viewpoints.size(),
-          "none, or one per point");
+          "empty or equal to the number of points");
   require(width <= 1 || num_points % width == 0,
           "width",
           width,
-          "the length of a row, which divides the number of points");
+          "the length of a row, a divisor of the number of points");
   require(!voxel || (*voxel > 0 && std::isfinite(*voxel)),
           "voxel",
           voxel.value_or(0),

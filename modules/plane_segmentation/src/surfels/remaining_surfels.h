@@ -9,11 +9,11 @@
 
 namespace pcl6d::plane_segmentation {
 
-/** \brief Surfels side by side, for loops over all of them. */
+/** \brief Surfels in columns, for loops over many surfels. */
 struct PCL6D_EXPORTS SurfelColumns { // shown to a test
   std::vector<float> x, y, z;        ///< [m]
   std::vector<float> nx, ny, nz;     ///< unit normals
-  std::vector<float> reach;          ///< [m] that a plane may be away
+  std::vector<float> reach;          ///< [m] largest distance of a plane
 
   std::size_t
   size() const
@@ -34,23 +34,23 @@ struct PCL6D_EXPORTS SurfelColumns { // shown to a test
   append(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, float reach);
 };
 
-/** \brief How far a surfel may be from its plane: the larger of the two. */
+/** \brief Largest distance of a surfel to its plane: the larger of the two values. */
 struct SurfelReach {
-  double sigmas = 3; ///< of the noise where it is
+  double sigmas = 3; ///< of the noise at the surfel
   double least = 0;  ///< [m]
 };
 
-/** \brief The smooth surfels of a cloud that are on no plane yet, in the order of the
- * cells of an octree, so that all those of a cell follow each other.
+/** \brief The smooth surfels of a cloud without a plane yet, in the order of the cells
+ * of an octree, so that the surfels of a cell are contiguous.
  *
- * A surfel is known by its slot, which changes as others are removed. Coordinates count
- * from a corner of the cloud, where float is finest. */
+ * A surfel is addressed by its slot, which changes when others are removed. Coordinates
+ * are relative to a corner of the cloud, where float is finest. */
 class RemainingSurfels {
 public:
   static constexpr std::uint32_t kGone = 0xffffffff;
 
-  /** \param[in] finest [m] edge of the cells of level 0; made larger if the cloud has
-   * more than 2^21 of them along an axis */
+  /** \param[in] finest [m] edge of the cells of level 0; enlarged for at most 2^21
+   * cells along an axis */
   RemainingSurfels(const PlaneCloud& cloud, double finest, const SurfelReach& reach);
 
   std::size_t
@@ -65,7 +65,7 @@ public:
     return columns_;
   }
 
-  /** \return the surfel of a slot, by which it is known when slots have changed */
+  /** \return the surfel of a slot, a constant identity while slots change */
   std::uint32_t
   surfel(std::size_t slot) const
   {
@@ -79,11 +79,11 @@ public:
     return slots_[surfel];
   }
 
-  /** \return the surfels that remain, in an order of chance */
+  /** \return the remaining surfels, in random order */
   std::vector<std::uint32_t>
   shuffled(std::uint64_t seed) const;
 
-  /** \return those of some surfels that remain, in their order */
+  /** \return the remaining surfels of a list, in its order */
   SurfelColumns
   columnsOf(const std::vector<std::uint32_t>& surfels) const;
 
@@ -92,16 +92,16 @@ public:
     std::size_t begin = 0, end = 0;
   };
 
-  /** \return those in the same cell. \param[in] level of cells of the edge finest times
-   * 2^level, in [0, 21] */
+  /** \return the slots of the same cell. \param[in] level of cells with an edge of
+   * finest times 2^level, in [0, 21] */
   Range
   cell(std::size_t slot, int level) const;
 
-  /** \return a sample, evenly over the slots, each drawn by chance among its like */
+  /** \return a sample, evenly over the slots, drawn at random in each interval */
   SurfelColumns
   sample(std::size_t size, std::uint64_t seed) const;
 
-  /** \brief Calls visit(slot) for the neighbours of a surfel that remain. */
+  /** \brief Calls visit(slot) for the remaining neighbours of a surfel. */
   template <typename Visit>
   void
   visitNeighbours(std::size_t slot, const Visit& visit) const
@@ -113,7 +113,7 @@ public:
         visit(slots_[all.links[k]]);
   }
 
-  /** \return the points of some surfels, ascending places in the cloud */
+  /** \return the points of some surfels, ascending indices into the cloud */
   std::vector<std::uint32_t>
   pointsOf(const std::vector<std::uint32_t>& slots) const;
 

@@ -22,8 +22,8 @@ pixelsOf(const CalibrationView& view)
   return pixels;
 }
 
-/** The pixels of the right picture, counted from the end that the left one counts from:
- * a board may look the same after half a turn. */
+/** The pixels of the right picture, counted from the same end as in the left picture:
+ * some boards are symmetric under half a turn. */
 std::vector<cv::Point2f>
 pixelsLike(const CalibrationView& left, const CalibrationView& right)
 {
@@ -108,12 +108,12 @@ calibrateStereo(const std::vector<CalibrationView>& left,
   require(left.size() == right.size(),
           "number of right views",
           right.size(),
-          "as many as left ones (" + std::to_string(left.size()) + ")");
+          "the number of left views (" + std::to_string(left.size()) + ")");
   for (std::size_t i = 0; i < left.size(); ++i)
     require(left[i].points == right[i].points,
             "points of right view",
             i,
-            "those of the left one");
+            "the points of the left view");
   StereoCameraCalibration result;
   const CameraCalibration one = calibrateCamera(left, width, height, options);
   const CameraCalibration two = calibrateCamera(right, width, height, options);
@@ -131,7 +131,7 @@ calibrateStereo(const std::vector<CalibrationView>& left,
       result.status = Status::kDiverged;
   } catch (const cv::Exception&) {
     result.status = Status::kRankDeficient;
-  } catch (const BadArgument&) { // a motion that no two cameras have
+  } catch (const BadArgument&) { // an impossible motion between the cameras
     result.status = Status::kDiverged;
   }
   return result;

@@ -14,7 +14,7 @@
 namespace pcl6d::scanner {
 
 namespace {
-/** Fails where a text is no whole XML: OpenCV reads beyond the end of one that ends in a tag. */
+/** Rejects incomplete XML: OpenCV reads beyond the end of a text that ends in a tag. */
 void
 requireXml(std::string_view text, const std::filesystem::path& path)
 try {
@@ -25,8 +25,8 @@ try {
   text::failAt(path, error.line(), error.message());
 }
 
-/** Fails where OpenCV's parsers, which go by the first characters of a text, would go astray: it is
- * too deep, or breaks off. */
+/** Rejects texts that crash OpenCV's parsers, which depend on the first characters of a
+ * text: too deep, or truncated. */
 void
 requireReadable(std::string_view text, const std::filesystem::path& path)
 {
@@ -34,10 +34,10 @@ requireReadable(std::string_view text, const std::filesystem::path& path)
   if (text.substr(0, kMark.size()) == kMark)
     text.remove_prefix(kMark.size());
   const std::string name = path.string();
-  // A line ends for OpenCV where it does not for others.
+  // A character that ends a line only for OpenCV.
   for (std::size_t i = 0; i < text.size(); ++i)
     if (text[i] == '\0' || (text[i] == '\r' && text.substr(i + 1, 1) != "\n"))
-      throw IoFailed(name + ": holds a character that belongs in no text");
+      throw IoFailed(name + ": holds a character outside of text");
   if (text.substr(0, 1) == "<") {
     checkXmlNesting(text, name);
     requireXml(text, path);
@@ -48,8 +48,9 @@ requireReadable(std::string_view text, const std::filesystem::path& path)
     checkYamlNesting(text, name);
 }
 
-/** OpenCV takes memory for rows x cols before it looks how many numbers there are: as many,
- * or more if there are several channels. \throws cv::Exception the node is of another kind */
+/** OpenCV allocates memory for rows x cols before counting the numbers: the text must
+ * have at least rows x cols numbers, more with several channels. \throws cv::Exception
+ * the node has another type */
 bool
 hasAllNumbers(const cv::FileNode& matrix)
 {
@@ -67,7 +68,7 @@ CalibrationFile::CalibrationFile(const std::filesystem::path& path) : path_(path
   requireReadable(text, path);
   try {
     storage_.open(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-  } catch (const std::exception&) { // not only OpenCV's: some texts trip its parser
+  } catch (const std::exception&) { // not only OpenCV's: some texts break its parser
     fail("is no YAML, XML or JSON of OpenCV");
   }
   if (!storage_.isOpened() || !(storage_.root().isMap() || storage_.root().empty()))
@@ -107,7 +108,7 @@ CalibrationFile::values(const std::string& name) const
   std::vector<double> all(matrix.begin<double>(), matrix.end<double>());
   for (const double value : all)
     if (!std::isfinite(value))
-      fail("entry " + name + " holds a value that is not finite");
+      fail("entry " + name + " holds infinity or NaN");
   return all;
 }
 
@@ -163,8 +164,7 @@ CalibrationFile::readDistortion(const std::string& name, CameraIntrinsics& lens)
   for (std::size_t i = kRational; i < kAll; ++i)
     if (d[i] != 0)
       fail("entry " + name +
-           " has a coefficient of a thin prism or a tilted "
-           "sensor, which is not supported");
+           " has a coefficient of a thin prism or a tilted sensor: not supported");
   lens.k = {d[0], d[1], d[4], d[5], d[6], d[7]};
   lens.p = {d[2], d[3]};
 }

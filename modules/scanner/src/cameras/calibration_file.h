@@ -11,10 +11,10 @@
 
 namespace pcl6d::scanner {
 
-/** \brief A file of named matrices, as OpenCV writes it: YAML, XML or JSON. */
+/** \brief A file of named matrices in OpenCV's format: YAML, XML or JSON. */
 class CalibrationFile {
 public:
-  /** \throws IoFailed the file cannot be read, or is none of OpenCV's */
+  /** \throws IoFailed the file cannot be read, or is not in OpenCV's format */
   explicit CalibrationFile(const std::filesystem::path& path);
 
   /** \throws IoFailed always, naming the file */
@@ -27,11 +27,11 @@ public:
     return !storage_[name].empty();
   }
 
-  /** \throws IoFailed naming all of the entries that are missing */
+  /** \throws IoFailed naming the missing entries */
   void
   requireEntries(const std::vector<std::string>& names) const;
 
-  /** \return the values of a matrix, row by row, all finite */
+  /** \return the values of a matrix, row by row, each finite */
   std::vector<double>
   values(const std::string& name) const;
   std::vector<double>
@@ -43,12 +43,12 @@ public:
   int
   size(const std::string& name) const;
 
-  /** \throws IoFailed the entry is there, but another number */
+  /** \throws IoFailed the entry exists, but is another number */
   void
   requireSize(const std::string& name, int expected) const;
 
   /** \return a camera \param[in] matrix,distortion names of its entries
-   * \throws IoFailed they are no camera */
+   * \throws IoFailed the entries are no valid camera */
   CameraIntrinsics
   camera(const std::string& matrix,
          const std::string& distortion,

@@ -138,9 +138,9 @@ calibrateCamera(const std::vector<CalibrationView>& views,
     camera.validate();
     result.camera = camera;
     result.status = std::isfinite(result.rms) ? Status::kOk : Status::kDiverged;
-  } catch (const cv::Exception&) { // points on one line, say
+  } catch (const cv::Exception&) { // for example points on one line
     result.status = Status::kRankDeficient;
-  } catch (const BadArgument&) { // a focal length that is no number
+  } catch (const BadArgument&) { // a focal length of NaN
     result.status = Status::kDiverged;
   }
   return result;

@@ -11,7 +11,7 @@ namespace pcl6d {
 using namespace scanner;
 
 namespace {
-/** What the entries of a camera are called. */
+/** Names of the entries of a camera. */
 struct CameraEntries {
   const char* matrix;
   const char* distortion;

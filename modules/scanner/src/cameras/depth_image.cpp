@@ -30,7 +30,7 @@ requireImage(const cv::Mat& image,
   require(right_kind,
           name,
           image.type(),
-          "of one channel of 16 bits (CV_16UC1, 2) or float (CV_32FC1, 5)");
+          "of a single channel of 16 bits (CV_16UC1, 2) or float (CV_32FC1, 5)");
 }
 
 bool
@@ -39,7 +39,7 @@ isDepthKind(const cv::Mat& image)
   return image.type() == CV_16UC1 || image.type() == CV_32FC1;
 }
 
-/** \return the value of a pixel; 0 if it is not finite */
+/** \return the value of a pixel; 0 if not finite */
 double
 valueOf(const cv::Mat& depth, int row, int col)
 {
@@ -49,7 +49,7 @@ valueOf(const cv::Mat& depth, int row, int col)
   return std::isfinite(value) ? value : 0;
 }
 
-/** \brief Which pixels of a depth image are to be believed. */
+/** \brief Selects the valid pixels of a depth image. */
 class DepthFilter {
 public:
   DepthFilter(const cv::Mat& depth,
@@ -161,7 +161,7 @@ rangesOfPhases(const cv::Mat& phase, double turn, double modulation)
   require(isDepthKind(phase),
           "phase image",
           phase.type(),
-          "of one channel of 16 bits (CV_16UC1, 2) or float (CV_32FC1, 5)");
+          "of a single channel of 16 bits (CV_16UC1, 2) or float (CV_32FC1, 5)");
   cv::Mat ranges(phase.rows, phase.cols, CV_32FC1);
   for (int row = 0; row < phase.rows; ++row)
     for (int col = 0; col < phase.cols; ++col) {

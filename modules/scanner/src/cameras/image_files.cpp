@@ -21,15 +21,15 @@ fail(const std::filesystem::path& path, const std::string& message)
   throw IoFailed(path.string() + ": " + message);
 }
 
-/** \brief Keeps OpenCV from std::cerr: its decoders tell there in their own words what is
- * said by an exception here as well. One at a time, as std::cerr is everyone's. */
+/** \brief Keeps OpenCV's messages off std::cerr: its decoders print errors that are
+ * thrown as exceptions as well. One instance at a time, as std::cerr is global. */
 class QuietErrors {
 public:
   QuietErrors() : alone_(mutex()), before_(std::cerr.rdbuf(nullptr)) {}
   ~QuietErrors()
   {
     std::cerr.rdbuf(before_);
-    std::cerr.clear(); // writing to no buffer has set its bad bit
+    std::cerr.clear(); // writing without a buffer has set its bad bit
   }
   QuietErrors(const QuietErrors&) = delete;
   QuietErrors&
@@ -47,7 +47,8 @@ private:
   std::streambuf* const before_;
 };
 
-/** \brief Reads by bytes, as imread() tells no reason and prints warnings. */
+/** \brief Decodes from memory, as imread() gives no reason for a failure and prints
+ * warnings. */
 cv::Mat
 readImage(const std::filesystem::path& path, int flags)
 {
@@ -60,7 +61,7 @@ readImage(const std::filesystem::path& path, int flags)
     if (!bytes.empty())
       image = cv::imdecode(bytes, flags);
   } catch (const cv::Exception& e) {
-    fail(path, "is no image that OpenCV can read: " + e.err);
+    fail(path, "is no image readable by OpenCV: " + e.err);
   }
   if (image.empty())
     fail(path, "is no image that OpenCV can read");
@@ -131,7 +132,7 @@ imagesOf(const std::filesystem::path& folder)
     if (!isImageName(it->path()) || it->is_directory(none))
       continue;
     if (!it->is_regular_file(none))
-      fail(it->path(), "is no file, or a link to none");
+      fail(it->path(), "is no file, or a broken link");
     images.push_back(it->path());
   }
   if (error)

@@ -5,11 +5,12 @@
 
 #include <opencv2/core.hpp>
 
-/** \file Images as another camera would see them. */
+/** \file Images resampled to another camera. */
 namespace pcl6d::scanner {
 
-/** \brief For each pixel of a new image, where it is in the old one: whole pixels and
- * 32nds, so that cv::remap() computes in integers and gives the same bits everywhere. */
+/** \brief For each pixel of a new image, its position in the old image, in whole pixels
+ * and 32nds: cv::remap() then computes in integers, and results are bit-identical on
+ * every machine. */
 struct ImageMap {
   cv::Mat whole; ///< CV_16SC2; (-2, -2) where the old camera does not see
   cv::Mat parts; ///< CV_16UC1: 32 * (32nds of v) + 32nds of u
@@ -24,7 +25,7 @@ struct ImageMap {
 };
 
 /** \param[in] to intrinsics of the new image, without distortion
- * \param[in] R_from_to rotation from the new camera's frame to the old one's */
+ * \param[in] R_from_to rotation from the new camera's frame to the old camera's frame */
 ImageMap
 makeImageMap(const PinholeCamera& from,
              const CameraIntrinsics& to,

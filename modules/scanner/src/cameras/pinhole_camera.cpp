@@ -58,7 +58,7 @@ PinholeCamera::radial(double r2) const
   const double d = 1 + r2 * (k[3] + r2 * (k[4] + r2 * k[5]));
   const double dn = k[0] + r2 * (2 * k[1] + r2 * 3 * k[2]);
   const double dd = k[3] + r2 * (2 * k[4] + r2 * 3 * k[5]);
-  if (!(d > 0)) // a pole: the model ends before it
+  if (!(d > 0)) // a pole: the model ends before the pole
     return {0, -1};
   return {n / d, (dn * d - n * dd) / (d * d)};
 }

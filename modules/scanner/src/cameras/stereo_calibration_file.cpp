@@ -13,7 +13,7 @@ namespace {
 Eigen::Isometry3d
 readMotion(const CalibrationFile& file, double unit)
 {
-  constexpr double kRounding = 1e-3; // of a rotation that a person has typed
+  constexpr double kRounding = 1e-3; // tolerance for a rotation typed by hand
   const Eigen::Matrix3d R = file.matrix3("R");
   const auto T = file.values("T", 3);
   const double error = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm();

@@ -23,7 +23,7 @@ makeMatcher(const StereoMatchingOptions& options)
     matcher->setUniquenessRatio(options.uniqueness);
     return matcher;
   }
-  // Penalties of a step by one and by more, as OpenCV proposes for grey images.
+  // Penalties of disparity steps by one and by more, proposed by OpenCV for grey images.
   const int area = options.block_size * options.block_size;
   const auto matcher = cv::StereoSGBM::create(
       options.min_disparity, options.num_disparities, options.block_size);
@@ -46,7 +46,7 @@ requirePair(const cv::Mat& left,
   require(left.size() == right.size(),
           "size of the right image",
           size(right),
-          "that of the left one, " + size(left));
+          "the size of the left image, " + size(left));
   require(left.type() == CV_8UC1 && right.type() == CV_8UC1,
           "type of the images",
           left.type() == CV_8UC1 ? right.type() : left.type(),
@@ -60,8 +60,8 @@ requirePair(const cv::Mat& left,
               ") and larger than a block (" + std::to_string(options.block_size) + ")");
 }
 
-/** \return disparities in pixels, NaN where there is none or where it leads out of the
- * right image */
+/** \return disparities in pixels, NaN without a match or with a match outside the right
+ * image */
 cv::Mat
 disparityOf(const cv::Mat& sixteenths, const StereoMatchingOptions& options)
 {
@@ -128,8 +128,8 @@ matchStereo(const cv::Mat& left,
   matcher->setDisp12MaxDiff(options.max_left_right);
   matcher->setSpeckleWindowSize(options.speckle_size);
   matcher->setSpeckleRange(options.speckle_step);
-  // OpenCV leaves out the columns from which the largest disparity would lead out of the
-  // right image. Black columns at the left give them to us.
+  // OpenCV leaves out the columns from which the largest disparity would lead out of
+  // the right image. Padding with black columns at the left keeps these columns.
   const int margin = std::max(0, options.min_disparity + options.num_disparities);
   const auto padded = [margin](const cv::Mat& image) {
     cv::Mat wide;

@@ -14,7 +14,7 @@ using namespace scanner;
 namespace {
 constexpr double kMostForward = 0.9; // cosine between baseline and optical axis
 
-/** \return the centre of the right camera in the left one's frame */
+/** \return the centre of the right camera in the left camera's frame */
 Eigen::Vector3d
 rightCentre(const StereoCalibration& calibration)
 {
@@ -38,8 +38,8 @@ rectifyingRotation(const Eigen::Vector3d& centre)
   return rotation;
 }
 
-/** \return the mean place x, y = X/Z, Y/Z of an image's corners, or of the image's
- * middle as far as a corner has none, after a rotation of the frame */
+/** \return the mean x, y = X/Z, Y/Z of an image's corners after a rotation of the
+ * frame; a corner without a direction is replaced by the image's middle */
 Eigen::Vector2d
 middleOfCorners(const PinholeCamera& camera, const Eigen::Matrix3d& rotation)
 {
@@ -69,7 +69,7 @@ StereoCalibration::validate() const
   require(right.width == left.width && right.height == left.height,
           "size of the right image",
           size(right),
-          "that of the left one, " + size(left));
+          "the size of the left image, " + size(left));
   require(isRigid(T_right_left, 1e-6), "T_right_left", T_right_left.matrix(), "rigid");
   const double distance = T_right_left.translation().norm();
   require(distance > 0, "baseline", distance, "> 0");

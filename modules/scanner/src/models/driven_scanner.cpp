@@ -61,7 +61,7 @@ driveAngles(const DrivenScannerOptions& options)
   return angles;
 }
 
-// From value i to the next one; the last one goes on like the one before it.
+// Difference from value i to the next value; the last value repeats the difference before.
 double
 stepFrom(const std::vector<double>& values, std::size_t i)
 {
@@ -90,7 +90,7 @@ startTimes(const DrivenScannerOptions& options,
   return starts;
 }
 
-// [s] A usual line's, as measured times jitter.
+// [s] Median period of a line, as measured times jitter.
 double
 linePeriod(const DrivenScannerOptions& options, const std::vector<double>& starts)
 {
@@ -129,7 +129,7 @@ DrivenScannerOptions::validate() const
     require(*sample_period >= 0 && *sample_period * beam.count <= line_period,
             "sample_period",
             *sample_period,
-            ">= 0, and all samples of a line fit into its period");
+            ">= 0, and the samples of a line must fit into the period");
 }
 
 DrivenScannerOptions
@@ -166,7 +166,8 @@ DrivenScanner::DrivenScanner(const DrivenScannerOptions& options,
 , axis_position_(options.axis_position)
 {
   options.validate();
-  require(!theta.empty(), "drive angles", theta.size(), "one per line, at least 1");
+  require(
+      !theta.empty(), "drive angles", theta.size(), "at least 1: an angle per line");
   requireScanSize(static_cast<double>(theta.size()), options.beam.count);
   const std::vector<double> starts = startTimes(options, theta, times);
   sample_period_ = samplePeriod(options, linePeriod(options, starts));

@@ -15,7 +15,7 @@
 namespace pcl6d::scanner {
 
 namespace {
-/** Spinning lidars whose lasers of a column fire at once. */
+/** Spinning lidars with simultaneous lasers of a column. */
 ScannerPreset
 spinning(const std::vector<double>& elevations,
          int columns,
@@ -33,7 +33,7 @@ spinning(const std::vector<double>& elevations,
   return {"", "", std::make_shared<SpinningLidar>(options), range};
 }
 
-/** \return so many elevations [rad], evenly from some degrees above the horizon to as many below */
+/** \return elevations [rad], evenly from some degrees above the horizon to equally far below */
 std::vector<double>
 evenLines(double highest, int count)
 {
@@ -44,7 +44,7 @@ evenLines(double highest, int count)
   return elevations;
 }
 
-/** Adds lines down to an elevation, so many degrees apart. */
+/** Adds lines down to an elevation, with a constant step [deg]. */
 void
 addLines(double last, double step, std::vector<double>& elevations)
 {
@@ -139,7 +139,7 @@ pandar(const Resolution& resolution)
 }
 
 namespace {
-/** \return [sr] that a rosette fills */
+/** \return solid angle of a rosette [sr] */
 double
 solidAngleOf(const RosetteLidarOptions& options)
 {
@@ -149,7 +149,7 @@ solidAngleOf(const RosetteLidarOptions& options)
   return M_PI * options.half_width * (options.highest - options.lowest) / 2;
 }
 
-/** A rosette, whose resolution is the side of the square that a point has on average. */
+/** A rosette, whose resolution is the root of the mean area per point. */
 ScannerPreset
 rosette(RosetteLidarOptions options,
         const Resolution& resolution,
@@ -181,9 +181,10 @@ avia(const Resolution& resolution)
   return rosette(options, resolution, lidarRange(0.02, 1, 190));
 }
 
-// Livox Mid-360, user manual 1.2: 360 deg, -7 to 52 deg, 200 000 points/s by four lasers, 2 cm
-// at 10 m, from 0.1 to 40 m at 10 %; taken in scans of 0.1 s. The manual tells no rates: these
-// make curves that lie about as far apart as their points.
+// Livox Mid-360, user manual 1.2: 360 deg, -7 to 52 deg, 200 000 points/s by four
+// lasers, 2 cm at 10 m, from 0.1 to 40 m at 10 %; taken in scans of 0.1 s. The manual
+// gives no rates: with the rates used here, the distance of the curves is about the
+// distance of their points.
 ScannerPreset
 mid360(const Resolution& resolution)
 {

@@ -5,10 +5,11 @@
 
 #include <optional>
 
-/** \file Spinning lidars and rosettes, each after its data sheet. */
+/** \file Spinning lidars and rosettes, modelled after data sheets. */
 namespace pcl6d::scanner {
 
-using Resolution = std::optional<double>; ///< [rad] between columns; none: as it is
+/** [rad] between columns; empty: of the device */
+using Resolution = std::optional<double>;
 
 ScannerPreset
 avia(const Resolution& resolution);

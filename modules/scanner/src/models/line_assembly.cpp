@@ -17,11 +17,11 @@ scannerOf(const RangeLines& lines, const LineAssemblyOptions& options)
   require(lines.samples_per_line == samples,
           "samples of a line",
           lines.samples_per_line,
-          "as many as the beam has angles: " + std::to_string(samples));
+          "the number of angles of the beam: " + std::to_string(samples));
   require(lines.ranges.size() == samples * lines.angles.size(),
           "ranges",
           lines.ranges.size(),
-          "one per sample of each line: " +
+          "the number of lines times samples: " +
               std::to_string(samples * lines.angles.size()));
   return DrivenScanner(options.scanner, lines.angles, lines.times);
 }

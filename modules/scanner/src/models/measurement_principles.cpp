@@ -11,7 +11,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTurn = 2 * M_PI;
 
-// The same angle in [0, 2 pi).
+// The angle reduced to [0, 2 pi).
 double
 wrapped(double angle)
 {

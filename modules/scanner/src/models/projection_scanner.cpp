@@ -35,7 +35,7 @@ StripeProjector::StripeProjector(const StripeProjectorOptions& options)
 : options_(options)
 {
   options.validate();
-  // Towards the side where the camera stands.
+  // Towards the side of the camera.
   const SinCos turn =
       portableSinCos(options.baseline > 0 ? options.vergence : -options.vergence);
   Eigen::Matrix3d R; // Ry(-turn) of the camera's axes: z ahead goes to the left

@@ -12,7 +12,7 @@ namespace pcl6d {
 namespace {
 constexpr double kNoRange = std::numeric_limits<double>::quiet_NaN();
 
-// Sunflower pattern: every point stands for the same area.
+// Sunflower pattern: every point represents an equal area.
 std::vector<Eigen::Vector2d>
 spotPattern(int count)
 {
@@ -27,7 +27,7 @@ spotPattern(int count)
   return points;
 }
 
-// Light that a surface sends back to the scanner, up to a factor.
+// Light returned by a surface to the scanner, up to a factor.
 double
 power(const Echo& echo)
 {
@@ -129,7 +129,7 @@ RangeErrorModel::measure(std::vector<Echo>& echoes, Random& random) const
       echoes.size() == 1 && numRays() == 1 ? echoes.front() : strongestEcho(echoes);
   double range =
       echo.range + sigma(echo.range, echo.intensity, echo.cos_incidence) * error;
-  // Negated, so that no number is no return as well.
+  // Negated, so that NaN counts as no return.
   if (!(range <= options_.max_range) ||
       range > options_.signal_range * std::sqrt(echo.intensity))
     return no_return;
@@ -143,7 +143,7 @@ RangeErrorModel::measure(std::vector<Echo>& echoes, Random& random) const
   return {range, echo.intensity, echo.triangle};
 }
 
-// Of the groups of echoes that the scanner cannot separate the one with the most light.
+// Of the groups of echoes that the scanner cannot separate, the brightest group.
 Echo
 RangeErrorModel::strongestEcho(std::vector<Echo>& echoes) const
 {
@@ -171,7 +171,7 @@ RangeErrorModel::strongestEcho(std::vector<Echo>& echoes) const
   return mixed(best_begin, best_end);
 }
 
-// One echo: the surface that gives most of its light, at a range of all.
+// Merges echoes: triangle and incidence of the brightest surface, a range between the surfaces.
 Echo
 RangeErrorModel::mixed(const Echo* begin, const Echo* end) const
 {

@@ -27,7 +27,7 @@ toPointCloud(const RangeScan& scan, const ScannerModel& scanner)
     for (int i = 0; i < scan.samples_per_line; ++i, ++point) {
       const RangeSample& sample = scan.at(line, i);
       const Ray ray = scanner.ray(line, i);
-      // The range of a missing return is NaN, and so are its coordinates.
+      // The range of a missing return is NaN, which makes its coordinates NaN.
       point->getVector3fMap() =
           (ray.origin + sample.range * ray.direction).cast<float>();
       point->intensity = static_cast<float>(sample.intensity);

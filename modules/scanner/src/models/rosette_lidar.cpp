@@ -12,7 +12,7 @@ namespace pcl6d {
 using namespace scanner;
 
 namespace {
-/** \return the direction that lies so far [rad] to the left of straight ahead, and above */
+/** \return the direction at given angles [rad] to the left of straight ahead, and above */
 Eigen::Vector3d
 deflected(double left, double up)
 {

@@ -29,7 +29,7 @@ upright()
   return rotatingScanner().mounting;
 }
 
-// Full turns leave out the last angle, which is the first one.
+// Full turns leave out the last angle, which equals the first.
 enum class Ends { kBoth, kFullTurn };
 
 double
@@ -84,7 +84,7 @@ cameraOf(int width, int height, double focal_length, const Resolution& resolutio
   return camera;
 }
 
-// SICK LMS 200 in its millimetre mode.
+// SICK LMS 200 in millimetre mode.
 RangeOptions
 sickRange()
 {
@@ -141,7 +141,7 @@ rolling(const Resolution& resolution)
   return driven(options, resolution, Ends::kFullTurn, sickRange());
 }
 
-// Two 2D scanners back to back, taken as one with twice their line rate.
+// Two 2D scanners back to back, modelled as one with twice their line rate.
 ScannerPreset
 scandrive(const Resolution& resolution)
 {
@@ -155,7 +155,7 @@ scandrive(const Resolution& resolution)
   return driven(options, resolution, Ends::kFullTurn, sickRange());
 }
 
-// The mirror sees all but a cone below; half a turn of the head is enough.
+// The mirror covers everything but a cone below; half a turn of the head is enough.
 ScannerPreset
 terrestrial(const Resolution& resolution)
 {
@@ -196,8 +196,8 @@ rgbd(const Resolution& resolution)
   return {"", "", shutter, range};
 }
 
-// Hand-held GeoSLAM ZEB Revo: a Hokuyo UTM-30LX-F (270 deg, 0.25 deg, 40 lines/s, up to 3 cm at
-// 30 m) that turns about its axis every 2 s; half a turn shows all directions.
+// Hand-held GeoSLAM ZEB Revo: a Hokuyo UTM-30LX-F (270 deg, 0.25 deg, 40 lines/s, up to
+// 3 cm at 30 m) turning about its axis every 2 s; half a turn covers every direction.
 ScannerPreset
 zeb(const Resolution& resolution)
 {

@@ -27,7 +27,7 @@ SpinningLidarOptions::validate() const
   require(fire_times.empty() || fire_times.size() == elevations.size(),
           "fire_times",
           fire_times.size(),
-          "one per line, or none");
+          "empty or equal to the number of lines");
   for (const double time : fire_times)
     require(time >= 0 && time * columns < turn_period,
             "fire_times",

@@ -9,7 +9,7 @@ namespace pcl6d {
 namespace {
 constexpr double kNoPixel = std::numeric_limits<double>::quiet_NaN();
 
-// Whether a pixel stands apart from both neighbours at (+-rows, +-cols).
+// Whether a pixel is apart from both neighbours at (+-rows, +-cols).
 bool
 isApart(const RangeScan& scan, int row, int col, int rows, int cols, double max_jump)
 {
@@ -18,7 +18,7 @@ isApart(const RangeScan& scan, int row, int col, int rows, int cols, double max_
     const int c = col + side * cols;
     if (r < 0 || r >= scan.num_lines || c < 0 || c >= scan.samples_per_line)
       return false;
-    // A neighbour without return cannot be one of two surfaces.
+    // A neighbour without return is no second surface.
     if (!(std::abs(scan.at(r, c).range - scan.at(row, col).range) > max_jump))
       return false;
   }

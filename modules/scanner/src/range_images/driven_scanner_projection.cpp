@@ -13,7 +13,7 @@ namespace pcl6d {
 using namespace scanner;
 
 namespace {
-/** \return the axis about which the drive turns counter-clockwise */
+/** \return the axis of counter-clockwise turns of the drive */
 Eigen::Vector3d
 axisOf(Drive drive)
 {
@@ -37,8 +37,8 @@ turned(const Eigen::Vector3d& v, const Eigen::Vector3d& axis, double angle)
   return along + c * (v - along) + s * axis.cross(v);
 }
 
-/** \return the index of the nearest angle, which may differ by full turns; nothing if
- * the nearest is more than half a step away */
+/** \return the index of the nearest angle, modulo full turns; empty if the nearest
+ * angle is more than half a step away */
 std::optional<int>
 nearestIndex(const AngleRange& range, double angle)
 {

@@ -16,7 +16,7 @@ valuesOf(const RangeImage& image, ImageChannel channel)
   return channel == ImageChannel::kRange ? image.ranges() : image.reflectances();
 }
 
-/** \return a picture whose pixels are gray(value), 0 where the value is not finite */
+/** \return a picture of gray(value) per pixel, 0 for a value that is not finite */
 template <typename Gray, typename Function>
 cv::Mat
 picture(const RangeImage& image, ImageChannel channel, Function gray)

@@ -32,10 +32,10 @@ requireInput(const Points& points,
   require(reflectance.empty() || reflectance.size() == points.size(),
           "reflectances",
           reflectance.size(),
-          "none or as many as points (" + std::to_string(points.size()) + ")");
+          "empty or the number of points (" + std::to_string(points.size()) + ")");
 }
 
-/** \brief What a gap along one row or column would put into a pixel. */
+/** \brief Interpolated value of a pixel from a gap along one row or column. */
 struct Filling {
   int length = std::numeric_limits<int>::max(); ///< [px] of the gap
   float range = 0;
@@ -92,7 +92,7 @@ private:
   void
   findGaps(const Line& line)
   {
-    int before = -1; // the last pixel that is not empty
+    int before = -1; // the last pixel with a value
     for (int i = 0; i < line.length; ++i) {
       if (std::isnan(image_.range(line.at(i))))
         continue;
@@ -191,7 +191,7 @@ RangeImage::RangeImage(std::shared_ptr<const RangeProjection> projection,
       static_cast<std::size_t>(rows()) * static_cast<std::size_t>(cols());
   range_.assign(num_pixels, kNone);
   reflectance_.assign(num_pixels, kNone);
-  // Counting sort by pixel; it leaves the points of a pixel in the order of their index.
+  // Counting sort by pixel; points of a pixel stay in the order of their index.
   first_.assign(num_pixels + 1, 0);
   for (const auto& landing : landings)
     if (landing.pixel >= 0)

@@ -61,7 +61,7 @@ semantic_map::objectFrom(const JsonValue& place)
   object.covariance = matrix6From(place, "covariance");
   if (const auto covariance = place.find("covariance")) {
     const std::string fault = informationFault(*object.covariance);
-    covariance->require(fault.empty(), "a covariance; this one is " + fault);
+    covariance->require(fault.empty(), "a covariance, but the matrix is " + fault);
   }
   if (const auto score = place.find("score"))
     object.score = score->number();

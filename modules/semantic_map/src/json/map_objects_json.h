@@ -5,7 +5,7 @@
 #include <pcl6d/io/json_object.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
-/** \file Objects in JSON, the same in a map and in a list of objects. Internal to the
+/** \file JSON form of objects, common to maps and lists of objects. Internal to the
  * module semantic_map. */
 namespace pcl6d::semantic_map {
 
@@ -21,7 +21,7 @@ objectFrom(const JsonValue& place);
 Json
 matrixOrNull(const std::optional<Eigen::Matrix<double, 6, 6>>& matrix);
 
-/** \return the member of that name as a matrix, if it is there */
+/** \return the member with a name as a matrix, if present */
 std::optional<Eigen::Matrix<double, 6, 6>>
 matrix6From(const JsonValue& place, const std::string& key);
 

@@ -17,7 +17,7 @@ namespace {
 Eigen::Vector3d
 unitFrom(const JsonValue& place)
 {
-  constexpr double kTolerance = 1e-6; // as readPlanes()
+  constexpr double kTolerance = 1e-6; // see readPlanes()
   const Eigen::Vector3d vector = place.vector3();
   place.require(std::abs(vector.norm() - 1) <= kTolerance, "of length 1");
   return vector;
@@ -82,7 +82,7 @@ roomFrom(const JsonValue& place)
           (place / "outline").points()};
 }
 
-/** The elements of a list whose ids are 1, 2, ... */
+/** The elements of a list with the ids 1, 2, ... */
 template <typename Read>
 auto
 numbered(const JsonValue& list, Read read)
@@ -96,7 +96,7 @@ numbered(const JsonValue& list, Read read)
   return elements;
 }
 
-/** Reads what speaks of other things, once these are known. */
+/** Reads references to entities, after the entities are read. */
 class ReferenceReader {
 public:
   explicit ReferenceReader(const SemanticMap& map) : map_(map) {}
@@ -136,7 +136,7 @@ public:
     place.require(parts.size() == 3, "\"first predicate second\"");
     const auto first = entityFromText(parts[0]), second = entityFromText(parts[2]);
     place.require(first && second && map_.placeOf(*first) && map_.placeOf(*second),
-                  "of things in this map, such as \"plane:1\"");
+                  "of planes, objects or rooms in this map, like \"plane:1\"");
     const auto& known = mapPredicates();
     place.require(std::find(known.begin(), known.end(), parts[1]) != known.end(),
                   "a relation with a known predicate");

@@ -91,7 +91,7 @@ toJson(const MapRoom& room, std::size_t id)
           {"outline", listOf(room.outline)}};
 }
 
-/** A list whose elements have their place plus one as id. */
+/** A list of elements; an id is the index plus one. */
 template <typename Element>
 Json
 numbered(const std::vector<Element>& elements)
@@ -102,7 +102,7 @@ numbered(const std::vector<Element>& elements)
   return list;
 }
 
-/** \throws BadArgument there is a number that is not finite below the value */
+/** \throws BadArgument a number below the value is not finite */
 void
 requireFinite(const Json& json, const std::string& pointer)
 {

@@ -55,8 +55,8 @@ uncertainPose(const MapObject& object, const FusionOptions& options)
   return result;
 }
 
-/** \return the place of the pose that most others agree with; of the truncated squared
- * distances to all others the sum is smallest */
+/** \return the index of the pose in best agreement with the others: with the smallest
+ * sum of truncated squared distances */
 std::size_t
 mostAgreed(const std::vector<UncertainPose>& poses,
            const std::vector<int>& symmetries,
@@ -80,12 +80,12 @@ mostAgreed(const std::vector<UncertainPose>& poses,
   return best;
 }
 
-/** \return the covariance of x y z roll pitch yaw; none where roll and yaw are not
+/** \return the covariance of x y z roll pitch yaw; nullopt where roll and yaw are not
  * defined \param[in] covariance of position and rotation vector */
 std::optional<Matrix6d>
 eulerCovariance(Matrix6d covariance, const Eigen::Matrix3d& R, int symmetry)
 {
-  constexpr double kPole = 1e-3; // as poseCovariance()
+  constexpr double kPole = 1e-3; // see poseCovariance()
   if (R(0, 0) * R(0, 0) + R(1, 0) * R(1, 0) < kPole * kPole)
     return {};
   if (symmetry == 0) { // any angle about the axis: evenly in [-pi, pi]
@@ -160,7 +160,7 @@ fuseObjects(const std::vector<MapObject>& observations, const FusionOptions& opt
   std::vector<FusedObject> fused;
   for (const auto& group : groupObservations(observations, options)) {
     fused.push_back(fuse(observations, group, options));
-    if (group.size() == 1) // one observation: as it is
+    if (group.size() == 1) // a single observation stays unchanged
       fused.back().object = observations[group.front()];
   }
   return fused;

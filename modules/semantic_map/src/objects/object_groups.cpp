@@ -7,8 +7,8 @@
 
 namespace pcl6d::semantic_map {
 namespace {
-/** \return the share of the box of an object that lies in the box of another one, from a
- * grid of points in it */
+/** \return the share of the box of an object inside the box of another, from a grid of
+ * points */
 double
 shareInside(const ObjectPose& object, const ObjectPose& other)
 {
@@ -48,7 +48,7 @@ struct Pair {
   double overlap;
 };
 
-/** Joins groups as long as they agree. */
+/** Joins groups by falling overlap. */
 class Grouping {
 public:
   Grouping(const std::vector<MapObject>& observations, const FusionOptions& options)
@@ -117,7 +117,7 @@ overlapOf(const MapObject& a, const MapObject& b, double max_distance)
     return std::max(0.0, 1 - apart / max_distance);
   if (apart > (a.pose.box.diagonal().norm() + b.pose.box.diagonal().norm()) / 2)
     return 0;
-  // the mean of both sides, so that order does not matter
+  // the mean of both sides is independent of their order
   const double common =
       (shareInside(a.pose, b.pose) * va + shareInside(b.pose, a.pose) * vb) / 2;
   return std::min(1.0, common / (va + vb - common));

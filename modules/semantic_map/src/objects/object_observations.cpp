@@ -13,7 +13,7 @@ namespace pcl6d {
 namespace {
 using Clock = std::chrono::steady_clock;
 
-/** The points of a scan within the range gate, and which they are. */
+/** The points of a scan within the range gate, and their indices. */
 struct GatedScan {
   GatedScan(const Scan& scan, const ObservationRange& range)
   {
@@ -32,7 +32,7 @@ struct GatedScan {
   std::vector<std::uint32_t> places;
 };
 
-/** \return an object of a scan as one of the map */
+/** \return an object of a scan converted to an object of the map */
 MapObject
 mapObject(const std::vector<StoredModel>& models,
           const LocalizedObject& object,

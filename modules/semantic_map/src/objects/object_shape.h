@@ -4,8 +4,7 @@
 #include <pcl6d/scene_interpretation/scene_plane.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 
-/** \file Boxes of objects in a frame that stands upright. Internal to the module
- * semantic_map. */
+/** \file Boxes of objects in an upright frame. Internal to the module semantic_map. */
 namespace pcl6d::semantic_map {
 
 /** \brief The box of an object, seen from above and from the side. */
@@ -16,7 +15,7 @@ struct ObjectShape {
   double top = 0;       ///< [m]
 };
 
-/** \return the rotation that makes up the z axis */
+/** \return the rotation that turns up to the z axis */
 Eigen::Matrix3d
 levelling(const Eigen::Vector3d& up);
 

@@ -74,7 +74,7 @@ robustMean(const std::vector<UncertainPose>& poses, std::size_t start, double ga
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const Vector6d error = poseError(mean.pose, poses[i].pose);
       const Vector6d pull = poses[i].information * error;
-      // what did not make the mean differs from it by the errors of both
+      // a pose outside the mean differs from the mean by the errors of both
       const Vector6d whitened =
           before[i] ? pull
                     : solveSymmetric<6>(poses[i].covariance + mean.covariance, error);
@@ -84,7 +84,7 @@ robustMean(const std::vector<UncertainPose>& poses, std::size_t start, double ga
       H += poses[i].information;
       g += pull;
     }
-    if (H.isZero(0)) { // the mean has left all of them: stay with the start
+    if (H.isZero(0)) { // every pose is outside the gate: keep the start
       mean.pose = poses[start].pose;
       mean.counts.assign(poses.size(), false);
       mean.counts[start] = true;

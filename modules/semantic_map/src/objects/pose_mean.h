@@ -22,8 +22,8 @@ struct UncertainPose {
   Matrix6d information = Matrix6d::Identity(); ///< its inverse
 };
 
-/** \return G, which takes changes of x y z roll pitch yaw to those of position and rotation
- * vector in the axes of the world */
+/** \return G, the Jacobian from x y z roll pitch yaw to position and rotation vector in
+ * the axes of the world */
 Matrix6d
 eulerJacobian(const Eigen::Matrix3d& R);
 
@@ -38,15 +38,16 @@ struct PoseMean {
 Vector6d
 poseError(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 
-/** \return the pose, turned about its z axis into an equivalent one, nearest to another
- * \param[in] symmetry as MapObject::symmetry */
+/** \return the equivalent pose, turned about its z axis, that is nearest to another
+ * pose
+ * \param[in] symmetry see MapObject::symmetry */
 Eigen::Isometry3d
 nearestEquivalent(const Eigen::Isometry3d& pose,
                   const Eigen::Isometry3d& to,
                   int symmetry);
 
-/** \brief The mean weighted by information, without those beyond the gate.
- * \param[in] poses at least one \param[in] start place of the pose to begin at */
+/** \brief The mean weighted by information, without poses beyond the gate.
+ * \param[in] poses at least one \param[in] start index of the first estimate */
 PoseMean
 robustMean(const std::vector<UncertainPose>& poses, std::size_t start, double gate);
 

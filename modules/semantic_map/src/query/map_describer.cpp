@@ -9,7 +9,7 @@ namespace {
 using Things = std::vector<Entity>;
 
 constexpr bool kInTable = true;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN(); // matches nothing
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN(); // equals no value
 
 template <typename Elements, typename Neighbours>
 void
@@ -62,7 +62,7 @@ find(const std::map<Entity, Things>& neighbours, const Entity& entity)
   return found == neighbours.end() ? Things() : found->second;
 }
 
-/** \return the things of a kind with these ids; none for the id 0 of a storey */
+/** \return the entities of a kind with these ids, without the id 0 of a storey */
 Things
 things(EntityKind kind, const std::vector<std::size_t>& ids)
 {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-/** \file Properties of the things of a map. Internal to the module semantic_map. */
+/** \file Properties of the entities of a map. Internal to the module semantic_map. */
 namespace pcl6d::semantic_map {
 
-/** \brief Tells all that can be asked about each thing of a map; places are those of its
+/** \brief Lists the properties of each entity of a map; indices are into the map's
  * lists. */
 class MapDescriber {
 public:
@@ -42,7 +42,8 @@ private:
   sources(const std::string& predicate, const Entity& entity) const;
   Things
   both(const std::string& predicate, const Entity& entity) const;
-  /** \return the storey of the first room; without one that of the height */
+  /** \return the storey of the first room; without a room the storey at the position's
+   * height */
   Things
   storeyOf(const Things& rooms, const Eigen::Vector3d& position) const;
 

@@ -19,7 +19,7 @@ isAnything(const QueryValue& value)
   return !value.quoted && value.text == "*";
 }
 
-/** One condition of a query, checked against what the key is. */
+/** One condition of a query, tested against the key's property. */
 class Test {
 public:
   Test(const SemanticMap& map,
@@ -84,7 +84,7 @@ private:
            "'" + property.name + "' is a number, got '" + value.text + "'");
     if (!is_number && !isEquality())
       fail(condition_.offset,
-           "'" + property.name + "' is no number: only = and != compare with it");
+           "'" + property.name + "' is no number: only = and != compare with a word");
     if (!std::holds_alternative<Things>(property.value) || value.quoted)
       return;
     if (value.number && !(*value.number >= 0 && *value.number < 1e15 &&
@@ -95,18 +95,18 @@ private:
       fail(value.offset, "the map has no " + toString(*entity));
   }
 
-  /** \return the thing that a value names by its id */
+  /** \return the entity that a value names by its id */
   static std::optional<Entity>
   entityOf(const Property& property, const QueryValue& value)
   {
     if (value.number && !value.quoted)
-      return Entity{property.kind, // there is none below 0
+      return Entity{property.kind, // no id is below 0
                     *value.number < 0 ? std::numeric_limits<std::size_t>::max()
                                       : clampedTo<std::size_t>(*value.number)};
     return value.quoted ? std::nullopt : value.entity;
   }
 
-  /** \return label, class or file of a thing */
+  /** \return label, class or file of an entity */
   std::string
   nameOf(const Entity& entity) const
   {

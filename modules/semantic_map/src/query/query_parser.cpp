@@ -10,7 +10,7 @@ namespace pcl6d {
 using namespace semantic_map;
 
 namespace {
-/** \return how many characters of UTF-8 stand before a byte */
+/** \return the number of UTF-8 characters before a byte */
 std::size_t
 charactersBefore(const std::string& text, std::size_t offset)
 {
@@ -96,7 +96,7 @@ private:
       ++place_;
   }
 
-  /** \return what stands at an offset, for messages */
+  /** \return the text at an offset, for messages */
   std::string
   found(std::size_t offset) const
   {

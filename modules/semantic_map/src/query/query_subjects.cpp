@@ -48,7 +48,7 @@ subjects()
   return all;
 }
 
-/** A map with one thing of each kind. */
+/** A map with one entity of each kind. */
 SemanticMap
 smallestMap()
 {

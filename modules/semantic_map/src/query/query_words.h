@@ -5,11 +5,12 @@
 
 #include <string>
 
-/** \file Subjects of queries and what they stand for. Internal to the module
+/** \file Subjects of queries and their properties. Internal to the module
  * semantic_map. */
 namespace pcl6d::semantic_map {
 
-/** \return the subject in the plural: of "object" and "objects" the latter; empty: none */
+/** \return the subject in the plural: "objects" for "object" and "objects"; empty:
+ * unknown */
 std::string
 pluralOf(const std::string& subject);
 
@@ -17,13 +18,13 @@ pluralOf(const std::string& subject);
 std::string
 subjectNames();
 
-/** \return the properties of all things of a subject, in the order of the map
+/** \return the properties of every entity of a subject, in the order of the map
  * \param[in] subject in the plural */
 std::vector<Properties>
 propertiesOf(const SemanticMap& map, const std::string& subject);
 
-/** \return the properties that the things of a subject have, with values of the right kind
- * but no meaning */
+/** \return the properties of a subject's entities, with placeholder values of the right
+ * kind */
 Properties
 prototypeOf(const std::string& subject);
 

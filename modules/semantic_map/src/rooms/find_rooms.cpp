@@ -15,7 +15,8 @@ using namespace semantic_map;
 namespace {
 constexpr double kUpright = 0.7853981633974483; // [rad] steeper than 45 deg
 constexpr double kHeadroom = 1;                 // [m] least from a floor to a ceiling
-constexpr double kEyeBand = 0.6; // [m] above min_wall_height that a wall reaches into
+constexpr double kEyeBand = 0.6; // [m] above min_wall_height that a wall must reach
+                                 // into
 
 bool
 isLabelled(const MapPlane& plane, PlaneLabel label)
@@ -47,8 +48,8 @@ public:
   }
 
 private:
-  // Turns the plan so that most of the walls are along its axes: the mean azimuth modulo
-  // 90 degrees, weighted by area.
+  // Turns the plan so that most walls are along its axes: the mean azimuth modulo 90
+  // degrees, weighted by area.
   Eigen::Matrix3d
   headingAlign() const
   {
@@ -114,8 +115,8 @@ private:
       findCeiling(i);
   }
 
-  /** \return whether a floor of a storey is under the middle of a ceiling, or under it with
-   * its own middle */
+  /** \return whether a floor of a storey is under the middle of a ceiling, or has its
+   * own middle under the ceiling */
   bool
   isOverFloor(const ScenePlane& ceiling, std::size_t storey) const
   {
@@ -128,8 +129,8 @@ private:
         });
   }
 
-  // Of a ceiling over no floor the heights tell; where floors are on two levels side by
-  // side, they do not.
+  // A ceiling over no floor is assigned by height. Where floors are on two levels side
+  // by side, heights are ambiguous.
   bool
   isCeilingOf(std::size_t plane, std::size_t storey) const
   {
@@ -137,7 +138,7 @@ private:
     if (!isLabelled(map_.planes[plane], PlaneLabel::kCeiling) ||
         ceiling.centre.z() <= map_.storeys[storey].floor + kHeadroom)
       return false;
-    std::size_t highest = map_.storeys.size(); // with a floor under it
+    std::size_t highest = map_.storeys.size(); // with a floor under the ceiling
     for (std::size_t i = 0; i < map_.storeys.size(); ++i)
       if (isOverFloor(ceiling, i))
         highest = i;
@@ -166,8 +167,8 @@ private:
     }
   }
 
-  /** \return whether an upright plane is a wall of a storey: it is there at the height of
-   * the eyes of a person */
+  /** \return whether an upright plane is a wall of a storey: it must be present at eye
+   * height */
   bool
   isUprightOf(std::size_t plane, std::size_t storey) const
   {

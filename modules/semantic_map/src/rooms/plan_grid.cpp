@@ -13,7 +13,8 @@ class BorderWalk {
 public:
   BorderWalk(const PlanGrid& grid, std::int32_t part) : grid_(grid), part_(part) {}
 
-  /** \param[in] column, row of the first cell of the part: nothing of it is below */
+  /** \param[in] column, row of the first cell of the part: no cell of the part is
+   * below */
   std::vector<Eigen::Vector2d>
   walk(std::int64_t column, std::int64_t row)
   {
@@ -32,7 +33,7 @@ public:
   }
 
 private:
-  struct Node { ///< a corner of cells and the way that leads on from it
+  struct Node { ///< a corner of cells and the direction of the next step
     std::int64_t column;
     std::int64_t row;
     int direction; ///< east, north, west, south
@@ -50,8 +51,9 @@ private:
     return cell < grid_.numCells() && grid_.label(cell) == part_;
   }
 
-  // Left where the part ends ahead on both sides, right where it goes on to the right;
-  // where two cells meet at a corner only, the walk stays with the one that it follows.
+  // Turns left where the cell ahead on the left is not in the part, right where the
+  // part continues on the right. Where two cells touch only at a corner, the walk stays
+  // with the cell on its left.
   void
   turn(Node& node) const
   {
@@ -89,8 +91,8 @@ PlanGrid::outline(std::int32_t part) const
 namespace {
 constexpr double kMostCells = 1 << 24;
 
-/** Calls body(i, share) for all i in [0, count) where low + i is between a and b; share
- * tells where, 0 at a, 1 at b. */
+/** Calls body(i, share) for each i in [0, count) with low + i between a and b; share is
+ * the position, 0 at a, 1 at b. */
 template <typename Body>
 void
 forEachCrossing(double a, double b, std::size_t count, Body body)

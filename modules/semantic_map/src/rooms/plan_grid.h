@@ -12,14 +12,14 @@
 /** \file The plan of a storey in square cells. Internal to the module semantic_map. */
 namespace pcl6d::semantic_map {
 
-/** \brief Cells of a plan; lines part neighbouring cells, they have no width. Points are in
+/** \brief Cells of a plan; lines without width separate adjacent cells. Points are in
  * the frame of the grid: aligned with it, in metres. */
 class PlanGrid {
 public:
   static constexpr std::int32_t kOutside = -1;
   static constexpr std::int32_t kNoRoom = -2;
 
-  /** \param[in] cell [m], larger if there would be more than 2^24 cells */
+  /** \param[in] cell [m], increased to have at most 2^24 cells */
   PlanGrid(const Eigen::AlignedBox2d& bounds, double cell);
 
   double
@@ -41,11 +41,11 @@ public:
   Eigen::Vector2d
   centre(std::size_t cell) const;
 
-  /** \return the corner that a column and a row begin at */
+  /** \return the lower corner of a column and a row */
   Eigen::Vector2d
   corner(std::int64_t column, std::int64_t row) const;
 
-  /** \return the part that a point lies in, kOutside or kNoRoom */
+  /** \return the part at a point, kOutside or kNoRoom */
   std::int32_t
   labelAt(const Eigen::Vector2d& point) const;
 
@@ -64,12 +64,12 @@ public:
   void
   addLine(const PlanLine& line);
 
-  /** \brief Labels the connected parts of all cells for which `inside` holds.
+  /** \brief Labels the connected parts of the cells with a true `inside`.
    * \return the number of parts */
   std::int32_t
   findParts(const std::function<bool(const Eigen::Vector2d&)>& inside);
 
-  /** \return per part the side of the largest square in it [cells] */
+  /** \return per part the side of its largest square [cells] */
   std::vector<std::size_t>
   largestSquares(std::int32_t num_parts) const;
 
@@ -86,8 +86,8 @@ private:
   std::size_t columns_;
   std::size_t rows_;
   std::vector<std::int32_t> labels_;
-  std::vector<bool> wall_right_; ///< between a cell and the next one of its row
-  std::vector<bool> wall_above_; ///< between a cell and that of the next row
+  std::vector<bool> wall_right_; ///< between a cell and the next cell of its row
+  std::vector<bool> wall_above_; ///< between a cell and the cell above
 };
 
 } // namespace pcl6d::semantic_map

@@ -24,7 +24,7 @@ public:
       if (!(edge.norm() > 0))
         continue;
       const Eigen::Vector2d out = Eigen::Vector2d(edge.y(), -edge.x()).normalized();
-      // the centre tells which side is outside
+      // the centre decides the outer side
       const double sign = out.dot(plane.centre.head<2>() - from) > 0 ? -1 : 1;
       sides_.emplace_back(sign * out.x(), sign * out.y(), sign * out.dot(from));
     }

@@ -8,13 +8,14 @@
 
 namespace pcl6d::semantic_map {
 namespace {
-/** So far a line is to reach beyond its ends, as shares of its length. */
+/** New ends of a line, as shares of its length. */
 struct Reach {
   double low = 0;
   double high = 1;
 };
 
-/** \return whether a crossing at a share of a line is on it or at most gap [m] off */
+/** \return whether a crossing at a share of a line is on the line or at most gap [m]
+ * off */
 bool
 isNear(double share, const PlanLine& line, double gap)
 {
@@ -29,10 +30,10 @@ extend(Reach& reach, double share)
   reach.high = std::max(reach.high, share);
 }
 
-/** Along a wall: where a floor was seen right behind its line, on either side. */
+/** Floor seen right behind the line of a wall, along the wall, on either side. */
 class FloorSides {
 public:
-  /** \param[in] walls whose other faces end what counts as behind the line */
+  /** \param[in] walls other faces that limit the depth behind the line */
   FloorSides(const PlanLine& line, const std::vector<PlanLine>& walls)
   : line_(line)
   , along_((line.to - line.from).normalized())
@@ -56,7 +57,7 @@ public:
       side.seen[static_cast<std::size_t>(place)] = true;
   }
 
-  /** \return the pieces with a floor on both sides, as long as a door is wide */
+  /** \return the pieces with a floor on both sides, as wide as a door */
   std::vector<PlanLine>
   openings(double max_door) const
   {
@@ -78,20 +79,20 @@ public:
 
 private:
   static constexpr double kStep = 0.1;          // [m]
-  static constexpr double kMostSteps = 1 << 22; // which no wall of a building has
-  static constexpr double kNear = 0.04;         // [m] to a wall its floor may be off
-  static constexpr double kDeepest = 0.16;      // [m] of what counts
+  static constexpr double kMostSteps = 1 << 22; // beyond any real wall
+  static constexpr double kNear = 0.04;         // [m] nearest counted floor point
+  static constexpr double kDeepest = 0.16;      // [m] farthest counted floor point
   static constexpr double kNarrowest = 0.5;     // [m] of a door
   static constexpr std::size_t kUnseen = 2;     // steps between two points of a floor
   static constexpr std::ptrdiff_t kShare =
-      3; // one step of so many is seen on both sides
+      3; // one step in three must be seen on both sides
 
   struct Side {
     std::vector<bool> seen; // at each step
     double depth = kDeepest;
   };
 
-  /** What is behind the other face of a wall is another room. */
+  /** Limits the depth at the other face of a wall, behind which another room begins. */
   void
   endAt(const PlanLine& wall)
   {
@@ -107,7 +108,7 @@ private:
       side.depth = std::min(side.depth, std::abs(aside) - kNear);
   }
 
-  /** \return begin and end of what was seen without longer breaks than kUnseen */
+  /** \return begin and end of seen runs, without breaks longer than kUnseen */
   static std::vector<std::pair<std::size_t, std::size_t>>
   runs(const std::vector<bool>& seen)
   {

@@ -32,20 +32,20 @@ struct PlanLine {
 PlanLine
 planLine(const ScenePlane& plane);
 
-/** \brief Makes lines longer, each end by up to max_gap, so that they meet where they
- * nearly cross. */
+/** \brief Extends lines by up to max_gap at each end, to close corners that nearly
+ * meet. */
 void
 joinCorners(std::vector<PlanLine>& lines, double max_gap);
 
-/** \return a line for each gap of a wall: between two pieces, none shorter than 0.3 m, that
+/** \return a line for each gap of a wall: between two pieces of at least 0.3 m, that
  * follow each other within 0.1 m of one line, up to max_door apart */
 std::vector<PlanLine>
 doorways(const std::vector<PlanLine>& lines, double max_door);
 
-/** \return open doors in walls whose lines go on over them, as below a lintel: there the
- * floor was seen inside the wall
- * \param[in] floor points of it
- * \param[in] max_door [m] what is wider is no door */
+/** \return open doors in walls with a continuous line, for example below a lintel,
+ * detected by floor points inside the wall
+ * \param[in] floor points of the floor
+ * \param[in] max_door [m] wider openings are not doors */
 std::vector<PlanLine>
 openDoors(const std::vector<PlanLine>& lines,
           const std::vector<Eigen::Vector2d>& floor,

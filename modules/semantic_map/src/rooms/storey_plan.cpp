@@ -72,7 +72,7 @@ private:
     return bounds;
   }
 
-  /** \return which squares of 25 cm hold a floor point */
+  /** \return the squares of 25 cm with a floor point */
   std::set<std::pair<long, long>>
   seenSquares() const
   {
@@ -90,7 +90,8 @@ private:
             std::lround(std::floor(point.y() / kSquare))};
   }
 
-  // Parts that are rooms get the labels 0, 1, ... by falling size, all others none.
+  // Parts that are rooms get the labels 0, 1, ... by falling size, other parts no
+  // label.
   void
   chooseRooms(std::int32_t num_parts)
   {
@@ -128,7 +129,7 @@ private:
     rooms_.resize(order.size());
   }
 
-  /** \return per room how many of its cells a level plane covers */
+  /** \return per room the number of its cells covered by a level plane */
   std::vector<std::size_t>
   cover(const ScenePlane& plane) const
   {
@@ -140,8 +141,8 @@ private:
     return covered;
   }
 
-  // A level plane belongs to a room if it covers a twentieth of it; of ceilings the one
-  // that covers most is that of the room.
+  // A level plane belongs to a room if it covers a twentieth of the room. The ceiling
+  // that covers most determines the room's height.
   void
   findLevelPlanes()
   {
@@ -180,7 +181,7 @@ private:
     return points;
   }
 
-  // A wall belongs to the rooms that touch 25 cm, or half, of it.
+  // A wall belongs to rooms that touch at least 25 cm, or half, of it.
   void
   findWalls()
   {
@@ -208,8 +209,8 @@ private:
     }
   }
 
-  /** \return the distance of each room to a line, if it is at most 0.35 m: the thickness of
-   * a wall with what a door stands out of it */
+  /** \return the distance of each room to a line, if at most 0.35 m: the thickness of a
+   * wall plus the protrusion of a door */
   std::map<std::size_t, double>
   roomsNear(const PlanLine& line) const
   {
@@ -244,7 +245,7 @@ private:
     return rooms;
   }
 
-  // A door joins, and belongs to, the two rooms that are nearest to it.
+  // A door joins, and belongs to, its two nearest rooms.
   void
   findNeighbours()
   {
@@ -273,7 +274,7 @@ private:
   const RoomOptions& options_;
   PlanGrid grid_;
   std::vector<PlanLine> walls_;
-  std::vector<PlanLine> doorways_; // gaps of walls, and open doors in them
+  std::vector<PlanLine> doorways_; // gaps of walls, and open doors in walls
   std::vector<PlanLine> doors_;
   std::vector<PlanRoom> rooms_;
   std::vector<std::size_t> cells_; // of each room

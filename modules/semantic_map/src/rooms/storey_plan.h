@@ -17,7 +17,7 @@ struct PlanPlane {
   ScenePlane shape;
 };
 
-/** \brief What is known of a storey, in the frame of its plan. */
+/** \brief The planes of a storey, in the frame of its plan. */
 struct StoreyPlanes {
   double floor = 0; ///< [m]
   std::vector<PlanPlane> floors;
@@ -32,8 +32,8 @@ struct PlanRoom {
   std::vector<Eigen::Vector2d> outline;
   double area = 0;
   std::optional<double> height;
-  std::vector<std::size_t> planes;     ///< ids of those that bound it, ascending
-  std::vector<std::size_t> neighbours; ///< places of rooms beyond a door, ascending
+  std::vector<std::size_t> planes; ///< ids of the planes that bound the room, ascending
+  std::vector<std::size_t> neighbours; ///< indices of rooms beyond a door, ascending
 };
 
 /** \return the rooms, the largest first */

@@ -11,7 +11,7 @@ const Surface kPaint{"paint", 0.7};
 const Surface kGlass{"glass", 0.15};
 const Surface kRubber{"rubber", 0.08};
 
-// A cylinder whose axis runs along y.
+// A cylinder with its axis along y.
 TriangleScene
 wheelModel(double radius, double width)
 {

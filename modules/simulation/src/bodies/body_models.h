@@ -3,8 +3,8 @@
 
 #include <pcl6d/simulation/triangle_scene.h>
 
-/** \file People and cars, of scenes and of traffic. Each stands on the origin of its own
- * frame, z up, x to its front. Sizes in metres. */
+/** \file Models of people and cars, in scenes and in traffic. A model stands on the
+ * origin of its own frame, z up, x to its front. Sizes in metres. */
 namespace pcl6d::simulation {
 
 /** \brief A standing person. \param[in] height [m] */

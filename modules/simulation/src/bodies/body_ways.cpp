@@ -15,13 +15,13 @@ constexpr double kRaster = 0.5; // [m] of the floor's height along a way
 constexpr double kAhead = 4;    // [s] a goal is where the scanner will be then
 constexpr double kRoom = 0.2;   // [m] between bodies
 constexpr int kGoals = 40;      // tries to find a goal, before a body waits
-constexpr int kDetours = 4;     // of them that may lead around corners: they cost most
+constexpr int kDetours = 4;     // tries that may lead around corners, which cost most
 constexpr double kDetour = 1.5; // times the straight way, at most
-constexpr int kAsides = 2000;   // tries to find a place out of the way: mere look-ups
+constexpr int kAsides = 2000;   // cheap tries to find a position out of the way
 constexpr int kLives = 10;      // tries to lay a whole way
-constexpr double kActive = 0.5; // share of its time on its feet that is enough
+constexpr double kActive = 0.5; // least share of its time in motion
 
-// Around its origin, wherever it turns.
+// Radius around its origin, in any orientation.
 double
 reachOf(const WayRules& rules)
 {
@@ -44,7 +44,7 @@ lengthOf(const std::vector<Eigen::Vector2d>& corners)
   return length;
 }
 
-// Uprights do not matter: the radius of what stands on the floor around its origin.
+// Radius in plan of a shape on the floor around its origin; its height does not matter.
 double
 planRadius(const TriangleScene& shape)
 {
@@ -63,7 +63,7 @@ struct BodyWays::Walker {
   Random random;
   std::vector<Eigen::Vector2d> places = {}; // corners in plan
   std::vector<double> times = {};           // [s]
-  double moving = 0;                        // [s] of them on its feet
+  double moving = 0;                        // [s] of `times` in motion
 };
 
 BodyWays::BodyWays(const GroundMap& map, ScannerTrack track, GoalAt goalAt)
@@ -128,7 +128,7 @@ BodyWays::isLegal(const Walker& walker,
   return true;
 }
 
-// Takes a place in view, from which there is a first way.
+// Takes a position in view from which a first way exists.
 bool
 BodyWays::appear(Walker& walker, double time) const
 {
@@ -148,7 +148,7 @@ BodyWays::appear(Walker& walker, double time) const
   return false;
 }
 
-// Goes to a goal, if it finds one that it can reach.
+// Goes to a goal, if a reachable goal is found.
 bool
 BodyWays::goOn(Walker& walker) const
 {
@@ -191,7 +191,7 @@ BodyWays::waitAWhile(Walker& walker) const
   return true;
 }
 
-// Out of the scanner's way, wherever that is.
+// Goes out of the scanner's way, to any position.
 bool
 BodyWays::stepAside(Walker& walker, double time) const
 {
@@ -258,7 +258,7 @@ BodyWays::complete(Walker& walker) const
   return true;
 }
 
-// The first way on which it moves for long enough, or where it does most of all.
+// The first way with enough time in motion, or else the way with the most.
 std::optional<BodyWays::Walker>
 BodyWays::liveliest(BodyKind kind, std::uint64_t seed) const
 {

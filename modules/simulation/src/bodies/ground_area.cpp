@@ -54,7 +54,7 @@ areaAround(const std::vector<Eigen::Vector3d>& places, double reach, double cell
     throw ComputeFailed("the scanner's way covers " +
                         std::to_string(static_cast<long long>(
                             std::round(size.prod() * cell * cell / 1e6))) +
-                        " km^2, too much for one map of the ground");
+                        " km^2, too much for a map of the ground");
   return {cell * low.matrix(),
           cell,
           static_cast<std::size_t>(size.x()),

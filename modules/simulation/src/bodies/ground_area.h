@@ -10,7 +10,7 @@
 /** \file The area around the places of a scanner, in cells. */
 namespace pcl6d::simulation {
 
-constexpr double kBodyHeight = 2; // [m] that must be free above a floor
+constexpr double kBodyHeight = 2; // [m] free height required above a floor
 constexpr double kSteepest = 0.2; // of floors: twice a wheelchair ramp's
 constexpr double kNoFloor = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostCells = 1e7; // 200 to 300 MB
@@ -27,7 +27,7 @@ struct GroundArea {
     return columns * rows;
   }
 
-  /** \return the cell that holds a place; size() outside */
+  /** \return the cell at a position; size() outside */
   std::size_t
   at(const Eigen::Vector2d& place) const;
 
@@ -40,14 +40,14 @@ struct GroundArea {
   neighbour(std::size_t i, int dx, int dy) const;
 };
 
-/** \brief All that is within reach of the places.
- * \param[in] cell [m] \throws BadArgument no place, a place that is none, or reach is not in
- * (0, 1000] m \throws ComputeFailed more than 10 million cells */
+/** \brief The area within reach of the places.
+ * \param[in] cell [m] \throws BadArgument no place, a non-finite place, or reach is not
+ * in (0, 1000] m \throws ComputeFailed more than 10 million cells */
 GroundArea
 areaAround(const std::vector<Eigen::Vector3d>& places, double reach, double cell);
 
-/** \return for each cell whether a place is within reach, which is taken 5 % too short where
- * places are close to each other */
+/** \return for each cell whether a place is within reach; reach is up to 5 % too short
+ * where places are close to each other */
 std::vector<char>
 withinReach(const GroundArea& area,
             const std::vector<Eigen::Vector3d>& places,

@@ -10,9 +10,10 @@ namespace pcl6d {
 namespace {
 constexpr double kHalfDiagonal = 0.70710678118654757; // of a cell of length 1
 
-// Squared distances along one line of cells, from those across it: the lower envelope of
-// parabolas (P. F. Felzenszwalb, D. P. Huttenlocher, "Distance transforms of sampled
-// functions", Theory of Computing 8, 2012). Beyond both ends nothing is free.
+// Turns squared distances across a line of cells into squared distances within the
+// plane: the lower envelope of parabolas (P. F. Felzenszwalb, D. P. Huttenlocher,
+// "Distance transforms of sampled functions", Theory of Computing 8, 2012). Cells
+// beyond both ends are not free.
 void
 spreadAlong(std::vector<double>& line)
 {
@@ -49,11 +50,11 @@ spreadAlong(std::vector<double>& line)
   line = std::move(spread);
 }
 
-// From the middle of each cell to that of the next one that is not free, in cells.
+// From the middle of each cell to the middle of the next occupied cell, in cells.
 std::vector<float>
 gapsOf(const GroundMap::Raster& raster)
 {
-  // Farther than any cell is, yet its square loses no whole number.
+  // Farther than any cell, with an exact square.
   const double far = 4.0 * static_cast<double>(raster.columns + raster.rows);
   std::vector<float> squares(raster.floors.size());
   std::vector<double> line(raster.columns);
@@ -118,7 +119,8 @@ GroundMap::floor(const Eigen::Vector2d& place) const
   const auto cell = cellAt(place);
   if (!cell || std::isnan(raster_.floors[*cell]))
     return std::nullopt;
-  // Of the four cells whose middles are around the place; unknown floors have no weight.
+  // Interpolates the four cells with middles around the position; unknown floors have
+  // no weight.
   const Eigen::Array2d at = (place - raster_.low).array() / raster_.cell - 0.5;
   const Eigen::Array2d first = at.floor();
   double sum = 0;
@@ -141,7 +143,7 @@ GroundMap::floor(const Eigen::Vector2d& place) const
   return weights > 0 ? sum / weights : raster_.floors[*cell];
 }
 
-// About its middle.
+// Room about the middle of a cell.
 double
 GroundMap::roomOf(std::size_t cell) const
 {

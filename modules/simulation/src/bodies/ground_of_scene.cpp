@@ -65,7 +65,7 @@ private:
   static constexpr std::array<std::array<int, 2>, 8> kSteps = {
       {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 
-  // The floor if it is the first thing below 2 m, and about where it is expected.
+  // The floor, if the first surface below 2 m is near the expected height.
   std::optional<double>
   floorAt(std::size_t cell, double expected, double tolerance) const
   {
@@ -92,7 +92,7 @@ private:
     if (to >= area_.size() || within_[to] == 0)
       return;
     if (is_blocked_[from] != 0 && std::isnan(floors_[to]))
-      return; // nobody stands there to go on
+      return; // no body can stand there to go on
     const double length = (area_.middle(to) - area_.middle(from)).norm();
     if (std::isnan(floors_[to]) && is_blocked_[to] == 0) {
       const auto floor = floorAt(to, floors_[from], kUneven + kSteepest * length);
@@ -106,7 +106,7 @@ private:
     }
   }
 
-  // Whether something stands between two cells, or their floors are too different.
+  // Whether an obstacle is between two cells, or their floors differ too much.
   bool
   isCut(std::size_t from, std::size_t to, double floor) const
   {
@@ -130,7 +130,7 @@ private:
   GroundArea area_;
   std::vector<char> within_;
   std::vector<double> floors_;
-  std::vector<char> is_blocked_; // something stands there
+  std::vector<char> is_blocked_; // occupied
   std::vector<std::size_t> open_;
 };
 } // namespace

@@ -21,16 +21,16 @@ constexpr double kSurveyCell =
 constexpr double kLargestCell = 0.5;
 constexpr double kLayer = 0.05; // [m] of heights: a few times the noise of scanners
 constexpr double kFlatFloor =
-    0.1;                       // [m] a floor's points lie within it, poses' errors too
-constexpr double kFoot = 0.25; // [m] above the floor: lower things are stepped over
-constexpr std::uint32_t kSurePoints = 2;   // points: one alone may be a mixed pixel
+    0.1;                       // [m] spread of a floor's points, with errors of poses
+constexpr double kFoot = 0.25; // [m] above the floor: lower objects are stepped over
+constexpr std::uint32_t kSurePoints = 2;   // a single point may be a mixed pixel
 constexpr std::uint32_t kFloorPoints = 50; // points of a floor around a scanner
-constexpr double kNear = 6;       // [m] from the scanner: there its floor is seen
-constexpr int kCloseRounds = 2;   // cells without points that are closed from each side
-constexpr int kCrossedRounds = 8; // the same of cells that rays went through
-constexpr double kLevelRay = 1;   // [m] above or below the scanner: as bodies would be
+constexpr double kNear = 6;       // [m] from the scanner, where it sees its floor
+constexpr int kCloseRounds = 2;   // cells without points, closed from each side
+constexpr int kCrossedRounds = 8; // rounds for cells that rays passed through
+constexpr double kLevelRay = 1;   // [m] above or below the scanner: height of bodies
 constexpr std::uint8_t kSureRays = 3;
-constexpr std::size_t kRays = 20000; // of a scan that are followed
+constexpr std::size_t kRays = 20000; // rays followed per scan
 
 std::int32_t
 layerOf(double height)
@@ -63,8 +63,8 @@ struct GroundSurvey::Impl {
   GroundArea area;
   std::vector<char> within;
   std::vector<Heights> heights;              // of each cell
-  std::vector<std::uint8_t> crossed;         // by how many rays about as high as a body
-  std::vector<std::optional<double>> floors; // that each place sees [m]
+  std::vector<std::uint8_t> crossed;         // number of rays at body height
+  std::vector<std::optional<double>> floors; // floor seen from each place [m]
 
   void
   count(std::size_t cell, double height);
@@ -97,7 +97,7 @@ GroundSurvey::Impl::count(std::size_t cell, double height)
     known.insert(at, {layer, 1});
 }
 
-// Counts the cells that a ray goes through, up to the one before its end.
+// Counts a ray for the cells it passes, except the last.
 void
 GroundSurvey::Impl::follow(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
 {
@@ -114,7 +114,7 @@ GroundSurvey::Impl::follow(const Eigen::Vector3d& from, const Eigen::Vector3d& t
   }
 }
 
-// The mean height of the lowest points about there, if there are enough of them.
+// The mean height of the lowest points near a position, if there are enough.
 std::optional<double>
 GroundSurvey::Impl::floorNear(std::size_t cell, double expected, double tolerance) const
 {
@@ -138,7 +138,7 @@ GroundSurvey::Impl::floorNear(std::size_t cell, double expected, double toleranc
   return sum / points;
 }
 
-// Whether something stands on the floor of a cell, or hangs over it.
+// Whether an object stands on the floor of a cell, or hangs over it.
 bool
 GroundSurvey::Impl::isCovered(std::size_t cell, double floor) const
 {
@@ -191,8 +191,8 @@ GroundSurvey::Impl::spread(std::vector<double>& found,
       }
 }
 
-// Cells without floor between such with one get the mean of theirs, farther in where rays
-// went through.
+// Cells without floor between cells with a floor get their mean height, over wider gaps
+// where rays passed through.
 void
 GroundSurvey::Impl::closeGaps(std::vector<double>& found) const
 {
@@ -234,7 +234,7 @@ GroundSurvey::~GroundSurvey() = default;
 void
 GroundSurvey::add(std::size_t i, const Points& measured)
 {
-  require(i < impl_->places.size(), "place", i, "one of those of the scanner");
+  require(i < impl_->places.size(), "place", i, "a place of the scanner");
   const Eigen::Vector3d& scanner = impl_->places[i];
   std::map<std::int32_t, std::uint32_t> below;
   const std::size_t step = measured.size() / kRays + 1;
@@ -249,7 +249,8 @@ GroundSurvey::add(std::size_t i, const Points& measured)
     if (p.z() < scanner.z() && (p - scanner).head<2>().norm() < kNear)
       ++below[layerOf(p.z())];
   }
-  // The height at which most points lie, two layers together, as a floor's may be cut.
+  // The height of most points, in two adjacent layers, as a layer border may cut a
+  // floor.
   std::uint32_t most = kFloorPoints - 1;
   for (const auto& [layer, count] : below) {
     const auto next = below.find(layer + 1);

@@ -10,7 +10,7 @@
 
 namespace pcl6d {
 namespace {
-// The corners of a way that cannot be left out; none if a disc does not fit on it.
+// The corners of a way that cannot be left out; empty if a disc does not fit.
 std::vector<Eigen::Vector2d>
 straightened(const std::vector<Eigen::Vector2d>& corners,
              const GroundMap& map,
@@ -31,7 +31,7 @@ straightened(const std::vector<Eigen::Vector2d>& corners,
 } // namespace
 
 struct GroundMap::Search {
-  // What is known of a cell on the way: the best way to it, and the cell before.
+  // State of a cell in the search: length of the best way, and the previous cell.
   struct Reached {
     double length;
     std::size_t before;
@@ -58,8 +58,8 @@ struct GroundMap::Search {
     open.emplace(through, cell);
   }
 
-  // To the cells around one that are wide enough, also between their middles. Those at the
-  // rim of the map never are.
+  // Reaches the cells around a cell that are wide enough, also between their middles.
+  // Cells at the rim of the map are never wide enough.
   void
   goOn(std::size_t cell, double length)
   {
@@ -76,7 +76,7 @@ struct GroundMap::Search {
       }
   }
 
-  // \return whether there is a way
+  // \return whether a way exists
   bool
   run(std::size_t start, std::size_t goal)
   {

@@ -12,7 +12,7 @@
 
 namespace pcl6d {
 namespace simulation {
-// A direction in plan in which a scan sees, and how far.
+// A direction of sight of a scan in plan, and its range.
 struct Sight {
   Eigen::Vector2d direction;
   double range; // [m]
@@ -21,12 +21,12 @@ struct Sight {
 using simulation::Sight;
 
 namespace {
-constexpr double kNoiseMargin = 3;      // standard deviations by which a body is nearer
-constexpr std::size_t kSights = 512;    // directions that are kept of a scan
-constexpr int kViewTries = 8;           // tries to find a place in view
+constexpr double kNoiseMargin = 3;      // [sigma] by which a body must be nearer
+constexpr std::size_t kSights = 512;    // directions kept per scan
+constexpr int kViewTries = 8;           // tries to find a position in view
 constexpr std::size_t kRayBlock = 4096; // points
 
-// The frame whose z is up, about the same origin.
+// The frame with z along up and an equal origin.
 Eigen::Isometry3d
 levelFrame(const Eigen::Vector3d& up)
 {
@@ -34,7 +34,7 @@ levelFrame(const Eigen::Vector3d& up)
   Eigen::Isometry3d T_world_level = Eigen::Isometry3d::Identity();
   if (z == Eigen::Vector3d::UnitZ())
     return T_world_level;
-  // x stays as near to the world's as it can; if that is up, y of it.
+  // x stays as near as possible to the world's x, or to its y if x is up.
   const Eigen::Vector3d side =
       std::abs(z.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   const Eigen::Vector3d x = (side - side.dot(z) * z).normalized();
@@ -71,7 +71,7 @@ IntruderOptions::validate() const
 {
   require(people >= 0 && people <= kMostBodies, "people", people, "in [0, 200]");
   require(cars >= 0 && cars <= kMostBodies, "cars", cars, "in [0, 200]");
-  require(people + cars > 0, "people and cars", 0, "at least one of them > 0");
+  require(people + cars > 0, "people and cars", 0, "above 0 for people or cars");
   require(up.allFinite() && up.norm() > 0, "up", up.transpose(), "a direction");
 }
 
@@ -88,7 +88,7 @@ struct Intruders::Impl {
   lay(const GroundMap& map);
 };
 
-// In view of the scan at that time, before what it sees there.
+// A goal in view of the scan at a time, in front of the surfaces it sees.
 Eigen::Vector2d
 Intruders::Impl::goalAt(double time,
                         double nearest,

@@ -9,10 +9,10 @@
 
 namespace pcl6d {
 namespace {
-constexpr double kTrackStep = 0.25; // [s] between known places of the robot
-constexpr int kSightTries = 8;      // tries to find a place in sight
+constexpr double kTrackStep = 0.25; // [s] between known positions of the robot
+constexpr int kSightTries = 8;      // tries to find a position in sight
 
-// Where the robot is, at the scans and on its way.
+// Positions of the robot, at the scans and in between.
 ScannerTrack
 trackOf(const Simulator& drive)
 {
@@ -30,7 +30,7 @@ trackOf(const Simulator& drive)
   return track;
 }
 
-// Places on the way, none twice.
+// Positions along the way, without duplicates.
 std::vector<Eigen::Vector3d>
 densely(const std::vector<Eigen::Vector3d>& places)
 {
@@ -65,7 +65,7 @@ addTraffic(SimulationScene& scene,
                                       densely(track.places),
                                       drive.options().robot.sensor_height,
                                       reach);
-  // Around the robot, where no wall hides it.
+  // Around the robot, in direct view.
   const auto goalAt =
       [&](double time, double nearest, double farthest, Random& random) {
         const Eigen::Vector2d robot = track.placeAt(time).head<2>();

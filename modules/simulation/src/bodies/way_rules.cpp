@@ -37,11 +37,11 @@ ScannerTrack::validate() const
     require(std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1]),
             "time",
             times[i],
-            "finite and after the one before");
+            "finite and after the previous time");
   require(times.back() - times.front() <= kLongestTrack,
           "time from the first place to the last [s]",
           times.back() - times.front(),
-          "at most 1e5: ways are laid for all of it");
+          "at most 1e5: ways are laid for the whole duration");
 }
 
 Eigen::Vector3d

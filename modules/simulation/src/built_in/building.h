@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-/** \file What the plain buildings of several scenes are made of. */
+/** \file Parts of the plain buildings of several scenes. */
 namespace pcl6d::simulation::building {
 
 constexpr double kThick = 0.2; // [m] of walls, floor and ceiling around a hall
@@ -26,8 +26,8 @@ doorPaint();
 void
 addHall(TriangleScene& scene, const Hall& hall);
 
-/** \brief A pose on the floor whose turn is exact, unlike that of an angle.
- * \param[in] quarters of a full turn, counter-clockwise as seen from above */
+/** \brief A pose on the floor with an exact turn, unlike a pose from an angle.
+ * \param[in] quarters of a full turn, counter-clockwise seen from above */
 Eigen::Isometry3d
 squarePose(double x, double y, int quarters);
 

@@ -3,9 +3,9 @@
 
 #include <pcl6d/simulation/simulation_scene.h>
 
-/** \file The scenes that come with the suite, planes not yet numbered. Each begins with a
- * plan of it. All but the corridor are in a library of their own, where libraries are
- * shared: worlds.h. */
+/** \file The built-in scenes, planes not yet numbered. Each source file begins with a
+ * plan of its scene. With shared libraries, every scene except corridor is in a
+ * separate library: worlds.h. */
 namespace pcl6d::simulation {
 
 SimulationScene

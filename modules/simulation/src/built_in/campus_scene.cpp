@@ -45,7 +45,7 @@ placeOf(const Crossing& crossing)
   return kBlock * Eigen::Vector2d(crossing[0], crossing[1]);
 }
 
-// A street between neighbouring crossings, as it is driven.
+// A street between neighbouring crossings, in driving direction.
 struct Street {
   Eigen::Vector2d from;
   Eigen::Vector2d ahead; // unit length
@@ -82,7 +82,7 @@ campusTerrain(std::uint64_t seed)
   return Terrain(options);
 }
 
-// Puts things beside the streets.
+// Places objects beside the streets.
 class Furnisher {
 public:
   Furnisher(SimulationScene& scene, const Terrain& terrain, Random& random)
@@ -112,7 +112,7 @@ public:
   }
 
 private:
-  // Cars stand square to the ground, all else upright.
+  // Cars stand normal to the ground, other objects upright.
   void
   park(const Eigen::Vector2d& place, double heading)
   {
@@ -152,7 +152,7 @@ private:
   Random& random_;
 };
 
-// In every block and, across the streets, around them.
+// In every block, and around the blocks across the outer streets.
 void
 addHouses(TriangleScene& scene, const Terrain& terrain, Random& random)
 {
@@ -183,7 +183,7 @@ campusWaypoints(const Terrain& terrain, Random& random)
   return waypoints;
 }
 
-// Each street once, however often it is driven.
+// Each street once, regardless of how often it is driven.
 std::vector<Street>
 streets()
 {

@@ -23,7 +23,7 @@ constexpr double kThick = 0.2;      // [m] of walls and slabs
 constexpr double kWallFoot = -kThick;
 constexpr double kWallTop = kUpper + kRoomHeight + kThick;
 constexpr double kDoorHeight = 2.1;
-constexpr double kSill = 0.1; // [m] by which doorways reach into the slab below
+constexpr double kSill = 0.1; // [m] depth of doorways in the slab below
 
 const Surface kPlaster{"wall", 0.8, PlaneLabel::kWall};
 const Surface kFloor{"floor", 0.4, PlaneLabel::kFloor};
@@ -85,7 +85,7 @@ addRoom(TriangleScene& scene,
 }
 
 // A closed door in a niche 12 cm deep in a wall along x. The leaf reaches 1 cm into the
-// wall on all sides. \param[in] back +1: the leaf stands on the wall's left side, -1:
+// wall on every side. \param[in] back +1: the leaf stands on the wall's left side, -1:
 // on its right
 void
 addDoorNiche(TriangleScene& scene, Wall& wall, double x, double floor, int back)
@@ -100,12 +100,12 @@ addDoorNiche(TriangleScene& scene, Wall& wall, double x, double floor, int back)
 }
 
 // A corridor along x between two rooms with closed doors, pillars, cabinets, a duct and
-// lamps. \param[in] flip mirrors the furniture, so that corridors differ
+// lamps. \param[in] flip mirrors the furniture, to make corridors differ
 void
 addCorridor(TriangleScene& scene, const Area& a, double floor, bool flip)
 {
   addSlabs(scene, {a.x0, a.y0 - kThick, a.x1, a.y1 + kThick}, floor);
-  const double half = kThick / 2; // walls reach into those of the rooms
+  const double half = kThick / 2; // walls reach into the rooms' walls
   Wall south = fullWall({a.x0 - half, a.y0 - half}, {a.x1 + half, a.y0 - half});
   Wall north = fullWall({a.x0 - half, a.y1 + half}, {a.x1 + half, a.y1 + half});
   const auto x = [&](double offset) { return flip ? a.x1 - offset : a.x0 + offset; };

@@ -14,8 +14,8 @@ namespace pcl6d::simulation {
 namespace crowd {
 namespace {
 // A square between houses, x to the right, y up. Cars go round on the street, people walk
-// up and down beside the robot's way (R) and around the fountain (o) inside it; none
-// crosses that way:
+// up and down beside the robot's way (R) and around the fountain (o) inside; no body
+// crosses the way:
 //
 //   houses   houses   houses                22
 //    +------ cars <<<<<<<<<<< ------+       18
@@ -47,7 +47,7 @@ flatGround()
   return Terrain(options);
 }
 
-// On all four sides, with streets between them.
+// On each side, with streets in between.
 void
 addHouses(TriangleScene& scene, const Terrain& terrain, Random& random)
 {
@@ -138,7 +138,8 @@ addWalker(SimulationScene& scene,
   scene.addMoving(std::move(walker));
 }
 
-// Each on a line of its own beside the robot's way: to the north, south, east and west.
+// Each person on a separate line beside the robot's way: to the north, south, east and
+// west.
 void
 addPassers(SimulationScene& scene, Random& random)
 {
@@ -178,7 +179,7 @@ addStrollers(SimulationScene& scene, Random& random)
   }
 }
 
-// All equally fast, so that none drives through another.
+// Equally fast, so no car drives through another.
 void
 addCars(SimulationScene& scene, Random& random)
 {

@@ -3,9 +3,8 @@
 
 #include <pcl6d/simulation/triangle_scene.h>
 
-/** \file Objects of the built-in scenes, indoors. Each stands on the origin of its own
- * frame, which is in the middle of its footprint: z up, x to its front. Sizes in metres.
- * */
+/** \file Indoor objects of the built-in scenes. An object stands on the origin of its
+ * own frame, in the middle of its footprint: z up, x to its front. Sizes in metres. */
 namespace pcl6d::simulation {
 
 TriangleScene
@@ -15,7 +14,8 @@ tableModel(double length, double width, double height);
 TriangleScene
 chairModel();
 
-/** \brief Open to its front. \param[in] boards number, lid and floor included, >= 2 */
+/** \brief A shelf, open to its front. \param[in] boards number, lid and floor included,
+ * >= 2 */
 TriangleScene
 shelfModel(double length, double depth, double height, int boards);
 
@@ -25,8 +25,8 @@ cabinetModel(double length, double depth, double height);
 TriangleScene
 bedModel();
 
-/** \brief A door leaf that is open: its hinge stands on the origin, its face is square
- * to y. */
+/** \brief An open door leaf: its hinge stands on the origin, its face is normal to
+ * y. */
 TriangleScene
 doorLeafModel(double width, double height);
 

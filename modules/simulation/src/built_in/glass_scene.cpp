@@ -28,13 +28,13 @@ constexpr double kDepth = 4.6;
 constexpr double kSouth = -2.4;
 constexpr double kHeight = 2.6;
 constexpr double kPane = 0.012; // [m] thick
-constexpr double kInto = 0.03;  // [m] by which panes reach into what holds them
+constexpr double kInto = 0.03;  // [m] depth of panes in their frames
 constexpr double kPost = 0.1;   // [m] of steel posts between panes
 constexpr double kDoorWidth = 1.1;
 constexpr double kDoorHeight = 2.1;
 constexpr std::array<double, kRooms> kDoors = {1.8, 8, 11.6, 17.6}; // middles, along x
 
-// Clear float glass sends back some light off its two faces; most goes through.
+// Clear float glass reflects some light at its two faces and transmits most.
 const Surface kGlass{"glass", 0.15, PlaneLabel::kWall, 0, 0, true, 0.8};
 const Surface kSteel{"steel", 0.65};
 
@@ -109,7 +109,7 @@ std::vector<Eigen::Vector3d>
 waypoints()
 {
   constexpr double kMiddle = kSouth / 2 + 0.1; // of the free part of the corridor
-  constexpr double kLane = 0.25;               // [m] from it
+  constexpr double kLane = 0.25;               // [m] from the middle
   std::vector<Eigen::Vector3d> way = {{0.8, kMiddle - kLane, 0}};
   for (const auto room : {0, 2}) {
     const double door = kDoors[static_cast<std::size_t>(room)];

@@ -13,11 +13,11 @@
 
 namespace pcl6d::simulation {
 namespace {
-// A drift that closes on itself: in plan a wavy ring of about 20 m radius, which climbs
-// and falls by up to 2 m, 3.6 m wide, its rock rough by up to 0.35 m.
+// A closed mine drift: in plan a wavy ring of about 20 m radius, 3.6 m wide. It climbs
+// and falls by up to 2 m; its rock is rough by up to 0.35 m.
 constexpr double kRadius = 20;  // [m]
-constexpr double kWaves = 3.5;  // [m] by which the radius varies
-constexpr double kClimb = 1.6;  // [m] by which the floor varies
+constexpr double kWaves = 3.5;  // [m] variation of the radius
+constexpr double kClimb = 1.6;  // [m] variation of the floor
 constexpr int kRings = 720;     // around the loop, 0.2 m apart
 constexpr double kRough = 0.35; // [m] of walls and roof
 constexpr double kBumps = 0.06; // [m] of the floor
@@ -27,7 +27,7 @@ const Surface kRock{"rock", 0.3};
 const Surface kTimber{"timber", 0.45};
 const Surface kIron{"iron", 0.5};
 
-// The middle of the floor and the way there, without roughness.
+// The middle of the floor and its direction, without roughness.
 struct Station {
   Eigen::Vector3d place;
   Eigen::Vector2d outwards; // in plan, square to the way, away from the middle
@@ -51,7 +51,7 @@ stationAt(double turn)
 }
 
 // The drift's profile, right half, from the middle of the floor to the top of the roof:
-// (aside, up) [m], and how rough it is [m].
+// (aside, up) [m], and roughness [m].
 struct ProfilePoint {
   double aside, up, rough;
 };
@@ -75,7 +75,7 @@ profile()
   return half;
 }
 
-// The whole profile, counter-clockwise as seen along the way: right, roof, left.
+// The closed profile, counter-clockwise seen along the way: right, roof, left.
 std::vector<ProfilePoint>
 closedProfile()
 {
@@ -122,7 +122,7 @@ addRock(TriangleScene& scene, std::uint64_t seed)
     }
 }
 
-// Pose of a thing on the floor, x along the way.
+// Pose of an object on the floor, x along the way.
 Eigen::Isometry3d
 poseAt(double turn, double aside)
 {
@@ -135,7 +135,7 @@ poseAt(double turn, double aside)
   return pose;
 }
 
-// Two posts and a beam. Its feet reach into the floor.
+// Two posts and a beam, with feet that reach into the floor.
 TriangleScene
 supportModel()
 {

@@ -46,7 +46,7 @@ struct Area {
   double x0, y0, x1, y1;
 };
 
-// The slab between the storeys: the ceiling of one, the floor of the other.
+// The slab between the storeys, both ceiling and floor.
 void
 addStoreySlab(TriangleScene& scene, const Area& a)
 {
@@ -128,7 +128,7 @@ addInnerWalls(TriangleScene& scene)
                kRoof,
                {{0.6, 2.4, -kSlab / 3, 2.3},
                 {kRampTo + 0.7, kRampTo + 2.3, kUpper - kSlab / 3, kUpper + 2.3}});
-  // Below the landing at the head of the ramp nobody goes.
+  // Closed off: the space below the landing at the head of the ramp.
   addWallAlong(scene, {kRampTo, 0}, {kRampTo, kRampY}, -kSlab / 2, kUpper - 0.3);
   const double floor = kUpper - kSlab / 3;
   addWallAlong(

@@ -18,8 +18,8 @@ const Surface kSteel{"steel", 0.6};
 const Surface kFacade{"facade", 0.6, PlaneLabel::kWall};
 const Surface kConcrete{"concrete", 0.5};
 
-// Pilasters on two opposite walls, at random places along them, so that no part of a
-// street looks like another. \param[in] axis along the walls: 0 for x, 1 for y
+// Pilasters on two opposite walls, at random positions along them, to make every part
+// of a street distinct. \param[in] axis along the walls: 0 for x, 1 for y
 void
 addPilasters(TriangleScene& scene,
              const Footprint& plan,

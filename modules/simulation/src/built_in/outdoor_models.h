@@ -6,8 +6,8 @@
 
 #include <cstdint>
 
-/** \file Objects of the built-in scenes, outdoors. Models stand on the origin of their own
- * frame, z up, x to their front; what reaches below goes into the ground. Houses stand on
+/** \file Outdoor objects of the built-in scenes. Models stand on the origin of their
+ * own frame, z up, x to their front; parts below reach into the ground. Houses stand on
  * the terrain of a scene. */
 namespace pcl6d::simulation {
 
@@ -24,7 +24,8 @@ struct Footprint {
   Eigen::Vector2d low, high;
 };
 
-/** \return a rectangle within another one, each side up to a quarter of it farther in */
+/** \return a random rectangle within a rectangle, each side up to a quarter farther
+ * in */
 Footprint
 randomFootprint(const Eigen::Vector2d& low,
                 const Eigen::Vector2d& high,

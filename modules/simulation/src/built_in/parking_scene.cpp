@@ -15,9 +15,8 @@
 namespace pcl6d::simulation {
 namespace parking {
 namespace {
-// Plan, x to the right, y up. Everything but vans, the door and the pipe stands there
-// twice, turned by 180 deg about the middle, and the robot's round is the same after
-// half of it:
+// Plan, x to the right, y up. Except for vans, door and pipe, the garage is symmetric:
+// a turn by 180 deg about the middle maps it and the robot's round onto themselves:
 //
 //   +--------------------------------------------+ 16
 //   | | | | | | | | | D | | | | | | | | |        |   rows of bays, 2.5 m wide; pillars
@@ -36,19 +35,19 @@ constexpr double kHalfWidth = 16;
 constexpr double kHeight = 2.6;
 constexpr double kBayWidth = 2.5; // [m]
 constexpr double kBayDepth = 5;
-constexpr double kAisle = 8; // [m] from the middle of the garage to that of an aisle
+constexpr double kAisle = 8; // [m] from the garage's middle to an aisle's
 
 const Surface kConcrete{"concrete", 0.55};
 const Surface kPaint{"paint", 0.7};
 const Surface kRubber{"rubber", 0.08};
 
-// Where a car stands; the bay is open to the north or to the south.
+// Position of a car; the bay is open to the north or to the south.
 struct Bay {
   Eigen::Vector2d middle;
   bool is_open_north;
 };
 
-// Rows A and B; the others are these turned by 180 deg.
+// Rows A and B; the others are these rows turned by 180 deg.
 std::vector<Bay>
 southernBays()
 {
@@ -70,7 +69,7 @@ turnedByHalf(const Eigen::Isometry3d& pose)
   return building::squarePose(0, 0, 2) * pose;
 }
 
-// 4.7 m long, 1.9 m wide, 2.05 m high: no other car looks like it.
+// 4.7 m long, 1.9 m wide, 2.05 m high: unlike every other car.
 TriangleScene
 vanModel()
 {
@@ -83,7 +82,7 @@ vanModel()
   return model;
 }
 
-// A car never stands quite straight, and some drivers back in.
+// A car is never parked quite straight, and some drivers back in.
 Eigen::Isometry3d
 parkedIn(const Bay& bay, Random& random)
 {
@@ -95,8 +94,8 @@ parkedIn(const Bay& bay, Random& random)
   return planarPose(bay.middle.x() + aside, bay.middle.y() + ahead, yaw);
 }
 
-// Three vans, one in each third of the bays, whose counterparts stay empty; elsewhere
-// two cars, one where the other is after half a turn.
+// Three vans, one in each third of the bays, with empty counterparts; elsewhere two
+// cars, the second at the position of the first after half a turn.
 void
 parkCars(SimulationScene& scene, Random& random)
 {
@@ -142,7 +141,7 @@ addStructure(TriangleScene& scene)
   }
 }
 
-// All that tells one half from the other, beside the vans.
+// Details that make the two halves differ, besides the vans.
 void
 addDetails(SimulationScene& scene)
 {

@@ -11,9 +11,9 @@
 
 namespace pcl6d::simulation {
 namespace {
-// Plan, x to the right, y up; which doors are open, where rooms end and what stands in
-// them depends on the seed. The robot drives along the hall to the east and back, and
-// goes round in every room whose door is open:
+// Plan, x to the right, y up; open doors, borders of rooms and furniture depend on the
+// seed. The robot drives along the hall to the east and back, and goes round in every
+// room with an open door:
 //
 //   +--------+-----------+-------+--------+ 0.9 + wall + depth
 //   |        |           |       |        |    north rooms
@@ -30,7 +30,7 @@ constexpr double kThick = 0.14;    // [m] of walls
 constexpr double kSlab = 0.2;      // [m] of floor and ceiling
 constexpr double kDoorWidth = 0.95;
 constexpr double kDoorHeight = 2.05;
-constexpr double kShelf = 0.4; // [m] depth of what stands at side walls
+constexpr double kShelf = 0.4; // [m] depth of furniture at side walls
 
 const Surface kPlaster{"wall", 0.8, PlaneLabel::kWall};
 const Surface kParquet{"floor", 0.4, PlaneLabel::kFloor};
@@ -151,7 +151,7 @@ addShell(TriangleScene& scene, const Side& south, const Side& north)
     addWall(scene, wallBetween({x, y0}, {x, y1}), kPlaster);
 }
 
-// What stands at a side wall: the free way begins 0.6 m from it.
+// Furniture at a side wall: the free way begins 0.6 m from the wall.
 void
 furnishSideWall(SimulationScene& scene,
                 const Side& side,
@@ -183,7 +183,7 @@ addTableWithChairs(SimulationScene& scene,
   scene.addObject("table", tableModel(length, kWidth, 0.74), side.pose(u, v, kToHall));
   const int chairs = length > 1.4 ? 2 : 1;
   for (int i = 0; i < chairs; ++i) {
-    // One draw per statement: the order of arguments is the compiler's choice.
+    // One draw per statement, as the evaluation order of arguments is unspecified.
     const double aside =
         ((i + 0.5) / chairs - 0.5) * length + random.uniform(-0.05, 0.05);
     const double gap = random.uniform(0.05, 0.12);

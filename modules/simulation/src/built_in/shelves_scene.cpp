@@ -10,7 +10,7 @@ namespace pcl6d::simulation {
 namespace shelves {
 namespace {
 // Plan, x to the right, y up. Four rows of shelves, each of 16 equal bays 1 m wide with
-// the same crates; only the walls of the hall tell which bay is which. The robot drives
+// equal crates; only the walls of the hall distinguish the bays. The robot drives
 // through the aisles in turn:
 //
 //   +-------------------------------------+ 7.2
@@ -49,8 +49,8 @@ addUprights(TriangleScene& scene, double x, double row)
     addBox(scene, {x, row + y, 0}, {x + kUpright, row + y + kUpright, kTop}, kSteel);
 }
 
-// In the middle of its footprint, x along the row. Its second pair of uprights is the
-// first one of the next bay.
+// Origin in the middle of its footprint, x along the row. The second pair of uprights
+// is the first pair of the next bay.
 TriangleScene
 bayModel()
 {

@@ -6,10 +6,10 @@
 namespace pcl6d::simulation {
 namespace tunnel {
 namespace {
-// A road tunnel along x, straight and without anything that changes along it. Its open
-// ends are farther from the robot than the scanner sees, so nothing tells how far it has
-// driven. The robot goes there on one lane and back on the other. Profile, y to the
-// right, z up; the walkway is on the left side as seen along x:
+// A straight road tunnel along x with a constant profile. Its open ends are beyond the
+// range of the scanner, so scans do not determine the position along x. The robot goes
+// there on one lane and back on the other. Profile, y to the right, z up; the walkway
+// is on the left side seen along x:
 //
 //              ...-----...         5
 //           .-             -.
@@ -19,12 +19,12 @@ namespace {
 //          +--------------+        0
 //         -4              3  4
 constexpr double kHalfLength = 65; // [m]
-constexpr double kTurn = 28;       // [m] from the middle: there the robot turns
+constexpr double kTurn = 28;       // [m] from the middle: turning point of the robot
 constexpr double kHalfWidth = 4;
 constexpr double kWall = 3; // [m] height at which the vault starts
 constexpr double kRise = 2; // [m] of the vault
 constexpr double kKerb = 0.25;
-constexpr double kWalkway = 3; // [m] where it begins
+constexpr double kWalkway = 3; // [m] beginning of the walkway
 constexpr double kLane = 1.5;  // [m] from the middle of the road
 constexpr double kRoad = -0.5; // y of the middle of the road
 
@@ -34,7 +34,7 @@ const Surface kPaving{"walkway", 0.4, PlaneLabel::kFloor};
 const Surface kLining{"lining", 0.55, PlaneLabel::kWall};
 const Surface kVault{"vault", 0.55};
 
-// From a corner of the profile (y, z) to the next one.
+// An edge from a corner of the profile (y, z) to the next corner.
 struct Edge {
   Eigen::Vector2d from;
   Surface surface;

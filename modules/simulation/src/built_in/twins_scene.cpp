@@ -9,8 +9,9 @@
 namespace pcl6d::simulation {
 namespace twins {
 namespace {
-// Plan, x to the right, y up. Each room is the one before, moved by 5 m, with all that
-// is in it; the robot goes round in all of them and back along the corridor:
+// Plan, x to the right, y up. Each room is a copy of the previous room, furniture
+// included, moved by 5 m. The robot goes round in every room and back along the
+// corridor:
 //
 //   +---[table]---+-------------+-------------+-------------+ 4.6
 //   |[    [chair] |             |             |             |
@@ -71,7 +72,7 @@ furnish(SimulationScene& scene, double begin)
   put("bed", bedModel(), 3.7, 0.5, 2);
 }
 
-// Into the rooms one after the other, round in each, and back along the corridor.
+// Into the rooms one after another, round in each, and back along the corridor.
 std::vector<Eigen::Vector3d>
 waypoints()
 {
@@ -107,7 +108,8 @@ make()
   SimulationScene scene;
   scene.name = "twins";
   scene.num_scans = 60;
-  // The faces of its outer walls are as far from a room as those of the inner ones.
+  // The faces of the outer walls are as far from a room as the faces of the inner
+  // walls.
   building::addHall(scene.geometry,
                     {{kHalf, kSouth}, {kRooms * kPitch - kHalf, kDepth}, kHeight});
   addWalls(scene.geometry);

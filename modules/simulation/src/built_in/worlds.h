@@ -5,10 +5,10 @@
 
 #include <cstdint>
 
-/** \brief Makes a built-in scene other than the corridor, planes not yet numbered. Where
- * libraries are shared, this and all those scenes are in the library
- * pcl6d_simulation_worlds, which builtInScene() opens when one is asked for.
- * \param[in] name one that there is \param[out] scene */
+/** \brief Makes a built-in scene other than corridor, planes not yet numbered. With
+ * shared libraries, these scenes are in the library pcl6d_simulation_worlds, opened by
+ * builtInScene() on demand.
+ * \param[in] name of an existing scene \param[out] scene */
 extern "C" [[gnu::visibility("default")]] void
 pcl6d_simulation_worlds(const char* name,
                         std::uint64_t seed,

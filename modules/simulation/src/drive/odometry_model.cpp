@@ -10,8 +10,8 @@
 
 namespace pcl6d {
 namespace {
-// Rz of the yaw of R; without sine or arc tangent, and without -0, which would show in
-// the written file.
+// Rz of the yaw of R; without sine or arc tangent, and without -0, which would appear
+// in the written file.
 Eigen::Matrix3d
 yawOnly(const Eigen::Matrix3d& R)
 {
@@ -101,20 +101,20 @@ wheelOdometry(const Trajectory& truth,
 }
 
 namespace {
-// What an inertial unit has wrong about its attitude.
+// Attitude error of an inertial unit.
 class AttitudeError {
 public:
   AttitudeError(const VisualInertialOptions& options, Random& random)
   : options_(options), random_(random)
   {}
 
-  // Goes on by a way [m].
+  // Advances by a way [m].
   void
   advance(double way)
   {
     yaw_ += options_.yaw_bias * way +
             options_.yaw_noise * std::sqrt(way) * random_.normal();
-    // Gauss-Markov: the old error fades, so much is added that its variance stays.
+    // Gauss-Markov: the old error fades, the added noise keeps its variance.
     const double kept = options_.tilt_way / (options_.tilt_way + way);
     const double added = options_.tilt_noise * std::sqrt(1 - kept * kept);
     for (double* tilt : {&tilt_.x(), &tilt_.y()})

@@ -41,7 +41,7 @@ poseAt(const RayCaster& caster, const RobotPath& path, double way, int scan)
   }
 }
 
-// A closed body is left through the back of a face and in no other way.
+// A ray leaves a closed body only through the back of a face.
 void
 requireOutside(const RayCaster& caster, const Eigen::Vector3d& place, int scan)
 {

@@ -15,12 +15,12 @@ using simulation::Vibration;
 
 namespace {
 constexpr double kKnotSpacing = 0.1; // [m] at most
-constexpr double kKnotTime = 0.1;    // [s] at most, where it slows down
+constexpr double kKnotTime = 0.1;    // [s] at most, where the robot slows down
 constexpr double kShakeTime = 0.1 / simulation::kHighestShake; // [s] ten in a wave
 constexpr double kMostKnots = 1e6;                             // 200 MB
 constexpr double kTopSpeed = 50;                               // [m/s]
 
-// Weights of the four control points around the place u in [0, 1) between the second
+// Weights of the four control points around the position u in [0, 1) between the second
 // and the third.
 std::array<double, 4>
 cubicWeights(double u)
@@ -32,7 +32,7 @@ cubicWeights(double u)
           u * u * u / 6};
 }
 
-// Steps of a round, none longer than so.
+// Number of steps of a round, with a largest step length.
 std::size_t
 stepsOf(double round, double longest)
 {
@@ -127,7 +127,7 @@ PoseSpline::poseAt(double time) const
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t i = (static_cast<std::size_t>(before) + last + k) % (last + 1);
     position += weights[k] * positions_[i];
-    // A round may end on the other side of the sphere of quaternions.
+    // A round may end on the opposite side of the quaternion sphere.
     const double side = rotation.dot(rotations_[i].coeffs()) < 0 ? -1 : 1;
     rotation += side * weights[k] * rotations_[i].coeffs();
   }
@@ -145,7 +145,7 @@ RobotMotion::RobotMotion(const RobotPath& path,
   require(options.turn_rate || path.corners().empty(),
           "corners of the path",
           path.corners().size(),
-          "rounded, as there is no turn rate");
+          "rounded: no turn rate is given");
   std::vector<Eigen::Isometry3d> poses;
   if (options.turn_rate) {
     const Timetable timetable(path, options.speed, *options.turn_rate);

@@ -51,7 +51,7 @@ RobotPath::RobotPath(const std::vector<Eigen::Vector3d>& waypoints,
     require((waypoints[(i + 1) % count] - waypoints[i]).head<2>().norm() > 0,
             "waypoint",
             i,
-            "apart from the next one in x or y");
+            "apart from the next corner in x or y");
   way_ = {0};
   for (std::size_t i = 1; i <= count * kStepsPerSpan; ++i) {
     const auto at = [&](std::size_t step) {
@@ -78,8 +78,8 @@ RobotPath::corners() const
   return corners;
 }
 
-// Rounded: in the span of waypoint i from the middle of the edge before it to the middle of
-// the edge after it. Sharp: from waypoint i to the next.
+// Rounded: in the span of waypoint i from the middle of the previous edge to the middle
+// of the next. Sharp: from waypoint i to the next.
 RobotPath::Point
 RobotPath::pointAtStep(double step) const
 {

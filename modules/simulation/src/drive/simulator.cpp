@@ -18,9 +18,9 @@ namespace pcl6d {
 namespace {
 constexpr double kHighestSpeed = 50; // [m/s]
 constexpr double kUsualSpeed = 1;    // [m/s]
-constexpr double kSpareTime = 0.9; // share of the time from scan to scan that one takes
+constexpr double kSpareTime = 0.9;   // largest share of the period for a scan
 
-// What the seed is split for, so that more scans do not change the odometry's noise.
+// Streams of the seed, so more scans do not change the odometry's noise.
 enum Stream : std::uint64_t {
   kRangeStream = 1,
   kOdometryStream = 2,
@@ -85,7 +85,7 @@ SimulationOptions::validate() const
           speed.value_or(0),
           "in (0, 50] m/s");
   const bool drives_on = motion == ScanMotion::kContinuous;
-  const std::string rule = " where it stops for each scan";
+  const std::string rule = " with a stop for each scan";
   require(drives_on || !turns_in_place, "turns_in_place", 1, "0" + rule);
   require(drives_on || !turn_rate, "turn_rate", turn_rate.value_or(0), "none" + rule);
   require(drives_on || vibration == 0, "vibration", vibration, "0" + rule);
@@ -171,7 +171,7 @@ Simulator::scanOnTheMove()
           speed_,
           "at most " + std::to_string(step / scanner().duration()) +
               " m/s: a scan takes " + std::to_string(scanner().duration()) +
-              " s, and the next one starts " + std::to_string(step) + " m on");
+              " s, and the next scan starts " + std::to_string(step) + " m on");
   T_scene_world_ = motion_->poseAt(0);
   for (int i = 0; i < options_.num_scans; ++i) {
     truth_.stamps.push_back(period * i);

@@ -17,7 +17,7 @@ angleOf(const Eigen::Vector2d& direction)
   return portableAtan2(direction.y(), direction.x());
 }
 
-// The same direction, as near as it can be to another angle.
+// The equivalent angle nearest to another angle.
 double
 unwrapped(double angle, double near)
 {
@@ -42,7 +42,7 @@ Timetable::Timetable(const RobotPath& path, double speed, double turn_rate)
   }
   for (std::size_t i = 1; i < corners.size(); ++i) {
     drive(corners[i], rows_.back().heading, speed, turn_rate);
-    turnTo(corners[i]); // on the spot; behind the last leg into the first one
+    turnTo(corners[i]); // on the spot; after the last leg into the first
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace pcl6d::simulation {
 
-/** \brief When a robot is where on a path, if it neither drives nor turns too fast. */
+/** \brief Timetable of a robot on a path, with limited speed and turn rate. */
 class Timetable {
 public:
   /** \param[in] speed [m/s] at most \param[in] turn_rate [rad/s] at most */

@@ -11,8 +11,8 @@ namespace pcl6d::simulation {
 namespace {
 constexpr double kLowestShake = 1; // [Hz]
 
-// Of the sine of a frequency: what a cubic B-spline leaves of it at its control points, of
-// weights 1/6, 4/6, 1/6.
+// Gain of a cubic B-spline for a sine at its control points, with weights 1/6, 4/6,
+// 1/6.
 double
 leftOf(double frequency, double step)
 {

@@ -10,12 +10,12 @@ namespace pcl6d::simulation {
 
 constexpr double kHighestShake = 10; // [Hz]
 
-/** \brief A small motion that comes back after each round: see RobotMotionOptions::vibration. */
+/** \brief A small motion, periodic over a round: see RobotMotionOptions::vibration. */
 class Vibration {
 public:
-  /** \param[in] rms [m] of the distance \param[in] lever [m] between the contacts
-   * \param[in] round [s] after which it repeats \param[in] step [s] between the control
-   * points of a cubic B-spline that follows it, which flattens it; this is made up for */
+  /** \param[in] rms [m] displacement \param[in] lever [m] between the contacts
+   * \param[in] round [s] period \param[in] step [s] between the control points of a
+   * cubic B-spline through the motion; its damping is compensated */
   Vibration(double rms, double lever, double round, double step, std::uint64_t seed);
 
   /** \return the sensor's motion in its own frame */

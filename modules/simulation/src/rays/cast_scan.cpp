@@ -5,8 +5,8 @@
 
 namespace pcl6d {
 namespace {
-// The first surface that a ray does not go through. \param[in] goesThrough called with
-// each surface in its way: the hit, the surface and its number from 0
+// The first surface that stops a ray. \param[in] goesThrough called with each surface
+// in the way: the hit, the surface and its number from 0
 template <typename Decide>
 std::optional<RayHit>
 firstReturn(const SceneView& view,
@@ -14,7 +14,7 @@ firstReturn(const SceneView& view,
             double time,
             const Decide& goesThrough)
 {
-  constexpr double kBeyond = 1e-6; // [m] behind a surface that the ray went through
+  constexpr double kBeyond = 1e-6; // [m] behind a surface that the ray passed through
   double gone = 0;
   for (std::uint64_t n = 0;; ++n) {
     auto hit = view.cast({ray.origin + gone * ray.direction, ray.direction}, time);
@@ -27,14 +27,14 @@ firstReturn(const SceneView& view,
   }
 }
 
-// A number in [0, 1) that depends on the key alone.
+// A number in [0, 1), a function of the key alone.
 double
 shareOf(std::uint64_t key)
 {
   return static_cast<double>(mixBits(key) >> 11) * 0x1.0p-53;
 }
 
-// Takes one sample after the other.
+// Takes samples one after another.
 class Sampler {
 public:
   Sampler(const SceneView& view,
@@ -60,8 +60,8 @@ public:
   }
 
 private:
-  // \param[in] key of what panes do with the ray: numbers of its own, so that they leave
-  // the noise as it is
+  // \param[in] key of the random numbers for panes, separate from the noise, which they
+  // leave unchanged
   void
   castRay(const Ray& ray, double time, std::uint64_t key)
   {
@@ -122,7 +122,7 @@ castScan(const SceneView& view,
   const std::uint64_t scan_key = mixBits(mixBits(options.seed) ^ scan_index);
   parallelFor(num_lines, options.num_threads, [&](std::size_t line) {
     const std::uint64_t line_key = mixBits(scan_key ^ line);
-    Random random(line_key); // its own numbers, whoever does the line
+    Random random(line_key); // numbers of the line, independent of the thread
     Sampler sampler(view, scanner, model, line_key);
     for (std::size_t i = 0; i < per_line; ++i)
       scan.samples[line * per_line + i] =

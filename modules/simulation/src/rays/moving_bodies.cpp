@@ -18,7 +18,7 @@ boxAround(const TriangleScene& shape)
 }
 } // namespace
 
-// Never true for a ray that meets the ball.
+// False for every ray that meets the ball.
 bool
 MovingBodies::Ball::isMissedBy(const Ray& ray) const
 {

@@ -9,7 +9,7 @@
 
 namespace pcl6d {
 namespace {
-// Where a body is on its way, and whether it goes against the order of the corners.
+// Position of a body on its way, and whether it moves against the order of the corners.
 struct Place {
   double way; // [m] from the first corner
   bool is_returning;
@@ -43,17 +43,17 @@ MovingBody::validate() const
     require(!is_leg || (next - way[i]).head<2>().norm() > 0,
             ("corner" + of).c_str(),
             i,
-            "apart from the next one in x or y");
+            "apart from the next corner in x or y");
   }
   require(times.empty() || times.size() == way.size(),
           ("number of times" + of).c_str(),
           times.size(),
-          "that of the corners, or 0");
+          "the number of corners, or 0");
   for (std::size_t i = 0; i < times.size(); ++i)
     require(std::isfinite(times[i]) && (i == 0 || times[i] >= times[i - 1]),
             ("time" + of).c_str(),
             times[i],
-            "finite and not before that of the corner before");
+            "finite and not before the time of the previous corner");
   require(speed >= 0 && speed <= 1000, ("speed" + of).c_str(), speed, "in [0, 1000]");
   require(start >= 0 && std::isfinite(start), ("start" + of).c_str(), start, ">= 0");
   try {
@@ -108,7 +108,7 @@ MovingBody::poseByTimetable(double time) const
   else if (time < times[to])
     place = way[from] +
             (time - times[from]) / (times[to] - times[from]) * (way[to] - way[from]);
-  // It looks where it goes, and where it waits, where it went.
+  // The body looks ahead; while waiting, in the direction of the last leg.
   const auto isLeg = [this](std::size_t i) {
     return times[i + 1] > times[i] && (way[i + 1] - way[i]).head<2>().norm() > 0;
   };

@@ -28,8 +28,7 @@ RayTest::range(const Eigen::Vector3d& a,
                const Eigen::Vector3d& c) const
 {
   constexpr double kMiss = std::numeric_limits<double>::infinity();
-  // Shear so that the ray becomes the z axis; its triangle test is then one in the
-  // plane.
+  // Shear to make the ray the z axis; the triangle test becomes planar.
   const double az = a[kz_] - origin_[kz_];
   const double bz = b[kz_] - origin_[kz_];
   const double cz = c[kz_] - origin_[kz_];
@@ -53,9 +52,9 @@ RayTest::range(const Eigen::Vector3d& a,
 }
 
 namespace {
-// Embree computes in float. Seen from the middle of a scene of radius R, rounding of a
-// box, of a ray's origin (at most 5 R away) and of its direction (at most 7 R long)
-// together stay below 40 R 2^-24; the boxes are padded by more than that.
+// Embree computes in float. Relative to the middle of a scene of radius R, rounding of
+// a box, of a ray's origin (at most 5 R away) and of its direction (at most 7 R long)
+// together stay below 40 R 2^-24; the padding of the boxes is larger.
 constexpr double kPadding = 0x1.0p-17; // of the scene's radius
 
 struct Boxes {
@@ -104,7 +103,7 @@ testTriangle(const RTCIntersectFunctionNArguments* arguments)
     return;
   best.range = range;
   best.triangle = index;
-  // Later boxes are of no interest; those at the same range are.
+  // Later boxes can be skipped, boxes at equal range cannot.
   reinterpret_cast<RTCRayHit*>(arguments->rayhit)->ray.tfar =
       static_cast<float>(range - candidates.advance + boxes.padding);
 }
@@ -122,8 +121,9 @@ struct RayCaster::Impl {
         box.extend(scene.vertices[vertex]);
     boxes = {&scene, box.center(), box.diagonal().norm() / 2, 0};
     boxes.padding = kPadding * boxes.radius;
-    // With more, a thread that the system refuses ends the process: TBB's exception passes
-    // Embree, whose destructors throw then. Trees of 300 000 triangles take half a second.
+    // With more threads, a thread refused by the system ends the process: TBB's
+    // exception passes Embree, whose destructors then throw. Trees of 300 000 triangles
+    // take half a second.
     device = rtcNewDevice("threads=1");
     if (!device)
       throw ComputeFailed("Embree cannot start (error " +
@@ -154,13 +154,13 @@ struct RayCaster::Impl {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(tree, geometry);
     rtcReleaseGeometry(geometry);
-    rtcJoinCommitScene(tree); // in this thread; rtcCommitScene() wants another one
+    rtcJoinCommitScene(tree); // in this thread; rtcCommitScene() needs another thread
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE)
       return;
     rtcReleaseScene(tree);
     rtcReleaseDevice(device);
-    throw ComputeFailed("Embree cannot build its tree over " +
+    throw ComputeFailed("Embree cannot build a tree over " +
                         std::to_string(scene.triangles.size()) + " triangles (error " +
                         std::to_string(error) + ")");
   }
@@ -189,7 +189,7 @@ RayCaster::cast(const Ray& ray, double max_range) const
 {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!isPlace(ray.origin) || !ray.direction.allFinite())
-    return {}; // Embree ends the process at some of them
+    return {}; // Embree may end the process for invalid rays
   const Boxes& boxes = impl_->boxes;
   const RayTest test(ray);
   // From afar Embree starts nearer, where float is fine enough; our own test does not.

@@ -33,7 +33,7 @@ readMeshOptions(JsonObject& json)
   return options;
 }
 
-// What ramps and stairs have in common.
+// Common fields of ramps and stairs.
 template <typename Slope>
 Slope
 readSlope(JsonObject& json)
@@ -55,7 +55,7 @@ addLeaf(const Wall& wall,
         const Surface& surface,
         TriangleScene& geometry)
 {
-  constexpr double kRim = 0.01; // [m] by which it reaches into the wall
+  constexpr double kRim = 0.01; // [m] depth of its rim in the wall
   const Eigen::Vector2d ahead = (wall.to - wall.from).normalized();
   Wall leaf;
   leaf.from = wall.from + (hole.begin - kRim) * ahead;
@@ -198,7 +198,7 @@ BodyReader::readRevolved(JsonObject& json, TriangleScene& geometry)
   json.each("profile", [&](const JsonValue& row) {
     const std::vector<double> values = row.numbers();
     if (values.size() != 2)
-      json.fail("profile", "a point that is not (radius, height)");
+      json.fail("profile", "a point is not (radius, height)");
     body.profile.emplace_back(values[0], values[1]);
   });
   json.read("segments", body.segments);
@@ -221,7 +221,7 @@ BodyReader::readTerrain(JsonObject& json, TriangleScene& geometry)
   cells_of_terrains_ += options.numCells();
   if (cells_of_terrains_ > TerrainOptions::kMostCells)
     json.fail("cell",
-              "too small: all terrains together would have more than 2 million");
+              "too small: the terrains together would have more than 2 million");
   terrains_.emplace_back(options);
   terrains_.back().addTo(geometry, material(json));
 }
@@ -230,7 +230,7 @@ void
 BodyReader::readModel(JsonObject& json, TriangleScene& geometry)
 {
   Surface surface = material(json);
-  surface.is_solid = false; // who knows
+  surface.is_solid = false; // the mesh of a file may be open
   const MeshOptions options = readMeshOptions(json);
   const Eigen::Isometry3d pose = readPose(json);
   const std::filesystem::path name = json.get<std::string>("file");
@@ -283,7 +283,8 @@ BodyReader::place(JsonObject& json,
   if (values.size() != 2)
     json.fail(key, "expected 3 numbers, got " + std::to_string(values.size()));
   if (terrains_.empty())
-    json.fail(key, "2 numbers are a place on the terrain, but there is no terrain");
+    json.fail(key,
+              "2 numbers are a place on the terrain, but the scene has no terrain");
   return {values[0], values[1], terrains_.back().height({values[0], values[1]})};
 }
 

@@ -10,16 +10,16 @@
 namespace pcl6d::simulation {
 
 /** \brief Makes triangles of the bodies of a scene description; see scene_file.h.
- * \throws IoFailed what is wrong, and where */
+ * \throws IoFailed naming error and position */
 class BodyReader {
 public:
   explicit BodyReader(const std::filesystem::path& file) : file_(file) {}
 
-  /** \brief Reads /materials, which bodies speak of. */
+  /** \brief Reads /materials, which bodies refer to. */
   void
   readMaterials(JsonObject& json);
 
-  /** \brief Adds all `bodies` of a JSON object. */
+  /** \brief Adds the `bodies` of a JSON object. */
   void
   readBodies(JsonObject& json, TriangleScene& geometry);
 
@@ -31,7 +31,7 @@ public:
   Eigen::Isometry3d
   readPose(JsonObject& json);
 
-  /** \return an array of places; those of two numbers lie on the terrain */
+  /** \return an array of positions; positions of two numbers lie on the terrain */
   std::vector<Eigen::Vector3d>
   places(JsonObject& json, const std::string& key);
 

@@ -6,12 +6,12 @@
 namespace pcl6d {
 namespace {
 using Corners =
-    std::array<Eigen::Vector3d, 8>; // lower face, then the upper one above it
+    std::array<Eigen::Vector3d, 8>; // lower face, then the upper face above it
 enum Face { kBottom, kTop, kRight, kFar, kLeft, kNear, kNumFaces };
 using Faces = std::array<std::uint32_t, kNumFaces>; // surfaces
 
-// Right-handed around each face as seen from outside, if the lower face is given
-// counter-clockwise as seen from above.
+// Right-handed around each face seen from outside, if the lower face is given
+// counter-clockwise seen from above.
 constexpr int kFaceCorners[kNumFaces][4] = {{3, 2, 1, 0},
                                             {4, 5, 6, 7},
                                             {0, 1, 5, 4},
@@ -73,7 +73,7 @@ setHeights(Corners& corners, double bottom, double near_top, double far_top)
   corners[5].z() = corners[6].z() = far_top;
 }
 
-// One piece of a wall between two heights; none if there is nothing of it.
+// One piece of a wall between two heights; an empty piece is skipped.
 void
 addPiece(TriangleScene& scene, const Strip& strip, const Opening& piece, Faces faces)
 {

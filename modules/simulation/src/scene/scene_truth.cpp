@@ -8,9 +8,9 @@
 namespace pcl6d {
 namespace {
 constexpr double kFlat = 1e-6;  // [m] largest distance from the plane
-constexpr double kTouch = 1e-3; // [m] between boxes of surfaces that touch
+constexpr double kTouch = 1e-3; // [m] between boxes of touching surfaces
 
-// The flat part of the scene that a surface or a plane is.
+// The flat part of a scene covered by a surface or plane.
 struct Patch {
   Eigen::Vector3d normal;
   double offset = 0;
@@ -29,7 +29,7 @@ areaVector(const TriangleScene& scene, std::size_t triangle)
   return (scene.corner(index, 1) - a).cross(scene.corner(index, 2) - a) / 2;
 }
 
-// Per surface; the normal is that of its largest triangle.
+// Per surface; the normal is taken from its largest triangle.
 std::vector<Patch>
 surfacePatches(const TriangleScene& scene)
 {
@@ -56,7 +56,7 @@ surfacePatches(const TriangleScene& scene)
       if (std::abs(patch.normal.dot(p) - patch.offset) > kFlat)
         patch.is_flat = false;
     }
-    if (areaVector(scene, i).dot(patch.normal) < 0) // a sheet that is folded back
+    if (areaVector(scene, i).dot(patch.normal) < 0) // a folded sheet
       patch.is_flat = false;
   }
   return patches;
@@ -94,7 +94,7 @@ belongTogether(const Patch& a, const Patch& b)
              .intersects(b.box);
 }
 
-// Which of the patches are one plane: for each the index of the first of its group.
+// Groups patches into planes: for each patch the index of the first patch of its group.
 std::vector<std::size_t>
 groupPatches(const std::vector<Patch>& patches, const std::vector<bool>& counts)
 {

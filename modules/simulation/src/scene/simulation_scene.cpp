@@ -27,26 +27,27 @@ constexpr std::array<Entry, 11> kScenes = {
      {"crowd",
       "a square between houses where people walk and cars drive; a loop of 80 m"},
      {"glass",
-      "offices with glass partitions, which send back one ray in five; a loop of 50 m"},
+      "offices with glass partitions that return one ray in five; a loop of 50 m"},
      {"mine",
-      "a drift with rough rock, timber supports and boulders; a loop of 130 m that "
-      "climbs and falls"},
+      "a drift with rough rock, timber supports and boulders; a loop of 130 m, "
+      "climbing and falling"},
      {"multilevel",
       "two storeys, joined by a ramp and by stairs; a loop of 120 m over both"},
      {"parking",
-      "an underground car park that looks the same after half a turn, apart from three "
-      "vans, a door and a pipe; a loop of 100 m"},
+      "an underground car park, symmetric under half a turn except for three vans, a "
+      "door and a pipe; a loop of 100 m"},
      {"rooms",
       "a flat: rooms with tables, chairs and shelves along a hall, doors open and "
       "closed; another seed is another flat"},
      {"shelves",
-      "a storage hall: rows of shelves whose bays repeat every metre; a loop of 90 m"},
+      "a storage hall: rows of shelves with bays repeating every metre; a loop of 90 "
+      "m"},
      {"tunnel",
-      "a straight tunnel without any feature along it, whose ends are out of sight; "
-      "there and back, 115 m"},
+      "a straight tunnel without any feature along the axis, with ends out of sight; "
+      "out and back, 115 m"},
      {"twins",
       "four rooms along a corridor, equal to the last chair; a loop of 70 m through "
-      "all of them"}}};
+      "the rooms"}}};
 
 const Entry&
 entryOf(const std::string& name)
@@ -79,7 +80,7 @@ make(const std::string& name, std::uint64_t seed)
   return scene;
 }
 
-/** Which objects stay: their new ids by their old ones, both from 1; 0: it is gone. */
+/** New ids of objects by old ids, both from 1; 0: removed. */
 using NewIds = std::vector<std::uint32_t>;
 
 bool
@@ -88,7 +89,7 @@ isGone(const Surface& surface, const NewIds& ids)
   return surface.object != 0 && ids[surface.object] == 0;
 }
 
-/** \return the triangles and surfaces that stay; unused vertices hurt nobody */
+/** \return the remaining triangles and surfaces; unused vertices are kept */
 TriangleScene
 subset(const TriangleScene& scene, const NewIds& ids)
 {
@@ -134,7 +135,7 @@ SimulationScene::addObject(const std::string& object_class,
   const std::size_t first = geometry.surfaces.size();
   addModel(geometry, shape, T_scene_object, id);
   for (std::size_t i = first; i < geometry.surfaces.size(); ++i)
-    if (geometry.surfaces[i].name == Surface().name) // errors name what is in the way
+    if (geometry.surfaces[i].name == Surface().name) // errors name the blocking surface
       geometry.surfaces[i].name = object_class;
   return id;
 }

@@ -83,7 +83,7 @@ Terrain::height(const Eigen::Vector2d& place) const
 Eigen::Isometry3d
 Terrain::poseOn(const Eigen::Vector2d& place, double yaw) const
 {
-  constexpr double kReach = 1; // [m] over which the slope is taken
+  constexpr double kReach = 1; // [m] to measure the slope over
   const auto rise = [&](const Eigen::Vector2d& way) {
     return (height(place + way) - height(place - way)) / (2 * kReach);
   };

@@ -7,7 +7,7 @@
 
 namespace pcl6d {
 namespace {
-// Twice the area, as a vector square to the triangle.
+// Twice the area, as a vector normal to the triangle.
 Eigen::Vector3d
 areaVector(const TriangleScene& scene, std::uint32_t triangle)
 {

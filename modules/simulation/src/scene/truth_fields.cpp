@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kFieldSize = sizeof(std::uint32_t);
 constexpr std::array<const char*, 3> kFields = {"plane_id", "object_id", "label"};
 
-// What a sample lies on; an empty surface without return.
+// The surface under a sample; an empty surface without return.
 const Surface&
 surfaceOf(const RangeSample& sample, const TriangleScene& scene)
 {

@@ -8,14 +8,14 @@
 /** \file Smooth random fields for rough surfaces. */
 namespace pcl6d::simulation {
 
-/** \brief Value noise: random numbers at the points of the unit lattice, blended between
- * them. Continuous, with a continuous gradient; depends on its arguments alone.
+/** \brief Value noise: random numbers at the points of the unit lattice, blended in
+ * between. Continuous, with a continuous gradient; a function of its arguments alone.
  * \return a number in [-1, 1] */
 double
 valueNoise(const Eigen::Vector3d& p, std::uint64_t seed);
 
-/** \brief Three octaves of it: waves of length 1, 1/2 and 1/4, each half as high as the
- * one before. \return a number in [-1, 1] */
+/** \brief Three octaves of value noise: waves of length 1, 1/2 and 1/4, each half as
+ * high as the previous. \return a number in [-1, 1] */
 double
 fractalNoise(const Eigen::Vector3d& p, std::uint64_t seed);
 

@@ -25,7 +25,7 @@ constexpr double kGap = 1.4 * kTextSize;       ///< between columns
 constexpr double kHeadRoom = 2.0 * kTextSize;  ///< for the title of the picture
 constexpr double kFootRoom = 3.4 * kTextSize;  ///< for x [m] and the colour bar
 
-/** Up to five in a row; more fill a rectangle that is wider than high. */
+/** Up to five in a row; more panels fill a rectangle wider than high. */
 int
 columnsFor(int panels)
 {
@@ -35,7 +35,7 @@ columnsFor(int panels)
   return static_cast<int>(std::ceil(std::sqrt(1.6 * panels)));
 }
 
-/** \return the distance between two of the values; 1 if there is only one */
+/** \return the distance of adjacent values; 1 for a single value */
 double
 spacingOf(const std::vector<double>& values)
 {
@@ -68,7 +68,8 @@ layOut(const ConvergenceMapScene& scene, const ConvergenceMapOptions& options)
   const double top = kMargin + kHeadRoom;
   const double width =
       2 * kMargin + kAxisRoom + layout.columns * (options.panel_width + kGap) - kGap;
-  const double least_width = // for the title; text is a little wider than it claims
+  // for the title; real text is a little wider than its computed width
+  const double least_width =
       2 * kMargin + 1.05 * PixelScene::textWidth(scene.title, 1.15 * kTextSize);
   const double height = top + rows * row_height + kFootRoom + kMargin;
   layout.width = static_cast<int>(std::ceil(std::max({width, least_width, 480.0})));
@@ -116,7 +117,7 @@ checkScene(const ConvergenceMapScene& scene)
     require(panel.shares.size() == scene.x.size() * scene.y.size(),
             "shares of a panel",
             panel.shares.size(),
-            "one for each place of the grid");
+            "the number of places of the grid");
     for (const double share : panel.shares)
       require(std::isnan(share) || (share >= 0 && share <= 1),
               "share",
@@ -133,7 +134,7 @@ label(double value)
   return text;
 }
 
-/** Draws one map; its methods add the parts one by one. */
+/** Draws one map; each method adds a part. */
 class Painter {
 public:
   Painter(const ConvergenceMapScene& scene,
@@ -173,7 +174,7 @@ private:
   {
     const PictureBox& box = layout_.panels[panel];
     const double cell = spacingOf(map_.x) / layout_.metres_per_pixel;
-    const double rim = cell >= 8 ? 1 : 0; // so that cells are seen as cells
+    const double rim = cell >= 8 ? 1 : 0; // makes single cells visible
     for (double row = box.top; row < box.bottom; ++row)
       for (double column = box.left; column < box.right; ++column) {
         const double along = (column - box.left) / cell;

@@ -20,7 +20,7 @@ constexpr double kMargin = 24; // [px]
 constexpr double kGap = 12;    // [px] between panels
 constexpr Colour kScan{255, 140, 40};
 
-/** The scan's points at all steps, thinned. */
+/** The scan's points at every step, thinned. */
 Points
 allPlaces(const ConvergenceStripScene& scene)
 {
@@ -38,7 +38,7 @@ allPlaces(const ConvergenceStripScene& scene)
   return places;
 }
 
-/** Nearly all points, as a far one would make the rest small. */
+/** Extent of nearly every point, as a far point would shrink the rest. */
 Eigen::AlignedBox2d
 extentOf(const Points& points)
 {
@@ -87,7 +87,7 @@ layOut(const ConvergenceStripScene& scene, const ConvergenceStripOptions& option
   return layout;
 }
 
-/** Draws one strip; its methods add the parts one by one. */
+/** Draws one strip; each method adds a part. */
 class Painter {
 public:
   Painter(const ConvergenceStripScene& scene,
@@ -146,7 +146,7 @@ private:
         pixels.emplace_back(
             static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), layer);
     }
-    constexpr double kDot = 1.6; // [px] so that a shift of few pixels is seen
+    constexpr double kDot = 1.6; // [px] small enough to show a shift of few pixels
     scene_.addPoints(pixels, std::vector<Colour>(pixels.size(), colour), kDot);
   }
 

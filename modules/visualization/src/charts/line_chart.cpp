@@ -28,7 +28,7 @@ label(double value, double step)
   return text;
 }
 
-/** Draws one chart; its methods add the parts one by one. */
+/** Draws one chart; each method adds a part. */
 class Painter {
 public:
   Painter(const LineChartScene& chart,
@@ -121,7 +121,7 @@ private:
                    PixelScene::Turn::kUpwards);
   }
 
-  /** Later series lie over earlier ones, and dots over lines of the same. */
+  /** Later series lie over earlier series, and dots over lines of one series. */
   double
   layerOf(std::size_t series) const
   {

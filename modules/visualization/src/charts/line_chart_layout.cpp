@@ -23,7 +23,7 @@ constexpr double kSample = 1.6 * kTextSize;   ///< width of a sample of the lege
 constexpr double kLegendLine = 1.35 * kTextSize;
 constexpr double kLeastPlot = 80; ///< [px]
 
-/** Colours that differ also for the colour-blind: Okabe and Ito, 2008, and black. */
+/** Colours distinct also for the colour-blind: Okabe and Ito, 2008, and black. */
 constexpr Colour kPalette[] = {{0, 114, 178},
                                {213, 94, 0},
                                {0, 158, 115},
@@ -74,7 +74,7 @@ checkScene(const LineChartScene& scene)
   require(drawn > 0, "points to draw", drawn, "one at least");
 }
 
-/** The axis over all points that are drawn, with some room at its ends. */
+/** The axis over the drawn points, with some room at its ends. */
 ChartScale
 scaleOf(const LineChartScene& scene,
         const ChartAxis& axis,
@@ -102,7 +102,7 @@ scaleOf(const LineChartScene& scene,
   return scale;
 }
 
-/** Widens the axis with fewer metres per pixel, about its middle. */
+/** Widens the axis of fewer metres per pixel, about its middle. */
 void
 makeAspectEqual(LineChartLayout& layout)
 {
@@ -118,8 +118,8 @@ makeAspectEqual(LineChartLayout& layout)
   narrow.high = middle + half;
 }
 
-/** On a logarithmic axis powers of ten; over less than two decades 2 and 5 times them too,
- * over less than one as on a linear axis. */
+/** Logarithmic axis: powers of ten; below two decades also their multiples by 2 and 5;
+ * below one decade as on a linear axis. */
 std::vector<double>
 ticksOf(const ChartScale& scale)
 {

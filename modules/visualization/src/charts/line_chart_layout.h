@@ -3,10 +3,10 @@
 
 #include <pcl6d/visualization/line_chart.h>
 
-/** \file Where the parts of a line chart stand, before anything is drawn. */
+/** \file Layout of a line chart before drawing. */
 namespace pcl6d::visualization {
 
-/** \return whether a point is to be drawn: no NaN, and nothing <= 0 on a logarithmic axis */
+/** \return whether a point is drawn: not NaN, and not <= 0 on a logarithmic axis */
 bool
 isDrawn(double x, double y, const LineChartScene& scene);
 

@@ -59,7 +59,7 @@ Annotations::pixelOf(const Eigen::Vector3d& place) const
   return place.allFinite() ? project_(place) : std::nullopt;
 }
 
-/** With a halo, so that it is read on points of every colour. */
+/** With a halo, for legibility on points of every colour. */
 void
 Annotations::addText(const Eigen::Vector2d& place,
                      const std::string& text,
@@ -74,7 +74,7 @@ Annotations::addText(const Eigen::Vector2d& place,
   scene_.addText(place, text, align, pen);
 }
 
-/** A line that leaves the picture is cut where its corners are not to be seen. */
+/** A line that leaves the picture is cut outside the visible area. */
 std::vector<PixelScene::Polyline>
 Annotations::visibleParts(const std::vector<Eigen::Vector3d>& places) const
 {
@@ -122,7 +122,7 @@ Annotations::addPaths(const Paths& paths)
     addStartRing(*pixel, final ? theme_.final : theme_.initial);
 }
 
-/** Lines of one pen are drawn at once, in the order of their first one. */
+/** Lines of one pen are drawn in one call, in the order of their first line. */
 void
 Annotations::addLines(const std::vector<Overlay::Line>& lines)
 {
@@ -174,8 +174,8 @@ Annotations::addTitle(const std::string& title)
   title_end_ = frame_.margin + PixelScene::textWidth(title, size);
 }
 
-/** The next entry of the legend to the left; where the title is, a row further down.
- * \return where its text begins */
+/** Adds the next entry of the legend to the left; beside the title, a row further down.
+ * \return the start of its text */
 Eigen::Vector2d
 Annotations::addLegendText(const std::string& label, double room)
 {

@@ -17,11 +17,11 @@
 
 namespace pcl6d::visualization {
 
-/** \brief Everything on a picture of a map but its points: paths, overlay, title, legend,
- * scale bar, and what the colours mean. */
+/** \brief Annotations on a picture of a map: paths, overlay, title, legend, scale bar
+ * and colour bar. */
 class Annotations {
 public:
-  /** \return where a place of the world is on the picture; nothing: it is not */
+  /** \return column and row of a position in the world; empty: outside the picture */
   using Project = std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector3d&)>;
 
   struct Frame {
@@ -44,14 +44,14 @@ public:
               Background background,
               const Project& project);
 
-  /** \brief The paths and a ring where they start. */
+  /** \brief The paths, each with a ring at its start. */
   void
   addPaths(const Paths& paths);
   void
   addOverlay(const Overlay& overlay);
   void
   addTitle(const std::string& title);
-  /** \brief Which path is which, and further keys; after the title. */
+  /** \brief Keys of the paths and further keys; to be called after the title. */
   void
   addLegend(const Paths& paths, const std::vector<Overlay::Key>& keys);
   void
@@ -90,7 +90,7 @@ private:
   topRow() const;
   double
   bottomRow() const;
-  /** \return a length [px] that looks the same on pictures of any size */
+  /** \return a length [px] in proportion to the size of the picture */
   double
   scaled(double length) const;
 
@@ -102,11 +102,11 @@ private:
   Eigen::Vector2d legend_end_{0, 0}; ///< [px] right end of the next entry
 };
 
-/** \return the size of text [px] on a picture of this width */
+/** \return the size of text [px] for a picture of the given width */
 double
 textSizeFor(int width);
 
-/** \brief Adds all that belongs on a picture of a map.
+/** \brief Adds every annotation of a picture of a map.
  * \param[in] layout of a top view, which has a scale bar, or of a map view */
 template <typename Options, typename Scene, typename Layout>
 void

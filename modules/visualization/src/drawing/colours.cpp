@@ -9,7 +9,7 @@ namespace pcl6d::visualization {
 namespace {
 using Table = std::array<Colour, 9>; // evenly spaced; linear in between
 
-// Without the darkest eighth, which is not seen on a dark background.
+// Without the darkest eighth, which is invisible on a dark background.
 constexpr Table kViridis{{{77, 52, 132},
                           {67, 76, 142},
                           {56, 100, 146},
@@ -115,7 +115,7 @@ distinctColour(std::size_t number)
   constexpr double kGoldenRatio = 0.6180339887498949;
   const double turn = kGoldenRatio * static_cast<double>(number);
   const double hue = 6 * (turn - std::floor(turn));
-  // Every other round through the hues is paler.
+  // Every second round through the hues is paler.
   const double saturation = number / 8 % 2 == 0 ? 0.75 : 0.45;
   Colour colour{};
   for (std::size_t i = 0; i < colour.size(); ++i) {

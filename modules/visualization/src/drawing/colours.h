@@ -20,8 +20,8 @@ warningColour(double share);
 Colour
 heightColour(double share);
 
-/** \brief Colours of an order, such as the index of a scan: blue over green to red, all
- * well apart (turbo, Mikhailov 2019). \param[in] share clamped to [0, 1] */
+/** \brief Colours of an order, such as the index of a scan: from blue over green to red,
+ * well distinguishable (turbo, Mikhailov 2019). \param[in] share clamped to [0, 1] */
 Colour
 orderColour(double share);
 

@@ -22,7 +22,7 @@
 namespace pcl6d::visualization {
 
 namespace {
-/** Catches what VTK has to say for the length of its scope, its log on the terminal, too. */
+/** Catches messages of VTK within its scope, also its log on the terminal. */
 class CaughtMessages {
 public:
   CaughtMessages()
@@ -41,7 +41,7 @@ public:
   CaughtMessages&
   operator=(const CaughtMessages&) = delete;
 
-  /** \return the text of the first error, on one line; empty if there was none */
+  /** \return the text of the first error, on one line; empty without error */
   std::string
   firstError()
   {
@@ -60,7 +60,8 @@ private:
   vtkLogger::Verbosity verbosity_;
 };
 
-/** VTK works in one thread for the length of its scope: for lack of more it would end. */
+/** Limits VTK to one thread within its scope: without resources for more threads VTK
+ * would end the process. */
 class OneThread {
 public:
   OneThread() : before_(vtkSMPTools::GetBackend())
@@ -79,13 +80,12 @@ private:
 [[noreturn]] void
 failWithoutOpenGl()
 {
-  throw IoFailed(
-      "cannot draw pictures: no OpenGL here: is the driver of Mesa installed "
-      "(libgl1-mesa-dri), and is there memory for it?");
+  throw IoFailed("cannot draw pictures: no OpenGL: install the driver of Mesa "
+                 "(libgl1-mesa-dri), or free some memory");
 }
 
-/** Throws where VTK would end the process: it finds no visual, or, later, gets no context
- * while nobody listens. */
+/** Throws in cases where VTK would end the process: no visual, or, later, no context
+ * while no observer listens. */
 void
 requireOpenGl(vtkXOpenGLRenderWindow* window)
 {
@@ -128,7 +128,7 @@ try {
   window->AddRenderer(renderer);
   const EndIsThrown scope;
   waitForAnswer(
-      static_cast<_XDisplay*>(display.connection())); // a dead one has no OpenGL
+      static_cast<_XDisplay*>(display.connection())); // a dead display has no OpenGL
   display.requireAlive();
   requireOpenGl(window);
   window->Render();
@@ -139,7 +139,8 @@ try {
   display.requireAlive();
   return layer;
 } catch (...) {
-  window->Register(nullptr); // never destroyed: that would talk to the server
+  // never destroyed: destruction would send requests to the server
+  window->Register(nullptr);
   renderer->Register(nullptr);
   throw;
 }

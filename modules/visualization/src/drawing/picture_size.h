@@ -5,7 +5,7 @@
 
 namespace pcl6d::visualization {
 
-/** \throws BadArgument a width or height [px] is out of what VTK draws well */
+/** \throws BadArgument a width or height [px] is outside the range supported by VTK */
 inline void
 requirePictureSize(const char* name, int size)
 {

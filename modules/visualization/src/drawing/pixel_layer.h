@@ -18,15 +18,15 @@ struct PixelLayer {
   std::vector<std::uint8_t> rgba;
 };
 
-/** \brief Lays one layer over another of the same size. */
+/** \brief Lays a layer over another layer of equal size. */
 void
 layOver(const PixelLayer& upper, PixelLayer& lower);
 
-/** \return the layer over one colour */
+/** \return the layer over a uniform background */
 Image
 onBackground(const PixelLayer& layer, const Colour& background);
 
-/** \return the layer as a picture that is transparent where nothing is drawn */
+/** \return the layer as a picture with a transparent background */
 Image
 onNothing(const PixelLayer& layer);
 

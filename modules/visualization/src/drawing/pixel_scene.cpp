@@ -22,7 +22,7 @@
 namespace pcl6d::visualization {
 
 namespace {
-/** \return the text; what is no UTF-8 is replaced */
+/** \return the text with invalid UTF-8 replaced */
 std::string
 utf8From(const std::string& text)
 {
@@ -73,7 +73,7 @@ PixelScene::addPoints(const std::vector<Eigen::Vector3f>& points,
     for (std::size_t i = block.begin; i < block.end; ++i)
       splats_->add(points[i].x(),
                    points[i].y(),
-                   2 - points[i].z(), // any depth > 0 that falls with the layer
+                   2 - points[i].z(), // any depth > 0 that decreases with the layer
                    static_cast<float>(size),
                    first + static_cast<std::uint32_t>(i));
   });
@@ -158,7 +158,7 @@ PixelScene::addText(const Eigen::Vector2d& place,
                     Turn turn)
 {
   vtkNew<vtkTextActor> actor;
-  actor->SetInput(utf8From(text).c_str()); // of other bytes VTK draws nothing at all
+  actor->SetInput(utf8From(text).c_str()); // VTK draws no text with invalid bytes
   vtkTextProperty* style = actor->GetTextProperty();
   double rgb[3];
   setColour(pen.colour, rgb);

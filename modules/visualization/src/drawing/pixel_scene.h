@@ -15,8 +15,8 @@ class vtkRenderer;
 namespace pcl6d::visualization {
 
 /** \brief A VTK scene whose unit is the pixel: column from the left, row from the top.
- * Points are drawn by the CPU and lie below all else; of two points, or of two other things, at
- * the same place the one with the higher layer is seen. */
+ * Points are drawn by the CPU, below every other shape. Of two points, or two other
+ * shapes, at one position the higher layer is visible. */
 class PixelScene {
 public:
   enum class Align { kLeft, kCentre, kRight };
@@ -36,7 +36,7 @@ public:
   /** \brief Puts a layer below everything, in place of points. */
   void
   setBase(PixelLayer layer);
-  /** \brief Darkens the edges of points, as SplatBuffer::paint(). */
+  /** \brief Darkens the edges of points, see SplatBuffer::paint(). */
   void
   setShading(double strength)
   {
@@ -53,7 +53,7 @@ public:
   /** \brief Many lines with one pen, fast. */
   void
   addLines(const std::vector<Polyline>& lines, const Pen& pen);
-  /** \brief A filled circle; the pen's size is its diameter. */
+  /** \brief A filled circle; the pen's size is the diameter. */
   void
   addDisc(const Eigen::Vector2d& centre, const Pen& pen);
   void
@@ -67,11 +67,11 @@ public:
           const Pen& pen,
           Turn turn = Turn::kNone);
 
-  /** \return the width of a text of this size [px] */
+  /** \return the width of a text [px] at a size [px] */
   static double
   textWidth(const std::string& text, double size);
 
-  /** \return the picture on the background, or on nothing if it is to be transparent
+  /** \return the picture on the background, or transparent
    * \throws IoFailed as drawOffscreen() */
   Image
   draw(bool transparent = false);
@@ -84,7 +84,7 @@ private:
   int height_;
   Colour background_;
   PixelLayer base_;
-  std::unique_ptr<SplatBuffer> splats_; ///< of the points; none: no points
+  std::unique_ptr<SplatBuffer> splats_; ///< splats of the points; null: no points
   std::vector<Colour> splat_colours_;
   double shading_ = 0;
   vtkNew<vtkRenderer> renderer_;

@@ -86,7 +86,7 @@ scaleFor(const PaintRule& rule)
     return scale;
   }
   scale.is_integer = rule.colour == PointColour::kScan;
-  // Low values are near the colour of the background, so that walls stand out.
+  // Low values are near the colour of the background, to make walls stand out.
   const bool turned =
       rule.background == Background::kLight && rule.colour != PointColour::kScan;
   scale.colourOf = [map = mapFor(rule), turned](double share) {

@@ -13,15 +13,15 @@ namespace pcl6d::visualization {
 /** \brief How the colours of points are chosen. */
 struct PaintRule {
   PointColour colour = PointColour::kHeight;
-  std::optional<ColourMap> map; ///< by default one that suits the colour
+  std::optional<ColourMap> map; ///< by default a map suited to the colour
   Background background = Background::kDark;
-  std::optional<std::array<double, 2>> range = {}; ///< values at the ends; by default
-                                                   ///< they follow the points
+  /** values at the ends; by default from the points */
+  std::optional<std::array<double, 2>> range = {};
 };
 
-/** \brief What the colours mean. */
+/** \brief Meaning of the colours. */
 struct ColourScale {
-  std::string title;       ///< with the unit; empty: nothing to tell
+  std::string title;       ///< with the unit; empty: no scale
   double lowest = 0;       ///< value at the lower end of the colours
   double highest = 0;      ///< value at the upper end
   bool is_integer = false; ///< values are whole numbers
@@ -34,7 +34,7 @@ struct PointPaint {
   ColourScale scale;
 };
 
-/** \param[in] indices of the points that are drawn; may be empty
+/** \param[in] indices of the drawn points; may be empty
  * \throws BadArgument as MapCloud::validate() */
 PointPaint
 paintPoints(const MapCloud& cloud,

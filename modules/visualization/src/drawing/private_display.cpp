@@ -32,6 +32,16 @@ namespace {
 constexpr std::chrono::seconds kStartLimit(20);
 constexpr std::chrono::seconds kEndLimit(2);
 
+/** Number of attempts: if two servers start simultaneously and choose one display, one
+ * server ends. */
+constexpr int kAttempts = 3;
+
+/** The server ended before the connection. */
+class EndedEarly : public IoFailed {
+public:
+  using IoFailed::IoFailed;
+};
+
 std::vector<int>
 openFiles()
 {
@@ -43,8 +53,8 @@ openFiles()
   return files;
 }
 
-/** In the child before exec: no Ctrl-C from our terminal, none of our files, and an end
- * with the thread that started it, which may be killed before it is connected. */
+/** In the child before exec: no Ctrl-C from our terminal, no inherited files, and death
+ * together with the launching thread, which may be killed before the connection. */
 struct Detach : bp::extend::handler {
   explicit Detach(int kept_file) : kept(kept_file) {}
 
@@ -89,8 +99,8 @@ readLine(int file, Clock::time_point deadline)
   }
 }
 
-/** \return the path of a program; empty if there is none. Not by Boost, which asks for the
- * user's locale on the way and fails where that is not installed. */
+/** \return the path of a program; empty if not found. Not by Boost, whose search reads
+ * the user's locale and fails if the locale is not installed. */
 std::string
 onThePath(const std::string& program)
 {
@@ -142,8 +152,9 @@ launch(bp::pipe& answer, const visualization::DisplayCookie& cookie)
   }
 }
 
-/** Runs the launch of a child on a thread that then lives until it is let go: the kernel
- * ends the child when the thread that started it ends. */
+/** Launches a child on a thread that lives until released: the kernel ends the child
+ * together with the launching thread. A child without a connection in time is killed: a
+ * server out of memory leaves requests unanswered, and Xlib would wait forever. */
 class LaunchThread {
 public:
   LaunchThread() = default;
@@ -152,25 +163,43 @@ public:
   operator=(const LaunchThread&) = delete;
 
   bp::child
-  run(bp::pipe& answer, const visualization::DisplayCookie& cookie)
+  run(bp::pipe& answer,
+      const visualization::DisplayCookie& cookie,
+      Clock::time_point deadline)
   {
     std::promise<bp::child> launched;
     auto child = launched.get_future();
     try {
-      thread_ = std::thread(
-          [&, launched = std::move(launched), over = over_.get_future()]() mutable {
-            try {
-              launched.set_value(launch(answer, cookie));
-            } catch (...) {
-              launched.set_exception(std::current_exception());
-            }
-            over.wait();
-          });
+      thread_ = std::thread([&,
+                             deadline,
+                             launched = std::move(launched),
+                             over = over_.get_future()]() mutable {
+        try {
+          bp::child process = launch(answer, cookie);
+          const pid_t group = process.id(); // Detach made it one
+          launched.set_value(std::move(process));
+          if (connected_.get_future().wait_until(deadline) ==
+              std::future_status::timeout)
+            ::kill(-group, SIGKILL);
+        } catch (...) {
+          launched.set_exception(std::current_exception());
+        }
+        over.wait();
+      });
     } catch (const std::system_error&) {
-      throw IoFailed("cannot draw pictures: no more threads, or no memory for the one "
-                     "that starts Xvfb");
+      throw IoFailed(
+          "cannot draw pictures: no more threads, or no memory for the thread of Xvfb");
     }
     return child.get();
+  }
+
+  /** The child is connected, or about to be waited for, and is not killed any more. */
+  void
+  stopWatching()
+  {
+    if (!std::exchange(is_watched_, false))
+      return;
+    connected_.set_value();
   }
 
   void
@@ -178,11 +207,12 @@ public:
   {
     if (!thread_.joinable()) // it never began
       return;
+    stopWatching();
     over_.set_value();
     thread_.join();
   }
 
-  /** In a fork of the process, which has no such thread. */
+  /** For a fork of the process, where the thread does not exist. */
   void
   forget()
   {
@@ -191,7 +221,9 @@ public:
   }
 
 private:
+  std::promise<void> connected_;
   std::promise<void> over_;
+  bool is_watched_ = true;
   std::thread thread_;
 };
 
@@ -216,7 +248,7 @@ PrivateDisplay::Server::Server()
   const auto deadline = Clock::now() + kStartLimit;
   bp::pipe answer = makePipe();
   try {
-    process = launcher.run(answer, cookie);
+    process = launcher.run(answer, cookie, deadline);
   } catch (...) {
     launcher.finish();
     throw;
@@ -226,16 +258,20 @@ PrivateDisplay::Server::Server()
     name = ":" + number;
     connection = cookie.connect(name);
   }
-  if (!connection || !visualization::isOurs(connection)) {
+  const bool is_ours = connection && visualization::isOurs(connection);
+  launcher.stopWatching();
+  if (!is_ours) {
     const bool late = Clock::now() >= deadline;
     process.terminate();
     launcher.finish();
     const std::string why =
-        connection ? "the display " + name + " is that of another user"
+        connection ? "the display " + name + " belongs to another user"
         : late ? "Xvfb did not start within " + std::to_string(kStartLimit.count()) +
-                     " s; try it by hand: Xvfb :99"
+                     " s; try by hand: Xvfb :99"
                : "Xvfb did not start, or cannot be reached (too few file "
-                 "descriptors?); try it by hand: Xvfb :99";
+                 "descriptors?); try by hand: Xvfb :99";
+    if (!connection && !late)
+      throw EndedEarly("cannot draw pictures: " + why);
     throw IoFailed("cannot draw pictures: " + why);
   }
   visualization::keepErrorsOf(connection);
@@ -248,7 +284,7 @@ PrivateDisplay::Server::~Server()
     launcher.forget();
     return;
   }
-  // Not XCloseDisplay: it would call into OpenGL libraries that may be gone by now.
+  // Not XCloseDisplay(): the OpenGL libraries called by this function may be unloaded.
   ::shutdown(ConnectionNumber(connection), SHUT_RDWR);
   waitForEnd();
   launcher.finish();
@@ -258,7 +294,7 @@ void
 PrivateDisplay::Server::waitForEnd()
 {
   const auto deadline = Clock::now() + kEndLimit;
-  std::error_code ignored; // somebody else has waited for it
+  std::error_code ignored; // already waited for elsewhere
   while (process.running(ignored)) {
     if (Clock::now() > deadline) {
       ::kill(process.id(), SIGTERM);
@@ -269,8 +305,16 @@ PrivateDisplay::Server::waitForEnd()
   process.detach();
 }
 
-PrivateDisplay::PrivateDisplay() : server_(std::make_unique<Server>())
-{}
+PrivateDisplay::PrivateDisplay()
+{
+  for (int attempt = 1; !server_; ++attempt)
+    try {
+      server_ = std::make_unique<Server>();
+    } catch (const EndedEarly&) {
+      if (attempt == kAttempts)
+        throw;
+    }
+}
 PrivateDisplay::~PrivateDisplay() = default;
 
 PrivateDisplay&

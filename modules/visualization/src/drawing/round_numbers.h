@@ -5,11 +5,11 @@
 
 namespace pcl6d::visualization {
 
-/** \return the longest of 1, 2 or 5 times a power of ten that is not longer [m] */
+/** \return the largest 1, 2 or 5 times a power of ten up to the given length [m] */
 double
 roundDown(double metres);
 
-/** \return places for labels between two values: a few, at round numbers */
+/** \return positions of labels between two values: a few, at round numbers */
 std::vector<double>
 roundTicks(double low, double high);
 

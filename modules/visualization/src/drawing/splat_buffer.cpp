@@ -13,10 +13,11 @@ namespace pcl6d::visualization {
 namespace {
 constexpr std::uint64_t kEmpty = std::numeric_limits<std::uint64_t>::max();
 constexpr float kNothing = std::numeric_limits<float>::infinity(); // log depth
-constexpr double kManyPixels = 2.5e7; // more take one sample each, to save memory
+// larger pictures take one sample per pixel, to save memory
+constexpr double kManyPixels = 2.5e7;
 constexpr std::size_t kRowsPerBlock = 32;
 
-/** Positive floats are ordered as their bits. */
+/** Positive floats are ordered like their bits. */
 std::uint64_t
 keyOf(float depth, std::uint32_t index)
 {
@@ -68,7 +69,7 @@ SplatBuffer::add(float column,
   if (!(x + radius > 0 && x - radius < static_cast<float>(columns_) && y + radius > 0 &&
         y - radius < static_cast<float>(rows_) && depth > 0 && depth < kNothing))
     return;
-  // The samples whose middle lies in the square; one at least.
+  // The samples whose middle lies in the square; at least one.
   const auto first = [&](float middle) {
     return static_cast<int>(std::ceil(std::max(middle - radius, 0.0F) - 0.5F));
   };
@@ -126,7 +127,7 @@ public:
   {
     const float depth = depthAt(column, row);
     const int near = reach_, diagonal = std::max(1, static_cast<int>(0.7F * reach_));
-    constexpr float kNoise = 0.006F; // of surfaces that are seen flat
+    constexpr float kNoise = 0.006F; // of surfaces seen face-on
     const float beyond = depth - kNoise;
     float behind = 0;
     for (const auto& [dx, dy] : {std::pair{near, 0},

@@ -10,30 +10,30 @@
 namespace pcl6d::visualization {
 
 /** \brief Draws points as round splats, the nearest on top, by the CPU: faster than
- * OpenGL in software, and to the pixel the same on every machine.
+ * OpenGL in software, and pixel by pixel equal on every machine.
  *
  * Each pixel has four samples; a sample keeps the nearest splat. */
 class SplatBuffer {
 public:
   SplatBuffer(int width, int height);
 
-  /** \brief Adds one splat; may be called from several threads, in any order, with the
-   * same result. Of equal depths the smaller index is seen. What is not finite, or lies
-   * outside, is left out.
+  /** \brief Adds a splat; may be called from several threads, and the order never
+   * changes the result. At equal depth the smaller index is visible. Splats that are
+   * not finite or lie outside are left out.
    * \param[in] depth > 0, smaller is nearer \param[in] diameter [px]
    * \param[in] index of its colour */
   void
   add(float column, float row, float depth, float diameter, std::uint32_t index);
 
-  /** \brief The picture, with eye-dome lighting: what lies behind its neighbours on the
-   * picture is darker, so that edges and shapes are seen.
-   * \param[in] colours by index \param[in] shading strength, >= 0; 0: none
-   * \note Source: C. Boucheny, "Visualisation scientifique de grands volumes de donnees",
-   * PhD thesis, Grenoble 2009. */
+  /** \brief The picture, with eye-dome lighting: pixels behind their neighbours are
+   * darker, which shows edges and shapes.
+   * \param[in] colours by index \param[in] shading strength, >= 0; 0: off
+   * \note Source: C. Boucheny, "Visualisation scientifique de grands volumes de
+   * donnees", PhD thesis, Grenoble 2009. */
   PixelLayer
   paint(const std::vector<Colour>& colours, double shading) const;
 
-  /** \return the share of the pixels that show a splat */
+  /** \return the share of pixels covered by splats */
   double
   coveredShare() const;
 

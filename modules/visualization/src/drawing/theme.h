@@ -7,12 +7,12 @@ namespace pcl6d::visualization {
 
 /** \brief The colours of everything but the points. */
 struct Theme {
-  Colour background; ///< also around lines that lie on points
+  Colour background; ///< also around lines over points
   Colour text;
-  Colour plain;   ///< points whose colour tells nothing
+  Colour plain;   ///< points without a colour of their own
   Colour initial; ///< poses before the run
   Colour final;   ///< poses after it
-  Colour moved;   ///< points of what moved
+  Colour moved;   ///< dynamic points
 };
 
 inline Theme

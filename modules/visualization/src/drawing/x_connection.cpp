@@ -30,7 +30,7 @@ failWith(const std::string& what)
   throw IoFailed("cannot draw pictures: " + what + ": " + std::strerror(errno));
 }
 
-/** A field of an .Xauthority file: its length in two bytes, the first one the higher, then
+/** A field of an .Xauthority file: its length in two bytes, the high byte first, then
  * its bytes. */
 void
 appendField(std::string& record, const std::string& field)
@@ -50,7 +50,8 @@ randomBytes(std::size_t count)
   return bytes;
 }
 
-/** What Xlib does where it would end the process. */
+/** Whether, on this thread, the end of the server throws IoFailed instead of ending the
+ * process. */
 thread_local bool end_is_thrown = false;
 
 struct ErrorKeeper {
@@ -73,7 +74,8 @@ struct ErrorKeeper {
 ErrorKeeper&
 keeper()
 {
-  static ErrorKeeper* const kKeeper = new ErrorKeeper; // as long as Xlib may call
+  // Xlib may call the handler at any time
+  static ErrorKeeper* const kKeeper = new ErrorKeeper;
   return *kKeeper;
 }
 
@@ -171,7 +173,7 @@ keepErrorsOf(Display* connection)
   keeper().other_errors = ::XSetErrorHandler(onError);
   keeper().other_ends = ::XSetIOErrorHandler(onEnd);
   ::XSetIOErrorExitHandler(
-      connection, [](Display*, void*) {}, nullptr); // it goes on, with nothing drawn
+      connection, [](Display*, void*) {}, nullptr); // Xlib continues, without drawing
 }
 
 EndIsThrown::EndIsThrown()

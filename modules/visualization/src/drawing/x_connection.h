@@ -6,13 +6,13 @@
 
 struct _XDisplay;
 
-/** \file The connection to a private X server: with a secret, and without the ends of the
- * process that Xlib has in store. */
+/** \file Connection to a private X server, with a secret, and with errors in place of
+ * Xlib's process exits. */
 namespace pcl6d::visualization {
 
-/** \brief The secret that a client must tell to a private X server (MIT-MAGIC-COOKIE-1).
- * The server reads it from a file in memory that has no name: no other user can open it, and
- * it is gone with the last process that holds it, whatever ends that. */
+/** \brief Secret of the clients of a private X server (MIT-MAGIC-COOKIE-1). The server
+ * reads the secret from an unnamed file in memory: no other user can open the file, and
+ * the file vanishes with the last process that has it open, even a killed one. */
 class DisplayCookie {
 public:
   /** \throws IoFailed the system gives no random bytes, or no file in memory */
@@ -22,19 +22,19 @@ public:
   DisplayCookie&
   operator=(const DisplayCookie&) = delete;
 
-  /** \return the file, which the server inherits */
+  /** \return the file, inherited by the server */
   int
   file() const
   {
     return file_;
   }
 
-  /** \return the path of the file in a process that inherits it */
+  /** \return the path of the file in a process that inherits the file */
   std::string
   path() const;
 
-  /** \return a connection to the display of that name with the cookie, null if there is
-   * none; later ones to other displays are made as before */
+  /** \return a connection to the named display with the cookie, null on failure; later
+   * connections to other displays are unaffected */
   _XDisplay*
   connect(const std::string& name) const;
 
@@ -43,19 +43,21 @@ private:
   std::string secret_;
 };
 
-/** \return whether the server at the other end runs as this user: the name of a display is
- * one of a socket that others may have made */
+/** \return whether the server at the other end runs as this user: another user may have
+ * made the display's socket */
 bool
 isOurs(_XDisplay* connection);
 
-/** \brief From now on, errors of a connection do not end the process: the first one is kept.
- * Those of other connections go where they went before. One connection of a process. */
+/** \brief From now on, errors of the connection do not end the process: the first error
+ * is kept. Errors of other connections go to the previous handler. At most one
+ * connection per process. */
 void
 keepErrorsOf(_XDisplay* connection);
 
-/** \brief In its scope, on its thread, the end of the server is thrown as IoFailed from
- * within Xlib: OpenGL crashes on the answers that Xlib gives then. What was in use must not
- * be used or destroyed any more. Outside, Xlib goes on with nothing drawn. */
+/** \brief Within its scope, on its thread, the end of the server is thrown as IoFailed
+ * from within Xlib: OpenGL crashes on the answers of Xlib after the end. Objects in use
+ * at the throw must not be used or destroyed any more. Outside the scope, Xlib
+ * continues without drawing. */
 class EndIsThrown {
 public:
   EndIsThrown();
@@ -65,13 +67,13 @@ public:
   operator=(const EndIsThrown&) = delete;
 };
 
-/** \brief Waits until the server has done what it was asked for; if it is gone, the error is
- * kept. */
+/** \brief Waits until the server has answered the pending requests; the end of the
+ * server is kept as an error. */
 void
 waitForAnswer(_XDisplay* connection);
 
-/** \return the first error of that connection since the last call, in words; empty if there
- * was none. That the server has ended is told every time. */
+/** \return the first error of the connection since the last call, in words; empty
+ * without error. The end of the server is reported at every call. */
 std::string
 takeError();
 

@@ -25,7 +25,7 @@ using namespace visualization;
 namespace {
 constexpr int kWindowLimit = 20000;    // [ms]
 constexpr int kPollInterval = 100;     // [ms]
-constexpr timeval kSendLimit = {5, 0}; // of a window that no longer answers
+constexpr timeval kSendLimit = {5, 0}; // of a window that has stopped answering
 
 /** Waits for a byte, or the end of the other side. */
 bool
@@ -39,8 +39,8 @@ waitForInput(int socket, int milliseconds)
   return ready > 0;
 }
 
-/** The child's life. It leaves the terminal to the parent: no chatter of X and OpenGL, no
- * Ctrl-C. */
+/** Main function of the child. X and OpenGL print no messages on the terminal, and
+ * Ctrl-C is ignored. */
 [[noreturn]] void
 runWindow(int socket, const LiveViewOptions& options, pid_t parent)
 {
@@ -62,7 +62,7 @@ runWindow(int socket, const LiveViewOptions& options, pid_t parent)
   }
 }
 
-/** Every k-th point, none that is not finite. */
+/** Every k-th finite point. */
 Points
 thinned(const Points& points, std::size_t most)
 {
@@ -99,8 +99,7 @@ LiveView::Process::Process(const LiveViewOptions& options)
 {
   const char* display = std::getenv("DISPLAY");
   if (!display || !*display)
-    throw IoFailed(
-        "no live view: there is no display (the variable DISPLAY is not set)");
+    throw IoFailed("no live view: no display (the variable DISPLAY is not set)");
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw IoFailed(std::string("no live view: ") + std::strerror(errno));
@@ -129,7 +128,7 @@ LiveView::Process::Process(const LiveViewOptions& options)
 LiveView::Process::~Process()
 {
   ::close(socket);
-  ::kill(pid, SIGKILL); // it may be busy drawing, and has nothing to lose
+  ::kill(pid, SIGKILL); // the child may be busy drawing, and has no state to save
   while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR)
     ;
 }
@@ -183,7 +182,8 @@ LiveView::setText(const std::string& text)
 bool
 LiveView::isOpen()
 {
-  if (process_->open && waitForInput(process_->socket, 0)) // it says no more than once
+  // the child reports at most once
+  if (process_->open && waitForInput(process_->socket, 0))
     process_->open = false;
   return process_->open;
 }

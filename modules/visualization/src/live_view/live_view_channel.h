@@ -10,7 +10,7 @@
 
 namespace pcl6d::visualization {
 
-/** \brief What LiveView tells the process of its window. */
+/** \brief Message from LiveView to the process of its window. */
 struct LiveMessage {
   enum class Kind : std::uint32_t { kScan, kPose, kText };
 
@@ -21,11 +21,11 @@ struct LiveMessage {
   std::string text;               ///< of kText
 };
 
-/** \return false if the other end of the socket is gone */
+/** \return false if the other end of the socket is closed */
 bool
 sendMessage(int socket, const LiveMessage& message);
 
-/** \brief Waits for the next message. \return none if the other end is gone */
+/** \brief Waits for the next message. \return no message if the other end is closed */
 std::optional<LiveMessage>
 receiveMessage(int socket);
 

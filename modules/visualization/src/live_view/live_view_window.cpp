@@ -43,7 +43,7 @@ constexpr double kBackground[3] = {0.09, 0.10, 0.12};
 constexpr double kWhite[3] = {1, 1, 1};
 constexpr double kOrange[3] = {1, 0.6, 0.1};
 
-/** \return a shape in one colour, not lit */
+/** \return a shape in a single colour, unlit */
 vtkSmartPointer<vtkActor>
 makeActor(vtkPolyData* shape, const double* colour)
 {
@@ -56,7 +56,7 @@ makeActor(vtkPolyData* shape, const double* colour)
   return actor;
 }
 
-/** One cell through all points in order: of dots, or of a line. */
+/** One cell through the points in order: dots, or a line. */
 void
 setPoints(vtkPolyData* shape, vtkPoints* places, bool line)
 {
@@ -71,7 +71,7 @@ setPoints(vtkPolyData* shape, vtkPoints* places, bool line)
     shape->SetVerts(cells);
 }
 
-/** \return the box about most points: single ones far off do not count */
+/** \return the bounding box of most points, without isolated far points */
 vtkBoundingBox
 coreOf(const Points& points)
 {
@@ -93,7 +93,7 @@ coreOf(const Points& points)
   return {low[0], high[0], low[1], high[1], low[2], high[2]};
 }
 
-/** A line through poses that come in any order. */
+/** A line through poses received in any order. */
 class LivePath {
 public:
   LivePath(vtkRenderer* renderer, const double* colour)
@@ -123,7 +123,7 @@ private:
   vtkNew<vtkPolyData> shape_;
 };
 
-/** Takes messages as they come, so that the sender never waits for a picture. */
+/** Receives messages at once, so that the sender never waits for drawing. */
 class Inbox {
 public:
   explicit Inbox(int socket)
@@ -243,7 +243,7 @@ private:
     window_->Render();
   }
 
-  /** Shows all scans that are placed. */
+  /** Shows the scans that have a pose. */
   void
   followMap()
   {
@@ -329,7 +329,7 @@ private:
 
 LiveViewWindow::LiveViewWindow(const LiveViewOptions& options)
 {
-  // X's own would run what the parent process has registered for its end.
+  // Xlib's own handler would run exit handlers of the parent process.
   ::XSetIOErrorHandler([](Display*) -> int { ::_exit(1); });
   ::XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
   Display* display = ::XOpenDisplay(nullptr);

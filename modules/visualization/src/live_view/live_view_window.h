@@ -10,13 +10,13 @@ namespace pcl6d::visualization {
 /** \brief The window of a LiveView, in its own process. */
 class LiveViewWindow {
 public:
-  /** \brief Opens it on the display that DISPLAY names.
-   * \throws IoFailed it cannot be opened; where OpenGL is missing, VTK may also end the
+  /** \brief Opens the window on the display named by DISPLAY.
+   * \throws IoFailed the window cannot be opened; without OpenGL, VTK may also end the
    * process */
   explicit LiveViewWindow(const LiveViewOptions& options);
   ~LiveViewWindow();
 
-  /** \brief Draws what comes in, until the user closes the window or the sender is gone. */
+  /** \brief Draws received messages, until the user closes the window or the sender ends. */
   void
   run(int socket);
 

@@ -19,7 +19,7 @@ using namespace visualization;
 namespace {
 namespace fs = std::filesystem;
 
-/** What is broken is told in the report, which shows the rest. */
+/** Broken files are named in the report, which shows the rest. */
 template <typename Read>
 auto
 readOrTell(const Read& read, ReportData& data) -> decltype(read())
@@ -63,8 +63,8 @@ pictureNames(const fs::path& run)
   return names;
 }
 
-/** \return the bytes of a picture, never none \throws IoFailed it cannot be read or is none
- */
+/** \return the bytes of a picture, never empty \throws IoFailed the file cannot be read
+ * or is no picture */
 std::string
 readPng(const fs::path& folder, const std::string& name)
 {
@@ -107,7 +107,7 @@ check(const RunResult& run)
 {
   if (run.moving && run.moving->points.size() != run.scans.size())
     throw BadArgument("a run of " + std::to_string(run.scans.size()) +
-                      " scans with what moved in " +
+                      " scans with dynamic points of " +
                       std::to_string(run.moving->points.size()));
 }
 } // namespace

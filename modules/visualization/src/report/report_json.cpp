@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <string_view>
 #include <type_traits>
 
 namespace pcl6d::visualization {
@@ -34,22 +35,35 @@ sigmaOf(const ScanResult& scan)
                          : std::numeric_limits<double>::quiet_NaN();
 }
 
-/** A field as it stands in the files of a run. */
+/** A field as written in the files of a run. */
 template <typename Value>
 Json
 fieldOf(const Value& value)
 {
   if constexpr (std::is_enum_v<Value>)
     return toString(value);
+  else if constexpr (std::is_same_v<Value, Rejection> ||
+                     std::is_same_v<Value, std::vector<Rejection>>)
+    return toWords(value);
   else
     return value;
 }
 
+/** \return the key of a field: rejections are shown in words */
+const char*
+keyOf(const char* name)
+{
+  const std::string_view field = name;
+  return field == "rejection" || field == "rejections" ? "reason" : name;
+}
+
 Json
-toJson(const ScanResult& scan, const Eigen::Vector3d& offset)
+toJson(const ScanResult& scan,
+       const Eigen::Isometry3d& initial_pose,
+       const Eigen::Vector3d& offset)
 {
   const Eigen::Vector3d position = scan.T_world_scan.translation() - offset;
-  const Eigen::Vector3d initial = scan.initial_pose.translation() - offset;
+  const Eigen::Vector3d initial = initial_pose.translation() - offset;
   Json json = Json::object();
   visitScanFields(scan, [&](const char* name, const auto& value) {
     using Value = std::decay_t<decltype(value)>;
@@ -60,7 +74,7 @@ toJson(const ScanResult& scan, const Eigen::Vector3d& offset)
       json["sigma"] = sigmaOf(scan);
     }
     else if constexpr (!std::is_same_v<Value, Eigen::Isometry3d>)
-      json[name] = fieldOf(value);
+      json[keyOf(name)] = fieldOf(value);
   });
   for (const char* const not_shown : {"status", "dropped", "reduced"})
     json.erase(not_shown);
@@ -71,7 +85,7 @@ toJson(const ScanResult& scan, const Eigen::Vector3d& offset)
   return json;
 }
 
-/** \return the number in the digits that links.csv has of it */
+/** \return the number rounded to the digits of links.csv */
 double
 rounded(double value)
 {
@@ -89,7 +103,7 @@ toJson(const RunLink& link)
     if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
       json[name] = rounded(value);
     else
-      json[name] = fieldOf(value);
+      json[keyOf(name)] = fieldOf(value);
   });
   return json;
 }
@@ -174,14 +188,14 @@ graphStagesOf(const RunResult& summary)
   for (const StageResult& stage : summary.graph_stages) {
     Json& json = stages.emplace_back();
     visitStageFields(stage, [&](const char* name, const auto& value) {
-      json[name] = fieldOf(value);
+      json[keyOf(name)] = fieldOf(value);
     });
     json.erase("seconds");
   }
   return stages;
 }
 
-/** \return what moved, as in the verdict; null: nobody asked, or a scan is alone */
+/** \return dynamic points, as in the verdict; null: not tested, or a single scan */
 Json
 movingOf(const RunResult& summary)
 {
@@ -214,7 +228,7 @@ lengthOf(const RunResult& summary)
   return length;
 }
 
-/** \return red, green, blue of a colour range from its start to its end */
+/** \return red, green, blue of a colour range from start to end */
 std::string
 rampOf(Colour (*colourOf)(double))
 {
@@ -249,7 +263,7 @@ listOf(const std::vector<T>& items, const Convert& convert)
   return list;
 }
 
-/** JSON has `<` in strings only, where it may be written by its number. */
+/** Escapes `<`, which JSON has only in strings. */
 std::string
 withoutMarkup(const std::string& json)
 {
@@ -283,8 +297,8 @@ reportJson(const ReportData& data, const ReportOptions& options)
             {"stages", stagesOf(summary)},
             {"graph_stages", graphStagesOf(summary)},
             {"moving", movingOf(summary)}};
-  json["scans"] = listOf(summary.scans, [&](const auto& scan, std::size_t) {
-    return toJson(scan, offset);
+  json["scans"] = listOf(summary.scans, [&](const auto& scan, std::size_t i) {
+    return toJson(scan, initialPoseOf(summary, i), offset);
   });
   json["links"] =
       listOf(summary.links, [](const auto& link, std::size_t) { return toJson(link); });

@@ -7,9 +7,8 @@
 
 namespace pcl6d::visualization {
 
-/** \return the data of a report as JSON that may stand inside a script element: pure
- * ASCII, without `<`. The page reads it in report/src/run.js. Numbers that are not finite
- * are null. */
+/** \return the data of a report as JSON for a script element: pure ASCII, without `<`.
+ * The page reads this JSON in report/src/run.js. Infinite and NaN numbers become null. */
 std::string
 reportJson(const ReportData& data, const ReportOptions& options);
 

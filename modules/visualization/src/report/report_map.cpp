@@ -16,8 +16,7 @@ namespace pcl6d::visualization {
 namespace {
 constexpr double kLargest = 65535; // of a 16-bit number
 
-/** \return the value below which a share of the values is. \param[in,out] values get
- * another order */
+/** \return the quantile of the values at a share. \param[in,out] values are reordered */
 double
 quantileOf(std::vector<float>& values, double share)
 {
@@ -28,10 +27,10 @@ quantileOf(std::vector<float>& values, double share)
   return *place;
 }
 
-/** \brief Points of which some are shown. */
+/** \brief Points and the selection to show. */
 struct Chosen {
   const Points& points;
-  std::vector<std::size_t> indices; ///< ascending; at first of all that can be drawn
+  std::vector<std::size_t> indices; ///< ascending; at first every drawable point
 
   explicit Chosen(const Points& all) : points(all)
   {
@@ -41,8 +40,8 @@ struct Chosen {
   }
 };
 
-/** \return where the points are but for a few far ones: from the 0.1 % to the 99.9 %
- * quantile of each coordinate and as much again to both sides */
+/** \return extent of the points without isolated far points: from the 0.1 % to the 99.9
+ * % quantile of each coordinate, extended by its length to both sides */
 Eigen::AlignedBox3d
 extentOf(const Chosen& map, const Chosen& moving)
 {
@@ -66,7 +65,7 @@ extentOf(const Chosen& map, const Chosen& moving)
   return all.intersection(most);
 }
 
-/** Leaves out what is outside the box, and thins what is left to a budget. */
+/** Leaves out points outside the box, and thins the rest to a budget. */
 void
 keepWithin(const Eigen::AlignedBox3d& box, std::size_t max_points, Chosen& chosen)
 {
@@ -131,8 +130,8 @@ greyValues(const std::vector<float>& intensities,
   return grey;
 }
 
-/** \return what is above the highest point that a top view shows, if that cuts a ceiling
- * away */
+/** \return the height above the highest visible point of a top view, if a ceiling is
+ * cut away */
 std::optional<double>
 ceilingOf(const ReportData& data)
 {
@@ -160,7 +159,7 @@ reportMapOf(const ReportData& data, std::size_t max_points)
   if (standing.indices.empty() && moving.indices.empty())
     return map;
   const Eigen::AlignedBox3d extent = extentOf(standing, moving);
-  keepWithin(extent, max_points / 4, moving); // few points, but what one looks for
+  keepWithin(extent, max_points / 4, moving); // few points, but the most interesting
   keepWithin(extent, max_points - moving.indices.size(), standing);
   map.origin = extent.min();
   map.step = std::max(extent.sizes().maxCoeff(), 1e-3) / kLargest;

@@ -11,19 +11,19 @@
 
 namespace pcl6d::visualization {
 
-/** \brief A map in whole steps from a corner, as a report holds it. */
+/** \brief Map of a report, in integer steps from a corner. */
 struct ReportMap {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< [m]
   double step = 1;                                  ///< [m]
   std::vector<std::uint16_t> positions;             ///< x y z of each point, in steps
-  std::vector<std::uint16_t> moving;                ///< the same of what moved
-  std::vector<std::uint16_t> scans; ///< place of each point's scan, or empty
+  std::vector<std::uint16_t> moving; ///< dynamic points, in the form of `positions`
+  std::vector<std::uint16_t> scans;  ///< index of each point's scan, or empty
   std::vector<std::uint8_t>
-      intensities;               ///< from its 1 % to its 99 % quantile, or empty
+      intensities;               ///< from the 1 % to the 99 % quantile, or empty
   std::optional<double> ceiling; ///< [m] above it a ceiling hides the rooms
 };
 
-/** \brief Thins and rounds a map and what moved in it; see writeReport(). */
+/** \brief Thins and rounds a map and its dynamic points; see writeReport(). */
 ReportMap
 reportMapOf(const ReportData& data, std::size_t max_points);
 

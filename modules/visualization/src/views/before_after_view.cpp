@@ -73,7 +73,7 @@ BeforeAfterView::draw(const TopViewScene& before, const TopViewScene& after) con
   }
   const TopViewPicture left = TopView(options).draw(before);
   options.title = after_title_;
-  options.height = left.layout.height; // a line for the legend may be in one alone
+  options.height = left.layout.height; // only one half may need a line for the legend
   const TopViewPicture right = TopView(options).draw(after);
   BeforeAfterPicture picture{
       sideBySide(left.image, right.image), left.layout, right.layout};

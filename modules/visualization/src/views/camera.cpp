@@ -39,7 +39,7 @@ sampleOf(const Points& points)
   return sample.empty() ? Points{points.front()} : sample;
 }
 
-/** Axes right, down, forward of a camera that looks towards its scene. */
+/** Axes right, down, forward of a camera that looks at its scene. */
 Eigen::Matrix3d
 axesOf(double azimuth, double elevation)
 {
@@ -52,8 +52,8 @@ axesOf(double azimuth, double elevation)
   return axes;
 }
 
-/** How far back the camera must stand, and where in between, so that points at u along an
- * axis and w along the view stay within the tangent on both sides. */
+/** Position of the camera: points at u along an axis and w along the view stay within
+ * the tangent on both sides. */
 struct Stand {
   double back = 0;   // [m] along the view
   double middle = 0; // [m] along the axis
@@ -104,8 +104,7 @@ cameraOnSample(const Points& sample,
   return camera;
 }
 
-/** How much of the picture is filled, times the square of the share of the points that are
- * not behind others. */
+/** Share of the picture that is filled, times the square of the share of visible points. */
 double
 scoreOf(const Camera& camera, const Points& sample, const PictureBox& box)
 {
@@ -138,7 +137,7 @@ scoreOf(const Camera& camera, const Points& sample, const PictureBox& box)
          static_cast<double>(nearest.size());
 }
 
-/** Azimuths between which points lie [rad], all around unless a quarter is empty. */
+/** Azimuth range of the points [rad], the full circle unless a quarter is empty. */
 std::pair<double, double>
 seenAzimuths(const Points& points)
 {

@@ -9,10 +9,10 @@ namespace pcl6d {
 
 namespace {
 constexpr double kShortest = 1e-3; // [m] of a path
-constexpr double kClosest = 0.05;  // [m] that can be looked at
-constexpr int kAverage = 21;       // places of the path for one smooth one
+constexpr double kClosest = 0.05;  // [m] least distance of a viewed position
+constexpr int kAverage = 21;       // samples of the path per smoothed position
 
-/** A line through places, walked along by its length. */
+/** A polyline, parametrised by its length. */
 class Way {
 public:
   explicit Way(const std::vector<Eigen::Isometry3d>& poses)
@@ -28,7 +28,8 @@ public:
     return reached_.empty() ? 0 : reached_.back();
   }
 
-  /** \return the place at a length; straight on before the begin and behind the end */
+  /** \return the position at a length; extrapolated straight before the start and
+   * behind the end */
   Eigen::Vector3d
   at(double s) const
   {
@@ -40,7 +41,7 @@ public:
     return places_[a] + share * (places_[b] - places_[a]);
   }
 
-  /** \return the mean of the places around a length */
+  /** \return the mean of the positions around a length */
   Eigen::Vector3d
   smoothAt(double s, double width) const
   {
@@ -62,7 +63,7 @@ private:
   }
 
   std::vector<Eigen::Vector3d> places_;
-  std::vector<double> reached_; ///< [m] to each place
+  std::vector<double> reached_; ///< [m] path length to each position
 };
 
 /** \return axes right, down, forward of an upright camera */
@@ -133,7 +134,8 @@ flyThrough(const Trajectory& trajectory,
     const Eigen::Vector3d here = way.smoothAt(s - options.behind, width) +
                                  options.above * Eigen::Vector3d::UnitZ();
     const Eigen::Vector3d there = way.smoothAt(s + options.ahead, width);
-    if ((there - here).norm() > kClosest) // else the path comes back: look on as before
+    // else the path turns back: keep the direction
+    if ((there - here).norm() > kClosest)
       forward = there - here;
     camera.T_world_camera.linear() = uprightAxes(forward);
     camera.T_world_camera.translation() = here;

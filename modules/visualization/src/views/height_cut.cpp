@@ -34,8 +34,8 @@ public:
   {
     return p.z() - path_height_[cellOf(p)];
   }
-  /** \return the share of the cells along the path that hold points higher than cut
-   * above it [m] */
+  /** \return the share of cells along the path with points higher than cut above the
+   * path [m] */
   double
   coveredShare(const Points& points,
                const std::vector<std::size_t>& indices,
@@ -142,7 +142,8 @@ keepSlice(const Points& points,
   }
   else {
     if (trajectory.poses.empty())
-      throw BadArgument("a slice without a height follows the path, but there is none");
+      throw BadArgument(
+          "a slice without a height follows the path, but the run has no path");
     is_outside =
         [&points, half, grid = PathGrid(points, indices, trajectory)](std::size_t i) {
           return !(std::abs(grid.heightOverPath(points[i])) <= half);

@@ -60,7 +60,7 @@ MapCloud::validate(PointColour colour) const
       residuals.size(), count, colour == PointColour::kResidual, "residuals");
   requireOnePerPoint(labels.size(), count, colour == PointColour::kLabel, "labels");
   for (const auto label : labels)
-    require(label < label_names.size(), "label", label, "one that has a name");
+    require(label < label_names.size(), "label", label, "a label with a name");
 }
 
 } // namespace pcl6d

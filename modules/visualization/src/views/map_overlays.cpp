@@ -28,7 +28,7 @@ inMetres(double value)
   return text;
 }
 
-/** The range of residuals that the colours tell. */
+/** Range of residuals of the colours. */
 struct ResidualRange {
   double low = 0;
   double high = 0;
@@ -47,7 +47,7 @@ struct ResidualRange {
   Colour
   colourOf(double rms) const
   {
-    constexpr double kSteps = 12; // lines of one colour are drawn at once
+    constexpr double kSteps = 12; // lines of one colour are drawn in one call
     const double share = (rms - low) / std::max(high - low, 1e-9);
     return warningColour(std::round(kSteps * share) / kSteps);
   }
@@ -118,7 +118,7 @@ axesOf(const Eigen::Matrix3d& covariance)
   return 3 * eigen.vectors * deviations.asDiagonal();
 }
 
-/** A round factor that makes the usual ellipsoid a fortieth of the whole path. */
+/** A round factor that enlarges the typical ellipsoid to a fortieth of the path's extent. */
 double
 enlargementFor(const Trajectory& poses, const std::vector<float>& sizes)
 {
@@ -145,14 +145,14 @@ graphOverlay(const Trajectory& poses,
   require(doubtful.empty() || doubtful.size() == count,
           "number of doubtful",
           doubtful.size(),
-          "one per pose, or none");
+          "empty or equal to the number of poses");
   for (const auto& link : links)
     require(std::max(link.from, link.to) < count,
             "link to pose",
             std::max(link.from, link.to),
             "one of the trajectory");
   const ResidualRange range(links);
-  // Refused ones below, then the used ones with the worst on top, then odometry.
+  // Rejected links below, then the used links with the worst on top, then odometry.
   std::vector<ViewLink> ordered = links;
   const auto rank = [](const ViewLink& link) {
     const int state = link.state == LinkState::kRefused ? 0
@@ -207,7 +207,7 @@ covarianceOverlay(const Trajectory& poses,
   std::ostringstream text;
   text << "3 sigma of the positions, " << factor << " times as large";
   overlay.keys.push_back({text.str(), colour});
-  if (sizes.size() + 1 < covariances.size()) // the first scan has none
+  if (sizes.size() + 1 < covariances.size()) // the first scan has no covariance
     overlay.keys.push_back({"not known", kDoubtful});
   return overlay;
 }

@@ -12,7 +12,7 @@ namespace pcl6d::visualization {
 namespace {
 constexpr std::size_t kPointsPerBlock = 1U << 16U;
 
-/** Counts points in the cells of a grid over nearly all of them. */
+/** Counts points in the cells of a grid over nearly every point. */
 class DensityGrid {
 public:
   DensityGrid(const Points& points, const std::vector<std::size_t>& indices)
@@ -39,7 +39,8 @@ public:
       ++counts_[cellOf(points[i])];
   }
 
-  /** \return the distance of neighbours if those of a cell lie on one surface [m] */
+  /** \return the distance of neighbours [m], assuming the points of a cell lie on one
+   * surface */
   float
   spacingAt(const Eigen::Vector3f& p) const
   {
@@ -67,7 +68,7 @@ private:
   std::vector<std::uint32_t> counts_;
 };
 
-/** Panoramas of a scan: the same size on the picture everywhere closes the gaps. */
+/** Panoramas of a scan: a uniform size on the picture closes the gaps. */
 double
 panoramaDiameter(const Points& points,
                  const std::vector<std::size_t>& indices,
@@ -85,7 +86,7 @@ panoramaDiameter(const Points& points,
                             static_cast<int>(box.bottom) + 1);
 }
 
-/** A face's brightness by its slope. */
+/** Brightness of a face from its slope. */
 Colour
 shaded(const Colour& colour, const Eigen::Vector3d& normal)
 {

@@ -7,8 +7,9 @@
 
 namespace pcl6d::visualization {
 
-/** \brief Draws points as a camera sees them: each as large as its neighbours are far.
- * \param[in] indices of the points; the place in them is the index of the colour
+/** \brief Draws points seen by a camera, each as large as the distance to its
+ * neighbours.
+ * \param[in] indices of the points; position i in this list is the index of the colour
  * \param[in] size in mean distances of neighbours */
 void
 addSplats(const Points& points,
@@ -18,8 +19,8 @@ addSplats(const Points& points,
           double size,
           SplatBuffer& buffer);
 
-/** \brief Draws the triangles of models as points that lie close.
- * \param[in,out] colours gets those of the models, shaded by the slope of their faces */
+/** \brief Draws the triangles of models as dense points.
+ * \param[in,out] colours gets the colours of the models, shaded by the slope of their faces */
 void
 addModels(const std::vector<MapViewScene::Model>& models,
           const Camera& camera,

@@ -32,7 +32,7 @@ checkScene(const PlaneViewScene& scene)
     require(id <= scene.planes.size(), "plane_of", id, "at most the number of planes");
 }
 
-/** The direction in which the points reach farthest, horizontally; in [0, pi). */
+/** Horizontal direction of the largest extent of the points; in [0, pi). */
 double
 longestDirection(const Points& points, const std::vector<std::size_t>& shown)
 {
@@ -57,7 +57,7 @@ towardsCamera(double azimuth, double elevation)
           std::sin(elevation)};
 }
 
-/** The azimuth from which most of the planes' area is seen; without planes, across the
+/** The azimuth with the largest visible area of planes; without planes, across the
  * longest extent. */
 double
 bestAzimuth(const PlaneViewScene& scene,
@@ -96,7 +96,7 @@ aim(const PlaneViewOptions& options,
     layout.hidden.push_back(side.dot(layout.to_camera) < 0);
 }
 
-/** The range of values without single ones far out. */
+/** The range of values without isolated outliers. */
 std::pair<double, double>
 extentOf(std::vector<double> values)
 {
@@ -127,7 +127,7 @@ zoom(const Points& points,
                                       1e-6});
 }
 
-/** Adds the points, near ones over far ones. \return how many lie on the picture */
+/** Adds the points, near points over far points. \return number of points on the picture */
 std::size_t
 addPoints(const PlaneViewScene& scene,
           const std::vector<std::size_t>& shown,
@@ -157,7 +157,7 @@ addPoints(const PlaneViewScene& scene,
   return pixels.size();
 }
 
-/** Hull, number and label of a plane that is seen. */
+/** Hull, number and label of a visible plane. */
 void
 addPlane(const Plane& plane,
          std::size_t number,
@@ -181,7 +181,7 @@ addPlane(const Plane& plane,
     return;
   const std::string name =
       std::to_string(number) + (plane.label == "none" ? "" : " " + plane.label);
-  const Eigen::Vector2d shadow(1.5, 1.5); // so that it is read on every colour
+  const Eigen::Vector2d shadow(1.5, 1.5); // for legibility on every colour
   picture.addText(middle + shadow, name, PixelScene::Align::kCentre, {{0, 0, 0}, 16});
   picture.addText(middle, name, PixelScene::Align::kCentre, {{255, 255, 255}, 16});
 }

@@ -7,7 +7,7 @@
 namespace pcl6d {
 
 namespace {
-/** The normal of a plane to the side from which it was seen: where the next pose is. */
+/** The normal of a plane towards the nearest pose, from which the plane was seen. */
 Eigen::Vector3d
 seenFrom(const Plane& plane, const std::vector<Eigen::Isometry3d>& poses)
 {

@@ -32,7 +32,7 @@ sampleOf(const Points& points, int axis)
   return values;
 }
 
-/** The extent of the points, but not of single ones that lie far outside. */
+/** Extent of the points without isolated far points. */
 Eigen::AlignedBox2d
 mapExtent(const Points& points)
 {
@@ -107,14 +107,14 @@ heightsOf(const TopViewScene& scene, const std::vector<std::size_t>& indices)
     heights.push_back(scene.points[i].z());
   return heights;
 }
-/** \brief The points of a scene that are left after the cut. */
+/** \brief The points of a scene that remain after the cut. */
 struct PointsToDraw {
   ShownPoints shown;
   Points points; ///< those of shown
 };
 
-/** \throws BadArgument there is nothing to draw: no point, pose or overlay; or the cut
- * leaves none of several points */
+/** \throws BadArgument the scene is empty (no point, pose or overlay), or the cut
+ * leaves no point */
 PointsToDraw
 pointsToDraw(const TopViewScene& scene, const TopViewOptions& options)
 {
@@ -163,7 +163,7 @@ layOut(const Points& points, const TopViewScene& scene, const TopViewOptions& op
   return layout;
 }
 
-/** \brief The map's points as they are drawn. */
+/** \brief The map's points on the picture. */
 struct DrawnPoints {
   std::vector<Eigen::Vector3f> pixels; ///< column, row, layer in [0, 1] by height
   std::vector<Colour> colours;
@@ -210,7 +210,8 @@ drawnPoints(const TopViewScene& scene,
   return drawn;
 }
 
-/** \brief Adds what moved, over the other points. \param[in] size [px] of those */
+/** \brief Adds the dynamic points, over the other points. \param[in] size of dynamic
+ * points [px] */
 void
 addMoving(const TopViewScene& scene,
           const TopViewOptions& options,
@@ -218,7 +219,7 @@ addMoving(const TopViewScene& scene,
           double size,
           PixelScene& canvas)
 {
-  constexpr float kOver = 1.1F;     // the highest layer of other points is 1
+  constexpr float kOver = 1.1F;     // static points have layers up to 1
   constexpr double kNoticeable = 3; // [px]
   const auto shown = shownPoints(scene.moving, scene.trajectory, options.cut).indices;
   std::vector<Eigen::Vector3f> pixels;

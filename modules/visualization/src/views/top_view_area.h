@@ -5,9 +5,9 @@
 
 namespace pcl6d::visualization {
 
-/** \return the part of the world that a top view of the scene shows by itself
- * \throws BadArgument there is nothing to draw: no point, pose or overlay; or the cut
- * leaves none of several points */
+/** \return the part of the world shown by default in a top view of the scene
+ * \throws BadArgument the scene is empty (no point, pose or overlay), or the cut leaves
+ * no point */
 Eigen::AlignedBox2d
 areaOf(const TopViewScene& scene, const TopViewOptions& options);
 

@@ -8,7 +8,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief One kind of error over all compared poses, in the unit of its values.
+/** \brief Statistics of one kind of error over the compared poses, in the unit of the errors.
  * \ingroup benchmarking */
 struct ErrorStatistics {
   std::size_t count = 0;
@@ -19,7 +19,7 @@ struct ErrorStatistics {
   std::size_t index_of_max = 0; ///< into the values; the first of equals
 };
 
-/** \param[in] errors finite numbers >= 0 \return all zero for no values
+/** \param[in] errors finite numbers >= 0 \return zeros for no values
  * \throws BadArgument a value is negative or not finite */
 ErrorStatistics
 errorStatistics(const std::vector<double>& errors);

@@ -9,7 +9,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief One way to run ICP: what it minimises, how, and how it finds closest points.
+/** \brief A variant of ICP: metric, minimiser and search for closest points.
  * \ingroup benchmarking */
 struct IcpVariant {
   Metric metric = Metric::kPoint;
@@ -21,7 +21,7 @@ struct IcpVariant {
 bool
 operator==(const IcpVariant& a, const IcpVariant& b);
 
-/** \brief The methods that are to be compared; the first of each is the standard one. */
+/** \brief The methods to compare; the first of each list is the standard. */
 struct IcpMethods {
   std::vector<Metric> metrics = {Metric::kPoint};
   std::vector<std::string> minimisers = {"quaternion"}; ///< of the metric kPoint
@@ -30,7 +30,7 @@ struct IcpMethods {
   std::vector<SearchMethod> searches = {SearchMethod::kRemembered};
 };
 
-/** \brief Which methods are run together. */
+/** \brief Combinations of methods to run. */
 enum class IcpCombination {
   kOneByOne, ///< every minimiser of every metric with the first search, every search with
              ///< the first metric and minimiser: enough to compare methods of a kind
@@ -38,15 +38,15 @@ enum class IcpCombination {
 };
 
 /** \return the variants, for one metric after the other: its first minimiser with every
- * search, then the other minimisers. What is named twice comes once.
- * \throws BadArgument a list is empty, or there is no minimiser of a name
+ * search, then the other minimisers. Duplicates are dropped.
+ * \throws BadArgument a list is empty, or a minimiser is unknown
  * \ingroup benchmarking */
 std::vector<IcpVariant>
 icpVariants(const IcpMethods& methods,
             IcpCombination combination = IcpCombination::kOneByOne);
 
 /** \return options with the variant's metric, minimiser and memory for neighbours
- * \throws BadArgument there is no such minimiser */
+ * \throws BadArgument the minimiser is unknown */
 IcpOptions
 withVariant(IcpOptions options, const IcpVariant& variant);
 

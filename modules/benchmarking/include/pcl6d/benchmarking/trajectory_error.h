@@ -13,7 +13,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How far one pose is from its reference, measured in the reference's world. */
+/** \brief Deviation of a pose from its reference, in the reference's world. */
 struct PoseError {
   double position = 0;    ///< [m] |t - t_ref|
   double orientation = 0; ///< [rad] 2 acos(|q . q_ref|), the angle of R_ref^T R
@@ -31,23 +31,22 @@ struct TrajectoryErrors {
   ErrorStatistics yaw;         ///< [rad]
 };
 
-/** \brief Knobs of evaluateTrajectory(). */
+/** \brief Options of evaluateTrajectory(). */
 struct TrajectoryEvaluationOptions {
   PoseMatchingOptions matching;
-  /** [s] compare with the reference at the stamps of the estimate, interpolated between
-   * poses that are no farther apart; > 0. None: with its own poses */
+  /** [s] compare with the reference at the stamps of the estimate, interpolated across
+   * gaps up to this length; > 0. Empty: no interpolation */
   std::optional<double> interpolation_gap;
   std::vector<double> lengths; ///< [m] of drift; > 0. Empty: stretchLengths()
   RevisitOptions revisits;     ///< where the reference closes loops
-  /** loops by indices of reference poses, in place of those found; not with
-   * interpolation_gap */
+  /** loops by indices of reference poses, instead of found loops; not with interpolation_gap */
   std::optional<std::vector<std::pair<std::size_t, std::size_t>>> loops;
 };
 
-/** \brief All that evaluateTrajectory() finds out. */
+/** \brief Result of evaluateTrajectory(). */
 struct TrajectoryEvaluation {
   PoseMatching matching;
-  TrajectoryErrors without_alignment; ///< both paths as they are: drift counts in full
+  TrajectoryErrors without_alignment; ///< both paths unchanged: drift counts in full
   TrajectoryErrors with_alignment;    ///< after alignment.transform: ATE
   RigidEstimate alignment;            ///< T_reference_estimate; see alignPositions()
   double path_length = 0;             ///< [m] of the whole reference
@@ -64,7 +63,7 @@ struct TrajectoryEvaluation {
 PoseError
 poseError(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& reference);
 
-/** \brief Errors of all pairs after moving the estimate.
+/** \brief Errors of the pairs after moving the estimate.
  * \param[in] T_reference_estimate applied to every pose of the estimate first
  * \throws BadArgument a pair points outside a trajectory */
 TrajectoryErrors
@@ -74,10 +73,10 @@ trajectoryErrors(
     const std::vector<PosePair>& pairs,
     const Eigen::Isometry3d& T_reference_estimate = Eigen::Isometry3d::Identity());
 
-/** \brief The rigid motion, without scale, that brings the positions of the estimate
- * closest to those of the reference in the least squares sense.
+/** \brief The rigid motion, without scale, that aligns the positions of the estimate
+ * with the reference by least squares.
  *
- * With fewer than 3 pairs (kTooFewPairs) or all positions on one line or in one point
+ * With fewer than 3 pairs (kTooFewPairs) or positions on one line or in one point
  * (kRankDeficient) the rotation is not determined: the motion is then a translation
  * between the centroids alone.
  * \throws BadArgument a pair points outside a trajectory
@@ -88,18 +87,18 @@ alignPositions(const Trajectory& estimate,
                const Trajectory& reference,
                const std::vector<PosePair>& pairs);
 
-/** \return the length of the polygon through all positions [m] */
+/** \return the length of the polyline through the positions [m] */
 double
 pathLength(const Trajectory& trajectory);
 
 /** \brief Compares an estimated trajectory with a reference.
  *
- * with_alignment.position.rms is the absolute trajectory error (ATE) of J. Sturm et al.,
- * IROS 2012. With interpolation the rows of `matching` point into resample() of the
- * reference.
+ * with_alignment.position.rms is the absolute trajectory error (ATE) of J. Sturm et
+ * al., IROS 2012. With interpolation the rows of `matching` point into resample() of
+ * the reference.
  * \throws BadArgument, ComputeFailed as matchPoses(), resample(), driftErrors(),
- * findRevisits() and revisitsOf(); loops and interpolation_gap are both given; no pose of
- * the estimate lies between two of the reference \ingroup benchmarking */
+ * findRevisits() and revisitsOf(); loops and interpolation_gap are both given; no pose
+ * of the estimate lies between two reference poses \ingroup benchmarking */
 TrajectoryEvaluation
 evaluateTrajectory(
     const Trajectory& estimate,

@@ -10,12 +10,12 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief The poses of a trajectory at other times: positions linear, rotations at
  * constant speed (slerp) between the two poses around each time.
- * \param[in] trajectory with stamps that increase
+ * \param[in] trajectory with increasing stamps
  * \param[in] stamps [s] increasing
  * \param[in] max_gap [s] between the two poses; > 0, may be infinite
- * \return poses with their stamps; times before the first pose, behind the last one or in
- * a larger gap are left out, unless a pose has exactly that stamp
- * \throws BadArgument no stamps, or they do not increase, or max_gap breaks its rule
+ * \return poses with their stamps; times before the first pose, after the last pose or
+ * in a larger gap are left out, unless a pose has exactly the stamp
+ * \throws BadArgument no stamps, stamps do not increase, or max_gap is invalid
  * \ingroup benchmarking */
 Trajectory
 resample(const Trajectory& trajectory,

@@ -8,139 +8,138 @@
 #include <string>
 #include <vector>
 
-/** \file How often a verdict on a map is false, counted over many runs whose truth is
- * known. */
+/** \file Rates of false verdicts on maps, counted over many runs with ground truth. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A scan of a map whose truth is known. */
+/** \brief A scan of a map with ground truth. */
 struct TrustScan {
   std::string name; ///< its file
-  /** [m] its position off the truth, relative to the first scan that is not named;
-   * infinite if it has no true place in the map, as a scan of another scene */
+  /** [m] distance of its position from the truth, relative to the first scan that is
+   * not named; infinite for a scan outside the map, such as a scan of another scene */
   double error = 0;
-  std::optional<double> bound; ///< [m] the error is stated to be below it with 95 %
-  bool named = false;          ///< the run says that it is not to be trusted
+  std::optional<double> bound; ///< [m] stated upper bound of the error (95 %)
+  bool named = false;          ///< the run reports the scan as unreliable
   /** e' C^-1 e of the error e and its stated covariance C: 3 on average if C is right */
   std::optional<double> squared_error;
 };
 
-/** \brief What a run says of its map. */
+/** \brief Verdict of a run on its map. */
 enum class TrustCall {
-  kGood,       ///< verified, and nothing is against it
-  kUnverified, ///< nothing is against it, but it could not be verified
+  kGood,       ///< verified, without contradiction
+  kUnverified, ///< without contradiction, but verification was not possible
   kDoubted,    ///< doubtful or ambiguous
-  kNone        ///< there is no map: the run failed, or took too long
+  kNone        ///< no map: the run failed, or took too long
 };
 
 /** \return "good", "unverified", "doubted" or "none" */
 const char*
 toString(TrustCall call);
 
-/** \brief A run whose verdict is compared with the truth. \ingroup benchmarking */
+/** \brief A run with the verdict to compare with the truth. \ingroup benchmarking */
 struct TrustRun {
   std::string data;   ///< scene or recording
-  std::string damage; ///< what was done to it; may be empty
+  std::string damage; ///< kind of damage to the data; may be empty
   std::string method;
-  std::string name; ///< of the run, such as its folder
+  std::string name; ///< name of the run, such as its folder
   TrustCall call = TrustCall::kNone;
   /** doubted by how matching went, though verification is not against the map */
   bool doubted_by_matching = false;
-  std::vector<TrustScan> scans; ///< empty: there is no truth, or no map
-  std::string message;          ///< what the run says, or why it has no map
+  std::vector<TrustScan> scans; ///< empty: no truth, or no map
+  std::string message;          ///< message of the run, or the reason for a missing map
 };
 
-/** \return the error that is allowed [m]: 5 cm, or the bound of 99.9 % that belongs to that
- * of 95 % if this is more. Errors of a position are taken as normal, with three degrees of
- * freedom: the quantiles of chi square are 16.27 and 7.815 [m^2 per variance] */
+/** \return the allowed error [m]: 5 cm, or the 99.9 % bound derived from the 95 % bound
+ * if larger. Position errors are assumed normal, with three degrees of freedom: the
+ * quantiles of chi square are 16.27 and 7.815 [m^2 per variance] */
 double
 allowedError(const TrustScan& scan);
 
-/** \return whether a scan that is not named is off by more than is allowed */
+/** \return whether a scan that is not named exceeds its allowed error */
 bool
 isWrong(const TrustRun& run);
 
-/** \return whether all scans, named or not, are off by no more than is allowed */
+/** \return whether every scan, named or not, is within its allowed error */
 bool
 isRight(const TrustRun& run);
 
-/** \return the largest error of the scans that are not named [m]; 0 if there are none */
+/** \return the largest error of the scans that are not named [m]; 0 without scans */
 double
 largestUnnamedError(const TrustRun& run);
 
-/** \brief How often something happened. */
+/** \brief Relative frequency of an event. */
 struct TrustShare {
   std::size_t count = 0;
   std::size_t of = 0;
 
-  /** \return count / of; 0 if it was never tried */
+  /** \return count / of; 0 without trials */
   double
   rate() const;
 
-  /** \brief The largest probability that does not contradict the count: were it higher,
-   * so few would be seen in less than 5 % of all trials.
-   * \return in [0, 1]; 1 if it was never tried
-   * \throws BadArgument there are more than were tried
+  /** \brief Upper confidence limit (95 %) of the probability: above the limit, a count
+   * as low as the given count has a probability below 5 %.
+   * \return in [0, 1]; 1 without trials
+   * \throws BadArgument count exceeds of
    * \note Source: C. J. Clopper and E. S. Pearson, "The use of confidence or fiducial
-   * limits illustrated in the case of the binomial", Biometrika 26(4), 1934; the bound is
-   * one-sided. */
+   * limits illustrated in the case of the binomial", Biometrika 26(4), 1934; the bound
+   * is one-sided. */
   double
   upperBound() const;
 };
 
-/** \brief Runs that belong together, counted. A run without scans counts in `runs` and in
- * one of `failed` and `without_truth` only. */
+/** \brief Counts over a group of runs. A run without scans counts only in `runs` and in
+ * one of `failed` and `without_truth`. */
 struct TrustCounts {
   std::string data;   ///< empty: all
   std::string damage; ///< empty: all
   std::string method; ///< empty: all
   std::size_t runs = 0;
   std::size_t failed = 0;        ///< no map
-  std::size_t without_truth = 0; ///< a map, but nothing to compare it with
+  std::size_t without_truth = 0; ///< a map, but no ground truth
   std::size_t good = 0;          ///< called good
   std::size_t unverified = 0;    ///< called unverified
   std::size_t doubted = 0;
-  std::size_t wrong = 0;       ///< isWrong()
-  std::size_t right = 0;       ///< isRight(); the others name all scans that are off
-  TrustShare false_goods;      ///< wrong maps called good, of those called good
-  TrustShare missed;           ///< the same, of the wrong ones
-  TrustShare false_unverified; ///< wrong maps called unverified, of those called so
-  /** maps that verification has nothing against though a scan is off, of all it has nothing
-   * against: those called good, and those that only matching doubts, where it is matching
-   * that saves the verdict */
+  std::size_t wrong = 0;  ///< isWrong()
+  std::size_t right = 0;  ///< isRight(); the remaining runs name each wrong scan
+  TrustShare false_goods; ///< wrong maps called good, among maps called good
+  TrustShare missed;      ///< wrong maps called good, among wrong maps
+  /** wrong maps called unverified, among maps called unverified */
+  TrustShare false_unverified;
+  /** maps with a wrong scan, among maps not contradicted by verification: maps called
+   * good, and maps doubted only by matching */
   TrustShare false_verifications;
-  TrustShare false_doubts;     ///< right maps doubted, of the right ones
-  std::size_t by_matching = 0; ///< of these: verification is not against them
+  TrustShare false_doubts;     ///< right maps doubted, among right maps
+  std::size_t by_matching = 0; ///< of false_doubts: not contradicted by verification
 };
 
-/** \brief How stated bounds compare with errors, for bounds of about one size. */
+/** \brief Stated bounds compared with errors, for bounds of similar size. */
 struct BoundCounts {
   double above = 0;           ///< [m] bounds above this
-  double up_to = 0;           ///< [m] and up to this; infinite for the last
-  std::size_t scans = 0;      ///< that have such a bound
+  double up_to = 0;           ///< [m] upper limit, inclusive; infinite for the last row
+  std::size_t scans = 0;      ///< number of scans with a bound in the range
   std::size_t within = 0;     ///< off by no more than the bound of 95 %
-  std::size_t within_999 = 0; ///< off by no more than that of 99.9 %
+  std::size_t within_999 = 0; ///< error within the 99.9 % bound
   double median_ratio = 0;    ///< median of error / bound; 0.55 if bounds are right
 };
 
-/** \brief Mean of e' C^-1 e / 3 over scans: 1 if covariances are right, more if they are
- * too small. */
+/** \brief Mean of e' C^-1 e / 3 over scans: 1 for correct covariances, larger if the
+ * covariances are too small. */
 struct SquaredErrors {
   std::size_t scans = 0;
   double mean = 0; ///< 0 without scans
 };
 
-/** \brief What many runs tell of the verdicts. \ingroup benchmarking */
+/** \brief Reliability of the verdicts over many runs. \ingroup benchmarking */
 struct TrustTable {
   TrustCounts all;
   std::vector<TrustCounts> by_damage; ///< in the order of their first runs
   std::vector<TrustCounts> by_data;
   std::vector<TrustCounts> by_method;
   std::vector<TrustCounts> cells; ///< data set by damage by method
-  /** of the scans that maps called good do not name, but for those that have no true
-   * place and the one that errors are relative to, which has none; empty sizes are left
-   * out */
+  /** over scans not named by maps called good, without scans outside the map and
+   * without the origin scan of the errors; empty ranges are left out */
   std::vector<BoundCounts> bounds;
-  /** of the same scans, but of maps that are not wrong: one that is would hide all others */
+  /** over the scans of `bounds`, but only of maps that are not wrong: a single wrong
+   * map would dominate the mean */
   SquaredErrors squared_errors;
 };
 
@@ -148,19 +147,19 @@ struct TrustTable {
 TrustTable
 trustTable(const std::vector<TrustRun>& runs);
 
-/** \brief For people: false goods, each with its run; totals; by damage, data set and
- * method; bounds; all cells. */
+/** \brief Markdown for readers: false goods, each with its run; totals; by damage, data
+ * set and method; bounds; every cell. */
 std::string
 trustMarkdown(const std::vector<TrustRun>& runs);
 
-/** \brief A line per run: what it was called, whether it was right or wrong, how far its
- * scans are off. Infinite errors are `inf`; texts are quoted as in RFC 4180. */
+/** \brief A line per run: verdict, whether right or wrong, errors of its scans.
+ * Infinite errors are `inf`; texts are quoted as in RFC 4180. */
 std::string
 trustCsv(const std::vector<TrustRun>& runs);
 
 /** \brief `{"schema_version": 1, "all": ..., "by_damage": [...], "by_data": [...],
  * "by_method": [...], "cells": [...], "bounds": [...], "squared_errors": ..., "runs":
- * [...]}`, the runs with their scans; null for what is missing or infinite. */
+ * [...]}`, the runs with their scans; null for missing or infinite values. */
 std::string
 trustJson(const std::vector<TrustRun>& runs);
 

@@ -6,19 +6,19 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The processes that mpirun or srun has started together, as ranks that share work.
- * One at a time, for the length of main(): MPI begins and ends with it, once in a process.
+/** \brief The processes started together by mpirun or srun, as ranks that share work. Create one
+ * object in main(): MPI starts and ends with the object, and only once in a process.
  * \code
  * pcl6d::MpiSharing ranks;
  * slam.setSharing(&ranks);
  * \endcode
- * Waiting sleeps more and more, up to a millisecond, so that the cores are free for ranks that
- * compute. \ingroup mpi */
+ * Waiting sleeps for increasing intervals, up to a millisecond, to leave the cores to ranks
+ * that compute. \ingroup mpi */
 class MpiSharing : public WorkSharing {
 public:
   /** \throws IoFailed MPI cannot be started, or was started before */
   MpiSharing();
-  /** Waits for the other ranks to end, too. */
+  /** Waits for all ranks to end. */
   ~MpiSharing() override;
   MpiSharing(const MpiSharing&) = delete;
   MpiSharing&

@@ -6,8 +6,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Windows of one size side by side: the value of a feature in all of them is
- * computed in one sweep, with the bits of CascadeEvaluator. */
+/** \brief Windows of equal size, stored side by side: one sweep computes a feature's
+ * value in each window, bit for bit as CascadeEvaluator. */
 class WindowBatch {
 public:
   /** \param[in] windows of width x height pixels
@@ -33,20 +33,21 @@ private:
   std::vector<float> factors_;
 };
 
-/** \brief For each feature the order of the windows by its value, so that the best
- * threshold takes one sweep over them. */
+/** \brief For each feature the windows ordered by its value: the best threshold takes
+ * one sweep. */
 class SortedFeatures {
 public:
-  static constexpr std::size_t kMostWindows = 0x7fff;             ///< 15 bits each
-  static constexpr std::size_t kMostPositives = kMostWindows / 2; ///< of them
+  static constexpr std::size_t kMostWindows = 0x7fff; ///< 15 bits each
+  static constexpr std::size_t kMostPositives = kMostWindows / 2;
 
-  /** \param[in] features what trees may choose from; kept by reference, like windows
+  /** \param[in] features candidates for the nodes of the trees; kept by reference, like
+   * windows
    * \throws BadArgument more than kMostWindows windows, or no feature */
   SortedFeatures(const WindowBatch& windows,
                  const std::vector<HaarFeature>& features,
                  unsigned int num_threads = 0);
 
-  /** A sample as least squares see it. */
+  /** A sample of the weighted least squares fit. */
   struct Weighted {
     float weight = 0;
     float response = 0; ///< weight times label
@@ -54,16 +55,17 @@ public:
 
   /** \brief The cut of a node. */
   struct Split {
-    bool found = false; ///< false: no feature tells the samples apart
+    bool found = false; ///< false: no feature separates the samples
     std::size_t feature = 0;
     float threshold = 0;
-    double gain = 0; ///< by which the weighted squared error falls
+    double gain = 0; ///< decrease of the weighted squared error
   };
 
-  /** \return the split of samples with weights above zero whose two sides, each answered
-   * by its mean label, leave the smallest squared error; of equal ones the first feature
+  /** \return the split of the samples with weights above zero that leaves the smallest
+   * squared error, each side answered by its mean label; of equal splits the first
+   * feature
    * \param[in] samples one per window
-   * \param[in] among places of the features to choose from; empty: all */
+   * \param[in] among indices of the features to choose from; empty: every feature */
   Split
   bestSplit(const std::vector<Weighted>& samples,
             const std::vector<std::size_t>& among = {}) const;
@@ -81,7 +83,7 @@ public:
 
 private:
   struct Cut {
-    std::size_t place = 0; // behind which the order is cut
+    std::size_t place = 0; // the order is cut behind this index
     double gain = 0;
   };
   void
@@ -101,36 +103,40 @@ private:
   const std::vector<HaarFeature>& features_;
   unsigned int num_threads_;
   std::vector<std::uint16_t>
-      order_; // feature * windows + place; top bit: next is equal
+      order_; // feature * windows + index; top bit: equal to the next
 };
 
-/** \brief Gentle AdaBoost: trees are added one by one, each the least squares fit to the
- * labels under weights that grow where the sum of the trees is wrong.
+/** \brief Gentle AdaBoost: adds trees one by one. Each tree is the weighted
+ * least-squares fit to the labels; weights grow where the sum of the trees is wrong.
  *
- * Same result for any number of threads.
+ * Equal results for any number of threads.
  * \note Source: J. Friedman, T. Hastie, R. Tibshirani, "Additive logistic regression: a
  * statistical view of boosting", Annals of Statistics 28(2), 2000, algorithm 4.
  * \ingroup object_localization */
 class GentleBoost {
 public:
-  /** Keeps a reference to the features. \param[in] labels +1 or -1, one per window
+  /** Keeps a reference to the features.
+   * \param[in] labels +1 or -1, one per window
    * \param[in] splits nodes of each tree, in [1, 16]
-   * \throws BadArgument a label is missing or another, or splits breaks its rule */
+   * \throws BadArgument not one label per window, a label other than +1 and -1, or
+   * splits out of range */
   GentleBoost(const SortedFeatures& features, std::vector<int> labels, int splits = 1);
 
-  /** \brief Adds a tree. \param[in] among places of the features that it may use; empty:
-   * all \return false if no feature tells the windows apart */
+  /** \brief Adds a tree.
+   * \param[in] among indices of the features to choose from; empty: every feature
+   * \return false if no feature separates the windows */
   bool
   addTree(const std::vector<std::size_t>& among = {});
 
-  /** \return the trees; their features are places in SortedFeatures::features() */
+  /** \return the trees; their features are indices into SortedFeatures::features() */
   const std::vector<HaarTree>&
   trees() const
   {
     return trees_;
   }
 
-  /** \return the sum of the trees' answers, per window, with the bits of CascadeEvaluator */
+  /** \return the sum of the trees' answers per window, bit for bit as
+   * CascadeEvaluator */
   const std::vector<double>&
   sums() const
   {

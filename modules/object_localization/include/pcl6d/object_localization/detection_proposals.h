@@ -7,13 +7,14 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Where detections say that an object is (book 7.2.2, step 1): of the points in the
- * box of each, those that are on no floor or wall and not behind the first surface. A
- * detection of fewer than 10 such points, or over no level plane, proposes nothing.
- * \param[in] cloud of finite points only, so that its places are those of the detections
+/** \brief Proposes an object where a detection is (book 7.2.2, step 1): the points in
+ * the box of the detection that are on no floor or wall and not behind the first
+ * surface. A detection with fewer than 10 proposed points, or over no level plane,
+ * gives no proposal.
+ * \param[in] cloud of finite points only, so that its indices agree with the detections
  * \param[in] planes of the cloud
- * \param[in] depth [m] > 0 of an object along the sight, at most
- * \throws BadArgument depth breaks its rule \ingroup object_localization */
+ * \param[in] depth [m] > 0; largest depth of an object along the line of sight
+ * \throws BadArgument depth is invalid \ingroup object_localization */
 std::vector<ObjectProposal>
 proposeDetections(const PlaneCloud& cloud,
                   const PlaneSegments& planes,

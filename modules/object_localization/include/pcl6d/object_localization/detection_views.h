@@ -10,8 +10,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How a scan becomes the pictures that a detector looks at: perspective views all
- * around the scanner, each cut into slices of depth, so that 8 bits show an object. */
+/** \brief How a scan is rendered to pictures for a detector: perspective views all
+ * around the scanner, cut into slices of depth, to resolve an object in 8 bits. */
 struct DetectionViewOptions {
   int views = 8;           ///< in [3, 64]
   double width = 1.2217;   ///< [rad] of a view (70 deg), in [2 pi / views, 2.4]
@@ -20,25 +20,27 @@ struct DetectionViewOptions {
   double pixel = 0.00873;  ///< [rad] at the middle of a view (0.5 deg), in [1e-4, 0.1]
   double min_range = 0.5;  ///< [m] > 0
   double max_range = 12;   ///< [m] > min_range, at most 5000 times slice_depth
-  double slice_depth = 3;  ///< [m] > 0; the next slice starts at the middle of this one
-  double max_gap = 0.0262; ///< [rad] holes between the samples of a scan (1.5 deg), > 0
+  double slice_depth = 3;  ///< [m] >= 0.01; the next slice starts at the middle of this
+                           ///< slice
+  double max_gap = 0.0262; ///< [rad] holes between samples of a scan (1.5 deg), in (0,
+                           ///< 1]
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief A part of the ranges. */
+/** \brief An interval of depth. */
 struct DepthSlice {
-  double near_end = 0; ///< [m] bright in the picture, as is all that is nearer
-  double far_end = 0;  ///< [m] dark, as is all that is farther
+  double near_end = 0; ///< [m] bright in the picture, like any smaller depth
+  double far_end = 0;  ///< [m] dark, like any larger depth
 };
 
-/** \return slices from min_range on that overlap by half and reach max_range */
+/** \return slices that start at min_range, overlap by half and reach max_range */
 std::vector<DepthSlice>
 depthSlices(const DetectionViewOptions& options);
 
-/** \brief Where the views look, and where in them something is. */
+/** \brief The views around a scanner, and the projection of points into the views. */
 class DetectionViews {
 public:
   /** \throws BadArgument see DetectionViewOptions::validate() */
@@ -60,10 +62,11 @@ public:
     return slices_;
   }
 
-  /** \return what one view sees of a scan, its gaps filled
+  /** \return the range image of one view of a scan, its gaps filled
+   * \param[in] view index, < size()
    * \param[in] points [m] in the scan's frame, z up, the scanner at the origin
    * \param[in] reflectance one per point, or empty
-   * \throws BadArgument there is no such view, or the numbers differ */
+   * \throws BadArgument view is out of range, or not one reflectance per point */
   RangeImage
   image(std::size_t view,
         const Points& points,
@@ -73,17 +76,18 @@ public:
   std::size_t
   viewOf(const Eigen::Vector3d& point) const;
 
-  /** \brief A place in a view, in pixels and between them. */
+  /** \brief A position in a view, in fractions of pixels. */
   struct Place {
     double x = 0;     ///< [px] from the left border
     double y = 0;     ///< [px] from the upper border
     double depth = 0; ///< [m] along the middle of the view
   };
-  /** \return depth is not positive if the point is not in front of the view */
+  /** \return the position of a point; its depth is not positive if the point is not in
+   * front of the view */
   Place
   place(std::size_t view, const Eigen::Vector3d& point) const;
 
-  /** \return the length [px] of something upright, wherever in the view it stands
+  /** \return the length [px] of an upright object, equal at every position in the view
    * \param[in] size [m] \param[in] depth [m] > 0 */
   double
   pixelsOf(double size, double depth) const;
@@ -94,11 +98,12 @@ private:
   std::vector<DepthSlice> slices_;
 };
 
-/** \return the ranges of a slice as a picture; 0 where there is no value */
+/** \return the ranges of a slice as a picture; 0 where no range was measured */
 GrayImage
 rangePicture(const RangeImage& image, const DepthSlice& slice);
 
-/** \return the reflectances as a picture; of the values, one in a hundred is white */
+/** \return the reflectances as a picture; the brightest hundredth of the values is
+ * white */
 GrayImage
 reflectancePicture(const RangeImage& image);
 

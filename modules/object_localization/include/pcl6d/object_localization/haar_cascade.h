@@ -13,10 +13,10 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief A classification and regression tree over features. With one node, a stump. */
 struct HaarTree {
   struct Node {
-    /** where to go on below the threshold: a node if > 0, else the leaf -left */
+    /** next step for values below the threshold: a node if > 0, else the leaf -left */
     int left = 0;
-    int right = -1;      ///< the same for values from the threshold on
-    int feature = 0;     ///< place in HaarCascade::features
+    int right = -1;      ///< for values at or above the threshold
+    int feature = 0;     ///< index into HaarCascade::features
     float threshold = 0; ///< of the normalised feature
   };
   std::vector<Node> nodes;   ///< the root first; children after their parents
@@ -28,7 +28,7 @@ struct HaarStage {
   std::vector<HaarTree> trees;
   float threshold = 0;
 
-  /** \return what the sum is compared with: OpenCV gives it 1e-5 of slack */
+  /** \return the limit for the sum: OpenCV lowers the threshold by 1e-5 */
   double
   limit() const
   {
@@ -36,16 +36,16 @@ struct HaarStage {
   }
 };
 
-/** \brief What the pictures are that a cascade was trained on, for ObjectDetector.
- * OpenCV does not read it. */
+/** \brief The pictures that a cascade was trained on, for ObjectDetector. Ignored by
+ * OpenCV. */
 struct CascadeSubject {
   ImageChannel channel = ImageChannel::kRange;
   double object_size = 1; ///< [m] height of the window where the object stands; > 0
-  double pixel = 0.00873; ///< [rad] of the pictures, see DetectionViewOptions
-  double slice_depth = 3; ///< [m] of pictures of ranges, see there
+  double pixel = 0.00873; ///< [rad] see DetectionViewOptions
+  double slice_depth = 3; ///< [m] of range pictures, see DetectionViewOptions
 };
 
-/** \brief Stages that a window must pass one after the other to be an object.
+/** \brief Stages that a window must pass in turn to be accepted as an object.
  * \note Source: Viola and Jones, CVPR 2001. \ingroup object_localization */
 struct HaarCascade {
   int width = 24; ///< [px] of the window
@@ -58,9 +58,9 @@ struct HaarCascade {
   bool
   hasTilted() const;
 
-  /** \throws BadArgument telling what is wrong: sizes in [4, 128] px, at least one stage
-   * and tree in each, indices in range, trees without loops, features in the window,
-   * numbers finite */
+  /** \throws BadArgument naming the broken rule: sizes in [4, 128] px, at least one
+   * stage and one tree per stage, indices in range, trees without loops, features in
+   * the window, numbers finite */
   void
   validate() const;
 };

@@ -10,11 +10,11 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A rectangle of a feature. A tilted one starts at its upper corner (x, y), from
- * which its width runs down to the right and its height down to the left, at 45 deg. */
+/** \brief A rectangle of a feature. A tilted rectangle starts at its upper corner (x,
+ * y); its width runs down to the right and its height down to the left, at 45 deg. */
 struct HaarRect {
   ImageRect rect;
-  float weight = 0; ///< of the sum over it; 0: no rectangle
+  float weight = 0; ///< of the sum over the rectangle; 0: no rectangle
 };
 
 /** \brief A weighted difference of sums over rectangles of a window. */
@@ -23,20 +23,20 @@ struct HaarFeature {
   bool tilted = false;
 };
 
-/** \brief Which features haarFeatures() makes. */
+/** \brief The features that haarFeatures() makes. */
 enum class HaarFeatureSet {
   kUpright, ///< edges, lines, centre-surround and diagonals
-  kAll      ///< also the tilted edges, lines and centre-surrounds
+  kAll      ///< upright and tilted edges, lines and centre-surrounds
 };
 
 /** \return the set called "upright" or "all" \throws BadArgument another name */
 HaarFeatureSet
 haarFeatureSetFromName(const std::string& name);
 
-/** \return every feature of a window, at each place and size: edges of two rectangles,
- * lines of three and of four, centre-surround of nine and diagonals of four equal cells.
- * The weighted areas of each sum up to zero, so that it does not see how bright the window
- * is. Several 10^5 for 24 x 24 pixels.
+/** \return every feature of a window, at each position and size: edges of two
+ * rectangles, lines of three and of four, centre-surround of nine and diagonals of four
+ * equal cells. The weighted areas of a feature sum up to zero, so its value is
+ * independent of the mean brightness. Several 10^5 features for 24 x 24 pixels.
  * \throws BadArgument the window is not 4 to 128 pixels wide and high
  * \note Source: Lienhart and Maydt, ICIP 2002. \ingroup object_localization */
 std::vector<HaarFeature>
@@ -46,7 +46,7 @@ haarFeatures(int width, int height, HaarFeatureSet set = HaarFeatureSet::kAll);
 bool
 fits(const HaarFeature& feature, int width, int height);
 
-/** \brief Where a feature finds its sums, for one width of the tables. */
+/** \brief Offsets of a feature's corners in the tables, for tables of one width. */
 struct HaarOffsets {
   /** sum = t[0] - t[1] - t[2] + t[3], from the entry of the window's upper left corner */
   std::array<std::array<int, 4>, 3> corners{};
@@ -57,8 +57,10 @@ struct HaarOffsets {
   /** \param[in] stride entries per row of the tables */
   HaarOffsets(const HaarFeature& feature, int stride);
 
-  /** \brief The feature before normalisation, computed as cv::CascadeClassifier does, in
-   * float. \param[in] window entry of the window's corner in the table that tilted names */
+  /** \brief The feature before normalisation, computed in float like
+   * cv::CascadeClassifier.
+   * \param[in] window entry of the window's corner in the upright or the tilted table,
+   * see `tilted` */
   float
   value(const std::uint32_t* window) const
   {
@@ -78,11 +80,11 @@ private:
   }
 };
 
-/** \brief How bright and contrasty a window is, by OpenCV's rules: taken over the window
+/** \brief Brightness and contrast of a window by OpenCV's rules: measured on the window
  * less one pixel on each side. */
 struct WindowLighting {
   bool has_contrast = false; ///< its standard deviation is above 10 grey levels
-  float factor = 1;          ///< values of features are multiplied by it
+  float factor = 1;          ///< multiplies the values of features
 };
 
 /** \param[in] width, height of the window, at least 3 each

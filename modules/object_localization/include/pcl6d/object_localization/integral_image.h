@@ -51,25 +51,25 @@ struct ImageRect {
   }
 };
 
-/** \return a part of an image \throws BadArgument it reaches out of the image */
+/** \return a part of an image \throws BadArgument the part reaches out of the image */
 GrayImage
 cropped(const GrayImage& image, const ImageRect& part);
 
-/** \return the image in another size, interpolated linearly as cv::CascadeClassifier does
- * it (OpenCV's INTER_LINEAR_EXACT) \throws BadArgument the image is empty, or a size < 1
- */
+/** \return the image in another size, interpolated linearly like cv::CascadeClassifier
+ * (OpenCV's INTER_LINEAR_EXACT)
+ * \throws BadArgument the image is empty, or a size < 1 */
 GrayImage
 resized(const GrayImage& image, int rows, int cols);
 
-/** \brief Sums over an image from which the sum over any rectangle takes four values.
+/** \brief Integral image: the sum over any rectangle takes four table entries.
  *
- * Each table has a row and a column more than the image: the entry (y, x) of sums() and
- * squares() sums what is above and to the left; that of tilted() sums the triangle that
- * opens upwards from the pixel (y - 1, x - 1), whose sides run at 45 deg. Sums count
- * modulo 2^32, so that those of rectangles are right where they fit.
- * \note Sources: Viola and Jones, "Rapid object detection using a boosted cascade of simple
- * features", CVPR 2001; Lienhart and Maydt, "An extended set of Haar-like features for
- * rapid object detection", ICIP 2002. \ingroup object_localization */
+ * Each table has one row and one column more than the image. The entry (y, x) of sums()
+ * and squares() sums the pixels above and to the left. The entry of tilted() sums the
+ * triangle that opens upwards from the pixel (y - 1, x - 1), with sides at 45 deg. Sums
+ * count modulo 2^32; the sum of a rectangle is right where it fits.
+ * \note Sources: Viola and Jones, "Rapid object detection using a boosted cascade of
+ * simple features", CVPR 2001; Lienhart and Maydt, "An extended set of Haar-like
+ * features for rapid object detection", ICIP 2002. \ingroup object_localization */
 class IntegralImage {
 public:
   enum class Tables {

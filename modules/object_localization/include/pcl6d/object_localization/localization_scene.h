@@ -8,11 +8,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A scan prepared for the search for objects: all points, its rays, and how
- * close these are. The scanner is at the origin. \ingroup object_localization */
+/** \brief A scan prepared for object search: points, search tree, rays and angular
+ * spacing. The scanner is at the origin. \ingroup object_localization */
 class LocalizationScene {
 public:
-  /** \param[in] points [m] in the scan's frame; those that are not finite are left out
+  /** \param[in] points [m] in the scan's frame; points with a non-finite coordinate are
+   * left out
    * \param[in] num_threads 0: one per core; never changes the result
    * \throws BadArgument fewer than 10 finite points */
   explicit LocalizationScene(const Points& points, unsigned int num_threads = 0);
@@ -28,22 +29,24 @@ public:
     return tree_;
   }
 
-  /** \return its rays, in cells about as wide as they are apart, without the noise of
-   * their ranges */
+  /** \return the rays, in cells about as wide as the angular spacing, without noise of
+   * the ranges */
   const RayImage&
   rays() const
   {
     return rays_;
   }
 
-  /** \return whether it looks one way, as a camera does, and not all around */
+  /** \return whether the field of view is narrow, like a camera's, and not all
+   * around */
   bool
   isNarrow() const
   {
     return is_narrow_;
   }
 
-  /** \return median distance of a point and its nearest neighbour over its range [rad] */
+  /** \return median distance of a point and its nearest neighbour over the point's
+   * range [rad], at most 0.05 */
   double
   angularSpacing() const
   {

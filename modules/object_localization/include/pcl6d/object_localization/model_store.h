@@ -13,33 +13,33 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief An object that scans are searched for: its shape, what is known of it, and the
- * detectors that were trained for it. \ingroup object_localization */
+/** \brief A model of an object to search for: shape, class, symmetry, and the detectors
+ * trained for it. \ingroup object_localization */
 struct StoredModel {
   ObjectModel model;    ///< z up, with its class and symmetry
-  TriangleMesh mesh;    ///< the same; of a cloud, small squares, see meshOfPoints()
+  TriangleMesh mesh;    ///< of the model; of a cloud, small squares, see meshOfPoints()
   bool has_mesh = true; ///< false: the file was a cloud
   std::optional<std::filesystem::path> range_cascade;       ///< file
   std::optional<std::filesystem::path> reflectance_cascade; ///< file
 };
 
-/** \brief What to know of a single file. */
+/** \brief Units and class of a model read from a single file. */
 struct ModelFileOptions {
-  MeshOptions units;                            ///< of clouds, too
-  std::optional<std::string> object_class = {}; ///< else the file's name
+  MeshOptions units;                            ///< of meshes and clouds
+  std::optional<std::string> object_class = {}; ///< default: the file's name
 };
 
-/** \brief Reads a mesh (.ply, .obj, .stl) or a cloud (as readScan(); its normals are
- * taken, if it has any), without cascades and symmetry.
- * \throws IoFailed naming the file: as readMesh() and readScan(), or as ObjectModel:
- * no points, or so large that it is hardly in metres; or the class that is its name is
- * none, see checkObjectClass()
- * \throws BadArgument that of the options is none, or scale <= 0 */
+/** \brief Reads a mesh (.ply, .obj, .stl) or a cloud (formats of readScan(); its
+ * normals are used if present), without cascades and symmetry.
+ * \throws IoFailed naming the file: see readMesh(), readScan() and ObjectModel; no
+ * points, a diameter too large for metres, or a file name that is not a valid class,
+ * see checkObjectClass()
+ * \throws BadArgument the class of the options is not valid, or scale <= 0 */
 StoredModel
 readModelFile(const std::filesystem::path& file, const ModelFileOptions& options = {});
 
 /** \brief Reads a folder of the store or a single file, see readModelFile(). A folder
- * holds model.json and what it names:
+ * holds model.json and the files named there:
  * \code
  * {"schema_version": 1,
  *  "class": "chair",
@@ -49,29 +49,31 @@ readModelFile(const std::filesystem::path& file, const ModelFileOptions& options
  *  "symmetry": "none",      // or round, or turn:4, about the z axis
  *  "cascades": {"range": "range.xml", "reflectance": "reflectance.xml"}}
  * \endcode
- * Only class and file must be there; the cascades are not opened.
- * \throws IoFailed naming file and JSON pointer: what is missing, of another type or not
- * known, files that are missing, a class that checkObjectClass() refuses, and of a mesh a
- * symmetry that it does not have */
+ * Only class and file are required; the cascades are not opened.
+ * \throws IoFailed naming file and JSON pointer: a field missing, unknown or of another
+ * type, a file missing, a class rejected by checkObjectClass(), or a symmetry that the
+ * mesh does not have */
 StoredModel
 readStoredModel(const std::filesystem::path& path);
 
-/** \return the folders in a store, those with a model.json, by name
- * \throws IoFailed it cannot be read, or holds none */
+/** \return the folders of a store with a model.json, sorted by name
+ * \throws IoFailed the store cannot be read, or holds no model */
 std::vector<std::filesystem::path>
 listModels(const std::filesystem::path& store);
 
-/** \brief Reads models that are to be looked for together: files, folders of the store, and
- * all models of a store, which may be empty for none.
- * \throws IoFailed as the readers \throws BadArgument two are of one class */
+/** \brief Reads models to search for together: files, folders of the store, and every
+ * model of a store. An empty store path means no store.
+ * \throws IoFailed see readStoredModel() and listModels() \throws BadArgument two
+ * models are of one class */
 std::vector<StoredModel>
 readModels(const std::vector<std::string>& paths,
            const std::filesystem::path& store = {},
            const ModelFileOptions& options = {});
 
-/** \brief Classes are words of queries and names in files: 1 to 64 letters (of any
- * language, in UTF-8), digits, '-', '_' and '.', the first a letter or a digit.
- * \throws BadArgument it is none */
+/** \brief Checks a class name. Classes are words of queries and names in files: 1 to 64
+ * letters (of any language, in UTF-8), digits, '-', '_' and '.', the first a letter or
+ * a digit.
+ * \throws BadArgument the name is not valid */
 void
 checkObjectClass(const std::string& object_class);
 

@@ -8,16 +8,18 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Turns normals round so that those of neighbours agree, and those of each
- * connected surface point away from its middle: the way to the outside for an object
- * whose maker is not known.
+/** \brief Flips normals so that neighbouring normals agree and the normals of each
+ * connected surface point away from its centroid: outwards, for an object of unknown
+ * origin.
  *
- * From the outermost point of each surface, agreement is carried along the edges of the
- * minimum spanning tree of the neighbourhood graph, over which normals turn least.
- * \param[in,out] normals one per point; zero ones stay
+ * From the outermost point of each surface, agreement spreads along the edges of the
+ * minimum spanning tree of the neighbourhood graph, weighted by the turn of the
+ * normals.
+ * \param[in,out] normals one per point; zero normals stay
+ * \param[in] points [m]
  * \param[in] tree over the points
  * \param[in] neighbours of a point in the graph; in [3, 64]
- * \throws BadArgument not one normal per point, or neighbours breaks its rule
+ * \throws BadArgument not one normal per point, or neighbours is invalid
  * \note Source: H. Hoppe et al., "Surface reconstruction from unorganized points",
  * SIGGRAPH 1992, section 3.3. \ingroup object_localization */
 void

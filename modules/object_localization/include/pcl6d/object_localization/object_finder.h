@@ -14,15 +14,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Where objects are looked for. */
+/** \brief Where objects are searched for. */
 enum class ProposalMethod {
-  kAuto,     ///< features in a camera's narrow view, clusters if it looks all around
-  kClusters, ///< what stands on planes
+  kAuto,     ///< features in a camera's narrow view, else clusters
+  kClusters, ///< segments that stand on planes
   kFeatures, ///< anywhere, by pairs of points
-  kCascade   ///< where the model's cascades see one
+  kCascade   ///< where the model's cascades detect an object
 };
 
-/** \throws BadArgument it is none of auto, clusters, features, cascade */
+/** \throws BadArgument the name is not auto, clusters, features or cascade */
 ProposalMethod
 proposalMethodFromName(const std::string& name);
 
@@ -31,22 +31,25 @@ struct ObjectFinderOptions {
   ProposalMethod proposals = ProposalMethod::kAuto;
   LocalizerOptions localizer;
   DetectorOptions detector;
-  /** which of a model's cascades are asked, of kCascade */
+  /** which cascades of a model kCascade uses */
   bool use_range = true;
   bool use_reflectance = true;
   double max_shared = 0.3; ///< of the points of the smaller of two objects
 };
 
 /** \brief Finds objects of several models in scans (book 7.2): proposals, poses, and of
- * objects that explain the same points the one that explains most. \code
+ * objects that share points the object with the most evidence.
+ * \code
  * const pcl6d::ObjectFinder finder({pcl6d::readStoredModel("share/models/chair")});
  * for (const auto& found : finder.find(points)) // [m], the scanner at the origin
  *   use(found.object_class, found.T_scene_object);
- * \endcode \ingroup object_localization */
+ * \endcode
+ * \ingroup object_localization */
 class ObjectFinder {
 public:
-  /** \throws BadArgument an option breaks its rule, or kCascade is asked for and a model has
-   * no cascade that is to be used \throws IoFailed a cascade cannot be read */
+  /** \throws BadArgument an option is invalid, or kCascade is chosen and a model has no
+   * usable cascade
+   * \throws IoFailed a cascade cannot be read */
   explicit ObjectFinder(std::vector<StoredModel> models,
                         const ObjectFinderOptions& options = {});
 

@@ -28,41 +28,43 @@ struct VotedPose;
 struct LocalizerOptions {
   double resolution = 0.05;  ///< of the search, as a share of the model's diameter; in
                              ///< [0.02, 0.2]
-  int max_candidates = 24;   ///< poses that are looked at closely; > 0
+  int max_candidates = 24;   ///< poses that are refined; > 0
   double min_visible = 0.35; ///< PoseCheck::visibleFraction() of an object
-  double min_facing = 0.08;  ///< of the surface that faces the scanner where most of it
-                             ///< does: an open shell is not believed from behind
-  /** Without proposals: support over the pieces of the model's best side. Where a scan is
-   * too coarse for it, pairs of points find what is not there. */
+  double min_facing = 0.08;  ///< facing share of the surface, relative to the model's
+                             ///< best side: an open shell seen from behind is rejected
+  /** Without proposals: supporting elements over the facing elements of the model's
+   * best side. In coarser scans, votes of point pairs give false positives. */
   double min_seen = 0.2;
   double min_agreement = 0.88;     ///< PoseCheck::agreement()
   double max_violation = 0.08;     ///< PoseCheck::freeSpaceViolation()
   double max_continuation = 0.4;   ///< PoseCheck::continuation(); >= 0
   std::size_t min_support = 20;    ///< surface elements of the scan on the object; > 0
-  double max_shared_support = 0.3; ///< of the weaker one of two objects
+  double max_shared_support = 0.3; ///< of the weaker of two objects
   unsigned int num_threads = 0;    ///< 0: one per core; never changes the result
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
 /** \brief Finds an object of known shape in a scan and its pose in six degrees of
- * freedom, without a first guess (book 7.2.2).
+ * freedom, without an initial pose (book 7.2.2).
  *
- * Pairs of points vote for poses (PairFeatureTable), the best ones are refined by ICP,
- * judged by what the scan shows of the object and by where it saw through (PoseCheck),
- * and of those that explain the same surface the best one stays. \code
+ * Pairs of points vote for poses (PairFeatureTable), and ICP refines the best poses.
+ * PoseCheck tests each pose by the visible surface and by free-space violations. Of
+ * poses that explain one surface, the best stays.
+ * \code
  * const pcl6d::ObjectLocalizer localizer(
  *     pcl6d::ObjectModel::fromCloud("carton", model_points));
  * for (const auto& carton : localizer.locate(pcl6d::LocalizationScene(scan_points)))
  *   use(carton.T_scene_object);
- * \endcode \ingroup object_localization */
+ * \endcode
+ * \ingroup object_localization */
 class ObjectLocalizer {
 public:
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an option is invalid */
   explicit ObjectLocalizer(ObjectModel model, const LocalizerOptions& options = {});
 
-  /** \return the objects, best score first; none is no error */
+  /** \return the objects, best score first; may be empty */
   std::vector<LocalizedObject>
   locate(const LocalizationScene& scene) const;
 
@@ -72,9 +74,10 @@ public:
     return model_;
   }
 
-  /** \brief The same where something may be, such as proposeObjects() finds: upright, on
-   * what the proposals stand on. Also in coarse scans, in which pairs of points say little.
-   * \param[in] proposals of the scene's points \return best first */
+  /** \brief Finds objects at proposals, for example from proposeObjects(): upright, on
+   * the plane that supports the proposal. Also suits coarse scans, in which votes of
+   * point pairs are weak.
+   * \param[in] proposals of the scene's points \return best score first */
   std::vector<LocalizedObject>
   locate(const LocalizationScene& scene,
          const std::vector<ObjectProposal>& proposals) const;
@@ -106,7 +109,7 @@ private:
   double spacing_;                             ///< [m] of the model's points
   OrientedPoints coarse_;                      ///< the model for votes
   std::shared_ptr<const ModelSurface> fine_;   ///< for refinement
-  std::size_t most_facing_;                    ///< points of fine_, from the best side
+  std::size_t most_facing_;                    ///< points of fine_ on its best side
   std::shared_ptr<const DistanceField> field_; ///< of fine_
   PairFeatureTable table_;
 };

@@ -11,28 +11,30 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What an object looks like: its surface in its own frame, all around or as far as
- * it was seen. \ingroup object_localization */
+/** \brief The surface of an object in its own frame, complete or as far as scanned.
+ * \ingroup object_localization */
 class ObjectModel {
 public:
-  /** [m] A model that is larger was hardly given in metres. */
+  /** [m] A larger diameter hints at a model that is not in metres. */
   static constexpr double kLargestDiameter = 50;
 
-  /** \brief Takes a cloud. Without normals they are estimated and turned to the outside
+  /** \brief Takes a cloud. Missing normals are estimated and oriented outwards
    * (orientNormals()).
-   * \param[in] object_class such as "chair"
-   * \param[in] points [m] in the object's frame; those that are not finite are left out
+   * \param[in] object_class for example "chair"
+   * \param[in] points [m] in the object's frame; points with a non-finite coordinate
+   * are left out
    * \param[in] normals one per point, or empty
-   * \throws BadArgument fewer than 10 finite points, all on one line, normals neither one
-   * per point nor none, or larger than kLargestDiameter (is it in millimetres?) */
+   * \throws BadArgument fewer than 10 finite points, every point on one line, normals
+   * neither empty nor one per point, or larger than kLargestDiameter (is it in
+   * millimetres?) */
   static ObjectModel
   fromCloud(const std::string& object_class,
             const Points& points,
             const Normals& normals = {});
 
   /** \brief Takes a mesh: its surface is sampled evenly, about 100 points along its
-   * diameter. Which way its triangles turn does not matter.
-   * \throws BadArgument it has no triangle or no area, or as fromCloud() */
+   * diameter. The orientation of the triangles does not matter.
+   * \throws BadArgument the mesh has no triangle or no area, or see fromCloud() */
   static ObjectModel
   fromMesh(const std::string& object_class, const TriangleMesh& mesh);
 
@@ -49,7 +51,7 @@ public:
     return surface_;
   }
 
-  /** \return none, unless it was told */
+  /** \return the symmetry; default: no symmetry */
   const ObjectSymmetry&
   symmetry() const
   {

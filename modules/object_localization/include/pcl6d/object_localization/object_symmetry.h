@@ -8,10 +8,10 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Turns about the z axis of an object's frame after which it looks the same.
+/** \brief Rotational symmetry of an object about the z axis of its frame.
  * \ingroup object_localization */
 struct ObjectSymmetry {
-  int turns = 1; ///< 1: none but the full turn; n: by 1/n of a turn; 0: round, any turn
+  int turns = 1; ///< 1: no symmetry; n: by 1/n of a turn; 0: round, by any angle
 
   bool
   isRound() const
@@ -29,8 +29,8 @@ symmetryFromName(const std::string& name);
 std::string
 toString(const ObjectSymmetry& symmetry);
 
-/** \return how far a surface is from itself after such a turn [m], in the mean: about
- * half the spacing of its points if it has the symmetry */
+/** \return mean distance [m] of a surface and its copy turned by the symmetry: about
+ * half the spacing of its points if the surface has the symmetry */
 double
 symmetryError(const OrientedPoints& surface, const ObjectSymmetry& symmetry);
 

@@ -7,8 +7,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Points of surfaces with unit normals that all point to the outside, or to the
- * sensor. \ingroup object_localization */
+/** \brief Points of surfaces with consistently oriented unit normals: outwards, or
+ * towards the sensor. \ingroup object_localization */
 struct OrientedPoints {
   Points points;   ///< [m]
   Normals normals; ///< one per point
@@ -20,9 +20,10 @@ struct OrientedPoints {
   }
 };
 
-/** \return the mean point and normal of each occupied voxel, and of a thin sheet one of
- * each face; points without a normal are left out
- * \throws BadArgument not one normal per point, or voxel breaks its rule */
+/** \return the mean point and normal of each occupied voxel, and of a thin sheet one
+ * per face; points without a normal are left out
+ * \param[in] voxel [m] > 0
+ * \throws BadArgument not one normal per point, or voxel is invalid */
 OrientedPoints
 reduceOriented(const OrientedPoints& surface, double voxel);
 

@@ -15,32 +15,34 @@ namespace PCL6D_EXPORTS pcl6d {
 struct PairFeatureOptions {
   int distance_steps = 20; ///< along the diameter; 4 to 60
   int angle_steps = 15;    ///< in a half turn; 4 to 30
-  /** of the pairs of a model that may be left out because they lie in one plane and say
-   * little of the pose; above it, all are kept: the model is a sheet */
+  /** Largest share of a model's pairs that may be left out as coplanar, with little
+   * information on the pose. Above it every pair is kept: the model is a sheet. */
   double largest_flat_share = 0.98;
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief The frame of a point on a surface: its normal is the x axis.
- * \return the motion into it: T_frame_surface */
+/** \brief The frame of a point on a surface, with the normal as x axis.
+ * \return the transformation from the surface's frame: T_frame_surface */
 Eigen::Isometry3f
 frameOf(const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
 
-/** \brief The pairs of a model's points, found by what does not change when it moves:
- * their distance and the three angles between the line that joins them and their normals.
+/** \brief The point pairs of a model, indexed by an invariant feature: their distance,
+ * and the three angles between the joining line and the normals.
  *
- * A pair of a scene with the same feature says where the model would be: the frame of its
+ * A scene pair with an equal feature determines the model's pose: the frame of its
  * first point, turned about the normal by the difference of two angles.
  * \note Source: B. Drost, M. Ulrich, N. Navab, S. Ilic, "Model globally, match locally:
- * efficient and robust 3D object recognition", CVPR 2010. \ingroup object_localization */
+ * efficient and robust 3D object recognition", CVPR 2010. \ingroup
+ * object_localization */
 class PairFeatureTable {
 public:
   /** A pair of the model. */
   struct Entry {
-    std::uint32_t first; ///< place of the first point
-    float angle;         ///< [rad] of the second about the first's normal, in its frame
+    std::uint32_t first; ///< index of the first point
+    float angle; ///< [rad] of the second point about the first's normal, in the first's
+                 ///< frame
   };
   /** The pairs with one feature. */
   struct Range {
@@ -58,15 +60,15 @@ public:
     }
   };
 
-  /** \param[in] model reduced, so that its spacing is about a step of distance
-   * \param[in] diameter [m] > 0, no pair is farther apart
-   * \throws BadArgument an option breaks its rule, or fewer than 3 points */
+  /** \param[in] model reduced to a spacing of about one distance step
+   * \param[in] diameter [m] > 0, the largest distance of a pair
+   * \throws BadArgument an option is invalid, or fewer than 3 points */
   PairFeatureTable(const OrientedPoints& model,
                    double diameter,
                    const PairFeatureOptions& options = {});
 
-  /** \return the feature of a pair as a number; -1: too far apart, in one place, or left
-   * out as flat */
+  /** \return the feature of a pair as a number; -1: too far apart, coincident, or left
+   * out as coplanar */
   int
   featureOf(const Eigen::Vector3f& p1,
             const Eigen::Vector3f& n1,
@@ -87,7 +89,7 @@ public:
     return frames_.size();
   }
 
-  /** \return the motion from the model into the frame of one of its points */
+  /** \return the transformation from the model into the frame of a point */
   const Eigen::Isometry3f&
   frame(std::size_t point) const
   {

@@ -13,22 +13,23 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What a scan says of an object at a pose: each point of the model's surface that
- * faces the scanner and that the object itself does not hide is one of five. */
+/** \brief Result of comparing a scan with an object at a pose. Each element of the
+ * model's surface that faces the scanner, not hidden by the object itself, is in one of
+ * five classes. */
 struct PoseCheck {
-  std::size_t elements = 0; ///< of the model that face the scanner, met by a ray or not
-  std::size_t supported = 0; ///< the scan has a surface there
-  std::size_t refuted = 0;   ///< the scanner saw through
-  std::size_t misfit = 0;    ///< there is a surface, but off or turned otherwise
-  std::size_t occluded = 0;  ///< something is in front
+  std::size_t elements = 0;  ///< that face the scanner, met by a ray or not
+  std::size_t supported = 0; ///< on a surface of the scan
+  std::size_t refuted = 0;   ///< a ray of the scan passed through
+  std::size_t misfit = 0;    ///< a surface is near, but apart or turned
+  std::size_t occluded = 0;  ///< a surface is in front
   std::size_t unseen = 0;    ///< no measurement in this direction
-  std::size_t continued = 0; ///< of `support`: from where the surface goes on smoothly
-                             ///< beyond the object
-  double rms = 0;            ///< [m] distance to the surface, of those supported
-  /** places of the scan's points that support it, ascending, each once */
+  std::size_t continued = 0; ///< of `support`: elements whose surface continues
+                             ///< smoothly beyond the object
+  double rms = 0; ///< [m] distance of supported elements to the scan's surface
+  /** indices of the scan's surface elements on the object, ascending, each once */
   std::vector<std::uint32_t> support;
 
-  /** \return the number of points that face the scanner */
+  /** \return the number of elements of the five classes */
   std::size_t
   facing() const
   {
@@ -44,8 +45,8 @@ struct PoseCheck {
                : static_cast<double>(supported) / static_cast<double>(facing());
   }
 
-  /** \return of the surface that the scan shows where the object would be, the share that
-   * is the object's */
+  /** \return of the scan's surface at the pose, the share that agrees with the
+   * object */
   double
   agreement() const
   {
@@ -53,8 +54,8 @@ struct PoseCheck {
     return known == 0 ? 0 : static_cast<double>(supported) / static_cast<double>(known);
   }
 
-  /** \return how much of the surface goes on where the object ends, as on a piece of a
-   * wall: as a share of the perimeter of a square of as many elements */
+  /** \return how much of the surface continues beyond the object, for example on a
+   * piece of a wall: as a share of the perimeter of a square of equal area */
   double
   continuation() const
   {
@@ -63,7 +64,7 @@ struct PoseCheck {
                                  (4 * std::sqrt(static_cast<double>(support.size())));
   }
 
-  /** \return of what the scan speaks of, the share that speaks against the pose */
+  /** \return refuted elements over supported and refuted elements; 1 without any */
   double
   freeSpaceViolation() const
   {
@@ -80,16 +81,16 @@ struct ModelSurface {
   {}
 
   OrientedPoints surface;
-  PointTree tree; ///< over its points
+  PointTree tree; ///< over the points of `surface`
   double element; ///< [m]
 };
 
-/** \brief Compares an object at a pose with a scan (book 7.2.2, step 4): each element of
- * its surface with the rays of the scan through it. Where the scan is too coarse for a
- * ray to meet an element, it says nothing of it.
- * \param[in] surface of the scan, in elements of the model's size or larger; what is on
- * a large plane is no object
- * \param[in] tolerance [m] of a pose that is right, without the noise of the scan
+/** \brief Compares an object at a pose with a scan (book 7.2.2, step 4): each element
+ * of the object's surface with the scan's rays through it. Elements between the rays of
+ * a coarse scan are in no class.
+ * \param[in] surface of the scan, in elements of the model's size or larger; elements
+ * on a large plane never support an object
+ * \param[in] tolerance [m] of a correct pose, without the noise of the scan
  * \ingroup object_localization */
 PoseCheck
 checkPose(const LocalizationScene& scene,

@@ -6,11 +6,11 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Joins poses that are near each other: each, those with more votes first, goes to
- * the first group whose founder is near enough.
- * \param[in] middle of the model [m], in its frame: where distances count
+/** \brief Clusters poses. In the order of falling votes, each pose joins the first
+ * cluster whose founder is near enough, or founds a cluster.
+ * \param[in] middle of the model [m], in its frame: distances are measured there
  * \param[in] distance [m], angle [rad] within which poses are near
- * \return per group the mean pose and the sum of the votes; most votes first
+ * \return per cluster the mean pose and the sum of the votes; most votes first
  * \note Source: Drost et al. 2010, section 4.3. \ingroup object_localization */
 std::vector<VotedPose>
 clusterPoses(const std::vector<VotedPose>& poses,

@@ -7,7 +7,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A pose that pairs of points voted for. */
+/** \brief A pose and the votes of the point pairs for it. */
 struct VotedPose {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   double votes = 0;
@@ -15,20 +15,21 @@ struct VotedPose {
 
 /** \brief Knobs of voteForPoses(). */
 struct PoseVoteOptions {
-  int turn_steps = 30;      ///< of the angle about the normal, in a turn; 8 to 90
+  int turn_steps = 30;      ///< steps of the angle about the normal in a turn; 8 to 90
   int reference_stride = 5; ///< every n-th point of the scene is a first point; >= 1
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief For each of some points of a scene the pose of the model that most pairs with
- * it agree on.
- * \param[in] scene reduced as the model is \param[in] tree over its points
- * \return in the order of the points; those without a vote are left out
- * \throws BadArgument an option breaks its rule
- * \note Source: Drost et al. 2010, as PairFeatureTable. */
+/** \brief For every n-th point of a scene, the model pose with the most votes of point
+ * pairs.
+ * \param[in] scene reduced to the model's spacing \param[in] tree over the scene's
+ * points
+ * \return in the order of the points; points without a vote are left out
+ * \throws BadArgument an option is invalid
+ * \note Source: Drost et al. 2010, see PairFeatureTable. */
 std::vector<VotedPose>
 voteForPoses(const PairFeatureTable& table,
              const OrientedPoints& scene,

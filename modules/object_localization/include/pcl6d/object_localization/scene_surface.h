@@ -9,12 +9,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The surface of a scan in elements of one size, what finds places on it, and
- * which of it lies on planes too large for an object: floor, walls, tables.
+/** \brief The surface of a scan in elements of one size, with search trees. Marks
+ * elements on planes too large for an object: floor, walls, tables.
  * \ingroup object_localization */
 struct SceneSurface {
-  /** \param[in] voxel [m] size of an element
-   * \param[in] diameter [m] of the object: a plane is large on which it could lie whole */
+  /** \param[in] points [m] of the scan
+   * \param[in] voxel [m] size of an element
+   * \param[in] diameter [m] of the object: a plane is large if the whole object fits on
+   * it
+   * \param[in] num_threads 0: one per core; never changes the result */
   SceneSurface(const Points& points,
                double voxel,
                double diameter,
@@ -27,7 +30,7 @@ struct SceneSurface {
   PlaneCloud cloud;
   OrientedPoints elements;  ///< the surfels of the cloud
   PointTree tree;           ///< over the elements
-  PointTree directions;     ///< over the unit vectors from the scanner to them
+  PointTree directions;     ///< over the unit vectors from the scanner to the elements
   std::vector<float> noise; ///< [m] per element: two standard deviations, averaged
   std::vector<char> large;  ///< per element: whether it is on a large plane
 };

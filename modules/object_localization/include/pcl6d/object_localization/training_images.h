@@ -11,26 +11,26 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return a mesh of small squares on the points of a model, so that a cloud hides what is
- * behind it as the object would */
+/** \return a mesh of small squares on the points of a model, which occludes the
+ * background like the object itself */
 TriangleMesh
 meshOfPoints(const ObjectModel& model);
 
-/** \brief The window that suits an object. */
+/** \brief The detection window of an object. */
 struct WindowShape {
   int width = 24;         ///< [px]
   int height = 24;        ///< [px]
-  double object_size = 1; ///< [m] height of the window where the object stands
+  double object_size = 1; ///< [m] height of the window at the object's distance
 
-  /** \return [rad] of pictures in which the window is not smaller than this, whose
-   * pixels are those of the cascade, up to a distance [m] */
+  /** \return pixel size [rad] of the pictures at which an object at the given distance
+   * [m] still fills the window: at most that of DetectionViewOptions */
   double
   pixelFor(double distance) const;
 };
 
-/** \return a window of about 576 pixels around models that stand upright (z), turned any
- * way about the vertical, with some margin
- * \throws BadArgument no model, one without triangles, or larger than
+/** \return a window of about 576 pixels around upright models (z), in any heading, with
+ * a margin
+ * \throws BadArgument no model, a model without triangles, or larger than
  * ObjectModel::kLargestDiameter (is it in millimetres?) */
 WindowShape
 windowShapeOf(const std::vector<TriangleMesh>& models);
@@ -49,32 +49,32 @@ struct TrainingImageOptions {
   double max_distance = 5;      ///< [m] > min_distance
   double min_visible = 0.4;     ///< share of the samples on the object, in (0, 1]
   double size_tolerance = kSizeTolerance; ///< of the detector, see WindowGate; > 1
-  double min_reflectance = 0.3;           ///< of the object, drawn each time; in [0, 1]
-  double max_reflectance = 0.8;           ///< >= min_reflectance, <= 1
-  std::size_t min_samples = 25;           ///< of the scanner on the object, > 0
-  std::uint64_t seed = 1;                 ///< same seed, same images
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  double min_reflectance = 0.3; ///< of the object, drawn anew each time; in [0, 1]
+  double max_reflectance = 0.8; ///< >= min_reflectance, <= 1
+  std::size_t min_samples = 25; ///< of the scanner on the object, > 0
+  std::uint64_t seed = 1;       ///< equal seeds give equal images
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief What trainCascade() learns from. */
+/** \brief Input of trainCascade(). */
 struct TrainingImages {
   std::vector<GrayImage> positives;         ///< of the window's size
-  std::vector<BackgroundImage> backgrounds; ///< pictures of the scans as they are
+  std::vector<BackgroundImage> backgrounds; ///< pictures of the unchanged scans
 };
 
-/** \brief Puts models into scans and cuts out what a detector would see of them.
+/** \brief Puts models into scans and cuts out the windows that a detector would see.
  *
- * Each positive takes a scan, a free place on its floor, a heading and a distance by the
- * seed, measures the model there as the scanner does, noise included, and hides what it
- * hides; the window is off the object by a few per cent, and passes the detector's
- * WindowGate. Same images for any number of threads.
+ * Each positive uses a scan, a free position on its floor, a heading and a distance,
+ * drawn by the seed. The model is measured there with the scanner's pattern and noise
+ * and occludes the background. The window is off the object by a few per cent and
+ * passes the detector's WindowGate. The images are equal for any number of threads.
  * \param[in] models upright (z), standing on their lowest point
- * \throws BadArgument an option breaks its rule, no scans, or a scan lacks reflectances
+ * \throws BadArgument an option is invalid, no scans, or a scan lacks reflectances
  * where the channel needs them
- * \throws ComputeFailed no free place was found for many positives (the message says what
- * was in the way most often) \ingroup object_localization */
+ * \throws ComputeFailed no free position was found for many positives (the message
+ * names the most frequent reason) \ingroup object_localization */
 TrainingImages
 makeTrainingImages(const std::vector<TriangleMesh>& models,
                    const WindowShape& window,

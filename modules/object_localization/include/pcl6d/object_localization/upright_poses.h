@@ -9,13 +9,13 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How far it is to a surface, in cells of a grid around it. \ingroup
+/** \brief Distances to a surface, in cells of a grid around it. \ingroup
  * object_localization */
 class DistanceField {
 public:
   /** \param[in] points of the surface [m] \param[in] cell [m] > 0
-   * \param[in] reach [m] to which distances are known; > cell
-   * \throws BadArgument no points, or cell or reach breaks its rule */
+   * \param[in] reach [m] largest distance stored; > cell
+   * \throws BadArgument no points, or cell or reach is invalid */
   DistanceField(const Points& points, double cell, double reach);
 
   /** \return the distance [m] of the middle of a point's cell, at most reach() */
@@ -41,16 +41,15 @@ private:
   std::vector<float> distances_;
 };
 
-/** \brief Places an upright object of known shape where points may be of it (book 7.2.2,
- * step 2, with all headings and shifts instead of the centroid): each heading in steps of
- * 5 deg, each shift in steps of a cell, judged by the mean distance of the points to the
- * model.
- * \param[in] model distances to its surface \param[in] box of the model [m]; it stands on
- * the lower side
- * \param[in] points of a scan [m] \param[in] T_scene_base z up, the plane z = 0 is what
- * the object stands on
+/** \brief Fits an upright object of known shape to points (book 7.2.2, step 2, with
+ * every heading and shift instead of the centroid). Headings in steps of 5 deg and
+ * shifts in steps of a cell are scored by the mean distance of the points to the model.
+ * \param[in] model distances to its surface
+ * \param[in] box of the model [m], which stands on the lower side
+ * \param[in] points of a scan [m]
+ * \param[in] T_scene_base z up, the plane z = 0 supports the object
  * \param[in] max_poses to return
- * \return the best poses that differ, best first; votes: from 0, no point is near the
+ * \return the best distinct poses, best first; votes: from 0, no point is near the
  * model, to 1 \ingroup object_localization */
 std::vector<VotedPose>
 uprightPoses(const DistanceField& model,

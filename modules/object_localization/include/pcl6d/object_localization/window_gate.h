@@ -10,30 +10,30 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** By how much the size of a window may differ from the object's: that of the training
- * and of the detector should be the same. */
+/** Largest factor between the height of a window and of the object. Training and
+ * detector should use equal factors. */
 constexpr double kSizeTolerance = 1.3;
 
-/** \brief Which windows of a picture of a view can show an object: those as large as it
- * would be at a range that is seen in them. A detector looks at no others, and a
- * training takes its negatives from them alone. \ingroup object_localization */
+/** \brief Selects the windows of a view's picture that can show an object: their height
+ * fits the object at a range measured in the window. Both detector and training skip
+ * every other window. \ingroup object_localization */
 class WindowGate {
 public:
-  /** \param[in] image of a view \param[in] slice of it that the picture shows
-   * \param[in] object_size [m] height of the window where the object stands
-   * \param[in] tolerance by which the height may differ, as a factor; > 1 */
+  /** \param[in] image of a view \param[in] slice shown by the picture
+   * \param[in] object_size [m] height of the window at the object's distance
+   * \param[in] tolerance largest factor between window and object heights; > 1 */
   WindowGate(const DetectionViewOptions& views,
              const RangeImage& image,
              const DepthSlice& slice,
              double object_size,
              double tolerance);
 
-  /** \return the sizes that can pass; nothing if none does */
+  /** \return the sizes that can pass; nullopt if no size does */
   std::optional<WindowGrid>
   grid(double scale_factor) const;
 
-  /** \return [m] to what is seen in a window and may be the object, if that is a ninth of
-   * the window or more: a fourth of it is nearer */
+  /** \return range [m] of a possible object in a window, if at least a ninth of the
+   * window is in reach: the lower quartile of these ranges */
   std::optional<double>
   rangeIn(const ImageRect& window) const;
 
@@ -55,7 +55,7 @@ private:
 /** \brief A picture without the object. */
 struct BackgroundImage {
   GrayImage image;
-  std::shared_ptr<const WindowGate> gate; ///< null: all windows count
+  std::shared_ptr<const WindowGate> gate; ///< null: every window counts
 
   BackgroundImage() = default;
   BackgroundImage(GrayImage picture, std::shared_ptr<const WindowGate> windows = {})

@@ -10,19 +10,21 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Directions in cells of nearly equal solid angle, to vote in for normals.
+/** \brief Accumulator over directions in cells of nearly equal solid angle, for votes
+ * on normals.
  *
- * A round cell at each pole, so that floors and ceilings have one cell and not a wreath
- * of wedges; between them slices of equal height in angle, cut into cells of nearly
+ * Each pole has one round cell, so floors and ceilings fall into one cell, not a wreath
+ * of wedges. In between, slices of equal height in angle are cut into cells of nearly
  * equal width. The largest cell is at most 1.10 times the smallest.
  * \note Source: D. Borrmann, J. Elseberg, K. Lingemann, A. Nüchter, "The 3D Hough
- * transform for plane detection in point clouds: a review and a new accumulator design",
- * 3D Research 2(2), 2011; there without the round cells. Book: 7.1.1.
+ * transform for plane detection in point clouds: a review and a new accumulator
+ * design", 3D Research 2(2), 2011; without the round cells. Book: 7.1.1.
  * \ingroup plane_segmentation */
 class AccumulatorBall {
 public:
-  /** \param[in] slices between the poles, in [2, 1000]: a cell is about pi / slices wide
-   * \throws BadArgument there are fewer or more */
+  /** \param[in] slices between the poles, in [2, 1000]: a cell is about pi / slices
+   * wide
+   * \throws BadArgument slices is out of range */
   explicit AccumulatorBall(int slices = 45);
 
   /** \return the number of cells */
@@ -44,12 +46,12 @@ public:
   double
   area(std::size_t cell) const;
 
-  /** \return the cells that touch a cell, at a corner too, ascending */
+  /** \return the cells that touch a cell, also at a corner, ascending */
   std::vector<std::size_t>
   neighbours(std::size_t cell) const;
 
-  /** \return the cells that are at most so many steps from neighbour to neighbour away
-   * from a cell, itself included, ascending */
+  /** \return the cells within a number of steps from neighbour to neighbour, itself
+   * included, ascending */
   std::vector<std::size_t>
   window(std::size_t cell, int steps) const;
 

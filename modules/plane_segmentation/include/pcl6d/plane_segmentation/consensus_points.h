@@ -13,16 +13,16 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The points that findPlaneConsensus() looks at, packed in columns. A point's
- * place is how many were offered before it, left out or not.
+/** \brief The points for findPlaneConsensus(), packed in columns. A point's index
+ * counts the points offered before it, left out or not.
  * \ingroup plane_segmentation */
 class ConsensusPoints {
 public:
-  /** \param[in] capacity so many points may be offered
-   * \param[in] with_normals whether each comes with its normal */
+  /** \param[in] capacity largest number of points to offer
+   * \param[in] with_normals whether each point has a normal */
   explicit ConsensusPoints(std::size_t capacity, bool with_normals = false);
 
-  /** \brief Takes a point without a normal [m]; leaves it out unless it is finite. */
+  /** \brief Adds a point without a normal [m]; a non-finite point is left out. */
   void
   add(float x, float y, float z)
   {
@@ -30,20 +30,20 @@ public:
     ys_[size_] = y;
     zs_[size_] = z;
     places_[size_] = offered_++;
-    // Zero times what is not finite is not zero.
+    // Zero times a non-finite number is not zero.
     const float zero = 0 * x + 0 * y + 0 * z;
     size_ += static_cast<std::size_t>(zero == 0);
   }
 
-  /** \brief Takes a point with its normal; leaves it out unless both are finite, and
-   * the normal is not zero.
+  /** \brief Adds a point with its normal; left out unless both are finite and the
+   * normal is not zero.
    * \param[in] point [m] \param[in] normal of any length and sign
    * \param[in] weight of the angle between normal and plane, in [0, 1]; see
    * PlaneConsensusOptions::max_distance */
   void
   add(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, float weight);
 
-  /** \return how many were taken */
+  /** \return the number of points kept */
   std::size_t
   size() const
   {
@@ -56,7 +56,7 @@ public:
     return !weights_.empty();
   }
 
-  /** \return what x, y and z are relative to, in the frame of the points [m] */
+  /** \return the origin of x, y and z, in the frame of the points [m] */
   const Eigen::Vector3f&
   origin() const
   {
@@ -69,15 +69,15 @@ public:
     return {xs_[i], ys_[i], zs_[i]};
   }
 
-  /** \return the place of a point that was taken; ascending, but in a sample() */
+  /** \return the index of a kept point; ascending, except in a sample() */
   std::uint32_t
   place(std::size_t i) const
   {
     return places_[i];
   }
 
-  /** \return which of the points has a place, if places ascend; none if it was left
-   * out */
+  /** \return the position of the point with an index, if indices ascend; nullopt if the
+   * point was left out */
   std::optional<std::size_t>
   find(std::uint32_t place) const;
 
@@ -109,14 +109,14 @@ public:
     return weights_.data();
   }
 
-  /** \brief Makes coordinates relative to a place amid the points, which saves digits
-   * where they are far from their origin: the median of some of them, which a few wild
-   * ones do not move. */
+  /** \brief Makes coordinates relative to a position amid the points, to save digits
+   * far from their origin: the median of a sample, robust to outliers. */
   void
   centre();
 
-  /** \return some of the points, in random order, one from each of `count` runs of
-   * equal length; all of them if they are not more. \param[in] seed of the choice */
+  /** \return a random subset in random order, one point from each of `count` runs of
+   * equal length; every point if there are at most `count`. \param[in] seed of the
+   * choice */
   ConsensusPoints
   sample(std::size_t count, std::uint64_t seed) const;
 

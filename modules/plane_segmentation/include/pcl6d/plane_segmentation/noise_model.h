@@ -7,19 +7,21 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How much a sensor errs, over range: that of a lidar is almost constant, that
- * of a structured-light camera grows with the square of the range. Between the ranges
- * where it is known it is interpolated, beyond it stays. \ingroup plane_segmentation */
+/** \brief Standard deviation of a sensor's noise over range: almost constant for a
+ * lidar, growing with the square of the range for a structured-light camera.
+ * Interpolated between known ranges, constant beyond them. \ingroup
+ * plane_segmentation */
 class NoiseModel {
 public:
-  /** \brief The same at any range. \param[in] sigma [m] */
+  /** \brief Constant noise. \param[in] sigma [m] */
   explicit NoiseModel(double sigma = 0) : ranges_{0}, sigmas_{sigma} {}
 
-  /** \brief Learns from residuals: their lower quartiles within bins of equal counts, as
-   * some places are rough and not the sensor's fault.
+  /** \brief Estimates noise from residuals: their lower quartiles within bins of equal
+   * counts, as rough surfaces add to the sensor's noise.
    * \param[in] ranges [m] from the sensor
-   * \param[in] residuals [m] of a point to the plane of its neighbourhood, made unbiased
-   * \param[in] least [m] the noise is not taken for less */
+   * \param[in] residuals [m] of a point to the plane of its neighbourhood, made
+   * unbiased
+   * \param[in] least [m] lower limit of the noise */
   NoiseModel(const std::vector<double>& ranges,
              const std::vector<double>& residuals,
              double least);

@@ -16,40 +16,43 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Sets of points, disjoint, one per plane that a detector believes in; places
- * in PlaneCloud::points(). */
+/** \brief Disjoint sets of points, one per candidate plane of a detector; indices into
+ * PlaneCloud::points(). */
 using PlaneCandidates = std::vector<std::vector<std::uint32_t>>;
 
-/** \brief What is known of a cloud beside its points, and how it is prepared. */
+/** \brief Properties of a cloud besides its points, and knobs of its preparation. */
 struct PlaneCloudOptions {
   Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero(); ///< [m] where the sensor stood
-  /** [m] of each point, if they differ; else empty. Faces of a wall that are closer than
-   * the neighbours of a surfel get in each other's way; PlaneMap keeps them apart. */
+  /** [m] per point, if viewpoints differ; else empty. Opposite faces of a wall closer
+   * than the neighbours of a surfel disturb each other; PlaneMap keeps them apart. */
   Points viewpoints;
   std::size_t width = 0;       ///< > 1: an organized cloud, in rows of this length
-  std::optional<double> voxel; ///< [m] of the surfels, > 0; none: by spacing and noise
-  std::optional<double> noise; ///< [m] of a point, > 0; none: estimated, over range
-  /** What calibration leaves: ranges along a flat wall are off by so much of the range,
-   * as neighbours agree and far places do not; >= 0. Adds to the noise. */
+  std::optional<double> voxel; ///< [m] of the surfels, > 0; default: by spacing and
+                               ///< noise
+  std::optional<double> noise; ///< [m] of a point, > 0; default: estimated, over range
+  /** Residual of calibration, as a share of the range: constant among neighbours, but
+   * different across a flat wall; >= 0. Adds to the noise. */
   double distortion = 0.002;
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
-  /** \throws BadArgument naming the first field that breaks its rule, with its value
+  /** \throws BadArgument naming the first invalid field and its value
    * \param[in] num_points of the cloud */
   void
   validate(std::size_t num_points) const;
 };
 
-/** \brief A cloud prepared for the search for planes: its finite points, small patches
- * of surface with their normals (surfels), who is next to whom, and how much the sensor
- * errs. Detectors share one. \ingroup plane_segmentation */
+/** \brief A cloud prepared for plane detection: finite points, surfels with normals and
+ * neighbours, and the sensor's noise. Detectors may use one cloud together. \ingroup
+ * plane_segmentation */
 class PlaneCloud {
 public:
-  /** \param[in] points [m] of one frame; those that are not finite are left out
-   * \throws BadArgument an option breaks its rule, or the points spread over more than
-   * 2^21 voxels along an axis */
+  /** \param[in] points [m] in one frame; points with a non-finite coordinate are left
+   * out
+   * \throws BadArgument an option is invalid, or the points spread over more than 2^21
+   * voxels along an axis */
   explicit PlaneCloud(const Points& points, const PlaneCloudOptions& options);
 
-  /** \brief Seen from the origin, by a sensor of which nothing is known.
+  /** \brief Seen from the origin, by an unknown sensor.
+   * \param[in] points [m] with the sensor at the origin
    * \param[in] num_threads 0: one per core; never changes the result */
   explicit PlaneCloud(const Points& points, unsigned int num_threads = 0);
 
@@ -60,7 +63,7 @@ public:
     return points_;
   }
 
-  /** \return per finite point its place in the cloud that was given */
+  /** \return per finite point its index in the input cloud */
   const std::vector<std::uint32_t>&
   places() const
   {
@@ -74,15 +77,15 @@ public:
     return tree_;
   }
 
-  /** \return unit normals of points(), those of their surfels, towards the sensor; zero
-   * where there is none */
+  /** \return unit normals of points(), taken from their surfels, towards the sensor;
+   * zero without a normal */
   const Normals&
   normals() const
   {
     return normals_;
   }
 
-  /** \return where points() are averaged, with neighbours and normals */
+  /** \return the surfels: averaged points(), with neighbours and normals */
   const Surfels&
   surfels() const
   {
@@ -99,15 +102,15 @@ public:
     return std::sqrt(noise * noise + distortion_ * distortion_ * range * range);
   }
 
-  /** \return the median distance [m] of a point to the nearest other one; 0 for fewer
-   * than two */
+  /** \return the median distance [m] of a point to its nearest neighbour; 0 for fewer
+   * than two points */
   double
   spacing() const
   {
     return spacing_;
   }
 
-  /** \return from where a point was seen [m] */
+  /** \return the sensor's position [m] for a point */
   const Eigen::Vector3f&
   viewpoint(std::size_t point) const
   {

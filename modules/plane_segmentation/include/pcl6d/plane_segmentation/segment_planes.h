@@ -12,7 +12,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How planes are looked for (book 7.1.1). */
+/** \brief Method of plane detection (book 7.1.1). */
 enum class PlaneMethod { kRegionGrowing, kRansac, kHough };
 
 /** \return the method called "region-growing", "ransac" or "hough"
@@ -30,7 +30,7 @@ struct PlaneSegmentationOptions {
   RegionGrowingOptions region_growing; ///< of kRegionGrowing
   RansacPlaneOptions ransac;           ///< of kRansac
   HoughPlaneOptions hough;             ///< of kHough
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
@@ -39,17 +39,18 @@ struct PlaneSegmentationOptions {
 std::vector<std::string>
 planeMethodWords();
 
-/** \brief Chooses a method by a word: its name, or "hough-standard" and the like for one
- * of the variants of kHough, which goes into the options; "hough" leaves them alone.
+/** \brief Chooses a method by a word: its name, or "hough-" with the name of a variant
+ * of kHough, which is stored in the options; "hough" leaves the variant unchanged.
  * \throws BadArgument another word */
 PlaneMethod
 choosePlaneMethod(const std::string& word, PlaneSegmentationOptions& options);
 
-/** \brief Finds the planes in a cloud: a detector, then finishPlanes().
- * The same bits for any number of threads. Fewer than 3 points, or none on a plane: no
- * planes, all finite points unassigned.
- * \return points as places in the cloud that `cloud` was made of
- * \throws BadArgument an option breaks its rule \ingroup plane_segmentation */
+/** \brief Finds the planes in a cloud: a detector, then finishPlanes(). Bit for bit
+ * equal for any number of threads. With fewer than 3 points, or no point on a plane,
+ * every finite point is unassigned.
+ * \return planes and unassigned points; points are indices into the cloud that `cloud`
+ * was made of
+ * \throws BadArgument an option is invalid \ingroup plane_segmentation */
 PlaneSegments
 segmentPlanes(const PlaneCloud& cloud,
               PlaneMethod method = PlaneMethod::kRegionGrowing,

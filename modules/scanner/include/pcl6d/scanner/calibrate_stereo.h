@@ -9,19 +9,19 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What a calibration of two cameras found. */
+/** \brief Result of the calibration of two cameras. */
 struct StereoCameraCalibration {
   Status status = Status::kDiverged; ///< kTooFewPairs: less than three pairs of views
   StereoCalibration calibration;     ///< only if the status is kOk
-  double rms_left = 0;               ///< [px] of all corners against the left camera
-  double rms_right = 0;              ///< [px] against the right one
-  double rms = 0;                    ///< [px] of both, with one motion between them
+  double rms_left = 0;               ///< [px] over the corners, left camera alone
+  double rms_right = 0;              ///< [px] right camera alone
+  double rms = 0; ///< [px] of both cameras, with a common motion between them
 };
 
-/** \brief Calibrates two cameras from pictures of a board that both see at a time: each on
- * its own, then the motion between them. A board that counts from its other end in the
- * right view is turned, where the cameras are turned by less than a right angle.
- * \param[in] left,right one view per pair, of the same points
+/** \brief Calibrates two cameras from simultaneous pictures of a board: each camera alone,
+ * then the motion between them. Corners counted from the opposite end in the right view
+ * are reordered, which requires a turn between the cameras below a right angle.
+ * \param[in] left,right one view per pair, with equal points
  * \throws BadArgument as calibrateCamera(), or the views are no pairs
  * \note Source: as calibrateCamera(), then OpenCV's stereoCalibrate(). \ingroup scanner */
 StereoCameraCalibration

@@ -10,14 +10,14 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A scanner that measures with every pixel of a camera at once: one line per
- * row, from the upper left. It looks along x; the camera's axes (z ahead, x right, y
- * down) are (x, -y, -z) of the scanner. Ranges are radial: from the camera's centre to
- * the point, not along its axis. \ingroup scanner */
+ * row, from the upper left. The viewing direction is x; the camera's axes (z ahead, x
+ * right, y down) are (x, -y, -z) of the scanner. Ranges are radial: from the camera's
+ * centre to the point, not along its axis. \ingroup scanner */
 class CameraScanner : public ScannerModel {
 public:
   /** \param[in] frame_period [s] from image to image, > 0
-   * \throws BadArgument an option breaks its rule, or distortion leaves a pixel without
-   * a direction */
+   * \throws BadArgument an option is invalid, or distortion leaves a pixel without a
+   * direction */
   CameraScanner(const CameraIntrinsics& camera, double frame_period);
 
   int
@@ -26,7 +26,7 @@ public:
   samplesPerLine() const override;
   Ray
   ray(int line, int sample) const override;
-  /** \return 0: all pixels at once */
+  /** \return 0: simultaneous pixels */
   double
   time(int line, int sample) const override;
   double

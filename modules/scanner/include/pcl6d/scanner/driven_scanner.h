@@ -11,7 +11,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief The axis about which a 2D scanner is driven. */
+/** \brief Axis of the drive of a 2D scanner. */
 enum class Drive {
   kPitching, ///< y: theta > 0 looks up
   kRolling,  ///< x: positive towards the left side up
@@ -20,11 +20,11 @@ enum class Drive {
 
 /** \brief How the drive moves. */
 enum class DriveMotion {
-  kStepped,   ///< synchronised: it stands still during a line
-  kContinuous ///< it turns on at constant speed while the mirror turns
+  kStepped,   ///< the drive stands still during a line
+  kContinuous ///< the drive turns at constant speed during the line
 };
 
-/** \brief A 2D scanner on a drive. One line makes it a 2D scanner that stands still, one
+/** \brief A 2D scanner on a drive. With one line it is a static 2D scanner, with one
  * line of one sample a 1D scanner. */
 struct DrivenScannerOptions {
   Drive drive = Drive::kYawing;
@@ -35,16 +35,16 @@ struct DrivenScannerOptions {
   Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();    ///< o, axis to optical centre
   Eigen::Vector3d axis_position = Eigen::Vector3d::Zero(); ///< c, in the scanner frame
   double line_period = 1.0 / 75; ///< [s] from line to line; > 0 (SICK LMS: 75 Hz)
-  /** [s] from sample to sample, >= 0; all samples fit into line_period. Empty: that of a
-   * mirror that turns once in a line_period. */
+  /** [s] from sample to sample, >= 0; the samples of a line fit into line_period.
+   * Empty: period of a mirror that turns once per line_period. */
   std::optional<double> sample_period;
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \return full turns about the vertical of a fan that stands upright: 360 lines of
- * 121 samples, 1 deg apart, from 60 deg below the horizon to 60 deg above */
+/** \return an upright fan in full turns about the vertical: 360 lines of 121 samples, 1
+ * deg apart, from 60 deg below the horizon to 60 deg above */
 DrivenScannerOptions
 rotatingScanner();
 
@@ -52,18 +52,20 @@ rotatingScanner();
 DrivenScannerOptions
 pitchingScanner();
 
-/** \brief 3D scanner made of a 2D scanner and a drive (book 2.2):
- * p = c + R_drive(theta) (o + R_m r (cos alpha, sin alpha, 0)). \ingroup scanner */
+/** \brief 3D scanner from a 2D scanner on a drive (book 2.2): p = c + R_drive(theta) (o
+ * + R_m r (cos alpha, sin alpha, 0)). \ingroup scanner */
 class DrivenScanner : public ScannerModel {
 public:
   /** \throws BadArgument see DrivenScannerOptions::validate() */
   explicit DrivenScanner(const DrivenScannerOptions& options = rotatingScanner());
 
-  /** \brief A drive whose angles were measured.
+  /** \brief A drive with measured angles.
    * \param[in] theta drive angle at the start of each line [rad], in place of
-   * options.theta; a continuous drive goes on after the last line as it did before it
-   * \param[in] times of these starts [s], increasing; empty: options.line_period apart
-   * \throws BadArgument no angle, one that is not finite, or not one time per angle,
+   * options.theta; a continuous drive keeps the speed of the line before during the
+   * last line
+   * \param[in] times starts of the lines [s], increasing; empty: options.line_period
+   * apart
+   * \throws BadArgument no angle, an angle that is not finite, not one time per angle,
    * or times that do not increase */
   DrivenScanner(const DrivenScannerOptions& options,
                 const std::vector<double>& theta,
@@ -83,9 +85,9 @@ public:
 private:
   struct Line {
     double theta = 0;        // [rad] at its start
-    double turn = 0;         // [rad] until the next one; 0 of a stepped drive
+    double turn = 0;         // [rad] until the next line; 0 of a stepped drive
     double start = 0;        // [s]
-    double period = 0;       // [s] until the next one
+    double period = 0;       // [s] until the next line
     Eigen::Matrix3d R_drive; // at its start
   };
   void

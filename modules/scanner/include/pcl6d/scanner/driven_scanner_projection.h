@@ -9,15 +9,15 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Puts points back into the order in which a driven 2D scanner saw them: rows
- * are its lines, columns the samples of a line.
+/** \brief Projects points into the measuring order of a driven 2D scanner: rows are its
+ * lines, columns the samples of a line.
  *
- * A point p lies in the plane of the fan, which the drive turned by theta:
- * n . (R_drive(-theta) (p - c) - o) = 0 with n = R_m e_z. That is
- * a cos(theta) + b sin(theta) = d, with two solutions, and the mirror angle follows. The
- * pixel is the one with the nearest angles, at most half a step off. Where two lines see
- * a point (a full roll), the earlier counts; so it does on the drive's axis, which every
- * line sees: points there are told apart by their order only, see RangeImage::inOrder().
+ * A point p lies in the plane of the fan, which the drive turned by theta: n .
+ * (R_drive(-theta) (p - c) - o) = 0 with n = R_m e_z. This gives a cos(theta) + b
+ * sin(theta) = d with two solutions, and the mirror angle follows. The result is the
+ * pixel with the nearest angles, at most half a step off. If two lines see a point (a
+ * full roll), the earlier line counts. The drive's axis is visible to every line: only
+ * the order separates points on the axis, see RangeImage::inOrder().
  * \note Geometry: book 2.2. \ingroup scanner */
 class DrivenScannerProjection : public RangeProjection {
 public:

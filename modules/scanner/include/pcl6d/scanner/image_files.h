@@ -10,10 +10,10 @@ namespace cv {
 class Mat;
 }
 
-/** \file Image files, by OpenCV. Who calls these includes opencv2/core.hpp. */
+/** \file Image files, by OpenCV. Callers include opencv2/core.hpp. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return CV_8UC1: a picture of any format that OpenCV knows, colours as grey
+/** \return CV_8UC1: a picture in a format of OpenCV, colours converted to grey
  * \throws IoFailed the file is missing, no image, or too large (1e8 pixels)
  * \ingroup scanner */
 cv::Mat
@@ -25,19 +25,19 @@ readGrayImage(const std::filesystem::path& path);
 cv::Mat
 readDepthImage(const std::filesystem::path& path);
 
-/** \return CV_8UC1 or CV_16UC1: an amplitude image \throws IoFailed as readGrayImage(), or
- * the image is of another kind \ingroup scanner */
+/** \return CV_8UC1 or CV_16UC1: an amplitude image \throws IoFailed as readGrayImage(),
+ * or another type of image \ingroup scanner */
 cv::Mat
 readAmplitudeImage(const std::filesystem::path& path);
 
-/** \return the pictures of a folder (.png .tif .tiff .jpg .jpeg .bmp .pgm .webp, in capitals
- * too), in natural order: scan2 before scan10
- * \throws IoFailed the folder cannot be read, or holds none \ingroup scanner */
+/** \return the pictures of a folder (.png .tif .tiff .jpg .jpeg .bmp .pgm .webp, in
+ * capitals too), in natural order: scan2 before scan10
+ * \throws IoFailed the folder cannot be read, or contains no picture \ingroup scanner */
 std::vector<std::filesystem::path>
 imagesOf(const std::filesystem::path& folder);
 
-/** \brief Writes a PNG file, whole or not at all. \param[in] image CV_8UC1, CV_16UC1 or
- * CV_8UC3 (blue, green, red), not empty \throws BadArgument another kind of image
+/** \brief Writes a PNG file, atomically. \param[in] image CV_8UC1, CV_16UC1 or CV_8UC3
+ * (blue, green, red), not empty \throws BadArgument another type of image
  * \throws IoFailed the file cannot be written \ingroup scanner */
 void
 writePng(const std::filesystem::path& path, const cv::Mat& image);

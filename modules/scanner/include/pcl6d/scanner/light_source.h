@@ -7,8 +7,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Where the light of a scanner comes from that looks from another place: the
- * projector of a triangulating scanner. A surface in its shadow gives no return.
+/** \brief Light source of a scanner, if apart from the receiver: the projector of a
+ * triangulating scanner. A surface in its shadow gives no return.
  * \ingroup scanner */
 class LightSource {
 public:
@@ -16,8 +16,8 @@ public:
   /** \return in the scanner's frame [m] */
   virtual Eigen::Vector3d
   position() const = 0;
-  /** \return whether its light reaches a point of the scanner's frame if nothing stands
-   * between */
+  /** \return whether the light reaches a point of the scanner's frame, without regard
+   * to occlusion */
   virtual bool
   lights(const Eigen::Vector3d& point) const = 0;
 };

@@ -13,19 +13,19 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How the 2D scanner sits on its drive. */
+/** \brief Mounting of the 2D scanner on its drive, and range limits. */
 struct LineAssemblyOptions {
-  /// theta is not used: the angles were measured; beam.count is that of the lines
+  /// theta is ignored: the angles are measured; beam.count is the number of samples per line
   DrivenScannerOptions scanner;
   double min_range = 0; ///< [m] shorter ranges are no return; >= 0
   double max_range = std::numeric_limits<double>::infinity(); ///< [m] > min_range
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
 /** \brief A 3D scan from raw 2D lines and the drive's angles (book 2.2.3), one row per
- * line in the order in which they were measured.
+ * line in measuring order.
  * \code
  * pcl6d::LineAssemblyOptions options;
  * options.scanner.drive = pcl6d::Drive::kPitching;
@@ -35,8 +35,8 @@ struct LineAssemblyOptions {
  * \endcode \ingroup scanner */
 class LineAssembly {
 public:
-  /** \throws BadArgument an option breaks its rule, the lines hold another number of
-   * samples than the beam has angles, or not one angle (and time) per line */
+  /** \throws BadArgument an option is invalid, samples per line and angles of the beam
+   * differ in number, or not one angle (and time) per line */
   LineAssembly(const RangeLines& lines, const LineAssemblyOptions& options);
 
   const DrivenScanner&
@@ -51,8 +51,8 @@ public:
     return scan_;
   }
 
-  /** \return organized cloud in the scanner's frame [m], computed in double; NaN where
-   * nothing came back */
+  /** \return organized cloud in the scanner's frame [m], computed in double; NaN
+   * without return */
   pcl::PointCloud<pcl::PointXYZ>
   cloud() const;
 

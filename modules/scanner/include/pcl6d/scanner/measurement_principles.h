@@ -6,12 +6,10 @@
 #include <array>
 #include <vector>
 
-/** \file
- * How distances are measured (book 2.1, 2.2.4, 2.4), as closed formulas: time of flight,
- * phase shift, triangulation. Metres, radians, seconds, hertz; image coordinates and
- * focal lengths in pixels. A measurement that allows no answer is NaN, never zero: a
- * zero range would lie on the sensor. RangeErrorModel is their sum as the simulator
- * uses it.
+/** \file Principles of distance measurement (book 2.1, 2.2.4, 2.4), as closed formulas: time
+ * of flight, phase shift, triangulation. Metres, radians, seconds, hertz; image coordinates
+ * and focal lengths in pixels. A measurement without a solution is NaN, never zero: a zero
+ * range would lie on the sensor. RangeErrorModel combines their errors for the simulator.
  * \ingroup scanner */
 namespace PCL6D_EXPORTS pcl6d {
 
@@ -21,8 +19,8 @@ constexpr double kRefractiveIndexOfAir = 1.00027; ///< at sea level, for near in
 /** \name Time of flight (2.1.1) */
 ///@{
 
-/** \return distance of a surface whose echo comes back after round_trip [s] >= 0; NaN if
- * there was none (NaN or negative) */
+/** \return distance of a surface from the round-trip time [s] >= 0 of its echo; NaN
+ * without echo (NaN or negative) */
 double
 rangeFromTime(double round_trip, double refractive_index = 1);
 
@@ -30,8 +28,7 @@ rangeFromTime(double round_trip, double refractive_index = 1);
 double
 rangeSigmaFromTime(double time_sigma, double refractive_index = 1);
 
-/** \return the largest distance that is not aliased when a pulse leaves
- * pulse_frequency [Hz] > 0 times a second: c / (2 PRF) */
+/** \return the largest unambiguous distance for pulse_frequency [Hz] > 0: c / (2 PRF) */
 double
 unambiguousRangeOfPulses(double pulse_frequency);
 
@@ -44,12 +41,12 @@ footprintDiameter(double range, double exit_diameter, double divergence);
 /** \name Phase shift (2.1.2) */
 ///@{
 
-/** \return the interval in which distances are told apart: c / (2 f) */
+/** \return the interval of unambiguous distances: c / (2 f) */
 double
 ambiguityInterval(double frequency);
 
-/** \return distance of a phase lag, in [0, ambiguity interval); the true one may be any
- * number of intervals farther. \param[in] phase [rad], any turn */
+/** \return distance of a phase lag, in [0, ambiguity interval); the true distance may
+ * be larger by any number of intervals. \param[in] phase [rad], any turn */
 double
 rangeFromPhase(double phase, double frequency);
 
@@ -57,16 +54,16 @@ rangeFromPhase(double phase, double frequency);
 double
 rangeSigmaFromPhase(double phase_sigma, double frequency);
 
-/** \return phase lag of a distance >= 0, in [0, 2 pi): what an instrument measures */
+/** \return phase lag measured for a distance >= 0, in [0, 2 pi) */
 double
 phaseOfRange(double range, double frequency);
 
-/** \brief Resolves the ambiguity by two close frequencies: their difference tells the
- * interval, the lower one the place in it.
+/** \brief Resolves the ambiguity by two close frequencies: the phase difference gives
+ * the interval, the phase of the lower frequency the distance within the interval.
  * \param[in] phase1 at frequency1 \param[in] phase2 at frequency2 > frequency1 > 0
- * \return distance, right up to ambiguityInterval(frequency2 - frequency1) as long as
- * the coarse one errs by less than half of ambiguityInterval(frequency1)
- * \throws BadArgument the frequencies break their rule */
+ * \return distance, unambiguous up to ambiguityInterval(frequency2 - frequency1), if
+ * the error of the coarse distance is below half of ambiguityInterval(frequency1)
+ * \throws BadArgument the frequencies are invalid */
 double
 rangeFromTwoPhases(double phase1, double frequency1, double phase2, double frequency2);
 ///@}
@@ -87,7 +84,7 @@ depthFromAngles(double baseline, double alpha, double beta);
 double
 depthFromImage(double baseline, double focal_length, double beam_angle, double x);
 
-/** \return sigma of such a depth: z^2 / (b f) sigma_x. \param[in] x_sigma [px] */
+/** \return sigma of a depth from triangulation: z^2 / (b f) sigma_x. \param[in] x_sigma [px] */
 double
 depthSigmaFromImage(double depth, double baseline, double focal_length, double x_sigma);
 ///@}
@@ -95,11 +92,11 @@ depthSigmaFromImage(double depth, double baseline, double focal_length, double x
 /** \name Samples of a modulated wave (2.2.4, 2.4) */
 ///@{
 
-/** \brief A cosine wave seen through its samples. */
+/** \brief A cosine wave recovered from its samples. */
 struct WaveSamples {
   double phase = 0;     ///< [rad] in [0, 2 pi); NaN without modulation
   double amplitude = 0; ///< half the swing
-  double offset = 0;    ///< the mean: what does not swing
+  double offset = 0;    ///< mean of the samples
 };
 
 /** \brief Time-of-flight camera: A_k = O + A cos(phi + k pi / 2), k = 0..3. */
@@ -129,12 +126,12 @@ stripeOfGrayCode(unsigned code)
   return code;
 }
 
-/** \brief A projector's column from both kinds of patterns. The period of the shifted
- * ones is two stripes of the Gray code, so that a stripe mistaken for its neighbour,
- * which happens at their border, does no harm.
- * \param[in] stripe as decoded \param[in] stripe_width [px] > 0
- * \param[in] phase of the shifted patterns [rad], 0 where stripe 0 begins
- * \return place from where stripe 0 begins [px] */
+/** \brief A projector's column from Gray code and shifted patterns. The period of the
+ * shifted patterns is two stripes of the Gray code: a stripe mistaken for its
+ * neighbour, at their border, does no harm.
+ * \param[in] stripe decoded index \param[in] stripe_width [px] > 0
+ * \param[in] phase of the shifted patterns [rad], 0 at the start of stripe 0
+ * \return column from the start of stripe 0 [px] */
 double
 columnFromPatterns(unsigned stripe, double stripe_width, double phase);
 ///@}

@@ -12,19 +12,18 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A projector of stripes beside the camera. */
 struct StripeProjectorOptions {
-  double baseline = 0.2;     ///< [m] from the camera, to its right; not 0
+  double baseline = 0.2;     ///< [m] to the right of the camera; not 0
   double vergence = 0;       ///< [rad] towards the camera's axis, within 45 deg
   int columns = 1024;        ///< > 0
   double focal_length = 900; ///< [px] > 0
-  double height = 0.6;       ///< of the picture over its distance, > 0
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  double height = 0.6;       ///< height of the picture over its distance, > 0
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief Projects stripes: each column is a plane of light. A column is a place across
- * the picture, in pixels, not only a whole number; that of the middle is
- * (columns - 1) / 2. \ingroup scanner */
+/** \brief Projector of stripes: each column is a plane of light. Columns are real
+ * numbers [px]; the middle column is (columns - 1) / 2. \ingroup scanner */
 class StripeProjector : public LightSource {
 public:
   /** \throws BadArgument see StripeProjectorOptions::validate() */
@@ -35,8 +34,8 @@ public:
   bool
   lights(const Eigen::Vector3d& point) const override;
 
-  /** \return the column that lights a point of the scanner's frame; may lie outside of
-   * the picture; NaN if the point is not before the projector */
+  /** \return the column that lights a point of the scanner's frame, possibly outside
+   * the picture; NaN if the point is behind the projector */
   double
   column(const Eigen::Vector3d& point) const;
 
@@ -46,16 +45,16 @@ public:
 
 private:
   StripeProjectorOptions options_;
-  Eigen::Isometry3d T_scanner_projector_; // projector: as a camera, z ahead, x right
+  Eigen::Isometry3d T_scanner_projector_; // projector in camera axes: z ahead, x right
 };
 
-/** \brief Structured light (book 2.2.4): a camera that looks at the stripes of a
- * projector and intersects its rays with their planes. \ingroup scanner */
+/** \brief Structured light scanner (book 2.2.4): a camera intersects its rays with the
+ * planes of light of a stripe projector. \ingroup scanner */
 class ProjectionScanner : public CameraScanner {
 public:
-  /** \param[in] num_patterns pictures that make one scan, > 0
+  /** \param[in] num_patterns number of pictures per scan, > 0
    * \param[in] picture_period [s] from picture to picture, > 0
-   * \throws BadArgument an option breaks its rule */
+   * \throws BadArgument an option is invalid */
   ProjectionScanner(const CameraIntrinsics& camera,
                     const StripeProjectorOptions& projector,
                     int num_patterns,
@@ -64,8 +63,8 @@ public:
   const StripeProjector*
   lightSource() const override;
 
-  /** \return the range [m] along a pixel's ray of the light of a column; NaN if they do
-   * not meet in front of the camera */
+  /** \return the range [m] along a pixel's ray to the plane of a column; NaN without
+   * intersection in front of the camera */
   double
   range(int line, int sample, double column) const;
 

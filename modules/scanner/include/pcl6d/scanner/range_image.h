@@ -17,12 +17,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Which points a range image takes. */
+/** \brief Selection of the points for a range image. */
 struct RangeImageOptions {
   double min_range = 0; ///< [m] nearer points are left out; >= 0
   double max_range = std::numeric_limits<double>::infinity(); ///< [m] > min_range
   unsigned num_threads = 0; ///< 0: one per core; never changes results
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
@@ -37,9 +37,9 @@ struct PixelWindow {
  * pixels to points and back.
  *
  * Every finite point between the range limits lands in at most one pixel. A pixel shows
- * the nearest of its points (the first of equals) and knows all of them. A pixel without
- * points is empty: its range is NaN, until fillGaps() interpolates it. Pixels are given
- * within the image.
+ * the nearest of its points (of equal ranges the first) and keeps the indices of its
+ * points. A pixel without points is empty: its range is NaN, unless interpolated by
+ * fillGaps(). Pixel arguments must lie within the image.
  * \code
  * const auto view = std::make_shared<pcl6d::SphericalProjection>();
  * const auto image = pcl6d::RangeImage::project(
@@ -49,19 +49,20 @@ struct PixelWindow {
 class RangeImage {
 public:
   /** \brief Projects points by their direction.
-   * \param[in] points in the scan's frame [m]; those that are not finite are left out
-   * \param[in] reflectance one value per point, or empty: then the image's are NaN
-   * \throws BadArgument no projection, an option breaks its rule, or the numbers of
-   * points and reflectances differ */
+   * \param[in] points in the scan's frame [m]; points that are not finite are left out
+   * \param[in] reflectance one value per point, or empty: reflectances of the image are
+   * then NaN
+   * \throws BadArgument no projection, an option is invalid, or the numbers of points
+   * and reflectances differ */
   static RangeImage
   project(const Points& points,
           std::shared_ptr<const RangeProjection> projection,
           const RangeImageOptions& options = {},
           const std::vector<float>& reflectance = {});
 
-  /** \brief Takes points in their order, as a scanner delivers them: point i has the
-   * row i / cols and the column i % cols. Its range counts along the pixel's ray.
-   * \throws BadArgument as project(), or there is not one point per pixel */
+  /** \brief Arranges points in the order delivered by a scanner: point i has the row i
+   * / cols and the column i % cols. Its range is measured along the pixel's ray.
+   * \throws BadArgument as project(), or not one point per pixel */
   static RangeImage
   inOrder(const Points& points,
           std::shared_ptr<const RangeProjection> projection,
@@ -100,31 +101,31 @@ public:
     return reflectance_[at(pixel)];
   }
 
-  /** \return all ranges, row by row */
+  /** \return the ranges, row by row */
   const std::vector<float>&
   ranges() const
   {
     return range_;
   }
-  /** \return all reflectances, row by row */
+  /** \return the reflectances, row by row */
   const std::vector<float>&
   reflectances() const
   {
     return reflectance_;
   }
 
-  /** \return the index of the point that the pixel shows */
+  /** \return the index of the visible point of a pixel */
   std::optional<std::size_t>
   pointAt(const Pixel& pixel) const;
-  /** \return the indices of all points of a pixel, nearest first */
+  /** \return the indices of the points of a pixel, nearest first */
   std::vector<std::size_t>
   pointsAt(const Pixel& pixel) const;
-  /** \return the indices of all points of a part of the image, pixel by pixel; what of
-   * the box lies outside of the image does not matter */
+  /** \return the indices of the points in a part of the image, pixel by pixel; the box
+   * is clipped to the image */
   std::vector<std::size_t>
   pointsIn(const PixelWindow& box) const;
-  /** \return where a point landed; nothing if it was left out
-   * \throws BadArgument there is no such point */
+  /** \return the pixel of a point; empty if the point was left out
+   * \throws BadArgument the index is out of range */
   std::optional<Pixel>
   pixelOf(std::size_t point) const;
 
@@ -133,7 +134,7 @@ public:
   Eigen::Vector3d
   position(const Pixel& pixel) const;
 
-  /** \brief Gives an empty pixel values that no point stands for.
+  /** \brief Gives an empty pixel interpolated values, without a point.
    * \throws BadArgument the pixel has points */
   void
   interpolate(const Pixel& pixel, float range, float reflectance);
@@ -155,12 +156,12 @@ private:
 
   std::shared_ptr<const RangeProjection> projection_;
   std::vector<float> range_, reflectance_; // per pixel
-  std::vector<std::uint32_t> first_;       // per pixel and one more: into points_
-  std::vector<std::uint32_t> points_;      // by pixel, then range, then index
-  std::vector<std::int32_t> pixel_of_;     // per point, -1: left out
+  std::vector<std::uint32_t> first_;   // start of each pixel in points_, and the end
+  std::vector<std::uint32_t> points_;  // by pixel, then range, then index
+  std::vector<std::int32_t> pixel_of_; // per point, -1: left out
 };
 
-/** \return the intensities of a cloud, for RangeImage; empty if its points have none */
+/** \return the intensities of a cloud, for RangeImage; empty if the points have no intensity */
 template <typename PointT>
 std::vector<float>
 reflectancesOf(const pcl::PointCloud<PointT>& cloud)
@@ -174,24 +175,24 @@ reflectancesOf(const pcl::PointCloud<PointT>& cloud)
 
 /** \brief How wide a hole fillGaps() closes. */
 struct GapOptions {
-  int max_gap = 2;       ///< [px] length of a hole along its row or column; >= 1
-  double max_jump = 0.2; ///< [m] largest difference of range across it; >= 0
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  int max_gap = 2;       ///< [px] length of a gap along its row or column; >= 1
+  double max_jump = 0.2; ///< [m] largest range difference across a gap; >= 0
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief Interpolates empty pixels linearly between the two pixels that end the gap in
- * their row or column, along the shorter of the two gaps; again, until nothing changes,
- * as between sparse rows and columns a pixel's neighbours are filled first. Edges stay
- * open: a gap whose ends differ by more than max_jump stays, and nothing is filled at the
- * border. The new pixels have no points. \return how many pixels were filled
+/** \brief Interpolates empty pixels linearly between the two ends of the gap in their
+ * row or column, along the shorter gap. Repeats until no pixel changes: between sparse
+ * rows and columns the neighbours of a pixel are filled first. Edges stay open: gaps
+ * with a range difference above max_jump and gaps at the border remain. Filled pixels
+ * have no points. \return the number of filled pixels
  * \throws BadArgument see GapOptions::validate() \ingroup scanner */
 std::size_t
 fillGaps(RangeImage& image, const GapOptions& options = {});
 
 /** \return organized cloud of RangeImage::position(), one row per row of the image; NaN
- * where a pixel is empty; intensity is the reflectance, 0 if there is none */
+ * for an empty pixel; intensity is the reflectance, or 0 */
 pcl::PointCloud<pcl::PointXYZI>
 toPointCloud(const RangeImage& image);
 

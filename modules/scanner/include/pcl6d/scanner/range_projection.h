@@ -11,8 +11,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A place in a range image. Row 0 is the uppermost, or a scanner's first line.
- */
+/** \brief Row and column in a range image. Row 0 is the uppermost, or a scanner's first
+ * line. */
 struct Pixel {
   int row = 0;
   int col = 0;
@@ -40,7 +40,8 @@ public:
   virtual int
   cols() const = 0;
 
-  /** \return the pixel that sees a point; nothing if none does or it is not finite */
+  /** \return the pixel that sees a point; empty if the point is outside the view or not
+   * finite */
   virtual std::optional<PixelRange>
   project(const Eigen::Vector3d& point) const = 0;
 
@@ -61,18 +62,18 @@ struct ImageView {
   double bottom = -top;            ///< [rad] of the lower border, < top
   Eigen::Isometry3d T_scan_view = Eigen::Isometry3d::Identity(); ///< the view's pose
 
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \return views that look the same but are turned about the scan's vertical (z) by
- * 0, 1, .. count - 1 parts of a full turn: all around the scanner
+/** \return copies of a view, turned about the scan's vertical (z) by 0, 1, .. count - 1
+ * parts of a full turn: all around the scanner
  * \throws BadArgument count < 1 */
 std::vector<ImageView>
 viewsAround(const ImageView& view, int count);
 
-/** \brief What the projections from an ImageView have in common. */
+/** \brief Base class of projections from an ImageView. */
 class ViewProjection : public RangeProjection {
 public:
   int
@@ -93,15 +94,16 @@ public:
 protected:
   explicit ViewProjection(const ImageView& view);
 
-  /** \brief Place on the surface that the image is spread on, growing to the left (x)
-   * and up (y); nothing if there is none. \param[in] point in the view's frame */
+  /** \brief Projects a point onto the image surface. \return coordinates on the
+   * surface, to the left (x) and up (y); empty if not projectable \param[in] point in
+   * the view's frame */
   virtual std::optional<Eigen::Vector2d>
   place(const Eigen::Vector3d& point) const = 0;
-  /** \return a vector towards a place, of any length */
+  /** \return a vector towards a position on the image surface, of any length */
   virtual Eigen::Vector3d
   towards(const Eigen::Vector2d& place) const = 0;
 
-  /** \brief Sets the borders on that surface; once, by the constructor. */
+  /** \brief Sets the borders on the image surface; to be called once, by the constructor. */
   void
   setBorders(const Eigen::Vector2d& left_top, const Eigen::Vector2d& right_bottom);
 
@@ -127,8 +129,8 @@ private:
   towards(const Eigen::Vector2d& place) const override;
 };
 
-/** \brief Equal steps of azimuth and of height on a cylinder about z, so that upright
- * lines stay straight. Up to a full turn wide. \ingroup scanner */
+/** \brief Equal steps of azimuth and of height on a cylinder about z, which keeps
+ * upright lines straight. Up to a full turn wide. \ingroup scanner */
 class CylindricalProjection : public ViewProjection {
 public:
   /** \throws BadArgument as ImageView::validate(), or a border is within 0.5 deg of the
@@ -142,8 +144,8 @@ private:
   towards(const Eigen::Vector2d& place) const override;
 };
 
-/** \brief The picture of a camera without distortion that looks along x: straight lines
- * stay straight. Borders count in the x-y and x-z plane. \ingroup scanner */
+/** \brief Projection of an ideal camera with viewing direction x: straight lines stay
+ * straight. Borders are angles in the x-y and x-z plane. \ingroup scanner */
 class PerspectiveProjection : public ViewProjection {
 public:
   /** \throws BadArgument as ImageView::validate(), or a border is more than 89.5 deg off

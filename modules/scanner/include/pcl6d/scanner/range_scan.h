@@ -35,8 +35,8 @@ struct RangeScan {
 pcl::PointCloud<pcl::PointXYZI>
 toPointCloud(const RangeScan& scan, const ScannerModel& scanner);
 
-/** \brief Appends the field `t` (float32, [s]): when each point was measured, from the
- * start of the scan. \param[in] cloud one row per line, as of toPointCloud()
+/** \brief Appends the field `t` (float32, [s]): measuring time of each point, from the
+ * start of the scan. \param[in] cloud one row per line, from toPointCloud()
  * \throws BadArgument cloud and scanner differ in size */
 void
 addTimeField(pcl::PCLPointCloud2& cloud, const ScannerModel& scanner);

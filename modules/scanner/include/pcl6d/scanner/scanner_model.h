@@ -7,9 +7,9 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What all scanners have in common: the way from (line, sample) to a ray in the
- * scanner's frame (x forward, y left, z up) and to the time of its measurement. An
- * organized scan has one row per line. \ingroup scanner */
+/** \brief Base class of scanners: maps (line, sample) to a ray in the scanner's frame
+ * (x forward, y left, z up) and to the time of its measurement. An organized scan has
+ * one row per line. \ingroup scanner */
 class ScannerModel {
 public:
   virtual ~ScannerModel() = default;
@@ -20,17 +20,16 @@ public:
   /** \return the beam of a sample; its range counts from the ray's origin */
   virtual Ray
   ray(int line, int sample) const = 0;
-  /** \return when the sample is measured [s], from the start of the scan; in
-   * [0, duration()). Not always in the order of the samples: a spinning lidar fires its
-   * lines in turns */
+  /** \return time of the sample [s], from the start of the scan; in [0, duration()). Not
+   * always in the order of the samples: a spinning lidar fires its lines in turns */
   virtual double
   time(int line, int sample) const = 0;
-  /** \return [s] from the start of a scan to that of the next one, if the scanner goes
-   * on without a pause; > 0 */
+  /** \return time [s] from the start of a scan to the start of the next, without a
+   * pause; > 0 */
   virtual double
   duration() const = 0;
-  /** \return where the light comes from if not from where the scanner looks, which
-   * casts shadows: in a triangulating scanner; null: there is no such place */
+  /** \return a light source apart from the receiver, which casts shadows: in a
+   * triangulating scanner; null: the light comes from the scanner */
   virtual const LightSource*
   lightSource() const
   {
@@ -49,7 +48,7 @@ struct AngleRange {
   {
     return count > 1 ? first + (last - first) * i / (count - 1) : first;
   }
-  /** \return from one angle to the next [rad]; 0 of a single angle */
+  /** \return difference of successive angles [rad]; 0 of a single angle */
   double
   step() const
   {

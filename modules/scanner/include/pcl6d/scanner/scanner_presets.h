@@ -16,10 +16,10 @@ struct ScannerPreset {
   std::string name;
   std::string description; ///< one line: device, field of view, size, time
   std::shared_ptr<const ScannerModel> scanner;
-  RangeOptions range; ///< how such a device measures
+  RangeOptions range; ///< ranges and errors of the device
 };
 
-/** \return the names that scannerByName() knows */
+/** \return the names accepted by scannerByName() */
 std::vector<std::string>
 scannerNames();
 
@@ -27,12 +27,12 @@ scannerNames();
 std::string
 scannerDescription(const std::string& name);
 
-/** \param[in] resolution [rad] in (0, pi / 2]: angle between neighbouring samples and
- * lines, of a spinning lidar between its columns, of a camera between pixels at the
- * centre of its image, of a rosette the side of the square that a point has on average; none: that of the device
- * \throws BadArgument the name is not known (the message lists those that are), the
- * resolution breaks its rule, or the scan would take too much memory (the message says
- * how much) \ingroup scanner */
+/** \param[in] resolution [rad] in (0, pi / 2]: angle between neighbouring samples and lines,
+ * of a spinning lidar between its columns, of a camera between pixels at the centre of its
+ * image, of a rosette the root of the mean area per point; empty: resolution of the device
+ * \throws BadArgument the name is not known (the message lists the known names), the
+ * resolution is invalid, or the scan would take too much memory (stated in the message)
+ * \ingroup scanner */
 ScannerPreset
 scannerByName(const std::string& name, std::optional<double> resolution = {});
 

@@ -10,31 +10,30 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A head with several lasers one above the other that spins about the vertical.
- */
+/** \brief A head with several lasers, one above another, which spins about the vertical. */
 struct SpinningLidarOptions {
   std::vector<double> elevations; ///< [rad] one per laser, in the order of the lines
-  /** [s] >= 0 when each laser fires after the first one of its column, in the order of
-   * the lines; all within a column's share of the turn. Empty: all at once. */
+  /** [s] >= 0 delay of each laser's shot after the first shot of the column, in the order
+   * of the lines; each within a column's share of the turn. Empty: simultaneous. */
   std::vector<double> fire_times;
   int columns = 1800;       ///< per turn, samples of a line
   double turn_period = 0.1; ///< [s] > 0
   double first_azimuth = 0; ///< [rad] of column 0, counter-clockwise from ahead
   bool clockwise = true;    ///< sense of the turn seen from above
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \return like a Velodyne VLP-16: 16 lines from +15 to -15 deg that fire in its order,
- * 1800 columns, 10 turns a second */
+/** \return similar to a Velodyne VLP-16: 16 lines from +15 to -15 deg with its firing
+ * order, 1800 columns, 10 turns a second */
 SpinningLidarOptions
 vlp16Lidar();
 
 /** \brief Spinning multi-line lidar: one line per laser, one turn per scan. The head
- * turns on between the shots of a column, so a column is no straight line. With e the
- * laser's elevation and a the azimuth at the time of the shot the direction is
- * (cos e cos a, cos e sin a, sin e). \ingroup scanner */
+ * turns between the shots of a column: a column is not a straight line. With e the
+ * laser's elevation and a the azimuth at the time of the shot the direction is (cos e
+ * cos a, cos e sin a, sin e). \ingroup scanner */
 class SpinningLidar : public ScannerModel {
 public:
   /** \throws BadArgument see SpinningLidarOptions::validate() */

@@ -11,24 +11,24 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Which pixels of a time-of-flight camera to believe; the defaults: all that
- * have a phase. */
+/** \brief Gate for the pixels of a time-of-flight camera; the defaults accept every
+ * pixel with a phase. */
 struct TofGate {
   double min_amplitude = 0; ///< of the swing, in the units of the samples; >= 0
   double max_offset = std::numeric_limits<double>::infinity(); ///< saturated above it
   double max_jump =
       std::numeric_limits<double>::infinity(); ///< [m] see dropFlyingPixels
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
 /** \brief Time-of-flight camera (book 2.4): each pixel samples modulated light four
- * times a period and tells distance, amplitude and offset from it. The range is radial
- * and known up to multiples of ambiguityInterval(). \ingroup scanner */
+ * times a period, which gives distance, amplitude and offset. The range is radial and
+ * known up to multiples of ambiguityInterval(). \ingroup scanner */
 class TofCamera : public CameraScanner {
 public:
-  /** \param[in] modulation [Hz] > 0 \throws BadArgument an option breaks its rule */
+  /** \param[in] modulation [Hz] > 0 \throws BadArgument an option is invalid */
   TofCamera(const CameraIntrinsics& camera, double modulation, double frame_period);
 
   /** \return [m] c / (2 f) */
@@ -46,10 +46,10 @@ private:
   double modulation_;
 };
 
-/** \brief Drops pixels whose spot lay on two surfaces, so that they float between them:
- * those that are farther than max_jump from both neighbours in their row, or in their
- * column. The last pixel of a surface stays, as it has a neighbour on it; a thing one
- * pixel wide does not. \param[in] max_jump [m] of the range, > 0
+/** \brief Drops flying pixels, whose spot lay on two surfaces: pixels farther than
+ * max_jump from both neighbours in their row, or in their column. The last pixel of a
+ * surface stays, having a neighbour on the surface; an object one pixel wide is
+ * dropped. \param[in] max_jump [m] of the range, > 0
  * \return the number of dropped pixels */
 std::size_t
 dropFlyingPixels(RangeScan& scan, double max_jump);

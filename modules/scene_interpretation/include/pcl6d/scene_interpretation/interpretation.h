@@ -19,62 +19,65 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief Knobs of interpretScene(). */
 struct InterpretationOptions {
   RelationTolerances tolerances;
-  /// direction up in the map; none: estimated from the planes, see estimateUp()
+  /// direction up in the map; default: estimated from the planes, see estimateUp()
   std::optional<Eigen::Vector3d> up = Eigen::Vector3d::UnitZ();
-  double max_tilt = 0.7853981633974483; ///< [rad] of +z, if estimated; in (0, pi/2)
-  /// [m] where all was seen from; tells the side of planes for which it is not known
+  double max_tilt = 0.7853981633974483; ///< [rad] from +z, if estimated; in (0, pi/2)
+  /// [m] position of the sensor; decides the visible side of planes where it is unknown
   std::optional<Eigen::Vector3d> sensor;
   double min_headroom = 1.8;        ///< [m] from the floor of a storey upwards; > 0
-  double min_floor_area = 2;        ///< [m^2] of a plane that makes a storey; >= 0
+  double min_floor_area = 2;        ///< [m^2] of a plane that defines a storey; >= 0
   std::size_t node_limit = 1000000; ///< of the search; > 0
   unsigned int num_threads = 0;     ///< 0: one per core; never changes the result
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief A label that a plane does not carry, and why. */
-struct Rejection {
+/** \brief A label rejected for a plane, with the reason. */
+struct RejectedLabel {
   std::string label;
   std::string reason;                 ///< in words, partner included
-  std::optional<std::size_t> partner; ///< place of the plane that forbids it
+  std::optional<std::size_t> partner; ///< index of the conflicting plane
 };
 
-/** \brief Why a plane carries its label. */
+/** \brief Reasons for a plane's label. */
 struct LabelExplanation {
-  std::string reason;                ///< for the label that it carries
-  std::vector<Rejection> rejections; ///< all other labels, in the order of the rules
+  std::string reason; ///< for the label of the plane
+  std::vector<RejectedLabel>
+      rejections; ///< every other label, in the order of the rules
 };
 
-/** \brief A floor of a building: its planes are interpreted on their own. */
+/** \brief A storey of a building: its planes are interpreted separately. */
 struct Storey {
   std::optional<double> floor;   ///< [m] along Interpretation::up
   std::optional<double> ceiling; ///< [m] of its largest ceiling
   double area = 0;               ///< [m^2] of its floor
 };
 
-/** \brief What the planes of a scene are. Places are those of the planes given. */
+/** \brief Labels and storeys of the planes of a scene. Indices refer to the input
+ * planes. */
 struct Interpretation {
-  Status status = Status::kOk; ///< kMaxIterations: the node limit; the best so far
+  Status status = Status::kOk; ///< kMaxIterations: node limit reached, best result up
+                               ///< to then
   std::vector<std::string> labels;
   std::vector<LabelExplanation> explanations;
   std::vector<std::size_t> storey_of; ///< per plane
   std::vector<Storey> storeys;        ///< from the lowest floor up; at least one
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  std::size_t nodes = 0; ///< assignments that the search tried
+  std::size_t nodes = 0; ///< assignments tried by the search
 };
 
-/** \brief Labels planes so that all constraints hold and as much area as possible has a
- * label; of several such labellings the first, planes compared by falling area, labels
- * by their order in the rules (book 7.1.2).
+/** \brief Labels planes so that every constraint holds and the labelled area is largest
+ * (book 7.1.2). Of equal labellings the first wins, planes compared by falling area,
+ * labels by their order in the rules.
  *
- * Planes are told apart by storey first: a floor is a level plane seen from above with
- * headroom over the next one below it. Constraints bind planes of one storey; needs may
+ * Planes are assigned to storeys first: a floor is a level plane seen from above with
+ * headroom over the next floor below. Constraints bind planes of one storey; needs may
  * be met by any plane. Per storey the search is exact within node_limit.
- * \param[in] seen_from per plane the direction towards where it was seen from; zero, or
- * an empty list: not known, so that rules that ask for a side are kept
- * \throws BadArgument an option breaks its rule, a plane is not finite, or the lists
- * differ in length
+ * \param[in] seen_from per plane the direction towards the sensor; zero, or an empty
+ * list: unknown, and rules on the side hold
+ * \throws BadArgument an option is invalid, a plane is not finite, or the lists differ
+ * in length
  * \note Source: A. Nüchter, J. Hertzberg, "Towards semantic maps for mobile robots",
  * Robotics and Autonomous Systems 56(11), 2008. \ingroup scene_interpretation */
 Interpretation
@@ -83,29 +86,31 @@ interpretPlanes(const std::vector<Plane>& planes,
                 const LabelRules& rules = bookRules(),
                 const InterpretationOptions& options = {});
 
-/** \brief The same for the planes of a segmentation. */
+/** \brief Labels the planes of a segmentation, see interpretPlanes(). */
 Interpretation
 interpretScene(const std::vector<PlaneSegment>& segments,
                const LabelRules& rules = bookRules(),
                const InterpretationOptions& options = {});
 
-/** \brief Writes the labels into the planes. \throws BadArgument not as many labels */
+/** \brief Writes the labels into the planes. \throws BadArgument not one label per
+ * plane */
 void
 applyLabels(const Interpretation& interpretation, std::vector<PlaneSegment>& segments);
 
-/** \brief The direction to which most area is parallel or orthogonal, within tau, among
- * the normals and the crossings of two normals; of several the one nearest to +z. Then
- * the best for all of these planes together.
- * \return none if no direction within max_tilt of +z has a plane for it */
+/** \brief Estimates the direction up. Candidates are the normals and the intersection
+ * lines of two planes. The best candidate is parallel or orthogonal, within tau, to the
+ * most area; of about equal candidates the nearest to +z wins. The result is refined
+ * over its planes.
+ * \return nullopt if no direction within max_tilt of +z agrees with a plane */
 std::optional<Eigen::Vector3d>
 estimateUp(const std::vector<Plane>& planes, double tau, double max_tilt);
 
-/** \return the explanation of one plane as lines of text, the first without indent */
+/** \return the explanation of one plane in lines of text, the first without indent */
 std::string
 explanationText(const Interpretation& interpretation, std::size_t plane);
 
 /** \brief Writes labels, storeys and explanations as JSON, atomically; the id of a
- * plane is its place plus one. \throws IoFailed the file cannot be written */
+ * plane is its index plus one. \throws IoFailed the file cannot be written */
 void
 writeInterpretation(const std::filesystem::path& path,
                     const Interpretation& interpretation);

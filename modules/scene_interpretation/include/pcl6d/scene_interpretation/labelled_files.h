@@ -12,23 +12,23 @@
 /** \file The outputs of an interpreted scene. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return per point the place of its plane plus one; 0: on none
- * \throws BadArgument a place is not that of a point \ingroup scene_interpretation */
+/** \return per point the index of its plane plus one; 0: on no plane
+ * \throws BadArgument a point index is out of range \ingroup scene_interpretation */
 std::vector<std::uint32_t>
 planeIds(const std::vector<PlaneSegment>& segments, std::size_t num_points);
 
-/** \brief Writes the outlines of planes, their holes left open, as a coloured triangle
- * mesh (PLY, see writePolygonMesh()); of a plane without outline its hull.
+/** \brief Writes the outlines of planes, with holes, as a coloured triangle mesh (PLY,
+ * see writePolygonMesh()); the hull of a plane without outline.
  * \throws IoFailed the file cannot be written */
 void
 writeLabelledHulls(const std::filesystem::path& path,
                    const std::vector<PlaneSegment>& segments);
 
-/** \brief Writes a cloud with the fields `rgb`, `plane_id` (the place of its plane plus
+/** \brief Writes a cloud with the fields `rgb`, `plane_id` (the index of its plane plus
  * one) and `label` (labelNumber()) as PCD or PLY.
- * \param[in] rules that the labels are of
- * \throws IoFailed the file cannot be written \throws BadArgument a place is not that
- * of a point, or the rules do not know a label */
+ * \param[in] rules of the labels
+ * \throws IoFailed the file cannot be written \throws BadArgument a point index is out
+ * of range, or a label is not in the rules */
 void
 writeLabelledCloud(const std::filesystem::path& path,
                    const Points& points,

@@ -14,27 +14,28 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How planes are found, labelled and refined. */
+/** \brief Knobs of PlaneFinder: detection, labels and refinement. */
 struct PlaneFinderOptions {
   PlaneMethod method = PlaneMethod::kRegionGrowing;
   PlaneSegmentationOptions segmentation;
-  std::optional<double> noise; ///< [m] of a point; none: estimated
+  std::optional<double> noise; ///< [m] of a point; default: estimated
   bool labels = true;
   LabelRules rules = bookRules();
   InterpretationOptions interpretation;
   bool refine = false;
-  RefinementOptions refinement; ///< its `up` is that of interpretation, if given there
-  unsigned int num_threads = 0; ///< of all steps; 0: one per core
+  RefinementOptions refinement; ///< its `up` is overridden by the `up` of
+                                ///< interpretation, if set
+  unsigned int num_threads = 0; ///< of every step; 0: one per core
 };
 
-/** \brief What PlaneFinder found. */
+/** \brief Result of PlaneFinder. */
 struct FoundPlanes {
   PlaneSegments segments; ///< as measured, with labels
   Interpretation interpretation;
   std::optional<RefinedModel> refined;
   double seconds = 0; ///< from the points to the labelled planes
 
-  /** \return the planes, refined if they were */
+  /** \return the refined planes if available, else the measured planes */
   const std::vector<PlaneSegment>&
   best() const
   {
@@ -42,27 +43,28 @@ struct FoundPlanes {
   }
 };
 
-/** \brief From points to labelled planes, exact ones if wanted (book 7.1): segmentation,
- * labels and refinement in one call. The same bits for any number of threads. \code
+/** \brief Finds planes in points, labels them and, if wanted, makes them exact (book
+ * 7.1): segmentation, labels and refinement in one call. Bit for bit equal for any
+ * number of threads. \code
  * pcl6d::SceneCloud cloud;
  * cloud.points = points; // [m], the scanner at the origin
  * for (const auto& segment : pcl6d::PlaneFinder().find(cloud).segments.planes)
  *   use(segment.plane.label, segment.plane.hull);
  * \endcode
- * Of a folder of scans or a run: `find(joinScans(scans, sceneParameters(scans)))`.
+ * For a folder of scans or a run: `find(joinScans(scans, sceneParameters(scans)))`.
  * \ingroup scene_interpretation */
 class PlaneFinder {
 public:
   explicit PlaneFinder(PlaneFinderOptions options = {});
 
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an option is invalid */
   FoundPlanes
   find(const SceneCloud& cloud) const;
 
-  /** \brief Writes planes.json (in the full coordinates of the world; refined ones, if
-   * there are), planes.pcd, hulls.ply, with labels labels.json and, if refined,
-   * refinement.json and refined.pcd.
-   * \param[in] generator the program, as it stands in planes.json
+  /** \brief Writes planes.json (in the full coordinates of the world; refined planes if
+   * available), planes.pcd, hulls.ply, labels.json if labelled, and refinement.json and
+   * refined.pcd if refined.
+   * \param[in] generator name of the program, written into planes.json
    * \throws IoFailed a file cannot be written */
   void
   write(const std::filesystem::path& folder,
@@ -75,7 +77,7 @@ private:
 };
 
 /** \return planes in the full coordinates of the world
- * \param[in] world_offset [m] that their points are relative to */
+ * \param[in] world_offset [m] added to the planes */
 std::vector<Plane>
 worldPlanes(const std::vector<PlaneSegment>& segments,
             const Eigen::Vector3d& world_offset);

@@ -13,10 +13,10 @@
  * rules made of them. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How two planes i, j of one storey lie to each other; `z` is the height of a
+/** \brief Spatial relation of two planes i, j of one storey; `z` is the height of a
  * plane's centre. Tolerances: RelationTolerances. */
 enum class Relation {
-  kParallel,    ///< "parallel": the same or opposite normals
+  kParallel,    ///< "parallel": equal or opposite normals
   kOrthogonal,  ///< "orthogonal"
   kAbove,       ///< "above": z_i > z_j + h
   kUnder,       ///< "under": z_j > z_i + h
@@ -32,25 +32,25 @@ enum class Relation {
 const char*
 toString(Relation relation);
 
-/** \return the relation of that name; none if there is none */
+/** \return the relation with a name; nullopt for an unknown name */
 std::optional<Relation>
 relationFromName(const std::string& name);
 
-/** \return all names, for messages: "parallel, orthogonal, ..." */
+/** \return the names of the relations, for messages: "parallel, orthogonal, ..." */
 std::string
 relationNames();
 
-/** \brief How exactly relations are to hold. */
+/** \brief Tolerances of the relations. */
 struct RelationTolerances {
   double angle = 0.17453292519943295; ///< [rad] tau: 10 deg; in (0, pi/4)
   double height = 0.2;                ///< [m] h, of heights and carriers; > 0
-  double touch = 0.1;                 ///< [m] hulls this near meet; > 0
-  double in_front = 0.015;            ///< [m] "recessed" may lie that far out; >= 0
-  double hinge = 0.2;                 ///< [m] from an edge to the wall; > 0
+  double touch = 0.1;                 ///< [m] hulls within this distance meet; > 0
+  double in_front = 0.015; ///< [m] a "recessed" plane may stand out by this much; >= 0
+  double hinge = 0.2;      ///< [m] from an edge to the wall; > 0
   double hinge_angle = 0.5235987755982988; ///< [rad] least angle of a leaf: 30 deg
   double min_step = 0.08;                  ///< [m] of stairs; > 0
   double max_step = 0.25;                  ///< [m] > min_step
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
@@ -67,7 +67,8 @@ struct RelationRule {
   enum class Kind { kRelation, kAll, kAny, kNot };
   Kind kind = Kind::kRelation;
   Relation relation = Relation::kParallel; ///< of kRelation
-  std::vector<RelationRule> parts;         ///< of the others; exactly one of kNot
+  std::vector<RelationRule> parts; ///< of kAll, kAny and kNot; exactly one part for
+                                   ///< kNot
 };
 
 /** \return the rule in words: "parallel and (equalheight or apart)" */

@@ -11,36 +11,37 @@
 #include <cstddef>
 #include <vector>
 
-/** \file The points that PlaneFinder looks at. */
+/** \file The input points of PlaneFinder. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A cloud to look for planes in: one scan in its frame, or a map. */
+/** \brief A cloud for plane detection: one scan in its frame, or a map. */
 struct SceneCloud {
   Points points;         ///< [m]
   std::size_t width = 0; ///< > 1: the points are a grid, in rows of this length
-  Points viewpoints;     ///< [m] per point where it was seen from; empty: origin
+  Points viewpoints;     ///< [m] per point the sensor's position; empty: origin
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero(); ///< [m] of the points
 };
 
-/** \return the cloud of a map, whose scan numbers are places in poses
+/** \return the cloud of a map; its scan numbers are indices into poses
  * \param[in] poses of the scans, T_world_scan in full coordinates
+ * \param[in] world_offset [m] of the points
  * \ingroup scene_interpretation */
 SceneCloud
 sceneCloudOf(const MapBuilder& map,
              const std::vector<Eigen::Isometry3d>& poses,
              const Eigen::Vector3d& world_offset);
 
-/** \brief Range gate and voxel for joinScans(): what is not given is that of the run, or
- * derived from the first scans.
- * \param[in] progress called before each scan that is read; what it throws goes through
- * \throws BadArgument an option breaks its rule \throws IoFailed a scan cannot be read */
+/** \brief Range gate and voxel for joinScans(): missing options are taken from the run,
+ * or derived from the first scans.
+ * \param[in] progress called before each scan is read; its exceptions pass through
+ * \throws BadArgument an option is invalid \throws IoFailed a scan cannot be read */
 ScanParameters
 sceneParameters(const RegisteredScans& scans,
                 const ScanParameterOptions& given = {},
                 const ProgressCallback& progress = {});
 
 /** \brief Joins the scans of a folder or a run, one point per voxel.
- * \param[in] progress called with each scan ("reading"); what it throws goes through
+ * \param[in] progress called with each scan ("reading"); its exceptions pass through
  * \throws IoFailed a scan cannot be read */
 SceneCloud
 joinScans(const RegisteredScans& scans,

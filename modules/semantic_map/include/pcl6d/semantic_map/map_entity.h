@@ -9,7 +9,7 @@
 #include <string_view>
 #include <tuple>
 
-/** \file Names of what a semantic map holds: `plane:12`, `object:3`. */
+/** \file Names of the entities of a semantic map: `plane:12`, `object:3`. */
 namespace PCL6D_EXPORTS pcl6d {
 
 enum class EntityKind { kScan, kPlane, kObject, kRoom, kStorey };
@@ -18,12 +18,12 @@ enum class EntityKind { kScan, kPlane, kObject, kRoom, kStorey };
 const char*
 toString(EntityKind kind);
 
-/** \return the kind of that name; none if there is none */
+/** \return the kind with a name; nullopt for an unknown name */
 std::optional<EntityKind>
 entityKindFromName(std::string_view name);
 
-/** \brief One thing of a map. A scan's id is its index in the run (from 0), all others
- * are the place in the map's list plus one. \ingroup semantic_map */
+/** \brief An entity of a map. A scan's id is its index in the run (from 0); other ids
+ * are the index in the map's list plus one. \ingroup semantic_map */
 struct Entity {
   EntityKind kind = EntityKind::kPlane;
   std::size_t id = 1;
@@ -44,7 +44,7 @@ struct Entity {
 std::string
 toString(const Entity& entity);
 
-/** \return what toString() wrote; none if the text is of another form */
+/** \return the entity written by toString(); nullopt for text of another form */
 std::optional<Entity>
 entityFromText(std::string_view text);
 

@@ -13,33 +13,35 @@
 #include <limits>
 #include <vector>
 
-/** \file What the scans of a map show of objects. */
+/** \file Observations of objects in the scans of a map. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What one scan shows. */
+/** \brief Objects observed in one scan. */
 struct ScanObjects {
   std::filesystem::path file;
   Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
-  std::vector<std::size_t> observations; ///< places in the list of all
-  /** per observation its points, as places in the file */
+  std::vector<std::size_t> observations; ///< indices into
+                                         ///< ObjectObservations::observations
+  /** per observation its points, as indices into the file */
   std::vector<std::vector<std::uint32_t>> points;
 };
 
-/** \brief What several scans show. */
+/** \brief Objects observed in several scans. */
 struct ObjectObservations {
   std::vector<MapObject> observations;
   std::vector<ScanObjects> scans;
   double seconds = 0; ///< of the search, without reading
 };
 
-/** \brief The ranges [m] in which a scan is looked at. */
+/** \brief The range gate of a scan [m]. */
 struct ObservationRange {
   double min_range = 0;
   double max_range = std::numeric_limits<double>::infinity();
 };
 
-/** \brief Looks for objects in a scan and adds what it finds, in the world.
- * \param[in] file for messages and ScanObjects \param[in] id of the scan in the map
+/** \brief Searches a scan for objects and adds them in the world frame.
+ * \param[in] file for messages and ScanObjects
+ * \param[in] id of the scan in the map
  * \throws BadArgument naming the file: fewer than 10 points \ingroup semantic_map */
 void
 observeObjects(const ObjectFinder& finder,
@@ -50,10 +52,10 @@ observeObjects(const ObjectFinder& finder,
                const ObservationRange& range,
                ObjectObservations& found);
 
-/** \brief Looks for objects in the scans of a folder or a run, one after the other.
- * \param[in] given range; a limit that is 0 is that of the run
- * \param[in] progress called with each scan ("scans"); what it throws goes through
- * \throws IoFailed a scan cannot be read \throws BadArgument as above */
+/** \brief Searches the scans of a folder or a run for objects, one by one.
+ * \param[in] given range; a limit of 0 is replaced by the run's limit
+ * \param[in] progress called with each scan ("scans"); its exceptions pass through
+ * \throws IoFailed a scan cannot be read \throws BadArgument see above */
 ObjectObservations
 observeObjects(const ObjectFinder& finder,
                const RegisteredScans& scans,

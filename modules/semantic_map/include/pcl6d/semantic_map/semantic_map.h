@@ -20,7 +20,7 @@ struct MapScan {
   std::size_t id = 0; ///< index in the run
   std::string file;
   Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity(); ///< [m]
-  /** of x y z roll pitch yaw [m, rad]; none if not known */
+  /** of x y z roll pitch yaw [m, rad]; nullopt if unknown */
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
 };
 
@@ -28,18 +28,18 @@ struct MapScan {
 struct MapLink {
   std::size_t from = 0; ///< id of a scan
   std::size_t to = 0;   ///< id of a scan
-  std::string kind;     ///< "sequence", "loop", ...; empty: not known
+  std::string kind;     ///< "sequence", "loop", ...; empty: unknown
   std::size_t pairs = 0;
   double rms = 0; ///< [m]
-  /** inverse covariance as of PoseLink; none if not known */
+  /** inverse covariance, see PoseLink; nullopt if unknown */
   std::optional<Eigen::Matrix<double, 6, 6>> information;
 };
 
-/** \brief A labelled plane, as measured and, if it was, as refined (7.1.3). */
+/** \brief A labelled plane, measured and optionally refined (7.1.3). */
 struct MapPlane {
   Plane measured;
   std::optional<Plane> refined;
-  std::vector<std::size_t> scans; ///< ids of those that saw it, ascending
+  std::vector<std::size_t> scans; ///< ids of scans with points on the plane, ascending
 
   /** \return the refined plane, else the measured one */
   const Plane&
@@ -49,28 +49,28 @@ struct MapPlane {
   }
 };
 
-/** \brief An object and how well its pose is known. */
+/** \brief An object and the uncertainty of its pose. */
 struct MapObject {
   ObjectPose pose;
   double score = 0;            ///< in [0, 1]
   double visible_fraction = 0; ///< of the surface that faced the scanner, in [0, 1]
   double rms = 0;              ///< [m] distance of its points to the model
-  /** of x y z roll pitch yaw of T_world_object [m, rad]; none if not known */
+  /** of x y z roll pitch yaw of T_world_object [m, rad]; nullopt if unknown */
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
-  /** It looks the same after each turn by 2 pi / symmetry about its z axis; 1: only after
-   * a whole one; 0: after any turn, so that its heading means nothing. */
+  /** Rotational symmetry about the z axis, by 2 pi / symmetry; 1: no symmetry; 0: by
+   * any angle, the heading is arbitrary. */
   int symmetry = 1;
-  std::vector<std::size_t> scans; ///< ids of those that saw it, ascending
+  std::vector<std::size_t> scans; ///< ids of scans that saw the object, ascending
 };
 
-/** \brief All floors at one height. */
+/** \brief The floors at one height. */
 struct MapStorey {
   double floor = 0;              ///< [m] height along SemanticMap::up
   std::optional<double> ceiling; ///< [m] height of its largest ceiling
   double area = 0;               ///< [m^2] of its floor planes
 };
 
-/** \brief Floor area that walls enclose (findRooms()). */
+/** \brief Floor area enclosed by walls (findRooms()). */
 struct MapRoom {
   std::size_t storey = 1;       ///< id
   double area = 0;              ///< [m^2] inside the outline
@@ -87,9 +87,9 @@ struct MapRelation {
   Entity second;
 };
 
-/** \brief A map that names what it holds (book 7.3): scans with their poses and links,
- * planes with labels, objects with classes and poses, rooms, and how all these lie to each
- * other. Everything in the world frame of the run, in full coordinates.
+/** \brief A semantic map (book 7.3): scans with their poses and links, planes with
+ * labels, objects with classes and poses, rooms, and their spatial relations.
+ * Everything is in the world frame of the run, in full coordinates.
  * \ingroup semantic_map */
 struct SemanticMap {
   static constexpr int kSchemaVersion = 1;
@@ -105,13 +105,14 @@ struct SemanticMap {
   std::vector<MapRoom> rooms;
   std::vector<MapRelation> relations;
 
-  /** \return the place of a thing in its list; none if the map has no such thing */
+  /** \return the index of an entity in its list; nullopt if the map has no such
+   * entity */
   std::optional<std::size_t>
   placeOf(const Entity& entity) const;
 
-  /** \return names of the labels of points: those of PlaneLabel, then labels of a user's
-   * own, then the classes of objects, both in the order of the map. The place of a name
-   * is the value of the field `label`; 0 is "none". */
+  /** \return names of the labels of points: the names of PlaneLabel, then other labels
+   * of planes, then the classes of objects, both in the order of the map. The index of
+   * a name is the value of the field `label`; 0 is "none". */
   std::vector<std::string>
   labelNames() const;
 };
@@ -124,16 +125,16 @@ isInPlan(const MapRoom& room, const Eigen::Vector3d& up, const Eigen::Vector3d& 
 Eigen::Vector3d
 centreOf(const MapRoom& room, const Eigen::Vector3d& up);
 
-/** \return the id of the room around a point: of those with it in plan the one whose floor
- * is the highest not above it; 0 without one. Where floors differ by less than a storey,
- * only the plan tells which one a point is over.
- * \param[in] tolerance [m] so far a floor may be above */
+/** \return the id of the room around a point; 0 without a room. Of several rooms with
+ * the point in plan, the room with the highest floor not above the point. Floors that
+ * differ by less than a storey are told apart by the plan only.
+ * \param[in] tolerance [m] by which a floor may be above the point */
 std::size_t
 roomAt(const SemanticMap& map, const Eigen::Vector3d& point, double tolerance = 0.3);
 
-/** \return the id of the storey whose floor is the highest not above a height along up
- * [m], for what is in no room; 0 without storeys, the lowest one below all floors
- * \param[in] tolerance [m] so far a floor may be above */
+/** \return the id of the storey with the highest floor not above a height [m] along up,
+ * for entities in no room; 0 without storeys; the lowest storey below every floor
+ * \param[in] tolerance [m] by which a floor may be above the height */
 std::size_t
 storeyAt(const SemanticMap& map, double height, double tolerance = 0.3);
 

@@ -18,13 +18,13 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Knobs of SemanticMapBuilder. */
 struct SemanticMapBuilderOptions {
-  bool fuse = true;              ///< what several scans saw at one place is one object
-  std::size_t least_points = 10; ///< of a scan on what it saw
+  bool fuse = true;              ///< fuse observations of one object from several scans
+  std::size_t least_points = 10; ///< of a scan on an observed plane or object
   unsigned int num_threads = 0;  ///< 0: one per core; never changes the result
 };
 
-/** \brief Makes a semantic map (book 7.3) of registered scans, planes and objects: which
- * scans saw what, rooms, relations, and what each point is. \code
+/** \brief Builds a semantic map (book 7.3) from registered scans, planes and objects:
+ * observations per scan, rooms, relations, and labels of points. \code
  * pcl6d::SemanticMap scans;
  * scans.scans = {{0, "scan000.pcd", T_world_scan, {}}};
  * pcl6d::SemanticMapBuilder builder(scans);
@@ -32,7 +32,8 @@ struct SemanticMapBuilderOptions {
  * builder.setPlanes(pcl6d::PlaneFinder().find(cloud), cloud.world_offset);
  * builder.build(cloud.points, [&](std::size_t i) { return points_of_scan[i]; });
  * writeSemanticMap("semantic_map.json", builder.map());
- * \endcode \ingroup semantic_map */
+ * \endcode
+ * \ingroup semantic_map */
 class SemanticMapBuilder {
 public:
   /** \return the points [m] of the i-th scan, in its own frame */
@@ -43,27 +44,28 @@ public:
                               const SemanticMapBuilderOptions& options = {});
 
   /** \param[in] observations one entry per object and scan, or per object
-   * \param[in] source of them, for messages
-   * \throws IoFailed one was seen by a scan that the map has not
-   * \throws BadArgument as fuseObjects() */
+   * \param[in] source of the observations, for messages
+   * \throws IoFailed an observation refers to a scan that is not in the map
+   * \throws BadArgument see fuseObjects() */
   void
   setObjects(const std::vector<MapObject>& observations,
              const std::string& source = "objects");
 
-  /** \param[in] planes in full coordinates; labelled if none has a label
-   * \param[in] rules asked for the rules of labels, if these are needed */
+  /** \param[in] planes in full coordinates; they are labelled if no plane has a label
+   * \param[in] rules called for the rules of labels, if needed */
   void
   setPlanes(std::vector<Plane> planes,
             const std::function<LabelRules()>& rules = bookRules);
 
-  /** \param[in] found planes, measured and where the refinement moved them, refined
-   * \param[in] world_offset [m] that they are relative to */
+  /** \param[in] found planes, measured and, if moved by the refinement, refined
+   * \param[in] world_offset [m] of the planes */
   void
   setPlanes(const FoundPlanes& found, const Eigen::Vector3d& world_offset);
 
-  /** \brief Joins everything. Objects that tell by which scans they were seen keep these.
+  /** \brief Combines scans, objects and planes. Objects with a list of scans keep their
+   * list.
    * \param[in] points of the map [m], relative to its world offset
-   * \param[in] progress called with each scan ("scans"); what it throws goes through */
+   * \param[in] progress called with each scan ("scans"); its exceptions pass through */
   void
   build(const Points& points,
         const ReadPoints& read_scan,
@@ -75,7 +77,7 @@ public:
     return map_;
   }
 
-  /** \return what the points given to build() are */
+  /** \return labels of the points given to build() */
   const PointLabels&
   labels() const
   {
@@ -93,8 +95,8 @@ private:
   PointLabels labels_;
 };
 
-/** \brief Adds the fields label, plane_id, object_id and rgb, the colour of the label, to a
- * cloud; fields that it has already are kept.
+/** \brief Adds the fields label, plane_id, object_id and rgb (the colour of the label)
+ * to a cloud; existing fields are kept.
  * \param[in] label_names by number, SemanticMap::labelNames() */
 void
 addLabelFields(const PointLabels& labels,

@@ -16,30 +16,31 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Lays the ways of bodies around a scanner.
+/** \brief Generates the ways of bodies around a scanner.
  *
- * Each goes from goal to goal, on floor that is free, where the scanner sees it, and never
- * nearer to the scanner or to another body than its rules say; where it cannot go on it
- * waits. Who is left behind, or in the way of a scanner that comes on, leaves, and another
- * one comes, at once: a jump of the same body.
+ * Each body goes from goal to goal, on free floor in view of the scanner. It keeps the
+ * distance to the scanner and other bodies required by its rules, and waits where it
+ * cannot go on. A body left behind, or in the way of an approaching scanner, leaves,
+ * and another body appears at once: a jump of the same body.
  * \ingroup simulation */
 class BodyWays {
 public:
-  /** A place in view of the scanner at a time, in plan, between two distances from it [m]. */
+  /** Draws a position in view of the scanner at a time, in plan, between two distances
+   * [m] from the scanner. */
   using GoalAt = std::function<
       Eigen::Vector2d(double time, double nearest, double farthest, Random& random)>;
 
   /** Keeps a reference to the map. \throws BadArgument see ScannerTrack::validate() */
   BodyWays(const GroundMap& map, ScannerTrack track, GoalAt goalAt);
 
-  /** \brief Lets others keep out of the way of a body that is already there. */
+  /** \brief Adds an existing body, which new bodies keep away from. */
   void
   addOther(const MovingBody& body);
 
-  /** \brief Lays the way of one more body.
-   * \param[in] seed same seed, same way
+  /** \brief Generates the way of one more body.
+   * \param[in] seed equal seeds give equal ways
    * \return with shape, way and times from the start to the end of the track
-   * \throws ComputeFailed there is no room for it */
+   * \throws ComputeFailed no room for the body */
   MovingBody
   add(BodyKind kind, std::uint64_t seed);
 

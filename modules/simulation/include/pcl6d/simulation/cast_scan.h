@@ -11,8 +11,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Scans what there is to see, each sample at its own time.
- * \param[in] scan_index number of the scan: each has noise of its own
+/** \brief Simulates a scan, each sample at its own time.
+ * \param[in] scan_index number of the scan: each scan has its own noise
  * \throws BadArgument see RangeOptions::validate() \ingroup simulation */
 RangeScan
 castScan(const SceneView& view,
@@ -20,9 +20,9 @@ castScan(const SceneView& view,
          const RangeOptions& options = {},
          std::uint64_t scan_index = 0);
 
-/** \brief Scans a scene from a place, standing still.
+/** \brief Simulates a scan from a fixed pose in a static scene.
  * \param[in] T_scene_scan pose of the scanner
- * \param[in] scan_index number of the scan: each has noise of its own
+ * \param[in] scan_index number of the scan: each scan has its own noise
  * \throws BadArgument see RangeOptions::validate() \ingroup simulation */
 RangeScan
 castScan(const RayCaster& caster,

@@ -11,23 +11,21 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Where bodies can stand and go: floor without anything on it, seen from above.
+/** \brief Map of free floor where bodies can stand and walk.
  *
- * Square cells in the plane of x and y; z is up. One floor at each place. \ingroup
- * simulation */
+ * Square cells in the x-y plane, z up, with one floor per cell. \ingroup simulation */
 class GroundMap {
 public:
-  /** \brief What a map is made of. */
+  /** \brief Floor heights in square cells. */
   struct Raster {
     Eigen::Vector2d low = Eigen::Vector2d::Zero(); ///< [m] corner of cell 0
     double cell = 0.1;                             ///< [m] edge of a cell, > 0
     std::size_t columns = 0;                       ///< along x
     std::size_t rows = 0;                          ///< along y
-    std::vector<double>
-        floors; ///< [m] row by row; NaN: something stands there, or unknown
+    std::vector<double> floors; ///< [m] row by row; NaN: occupied or unknown
   };
 
-  /** \throws BadArgument a field breaks its rule, or as many floors as cells are not there */
+  /** \throws BadArgument a field is invalid, or not one floor per cell */
   explicit GroundMap(Raster raster);
 
   const Raster&
@@ -36,27 +34,28 @@ public:
     return raster_;
   }
 
-  /** \return the height of the floor [m], between the middles of cells in between; none
-   * where a body cannot stand */
+  /** \return the height of the floor [m], interpolated between the middles of cells;
+   * nullopt where a body cannot stand */
   std::optional<double>
   floor(const Eigen::Vector2d& place) const;
 
-  /** \return the radius [m] of a disc about the place that holds free floor only; 0 if
-   * there is none. Too small by up to 1.5 cells */
+  /** \return the radius [m] of the largest disc of free floor about a position; 0
+   * without one. Too small by up to 1.5 cells */
   double
   room(const Eigen::Vector2d& place) const;
 
-  /** \return whether a disc can go straight from one place to another \param[in] radius [m]
-   */
+  /** \return whether a disc can go straight between two positions \param[in] radius
+   * [m] */
   bool
   isFree(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double radius) const;
 
-  /** \brief A short way for a disc between two places, of straight legs.
-   * \param[in] radius of the disc [m] \param[in] longest [m] of the ways that count
-   * \return its corners, both ends included; none if there is no such way
-   * \note Source: P. E. Hart, N. J. Nilsson, B. Raphael, "A formal basis for the heuristic
-   * determination of minimum cost paths", IEEE Trans. Systems Science and Cybernetics 4(2),
-   * 1968; then corners are left out where the way stays free */
+  /** \brief A short way for a disc between two positions, of straight legs.
+   * \param[in] from, to ends of the way [m]
+   * \param[in] radius of the disc [m] \param[in] longest [m] limit for the way
+   * \return its corners, both ends included; empty if no way is short enough
+   * \note Source: P. E. Hart, N. J. Nilsson, B. Raphael, "A formal basis for the
+   * heuristic determination of minimum cost paths", IEEE Trans. Systems Science and
+   * Cybernetics 4(2), 1968; then corners are left out where the way stays free */
   std::vector<Eigen::Vector2d>
   way(const Eigen::Vector2d& from,
       const Eigen::Vector2d& to,
@@ -75,7 +74,7 @@ private:
 
   Raster raster_;
   std::vector<float>
-      gaps_; // [m] from the middle of a cell to that of the next unfree one
+      gaps_; // [m] from the middle of a cell to the middle of the next occupied cell
 };
 
 } // namespace pcl6d

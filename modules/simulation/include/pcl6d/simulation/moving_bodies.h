@@ -10,21 +10,21 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Bodies that move, and what a ray meets of them at a time. \ingroup simulation */
+/** \brief Moving bodies, to be hit by rays at any time. \ingroup simulation */
 class MovingBodies {
 public:
   /** \throws BadArgument a body breaks a rule \throws ComputeFailed see RayCaster */
   explicit MovingBodies(std::vector<MovingBody> bodies = {});
 
-  /** \brief The first body along a ray, as it is at that time. Thread-safe.
-   * \param[in] time [s] \param[in] max_range [m] farther ones are not seen
-   * \return its triangle is one of shapes() */
+  /** \brief The first body along a ray at a time. Thread-safe.
+   * \param[in] time [s] \param[in] max_range [m] farther bodies are ignored
+   * \return its triangle is an index into shapes() */
   std::optional<RayHit>
   cast(const Ray& ray,
        double time,
        double max_range = std::numeric_limits<double>::infinity()) const;
 
-  /** \return the shapes of all, one behind the other, each in its own frame */
+  /** \return the shapes of the bodies, one after another, each in its own frame */
   const TriangleScene&
   shapes() const
   {
@@ -44,7 +44,7 @@ public:
     return bodies_[i].body;
   }
 
-  /** \return which body a triangle of shapes() belongs to */
+  /** \return the index of the body with a triangle of shapes() */
   std::size_t
   bodyOf(std::uint32_t triangle) const;
 
@@ -60,7 +60,7 @@ private:
     RayCaster caster;
     std::uint32_t first_triangle; // in shapes_
     Ball shape;                   // in the body's frame
-    Ball reach;                   // in the scene, around the shape wherever it may be
+    Ball reach;                   // in the scene, around every position of the shape
   };
   std::vector<Moving> bodies_;
   TriangleScene shapes_;

@@ -11,33 +11,34 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What a moving body does at the end of its way. */
+/** \brief Behaviour of a moving body at the end of its way. */
 enum class WayEnd {
   kStop,   ///< stays there
   kReturn, ///< turns on the spot and goes back, for ever
   kClosed  ///< goes straight on to the first corner, for ever
 };
 
-/** \brief A thing that moves through a scene while it is scanned: a person, a car.
+/** \brief A body that moves through a scene during the scans: a person, a car.
  *
- * It follows straight legs between corners, upright, its x axis ahead in plan, and turns
- * at once where a leg ends: with constant speed for ever, or by a timetable.
+ * It follows straight legs between corners, upright, its x axis ahead in plan, and
+ * turns instantly at corners. The speed is constant, without end, or given by a
+ * timetable.
  * \ingroup simulation */
 struct MovingBody {
   std::string name = "body";
-  /// in the body's own frame: x ahead, z up, origin where it touches the ground
+  /// in the body's own frame: x ahead, z up, origin at the contact with the ground
   TriangleScene shape;
   std::vector<Eigen::Vector3d> way; ///< [m] corners in the scene, >= 2 apart in plan
   double speed = 1;                 ///< [m/s] along the way, in [0, 1000]
   double start = 0;                 ///< [m] along the way at time 0, >= 0
   WayEnd end = WayEnd::kReturn;
-  /** [s] when it is at each corner, not decreasing: then `speed`, `start` and `end` do not
-   * count, it waits where two neighbours are one place, jumps where they have one time,
-   * and stands still before the first and after the last one. Empty: constant speed */
+  /** [s] time at each corner, not decreasing; replaces `speed`, `start` and `end`. The
+   * body waits between equal corners, jumps between corners of equal time, and stands
+   * still before the first and after the last time. Empty: constant speed */
   std::vector<double> times;
-  bool follows_slope = false; ///< its x axis rises and falls with the leg, as a car's
+  bool follows_slope = false; ///< its x axis rises and falls with the leg, like a car's
 
-  /** \throws BadArgument naming the body and what breaks its rule */
+  /** \throws BadArgument naming the body and the broken rule */
   void
   validate() const;
 
@@ -46,7 +47,7 @@ struct MovingBody {
   Eigen::Isometry3d
   poseAt(double time) const;
 
-  /** \return whether it is ever at another place than at the start */
+  /** \return whether it ever leaves its start */
   bool
   moves() const;
 

@@ -11,7 +11,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A scene that stands still and the bodies that move through it, at any time.
+/** \brief A static scene with moving bodies, at any time.
  * \ingroup simulation */
 class MovingScene {
 public:
@@ -19,39 +19,39 @@ public:
    * RayCaster */
   explicit MovingScene(TriangleScene ground, std::vector<MovingBody> bodies = {});
 
-  /** \brief The first thing along a ray, as it is at that time. Thread-safe.
-   * \param[in] time [s] >= 0 \return its triangle is one of scene() */
+  /** \brief The first surface along a ray at a time. Thread-safe.
+   * \param[in] time [s] >= 0 \return its triangle is an index into scene() */
   std::optional<RayHit>
   cast(const Ray& ray, double time) const;
 
-  /** \return what stands still */
+  /** \return the static scene */
   const RayCaster&
   ground() const
   {
     return ground_;
   }
 
-  /** \return all triangles and surfaces: those of the ground as they were given, then
-   * those of the bodies in their own frames */
+  /** \return triangles and surfaces: first of the static scene, unchanged, then of the
+   * bodies in their own frames */
   const TriangleScene&
   scene() const
   {
     return bodies_.size() == 0 ? ground_.scene() : all_;
   }
 
-  /** \return what moves, or could */
+  /** \return the bodies, moving or not */
   const MovingBodies&
   bodies() const
   {
     return bodies_;
   }
 
-  /** \return whether a triangle of scene() belongs to a body that moves */
+  /** \return whether a triangle of scene() belongs to a moving body */
   bool
   moves(std::uint32_t triangle) const;
 
-  /** \return T_scene_body of what a triangle of scene() belongs to, at a time [s];
-   * identity for the ground */
+  /** \return T_scene_body of the body with a triangle of scene(), at a time [s];
+   * identity for the static scene */
   Eigen::Isometry3d
   poseOf(std::uint32_t triangle, double time) const;
 
@@ -61,7 +61,7 @@ private:
   TriangleScene all_;
 };
 
-/** \brief The view from a scanner that moves, or stands, in a moving scene. */
+/** \brief The view from a moving or fixed scanner in a moving scene. */
 class MovingView : public SceneView {
 public:
   /** T_scene_scan at a time of the simulation [s]. */

@@ -6,13 +6,13 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Makes sure that a robot can drive a path and scan from it.
+/** \brief Checks that a robot can drive a path and scan from it.
  *
- * Every 0.1 m of the way must be free at the height of the sensor and at half of it;
- * at the scans, nothing may be seen from inside a solid body.
+ * Every 0.1 m of the way must be free at the height of the sensor and at half the
+ * height. At the scans, the sensor must not be inside a solid body.
  * \param[in] num_scans evenly along the path
- * \throws ComputeFailed naming the scan, the place in the scene and the surface that is
- * in the way \ingroup simulation */
+ * \throws ComputeFailed naming the scan, the position in the scene and the blocking
+ * surface \ingroup simulation */
 void
 requireFreePath(const RayCaster& caster, const RobotPath& path, int num_scans);
 

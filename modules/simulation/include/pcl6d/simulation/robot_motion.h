@@ -12,27 +12,28 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How a robot drives along a path without a stop for its scans. */
+/** \brief Motion of a robot that scans without stopping. */
 struct RobotMotionOptions {
   double speed = 1; ///< [m/s] in plan, in (0, 50]
-  /** [rad/s] in (0, 10]: it slows down where the path bends more, and turns so fast at sharp
-   * corners, where it stops; none: it never slows down, and a path with sharp corners is
-   * refused */
+  /** [rad/s] in (0, 10]: the robot slows down in narrower bends; at sharp corners it
+   * stops and turns at this rate. Default: constant speed, and a path with sharp
+   * corners is refused */
   std::optional<double> turn_rate;
-  /** [m] rms of the distance by which the sensor shakes, in [0, 0.1]: in each direction a
-   * sum of eight sines of equal power, one in each eighth of the octaves from 1 to 10 Hz
-   * (what tyres, springs and joints of small vehicles pass on), of random phase; about
-   * each axis as much as contacts that shake so turn it, a wheel base apart */
+  /** [m] rms displacement of the sensor by vibration, in [0, 0.1]. Each direction is a
+   * sum of eight sines of equal power and random phase, one in each eighth of the
+   * octaves from 1 to 10 Hz (the band passed by tyres, springs and joints of small
+   * vehicles). The rotation about each axis equals that of contacts one wheel base
+   * apart with the same vibration */
   double vibration = 0;
   std::uint64_t seed = 1; ///< of the phases
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief Poses at equal steps of time as control points of a uniform cubic B-spline, of
- * positions and of quaternions, which are then scaled to unit length: velocity and
- * acceleration are continuous. It goes round and round. */
+/** \brief Periodic uniform cubic B-spline with poses at equal time steps as control
+ * points. Positions and quaternions are blended, quaternions then normalised; velocity
+ * and acceleration are continuous. */
 class PoseSpline {
 public:
   /** \param[in] poses of one round, >= 1 \param[in] knots_per_second > 0 */
@@ -43,26 +44,27 @@ public:
 
 private:
   std::vector<Eigen::Vector3d> positions_;
-  std::vector<Eigen::Quaterniond> rotations_; // each on the side of the one before
+  std::vector<Eigen::Quaterniond> rotations_; // each on the side of the previous
+                                              // quaternion
   double knots_per_second_;
 };
 
 /** \brief A drive along a path without a stop.
  *
- * Control points of a PoseSpline every 0.1 m and, with a turn rate, every 0.1 s: as a body
- * with mass on springs, kinks of the floor are rounded off over a length of 0.4 m, stops and
- * turns over 0.4 s, and the steps of a stair become a slope that waves.
+ * Control points of a PoseSpline every 0.1 m and, with a turn rate, every 0.1 s. This
+ * models a sprung mass: kinks of the floor are rounded over 0.4 m, stops and turns over
+ * 0.4 s, and the steps of a stair become a wavy slope.
  * \ingroup simulation */
 class RobotMotion {
 public:
-  /** \throws BadArgument an option breaks its rule, or a round takes more than a million
+  /** \throws BadArgument an option is invalid, or a round takes more than a million
    * control points: 28 hours with a turn rate, 2.8 hours with vibration
-   * \throws ComputeFailed there is no floor below the path */
+   * \throws ComputeFailed no floor below the path */
   RobotMotion(const RobotPath& path,
               const RayCaster& caster,
               const RobotMotionOptions& options);
 
-  /** \param[in] time [s] any; the drive goes round and round
+  /** \param[in] time [s] any; the drive repeats after each round
    * \return T_scene_sensor */
   Eigen::Isometry3d
   poseAt(double time) const

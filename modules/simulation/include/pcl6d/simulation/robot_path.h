@@ -15,28 +15,27 @@ struct RobotOptions {
   double sensor_height = 0.9; ///< [m] scanner above the contact plane, > 0
   double wheel_base = 0.5;    ///< [m] between front and rear contact, > 0
   double track_width = 0.4;   ///< [m] between left and right contact, > 0
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief How a path gets past its waypoints. */
+/** \brief Shape of a path at its waypoints. */
 enum class PathCorners {
-  kRounded, ///< a uniform quadratic B-spline of them: smooth, straight where three of them
-            ///< lie on a line
-  kSharp    ///< straight from one to the next
+  kRounded, ///< uniform quadratic B-spline: smooth, straight along collinear waypoints
+  kSharp    ///< straight from waypoint to waypoint
 };
 
 /** \brief A closed drive through a scene with six degrees of freedom.
  *
- * The robot heads along it and stands on what is below: height, roll and pitch follow from
- * where its four contacts meet the scene. \ingroup simulation */
+ * The robot heads along the path and stands on the floor: height, roll and pitch follow
+ * from the points where its four contacts meet the scene. \ingroup simulation */
 class RobotPath {
 public:
   /** \param[in] waypoints control points, closed from last to first; their height must
-   * be within 0.5 m of the floor and tells storeys apart
+   * be within 0.5 m of the floor and selects the storey
    * \throws BadArgument fewer than 3 waypoints, two neighbours that coincide in plan,
-   * or an option breaks its rule */
+   * or an option is invalid */
   RobotPath(const std::vector<Eigen::Vector3d>& waypoints,
             const RobotOptions& options,
             PathCorners corners = PathCorners::kRounded);
@@ -58,23 +57,25 @@ public:
     return options_;
   }
 
-  /** \return where straight legs begin [m] of the way, and where the last one ends; empty
-   * if corners are rounded */
+  /** \return distances [m] along the way at which straight legs begin, and the end of
+   * the last leg; empty for rounded corners */
   std::vector<double>
   corners() const;
 
-  /** \return the direction in plan, of unit length, in which the path leads
-   * \param[in] s as of sensorPose(); at a sharp corner that of the leg that begins there */
+  /** \return the direction of the path in plan, of unit length
+   * \param[in] s see sensorPose(); at a sharp corner the direction of the leg that
+   * begins there */
   Eigen::Vector2d
   heading(double s) const;
 
   /** \param[in] s way in plan [m], any number; wraps after each round
-   * \return T_scene_sensor: x ahead, z square to the contact plane
-   * \throws ComputeFailed there is no floor below the path */
+   * \return T_scene_sensor: x ahead, z normal to the contact plane
+   * \throws ComputeFailed no floor below the path */
   Eigen::Isometry3d
   sensorPose(const RayCaster& caster, double s) const;
 
-  /** \brief The same of a robot that turns there. \param[in] heading unit vector */
+  /** \brief The pose of a robot that turns there. \param[in] caster the scene
+   * \param[in] s way in plan [m] \param[in] heading unit vector */
   Eigen::Isometry3d
   sensorPose(const RayCaster& caster, double s, const Eigen::Vector2d& heading) const;
 

@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 /** \file
- * More bodies for simulated scenes: round ones, stairs, meshes and whole models. See
- * scene_builder.h for what is flat. */
+ * Bodies for simulated scenes: round bodies, stairs, meshes and whole models. Flat
+ * bodies: scene_builder.h. */
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A body of revolution about an upright axis: a cylinder, a cone, the crown of
@@ -19,11 +19,12 @@ struct Revolved {
   /** (radius, height above the foot) [m] from bottom to top, at least 2; radius > 0,
    * heights increasing. Both ends get a flat lid. */
   std::vector<Eigen::Vector2d> profile = {{0.5, 0}, {0.5, 1}};
-  int segments = 24; ///< corners around the axis, which lie on the circle; >= 3
+  int segments = 24; ///< corners around the axis, on the circle; >= 3
 };
 
-/** \brief Adds it as three surfaces: its shell, its lower and its upper lid.
- * \throws BadArgument a field breaks its rule */
+/** \brief Adds a body of revolution with three surfaces: its shell, its lower and its
+ * upper lid.
+ * \throws BadArgument a field is invalid */
 void
 addRevolved(TriangleScene& scene, const Revolved& body, const Surface& material);
 
@@ -41,17 +42,17 @@ struct Stairs {
   Eigen::Vector2d to = Eigen::Vector2d::UnitX();
   double width = 1;
   double bottom = -0.2;   ///< [m] height of its flat lower face
-  double from_height = 0; ///< [m] of the floor ahead of the first step; > bottom
+  double from_height = 0; ///< [m] of the floor in front of the first step; > bottom
   double to_height = 1;   ///< [m] of the last tread; > from_height
   int steps = 6;          ///< >= 1
 };
 
-/** \throws BadArgument a field breaks its rule */
+/** \throws BadArgument a field is invalid */
 void
 addStairs(TriangleScene& scene, const Stairs& stairs, const Surface& material);
 
-/** \brief Adds a mesh as one surface. \param[in] material is_solid only if the mesh is
- * closed and its triangles turn counter-clockwise as seen from outside */
+/** \brief Adds a mesh as one surface. \param[in] material is_solid only for a closed
+ * mesh, with triangles counter-clockwise seen from outside */
 void
 addMesh(TriangleScene& scene,
         const TriangleMesh& mesh,
@@ -59,7 +60,7 @@ addMesh(TriangleScene& scene,
         const Surface& material);
 
 /** \brief Adds a whole model with its surfaces.
- * \param[in] object id that its surfaces get; 0 leaves them as they are */
+ * \param[in] object id for its surfaces; 0 keeps their ids */
 void
 addModel(TriangleScene& scene,
          const TriangleScene& model,

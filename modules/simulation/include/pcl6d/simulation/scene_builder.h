@@ -5,8 +5,8 @@
 #include <pcl6d/simulation/triangle_scene.h>
 
 /** \file
- * Solid bodies for simulated scenes. All have thickness, so that none can be seen from
- * behind through a crack; bodies may touch or overlap. Every flat face becomes a
+ * Solid bodies for simulated scenes. Each body has thickness, so that none can be seen
+ * from behind through a crack; bodies may touch or overlap. Every flat face becomes a
  * surface of its own. Lengths in metres, z up. */
 namespace PCL6D_EXPORTS pcl6d {
 
@@ -14,7 +14,7 @@ namespace PCL6D_EXPORTS pcl6d {
 struct Box {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d size = Eigen::Vector3d::Ones(); ///< along its own axes, each > 0
-  double yaw = 0; ///< [rad] turn of these axes about the vertical
+  double yaw = 0; ///< [rad] turn of the axes about the vertical
 };
 
 void
@@ -42,12 +42,12 @@ struct Wall {
   double thickness = 0.2;
   double bottom = 0; ///< height of its foot
   double top = 2.5;
-  std::vector<Opening> openings; ///< in order along the wall, none overlapping
+  std::vector<Opening> openings; ///< in order along the wall, without overlap
 };
 
 /** \brief Adds a wall as one body per piece between openings; the pieces share the
  * surfaces of the wall's two faces. \throws BadArgument an opening lies outside the
- * wall or before the end of the one ahead of it */
+ * wall or begins before the previous opening ends */
 void
 addWall(TriangleScene& scene, const Wall& wall, const Surface& material);
 
@@ -58,7 +58,7 @@ struct Ramp {
   double width = 1;
   double bottom = -0.2;   ///< height of its flat lower face
   double from_height = 0; ///< height of the upper face at the start, > bottom
-  double to_height = 0.5; ///< and at the end, > bottom
+  double to_height = 0.5; ///< height at the end, > bottom
 };
 
 void

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 /** \file
- * Scenes of a user's own. A scene description is a JSON file:
+ * User-defined scenes. A scene description is a JSON file:
  * \code
  * {
  *   "name": "yard",                        // all but bodies and waypoints may be missing
@@ -29,17 +29,18 @@
  * Types of bodies and their keys are those of the structs Box, Wall, Ramp, Stairs,
  * Revolved, TerrainOptions; `cylinder` has foot, radius, height; `model` has file,
  * scale, up ("y" or "z"), position, roll, pitch, yaw. Lengths are in metres, angles in
- * radians. A place of two numbers lies on the terrain. An unknown key is an error. */
+ * radians. A position of two numbers lies on the terrain. An unknown key is an
+ * error. */
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Reads a scene description. Names of files in it start from its own folder.
- * \throws IoFailed naming the file, the place in it as a JSON pointer such as
- * /bodies/3/size, and what is wrong there \ingroup simulation */
+/** \brief Reads a scene description. File names are relative to its folder.
+ * \throws IoFailed naming the file, the position as a JSON pointer such as
+ * /bodies/3/size, and the error \ingroup simulation */
 SimulationScene
 readScene(const std::filesystem::path& path);
 
 /** \brief Makes a scene of one mesh and the way of the robot through it. Its planes are
- * not known. \throws IoFailed see readMesh() */
+ * unknown. \throws IoFailed see readMesh() */
 SimulationScene
 meshScene(const std::filesystem::path& path,
           const std::vector<Eigen::Vector3d>& waypoints,

@@ -11,23 +11,24 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What a scanner can see during a scan, asked in its own frame: behind it are a
- * scene and the way of the scanner through it. \ingroup simulation */
+/** \brief The surroundings of a scanner during a scan, in the scanner's frame; hides
+ * scene and motion. \ingroup simulation */
 class SceneView {
 public:
   virtual ~SceneView() = default;
 
-  /** \brief Thread-safe. \param[in] ray in the scanner's frame at that time
+  /** \brief Finds the first surface along a ray. Thread-safe. \param[in] ray in the
+   * scanner's frame at the given time
    * \param[in] time [s] since the start of the scan */
   virtual std::optional<RayHit>
   cast(const Ray& ray, double time) const = 0;
 
-  /** \return what a triangle that was hit belongs to */
+  /** \return the surface of a hit triangle */
   virtual const Surface&
   surface(std::uint32_t triangle) const = 0;
 };
 
-/** \brief The view from a scanner that stands still in a scene that does too. */
+/** \brief The view from a fixed scanner in a static scene. */
 class StandingView : public SceneView {
 public:
   /** Keeps a reference to the caster. \param[in] T_scene_scan pose of the scanner */

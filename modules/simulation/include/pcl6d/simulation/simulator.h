@@ -18,13 +18,13 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How the robot takes a scan. */
+/** \brief Motion of the robot during a scan. */
 enum class ScanMotion {
-  kStop,      ///< it stands still, then drives on
-  kContinuous ///< it drives on: every sample is taken from another place
+  kStop,      ///< stands still, then drives on
+  kContinuous ///< drives on: every sample is taken from another pose
 };
 
-/** \brief What odometry the robot has. */
+/** \brief The robot's odometry. */
 enum class OdometryKind {
   kWheel,          ///< planar, see wheelOdometry()
   kVisualInertial, ///< six degrees of freedom, see visualInertialOdometry()
@@ -43,49 +43,49 @@ odometryKindFromName(const std::string& name);
 /** \brief Knobs of Simulator. */
 struct SimulationOptions {
   int num_scans = 40;     ///< evenly along the path, in [1, 100000]
-  std::uint64_t seed = 1; ///< of all noise; the seed in `range` is not used
+  std::uint64_t seed = 1; ///< of every noise; the seed in `range` is not used
   std::shared_ptr<const ScannerModel> scanner; ///< null: a DrivenScanner's default
   RangeOptions range;
   RobotOptions robot;
   ScanMotion motion = ScanMotion::kStop;
-  /// [m/s] in plan, in (0, 50]; none: 1, or less where a scan could not end before the
-  /// next one starts
+  /// [m/s] in plan, in (0, 50]; default: 1, or less where a scan could not end before
+  /// the next scan starts
   std::optional<double> speed;
-  /// \name Of kContinuous only; see RobotMotionOptions
+  /// \name For kContinuous only; see RobotMotionOptions
   ///@{
-  bool turns_in_place = false;     ///< it drives straight from waypoint to waypoint
-  std::optional<double> turn_rate; ///< [rad/s] none: any, in place 30 deg/s
+  bool turns_in_place = false;     ///< drive straight from waypoint to waypoint
+  std::optional<double> turn_rate; ///< [rad/s] default: unlimited; in place 30 deg/s
   double vibration = 0;            ///< [m]
-  /** [s] from scan to scan, at least what one takes: with just that, scans follow each other
-   * without a pause; none: evenly along the way, once round */
+  /** [s] from scan to scan, at least the duration of a scan, which leaves no pause;
+   * default: evenly along the way, once round */
   std::optional<double> period;
   ///@}
   OdometryKind odometry_kind = OdometryKind::kWheel;
   OdometryOptions odometry;              ///< of kWheel
   VisualInertialOptions visual_inertial; ///< of kVisualInertial
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief A robot drives once through a scene, takes scans on its way, and keeps a
- * drifting odometry. Writes nothing; the same seed gives the same bytes on any x86-64
- * CPU.
+/** \brief Simulates one drive of a robot through a scene, with scans and drifting
+ * odometry. Writes no files; equal seeds give equal bytes on any x86-64 CPU.
  *
- * The world is the frame of the first scan: both trajectories start at identity. A pose
- * is that at the scan's stamp, which is the start of the scan; of a scan that was taken
- * on the move, the sample measured at time t since then comes from scanPose(i, t).
- * Stamps count from the start of the drive [s].
+ * The world is the frame of the first scan: both trajectories start at identity. A
+ * scan's pose is the pose at its stamp, which is the start of the scan. In a scan taken
+ * in motion, the pose of a sample measured t after the stamp is scanPose(i, t). Stamps
+ * count from the start of the drive [s].
  * \code
  * pcl6d::Simulator simulator(pcl6d::builtInScene("corridor"));
  * for (std::size_t i = 0; i < simulator.size(); ++i)
  *   use(simulator.scan(i), simulator.truth().poses[i]);
- * \endcode \ingroup simulation */
+ * \endcode
+ * \ingroup simulation */
 class Simulator {
 public:
-  /** \throws BadArgument scene or options break a rule, or the speed is too high, or the
-   * period too short, for a scan to end before the next one starts \throws ComputeFailed the path leaves the
-   * floor or leads through a surface */
+  /** \throws BadArgument scene or options are invalid; speed too high, or period too
+   * short, for a scan to end before the next scan starts \throws ComputeFailed the path
+   * leaves the floor or leads through a surface */
   explicit Simulator(SimulationScene scene, const SimulationOptions& options = {});
 
   std::size_t
@@ -101,7 +101,7 @@ public:
     return truth_;
   }
 
-  /** \return the odometry at the same stamps */
+  /** \return the odometry at the stamps of truth() */
   const Trajectory&
   odometry() const
   {
@@ -115,14 +115,14 @@ public:
     return T_scene_world_;
   }
 
-  /** \return what there is to see; times are those of the stamps */
+  /** \return the scene; times are in the time of the stamps */
   const MovingScene&
   scene() const
   {
     return scene_;
   }
 
-  /** \return what stands still of it */
+  /** \return the static part of the scene */
   const RayCaster&
   caster() const
   {
@@ -142,14 +142,14 @@ public:
     return speed_;
   }
 
-  /** \return what it was made with, and the scanner that it took */
+  /** \return the given options, with the scanner in use */
   const SimulationOptions&
   options() const
   {
     return options_;
   }
 
-  /** \return where the sensor is in the coordinates of the scene, also between the scans.
+  /** \return T_scene_sensor, also between the scans.
    * \param[in] time [s] from the start of the drive, >= 0 */
   Eigen::Isometry3d
   poseAt(double time) const;
@@ -159,12 +159,12 @@ public:
   Eigen::Isometry3d
   scanPose(std::size_t i, double time) const;
 
-  /** \brief Makes the i-th scan; nothing is kept. \throws BadArgument i >= size() */
+  /** \brief Makes the i-th scan; not cached. \throws BadArgument i >= size() */
   RangeScan
   rangeScan(std::size_t i) const;
 
-  /** \brief The same as an organized cloud, each point in the frame of the scanner at
-   * its own time. */
+  /** \brief Makes the i-th scan as an organized cloud, each point in the frame of the
+   * scanner at its own time. */
   pcl::PointCloud<pcl::PointXYZI>
   scan(std::size_t i) const;
 
@@ -180,7 +180,7 @@ private:
   SimulationOptions options_;
   RobotPath path_;
   double speed_ = 1;
-  std::optional<RobotMotion> motion_; // none: it stops for each scan
+  std::optional<RobotMotion> motion_; // nullopt: stops for each scan
   Eigen::Isometry3d T_scene_world_;
   Trajectory truth_, odometry_;
 };

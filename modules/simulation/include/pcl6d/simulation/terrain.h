@@ -18,19 +18,20 @@ struct TerrainOptions {
   double cell = 1;                  ///< [m] largest side of a cell of the grid, > 0
   double height = 0;                ///< [m] at the origin, without hills
   Eigen::Vector2d slope = {0, 0};   ///< [m/m] rise along x and y
-  double amplitude = 1;             ///< [m] hills reach at most so far up and down
+  double amplitude = 1;             ///< [m] largest deviation of hills up and down
   double wavelength = 40;           ///< [m] of the largest hills, > 0
-  std::uint64_t seed = 1;           ///< same seed, same hills
+  std::uint64_t seed = 1;           ///< equal seeds give equal hills
 
-  /** A terrain, or all of a scene file, may have so many cells: 190 MB; 1.4 km x 1.4 km of 1 m. */
+  /** Largest number of cells of a terrain, or of the terrains of a scene file: 190 MB;
+   * 1.4 km x 1.4 km with cells of 1 m. */
   static constexpr double kMostCells = 2e6;
 
-  /** \return of how many cells its grid is; infinite, or NaN, for options that break a rule */
+  /** \return the number of cells of the grid; infinite, or NaN, for invalid options */
   double
   numCells() const;
 
-  /** \throws BadArgument naming the first field that breaks its rule, with its value;
-   * more than kMostCells are refused before memory is taken */
+  /** \throws BadArgument naming the first invalid field and its value; more than
+   * kMostCells are refused before memory is allocated */
   void
   validate() const;
 };
@@ -41,17 +42,17 @@ public:
   /** \throws BadArgument see TerrainOptions::validate() */
   explicit Terrain(const TerrainOptions& options);
 
-  /** \return the height [m] of the triangle at a place; beyond the rim that of the
-   * nearest place on it */
+  /** \return the height [m] at a position; beyond the rim the height of the nearest
+   * position on the rim */
   double
   height(const Eigen::Vector2d& place) const;
 
-  /** \return the pose of a thing that stands there, its z axis square to the ground, its
+  /** \return the pose of an object on the ground, its z axis normal to the ground, its
    * x axis above the heading \param[in] yaw [rad] heading in plan */
   Eigen::Isometry3d
   poseOn(const Eigen::Vector2d& place, double yaw) const;
 
-  /** \brief Adds the ground as one surface, seen from above. */
+  /** \brief Adds the ground as one surface, visible from above. */
   void
   addTo(TriangleScene& scene, const Surface& material) const;
 
@@ -64,7 +65,7 @@ private:
 
   TerrainOptions options_;
   std::size_t columns_, rows_; // of vertices
-  Eigen::Vector2d step_;       // [m] between them
+  Eigen::Vector2d step_;       // [m] between vertices
   std::vector<double> heights_;
 };
 

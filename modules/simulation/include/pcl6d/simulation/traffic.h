@@ -8,21 +8,21 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief How many bodies are to move about the robot. */
+/** \brief Number of bodies that move about the robot. */
 struct TrafficOptions {
   int people = 0;         ///< in [0, 200]
   int cars = 0;           ///< in [0, 200]
-  std::uint64_t seed = 1; ///< same seed, same ways
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  std::uint64_t seed = 1; ///< equal seeds give equal ways
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief Adds people and cars to a scene, which move about the robot as long as it drives
- * (BodyWays), on floor that is free (groundOfScene()).
- * \param[in] drive of the same scene without them
- * \throws BadArgument see TrafficOptions::validate() \throws ComputeFailed there is no room
- * for so many \ingroup simulation */
+/** \brief Adds people and cars to a scene. They move about the robot during the drive
+ * (BodyWays), on free floor (groundOfScene()).
+ * \param[in] drive in the scene without traffic
+ * \throws BadArgument see TrafficOptions::validate() \throws ComputeFailed not enough
+ * room for the bodies \ingroup simulation */
 void
 addTraffic(SimulationScene& scene,
            const Simulator& drive,

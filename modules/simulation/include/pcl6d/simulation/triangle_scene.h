@@ -13,31 +13,31 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief A part of a scene that is one thing to a person: the face of a wall, the top
- * of a table. Flat in everything that scene_builder.h makes. */
+/** \brief A named part of a scene: the face of a wall, the top of a table. Flat for the
+ * bodies of scene_builder.h. */
 struct Surface {
   std::string name = "surface";
   double reflectance = 0.6; ///< share of the light sent back, in [0, 1]
   PlaneLabel label =
-      PlaneLabel::kNone;    ///< kept where a face is fit, see numberPlanes()
-  std::uint32_t object = 0; ///< id of the object that it belongs to; 0: none
-  std::uint32_t plane = 0;  ///< id of its plane; 0: none
-  bool is_solid = true;     ///< whoever sees it from behind is inside a body
-  /** Glass: share of the rays onto its front that go through it, straight on, in [0, 1];
-   * the others return from it. From behind, inside the pane, all go through. A pane has to
-   * reach into what holds it: where faces just touch, rays may slip between them. */
+      PlaneLabel::kNone;    ///< kept if the orientation fits, see numberPlanes()
+  std::uint32_t object = 0; ///< id of its object; 0: no object
+  std::uint32_t plane = 0;  ///< id of its plane; 0: no plane
+  bool is_solid = true;     ///< a viewer behind the surface is inside a body
+  /** Glass: share of the rays onto its front that pass straight through, in [0, 1];
+   * other rays return. From behind, inside the pane, every ray passes. A pane must
+   * reach into its frame: where faces only touch, rays may slip between them. */
   double transmittance = 0;
 };
 
-/** \brief Three corners and the surface that they belong to, as indices. */
+/** \brief Three corners and the surface of the triangle, as indices. */
 struct Triangle {
   std::array<std::uint32_t, 3> vertices = {0, 0, 0};
   std::uint32_t surface = 0;
 };
 
-/** \brief What a simulated scanner looks at: triangles, seen from both sides.
+/** \brief Geometry for a simulated scanner: triangles, visible from both sides.
  *
- * Triangles that share an edge should share its vertices, then no ray slips between
+ * Adjacent triangles should share the vertices of their edge, or rays may slip between
  * them. \ingroup simulation */
 struct TriangleScene {
   std::vector<Eigen::Vector3d> vertices; ///< [m]
@@ -49,7 +49,7 @@ struct TriangleScene {
   addSurface(const Surface& surface);
 
   /** \brief Adds a plane convex quadrangle of four existing vertices, in order around
-   * it, as two triangles. */
+   * the quadrangle, as two triangles. */
   void
   addQuad(const std::array<std::uint32_t, 4>& corners, std::uint32_t surface);
 
@@ -64,8 +64,8 @@ struct TriangleScene {
   Eigen::Vector3d
   normal(std::uint32_t triangle) const;
 
-  /** \throws BadArgument naming the first vertex, triangle or surface that breaks a
-   * rule: coordinates finite, indices in range, area above zero, reflectance and
+  /** \throws BadArgument naming the first invalid vertex, triangle or surface:
+   * coordinates finite, indices in range, area above zero, reflectance and
    * transmittance in [0, 1] */
   void
   validate() const;

@@ -6,7 +6,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Two pictures and where things are on each; the columns of the second begin
+/** \brief Two pictures side by side with their layouts; the columns of the second begin
  * behind the first. */
 struct BeforeAfterPicture {
   Image image;
@@ -14,13 +14,13 @@ struct BeforeAfterPicture {
   TopViewLayout after; ///< columns counted from the picture's left end
 };
 
-/** \brief Two states of a map from above, side by side: the same area in the same scale
- * and colours. \ingroup visualization */
+/** \brief Two states of a map from above, side by side: equal area, scale and colours.
+ * \ingroup visualization */
 class BeforeAfterView {
 public:
-  /** \param[in] options of the whole picture; the title is that of the left half
+  /** \param[in] options of the whole picture; the title stands over the left half
    * \param[in] after_title of the right half
-   * \throws BadArgument an option breaks its rule, or the width is below 400 px */
+   * \throws BadArgument an option is invalid, or the width is below 400 px */
   explicit BeforeAfterView(const TopViewOptions& options = defaultOptions(),
                            const std::string& after_title = "after");
 

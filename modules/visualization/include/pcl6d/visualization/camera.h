@@ -22,14 +22,14 @@ enum class Projection {
 /** \brief A camera in the world. \ingroup visualization */
 struct Camera {
   Projection projection = Projection::kPerspective;
-  /** its axes: x to the right, y down, z forward */
+  /** pose of the camera; axes: x to the right, y down, z forward */
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   /** [px] focal length; of a panorama [px/rad] */
   double scale = 1000;
   Eigen::Vector2d centre{0, 0}; ///< [px] where the forward axis meets the picture
 
-  /** \param[in] place in the camera's own frame [m]
-   * \return column, row [px] and depth [m]; nothing for what the camera cannot see */
+  /** \param[in] place position in the camera's frame [m]
+   * \return column, row [px] and depth [m]; empty if the camera cannot see the position */
   std::optional<Eigen::Vector3d>
   project(const Eigen::Vector3d& place) const
   {
@@ -50,8 +50,8 @@ struct Camera {
         centre.x() + zoom * place.x(), centre.y() + zoom * place.y(), place.z());
   }
 
-  /** \return column, row [px] and depth [m] of a place in the world; nothing for what the
-   * camera cannot see */
+  /** \return column, row [px] and depth [m] of a position in the world; empty if the
+   * camera cannot see the position */
   std::optional<Eigen::Vector3d>
   toPixel(const Eigen::Vector3d& world) const
   {
@@ -59,24 +59,24 @@ struct Camera {
   }
 };
 
-/** \brief A camera that looks at points from a direction and shows nearly all of them in
- * a box of the picture, as large as they fit. Single points far away do not count.
+/** \brief A camera that looks at points from a direction and shows nearly every point
+ * in a box of the picture, as large as possible. Isolated far points are ignored.
  * \param[in] points [m] finite, at least one
  * \param[in] azimuth [rad] of the camera seen from the points, from x to y
  * \param[in] elevation [rad] of the camera above the horizon */
 Camera
 cameraOn(const Points& points, double azimuth, double elevation, const PictureBox& box);
 
-/** \brief The cameras from which most is seen, best first: they fill the picture and hide
- * few points behind others. Their azimuths lie at least 60 degrees apart.
- * \param[in] points [m] finite, at least one \param[in] count how many, 1 to 4 */
+/** \brief The cameras with the best view, best first: points fill the picture and few
+ * points are occluded. Their azimuths lie at least 60 degrees apart.
+ * \param[in] points [m] finite, at least one \param[in] count number of cameras, 1 to 4 */
 std::vector<Camera>
 goodViewpoints(const Points& points, const PictureBox& box, std::size_t count);
 
-/** \brief A panorama around a scan that shows the elevations at which its points lie, in
- * the width of the box: all around, with x of the scan in the middle, unless there is
- * nothing in a quarter of the circle or more, which is then left out. The box's lower end
- * is moved to fit. \param[in] points in the scan's frame [m], finite, at least one */
+/** \brief A panorama around a scan, as wide as the box; it covers the elevations of the
+ * points. Azimuths: the full circle, with x of the scan in the middle; an empty gap of
+ * a quarter circle or more is left out. Moves the box's lower end to fit.
+ * \param[in] points in the scan's frame [m], finite, at least one */
 Camera
 panoramaFrom(const Eigen::Isometry3d& T_world_scan,
              const Points& points,

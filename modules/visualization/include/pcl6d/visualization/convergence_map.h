@@ -12,33 +12,33 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief One panel: a share for every place of the grid. */
+/** \brief One panel: a share for every cell of the grid. */
 struct ConvergencePanel {
   std::string title;
   std::vector<double> shares; ///< in [0, 1], x runs fastest; NaN: not measured
 };
 
-/** \brief What is to be seen: panels over the same grid of offsets. */
+/** \brief Content of a convergence map: panels over one grid of offsets. */
 struct ConvergenceMapScene {
   std::string title;
-  std::string share_label = "correct runs"; ///< what the colours are a share of
-  std::vector<double> x; ///< [m] evenly spaced, ascending; one at least
-  std::vector<double> y; ///< [m] the same
+  std::string share_label = "correct runs"; ///< quantity of the colour bar
+  std::vector<double> x;                    ///< [m] evenly spaced, ascending; not empty
+  std::vector<double> y;                    ///< [m] the same
   std::vector<ConvergencePanel> panels;
 };
 
-/** \brief Knobs of ConvergenceMap. */
+/** \brief Options of ConvergenceMap. */
 struct ConvergenceMapOptions {
   int panel_width = 260; ///< [px] of the cells of a panel; 100 to 2000
   int columns = 0;       ///< panels in a row; 0: by their number; the picture must stay
                          ///< within 8192 pixels
   Background background = Background::kLight;
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief Where things are on a convergence map. \ingroup visualization */
+/** \brief Layout of a convergence map. \ingroup visualization */
 struct ConvergenceMapLayout {
   int width = 0;  ///< [px] of the picture
   int height = 0; ///< [px]
@@ -47,7 +47,7 @@ struct ConvergenceMapLayout {
   std::vector<PictureBox> panels; ///< their cells
   PictureBox colour_bar;
   Eigen::Vector2d low{0, 0};   ///< [m] x, y at the lower left corner of a panel
-  double metres_per_pixel = 1; ///< the same in x and y, and in all panels
+  double metres_per_pixel = 1; ///< equal in x and y, and for every panel
 
   /** \return column and row of an offset [m] in a panel */
   Eigen::Vector2d
@@ -63,22 +63,21 @@ struct ConvergenceMapPicture {
   ConvergenceMapLayout layout;
 };
 
-/** \brief Heat maps over offsets in x and y (book 4.2): from where ICP finds back to the
- * best pose, which is the ring in the middle.
+/** \brief Heat maps over offsets in x and y (book 4.2): the offsets from which ICP
+ * finds the best pose, marked by the ring in the middle.
  *
- * x to the right, y up, the same scale for both. A cell stands for one offset: dark
- * violet where no run is correct, yellow where all are. Drawn by VTK on the
- * PrivateDisplay. \ingroup visualization */
+ * x to the right, y up, with equal scale. A cell stands for one offset: dark violet for
+ * no correct run, yellow for only correct runs. Drawn by VTK on the PrivateDisplay.
+ * \ingroup visualization */
 class ConvergenceMap {
 public:
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an option is invalid */
   explicit ConvergenceMap(
       const ConvergenceMapOptions& options = ConvergenceMapOptions());
 
-  /** \throws BadArgument there is no panel or no offset, offsets do not ascend, a panel
-   * has not one share per place of the grid, or a share outside [0, 1]; the picture would
-   * be too large
-   * \throws IoFailed there is no display to draw on */
+  /** \throws BadArgument no panel or no offset, offsets not ascending, a panel without
+   * one share per cell of the grid, a share outside [0, 1], or a picture too large
+   * \throws IoFailed no display */
   ConvergenceMapPicture
   draw(const ConvergenceMapScene& scene) const;
 

@@ -13,33 +13,33 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief One step of a scan on its way to its place. */
+/** \brief One step in the registration of a scan. */
 struct ConvergenceStep {
   std::string title;   ///< "odometry"
   std::string caption; ///< "0.43 m, 2.1 deg off"; may be empty
   Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
-  Points fixed; ///< what the other scans measured, at this step [m]
+  Points fixed; ///< points of the target scans at this step [m]
 };
 
-/** \brief What is to be seen. */
+/** \brief Content of a convergence strip. */
 struct ConvergenceStripScene {
   std::string title;
-  Points scan; ///< in its own frame [m]
+  Points scan; ///< points in the scan's frame [m]
   std::vector<ConvergenceStep> steps;
 };
 
-/** \brief Knobs of ConvergenceStrip. */
+/** \brief Options of ConvergenceStrip. */
 struct ConvergenceStripOptions {
   int width = 1600; ///< [px] of the picture; 400 to 8192
   int columns = 0;  ///< panels in a row; 0: up to four
   Background background = Background::kDark;
   bool transparent = false; ///< in place of the background
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief Where things are on the picture. */
+/** \brief Layout of a convergence strip. */
 struct ConvergenceStripLayout {
   int width = 0;  ///< [px]
   int height = 0; ///< [px]
@@ -47,9 +47,9 @@ struct ConvergenceStripLayout {
   double text_size = 15; ///< [px]
   std::vector<PictureBox> panels;
   Eigen::Vector2d centre{0, 0}; ///< [m] of the world in the middle of each panel
-  double metres_per_pixel = 1;  ///< the same in all panels
+  double metres_per_pixel = 1;  ///< equal for every panel
 
-  /** \return column and row of a place [m] on a panel */
+  /** \return column and row of a position [m] on a panel */
   Eigen::Vector2d
   toPixel(std::size_t panel, const Eigen::Vector2d& world) const
   {
@@ -65,17 +65,17 @@ struct ConvergenceStripPicture {
   ConvergenceStripLayout layout;
 };
 
-/** \brief How a scan finds its place: one panel per step, from above, the scan in orange
- * over what the others measured in grey. \ingroup visualization */
+/** \brief Registration of a scan in steps: one panel per step, from above, the scan in
+ * orange over the target scans in grey. \ingroup visualization */
 class ConvergenceStrip {
 public:
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an option is invalid */
   explicit ConvergenceStrip(
       const ConvergenceStripOptions& options = ConvergenceStripOptions());
 
-  /** \throws BadArgument no step, a scan without a finite point, or so many steps that the
-   * picture would be higher than 8192 px
-   * \throws IoFailed there is no display to draw on */
+  /** \throws BadArgument no step, a scan without a finite point, or too many steps for
+   * a picture of 8192 px in height
+   * \throws IoFailed no display */
   ConvergenceStripPicture
   draw(const ConvergenceStripScene& scene) const;
 

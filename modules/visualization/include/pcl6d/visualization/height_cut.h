@@ -14,36 +14,37 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief A horizontal layer of a map. */
 struct HeightSlice {
   std::optional<double>
-      height;             ///< [m] of its middle; by default that of the nearest pose
+      height; ///< [m] height of the middle; by default the height of the nearest pose
   double thickness = 0.2; ///< [m] > 0
 };
 
-/** \brief Which points a picture leaves out by their height. \ingroup visualization */
+/** \brief Selection of the points of a picture by their height. \ingroup visualization */
 struct HeightCut {
-  /** [m] points above are left out; by default, if the map has a ceiling, what is higher
-   * than above_trajectory above the nearest pose; infinity: draw all */
+  /** [m] higher points are left out; by default, if the map has a ceiling, points more
+   * than above_trajectory above the nearest pose; infinity: draw every point */
   std::optional<double> max_height;
   double above_trajectory = 0.5;    ///< [m] see max_height
   std::optional<HeightSlice> slice; ///< only this layer
 
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief The points that a picture shows. */
+/** \brief The visible points of a picture. */
 struct ShownPoints {
-  std::vector<std::size_t> indices; ///< into the points, ascending; all finite
+  std::vector<std::size_t> indices; ///< indices of points, ascending; each point finite
   bool ceiling_hidden = false;
 };
 
-/** \brief Leaves out NaN points and those outside the cut, and a ceiling if there is one.
+/** \brief Leaves out NaN points, points outside the cut, and the ceiling if the map has
+ * one.
  *
- * There is a ceiling if most of the map within 1.5 m of the trajectory is covered by
- * points that lie more than above_trajectory above the nearest pose. Under an open
- * sky it is not, whatever facades and trees stand farther away. All points that much
- * above the path are then left out: rooms become a floor plan.
- * \throws BadArgument the slice follows the path, but there is none */
+ * The map has a ceiling if points more than above_trajectory above the nearest pose
+ * cover most of the map within 1.5 m of the trajectory. Facades and trees farther away
+ * are ignored, so an open sky counts as no ceiling. With a ceiling, every point above
+ * the limit is left out: rooms become a floor plan.
+ * \throws BadArgument the slice follows the path, but the path is empty */
 ShownPoints
 shownPoints(const Points& points, const Trajectory& trajectory, const HeightCut& cut);
 

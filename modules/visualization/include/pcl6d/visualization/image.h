@@ -19,14 +19,14 @@ struct Image {
   int height = 0;                ///< [px]
   std::vector<std::uint8_t> rgb; ///< 3 bytes a pixel, row by row from the top
   std::vector<std::uint8_t> alpha =
-      {}; ///< a byte a pixel, 255: opaque; empty: all opaque
+      {}; ///< a byte per pixel, 255: opaque; empty: an opaque picture
 
   /** \return the colour of a pixel; column from the left, row from the top */
   Colour
   at(int column, int row) const;
 };
 
-/** \brief Writes a PNG file, atomically. \throws IoFailed it cannot be written
+/** \brief Writes a PNG file, atomically. \throws IoFailed writing failed
  * \throws BadArgument the picture is empty or its size does not fit its bytes */
 void
 writePng(const std::filesystem::path& path, const Image& image);

@@ -19,42 +19,42 @@ enum class ChartMark {
   kDots  ///< each by itself
 };
 
-/** \brief Points that belong together. */
+/** \brief A series of points. */
 struct ChartSeries {
-  std::string name; ///< in the legend; empty: not there
+  std::string name; ///< in the legend; empty: no entry
   std::vector<double> x;
-  std::vector<double> y; ///< as many as x; where one of both is NaN the line has a gap
+  std::vector<double> y; ///< one per x; NaN in x or y makes a gap in the line
   ChartMark mark = ChartMark::kLine;
   std::optional<Colour> colour =
-      std::nullopt; ///< by default one that no other series has
+      std::nullopt; ///< by default a colour not used by another series
 };
 
 struct ChartAxis {
   std::string title;        ///< with the unit: "time [s]"
-  bool logarithmic = false; ///< values <= 0 are left out, as NaN
+  bool logarithmic = false; ///< values <= 0 are left out, like NaN
 };
 
-/** \brief What is to be seen. */
+/** \brief Content of a line chart. */
 struct LineChartScene {
   std::string title;
   ChartAxis x, y;
-  std::vector<ChartSeries> series; ///< later ones are drawn over earlier ones
-  bool equal_aspect = false;       ///< the same scale for x and y, as for paths
+  std::vector<ChartSeries> series; ///< later series are drawn over earlier series
+  bool equal_aspect = false;       ///< equal scale for x and y, as for paths
 };
 
-/** \brief Knobs of LineChart. */
+/** \brief Options of LineChart. */
 struct LineChartOptions {
   int width = 1000; ///< [px] of the picture; 300 to 8192
   int height = 600; ///< [px] 200 to 8192
   Background background = Background::kLight;
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
 /** \brief An axis on the picture. */
 struct ChartScale {
-  double low = 0;  ///< at the lower end; of a logarithmic axis its logarithm to base 10
+  double low = 0;  ///< at the lower end; of a logarithmic axis the logarithm to base 10
   double high = 1; ///< at the upper end
   bool logarithmic = false;
   std::vector<double> ticks; ///< values with a label
@@ -64,16 +64,15 @@ struct ChartScale {
   shareOf(double value) const;
 };
 
-/** \brief Where things are on a chart. \ingroup visualization */
+/** \brief Layout of a line chart. \ingroup visualization */
 struct LineChartLayout {
   int width = 0;         ///< [px] of the picture
   int height = 0;        ///< [px]
   double text_size = 15; ///< [px]
-  PictureBox plot;       ///< all points are in it
+  PictureBox plot;       ///< contains every point
   ChartScale x, y;
-  std::vector<PictureBox>
-      legend;                  ///< the samples of the series that have a name, in order
-  std::vector<Colour> colours; ///< of the series
+  std::vector<PictureBox> legend; ///< the samples of the named series, in order
+  std::vector<Colour> colours;    ///< of the series
 
   /** \return column and row of a point */
   Eigen::Vector2d
@@ -90,16 +89,17 @@ struct LineChartPicture {
 };
 
 /** \brief Charts of numbers: lines or dots over two axes with titles and round labels,
- * linear or logarithmic, and a legend on the right, outside the plot. The axes reach as far
- * as the data. Drawn by VTK on the PrivateDisplay. \ingroup visualization */
+ * linear or logarithmic, and a legend on the right, outside the plot. The axes span the
+ * data. Drawn by VTK on the PrivateDisplay. \ingroup visualization */
 class LineChart {
 public:
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an option is invalid */
   explicit LineChart(const LineChartOptions& options = LineChartOptions());
 
-  /** \throws BadArgument a series has not as many x as y, or an infinite value; no point is
-   * left to draw; an axis with equal_aspect is logarithmic; the legend leaves no room
-   * \throws IoFailed there is no display to draw on */
+  /** \throws BadArgument x and y of a series differ in number, or have an infinite
+   * value; no point is left to draw; an axis with equal_aspect is logarithmic; the
+   * legend leaves no room
+   * \throws IoFailed no display */
   LineChartPicture
   draw(const LineChartScene& scene) const;
 

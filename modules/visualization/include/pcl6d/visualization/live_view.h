@@ -13,14 +13,14 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Knobs of LiveView. */
+/** \brief Options of LiveView. */
 struct LiveViewOptions {
   int width = 1280; ///< [px] 200 to 8192
   int height = 800; ///< [px] 200 to 8192
   std::string title = "pcl6d";
   std::size_t points_per_scan = 10000; ///< more are thinned evenly; > 0
 
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
@@ -30,16 +30,16 @@ struct LiveViewOptions {
  * poses before registration in orange. The mouse turns and moves the view, which otherwise
  * follows the map.
  *
- * The window lives in a process of its own, made by fork(): what becomes of it, or of the
- * user's display, never harms the work, and no call here waits for it to draw. So make it
- * before the PrivateDisplay, and before threads that may hold a lock. A window that was
- * closed takes everything silently. The process ends with the LiveView, and with this
- * process however that ends. Ctrl-C is left to this process.
+ * The window lives in a process of its own, made by fork(): a crash of the window or of the
+ * user's display does not affect the caller, and no call waits for drawing. Construct a
+ * LiveView before the PrivateDisplay, and before threads that may hold a lock. Calls after
+ * the window was closed have no effect. The window's process ends with the LiveView and
+ * with the calling process, even a killed one. Ctrl-C acts only on the calling process.
  * \ingroup visualization */
 class LiveView {
 public:
-  /** \throws IoFailed there is no display, or it cannot show the window
-   * \throws BadArgument an option breaks its rule */
+  /** \throws IoFailed no display, or the display cannot show the window
+   * \throws BadArgument an option is invalid */
   explicit LiveView(const LiveViewOptions& options = LiveViewOptions());
   /** \brief Closes the window. */
   ~LiveView();
@@ -47,15 +47,15 @@ public:
   LiveView&
   operator=(const LiveView&) = delete;
 
-  /** \brief Adds the next scan; its points are not seen before place().
+  /** \brief Adds the next scan; its points become visible with place().
    * \param[in] points in the scan's frame [m]; NaN is skipped
    * \param[in] initial_pose T_world_scan before registration */
   void
   addScan(const Points& points, const Eigen::Isometry3d& initial_pose);
 
-  /** \brief Shows a scan at a pose, or moves it there.
-   * \param[in] scan its number, from 0 in the order of addScan()
-   * \throws BadArgument there is no such scan */
+  /** \brief Shows a scan at a pose, or moves the scan to the pose.
+   * \param[in] scan its index, from 0 in the order of addScan()
+   * \throws BadArgument the index is out of range */
   void
   place(std::size_t scan, const Eigen::Isometry3d& T_world_scan);
 
@@ -67,8 +67,8 @@ public:
   bool
   isOpen();
 
-  /** \brief Waits until the window is closed. \param[in] stop is asked several times a
-   * second, and ends the wait by true */
+  /** \brief Waits until the window is closed. \param[in] stop called several times a
+   * second; true ends the wait */
   void
   waitUntilClosed(const std::function<bool()>& stop);
 

@@ -14,7 +14,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What became of a link between two scans. */
+/** \brief State of a link between two scans. */
 enum class LinkState {
   kUsed,     ///< matched, counts
   kOdometry, ///< joined by the odometry alone
@@ -23,40 +23,40 @@ enum class LinkState {
 
 /** \brief A link between two poses of a trajectory. */
 struct ViewLink {
-  std::size_t from = 0; ///< place of a pose
+  std::size_t from = 0; ///< index of a pose
   std::size_t to = 0;
   LinkState state = LinkState::kUsed;
-  double rms = 0; ///< [m] of its pairs; NaN: not known
+  double rms = 0; ///< [m] of the point pairs; NaN: not known
 };
 
-/** \brief A pose graph: used links from green (small residual) to red (large), those by
- * odometry blue, refused ones grey and thin; poses as dots, doubtful ones red.
+/** \brief A pose graph: used links from green (small residual) to red (large), odometry
+ * links blue, rejected links grey and thin; poses as dots, doubtful poses red.
  * \param[in] doubtful per pose, or empty
- * \throws BadArgument a link to no pose, or not one entry per pose \ingroup visualization
- */
+ * \throws BadArgument a link to no pose, or not one entry per pose
+ * \ingroup visualization */
 Overlay
 graphOverlay(const Trajectory& poses,
              const std::vector<ViewLink>& links,
              const std::vector<bool>& doubtful,
              Background background);
 
-/** \brief Covariances of positions: three circles each of the ellipsoid of three standard
- * deviations, all enlarged by one round factor, which the legend tells.
- * \param[in] covariances of x y z in the axes of the world [m^2], one per pose; none: not
- * known, the pose is a dot
+/** \brief Covariances of positions: the ellipsoid of three standard deviations as three
+ * circles, enlarged by a common round factor, which the legend tells.
+ * \param[in] covariances of x y z in the axes of the world [m^2], one per pose; without
+ * value: not known, the pose is a dot
  * \throws BadArgument not one per pose \ingroup visualization */
 Overlay
 covarianceOverlay(const Trajectory& poses,
                   const std::vector<std::optional<Eigen::Matrix3d>>& covariances,
                   Background background);
 
-/** \brief The boxes of objects with their classes, each class in its own colour.
+/** \brief The boxes of objects with their classes, one colour per class.
  * \ingroup visualization */
 Overlay
 objectOverlay(const std::vector<ObjectPose>& objects, Background background);
 
-/** \brief Bright colours of things without an order, neighbours in number well apart: the
- * hue goes on by the golden ratio. */
+/** \brief Bright colours for unordered items; consecutive numbers get distinct hues, in
+ * steps of the golden ratio. */
 Colour
 distinctColour(std::size_t number);
 

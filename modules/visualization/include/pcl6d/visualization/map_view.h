@@ -15,35 +15,36 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Knobs of MapView. */
+/** \brief Options of MapView. */
 struct MapViewOptions {
-  int width = 1600;          ///< [px] 200 to 8192
-  std::optional<int> height; ///< [px] 200 to 8192; by default 9/16 of the width, of a
-                             ///< panorama as its elevations need
-  int margin = 24;           ///< [px] around everything; 0 to an eighth of the width
+  int width = 1600; ///< [px] 200 to 8192
+  /** [px] 200 to 8192; by default 9/16 of the width; of a panorama from its elevations */
+  std::optional<int> height;
+  int margin = 24; ///< [px] around everything; 0 to an eighth of the width
   PointColour colour = PointColour::kHeight;
-  std::optional<ColourMap> colour_map; ///< by default one that suits the colour
-  /** values at the two ends of the colours; by default they follow the points */
+  std::optional<ColourMap> colour_map; ///< by default a map suited to the colour
+  /** values at both ends of the colours; by default from the points */
   std::optional<std::array<double, 2>> colour_range;
   Background background = Background::kDark;
   bool transparent = false; ///< in place of the background
   std::string title;        ///< top left; may be empty
   std::string final_label = "after";
   std::string initial_label = "before";
-  bool draw_paths = true;           ///< false: they serve the cut alone
-  double shading = 1;               ///< eye-dome lighting: how dark edges are; 0 to 5
-  double point_size = 1;            ///< in mean distances of neighbours; > 0, up to 10
-  std::size_t max_points = 4000000; ///< more are thinned evenly, always the same; > 0
-  HeightCut cut;                    ///< by default leaves out a ceiling
+  bool draw_paths = true; ///< false: the paths serve only the cut
+  double shading = 1;     ///< eye-dome lighting: how dark edges are; 0 to 5
+  double point_size = 1;  ///< in mean distances of neighbours; > 0, up to 10
+  /** more points are thinned evenly, by a fixed choice; > 0 */
+  std::size_t max_points = 4000000;
+  HeightCut cut; ///< by default leaves out a ceiling
 
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief What is to be seen. */
+/** \brief Content of a map view. */
 struct MapViewScene : MapCloud {
-  /** \brief A model that is drawn into the map. */
+  /** \brief A model drawn into the map. */
   struct Model {
     TriangleMesh mesh; ///< in the world [m]
     Colour colour{};
@@ -55,7 +56,7 @@ struct MapViewScene : MapCloud {
   std::vector<Model> models;
 };
 
-/** \brief Where things are on the picture. */
+/** \brief Layout of a map view. */
 struct MapViewLayout {
   int width = 0;  ///< [px]
   int height = 0; ///< [px]
@@ -73,12 +74,13 @@ struct MapViewPicture {
   MapViewLayout layout;
 };
 
-/** \brief A map as a camera sees it, in perspective or as a panorama, with paths, overlay,
+/** \brief A map seen by a camera, in perspective or as a panorama, with paths, overlay,
  * legend and colour bar.
  *
- * Points are splats as large as their neighbours are far, so that surfaces close, with
- * eye-dome lighting. In buildings the ceiling is cut away (see HeightCut), but not in a
- * panorama. \code
+ * Points are splats with eye-dome lighting; a splat is as large as the distance to its
+ * neighbours, which closes the surfaces. In buildings the ceiling is cut away (see
+ * HeightCut), but not in a panorama.
+ * \code
  * pcl6d::MapViewScene scene;
  * scene.points = map_points;
  * scene.trajectory = trajectory;
@@ -88,25 +90,26 @@ struct MapViewPicture {
  * \ingroup visualization */
 class MapView {
 public:
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an option is invalid */
   explicit MapView(const MapViewOptions& options = MapViewOptions());
 
-  /** \return the box of the picture that cameras should fill */
+  /** \return the box of the picture to be filled by cameras */
   PictureBox
   box() const;
 
-  /** \brief Draws what a camera sees; by default the first of goodViewpoints().
+  /** \brief Draws the view of a camera; by default the first of goodViewpoints().
    * \throws BadArgument no finite point, or as MapCloud::validate()
-   * \throws IoFailed there is no display to draw on */
+   * \throws IoFailed no display */
   MapViewPicture
   draw(const MapViewScene& scene, const std::optional<Camera>& camera = {}) const;
 
-  /** \brief Draws all that lies around a scan, as seen from there.
-   * \param[in] scene the points of the scan, in the world \throws as draw() */
+  /** \brief Draws the panorama around a scan, seen from its position.
+   * \param[in] scene the points of the scan, in the world \throws BadArgument, IoFailed
+   * as draw() */
   MapViewPicture
   drawPanorama(const MapViewScene& scene, const Eigen::Isometry3d& T_world_scan) const;
 
-  /** \brief The cameras from which most of the scene is seen, best first.
+  /** \brief The cameras with the best view of the scene, best first.
    * \param[in] count 1 to 4 \throws BadArgument no finite point */
   std::vector<Camera>
   viewpoints(const MapViewScene& scene, std::size_t count) const;

@@ -11,7 +11,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What is drawn over the points of a picture, in the world [m].
+/** \brief Shapes drawn over the points of a picture, in the world [m].
  * \ingroup visualization */
 struct Overlay {
   struct Line {
@@ -36,12 +36,13 @@ struct Overlay {
     Colour colour{};
   };
 
-  std::vector<Line> lines; ///< later ones over earlier ones, as all else
+  /** later lines over earlier lines; likewise for other shapes */
+  std::vector<Line> lines;
   std::vector<Mark> marks; ///< over lines
   std::vector<Text> texts; ///< over marks
   std::vector<Key> keys;
 
-  /** \brief Adds what another one holds. */
+  /** \brief Appends the content of another overlay. */
   void
   append(const Overlay& other);
 };

@@ -13,7 +13,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Knobs of PlaneView. */
+/** \brief Options of PlaneView. */
 struct PlaneViewOptions {
   int width = 1600;              ///< [px] 200 to 8192
   int height = 1100;             ///< [px] 200 to 8192
@@ -21,24 +21,26 @@ struct PlaneViewOptions {
                                  ///< y; by default where most area is seen
   double elevation = 0.75; ///< [rad] of the camera above the horizon; in (0, pi/2)
   Background background = Background::kDark;
-  bool transparent = false;         ///< in place of the background
-  std::string title;                ///< top left; may be empty
-  std::size_t max_points = 2000000; ///< more are thinned evenly, always the same; > 0
+  bool transparent = false; ///< in place of the background
+  std::string title;        ///< top left; may be empty
+  /** more points are thinned evenly, by a fixed choice; > 0 */
+  std::size_t max_points = 2000000;
 
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief What is to be seen. */
+/** \brief Content of a plane view. */
 struct PlaneViewScene {
-  Points points;                       ///< [m] of one frame; NaN is skipped
-  std::vector<std::uint32_t> plane_of; ///< per point its plane's place + 1; 0: none
+  Points points; ///< [m] in one frame; NaN is skipped
+  /** per point the index of its plane + 1; 0: no plane */
+  std::vector<std::uint32_t> plane_of;
   std::vector<Plane> planes;
   std::vector<Eigen::Vector3d> seen_from; ///< per plane: unit normal to the side seen
 };
 
-/** \brief Where things are on the picture. */
+/** \brief Layout of a plane view. */
 struct PlaneViewLayout {
   int width = 0;                ///< [px]
   int height = 0;               ///< [px]
@@ -47,10 +49,10 @@ struct PlaneViewLayout {
   Eigen::Vector3d right;        ///< unit vector of the world along the columns
   Eigen::Vector3d up;           ///< unit vector of the world against the rows
   Eigen::Vector2d centre{0, 0}; ///< [m] along right, up in the middle of the picture
-  std::vector<bool> hidden;     ///< per plane: it faces away from the camera
+  std::vector<bool> hidden;     ///< per plane: faces away from the camera
   std::size_t points_drawn = 0;
 
-  /** \return column and row of a place [m] */
+  /** \return column and row of a position [m] */
   Eigen::Vector2d
   toPixel(const Eigen::Vector3d& place) const
   {
@@ -61,8 +63,8 @@ struct PlaneViewLayout {
 };
 
 /** \brief Planes in a cloud from obliquely above, in parallel projection: each with a
- * colour of its own, its hull and, if it is large enough, its number and label; points on
- * no plane are grey. As in a doll's house, planes that face away from the camera (the
+ * colour of its own, the hull and, if large enough, number and label; points on no
+ * plane are grey. As in a doll's house, planes facing away from the camera (the
  * ceiling, the near walls of a room) are left open.
  * \code
  * pcl6d::PlaneView().write("planes.png", scene);
@@ -70,19 +72,18 @@ struct PlaneViewLayout {
  * \ingroup visualization */
 class PlaneView {
 public:
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an option is invalid */
   explicit PlaneView(const PlaneViewOptions& options = PlaneViewOptions());
 
-  /** \brief Draws. \param[out] image the picture \return where things are on it
-   * \throws BadArgument no finite point, not one plane_of per point or one seen_from per
-   * plane, or a plane_of beyond the planes
-   * \throws IoFailed there is no display to draw on */
+  /** \brief Draws. \param[out] image the picture \return the layout
+   * \throws BadArgument no finite point, plane_of not one per point, seen_from not one
+   * per plane, or a plane_of beyond the planes
+   * \throws IoFailed no display */
   PlaneViewLayout
   draw(const PlaneViewScene& scene, Image& image) const;
 
-  /** \brief Draws into a PNG file, atomically. \return where things are on it
-   * \throws BadArgument as draw() \throws IoFailed as draw(), or the file cannot be
-   * written */
+  /** \brief Draws into a PNG file, atomically. \return the layout
+   * \throws BadArgument as draw() \throws IoFailed as draw(), or the file cannot be written */
   PlaneViewLayout
   write(const std::filesystem::path& path, const PlaneViewScene& scene) const;
 

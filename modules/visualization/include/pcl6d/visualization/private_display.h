@@ -8,21 +8,18 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief This process's own X server without a screen, on which all pictures are
- * drawn.
+/** \brief This process's own X server without a screen, used for drawing every picture.
  *
- * Debian's VTK draws only into X, and a server has no X: so Xvfb is started at first
- * use, on a free display number (any number of processes at once), in a session of its
- * own, reachable only from this machine and with a key that no other user can read. The one
- * connection that this class holds open
- * keeps it alive: when the process ends in whatever way, SIGKILL included, the
- * connection is gone and the server ends by itself. The user's DISPLAY is neither read
- * nor set. \ingroup visualization */
+ * Debian's VTK draws only into X, and a server has no X: therefore Xvfb is started at
+ * first use, on a free display number (any number of processes at once), in a session
+ * of its own, reachable only from this machine and with a key unreadable for other
+ * users. The server lives as long as the connection of this class: when the process
+ * ends, even by SIGKILL, the connection closes and the server ends. The user's DISPLAY
+ * is neither read nor set. \ingroup visualization */
 class PrivateDisplay {
 public:
-  /** \brief The one display of this process; started by the first call, which takes
-   * about 0.2 s. \throws IoFailed Xvfb is not installed, does not start within 20 s, or
-   * has ended since */
+  /** \brief The display of this process; the first call starts the server, in about 0.2 s.
+   * \throws IoFailed Xvfb is not installed, does not start within 20 s, or has ended since */
   static PrivateDisplay&
   instance();
 
@@ -32,8 +29,9 @@ public:
   PrivateDisplay&
   operator=(const PrivateDisplay&) = delete;
 
-  /** \brief Whoever drew something asks this before believing it: Xlib says nothing.
-   * \throws IoFailed the server has ended, or refused something */
+  /** \brief Checks that drawing succeeded; to be called after drawing, as Xlib reports
+   * no errors.
+   * \throws IoFailed the server has ended, or rejected a request */
   void
   requireAlive() const;
 

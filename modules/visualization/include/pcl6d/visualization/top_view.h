@@ -15,52 +15,53 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Knobs of TopView; the defaults suit maps of a room as well as of a campus. */
+/** \brief Options of TopView; the defaults suit maps from a room to a campus. */
 struct TopViewOptions {
   int width = 1600;          ///< [px] 200 to 8192
   std::optional<int> height; ///< [px] 200 to 8192; by default follows the map's shape
   int margin = 24;           ///< [px] around everything; 0 to width / 8
   PointColour colour = PointColour::kHeight;
-  std::optional<ColourMap> colour_map; ///< by default one that suits the colour
+  std::optional<ColourMap> colour_map; ///< by default a map suited to the colour
   Background background = Background::kDark;
   bool transparent = false;             ///< in place of the background
   std::string title;                    ///< top left; may be empty
   std::string final_label = "after";    ///< of the trajectory, in the legend
   std::string initial_label = "before"; ///< of the initial trajectory
-  bool draw_paths = true;               ///< false: they serve the cut alone
+  bool draw_paths = true;               ///< false: the paths serve only the cut
   std::optional<double> point_size;     ///< [px] > 0; by default closes the gaps
-  std::size_t max_points = 4000000; ///< more are thinned evenly, always the same; > 0
-  HeightCut cut;                    ///< by default leaves out a ceiling
+  /** more points are thinned evenly, by a fixed choice; > 0 */
+  std::size_t max_points = 4000000;
+  HeightCut cut; ///< by default leaves out a ceiling
   std::optional<Eigen::AlignedBox2d>
-      area;           ///< [m] to be seen; by default all but single points far away
-  double shading = 0; ///< eye-dome lighting: how dark edges are; 0 to 5, 0: none
+      area; ///< [m] visible area; by default the extent without isolated far points
+  double shading = 0; ///< eye-dome lighting: darkness of edges; 0 to 5, 0: no lighting
 
-  /** \throws BadArgument naming the first field that breaks its rule, with its value */
+  /** \throws BadArgument naming the first invalid field and its value */
   void
   validate() const;
 };
 
-/** \brief What is to be seen. */
+/** \brief Content of a top view. */
 struct TopViewScene : MapCloud {
   Trajectory trajectory; ///< final poses, or empty
   Trajectory initial;    ///< poses before the run, or empty
   Points
-      moving; ///< [m] what moved, red over the other points, or empty; NaN is skipped
+      /** [m] dynamic points, red over the other points, or empty; NaN is skipped */
+      moving;
   Overlay overlay; ///< drawn over points and poses
 };
 
-/** \brief A picture and where things are on it. */
+/** \brief A picture and its layout. */
 struct TopViewPicture {
   Image image;
   TopViewLayout layout;
 };
 
-/** \brief Map and trajectory from straight above: x to the right, y up, orthographic,
- * with scale bar, legend and colour bar.
+/** \brief Map and trajectory from straight above: x to the right, y up, orthographic, with
+ * scale bar, legend and colour bar.
  *
- * Drawn by VTK on the PrivateDisplay. The map area leaves out single points that lie
- * far away from all others. In buildings the ceiling would hide everything below it: it
- * is found (see HeightCut) and cut away.
+ * Drawn by VTK on the PrivateDisplay. The map area leaves out isolated far points. In buildings
+ * the ceiling would hide the rooms below: HeightCut detects the ceiling and cuts it away.
  * \code
  * pcl6d::TopViewScene scene;
  * scene.points = map_points;
@@ -70,18 +71,17 @@ struct TopViewPicture {
  * \ingroup visualization */
 class TopView {
 public:
-  /** \throws BadArgument an option breaks its rule */
+  /** \throws BadArgument an option is invalid */
   explicit TopView(const TopViewOptions& options = TopViewOptions());
 
-  /** \throws BadArgument neither a finite point nor a pose nor an overlay, no point of
-   * several in the slice, or as MapCloud::validate()
-   * \throws IoFailed there is no display to draw on */
+  /** \throws BadArgument neither a finite point nor a pose nor an overlay, no point in
+   * the slice, or as MapCloud::validate()
+   * \throws IoFailed no display */
   TopViewPicture
   draw(const TopViewScene& scene) const;
 
-  /** \brief Draws into a PNG file, atomically. \return where things are on it
-   * \throws BadArgument as draw() \throws IoFailed as draw(), or the file cannot be
-   * written */
+  /** \brief Draws into a PNG file, atomically. \return the layout
+   * \throws BadArgument as draw() \throws IoFailed as draw(), or the file cannot be written */
   TopViewLayout
   write(const std::filesystem::path& path, const TopViewScene& scene) const;
 

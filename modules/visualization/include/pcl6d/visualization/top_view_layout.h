@@ -24,13 +24,13 @@ struct PictureBox {
   }
 };
 
-/** \brief Where things are on a top view. \ingroup visualization */
+/** \brief Layout of a top view. \ingroup visualization */
 struct TopViewLayout {
   int width = 0;                ///< [px] of the picture
   int height = 0;               ///< [px]
-  PictureBox map;               ///< nothing of the map lies outside
-  double metres_per_pixel = 1;  ///< the same in x and y
-  Eigen::AlignedBox2d area;     ///< [m] of the world that is to be seen
+  PictureBox map;               ///< contains the whole map
+  double metres_per_pixel = 1;  ///< equal in x and y
+  Eigen::AlignedBox2d area;     ///< [m] visible part of the world
   Eigen::Vector2d centre{0, 0}; ///< [m] world x, y in the middle of the map's box
   double scale_bar_metres = 1;  ///< 1, 2 or 5 times a power of ten
   Eigen::Vector2d scale_bar_begin{0, 0}; ///< [px] left end
@@ -41,8 +41,8 @@ struct TopViewLayout {
   bool ceiling_hidden = false;
   std::size_t points_drawn = 0;
 
-  /** \return column and row of a place in the world [m]; pixel (c, r) reaches from
-   * there to (c + 1, r + 1) */
+  /** \return column and row of a position in the world [m]; pixel (c, r) spans (c, r)
+   * to (c + 1, r + 1) */
   Eigen::Vector2d
   toPixel(const Eigen::Vector2d& world) const
   {

@@ -14,19 +14,20 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Finds an object of known shape in a cloud and its pose in six degrees of
- * freedom, with the calls that users know from PCL's recognition, but without key points,
- * descriptors and correspondences to make first: pcl::Hough3DGrouping,
- * pcl::GeometricConsistencyGrouping.
+ * freedom. The calls follow PCL's recognition (pcl::Hough3DGrouping,
+ * pcl::GeometricConsistencyGrouping), but need no key points, descriptors or
+ * correspondences.
  *
  * The sensor stood at the cloud's sensor_origin_ and looked along its
  * sensor_orientation_; results are in the cloud's frame. Normals of model and cloud are
- * estimated. With setIndices() only the chosen points are looked at. \code
+ * estimated. With setIndices() only the chosen points are used. \code
  * pcl6d::ObjectLocalization<pcl::PointXYZ> recognition;
  * recognition.setModelCloud(carton);
  * recognition.setInputCloud(scene);
  * pcl6d::ObjectTransformations found; // T_scene_model
  * recognition.recognize(found);
- * \endcode \ingroup object_localization */
+ * \endcode
+ * \ingroup object_localization */
 template <typename PointT>
 class ObjectLocalization : public pcl::PCLBase<PointT> {
 public:
@@ -36,33 +37,33 @@ public:
   using Transformations =
       std::vector<Eigen::Matrix4f, Eigen::aligned_allocator<Eigen::Matrix4f>>;
 
-  /** \brief What to look for, as a cloud [m].
-   * \throws BadArgument as ObjectModel::fromCloud() */
+  /** \brief Sets the model to search for, as a cloud [m].
+   * \throws BadArgument see ObjectModel::fromCloud() */
   void
   setModelCloud(const PointCloudConstPtr& model,
                 const std::string& object_class = "object");
 
-  /** \brief The same, as a mesh or from the model store. */
+  /** \brief Sets the model to search for, made from a mesh or the model store. */
   void
   setModel(const ObjectModel& model);
 
-  /** \brief When a pose is believed; counts from the next model on. */
+  /** \brief Criteria for a pose; used from the next model on. */
   LocalizerOptions&
   options()
   {
     return options_;
   }
 
-  /** \brief Where the objects are, best first.
+  /** \brief Finds the poses of the objects, best first.
    * \param[out] transformations from the model's frame to the cloud's
-   * \return whether there is any
-   * \throws BadArgument no model or no input cloud, an index is not that of a point, fewer
-   * than 10 finite points, or an option breaks its rule */
+   * \return whether an object was found
+   * \throws BadArgument no model or no input cloud, an index out of range, fewer than
+   * 10 finite points, or an option is invalid */
   bool
   recognize(Transformations& transformations);
 
-  /** \return what recognize() found, with covariances, scores and the points on each
-   * object as places in the input cloud; T_scene_object in double */
+  /** \return the results of recognize(), with covariances, scores and the points on
+   * each object as indices into the input cloud; T_scene_object in double */
   const std::vector<LocalizedObject>&
   objects() const
   {
@@ -75,7 +76,7 @@ private:
   std::vector<LocalizedObject> objects_;
 };
 
-/** \brief Poses as PCL's recognition gives them. */
+/** \brief Poses in the type of PCL's recognition. */
 using ObjectTransformations = ObjectLocalization<pcl::PointXYZ>::Transformations;
 
 } // namespace pcl6d

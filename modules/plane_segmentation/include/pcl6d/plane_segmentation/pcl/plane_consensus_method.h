@@ -10,8 +10,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What getMethod() of PlaneSACSegmentation returns: findPlaneConsensus() as
- * one of PCL's sample consensus methods. It is complete, and keeps what it needs alive.
+/** \brief findPlaneConsensus() as a sample consensus method of PCL, returned by
+ * getMethod() of PlaneSACSegmentation. Complete; keeps its inputs alive.
  * \ingroup plane_segmentation */
 template <typename PointT>
 class PlaneConsensusMethod : public pcl::SampleConsensus<PointT> {
@@ -19,9 +19,9 @@ public:
   using Ptr = pcl::shared_ptr<PlaneConsensusMethod<PointT>>;
   using ModelPtr = typename pcl::SampleConsensusModel<PointT>::Ptr;
 
-  /** \param[in] model of which this is the method \param[in] pack makes the points
-   * \param[in] indices of the points in the cloud, by their places
-   * \param[in] viewpoint [m] to which the plane's normal shall point */
+  /** \param[in] model of the method \param[in] pack makes the points
+   * \param[in] indices into the cloud, per point
+   * \param[in] viewpoint [m] towards which the plane's normal shall point */
   PlaneConsensusMethod(const ModelPtr& model,
                        const PlaneConsensusOptions& options,
                        std::function<ConsensusPoints()> pack,
@@ -37,13 +37,13 @@ public:
     this->setMaxIterations(static_cast<int>(options.max_iterations));
   }
 
-  /** \brief Finds the plane. The base class's setters of threshold, probability and
-   * iterations count; its number of threads is that of the options.
-   * \return whether there is one \throws BadArgument an option breaks its rule */
+  /** \brief Finds the plane. Uses the base class's setters of threshold, probability
+   * and iterations, but the options' number of threads.
+   * \return whether a plane was found \throws BadArgument an option is invalid */
   bool
   computeModel(int verbosity = 0) override;
 
-  /** \return what was found, in double */
+  /** \return the plane found, in double */
   const PlaneConsensus&
   result() const
   {

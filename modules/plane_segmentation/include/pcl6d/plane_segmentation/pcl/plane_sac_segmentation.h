@@ -11,35 +11,34 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief What PlaneSACSegmentation and PlaneSACSegmentationFromNormals share: PCL's
- * settings, honoured by findPlaneConsensus().
+/** \brief Common base of PlaneSACSegmentation and PlaneSACSegmentationFromNormals:
+ * PCL's settings, applied to findPlaneConsensus().
  *
- * What the settings mean:
- * - distance threshold [m]: points nearer than this are on a plane. > 0
- * - method type: SAC_RANSAC, SAC_RRANSAC and SAC_PROSAC: the plane with the most points
- *   on it. They differ in how PCL saves time, and all of it is done here anyway;
- *   PROSAC's order of the points is not needed. SAC_MSAC, SAC_RMSAC and SAC_MLESAC:
- *   the plane with the least sum of min(d^2, threshold^2), which is MLESAC's cost for
- *   outliers that are spread evenly (PCL's MSAC sums distances, and its MLESAC takes a
- *   sigma from the extent of the cloud). SAC_LMEDS: the plane with the least median of
- *   distances; right only if most points are on it
- * - maximum of iterations: the effort, in times that all points may be looked at. Draws
- *   are scored on a sample of the points, so that a large cloud gets hundreds of draws
- *   for one of PCL's. -1: 1000, as there; 0: 1
- * - probability that the best plane is found; in [0, 1]
- * - optimise coefficients: the plane is that of least squares of points on it, and the
- *   inliers are the points on that plane
- * - samples' maximum distance: only points so near each other are drawn together. The
- *   search must hold the input cloud
- * - axis and eps angle, of the models that have them: eps > 0 [rad] switches the limit
- *   on; the axis may have any length. A plane that leans more is turned to the limit
+ * The settings:
+ * - distance threshold [m]: nearer points are on a plane. > 0
+ * - method type: SAC_RANSAC, SAC_RRANSAC and SAC_PROSAC: the plane with the most
+ *   points. In PCL these methods differ in how they save time; here they are equal, and
+ *   PROSAC's order of the points is not needed. SAC_MSAC, SAC_RMSAC and SAC_MLESAC: the
+ *   plane with the least sum of min(d^2, threshold^2), which is MLESAC's cost for
+ *   evenly spread outliers (PCL's MSAC sums distances, and its MLESAC takes a sigma
+ *   from the extent of the cloud). SAC_LMEDS: the plane with the least median of
+ *   distances; right only if most points are on the plane
+ * - maximum of iterations: the effort, as a number of passes over the cloud. Draws are
+ *   scored on a sample of the points, so a large cloud gets hundreds of draws for one
+ *   draw of PCL. -1: 1000, as in PCL; 0: 1
+ * - probability to find the best plane; in [0, 1]
+ * - optimise coefficients: the plane is the least-squares fit to its points, and the
+ *   inliers are the points on the fitted plane
+ * - samples' maximum distance: points of a draw are at most this far from the first.
+ *   The search must hold the input cloud
+ * - axis and eps angle, for models with an axis: eps > 0 [rad] switches the limit on;
+ *   the axis may have any length. A plane that leans more is turned to the limit
  * - number of threads: negative: one, 0: one per core; never changes the result
- * - indices: points in the order of the indices. Points that are not finite are on no
- *   plane
- * - radius limits: no plane has a radius. They come back from their getter, as there
- * - the constructor's `random`: draws depend on the time; else the same every time
+ * - indices: points in the order of the indices. Non-finite points are on no plane
+ * - radius limits: ignored, a plane has no radius; returned by their getter, as in PCL
+ * - the constructor's `random`: draws depend on the time; otherwise on a fixed seed
  *
- * getMethod() and getModel() are there after segment(), as in PCL: a
+ * getMethod() and getModel() are valid after segment(), as in PCL: a
  * PlaneConsensusMethod, and PCL's model with its limits. \ingroup plane_segmentation */
 template <typename Base, typename PointT>
 class PlaneSAC : public Base {
@@ -47,17 +46,17 @@ public:
   /** \param[in] random whether draws depend on the time */
   PlaneSAC(bool random = false) : Base(random), draws_by_time_(random) {}
 
-  /** \brief The plane a x + b y + c z + d = 0 with a unit normal towards the sensor
-   * (sensor_origin_ of the cloud), and the points on it, as indices in the input cloud,
-   * in the order of setIndices(). Both are empty, with an error on the console, if
-   * fewer than three points are finite, or all are on a line.
-   * \throws BadArgument no input cloud, an index is not that of a point, a model or
-   * method type that is not there, or a setting breaks its rule */
+  /** \brief Finds the plane a x + b y + c z + d = 0 with a unit normal towards the
+   * sensor (sensor_origin_ of the cloud). Its points are returned as indices into the
+   * input cloud, in the order of setIndices(). Both results are empty, with an error on
+   * the console, if fewer than three points are finite or if the points are collinear.
+   * \throws BadArgument no input cloud, an index out of range, an unknown model or
+   * method type, or a setting is invalid */
   void
   segment(pcl::PointIndices& inliers, pcl::ModelCoefficients& coefficients) override;
 
-  /** \return the plane in double, which single floats cannot hold far from the origin,
-   * and how the search ended; of the last segment() */
+  /** \return plane of the last segment() in double, as single floats are too coarse far
+   * from the origin, and status of the search */
   const PlaneConsensus&
   result() const
   {
@@ -65,7 +64,7 @@ public:
   }
 
 protected:
-  /** \brief Checks what the base class holds. \throws BadArgument see segment() */
+  /** \brief Checks the settings of the base class. \throws BadArgument see segment() */
   virtual void
   checkSettings() const;
 
@@ -73,15 +72,15 @@ protected:
   PlaneConsensusOptions
   consensusOptions() const;
 
-  /** \return how the points are taken from the cloud; keeps what it needs alive */
+  /** \return a function that packs the points of the cloud; keeps its inputs alive */
   virtual std::function<ConsensusPoints()>
   packer() const;
 
-  /** \return whether a model type is there */
+  /** \return whether a model type is supported */
   virtual bool
   hasModel(int model_type) const;
 
-  /** \return the names of the model types that are there */
+  /** \return the names of the supported model types */
   virtual std::string
   modelNames() const;
 
@@ -97,19 +96,20 @@ private:
   PlaneConsensus result_;
 };
 
-/** \brief pcl::SACSegmentation for planes, that finds the right one: that with the most
- * points on it, where PCL takes the best of as many draws as 50 iterations allow.
+/** \brief pcl::SACSegmentation for planes that finds the plane with the most points.
+ * PCL takes the best of the draws within 50 iterations.
  *
  * Models: SACMODEL_PLANE, SACMODEL_PERPENDICULAR_PLANE (the normal within eps of the
  * axis) and SACMODEL_PARALLEL_PLANE (the plane itself within eps of the axis); others
- * throw. All settings: see PlaneSAC. \code
+ * throw. Settings: see PlaneSAC. \code
  * pcl6d::PlaneSACSegmentation<pcl::PointXYZ> segmentation;
  * segmentation.setModelType(pcl::SACMODEL_PLANE);
  * segmentation.setMethodType(pcl::SAC_RANSAC);
  * segmentation.setDistanceThreshold(0.02); // [m]
  * segmentation.setInputCloud(cloud);
  * segmentation.segment(inliers, coefficients);
- * \endcode \ingroup plane_segmentation */
+ * \endcode
+ * \ingroup plane_segmentation */
 template <typename PointT>
 class PlaneSACSegmentation : public PlaneSAC<pcl::SACSegmentation<PointT>, PointT> {
 public:
@@ -127,14 +127,14 @@ protected:
 
 /** \brief pcl::SACSegmentationFromNormals for planes.
  *
- * Models: those of PlaneSACSegmentation, SACMODEL_NORMAL_PLANE and
+ * Models: the models of PlaneSACSegmentation, SACMODEL_NORMAL_PLANE and
  * SACMODEL_NORMAL_PARALLEL_PLANE (the plane's normal within eps of the axis); others
- * throw. With these two the distance of a point is (1 - w) d + w angle, d its distance
- * to the plane [m], angle between its normal and the plane's [rad], w the normal
- * distance weight times 1 - curvature: as in PCL. Points without a normal are on no
- * plane. The distance from the origin, for which PCL has no tolerance and so takes no
- * notice of it, must be 0 with SACMODEL_NORMAL_PARALLEL_PLANE; opening angles are
- * those of cones and come back from their getter. All other settings: see PlaneSAC.
+ * throw. For the last two, the distance of a point is (1 - w) d + w angle, as in PCL: d
+ * its distance to the plane [m], angle between its normal and the plane's [rad], w the
+ * normal distance weight times 1 - curvature. Points without a normal are on no plane.
+ * The distance from the origin must be 0 with SACMODEL_NORMAL_PARALLEL_PLANE, as PCL
+ * ignores it for lack of a tolerance. Opening angles apply to cones only and are
+ * returned by their getter. Settings: see PlaneSAC.
  * \ingroup plane_segmentation */
 template <typename PointT, typename PointNT>
 class PlaneSACSegmentationFromNormals

@@ -11,18 +11,18 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Finds planes in a cloud, with the calls that users know from PCL's classes:
- * all planes as of pcl::OrganizedMultiPlaneSegmentation, the largest one as of
- * pcl::SACSegmentation. What looks for them is up to the derived class; what makes a
- * plane is the same for all (PlaneOptions).
+/** \brief Finds planes in a cloud, with the calls of PCL's classes: every plane like
+ * pcl::OrganizedMultiPlaneSegmentation, or the largest like pcl::SACSegmentation. The
+ * derived class detects candidates; finishing them is common (PlaneOptions).
  *
- * The sensor stood at the cloud's sensor_origin_. Of an organized cloud the neighbours
- * are those on its grid. With setIndices() only the chosen points are looked at. \code
+ * The sensor stood at the cloud's sensor_origin_. In an organized cloud, neighbours are
+ * defined by the grid. With setIndices() only the chosen points are used. \code
  * pcl6d::RegionGrowingPlaneSegmentation<pcl::PointXYZ> segmentation;
  * segmentation.setInputCloud(cloud);
  * pcl6d::PlaneSegments found;
  * segmentation.segment(found);
- * \endcode \ingroup plane_segmentation */
+ * \endcode
+ * \ingroup plane_segmentation */
 template <typename PointT>
 class PlaneSegmentation : public pcl::PCLBase<PointT> {
 public:
@@ -31,7 +31,7 @@ public:
 
   ~PlaneSegmentation() override = default;
 
-  /** \brief What makes a plane. */
+  /** \brief Criteria of a plane. */
   PlaneOptions&
   planeOptions()
   {
@@ -46,19 +46,19 @@ public:
     num_threads_ = num_threads;
   }
 
-  /** \brief All planes, largest first, with hulls, and the points on none; points are
-   * places in the input cloud. \throws BadArgument no input cloud, an index is not that
-   * of a point, or an option breaks its rule */
+  /** \brief Finds planes, largest first, with hulls, and the unassigned points, as
+   * indices into the input cloud. \throws BadArgument no input cloud, an index out of
+   * range, or an option is invalid */
   void
   segment(PlaneSegments& segments);
 
-  /** \brief All planes, largest first: a x + b y + c z + d = 0 with a unit normal towards
-   * the sensor, as PCL's classes give them. \throws BadArgument see above */
+  /** \brief Finds planes, largest first: a x + b y + c z + d = 0 with a unit normal
+   * towards the sensor, in the types of PCL's classes. \throws BadArgument see above */
   void
   segment(std::vector<pcl::ModelCoefficients>& coefficients,
           std::vector<pcl::PointIndices>& inliers);
 
-  /** \brief The largest plane only; both results are empty if there is none.
+  /** \brief Finds the largest plane only; both results are empty without a plane.
    * \throws BadArgument see above */
   void
   segment(pcl::PointIndices& inliers, pcl::ModelCoefficients& coefficients);
@@ -66,7 +66,7 @@ public:
 protected:
   PlaneSegmentation() = default;
 
-  /** \brief Where the derived class believes planes to be. */
+  /** \brief Detects candidates of planes. */
   virtual PlaneCandidates
   findCandidates(const PlaneCloud& cloud) const = 0;
 
@@ -82,7 +82,7 @@ class RegionGrowingPlaneSegmentation : public PlaneSegmentation<PointT> {
 public:
   using Ptr = pcl::shared_ptr<RegionGrowingPlaneSegmentation<PointT>>;
 
-  /** \brief When a region grows. */
+  /** \brief Limits for growing a region. */
   RegionGrowingOptions&
   options()
   {
@@ -130,7 +130,7 @@ class HoughPlaneSegmentation : public PlaneSegmentation<PointT> {
 public:
   using Ptr = pcl::shared_ptr<HoughPlaneSegmentation<PointT>>;
 
-  /** \brief Who votes, and in which cells. */
+  /** \brief Variant of the votes, and size of the cells. */
   HoughPlaneOptions&
   options()
   {

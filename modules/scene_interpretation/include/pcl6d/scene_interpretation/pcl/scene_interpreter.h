@@ -10,8 +10,8 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Labels the planes of a cloud and makes them exact, with the calls that users
- * of PCL know. \code
+/** \brief Labels the planes of a cloud and makes them exact, with PCL-style calls.
+ * \code
  * pcl6d::RegionGrowingPlaneSegmentation<pcl::PointXYZ> segmentation;
  * segmentation.setInputCloud(map);
  * pcl6d::PlaneSegments found;
@@ -22,14 +22,15 @@ namespace PCL6D_EXPORTS pcl6d {
  * pcl6d::Interpretation interpretation = interpreter.interpret();
  * pcl::PointCloud<pcl::PointXYZL> labelled;
  * interpreter.getLabelledCloud(labelled);
- * \endcode \ingroup scene_interpretation */
+ * \endcode
+ * \ingroup scene_interpretation */
 template <typename PointT>
 class SceneInterpreter : public pcl::PCLBase<PointT> {
 public:
   using Ptr = pcl::shared_ptr<SceneInterpreter<PointT>>;
   using ConstPtr = pcl::shared_ptr<const SceneInterpreter<PointT>>;
 
-  /** \param[in] planes their points are places in the input cloud */
+  /** \param[in] planes with points as indices into the input cloud */
   void
   setPlanes(const std::vector<PlaneSegment>& planes)
   {
@@ -43,7 +44,7 @@ public:
     return planes_;
   }
 
-  /** \param[in] rules by default those of the book */
+  /** \param[in] rules default: the book's rules */
   void
   setRules(const LabelRules& rules)
   {
@@ -66,9 +67,9 @@ public:
   Interpretation
   interpret();
 
-  /** \brief The cloud with the number of each point's label (labelNumber()), 0 for
-   * points on no plane. \throws BadArgument no input cloud, a plane has points beyond
-   * it, or a label that is not of the rules */
+  /** \brief Gives the cloud with the number of each point's label (labelNumber()), 0
+   * for points on no plane. \throws BadArgument no input cloud, a point index is out of
+   * range, or a label is not in the rules */
   void
   getLabelledCloud(pcl::PointCloud<pcl::PointXYZL>& cloud) const;
 

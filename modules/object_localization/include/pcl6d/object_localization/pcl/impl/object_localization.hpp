@@ -43,7 +43,7 @@ ObjectLocalization<PointT>::recognize(Transformations& transformations)
       this->input_->sensor_origin_.template head<3>().template cast<double>();
   const Eigen::Isometry3d T_sensor_cloud = T_cloud_sensor.inverse();
   Points points;
-  std::vector<std::uint32_t> places; // of the finite ones
+  std::vector<std::uint32_t> places; // of the finite points
   for (const auto index : *this->indices_) {
     const auto& p = (*this->input_)[index].getVector3fMap();
     if (!p.allFinite())

@@ -32,8 +32,8 @@ PlaneConsensusMethod<PointT>::computeModel(int)
     this->inliers_.push_back((*indices_)[place]);
   for (const auto place : result_.sample)
     this->model_.push_back((*indices_)[place]);
-  // The offset goes with the normal in single floats, so that both together are right
-  // where the points are.
+  // The offset is recomputed for the normal in single floats: together they fit at the
+  // points.
   Eigen::Vector4f plane = Eigen::Vector4f::Zero();
   double offset = 0;
   for (int axis = 0; axis < 3; ++axis) {

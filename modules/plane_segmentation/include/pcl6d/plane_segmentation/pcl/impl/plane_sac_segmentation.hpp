@@ -13,7 +13,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \return what a method of PCL's looks for \throws BadArgument it is none of PCL's */
+/** \return the criterion of a PCL method \throws BadArgument not a method of PCL */
 inline ConsensusCriterion
 consensusCriterionOf(int method_type)
 {
@@ -112,7 +112,7 @@ PlaneSAC<Base, PointT>::neighbours() const
   const pcl::IndicesConstPtr indices = this->indices_;
   const auto search = this->samples_radius_search_;
   const double radius = this->samples_radius_;
-  // Where in the indices a point of the cloud is; its last place, if it is there twice.
+  // Position of each cloud point in the indices; its last position, if it occurs twice.
   std::vector<std::int64_t> places(cloud->size(), -1);
   for (std::size_t i = 0; i < indices->size(); ++i)
     places[static_cast<std::size_t>((*indices)[i])] = static_cast<std::int64_t>(i);
@@ -134,7 +134,7 @@ PlaneConsensusOptions
 PlaneSAC<Base, PointT>::consensusOptions() const
 {
   constexpr std::size_t kPclsIterations = 1000; // of pcl::SampleConsensus
-  constexpr std::uint64_t kPclsSeed = 12345;    // as if it mattered
+  constexpr std::uint64_t kPclsSeed = 12345;    // arbitrary
   PlaneConsensusOptions options;
   options.max_distance = this->threshold_;
   options.criterion = consensusCriterionOf(this->method_type_);
@@ -168,8 +168,8 @@ PlaneSAC<Base, PointT>::packer() const
   };
 }
 
-/** \brief Gives PCL's model the distances of its inliers, of which its
- * computeVariance() tells the spread. */
+/** \brief Gives PCL's model the distances of its inliers, from which its
+ * computeVariance() computes the spread. */
 template <typename Base, typename PointT>
 void
 PlaneSAC<Base, PointT>::keepDistances(const pcl::Indices& inliers)

@@ -31,7 +31,7 @@ PlaneSegmentation<PointT>::segment(PlaneSegments& segments)
   PlaneCloudOptions options;
   options.viewpoint = this->input_->sensor_origin_.template head<3>();
   options.num_threads = num_threads_;
-  // Points that were not chosen are not there; the grid stays.
+  // Points that were not chosen become NaN; the grid stays.
   Points points(this->input_->size(),
                 Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
   for (const auto index : *this->indices_)

@@ -10,28 +10,28 @@
 
 namespace pcl6d::plane_segmentation {
 
-/** \brief A plane that may be the best, relative to ConsensusPoints::origin(). */
+/** \brief A candidate for the best plane, relative to ConsensusPoints::origin(). */
 struct ConsensusCandidate {
   PlaneFit fit;
-  LocalPlane plane; ///< the same, in float
+  LocalPlane plane; ///< `fit` in float
   double reach = 0; ///< [m] rms distance of its points to their centre
   double score = 0; ///< the higher, the better
-  std::array<std::uint32_t, 3> sample{}; ///< places of the draw
+  std::array<std::uint32_t, 3> sample{}; ///< indices of the draw
 };
 
-/** \brief How ConsensusJudge::climbed() goes. */
+/** \brief How ConsensusScorer::climbed() goes. */
 struct Climb {
-  double step = 0.5; ///< [max_distance] the first, which is halved
-  int halvings = 3;  ///< of the step; finer ones are within the noise of a count
-  std::size_t max_looks = 1 << 20; ///< planes that are looked at
+  double step = 0.5; ///< [max_distance] first step, then halved
+  int halvings = 3;  ///< of the step; finer steps are within the noise of a count
+  std::size_t max_looks = 1 << 20; ///< largest number of planes tested
 };
 
-/** \brief Turns normals that a DirectionLimit forbids to its border. */
+/** \brief Turns normals outside a DirectionLimit to its border. */
 class DirectionRule {
 public:
   explicit DirectionRule(const std::optional<DirectionLimit>& limit);
 
-  /** \brief Turns a plane about its centre, if it must. */
+  /** \brief Turns a plane about its centre, if necessary. */
   void
   apply(PlaneFit& plane) const;
 
@@ -42,23 +42,24 @@ private:
   double cosine_of_least_ = 1, cosine_of_most_ = 0;
 };
 
-/** \brief Says how good a plane is, and makes it better, by some points. */
-class ConsensusJudge {
+/** \brief Scores a plane on a set of points, and improves it. */
+class ConsensusScorer {
 public:
   /** \param[in] points, options, rule kept by reference
    * \param[in] num_threads 0: one per core; never changes a result */
-  ConsensusJudge(const ConsensusPoints& points,
-                 const PlaneConsensusOptions& options,
-                 const DirectionRule& rule,
-                 unsigned int num_threads);
+  ConsensusScorer(const ConsensusPoints& points,
+                  const PlaneConsensusOptions& options,
+                  const DirectionRule& rule,
+                  unsigned int num_threads);
 
-  /** \return the score of a plane, the higher, the better: points on it, those less a
-   * share for their squared distances, or the negative median of the distances */
+  /** \return the score of a plane, higher is better: the number of points on the plane,
+   * the number less a share for their squared distances, or the negative median of the
+   * distances */
   double
   score(const LocalPlane& plane) const;
 
-  /** \return the same, or a negative number as soon as it is unlikely to be more than a
-   * floor; points must be in random order. From one thread, and of few points. */
+  /** \return score(), or a negative number once it is unlikely to exceed a floor;
+   * points must be in random order. Runs in one thread, for few points. */
   double
   scoreAbove(const LocalPlane& plane, double floor) const;
 
@@ -70,33 +71,36 @@ public:
   std::size_t
   countOn(const ConsensusCandidate& candidate) const;
 
-  /** \brief Fits a plane to the points on it until that helps no more.
-   * \param[in] only_fits the result must be a fit, if there is one
-   * \return the best on the way, scored */
+  /** \brief Fits a plane to its points until the score stops rising.
+   * \param[in] only_fits the result must be a fit if possible
+   * \return the best plane on the way, scored */
   ConsensusCandidate
   improved(ConsensusCandidate start, bool only_fits) const;
 
-  /** \brief Shifts and tilts a plane in smaller and smaller steps as long as its score
-   * rises: a fit is best by squares, not by points.
-   * \param[in] only_fits what counts is the fit to the points on a plane
-   * \return the best on the way, scored; a fit if only_fits, if there is one */
+  /** \brief Shifts and tilts a plane in smaller and smaller steps while its score
+   * rises: a fit is optimal in squares, not in points.
+   * \param[in] only_fits score the fit to the points on a plane instead of the plane
+   * \return the best plane on the way, scored; a fit if only_fits, if possible */
   ConsensusCandidate
   climbed(const ConsensusCandidate& start, const Climb& climb, bool only_fits) const;
 
-  /** \return the places of the points on a plane, in their order */
+  /** \return the indices of the points on a plane, in their order */
   std::vector<std::uint32_t>
   placesOn(const ConsensusCandidate& candidate) const;
 
 private:
   /** \return a plane scored, or the fit to its points if only_fits */
   ConsensusCandidate
-  judged(const ConsensusCandidate& from, const PlaneFit& plane, bool only_fits) const;
+  evaluated(const ConsensusCandidate& from,
+            const PlaneFit& plane,
+            bool only_fits) const;
 
-  /** \return the fit to the points on a plane, not scored; none: they are on a line */
+  /** \return the fit to the points on a plane, not scored; nullopt for collinear
+   * points */
   std::optional<ConsensusCandidate>
   fitted(const ConsensusCandidate& to) const;
 
-  /** Points that count as on a plane for a fit are nearer [m]. */
+  /** [m] Nearer points count as on a plane for a fit. */
   double
   fitLimit(double score) const;
 

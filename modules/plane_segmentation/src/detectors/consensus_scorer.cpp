@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "detectors/consensus_judge.h"
+#include "detectors/consensus_scorer.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/portable_math.h>
@@ -13,14 +13,15 @@
 namespace pcl6d::plane_segmentation {
 
 namespace {
-constexpr std::size_t kJudgedBlock = 16 * kConsensusRun; // points of a thread's step
-constexpr std::size_t kPretest = 256; // points that may give up a draw
-/** [sigma] of a count from a sample: one draw in a thousand is given up in error. */
+constexpr std::size_t kEvaluatedBlock = 16 * kConsensusRun; // points of a thread's step
+constexpr std::size_t kPretest = 256; // points after which a draw may be dropped
+/** [sigma] of a count from a sample: one draw in a thousand is dropped in error. */
 constexpr double kPretestSigmas = 3;
-constexpr int kMaxJudgedFits = 5;
-/** [rad] A normal stays so far inside of its limit, beyond which floats are rounded. */
+constexpr int kMaxEvaluatedFits = 5;
+/** [rad] Margin of a normal inside its limit, for rounding in floats. */
 constexpr double kInside = 1e-6;
-/** Of normal errors: their median to standard deviation, and what is no outlier. */
+/** Ratio of the standard deviation to the median of normal errors, and limit of
+ * inliers. */
 constexpr double kSigmaOfMedian = 1.4826, kInlierSigmas = 2.5; // Rousseeuw, Leroy 1987
 
 ConsensusCandidate
@@ -45,7 +46,7 @@ DirectionRule::DirectionRule(const std::optional<DirectionLimit>& limit)
   cosine_of_least_ = portableSinCos(least_).cos;
   cosine_of_most_ = portableSinCos(most_).cos;
   if (limit->least <= 0)
-    cosine_of_least_ = 1; // nothing to stay away from
+    cosine_of_least_ = 1; // no lower limit
   if (limit->most >= M_PI / 2)
     cosine_of_most_ = 0;
 }
@@ -68,20 +69,20 @@ DirectionRule::apply(PlaneFit& plane) const
   plane.offset = plane.normal.dot(plane.centre);
 }
 
-ConsensusJudge::ConsensusJudge(const ConsensusPoints& points,
-                               const PlaneConsensusOptions& options,
-                               const DirectionRule& rule,
-                               unsigned int num_threads)
+ConsensusScorer::ConsensusScorer(const ConsensusPoints& points,
+                                 const PlaneConsensusOptions& options,
+                                 const DirectionRule& rule,
+                                 unsigned int num_threads)
 : points_(points), options_(options), rule_(rule), num_threads_(num_threads)
 {}
 
 /** \return of(begin, size, distances) of each block, summed over its runs in order */
 template <typename Value, typename Of>
 std::vector<Value>
-ConsensusJudge::overBlocks(const LocalPlane& plane, Of&& of) const
+ConsensusScorer::overBlocks(const LocalPlane& plane, Of&& of) const
 {
-  std::vector<Value> values((points_.size() + kJudgedBlock - 1) / kJudgedBlock);
-  const auto judge = [&](const Block& block) {
+  std::vector<Value> values((points_.size() + kEvaluatedBlock - 1) / kEvaluatedBlock);
+  const auto scoreBlock = [&](const Block& block) {
     float distances[kConsensusRun];
     for (std::size_t i = block.begin; i < block.end; i += kConsensusRun) {
       const std::size_t size = std::min(kConsensusRun, block.end - i);
@@ -90,14 +91,14 @@ ConsensusJudge::overBlocks(const LocalPlane& plane, Of&& of) const
     }
   };
   if (values.size() == 1)
-    judge({0, 0, points_.size()});
+    scoreBlock({0, 0, points_.size()});
   else
-    parallelBlocks(points_.size(), kJudgedBlock, num_threads_, judge);
+    parallelBlocks(points_.size(), kEvaluatedBlock, num_threads_, scoreBlock);
   return values;
 }
 
 double
-ConsensusJudge::medianTo(const LocalPlane& plane) const
+ConsensusScorer::medianTo(const LocalPlane& plane) const
 {
   std::vector<float> all(points_.size());
   overBlocks<char>(plane, [&](char&, std::size_t i, std::size_t size, const float* d) {
@@ -109,7 +110,7 @@ ConsensusJudge::medianTo(const LocalPlane& plane) const
 }
 
 double
-ConsensusJudge::score(const LocalPlane& plane) const
+ConsensusScorer::score(const LocalPlane& plane) const
 {
   if (options_.criterion == ConsensusCriterion::kLeastMedian)
     return -medianTo(plane);
@@ -126,7 +127,7 @@ ConsensusJudge::score(const LocalPlane& plane) const
 }
 
 double
-ConsensusJudge::scoreAbove(const LocalPlane& plane, double floor) const
+ConsensusScorer::scoreAbove(const LocalPlane& plane, double floor) const
 {
   const std::size_t all = points_.size(), first = std::min(all, kPretest);
   if (first == all || options_.criterion == ConsensusCriterion::kLeastMedian)
@@ -152,19 +153,19 @@ ConsensusJudge::scoreAbove(const LocalPlane& plane, double floor) const
 }
 
 double
-ConsensusJudge::fitLimit(double score) const
+ConsensusScorer::fitLimit(double score) const
 {
   if (options_.criterion != ConsensusCriterion::kLeastMedian)
     return options_.max_distance;
   const auto size = static_cast<double>(points_.size());
   const double small_sample = 1 + 5 / std::max(1.0, size - 3);
   const double sigma = kSigmaOfMedian * small_sample * -score;
-  // All on one plane: what is next to it, too, counts as on it.
+  // Every point on one plane: keep a margin against rounding.
   return std::max(kInlierSigmas * sigma, 1e-6 * options_.max_distance);
 }
 
 PlaneMoments
-ConsensusJudge::momentsOf(const LocalPlane& plane, double limit) const
+ConsensusScorer::momentsOf(const LocalPlane& plane, double limit) const
 {
   const auto blocks = overBlocks<PlaneMoments>(
       plane, [&](PlaneMoments& sums, std::size_t i, std::size_t size, const float* d) {
@@ -177,7 +178,7 @@ ConsensusJudge::momentsOf(const LocalPlane& plane, double limit) const
 }
 
 std::size_t
-ConsensusJudge::countOn(const ConsensusCandidate& candidate) const
+ConsensusScorer::countOn(const ConsensusCandidate& candidate) const
 {
   const auto limit = static_cast<float>(fitLimit(candidate.score));
   return mergeTree(
@@ -190,7 +191,7 @@ ConsensusJudge::countOn(const ConsensusCandidate& candidate) const
 }
 
 bool
-ConsensusJudge::isPerfect(double score) const
+ConsensusScorer::isPerfect(double score) const
 {
   return options_.criterion == ConsensusCriterion::kLeastMedian
              ? score >= 0
@@ -198,7 +199,7 @@ ConsensusJudge::isPerfect(double score) const
 }
 
 std::optional<ConsensusCandidate>
-ConsensusJudge::fitted(const ConsensusCandidate& to) const
+ConsensusScorer::fitted(const ConsensusCandidate& to) const
 {
   const PlaneMoments sums = momentsOf(to.plane, fitLimit(to.score));
   auto fit = sums.fit();
@@ -211,11 +212,11 @@ ConsensusJudge::fitted(const ConsensusCandidate& to) const
 }
 
 ConsensusCandidate
-ConsensusJudge::improved(ConsensusCandidate start, bool only_fits) const
+ConsensusScorer::improved(ConsensusCandidate start, bool only_fits) const
 {
   start.score = score(start.plane);
   ConsensusCandidate last = start, best = start;
-  for (int i = 0; i < kMaxJudgedFits; ++i) {
+  for (int i = 0; i < kMaxEvaluatedFits; ++i) {
     const auto fit = fitted(last);
     if (!fit)
       break;
@@ -233,9 +234,9 @@ ConsensusJudge::improved(ConsensusCandidate start, bool only_fits) const
 }
 
 ConsensusCandidate
-ConsensusJudge::judged(const ConsensusCandidate& from,
-                       const PlaneFit& plane,
-                       bool only_fits) const
+ConsensusScorer::evaluated(const ConsensusCandidate& from,
+                           const PlaneFit& plane,
+                           bool only_fits) const
 {
   ConsensusCandidate candidate = candidateOf(plane, from);
   if (options_.criterion == ConsensusCriterion::kLeastMedian || !only_fits)
@@ -250,12 +251,12 @@ ConsensusJudge::judged(const ConsensusCandidate& from,
 }
 
 ConsensusCandidate
-ConsensusJudge::climbed(const ConsensusCandidate& start,
-                        const Climb& climb,
-                        bool only_fits) const
+ConsensusScorer::climbed(const ConsensusCandidate& start,
+                         const Climb& climb,
+                         bool only_fits) const
 {
-  ConsensusCandidate best = judged(start, start.fit, only_fits);
-  PlaneFit place = start.fit; // of which best is the plane, or the fit
+  ConsensusCandidate best = evaluated(start, start.fit, only_fits);
+  PlaneFit place = start.fit; // best is this plane or its fit
   double step = climb.step * options_.max_distance;
   std::size_t looks = 0;
   for (int halvings = 0; halvings <= climb.halvings && !isPerfect(best.score);) {
@@ -274,7 +275,7 @@ ConsensusJudge::climbed(const ConsensusCandidate& start,
             (next.normal + move / start.reach * (way < 4 ? u : v)).normalized();
       next.offset = next.normal.dot(next.centre);
       rule_.apply(next);
-      const ConsensusCandidate candidate = judged(best, next, only_fits);
+      const ConsensusCandidate candidate = evaluated(best, next, only_fits);
       if (candidate.score > best.score) {
         best = candidate;
         place = next;
@@ -290,7 +291,7 @@ ConsensusJudge::climbed(const ConsensusCandidate& start,
 }
 
 std::vector<std::uint32_t>
-ConsensusJudge::placesOn(const ConsensusCandidate& candidate) const
+ConsensusScorer::placesOn(const ConsensusCandidate& candidate) const
 {
   std::vector<std::uint32_t> places(points_.size() + 1);
   const auto limit = static_cast<float>(options_.max_distance);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A folder of scans with rough poses in, a registered map out: options, then Slam6D, then
+// Registers a folder of scans with rough poses into a map: reads options, runs Slam6D, and writes
 // files.
 #include "common/app.h"
 #include "common/build_id.h"
@@ -9,6 +9,7 @@
 #include "common/output_folder.h"
 #include "common/printable.h"
 #include "common/progress_bar.h"
+#include "slam6d/explain.h"
 #include "slam6d/join.h"
 #include "slam6d/live_window.h"
 #include "slam6d/planes_of_run.h"
@@ -42,11 +43,12 @@ constexpr const char* kName = "pcl_slam6d";
 /** The main job: reading, matching, writing. */
 class Job {
 public:
-  /** \param[in] ranks the processes that share the work; null: this one does all */
+  /** \param[in] ranks the processes that share the work; null: a single process */
   Job(const Settings& settings, WorkSharing* ranks)
   : ranks_(ranks)
   , earlier_(app::openEarlier(settings))
-  , folder_(app::openFolder(settings, earlier_))
+  , input_(app::openInput(settings, earlier_))
+  , folder_(input_.folder)
   , scans_(app::openScans(folder_, settings, earlier_))
   , settings_(app::resolved(settings, folder_, earlier_))
   , bar_(settings.quiet)
@@ -68,8 +70,8 @@ public:
   {
     try {
       return workThrough();
-    } catch (const BadArgument&) { // as the same command would end again; another one
-      dropJournal();               // would be refused because of what this one has kept
+    } catch (const BadArgument&) { // the journal would reject a corrected command
+      dropJournal();
       throw;
     } catch (const ComputeFailed&) {
       dropJournal();
@@ -81,10 +83,14 @@ private:
   int
   workThrough()
   {
-    for (const auto& line : app::describeInput(
-             settings_, scans_, earlier_, ranks_ ? ranks_->numRanks() : 1))
+    for (const auto& line : app::describeInput(settings_,
+                                               scans_,
+                                               earlier_,
+                                               input_.drive,
+                                               ranks_ ? ranks_->numRanks() : 1))
       bar_.say(line);
     log_.warnings = earlier_.notes;
+    log_.stages = input_.stages;
     if (!readScans()) {
       bar_.say("interrupted while reading; nothing is written");
       return app::kInterrupted;
@@ -94,7 +100,7 @@ private:
     const bool complete = match();
     if (earlier_.areJoined() && !complete)
       return stopJoining();
-    app::RunOutput output(settings_, folder_, slam_, out_, bar_, interrupt_);
+    app::RunOutput output(settings_, input_, slam_, out_, bar_, interrupt_);
     const RunResult& summary = output.write(complete, log_, clouds_);
     if (earlier_.areJoined() && !summary.complete)
       return stopJoining();
@@ -108,7 +114,7 @@ private:
     if (!settings_.quiet)
       printClosing(summary, written);
     else if (!summary.trusted)
-      bar_.warn(summary.verdict); // not a word of it would be a lie
+      bar_.warn(summary.verdict); // a silent run would look trusted
     for (const auto& warning : drawing.warnings)
       bar_.warn(warning);
     if (settings_.timing)
@@ -130,11 +136,11 @@ private:
   int
   stopJoining()
   {
-    bar_.say("interrupted; the runs are not joined, and nothing is written");
+    bar_.say("interrupted; the runs are not joined, nothing is written");
     return app::kInterrupted;
   }
 
-  /** A part of a run never takes the place of a whole one. \return what was written */
+  /** A partial run never replaces a complete run. \return the written files */
   std::vector<std::filesystem::path>
   publish(const RunResult& summary)
   {
@@ -144,12 +150,11 @@ private:
       dropJournal();
       return written;
     }
-    bar_.say(
-        "what was done is kept: the same command goes on with it, --fresh drops it");
+    bar_.say("the work done is kept: the same command goes on, --fresh starts anew");
     if (!app::holdsCompleteRun(out_))
       return out_.publish(app::Journal::kKeep);
     published_ += ".partial";
-    bar_.say(settings_.out + ": holds a complete run, which stays; this part is in " +
+    bar_.say(settings_.out + ": keeps the complete run; the unfinished part is in " +
              published_.string());
     return out_.publishBeside(".partial");
   }
@@ -167,17 +172,17 @@ private:
       conditions.emplace_back("--" + word.name, word.value);
     std::vector<std::string> names;
     for (std::size_t i = 0; i < folder_.size(); ++i)
-      names.push_back(folder_.file(i).string());
+      names.push_back(folder_.title(i));
     try {
       journal_.emplace(path, conditions, names);
     } catch (const IoFailed& e) {
       throw IoFailed(std::string(e.what()) + " (--fresh drops it)");
     }
     if (journal_->numMatched() > 0)
-      bar_.say("going on with an interrupted run, which has matched " +
+      bar_.say("going on with an interrupted run: matched " +
                text::counted(journal_->numMatched(), "scan"));
     else if (settings_.resume)
-      bar_.warn(settings_.out + ": there is no interrupted run to go on with");
+      bar_.warn(settings_.out + ": no interrupted run to go on with");
     slam_.setMemory(&*journal_);
   }
 
@@ -197,7 +202,7 @@ private:
       const app::StageTimer timer("reading", log_.stages);
       is_whole = readAll();
     }
-    if (scans_.estimatesMotion()) { // which is found meanwhile
+    if (scans_.estimatesMotion()) { // estimated during reading
       const double seconds = slam_.result().motion_seconds;
       log_.stages.back().seconds -= seconds;
       log_.stages.push_back(
@@ -211,7 +216,7 @@ private:
   {
     app::SharedReading reading(scans_, earlier_, ranks_);
     return reading.readAll([&](std::size_t i, Scan scan) {
-      memory_.require(scan.points.size(), folder_.file(i).string());
+      memory_.require(scan.points.size(), folder_.title(i));
       log_.dropped.push_back(reading.add(i, scan, slam_));
       window_.add(scan.points, folder_.initialPose(i));
       clouds_.add(std::move(scan.cloud));
@@ -233,7 +238,7 @@ private:
         slam_.cancel();
     });
     slam_.setObserver([&](std::size_t i, const ScanResult& scan) {
-      if (i == folder_.numRegistered()) // the first one that is matched
+      if (i == folder_.numRegistered()) // matching begins
         printParameters();
       if (settings_.verbose)
         printScan(i, scan);
@@ -259,18 +264,14 @@ private:
     std::cout << std::flush;
   }
 
-  /** Prints what is known by now and was not before: those of loops follow from matching. */
+  /** Prints parameters derived since the last call; parameters of loops follow from matching. */
   void
   printParameters()
   {
-    for (const auto& [name, parameter] :
+    for (const auto& [name, unit, parameter] :
          app::named(slam_.result().parameters, settings_))
       if (printed_.insert(name).second)
-        bar_.say(app::parameterLine(name,
-                                    parameter,
-                                    name == "loop-gap"     ? "scans"
-                                    : name == "loop-pairs" ? "pairs"
-                                                           : "m"));
+        bar_.say(app::parameterLine(name, parameter, unit));
   }
 
   void
@@ -281,13 +282,14 @@ private:
          << toString(scan.status) << "), " << scan.iterations << " iterations, "
          << scan.pairs << " pairs, rms " << scan.rms << " m, overlap " << scan.overlap
          << ", correction " << scan.correction << " m"
-         << (scan.reason.empty() ? "" : "; not believed: ") << scan.reason;
+         << (scan.rejections.empty() ? "" : "; rejected: ") << toWords(scan.rejections);
     bar_.say(line.str());
   }
 
   WorkSharing* ranks_;
   const app::EarlierRuns earlier_;
-  const ScanFolder folder_;
+  const app::RunInput input_;
+  const ScanFolder& folder_;
   app::RunScans scans_;
   const Settings settings_;
   const app::Interrupt interrupt_;
@@ -307,7 +309,7 @@ private:
 int
 main(int argc, char** argv)
 {
-  std::unique_ptr<WorkSharing> ranks; // until all is printed
+  std::unique_ptr<WorkSharing> ranks; // until all output is printed
   const auto run = [&](const std::vector<std::string>& arguments) {
     Settings settings;
     if (!app::parseSettings(arguments, settings))
@@ -315,11 +317,14 @@ main(int argc, char** argv)
     if (settings.verbose)
       pcl::console::setVerbosityLevel(pcl::console::L_INFO);
     if (ranks && settings.deskew == app::Deskew::kEstimate)
-      throw app::UsageError(
-          "--deskew estimate follows one scan after the other, and is "
-          "not shared by several processes: run it without mpirun");
+      throw app::UsageError("--deskew estimate follows scan after scan and cannot be "
+                            "shared by several processes: run without mpirun");
+    if (settings.explain && (!ranks || ranks->isFirst()))
+      return app::explainRun(settings);
+    if (settings.explain)
+      return static_cast<int>(app::kDone); // the first process prints the plan
     if (settings.planes)
-      app::planesOfRun(); // if it is missing, say so before the work
+      app::planesOfRun(); // reports a missing library before the work
     if (!ranks || ranks->isFirst())
       return Job(settings, ranks.get()).run();
     app::help(*ranks, kName, settings);
@@ -333,7 +338,7 @@ main(int argc, char** argv)
         try {
           const int code = run(arguments);
           if (ranks)
-            ranks->gather(""); // all have done their part
+            ranks->gather(""); // waits for all processes
           return code;
         } catch (const std::exception&) {
           if (ranks)

@@ -22,8 +22,8 @@ namespace {
 using namespace pcl6d;
 using app::PlaneSettings;
 
-/** The points of a PCD file with all those without a measurement, which keep an organized
- * one on its grid. \return nothing for other files, and for one without coordinates */
+/** The points of a PCD file, with invalid points to keep an organized cloud on its
+ * grid. \return nullopt for other formats, and for files without coordinates */
 std::optional<SceneCloud>
 readGrid(const PlaneSettings& s)
 {
@@ -48,7 +48,7 @@ readGrid(const PlaneSettings& s)
   return cloud;
 }
 
-/** A scan with all its points, near. */
+/** A single scan with every point, moved near the origin. */
 SceneCloud
 readAll(const PlaneSettings& s, app::ProgressBar& bar)
 {
@@ -74,7 +74,7 @@ sayGate(const ScanParameters& parameters, app::ProgressBar& bar)
   bar.say(app::parameterLine("max-range", parameters.max_range));
 }
 
-/** A scan as it is, without what lies outside the range gate. */
+/** A single scan without points outside the range gate. */
 SceneCloud
 readOne(const PlaneSettings& s,
         const ScanParameterOptions& given,
@@ -92,8 +92,8 @@ readOne(const PlaneSettings& s,
   return cloud;
 }
 
-/** Of a folder one point per voxel of the map.
- * \throws UsageError an option breaks its rule \throws Interrupted */
+/** Reads the input; a folder with one point per voxel of the map.
+ * \throws UsageError an option is invalid \throws Interrupted */
 SceneCloud
 readInput(const PlaneSettings& s, app::FolderJob& job)
 {
@@ -156,11 +156,11 @@ printTable(const FoundPlanes& found)
                 p.normal.z());
   }
   if (planes.size() > kMostRows)
-    std::printf("  ... and %zu smaller ones in planes.json\n",
+    std::printf("  ... and %zu smaller planes in planes.json\n",
                 planes.size() - kMostRows);
 }
 
-/** Of fewer than three points there are no planes, but of none nothing was looked at. */
+/** Fewer than three points have no planes; without any point the input is empty. */
 void
 requirePoints(const PlaneSettings& s, const SceneCloud& cloud)
 {

@@ -6,19 +6,17 @@ int
 main(int argc, char** argv)
 {
   using namespace pcl6d::app;
-  return runVerbs({kSemanticMap,
-                   "JOB ...",
-                   "do",
-                   "Makes and asks semantic maps: planes with labels, objects, rooms.",
-                   {{"build",
-                     "RUN_DIR",
-                     "make the semantic map of a run of pcl_slam6d",
-                     runMapBuild},
-                    {"query",
-                     "MAP \"...\"",
-                     "find things, such as \"objects class=chair\"",
-                     runMapQuery},
-                    {"info", "MAP", "tell what a map holds", runMapInfo}}},
-                  argc,
-                  argv);
+  return runVerbs(
+      {kSemanticMap,
+       "JOB ...",
+       "do",
+       "Makes and queries semantic maps: planes with labels, objects, rooms.",
+       {{"build",
+         "RUN_DIR",
+         "make the semantic map of a run of pcl_slam6d",
+         runMapBuild},
+        {"query", "MAP \"...\"", "find entities: \"objects class=chair\"", runMapQuery},
+        {"info", "MAP", "print the content of a map", runMapInfo}}},
+      argc,
+      argv);
 }

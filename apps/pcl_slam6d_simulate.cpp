@@ -64,8 +64,8 @@ writeSceneFile(const fs::path& path,
   writeJson(path, json, 2);
 }
 
-/** \return T_world_scan every 10 ms of each scan, its begin and end included; less often if
- * that were more than a million poses */
+/** \return T_world_scan every 10 ms of each scan, with its begin and end; less often
+ * beyond a million poses */
 Trajectory
 motionWithinScans(const Simulator& simulator)
 {
@@ -88,7 +88,7 @@ motionWithinScans(const Simulator& simulator)
   return motion;
 }
 
-/** \brief A scan as it is written, and what is counted on the way. */
+/** \brief A scan in output format, counted on the way. */
 pcl::PCLPointCloud2
 cloudOf(const SimulateSettings& s,
         const Simulator& simulator,

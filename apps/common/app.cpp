@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/first_steps.h"
 #include "common/option_words.h"
 #include "common/printable.h"
 
@@ -31,7 +32,7 @@
 namespace pcl6d::app {
 
 namespace {
-/** \return the message without what says nothing */
+/** \return the message without ": Success", the text of errno 0 */
 std::string
 sensible(std::string message)
 {
@@ -42,7 +43,7 @@ sensible(std::string message)
   return message;
 }
 
-/** \return a file system's error as the suite writes its own: the file, then the reason */
+/** \return the text of a file system error in the suite's order: the file, then the reason */
 std::string
 wordsOf(const std::filesystem::filesystem_error& error)
 {
@@ -70,8 +71,8 @@ report(const std::string& name, const std::string& message, ExitCode code)
   return code;
 }
 
-/** A name of a locale that is not installed makes std::locale("") throw, which libraries
- * call deep in their work: then this process and its children have the plain one. */
+/** std::locale("") throws for a locale in LANG or LC_* without installation, and libraries
+ * call it deep in their work. This process and its children then get the locale "C". */
 void
 makeLocaleValid()
 {
@@ -84,7 +85,7 @@ makeLocaleValid()
 
 const std::terminate_handler usual_end = std::get_terminate();
 
-/** Whether this thread asked for memory that there is not. */
+/** Whether an allocation of this thread has failed. */
 thread_local bool lacked_memory = false;
 
 void
@@ -102,9 +103,9 @@ endWithoutMemory()
   ::_exit(kFailed);
 }
 
-/** Memory may be over where runMain() does not catch it: while main() makes its arguments,
- * in a thread of a library, or below a function that lets no exception out, such as a
- * destructor, where nothing tells which exception it was. Nothing here asks for any. */
+/** Memory may run out where runMain() cannot catch the exception: while main() builds its
+ * arguments, in a thread of a library, or in a destructor. Inside a noexcept function the
+ * handler cannot learn the type of the exception. The handler allocates no memory. */
 void
 endInWords()
 try {
@@ -123,8 +124,8 @@ try {
 [[maybe_unused]] const std::new_handler replaced_too =
     std::set_new_handler(rememberLack);
 
-/** A file must not be opened under the number of a standard stream that is closed: what is
- * printed would go into it. What is written to such a stream fails, as before. */
+/** Keeps files from getting the number of a closed standard stream: printed text would
+ * go into the file. Writing to the stream still fails. */
 void
 occupyStandardStreams()
 {
@@ -140,14 +141,14 @@ try {
   throw;
 } catch (const std::bad_alloc& e) {
   return wordsOf(e);
-} catch (const std::length_error& e) { // a container of more than there can be
-  return std::string("not enough memory: more was asked for than there can be (") +
+} catch (const std::length_error& e) { // a container above its max_size()
+  return std::string("not enough memory: the request exceeds every limit (") +
          e.what() + ")";
 } catch (const std::filesystem::filesystem_error& e) {
   return wordsOf(e);
 } catch (const std::system_error& e) {
   if (e.code() == std::errc::resource_unavailable_try_again)
-    return "no more threads, or no memory for one";
+    return "no more threads, or no memory for a thread";
   return e.what();
 } catch (const std::exception& e) {
   return *e.what() ? e.what() : typeid(e).name();
@@ -166,8 +167,13 @@ try {
   occupyStandardStreams();
   makeLocaleValid();
   std::signal(SIGPIPE, SIG_IGN); // `... | head` must not leave half a run
-  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error with words
+  std::signal(SIGXFSZ, SIG_IGN); // a file above the size limit gives an error message
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  const std::string steps = argc > 1 ? "" : firstSteps(name);
+  if (!steps.empty()) {
+    std::cerr << steps;
+    return kUsage;
+  }
   const int code = body(std::vector<std::string>(argv + 1, argv + argc));
   if (code == kDone || code == kDoubtful)
     flushOutput();
@@ -181,8 +187,8 @@ try {
 }
 
 namespace {
-/** \brief Calls check and turns its BadArgument into a UsageError about the option that
- * stands for the name that the library gives. */
+/** \brief Calls check and turns its BadArgument into a UsageError that names the option
+ * of the library's field. */
 void
 checkRenamed(const std::function<void()>& check,
              const std::function<std::string(const std::string&)>& optionOf)
@@ -190,8 +196,8 @@ try {
   check();
 } catch (const BadArgument& e) {
   const std::string message = e.what();
-  // "field = value, but ..."; the value may be long, so no regular expression, whose
-  // depth of calls grows with it.
+  // "field = value, but ..."; the value may be long: a regular expression would recurse
+  // once per character.
   const std::size_t end = message.find(" = ");
   const std::string field = message.substr(0, end);
   if (end == std::string::npos || field.empty() ||
@@ -220,7 +226,7 @@ checkOption(const std::string& option, const std::function<void()>& check)
 }
 
 namespace {
-/** \return whether standard output is a pipe whose reader has seen enough, as of `| head` */
+/** \return whether standard output is a pipe whose reader has closed, as `head` does */
 bool
 hasReaderLeft()
 {
@@ -232,7 +238,7 @@ hasReaderLeft()
 void
 flushOutput()
 {
-  if (!std::cout.rdbuf()) // a process that helps another one, and tells nothing
+  if (!std::cout.rdbuf()) // a helper process prints no errors
     return;
   errno = 0;
   std::cout.flush();

@@ -5,8 +5,8 @@
 
 namespace pcl6d::app {
 
-/** \return what tells this build of the program and its libraries from others: a number of
- * their files, sizes and times. What another build has computed may have other bits */
+/** \return an identifier of this build of the program and its libraries, derived from the
+ * sizes and times of the files. The results of two builds may differ in their bits */
 std::string
 buildId();
 

@@ -36,8 +36,8 @@ struct CloseFile {
   }
 };
 
-/** In the child before exec: a process group of its own, an end with this process, and
- * the usual answers to signals. */
+/** In the child before exec: a process group of its own, death together with the parent
+ * process, and default signal handlers. */
 struct OwnGroup : bp::extend::handler {
   explicit OwnGroup(std::size_t memory) : memory_limit(memory) {}
 
@@ -50,7 +50,7 @@ struct OwnGroup : bp::extend::handler {
   {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) // it ended before the line above
+    if (::getppid() != parent) // the parent ended before prctl()
       ::_exit(127);
     for (const int number : {SIGPIPE, SIGINT, SIGTERM, SIGHUP})
       ::signal(number, SIG_DFL);
@@ -80,7 +80,7 @@ ChildProcess::ChildProcess(const ProcessStart& start) : time_limit_(start.time_l
                     bp::std_in<bp::null, (bp::std_out & bp::std_err)> log.get(),
                     OwnGroup(start.memory_limit));
     pid_ = child.id();
-    child.detach(); // poll() waits for it, and asks what it has used
+    child.detach(); // poll() calls wait4(), which also returns the resource usage
   } catch (const bp::process_error& error) {
     throw IoFailed(start.program.string() + ": cannot run: " + error.code().message());
   }

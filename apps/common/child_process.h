@@ -10,11 +10,11 @@
 
 namespace pcl6d::app {
 
-/** \brief How a program ended, and what it used. */
+/** \brief Exit status and resource usage of a process. */
 struct ProcessEnd {
   int exit_code = 0;         ///< 0 if a signal ended it
-  int signal = 0;            ///< that ended it; 0: it ended by itself
-  bool timed_out = false;    ///< it was ended because its time was over
+  int signal = 0;            ///< signal that ended the process; 0: a normal end
+  bool timed_out = false;    ///< ended because of the time limit
   double seconds = 0;        ///< of the clock, to within 5 ms
   double cpu_seconds = 0;    ///< of all its threads, user and system
   double peak_memory_mb = 0; ///< largest resident size [MB]
@@ -26,28 +26,28 @@ struct ProcessStart {
   std::vector<std::string> arguments;
   std::filesystem::path log;    ///< gets stdout and stderr, in their order
   double time_limit = 0;        ///< [s] 0: none
-  std::size_t memory_limit = 0; ///< [bytes] of its data; 0: none
+  std::size_t memory_limit = 0; ///< [bytes] limit of the data segment; 0: no limit
 };
 
-/** \brief A program in a process group of its own, which ends with this process, however
- * that ends: also by SIGKILL. */
+/** \brief A program in its own process group, which ends with this process, even if
+ * SIGKILL ends this process. */
 class ChildProcess {
 public:
   /** \throws IoFailed the log cannot be written, or the program not be run */
   explicit ChildProcess(const ProcessStart& start);
-  /** \brief Kills what still runs. */
+  /** \brief Kills the group if it still runs. */
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess&
   operator=(const ChildProcess&) = delete;
 
-  /** \brief Looks whether it has ended; to be called every few milliseconds. Past the time
-   * limit, or after stop(), its group is asked to end (SIGTERM) and killed when it has
-   * not ended kGrace later. */
+  /** \brief Checks whether the process has ended; to be called every few milliseconds.
+   * Past the time limit, or after stop(), the group gets SIGTERM, and SIGKILL if it
+   * still runs kGrace later. */
   std::optional<ProcessEnd>
   poll();
 
-  /** \brief Asks it to end. */
+  /** \brief Asks the group to end. */
   void
   stop();
 
@@ -59,7 +59,7 @@ private:
   pid_t pid_ = -1;
   double time_limit_;
   Clock::time_point begin_;
-  std::optional<Clock::time_point> asked_; ///< when it was asked to end
+  std::optional<Clock::time_point> asked_; ///< time of the request to end
   bool timed_out_ = false;
 };
 

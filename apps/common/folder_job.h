@@ -17,11 +17,11 @@
 
 namespace pcl6d::app {
 
-/** \brief What a verb works with that fills a folder: signals are watched, the folder is
- * claimed, nothing is in its place before publish(). */
+/** \brief Working state of a verb that fills a folder: watches signals and claims the
+ * folder. No file reaches its final path before publish(). */
 struct FolderJob {
-  /** \param[in] warning shown first; empty: none
-   * \param[in] rules of the folder; one without a name: there is none
+  /** \param[in] warning shown first; may be empty
+   * \param[in] rules of the folder; an empty folder name: no output folder
    * \throws IoFailed as OutputFolder */
   FolderJob(bool is_quiet, const std::string& warning, OutputRules rules)
   : quiet(is_quiet), bar(is_quiet)
@@ -32,8 +32,8 @@ struct FolderJob {
       out.emplace(std::move(rules));
   }
 
-  /** \brief Moves the files to their places, and prints their names after what is told
-   * before, unless quiet. */
+  /** \brief Publishes the files, calls tell, and then prints the names of the files
+   * unless quiet. */
   void
   publish(const std::function<void()>& tell = [] {})
   {
@@ -46,9 +46,9 @@ struct FolderJob {
     std::cout << std::flush;
   }
 
-  /** \brief Draws into the folder when all else is in its place: what draws may end the
-   * process. Prints the name, unless quiet.
-   * \return false: there should be a picture, and is none; the reason was told */
+  /** \brief Draws a picture into the published folder: publishing goes first, as
+   * drawing may end the process. Prints the name, unless quiet.
+   * \return false: the picture failed; a warning has told the reason */
   bool
   draw(const std::string& name,
        const std::function<void(const std::filesystem::path&)>& drawing)
@@ -56,7 +56,7 @@ struct FolderJob {
     const auto picture = out->folder() / name;
     try {
       drawing(picture);
-    } catch (const BadArgument& e) { // there is nothing that could be seen
+    } catch (const BadArgument& e) { // the map has no visible points
       bar.warn("no " + name + ": " + e.what());
       return true;
     } catch (...) {

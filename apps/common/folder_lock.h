@@ -5,40 +5,41 @@
 
 namespace pcl6d::app {
 
-/** \brief Holds a folder for one process, whatever machine or container the others run in, as
- * far as the file system knows locks. Lost with the process, however that ends. */
+/** \brief Lock on a folder for one process, across machines and containers if the file
+ * system supports locks. The lock ends with the process, even a killed one. */
 class FolderLock {
 public:
   FolderLock() = default;
 
-  /** \brief Takes the lock. \param[in] folder must exist
-   * \throws IoFailed it cannot be opened; std::system_error the reason */
+  /** \brief Takes the lock. \param[in] folder an existing folder
+   * \throws IoFailed the folder cannot be opened; std::system_error the reason */
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;
   FolderLock&
   operator=(FolderLock&& other) noexcept;
 
-  /** \return whether it is held; false: another process has it */
+  /** \return whether this process has the lock; false: another process has it */
   bool
   isHeld() const
   {
     return is_held_;
   }
 
-  /** \return whether the file system knows no locks, so that nobody can tell */
+  /** \return whether the file system lacks locks: another process may then use the
+   * folder unnoticed */
   bool
   isUnknown() const
   {
     return is_unknown_;
   }
 
-  /** \return whether the path still leads to the folder that was locked: it may have been
-   * removed or another one put in its place */
+  /** \return whether the path still leads to the locked folder, which may have been
+   * removed or replaced meanwhile */
   bool
   isAt(const std::filesystem::path& path) const;
 
-  /** \return the descriptor of the folder; -1: none */
+  /** \return the descriptor of the folder; -1: not open */
   int
   file() const
   {

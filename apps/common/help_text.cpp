@@ -28,8 +28,8 @@ nameOf(const po::option_description& option)
          (parameter.empty() ? "" : " " + parameter);
 }
 
-/** \return the words of a text with the space behind each; a list a|b|c that is longer
- * than a line is several words */
+/** \return the words of a text, each with its trailing space; a list a|b|c longer than
+ * a line is split into several words */
 std::vector<std::string>
 wordsOf(const std::string& text, std::size_t longest)
 {
@@ -48,7 +48,7 @@ wordsOf(const std::string& text, std::size_t longest)
   return words;
 }
 
-/** \return the text in lines, all but the first one indented */
+/** \return the text in lines; every line but the first is indented */
 std::string
 wrapped(const std::string& text, std::size_t indent, std::size_t columns)
 {
@@ -98,6 +98,12 @@ helpLines(const po::options_description& options, int columns)
     table += name + wrapped(option->description(), indent, width) + '\n';
   }
   return table;
+}
+
+std::string
+helpEnd()
+{
+  return "\nErrors and warnings, with cause and remedy: share/doc/messages.md\n";
 }
 
 } // namespace pcl6d::app

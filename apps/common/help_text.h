@@ -7,16 +7,20 @@
 
 namespace pcl6d::app {
 
-/** \return the columns that --help may take: what the variable COLUMNS says, else those of
- * the terminal, but at most 100, else 100. Man pages and completion ask for very wide
- * help, which has each option on a line of its own. */
+/** \return the width of --help [columns]: the variable COLUMNS, else the width of the
+ * terminal up to 100, else 100. Generators of man pages and completions ask for very
+ * wide help, where each option takes a single line. */
 int
 helpColumns();
 
-/** \return a line `  -o, --output FILE  what it does` per option, wrapped at spaces, or
- * behind the bars of a list of words, with the continuation below the description; two
- * spaces or more in front of that */
+/** \return a line `  -o, --output FILE  description` per option. Lines are wrapped at
+ * spaces or behind the bars of a word list; continuation lines start below the
+ * description, after two spaces or more */
 std::string
 helpLines(const boost::program_options::options_description& options, int columns);
+
+/** \return the last line of --help: where messages of the program are explained */
+std::string
+helpEnd();
 
 } // namespace pcl6d::app

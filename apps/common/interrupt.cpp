@@ -18,7 +18,8 @@ Interrupt::Interrupt()
   g_requested = 0;
   struct sigaction action {};
   action.sa_handler = onSignal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART; // the next one ends it
+  // a second signal ends the process
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     ::sigaction(kSignals[i], nullptr, &before_[i]);
     if (before_[i].sa_handler != SIG_IGN)

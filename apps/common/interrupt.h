@@ -6,9 +6,9 @@
 
 namespace pcl6d::app {
 
-/** \brief Turns SIGINT, SIGTERM and SIGHUP into a request to stop, for the length of its
- * scope. A second signal of a kind ends the program at once. A signal that was ignored
- * before (nohup) stays so. One at a time. */
+/** \brief Turns SIGINT, SIGTERM and SIGHUP into a request to stop, until destruction. A
+ * second signal of a kind ends the program at once. Signals ignored before (nohup) stay
+ * ignored. At most one instance at a time. */
 class Interrupt {
 public:
   Interrupt();

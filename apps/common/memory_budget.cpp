@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/listed_options.h"
 #include "common/memory_budget.h"
-#include "common/option_table.h"
 #include "common/scratch_arena.h"
 
 #include <pcl6d/common/error.h>
@@ -26,38 +26,40 @@ namespace pcl6d::app {
 namespace {
 constexpr std::size_t kMega = std::size_t{1} << 20;
 
-/** Smaller blocks stay on the heap: rounding up to pages would waste more than it moves. */
+/** Smaller blocks stay on the heap: rounding up to pages would waste more memory than
+ * moving saves. */
 constexpr std::size_t kLargeBlock = 2 << 10;
 
-/** Of the budget: pages are let go above this share. The rest is for what is taken until the
- * watch looks again. */
+/** Share of the budget above which pages are released. The rest covers allocations
+ * until the next check of the watch thread. */
 constexpr double kFull = 0.75;
-/** Of the budget: new large blocks go to the file while the heap is above this share. */
+/** Share of the budget: while the heap is above it, new large blocks go to the file. */
 constexpr double kHeap = 0.4;
 
-/** [bytes/s] The process does not grow faster: pages are cleared at about that speed. */
+/** [bytes/s] Upper bound of the growth of the process, about the speed of clearing pages. */
 constexpr double kFastest = 4e9;
 constexpr double kLongestPause = 0.1, kShortestPause = 0.001; // [s]
 
 constexpr std::chrono::milliseconds kTrimPause(500);
 
-/** [bytes] a point of the scan at work, twice: as it was read and gated, its rays, its tree. */
+/** [bytes] a point of the scan at work, counted twice (as read, and gated), its rays,
+ * its tree. */
 constexpr std::size_t kBytesPerPoint = 4;
 /** [bytes] of the program without any scan. */
 constexpr std::size_t kProgram = 160 * kMega;
 
-/** What operator new looks at; never destroyed, as memory is freed until the very end. */
+/** State read by operator new; never destroyed, as memory is freed until the very end. */
 ScratchArena* arena = nullptr;
 std::size_t budget = 0;
 std::size_t most_heap = std::numeric_limits<std::size_t>::max(); ///< [bytes]
 bool is_strict = false; ///< the user gave the budget: no room in the file is an error
-/** [bytes] when the watch looked, and what large blocks were taken since */
+/** [bytes] heap at the last check, and large blocks taken since */
 std::atomic<std::size_t> heap{0};
 
-/** \brief What the process holds. */
+/** \brief Resident memory of the process. */
 struct Residence {
   std::size_t all = 0;  ///< [bytes]
-  std::size_t heap = 0; ///< [bytes] of them in no file
+  std::size_t heap = 0; ///< [bytes] resident outside files
 };
 
 Residence
@@ -93,8 +95,8 @@ watch()
   }
 }
 
-/** The heap keeps what was freed. To give it back takes long: nothing that the watch has time
- * for. */
+/** Returns freed memory of the heap to the system, in a thread of its own: trimming
+ * takes too long for the watch thread. */
 void
 trim()
 {
@@ -107,14 +109,24 @@ trim()
 } // namespace
 
 void
+MemoryOption::describe(OptionList& list)
+{
+  list.addWord("memory SIZE",
+               bytes,
+               [this](const std::string& word) { bytes = memorySize(word); })
+      .as(OptionRole::kSession)
+      .withDefault("half of the machine's")
+      .withHelp(
+          "most memory to use at a time, for example 500M or 1.5G; the rest is kept in "
+          "a file in the output folder during the run. Never changes the result");
+}
+
+void
 MemoryOption::addTo(OptionTable& table)
 {
-  table
-      .addWord("memory SIZE",
-               "half of the machine's",
-               [this](const std::string& word) { bytes = memorySize(word); })
-      .help("most memory to hold at a time, such as 500M or 1.5G; the rest of the work "
-            "lies in a file in the output folder meanwhile. Never changes the result");
+  OptionList list;
+  describe(list);
+  addOption(table, list.rows().front());
 }
 
 std::size_t
@@ -133,8 +145,7 @@ memorySize(const std::string& text)
   const std::size_t power = unit.empty() ? 0 : kUnits.find(unit);
   if (end == text.c_str() || unit.size() > 1 || power == std::string::npos ||
       !std::isfinite(number))
-    throw UsageError("--memory = " + text +
-                     ", but expected a size such as 500M or 1.5G");
+    throw UsageError("--memory = " + text + ", but expected a size like 500M or 1.5G");
   const double bytes = std::ldexp(number, 10 * static_cast<int>(power));
   if (!(bytes >= 1))
     throw UsageError("--memory = " + text + ", but must be > 0");
@@ -183,7 +194,8 @@ MemoryBudget::MemoryBudget(const MemoryOption& option,
   if (is_strict) // large blocks of the heap go back to the system at once
     ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
   arena = new ScratchArena(nearestFolder(folder));
-  try { // without them no large block counts as freed: more goes to the file
+  // without the threads, freed large blocks still count: more data goes to the file
+  try {
     std::thread(watch).detach();
     std::thread(trim).detach();
   } catch (const std::system_error&) {}
@@ -201,7 +213,7 @@ MemoryBudget::require(std::size_t points, const std::string& scan) const
   const std::size_t needed = kProgram + 2 * points * kBytesPerPoint;
   if (needed > bytes())
     throw IoFailed(scan + ": " + std::to_string(points) +
-                   " points; to work on two such scans takes --memory " +
+                   " points; two scans of this size need --memory " +
                    std::to_string(needed / kMega + 1) + "M");
 }
 
@@ -222,9 +234,8 @@ public:
   }
 };
 
-/** \param[in] alignment a power of two up to that of a page; 0: the usual
- * \throws std::bad_alloc where there is no memory
- */
+/** \param[in] alignment a power of two up to the page size; 0: the default
+ * \throws std::bad_alloc out of memory */
 void*
 takeBlock(std::size_t bytes, std::size_t alignment = 0)
 {
@@ -246,11 +257,11 @@ takeBlock(std::size_t bytes, std::size_t alignment = 0)
   if (block)
     return block;
   if (const std::new_handler tell = std::get_new_handler())
-    tell(); // throws, or there is still nothing
+    tell(); // throws if memory is still lacking
   throw std::bad_alloc();
 }
 
-/// Like takeBlock(), with a null pointer where there is no memory.
+/// Like takeBlock(), but returns a null pointer when out of memory.
 void*
 takeBlockOrNull(std::size_t bytes, std::size_t alignment = 0) noexcept
 {
@@ -273,9 +284,9 @@ giveBlock(void* block) noexcept
 
 } // namespace pcl6d::app
 
-// The replaceable functions of the language; the forms for arrays call these. The forms without
-// exceptions are here, too: those of a sanitizer take memory of its own, which
-// these deletes would give back to malloc.
+// Replacements of the global operators; the array forms call these functions. The
+// nothrow forms are replaced too: a sanitizer's own would allocate memory that these
+// deletes hand to malloc's free().
 void*
 operator new(std::size_t bytes)
 {

@@ -5,17 +5,25 @@
 #include <filesystem>
 #include <string>
 
+namespace pcl6d {
+class OptionList;
+}
+
 namespace pcl6d::app {
 
 class OptionTable;
 
-/** \brief `--memory SIZE` of a program: what its process may hold in memory at a time. */
+/** \brief Option `--memory SIZE` of a program: upper bound of the memory of its process. */
 struct MemoryOption {
   std::size_t bytes = 0; ///< 0: not given
 
   /** \brief Adds the row to a table. */
   void
   addTo(OptionTable& table);
+
+  /** \brief Adds the row to a list of options. */
+  void
+  describe(OptionList& list);
 };
 
 /** \return [bytes] of "1G", "500M", "1.5 GiB", "800000k": powers of 1024; without a unit, bytes
@@ -23,38 +31,39 @@ struct MemoryOption {
 std::size_t
 memorySize(const std::string& text);
 
-/** \return [bytes] of the machine, or of the container if that has less */
+/** \return memory [bytes] of the machine, or of the container if less */
 std::size_t
 machineMemory();
 
-/** \brief Bounds the resident size of the process, whatever it works on.
+/** \brief Bounds the resident size of the process, whatever the size of the data.
  *
- * While the heap takes less than two fifths of the budget, memory comes from the heap. From
- * then on, every block of 2 kB and more lies in a file without a name (ScratchArena), and when
- * the process comes near its budget, it lets go of the pages of all of them: those that are
- * used come back at once, mostly from the system's cache, which is no part of the process.
- * Places of blocks do not change, so that nothing but time depends on the budget.
+ * While the heap takes less than two fifths of the budget, memory comes from the heap.
+ * From then on, every block of 2 kB and more lies in a file without a name
+ * (ScratchArena), and a process near its budget releases the pages of these blocks.
+ * Used pages come back at once, mostly from the system's cache, which does not count as
+ * memory of the process. Addresses of blocks never change, so the budget affects only
+ * run time.
  *
- * Works by the operators new and delete of the programs; what libraries take by malloc, such
- * as pictures, is not moved, but counted. */
+ * Works by the operators new and delete of the programs; memory that libraries take by
+ * malloc, such as pictures, is counted but not moved. */
 class MemoryBudget {
 public:
-  /** \brief Starts to watch, until the process ends: of several, the first counts.
+  /** \brief Starts to watch, until the process ends; only the first instance counts.
    * \param[in] option not given: half of the machine's memory
-   * \param[in] folder for the file, if it comes to one; if it is not there, the nearest above
-   * it */
+   * \param[in] folder for the file, if needed; if missing, its nearest existing parent */
   MemoryBudget(const MemoryOption& option, const std::filesystem::path& folder);
 
   /** \return [bytes] */
   std::size_t
   bytes() const;
 
-  /** \brief Makes sure that work on a scan fits in. \param[in] points of it
-   * \throws IoFailed it does not; tells what is needed */
+  /** \brief Makes sure that work on a scan fits in. \param[in] points number of points
+   * of the scan
+   * \throws IoFailed the budget is too small; the message tells the memory needed */
   void
   require(std::size_t points, const std::string& scan) const;
 
-  /** \return [bytes] that lie in the file */
+  /** \return size of the blocks in the file [bytes] */
   std::size_t
   scratch() const;
 };

@@ -6,6 +6,8 @@
 
 #include <pcl6d/filters/scan_parameters.h>
 #include <pcl6d/run/registered_scans.h>
+#include <pcl6d/sources/bag.h>
+#include <pcl6d/sources/open_source.h>
 
 #include <optional>
 #include <sstream>
@@ -13,18 +15,33 @@
 
 namespace pcl6d::app {
 
-/** \brief Opens the scans of a folder, raw or of a finished run.
+/** \return whether the file contains several scans, such as E57, PTX or a recording */
+inline bool
+holdsScans(const std::filesystem::path& path)
+{
+  return isSourceFile(path) && (isBag(path) || !std::filesystem::is_directory(path));
+}
+
+/** \brief Opens the scans of a folder, raw or of a finished run, or of a file with
+ * several scans.
  * \throws UsageError the options select no scan, or give poses for a run
  * \throws IoFailed as RegisteredScans */
 inline RegisteredScans
 openScans(const std::filesystem::path& path, const ScanFolderOptions& options)
 {
   std::optional<RegisteredScans> scans;
-  checkOptions([&] { scans.emplace(path, options); }, {{"poses_file", "poses"}});
+  checkOptions(
+      [&] {
+        if (holdsSourceScans(path))
+          scans.emplace(openScanFolder(path, options));
+        else
+          scans.emplace(path, options);
+      },
+      {{"poses_file", "poses"}});
   return *std::move(scans);
 }
 
-/** \brief The same, and says how many there are and where the poses come from. */
+/** \brief As above; also prints the number of scans and the source of the poses. */
 inline RegisteredScans
 openScans(const std::filesystem::path& path,
           const ScanFolderOptions& options,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows of the table: what an option is and which variable it sets.
+// Rows of the option table: an option and its variable.
 #include "common/option_table.h"
 
 #include <pcl6d/common/error.h>

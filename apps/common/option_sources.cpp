@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options that do not come from the command line: each is told with its place.
+// Options from sources beside the command line; messages name the source and the line.
 #include "common/app.h"
 #include "common/option_table.h"
 #include "common/option_words.h"
@@ -16,7 +16,7 @@ namespace po = boost::program_options;
 namespace pcl6d::app {
 
 namespace {
-/** \return the option that a message is about: "--voxel = -1, but ..." */
+/** \return the option named by a message: "--voxel = -1, but ..." */
 std::string
 optionIn(const std::string& message)
 {
@@ -25,7 +25,7 @@ optionIn(const std::string& message)
              : std::string();
 }
 
-/** \return the content of a config file \throws UsageError it cannot be read */
+/** \return the content of a config file \throws UsageError the file cannot be read */
 std::string
 configText(const std::string& file)
 {
@@ -74,7 +74,7 @@ OptionTable::readBrought(const BroughtOptions& brought)
   for (const auto& [name, value] : brought.options) {
     const Place place{brought.source + ": option '" + name + "'", true};
     if (!all.find_nothrow(name, false))
-      throw IoFailed(place.text + ": there is no such option");
+      throw IoFailed(place.text + ": no option has this name");
     po::parsed_options parsed(&all);
     parsed.options.emplace_back(name, std::vector<std::string>{value});
     try {

@@ -47,7 +47,7 @@ OptionTable::describeAll() const
 }
 
 namespace {
-/** The options that every program has; they have no sense in a config file. */
+/** The options of every program; a config file cannot set these. */
 po::options_description
 generalOptions()
 {
@@ -91,7 +91,8 @@ OptionTable::answerQuestions() const
       std::cout << '\n'
                 << group.caption << ":\n"
                 << helpLines(describe(group), columns);
-    std::cout << "\nGeneral options:\n" << helpLines(generalOptions(), columns);
+    std::cout << "\nGeneral options:\n"
+              << helpLines(generalOptions(), columns) << helpEnd();
     return true;
   }
   if (values_.count("version")) {
@@ -102,8 +103,8 @@ OptionTable::answerQuestions() const
 }
 
 namespace {
-/** \return whether a value, or one of several, is a text of no letters: it names nothing,
- * mostly a variable of the shell that is not set */
+/** \return whether a value, or an element of a list, is an empty text, mostly from an
+ * unset variable of the shell */
 bool
 holdsEmptyText(const boost::any& value)
 {
@@ -133,7 +134,7 @@ OptionTable::parse(const std::vector<std::string>& arguments)
   readArguments(arguments);
   if (answerQuestions())
     return false;
-  refuseEmptyTexts(); // before what they name is opened
+  refuseEmptyTexts(); // before the files named by options are opened
   if (values_.count("config"))
     readConfig(values_["config"].as<std::string>());
   if (!bringing_option_.empty() && values_.count(bringing_option_))
@@ -236,7 +237,7 @@ joined(const std::vector<std::string>& words, const std::string& between)
 }
 
 namespace {
-/** \return whether a file is one that pcl_slam6d has written to a run, and that others read */
+/** \return whether a file was written to a run by pcl_slam6d and is read by other programs */
 bool
 isFileOfRun(const fs::path& file, const fs::path& run)
 {
@@ -269,7 +270,8 @@ refuseSameOutput(const std::string& option,
                  const std::string& other)
 {
   std::error_code error;
-  const auto place = [&](const std::string& path) { // one that is not there, too
+  // also of a file that does not exist
+  const auto place = [&](const std::string& path) {
     return fs::weakly_canonical(fs::absolute(path, error), error);
   };
   if (!output.empty() && !other.empty() && place(output) == place(other))

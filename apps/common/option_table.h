@@ -21,17 +21,17 @@ namespace pcl6d::app {
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 constexpr double kFinite = std::numeric_limits<double>::max(); ///< the largest one
 
-/** \brief A row of the table: an option and the variable that it sets. Rules count for what
- * the user gives, in the unit of the option; without one, any number will do, but nan. */
+/** \brief Row of the option table: an option and its variable. Rules apply to the given
+ * value, in the unit of the option; without a rule, any number but nan is accepted. */
 class Option {
 public:
-  /** \brief What --help says, with the unit: "[m] nearer points are dropped". */
+  /** \brief Text of --help, with the unit: "[m] nearer points are dropped". */
   Option&
   help(const std::string& text);
   /** \brief Must be given; --help shows no default. */
   Option&
   required();
-  /** \brief The values of the command line come on top of those of a config file. */
+  /** \brief Values of the command line are added to the values of a config file. */
   Option&
   composing();
   /** \brief Several values may follow the name. */
@@ -43,11 +43,11 @@ public:
   /** \brief The value must be in (low, high]. */
   Option&
   above(double low, const std::string& rule, double high = kNoBound);
-  /** \brief The value of a word that is given without one: `--name`; another one stands behind
-   * an equals sign: `--name=word`. */
+  /** \brief Value of an option given by its name alone: `--name`; another value stands
+   * behind an equals sign: `--name=word`. */
   Option&
   implied(const std::string& word);
-  /** \brief The word of the summary for an option without default that is not given. */
+  /** \brief Word in the summary for an option without default if it is not given. */
   Option&
   otherwise(const std::string& word);
 
@@ -58,36 +58,36 @@ private:
   std::string name_;    ///< for boost: "output,o"
   std::string operand_; ///< how --help calls the value; empty: arg
   std::string help_;
-  std::string usual_;     ///< the default in words; empty: none
+  std::string usual_;     ///< the default in words; may be empty
   std::string otherwise_; ///< see otherwise()
   std::string implied_;   ///< see implied()
   bool required_ = false, composing_ = false, multitoken_ = false;
   std::string rule_;
-  std::function<bool(double)> obeys_; ///< the rule; empty: there is none
+  std::function<bool(double)> obeys_; ///< the rule; empty: any number
   std::function<boost::program_options::value_semantic*(const Option&)> semantic_;
   std::function<void(const Value&)> take_;        ///< sets the variable
   std::function<double(const Value&)> number_;    ///< for obeys_
   std::function<std::string(const Value&)> text_; ///< as in the summary
 };
 
-/** \brief An option as it goes into the summary. */
+/** \brief An option as shown in the summary. */
 struct OptionWord {
   std::string name;
-  std::string value; ///< as given, or as it is by default
+  std::string value; ///< as given, or the default
   bool given;
 };
 
-/** \brief Options that do not come from the command line, with their values as text. */
+/** \brief Options from a source beside the command line, with their values as text. */
 struct BroughtOptions {
   std::string source;                                       ///< file, for messages
   std::vector<std::pair<std::string, std::string>> options; ///< names without dashes
 };
 
-/** \brief An option that counts only in some runs. */
+/** \brief An option that has an effect only in some runs. */
 struct ConditionalOption {
   std::string name;      ///< without dashes
-  bool used;             ///< whether it counts in this run
-  std::string condition; ///< when it counts, such as "of the metric point"
+  bool used;             ///< whether the option has an effect in this run
+  std::string condition; ///< condition of the effect, such as "of the metric point"
 };
 
 /** \brief A number, or the word "auto": no number. */
@@ -100,17 +100,17 @@ operator>>(std::istream& stream, AutoNumber& value);
 std::ostream&
 operator<<(std::ostream& stream, const AutoNumber& value);
 
-/** \brief The options of a program, each in a row that binds its name, its variable with
- * the default, its rule and its help:
+/** \brief Options of a program; each row binds a name, a variable with the default, a
+ * rule and a help text:
  * \code
  * table.group("Range gate");
  * table.addAuto("max-range", &s.max_range).help("[m] farther points are dropped");
  * table.add("output,o DIR", &s.out).required().help("folder to write");
  * \endcode
  * Read from the command line and, with `--config FILE`, from a file of `name = value`
- * lines; the command line wins. The name may be followed by a comma and the short name, and
- * by a blank and what --help calls the value. The variable holds the default and keeps it
- * unless the option is given. */
+ * lines; the command line wins. The name may be followed by a comma and the short name,
+ * and by a blank and the operand shown in --help. A variable keeps its value, the
+ * default, unless the option is given. */
 class OptionTable {
 public:
   /** \param[in] usage the lines above the options in --help */
@@ -120,7 +120,7 @@ public:
   void
   group(const std::string& caption);
 
-  /** \brief A number, text or anything else that streams read and write. */
+  /** \brief Adds a number, a text, or another type with stream operators. */
   template <typename T>
   Option&
   add(const std::string& name, T* variable)
@@ -129,7 +129,7 @@ public:
         name, textOf(*variable), [variable](const T& value) { *variable = value; });
   }
 
-  /** \brief A switch, which turns the variable to the other value than it has. */
+  /** \brief Adds a switch, which inverts the variable. */
   Option&
   add(const std::string& name, bool* variable);
 
@@ -182,8 +182,8 @@ public:
     });
   }
 
-  /** \brief A number that is kept in another type than it is typed in: unsigned ones must
-   * not turn -1 into a large number. */
+  /** \brief Adds a number that is parsed as another type than stored: -1 must not
+   * become a large unsigned number. */
   template <typename Typed, typename T>
   Option&
   addAs(const std::string& name, T* variable)
@@ -193,64 +193,65 @@ public:
     });
   }
 
-  /** \brief A number, or auto. \param[in] unit of the option in that of the variable */
+  /** \brief A number, or auto. \param[in] unit of the option, in units of the variable */
   Option&
   addAuto(const std::string& name, std::optional<double>* variable, double unit = 1);
 
-  /** \brief A word that a function understands. Its BadArgument becomes a UsageError that
-   * names the option. \param[in] usual the default, as shown */
+  /** \brief Adds a word parsed by a function. Its BadArgument becomes a UsageError that
+   * names the option. \param[in] usual text of the default */
   Option&
   addWord(const std::string& name,
           const std::string& usual,
           std::function<void(const std::string&)> take);
 
   /** \brief Declares the next positional argument; it is required.
-   * \param[in] name as shown in errors, e.g. SCAN_DIR */
+   * \param[in] name shown in errors, e.g. SCAN_DIR */
   void
   positional(const std::string& name, std::string* value);
 
-  /** \brief Declares that all further positional arguments belong together; at least one
-   * is required. */
+  /** \brief Declares a list for the remaining positional arguments; at least one is
+   * required. */
   void
   positionals(const std::string& name, std::vector<std::string>* values);
 
-  /** \brief Lets the value of an option bring others, which count where neither the
-   * command line nor the config file gives them. Each value is read as one, whatever its
-   * text holds, and obeys the rules of its option.
-   * \param[in] options for a value of the option; what this throws goes through parse() */
+  /** \brief Lets the value of an option set further options, unless the command line or
+   * the config file sets them. Each text is read as a single value and must obey the
+   * rules of its option.
+   * \param[in] options returns the further options for a value; its exceptions pass
+   * through parse() */
   void
   bringOptions(const std::string& option,
                std::function<BroughtOptions(const std::string& value)> options);
 
-  /** \brief Parses, checks the rules and sets the variables, in the order of the rows; on
-   * --help or --version prints it to stdout.
-   * \return false when the program has nothing more to do
-   * \throws UsageError, boost::program_options::error the arguments break a rule; what came
-   * from a config file is told with file and line
-   * \throws IoFailed an option that was brought breaks its rule */
+  /** \brief Parses, checks the rules and sets the variables, in the order of the rows;
+   * --help and --version print to stdout.
+   * \return false: --help or --version was given, and the program is to end
+   * \throws UsageError, boost::program_options::error the arguments break a rule; for a
+   * config file the message tells file and line
+   * \throws IoFailed an option set by bringOptions() breaks its rule */
   bool
   parse(const std::vector<std::string>& arguments);
 
-  /** \brief As app::checkOptions(), and the message names the file that the option came
-   * from, if it was not the command line. */
+  /** \brief As app::checkOptions(); the message also names the source of the option,
+   * unless given on the command line. */
   void
   check(const std::function<void()>& check,
         const std::map<std::string, std::string>& words = {}) const;
 
-  /** \return whether the user gave the option (so it is no default) */
+  /** \return whether the user gave the option */
   bool
   given(const std::string& option) const;
 
-  /** \return options as given, or as they are by default */
+  /** \return options with their given or default values */
   std::vector<OptionWord>
   words(const std::vector<std::string>& options) const;
 
-  /** \return one sentence about the options that the user gave though they are not used
-   * in this run; empty if there are none */
+  /** \return one sentence about given options without effect in this run; empty: every
+   * given option counts */
   std::string
   withoutEffect(const std::vector<ConditionalOption>& options) const;
 
-  /** \throws UsageError an option that needs a folder is given, but the input is none */
+  /** \throws UsageError an option for folders is given, but the input is no folder */
   void
   needFolder(const std::string& input, const std::vector<std::string>& options) const;
 
@@ -288,7 +289,8 @@ private:
     if (row.required_)
       value->required();
     else if (!row.usual_.empty())
-      value->default_value(T(), row.usual_); // shown only, the variable has it
+      // for display; the variable has the default already
+      value->default_value(T(), row.usual_);
     if constexpr (std::is_same_v<T, std::string>)
       if (!row.implied_.empty())
         value->implicit_value(row.implied_);
@@ -335,50 +337,52 @@ private:
   void
   readBrought(const BroughtOptions& brought);
 
-  /** Where an option that is not of the command line stands. */
+  /** Source of an option that is not from the command line. */
   struct Place {
     std::string text; ///< "run.cfg: line 3"
-    bool is_data;     ///< the user did not write it
+    bool is_data;     ///< from data, not written by the user
   };
-  /** Takes options that are not given yet. */
+  /** Adds options not given so far. */
   void
   store(const boost::program_options::parsed_options& options, const Place& place);
-  /** \throws UsageError, or IoFailed about data: the message, with the option's place */
+  /** \throws UsageError, or IoFailed about data: the message, with the source of the option */
   [[noreturn]] void
   blame(const std::string& option, const std::string& message) const;
   bool
   answerQuestions() const;
-  /** \throws UsageError, or IoFailed about data: one of the values so far is an empty text */
+  /** \throws UsageError a value is an empty text; IoFailed if it comes from data */
   void
   refuseEmptyTexts() const;
   void
   takeValues() const;
 
   std::string usage_;
-  std::deque<Group> groups_; ///< the last one is that of --help, in parse()
+  /** the last group is the general one, with --help, in parse() */
+  std::deque<Group> groups_;
   boost::program_options::options_description hidden_;
   boost::program_options::positional_options_description positions_;
   std::vector<std::string> positional_names_;
   std::string bringing_option_; ///< see bringOptions()
   std::function<BroughtOptions(const std::string&)> brought_options_;
-  std::map<std::string, Place> places_; ///< of options that are not of the command line
+  /** source of each option not given on the command line */
+  std::map<std::string, Place> places_;
   boost::program_options::variables_map values_;
 };
 
-/** \return words with something between: "point|plane|gicp" */
+/** \return the words with a separator between: "point|plane|gicp" */
 std::string
 joined(const std::vector<std::string>& words, const std::string& between = "|");
 
-/** \throws UsageError the file of --output is an input, or one that pcl_slam6d wrote to a
- * run that is one; empty paths are none
- * \param[in] input what the message calls it */
+/** \throws UsageError the file of --output is an input, or was written by pcl_slam6d to
+ * an input run; empty paths are ignored
+ * \param[in] input name of the input in the message */
 void
 refuseInputs(const std::string& output,
              const std::vector<std::string>& inputs,
              const std::string& input = "an input",
              const std::string& option = "--output");
 
-/** \throws UsageError two options name one file; an empty path names none */
+/** \throws UsageError two options name one file; empty paths are ignored */
 void
 refuseSameOutput(const std::string& option,
                  const std::string& output,

@@ -9,10 +9,10 @@ namespace pcl6d::app {
 namespace {
 namespace po = boost::program_options;
 
-/** Stands for the character that begins and ends placeholders. */
+/** Replaces the delimiter of placeholders. */
 constexpr char kPercent = '\x1f';
 
-/** The way to what Boost keeps for those that derive from it. */
+/** Gives access to protected members of Boost's error class. */
 struct Given : po::error_with_option_name {
   static std::map<std::string, std::string>&
   in(po::error_with_option_name& error)

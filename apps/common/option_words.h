@@ -7,9 +7,9 @@
 
 namespace pcl6d::app {
 
-/** \return what an error of Boost's options says. Its own what() puts texts that the user gave into
- * others, placeholder by placeholder, and never ends where one of them holds a placeholder, as
- * `--voxel=%value%` does */
+/** \return the message of an error of Boost's options. Its own what() substitutes
+ * placeholders in texts of the user as well, and never ends on a text with a
+ * placeholder, such as `--voxel=%value%` */
 std::string
 wordsOf(boost::program_options::error& error);
 

@@ -13,13 +13,13 @@ namespace fs = std::filesystem;
 namespace pcl6d::app {
 
 namespace {
-/** \return whether a file is the marker that a program left */
+/** \return whether a file is the marker of a program */
 bool
 isMarkerOf(const fs::path& file, const std::string& program)
 {
   std::error_code error;
   if (!file.has_filename() || !fs::is_regular_file(file, error))
-    return false; // the program leaves none, or none is there
+    return false; // the program has no marker, or the folder none
   try {
     JsonObject json(readJson(file));
     std::string generator;
@@ -30,7 +30,7 @@ isMarkerOf(const fs::path& file, const std::string& program)
   }
 }
 
-/** \return whether a folder holds nothing but what this machinery makes */
+/** \return whether a folder is empty but for hidden files of publication.h */
 bool
 isEmpty(const fs::path& folder)
 {
@@ -40,8 +40,8 @@ isEmpty(const fs::path& folder)
   return true;
 }
 
-/** \return whether there is nothing but an interrupted run: its journal and, if it was killed
- * while its files were moved to their places, some of these */
+/** \return whether the folder contains only an interrupted run: its journal and, if the
+ * run was killed while publishing, some of its files */
 bool
 holdsInterruptedRun(const fs::path& folder, const OutputRules& rules)
 {
@@ -61,7 +61,7 @@ refuseForeignFolder(const fs::path& folder, const OutputRules& rules)
       isMarkerOf(folder / rules.marker, rules.program))
     return;
   if (rules.marker.empty())
-    throw IoFailed(rules.folder.string() + ": folder is not empty; use a new one");
+    throw IoFailed(rules.folder.string() + ": folder is not empty; use a new folder");
   throw IoFailed(rules.folder.string() +
                  ": folder is not empty and holds no earlier run of " + rules.program +
                  " (no " + rules.marker + " of it); use another folder or --force");
@@ -93,7 +93,8 @@ refuseLinkedFolders(const fs::path& folder, const std::string& name)
                      entry.path().filename().string() + "; use another output folder");
 }
 
-/** \return the topmost part of the path that does not exist yet; empty if all exists */
+/** \return the topmost part of the path that does not exist yet; empty: the whole path
+ * exists */
 fs::path
 topmostMissing(const fs::path& folder)
 {
@@ -103,8 +104,8 @@ topmostMissing(const fs::path& folder)
   return missing;
 }
 
-/** Removes a folder also where fs::remove_all(), which follows no link that somebody puts in
- * meanwhile, has no descriptors left: it takes one for each level. */
+/** Removes a folder even if fs::remove_all(), which needs a descriptor per level, has
+ * run out of descriptors. Links are not followed. */
 void
 removeFolder(const fs::path& folder)
 {
@@ -135,7 +136,7 @@ OutputFolder::OutputFolder(OutputRules rules)
             rules_.journal};
   if (error)
     throw IoFailed(place_.shown + ": " + error.message());
-  if (fs::is_symlink(place_.folder, error)) // one that leads somewhere is resolved
+  if (fs::is_symlink(place_.folder, error)) // resolves a link to an existing target
     throw IoFailed(place_.shown + ": is a link to " +
                    fs::read_symlink(place_.folder, error).string() +
                    ", which does not exist");
@@ -159,7 +160,7 @@ OutputFolder::OutputFolder(OutputRules rules)
   }
 }
 
-/** Makes the folder if need be, and keeps others from it. */
+/** Makes the folder if missing, and locks it against other processes. */
 void
 OutputFolder::claim()
 {
@@ -175,12 +176,12 @@ OutputFolder::claim()
     lock_ = FolderLock(place_.folder);
     if (!lock_.isHeld())
       throw IoFailed(place_.shown + ": another run is writing into this folder");
-    if (lock_.isAt(place_.folder)) // else a run has put another one there meanwhile
+    if (lock_.isAt(place_.folder)) // else another run has replaced the folder meanwhile
       return;
   }
 }
 
-/** Removes the folders that were made here, as far as nothing is in them. */
+/** Removes the folders made by this object, if empty. */
 void
 OutputFolder::removeMade()
 {
@@ -197,7 +198,7 @@ OutputFolder::removeMade()
 OutputFolder::~OutputFolder()
 {
   if (staging_lock_.isAt(staging_)) {
-    staging_lock_ = FolderLock(); // its descriptor may be the last one
+    staging_lock_ = FolderLock(); // its descriptor may be the last free one
     removeFolder(staging_);
   }
   removeMade();

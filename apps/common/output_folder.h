@@ -11,46 +11,48 @@
 
 namespace pcl6d::app {
 
-/** \brief What a program may do to the folder that it writes. */
+/** \brief Rights of a program over its output folder. */
 struct OutputRules {
   std::filesystem::path folder;
   std::vector<std::filesystem::path>
       inputs;          ///< files and folders; may hold empty paths
-  std::string program; ///< its name, which its marker holds as "generator"
-  /** the JSON file that every run of the program leaves; empty if it leaves none, and
-   * then every folder that is not empty is foreign */
+  std::string program; ///< name of the program, stored in the marker as "generator"
+  /** JSON file written by every run of the program; empty: no marker, and every folder
+   * with files counts as foreign */
   std::string marker;
-  std::regex files;   ///< relative paths of all files that a run may leave
-  bool force = false; ///< accept a folder that holds other things
-  /** name of a file in the folder that outlives a run which fails; empty: none. A folder that
-   * holds it, and at most files of a run besides, is no foreign one */
+  std::regex files;   ///< relative paths of the files of a run
+  bool force = false; ///< accept a folder with foreign files
+  /** name of a file in the folder that outlives a failed run; may be empty. A folder
+   * with this file, and at most files of a run besides, is not foreign */
   std::string journal = {};
 };
 
-/** \brief What becomes of the journal of a run when its files are published. */
+/** \brief Fate of the journal of a run when its files are published. */
 enum class Journal { kKeep, kDrop };
 
-/** \brief The folder that a program writes: whole or not at all.
+/** \brief Output folder of a program, written as a whole or not at all.
  *
- * Files are written to a hidden folder beside it, which only this user can open, and put in
- * its place by publish(), together. What an earlier run of the program left is then gone, and
- * nothing else: a folder that holds other things is refused without `force`, and with it only
- * files of the same name are replaced. Inputs are never touched. If publish() is not reached,
- * all is as it was before, but for the journal; if the process is killed in it, it is all as
- * before or all new (publication.h). The folder is locked for as long as this lives. */
+ * Files are written to a hidden folder beside the output folder, readable only by this
+ * user; publish() moves them to their final paths together. It removes only files of an
+ * earlier run of the program. A folder with foreign files is rejected without `force`;
+ * with `force`, only files of equal name are replaced. Inputs are never touched.
+ * Without publish(), the folder stays unchanged but for the journal. If the process is
+ * killed in publish(), either every file is old or every file is new (publication.h).
+ * The folder is locked until destruction. */
 class OutputFolder {
 public:
-  /** \throws IoFailed the path leads through a file, is or holds an input, holds foreign
-   * files or a link in place of a folder of ours, is written by another run, or cannot be
-   * made */
+  /** \throws IoFailed the path leads through a file, is or contains an input, contains
+   * foreign files or a link instead of a folder of ours, is in use by another run, or
+   * cannot be made */
   explicit OutputFolder(OutputRules rules);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder&
   operator=(const OutputFolder&) = delete;
 
-  /** \return where to write a file, such as "scans/scan000.pcd"; its folder is made
-   * \throws IoFailed somebody has removed the hidden folder */
+  /** \return path for writing a file, such as "scans/scan000.pcd"; its parent folder is
+   * made
+   * \throws IoFailed another process has removed the hidden folder */
   std::filesystem::path
   operator/(const std::string& name) const;
 
@@ -61,33 +63,35 @@ public:
     return folder_ / rules_.journal;
   }
 
-  /** \brief Takes back what was written below a name. */
+  /** \brief Removes the files written below a name. */
   void
   discard(const std::string& name) const;
 
-  /** \return the hidden folder, for those that write many files */
+  /** \return the hidden folder, for writers of many files */
   const std::filesystem::path&
   staging() const
   {
     return staging_;
   }
 
-  /** \return the folder itself: what is written there after publish() is no part of it */
+  /** \return the output folder; files written there after publish() are not part of the run */
   const std::filesystem::path&
   folder() const
   {
     return folder_;
   }
 
-  /** \brief Puts everything in its place. \return the names at the top of the folder that
-   * were written, as full paths, sorted
-   * \throws IoFailed something else stands in the place of a file, or the hidden folder was
-   * removed: nothing has changed */
+  /** \brief Moves the files to their final paths. \return full paths of the written
+   * names at the top of the folder, sorted
+   * \throws IoFailed a path is taken by another kind of file, or the hidden folder was
+   * removed; the folder is unchanged */
   std::vector<std::filesystem::path>
   publish(Journal journal = Journal::kDrop);
 
-  /** \brief The same into a folder beside this one, which stays as it is.
-   * \param[in] suffix of its name \throws IoFailed as OutputFolder of that folder */
+  /** \brief As publish(), but into a second folder beside this folder, which stays
+   * unchanged.
+   * \param[in] suffix of the name of the second folder \throws IoFailed as the
+   * constructor, for the second folder */
   std::vector<std::filesystem::path>
   publishBeside(const std::string& suffix);
 
@@ -107,13 +111,14 @@ private:
   requireStaging() const;
 
   OutputRules rules_;
-  std::filesystem::path folder_; ///< as the user called it
+  std::filesystem::path folder_; ///< as given by the user
   OutputPlace place_;            ///< the same without links
-  std::filesystem::path made_;   ///< topmost folder that was made here; empty if none
+  std::filesystem::path made_;   ///< topmost folder made by this object; empty if none
   FolderLock lock_;
   std::filesystem::path staging_;
   FolderLock
-      staging_lock_; ///< that of the folder when the two have changed their names
+      /** lock of the hidden folder, or of the output folder once their names are exchanged */
+      staging_lock_;
   bool holds_earlier_run_ = false;
 };
 

@@ -5,8 +5,8 @@
 
 namespace pcl6d::app {
 
-/** \return the names of the files that PlaneFinder::write() leaves, and that of their
- * picture, as a regular expression */
+/** \return a regular expression for the files of PlaneFinder::write() and the picture
+ * of the planes */
 inline std::string
 planeFilePattern()
 {

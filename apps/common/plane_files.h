@@ -11,7 +11,7 @@
 
 namespace pcl6d::app {
 
-/** \brief Draws the planes that were found. \throws as PlaneView::write() */
+/** \brief Draws the planes. \throws as PlaneView::write() */
 inline void
 drawPlanes(const std::filesystem::path& picture,
            const SceneCloud& cloud,

@@ -19,8 +19,8 @@ continues(char c)
   return (byteOf(c) & 0xC0U) == 0x80U;
 }
 
-/** \return the bytes of the UTF-8 character at the start of a text; 0: there is none that a
- * terminal only shows */
+/** \return the length [bytes] of the UTF-8 character at the start of a text; 0: not a
+ * printable character */
 std::size_t
 shownBytes(std::string_view text)
 {
@@ -44,7 +44,8 @@ escaped(char c)
   return {'\\', 'x', kDigits[byteOf(c) / 16], kDigits[byteOf(c) % 16]};
 }
 
-/** \return the text without its middle \param[in] size of what is left, and a few bytes */
+/** \return the text without its middle \param[in] size [bytes] of the remaining text,
+ * exceeded by a few bytes */
 std::string
 shortened(const std::string& text, std::size_t size)
 {

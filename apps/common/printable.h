@@ -5,9 +5,9 @@
 
 namespace pcl6d::app {
 
-/** \return the text on one line, safe for a terminal whatever it came from: control
- * characters (of 7 and 8 bits) and bytes that are no UTF-8 as \\n or \\x1b; beyond the size
- * its middle is left out \param[in] size [bytes] of the text as shown, >= 100 */
+/** \return the text on one line, safe for a terminal: control characters (of 7 and 8
+ * bits) and bytes that are not UTF-8 appear as \\n or \\x1b; a text beyond the size
+ * loses its middle \param[in] size [bytes] of the text as shown, >= 100 */
 std::string
 printable(const std::string& text, std::size_t size = 1000);
 

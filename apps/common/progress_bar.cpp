@@ -16,7 +16,7 @@ namespace {
 constexpr double kMemory = 10; ///< [s] after which a step counts 1/e
 constexpr std::chrono::milliseconds kRedraw{100};
 constexpr int kMostCells = 40;
-constexpr int kFewestCells = 10; ///< less of a bar says nothing
+constexpr int kFewestCells = 10; ///< a shorter bar is of no use
 constexpr int kUnknownColumns = 80;
 constexpr const char* kEraseLine = "\r\033[K";
 
@@ -49,8 +49,8 @@ rateText(double per_second)
   return text;
 }
 
-/** \return stage, bar, count and estimate in one line; on a narrow terminal the estimate
- * is left out first, then the bar */
+/** \return stage, bar, count and estimate in one line; a narrow terminal loses the
+ * estimate first, then the bar */
 std::string
 lineOf(const Progress& progress, const std::string& estimate, int width)
 {
@@ -149,7 +149,7 @@ ProgressBar::begin(const std::string& stage)
   drawn_ = {};
 }
 
-/** Leaves a line that tells how long the stage took; it may have been cut short. */
+/** Leaves a line with the duration of the stage, also of an interrupted stage. */
 void
 ProgressBar::end()
 {

@@ -11,17 +11,16 @@
 
 namespace pcl6d::app {
 
-/** \brief How fast a stage goes: the mean of the last seconds, where what is past counts
- * the less the longer ago it was. */
+/** \brief Speed of a stage: mean over the last seconds, with weights that decay with age. */
 class StepRate {
 public:
   using Clock = std::chrono::steady_clock;
 
-  /** \brief So many steps of the stage are done at a time; the first call begins. */
+  /** \brief Sets the number of finished steps at a time; the first call starts the clock. */
   void
   update(std::size_t done, Clock::time_point now);
 
-  /** \return steps per second; none before a second has passed and a step been seen */
+  /** \return steps per second; no value before one second and one step */
   std::optional<double>
   perSecond() const;
 
@@ -37,14 +36,13 @@ private:
 std::string
 durationText(double seconds);
 
-/** \brief Shows the progress of a run on stderr: on a terminal a bar for each stage, with
- * rate and time left, that redraws itself in the columns which the terminal has at the
- * time; elsewhere (also TERM=dumb) a plain line per quarter of a stage; nothing when quiet.
- * It has no colours. */
+/** \brief Shows the progress of a run on stderr: on a terminal a bar for each stage,
+ * with rate and time left, redrawn to the current width of the terminal; elsewhere (also
+ * TERM=dumb) a plain line per quarter of a stage; no output when quiet. No colours. */
 class ProgressBar {
 public:
   explicit ProgressBar(bool quiet);
-  /** \brief Ends an unfinished line, so that what follows starts on its own. */
+  /** \brief Ends an unfinished line, so that further output starts on a new line. */
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar&
@@ -53,8 +51,8 @@ public:
   void
   show(const Progress& progress);
 
-  /** \brief Prints a line of its own in place of the bar, which is then drawn below it;
-   * not when quiet. */
+  /** \brief Prints a line in place of the bar and redraws the bar below; no output when
+   * quiet. */
   void
   say(const std::string& line);
 
@@ -76,24 +74,24 @@ private:
 
   bool quiet_;
   bool terminal_;
-  std::string bar_; ///< what stands in the terminal's last line
-  Progress state_;  ///< of the stage that is shown
+  std::string bar_; ///< last line of the terminal
+  Progress state_;  ///< of the stage shown
   StepRate rate_;
   StepRate::Clock::time_point last_;  ///< report, or the construction
-  StepRate::Clock::time_point began_; ///< the stage: when the one before it ended
+  StepRate::Clock::time_point began_; ///< start of the stage: end of the stage before
   StepRate::Clock::time_point drawn_; ///< the last time
-  int quarter_ = -1;                  ///< last one printed, where there is no terminal
+  int quarter_ = -1;                  ///< last quarter printed, without a terminal
 };
 
 /** \brief What watched() throws. */
 struct Interrupted {};
 
-/** \return a callback for the library that shows how far it is, and stops it by throwing
- * Interrupted once a signal came in; keeps references to both */
+/** \return a callback for the library that shows the progress, and throws Interrupted
+ * after a signal; keeps references to both arguments */
 ProgressCallback
 watched(ProgressBar& bar, const Interrupt& interrupt);
 
-/** \return the same without showing anything */
+/** \return a callback as above, but without display */
 ProgressCallback
 watched(const Interrupt& interrupt);
 

@@ -19,8 +19,8 @@ namespace pcl6d::app {
 namespace {
 using Files = std::vector<fs::path>;
 
-constexpr const char* kInner = ".pcl6d-new-";        ///< staging within the folder
-constexpr const char* kRecord = ".pcl6d-publishing"; ///< of files that are moved there
+constexpr const char* kInner = ".pcl6d-new-";           ///< staging within the folder
+constexpr const char* kRecord = ".pcl6d-publishing";    ///< list of files to move
 constexpr const char* kFormerInner = ".pcl6d-writing-"; ///< that of former builds
 
 /** \return the start of the names of hidden folders beside the folder */
@@ -48,7 +48,7 @@ contains(const Files& sorted, const fs::path& file)
   return std::binary_search(sorted.begin(), sorted.end(), file);
 }
 
-/** Nobody else's folder is worked on: it may have been put there. */
+/** A folder of another user is left alone: an attacker may have made it. */
 bool
 isOwnFolder(const fs::path& path)
 {
@@ -57,8 +57,8 @@ isOwnFolder(const fs::path& path)
          found.st_uid == ::geteuid();
 }
 
-/** \return whether the folder can change its name: it is not where another file system
- * begins, nor where this program, or the shell that started it, stands */
+/** \return whether the folder can be renamed: no mount point, and not the working
+ * directory of this program or of its shell */
 bool
 canBeExchanged(const fs::path& folder)
 {
@@ -81,12 +81,11 @@ removeFile(const fs::path& path)
   if (::unlink(path.c_str()) == 0 || errno != EACCES)
     return;
   ::chmod(path.parent_path().c_str(),
-          0700); // a folder of a run that may not be written
+          0700); // a folder of a run may be read-only
   ::unlink(path.c_str());
 }
 
-/** Removes a run that was replaced. What came into its folder meanwhile goes on to the new
- * one. */
+/** Removes a replaced run. Files added to its folder meanwhile move to the new folder. */
 void
 removeReplaced(const OutputPlace& place, const fs::path& old)
 {
@@ -100,11 +99,11 @@ removeReplaced(const OutputPlace& place, const fs::path& old)
   removeEmptyFolders(old);
 }
 
-/** \brief What is to be moved within the folder: told by a file, as a program may be killed.
- */
+/** \brief Moves still to do within the folder; recorded in a file, as the program may
+ * be killed. */
 struct Move {
   fs::path staging;
-  Files files; ///< all new ones, also those that have been moved
+  Files files; ///< every new file, also the moved ones
   bool replaces = false;
   bool keeps_journal = false;
 };
@@ -121,7 +120,7 @@ writeRecord(const OutputPlace& place, const Move& move)
   syncToDisk(place.folder);
 }
 
-/** \return what is still to be done; an empty staging path: nothing, or it cannot be known */
+/** \return the moves still to do; an empty staging path: none, or the record is unreadable */
 Move
 readRecord(const OutputPlace& place)
 {
@@ -139,12 +138,12 @@ readRecord(const OutputPlace& place)
   move.replaces = words[1] == "1";
   move.keeps_journal = words[2] == "1";
   for (std::size_t i = 3; i < words.size(); ++i)
-    if (place.isOfRun(words[i])) // and so leads to no other folder
+    if (place.isOfRun(words[i])) // so the path stays inside the folder
       move.files.emplace_back(words[i]);
   return move;
 }
 
-/** Goes on from wherever it was left. */
+/** Continues an interrupted move. */
 void
 moveWithin(const OutputPlace& place, const Move& move)
 {
@@ -183,7 +182,7 @@ publishWithin(const OutputPlace& place, Move move)
   moveWithin(place, move);
 }
 
-/** \return false: it has to be done within the folder, and nothing has changed */
+/** \return false: publishing must happen within the folder; the folder is unchanged */
 bool
 publishBeside(const OutputPlace& place, const fs::path& staging, const Files& foreign)
 {
@@ -191,7 +190,7 @@ publishBeside(const OutputPlace& place, const fs::path& staging, const Files& fo
     return false;
   takeRightsOf(place.folder, staging);
   syncTree(staging);
-  // From here on the hidden folder is called what it will be: the old one.
+  // From here on the hidden folder has its future name: `old`.
   fs::path old = staging;
   const std::string name = staging.filename().string();
   old.replace_filename(besidePrefix(place, "old-") + name.substr(name.size() - 6));
@@ -200,7 +199,7 @@ publishBeside(const OutputPlace& place, const fs::path& staging, const Files& fo
   const Exchange done = exchangeNames(old, place.folder);
   if (done == Exchange::kRefused)
     return false;
-  if (done == Exchange::kUnknown) { // with giveNameBack() the same in the end
+  if (done == Exchange::kUnknown) { // giveNameBack() restores the name after a crash
     names.change(old, readyPath(place));
     names.change(place.folder, old);
     names.change(readyPath(place), place.folder);
@@ -208,7 +207,7 @@ publishBeside(const OutputPlace& place, const fs::path& staging, const Files& fo
   names.keep();
   try {
     syncToDisk(place.folder.parent_path());
-  } catch (const IoFailed&) { // the new run is there, but may not outlive a power cut
+  } catch (const IoFailed&) { // in place, but may not outlive a power cut
     removeReplaced(place, old);
     throw;
   }
@@ -216,7 +215,7 @@ publishBeside(const OutputPlace& place, const fs::path& staging, const Files& fo
   return true;
 }
 
-/** \return the files of the folder that the new ones stand beside */
+/** \return foreign files of the folder, which stay beside the new files */
 Files
 foreignFiles(const OutputPlace& place,
              const Files& files,
@@ -264,7 +263,8 @@ publishFiles(const OutputPlace& place,
   const Files files = filesBelow(staging);
   for (const auto& file : files)
     if (fs::is_directory(place.folder / file))
-      text::fail(place.folder / file, "is a folder, but a file is to be written there");
+      text::fail(place.folder / file,
+                 "is a folder, but must be a file or free for a new file");
   const Files foreign = foreignFiles(place, files, replaces, keeps_journal);
   if (!isInner(place, staging) && publishBeside(place, staging, foreign))
     return;
@@ -303,7 +303,7 @@ giveNameBack(const OutputPlace& place)
 }
 
 namespace {
-/** \return whether a hidden folder is one of this user that nobody works with */
+/** \return whether a hidden folder belongs to this user and is not in use */
 bool
 isLeft(const fs::path& folder)
 {
@@ -331,7 +331,7 @@ finishLate(const OutputPlace& place)
   std::error_code ignored;
   if (isHalfMoved(place))
     moveWithin(place, readRecord(place));
-  else // of a hidden folder that is gone
+  else // the hidden folder is gone
     fs::remove(place.folder / kRecord, ignored);
   for (const auto& path : entriesOf(place.folder))
     if (isHidden(path.filename()) && isLeft(path))
@@ -349,7 +349,7 @@ finishLate(const OutputPlace& place)
         fs::remove_all(path, ignored);
     }
   }
-  if (isLeft(readyPath(place))) // the folder has its name
+  if (isLeft(readyPath(place))) // the folder has its final name
     fs::remove_all(readyPath(place), ignored);
 }
 

@@ -10,14 +10,14 @@
 
 namespace pcl6d::app {
 
-/** \brief A folder that a program writes, and where its files are before they are in it. */
+/** \brief Output folder of a program, and the names of its temporary files. */
 struct OutputPlace {
   std::filesystem::path folder; ///< without links on the way
-  std::string shown;            ///< as the user calls it
-  std::regex files;             ///< relative paths of all files that a run may leave
-  std::string journal;          ///< a file that outlives runs which fail; may be empty
+  std::string shown;            ///< as given by the user
+  std::regex files;             ///< relative paths of the files of a run
+  std::string journal;          ///< a file that outlives failed runs; may be empty
 
-  /** \return whether a file, relative to the folder, is one of a run */
+  /** \return whether a file, given relative to the folder, belongs to a run */
   bool
   isOfRun(const std::filesystem::path& file) const
   {
@@ -25,27 +25,30 @@ struct OutputPlace {
   }
 };
 
-/** \brief Makes the hidden folder for new files: beside the folder, where both can exchange
- * their names; else within it, as where another file system begins with it, or its parent may
- * not be written. \throws IoFailed neither can be written */
+/** \brief Makes the hidden folder for new files: beside the folder where both names can
+ * be exchanged, else within the folder, for example at a mount point or below a
+ * read-only parent. \throws IoFailed neither folder can be written */
 std::filesystem::path
 makeStaging(const OutputPlace& place);
 
-/** \return whether a file or folder in the folder is one of this machinery */
+/** \return whether a file or folder is hidden machinery of publishing */
 bool
 isHidden(const std::filesystem::path& name);
 
-/** \brief Puts the new files in the place of those of the run before, all or none.
+/** \brief Replaces the files of the earlier run by the new files, as a whole or not at
+ * all.
  *
- * Beside the folder: what is not of a run gets a second name among the new files, all of them
- * wait until they are on the disk, and the folders exchange their names in one step. Where the
- * file system has no such step they are renamed one after the other, and finishLate() ends
- * that after a power cut. Within the folder: a record tells what is to be moved, then file
- * after file is; finishLate() goes on with it. In all cases a program that is killed leaves
- * the old files, the new ones, or what finishLate() makes the new ones.
- * \param[in] replaces whether files of a run that are not among the new ones are removed
+ * Staging beside the folder: foreign files are hard-linked into the new folder, the new
+ * folder is synced to disk, and both folders exchange their names in one step. File
+ * systems without an exchange rename one folder after another; finishLate() completes
+ * the renaming after a power cut. Staging within the folder: a record lists the moves,
+ * then the files are moved one by one; finishLate() continues from the record. A killed
+ * program leaves the old files, the new files, or a state that finishLate() completes
+ * to the new files.
+ * \param[in] replaces whether further files of a run, without a new version, are
+ * removed
  * \param[in] keeps_journal whether the journal stays
- * \throws IoFailed something else stands in the place of a file: nothing has changed */
+ * \throws IoFailed a path is taken by another kind of file; the folder is unchanged */
 void
 publishFiles(const OutputPlace& place,
              const std::filesystem::path& staging,
@@ -56,13 +59,14 @@ publishFiles(const OutputPlace& place,
 bool
 isHalfMoved(const OutputPlace& place);
 
-/** \brief Ends what a program that was killed began, before the folder is looked at: where it
- * has no name at this moment it gets it back. */
+/** \brief Completes the renaming of a killed program, before the folder is examined: a
+ * folder without its name gets the name back. */
 void
 giveNameBack(const OutputPlace& place);
 
-/** \brief The same of files that were moved within the folder, and removes the hidden
- * folders of programs that were killed. The folder must be locked: then nobody writes them. */
+/** \brief Completes the moves of a killed program within the folder, and removes the
+ * hidden folders of killed programs. The folder must be locked, so that no other
+ * process writes to it. */
 void
 finishLate(const OutputPlace& place);
 

@@ -14,7 +14,7 @@ namespace pcl6d::app {
 
 namespace {
 constexpr std::size_t kPage = 4096;
-/** The file grows by at least so much. */
+/** Least growth of the file [bytes]. */
 constexpr std::size_t kGrowth = std::size_t{64} << 20;
 
 std::size_t
@@ -92,7 +92,7 @@ ScratchArena::grow(std::size_t bytes)
   return true;
 }
 
-/** Joins it with what is free before and behind it. */
+/** Merges the block with the free blocks before and behind it. */
 void
 ScratchArena::addFree(std::size_t offset, std::size_t length)
 {

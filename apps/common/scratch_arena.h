@@ -10,15 +10,15 @@
 
 namespace pcl6d::app {
 
-/** \brief Blocks of memory that live in a file: their places never change, but they need not
- * be resident. The file has no name, so that nothing is left of it however the process ends.
+/** \brief Blocks of memory in a file: addresses never change, but pages need not be
+ * resident. The file has no name and vanishes with the process, even a killed one.
  *
- * Room on the disk is taken before a block is handed out: a full disk is an error there, and
- * no crash later. May be used by several threads at once. */
+ * Room on the disk is taken before a block is handed out: a full disk is then an error,
+ * not a later crash. May be used by several threads at once. */
 class ScratchArena {
 public:
-  /** \param[in] folder where the file is made, with the first block
-   * \param[in] reach [bytes] most that all blocks may have; address space alone */
+  /** \param[in] folder folder of the file, which is made with the first block
+   * \param[in] reach [bytes] upper bound of the blocks together; reserves only address space */
   explicit ScratchArena(std::filesystem::path folder,
                         std::size_t reach = std::size_t{1} << 40);
   ~ScratchArena();
@@ -26,12 +26,12 @@ public:
   ScratchArena&
   operator=(const ScratchArena&) = delete;
 
-  /** \return a block of at least so many bytes, at a page; nullptr: the file cannot be made
-   * or has no room to grow */
+  /** \return a page-aligned block of at least the given size [bytes]; nullptr: the file
+   * cannot be made or has no room to grow */
   void*
   allocate(std::size_t bytes);
 
-  /** \return whether the block is one of the arena's */
+  /** \return whether the block belongs to the arena */
   bool
   owns(const void* block) const
   {
@@ -41,12 +41,12 @@ public:
   void
   free(void* block);
 
-  /** \brief Lets go of all pages: what is used again comes back from the file, or from the
-   * system's cache of it. */
+  /** \brief Releases the pages of the arena; used pages come back from the file or from
+   * the system's cache. */
   void
   letGo();
 
-  /** \return [bytes] of all blocks, used and freed */
+  /** \return size of the used and freed blocks [bytes] */
   std::size_t
   size() const
   {

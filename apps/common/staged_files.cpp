@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace pcl6d::app {
 
 namespace {
-/** Opens what is there, and does not wait for anybody. */
+/** Opens existing files only, without blocking. */
 constexpr int kQuietly = O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
 } // namespace
 
@@ -41,7 +41,7 @@ syncToDisk(const fs::path& path)
   const int file = ::open(path.c_str(), kQuietly);
   if (file < 0) {
     if (errno == ELOOP || errno == EACCES || errno == ENXIO)
-      return; // a link, or what somebody else owns: nothing was written there
+      return; // a link, or a file of another user: not written by us
     text::fail(path, text::systemReason("cannot be opened"));
   }
   const bool failed = ::fsync(file) != 0 && errno != EINVAL && errno != ENOTSUP;
@@ -56,7 +56,8 @@ void
 syncTree(const fs::path& folder)
 {
   const auto files = filesBelow(folder);
-  for (const auto& file : files) { // so that the disk works on all at once
+  // starts writing for every file, before waiting for the first
+  for (const auto& file : files) {
     const int handle = ::open((folder / file).c_str(), kQuietly);
     if (handle >= 0) {
       ::sync_file_range(handle, 0, 0, SYNC_FILE_RANGE_WRITE);
@@ -72,7 +73,7 @@ syncTree(const fs::path& folder)
 }
 
 namespace {
-/** Makes the folders that a file lies in. \return those that were made; none that failed */
+/** Makes the folders that contain a file. \return the new folders; an empty list on failure */
 bool
 makeFolders(const fs::path& parts, const fs::path& to, std::vector<fs::path>& made)
 {
@@ -87,7 +88,7 @@ makeFolders(const fs::path& parts, const fs::path& to, std::vector<fs::path>& ma
   return true;
 }
 
-/** \return the folders below a folder that hold nothing */
+/** \return the empty folders below a folder */
 std::vector<fs::path>
 emptyFoldersBelow(const fs::path& folder)
 {
@@ -114,7 +115,7 @@ linkFiles(const std::vector<fs::path>& files, const fs::path& from, const fs::pa
     if (!makeFolders(folder, to, made))
       return false;
   for (auto folder = made.rbegin(); folder != made.rend(); ++folder)
-    takeRightsOf(from / *folder, to / *folder); // last: it may forbid to write
+    takeRightsOf(from / *folder, to / *folder); // last: the rights may forbid writing
   return true;
 }
 
@@ -140,7 +141,7 @@ takeRightsOf(const fs::path& model, const fs::path& folder)
   struct stat rights {};
   if (::lstat(model.c_str(), &rights) != 0)
     return;
-  // Of the group it may not be allowed; the rights are then those of ours.
+  // Changing the group may be forbidden; the folder then keeps our group.
   [[maybe_unused]] const int ignored =
       ::lchown(folder.c_str(), static_cast<uid_t>(-1), rights.st_gid);
   if (::chmod(folder.c_str(), rights.st_mode & 07777) != 0)
@@ -156,7 +157,7 @@ removeEmptyFolders(const fs::path& folder)
        entry.increment(ignored))
     if (entry->is_directory(ignored) && !entry->is_symlink(ignored))
       folders.push_back(entry->path());
-  std::sort(folders.rbegin(), folders.rend()); // those within before those around
+  std::sort(folders.rbegin(), folders.rend()); // inner folders before outer folders
   for (const auto& one : folders)
     ::rmdir(one.c_str());
 }
@@ -179,7 +180,7 @@ Renaming::~Renaming()
 void
 Renaming::change(const fs::path& from, const fs::path& to)
 {
-  done_.emplace_back(from, to); // first: it may take memory
+  done_.emplace_back(from, to); // first: may allocate
   try {
     renameSafely(from, to);
   } catch (...) {

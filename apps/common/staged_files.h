@@ -6,42 +6,42 @@
 #include <utility>
 #include <vector>
 
-/** \file What putting a folder of new files in the place of old ones is made of. */
+/** \file Building blocks for replacing a folder of old files by a folder of new files. */
 namespace pcl6d::app {
 
-/** \return the files below a folder, relative to it, sorted; what is no folder is a file,
- * links too */
+/** \return the files below a folder, as sorted relative paths; links and every entry
+ * but folders count as files */
 std::vector<std::filesystem::path>
 filesBelow(const std::filesystem::path& folder);
 
-/** \brief Waits until a file, or the list of files of a folder, is on the disk. File systems
- * that know no such thing are taken as they are. \throws IoFailed it cannot be written */
+/** \brief Waits until a file, or the list of files of a folder, is on the disk. File
+ * systems without sync support are ignored. \throws IoFailed writing failed */
 void
 syncToDisk(const std::filesystem::path& path);
 
-/** \brief The same of all files below a folder, and of the folders. */
+/** \brief Calls syncToDisk() for the files below a folder, and for the folders. */
 void
 syncTree(const std::filesystem::path& folder);
 
-/** \brief Gives files of one folder a second name in another, where nothing has that name.
- * Their folders, and those that are empty, are made with the same rights.
+/** \brief Gives files of one folder a second name in another, where the name is free. Their
+ * folders, and the empty folders, are made with equal rights.
  * \param[in] files relative to both
- * \return false: the file system cannot do that, or the folders are not on one */
+ * \return false: the file system has no hard links, or the folders are on two file systems */
 bool
 linkFiles(const std::vector<std::filesystem::path>& files,
           const std::filesystem::path& from,
           const std::filesystem::path& to);
 
-/** \return whether both names are of one file */
+/** \return whether both names lead to one file */
 bool
 isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/** \brief Makes a new, empty folder that only this user can open.
- * \return its path, or an empty one; errno says why */
+/** \brief Makes a new, empty folder, accessible only to this user.
+ * \return its path, or an empty path; errno has the reason */
 std::filesystem::path
 makePrivateFolder(const std::filesystem::path& parent, const std::string& prefix);
 
-/** \brief Lets a folder be opened, and changed, as another one. */
+/** \brief Copies the permissions of a folder from another folder. */
 void
 takeRightsOf(const std::filesystem::path& model, const std::filesystem::path& folder);
 
@@ -49,13 +49,12 @@ takeRightsOf(const std::filesystem::path& model, const std::filesystem::path& fo
 void
 removeEmptyFolders(const std::filesystem::path& folder);
 
-/** \brief Changes a name, and waits until that is on the disk.
- * \throws IoFailed it cannot be changed, or may not outlive a power cut */
+/** \brief Renames a file, and waits until the change is on the disk.
+ * \throws IoFailed renaming failed, or the change may not outlive a power cut */
 void
 renameSafely(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/** \brief Names that change together: without keep() all are as they were at the end of its
- * scope. */
+/** \brief Group of renamings: without keep(), the destructor restores the old names. */
 class Renaming {
 public:
   Renaming() = default;
@@ -78,14 +77,14 @@ private:
   std::vector<std::pair<std::filesystem::path, std::filesystem::path>> done_;
 };
 
-/** \brief How two folders of one file system changed their names. */
+/** \brief Result of exchanging the names of two folders of one file system. */
 enum class Exchange {
   kDone,
-  kUnknown, ///< the file system cannot do it in one step
-  kRefused  ///< it said no: errno
+  kUnknown, ///< the file system has no exchange in one step
+  kRefused  ///< not possible; see errno
 };
 
-/** \brief Exchanges the names of two folders in one step: at no moment is there neither. */
+/** \brief Exchanges the names of two folders in one step; both names exist at every moment. */
 Exchange
 exchangeNames(const std::filesystem::path& a, const std::filesystem::path& b);
 

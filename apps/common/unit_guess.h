@@ -6,10 +6,12 @@
 
 namespace pcl6d::app {
 
-/** \brief Scans of one site reach about equally far: hand-held ones indoors 2 m in the median,
- * those from a tripod outdoors 40 m. Of other units one is 100 or 1000 times as large.
- * \param[in] far, near names of the scans \param[in] range_far, range_near [m] typical ranges
- * \return what is likely wrong, in words; empty if the larger range is no such multiple */
+/** \brief Guesses a wrong unit of length. Scans of one site have similar ranges: median
+ * 2 m hand-held indoors, 40 m from a tripod outdoors. A wrong unit scales the ranges by
+ * 100 or 1000.
+ * \param[in] far, near names of the scans \param[in] range_far, range_near [m] typical
+ * ranges
+ * \return the likely mistake, in words; empty if the ratio of the ranges fits no unit */
 inline std::string
 unitGuess(const std::string& far,
           double range_far,

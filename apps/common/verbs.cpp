@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/help_text.h"
 #include "common/option_table.h"
 #include "common/verbs.h"
 
@@ -39,7 +40,8 @@ printHelp(const VerbProgram& program)
   const std::string usage = program.usage;
   std::cout << '\n'
             << program.name << ' ' << usage.substr(0, usage.find(' '))
-            << " --help tells the options.\n";
+            << " --help tells the options.\n"
+            << helpEnd();
 }
 
 int
@@ -58,8 +60,8 @@ run(const VerbProgram& program, const Arguments& arguments)
   else if (word == "--help" || word == "-h")
     printHelp(program);
   else
-    throw UsageError((deed == "do" ? "no such job as '" : "cannot " + deed + " '") +
-                     word + "', but only: " + names);
+    throw UsageError((deed == "do" ? "unknown job '" : "cannot " + deed + " '") + word +
+                     "', but only: " + names);
   return kDone;
 }
 } // namespace

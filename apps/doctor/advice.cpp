@@ -39,10 +39,10 @@ adviseOnPoints(const DoctorPair& pair, std::vector<Advice>& advice)
            vectorText(pair.source.offset) + ") from SOURCE, in double",
        "float steps are " +
            metres(std::max(pair.of_source.float_step, pair.of_target.float_step)) +
-           " there; afterwards add them to the pose, in double"});
+           " there; afterwards add the offsets to the pose, in double"});
 }
 
-/** One point per voxel, where that leaves less than half of the points. */
+/** One point per voxel, if this removes more than half of the points. */
 void
 adviseOnReduction(const DoctorPair& pair, std::vector<Advice>& advice)
 {
@@ -65,7 +65,7 @@ adviseOnReduction(const DoctorPair& pair, std::vector<Advice>& advice)
                         std::to_string(of_target) + "; " + pair.voxel_why});
 }
 
-/** The most iterations that a class of pairs needed to come to rest. */
+/** Largest number of iterations until convergence of a class that uses pairs. */
 void
 adviseOnIterations(const Diagnosis& d, std::vector<Advice>& advice)
 {
@@ -86,7 +86,7 @@ adviseOnIterations(const Diagnosis& d, std::vector<Advice>& advice)
     return;
   advice.push_back({"setMaximumIterations(" + std::to_string(2 * most) + ")",
                     slowest->name() + " came to rest after " + std::to_string(most) +
-                        "; as many again are to spare"});
+                        "; doubled for safety"});
 }
 
 void
@@ -98,8 +98,8 @@ adviseOnClasses(const Diagnosis& d, std::vector<Advice>& advice)
   adviseOnIterations(d, advice);
   advice.push_back({call("setResolution", pair.resolution) + ", " +
                         call("setStepSize", 0.1 * pair.resolution) + " of NDT",
-                    "cells of at least 6 spacings have points enough, and reach as far "
-                    "as the pairs"});
+                    "cells of at least 6 spacings have enough points, and reach up to "
+                    "the pair distance"});
 }
 
 void
@@ -119,9 +119,10 @@ adviseOnScanners(const DoctorPair& pair, std::vector<Advice>& advice)
   for (const auto& [of, option] : {std::pair(&pair.of_source, "--source-origin"),
                                    std::pair(&pair.of_target, "--target-origin")})
     if (!of->scanner.known)
-      advice.push_back({std::string(option) + " \"X Y Z\" of this program",
-                        "0 of the coordinates is far outside of the cloud; where the "
-                        "scanner stood decides what its rays say"});
+      advice.push_back(
+          {std::string(option) + " \"X Y Z\" of the program",
+           "the origin of the coordinates is far outside of the cloud; the position of "
+           "the scanner decides the result of the free-space test"});
 }
 } // namespace
 

@@ -12,7 +12,7 @@
 
 namespace pcl6d::app {
 
-/** \brief Shows the iterations, which PCL's base class counts for itself. */
+/** \brief Exposes the iteration count, which is protected in PCL's base class. */
 template <typename Class>
 struct Counting : Class {
   int
@@ -31,7 +31,7 @@ cloudFor(const pcl::PointCloud<pcl::PointNormal>& cloud)
   return copy;
 }
 
-/** Takes a pose if it is a rigid motion, to the digits of float. */
+/** Accepts a pose if rigid within float precision. */
 inline void
 takePose(const Eigen::Matrix4d& matrix, ClassOutcome& out)
 {

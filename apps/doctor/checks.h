@@ -7,21 +7,21 @@
 
 #include <vector>
 
-/** \file What the doctor looks for. Each check measures, and adds what it finds. */
+/** \file Checks of the doctor. Each check measures, and adds its findings. */
 namespace pcl6d::app {
 
-/** \brief Of each cloud for itself: what a reader of PCL makes of the file, empty and NaN
- * rows, duplicates, normals, points without echo, digits, size, VIEWPOINT, indices. */
+/** \brief Checks each cloud alone: the file as read by PCL, empty and NaN rows,
+ * duplicates, normals, points without echo, digits, size, VIEWPOINT, indices. */
 Findings
 checkClouds(const DoctorPair& pair);
 
-/** \brief Of both together, before any registration: overlap, spacing, units, the same
- * points twice, the guess. */
+/** \brief Checks both clouds before any registration: overlap, spacing, units,
+ * identical points, the guess. */
 Findings
 checkStart(const DoctorPair& pair);
 
-/** \brief Of the runs: what a class did in silence.
- * \param[in] best place of the pose that is believed most; none: there is none */
+/** \brief Checks the runs for silent failures and surprises of a class.
+ * \param[in] best index of the most reliable pose; empty: no pose */
 Findings
 checkRuns(const DoctorPair& pair,
           const std::vector<Experiment>& experiments,

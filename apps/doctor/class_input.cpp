@@ -11,7 +11,7 @@
 namespace pcl6d::app {
 
 namespace {
-/** \return one per row, towards the scanner; zero where there is none */
+/** \return one normal per row, towards the scanner; zero if unknown */
 Normals
 estimated(const DoctorCloud& cloud, const CloudMeasures& of)
 {
@@ -29,7 +29,7 @@ estimated(const DoctorCloud& cloud, const CloudMeasures& of)
   return normals;
 }
 
-/** \return the rows that a variant keeps, in order */
+/** \return the rows kept by a variant, in order */
 std::vector<std::size_t>
 rowsOf(const DoctorCloud& cloud, const InputVariant& v)
 {
@@ -44,7 +44,7 @@ rowsOf(const DoctorCloud& cloud, const InputVariant& v)
   return rows;
 }
 
-/** \return the indices among the rows that are kept; null: none are to be set */
+/** \return the indices, renumbered to the kept rows; null: the class gets no indices */
 pcl::shared_ptr<pcl::Indices>
 indicesOf(const DoctorCloud& cloud,
           const InputVariant& v,

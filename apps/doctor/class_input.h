@@ -8,10 +8,10 @@
 
 namespace pcl6d::app {
 
-/** \brief The clouds of a pair as a class gets them. */
+/** \brief Prepares the clouds of a pair as input of a class. */
 class InputMaker {
 public:
-  /** \brief Estimates normals of both clouds where they are finite. */
+  /** \brief Estimates normals of both clouds at finite points. */
   explicit InputMaker(const DoctorPair& pair);
 
   /** \param[in] start local */

@@ -15,7 +15,7 @@
 
 namespace pcl6d::app {
 
-/** \brief The classes that are compared. */
+/** \brief The compared registration classes. */
 enum class RegistrationClass {
   kPclIcp,
   kPclIcpWithNormals,
@@ -31,50 +31,49 @@ enum class RegistrationClass {
 const char*
 toString(RegistrationClass method);
 
-/** \return whether it is one of PCL's */
+/** \return whether the class is from PCL */
 bool
 isPcl(RegistrationClass method);
 
-/** \return whether it takes cells of a grid instead of pairs */
+/** \return whether the class uses cells of a grid instead of pairs */
 bool
 isNdt(RegistrationClass method);
 
-/** \return whether it is of points and planes, and wants normals */
+/** \return whether the class needs normals, as with point-to-plane */
 bool
 wantsNormals(RegistrationClass method);
 
-/** \brief What is set on an object; the rest is as its constructor leaves it. */
+/** \brief Parameters set on an object; unset parameters keep the defaults of the class. */
 struct ClassSettings {
   std::optional<double> max_distance; ///< [m]
   std::optional<double> resolution;   ///< [m] side of a cell
   std::optional<int> iterations;
-  std::optional<double>
-      at_rest;      ///< [m] a step no longer ends it, in the class's own unit
+  std::optional<double> at_rest; ///< [m] stop at smaller steps, in the class's own unit
   double reach = 1; ///< [m] with at_rest: from the middle of the cloud, for turns
 };
 
-/** \brief What a class gets. */
+/** \brief Input of a class. */
 struct ClassInput {
   pcl::PointCloud<pcl::PointNormal>::Ptr source, target;
   pcl::shared_ptr<pcl::Indices> indices; ///< null: not set
   Eigen::Isometry3d guess = Eigen::Isometry3d::Identity();
 };
 
-/** \brief What a class made of it, as its user sees it. */
+/** \brief Outcome of a class, as seen by its user. */
 struct ClassOutcome {
   RunEnd end = RunEnd::kDone;
-  std::string words; ///< how it ended if not kDone
+  std::string words; ///< reason of the end if not kDone
   std::string said;  ///< what it printed
-  std::string stage; ///< the call that did not come back
+  std::string stage; ///< last stage entered
   bool converged = false;
-  std::string state;     ///< why it stopped, in the words of the class; may be empty
-  bool at_limit = false; ///< it stopped at the iteration limit
+  std::string state; ///< reason for stopping, in the words of the class; may be empty
+  bool at_limit = false; ///< stopped at the iteration limit
   int iterations = 0;
   int limit = 0;
   double fitness = 0; ///< [m^2] getFitnessScore(); NaN: none
   double seconds = 0; ///< of align()
   bool is_rigid = false;
-  /** T_target_source in the coordinates of the input, if it is_rigid */
+  /** T_target_source in the coordinates of the input, if is_rigid */
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
 
   bool
@@ -92,8 +91,9 @@ runClass(RegistrationClass method,
          double seconds,
          const Interrupt& interrupt);
 
-// One function per family, each in a file of its own as PCL's templates compile long. They
-// fill what a run in its own process can tell, and throw what the class throws.
+// One function per family, each in a file of its own, as PCL's templates compile
+// slowly. Each function fills the fields known inside the run's process, and passes on
+// exceptions of the class.
 void
 alignPclIcp(const ClassSettings& settings, const ClassInput& input, ClassOutcome& out);
 void

@@ -12,7 +12,7 @@
 namespace pcl6d::app {
 
 namespace {
-/** A cloud with its name and numbers, and where findings go. */
+/** A cloud with its name and measures, and the list for findings. */
 struct Subject {
   const char* role; ///< "SOURCE"
   const DoctorCloud& cloud;
@@ -38,7 +38,7 @@ checkSize(const Subject& s)
         "has no points to register",
         text::counted(s.cloud.rows.size(), "row") + ", of which " +
             std::to_string(s.of.points) + " count and have finite x, y, z",
-        "nothing can be set that helps; the table shows what each class says of it");
+        "no setting helps; the table shows the outcome of each class");
 }
 
 void
@@ -48,15 +48,15 @@ checkNan(const Subject& s)
     s.add(Severity::kWarning,
           "holds rows without finite x, y, z",
           shareText(s.of.not_finite, s.cloud.rows.size()) + " rows; is_dense is false",
-          "pcl::removeNaNFromPointCloud() before align(), for the classes whose "
-          "results they change");
+          "pcl::removeNaNFromPointCloud() before align(), for the classes with changed "
+          "results");
   if (s.cloud.left_out > 0)
     s.add(Severity::kNote,
-          "holds rows without finite x, y, z, which the reader left out",
-          text::counted(s.cloud.left_out, "row") + "; the runs are without them");
+          "holds rows without finite x, y, z, left out by the reader",
+          text::counted(s.cloud.left_out, "row") + "; the runs leave the rows out");
 }
 
-/** What pcl::io::loadPCDFile() into a cloud of pcl::PointXYZ would hold. */
+/** Coordinates changed by PCL's reading into a cloud of pcl::PointXYZ. */
 void
 checkReading(const Subject& s)
 {
@@ -65,7 +65,7 @@ checkReading(const Subject& s)
   s.add(Severity::kProblem,
         "is not read by PCL into pcl::PointXYZ",
         shareText(s.cloud.lost_by_pcl, s.cloud.rows.size()) +
-            " rows have other coordinates after pcl::fromPCLPointCloud2()" +
+            " rows have changed coordinates after pcl::fromPCLPointCloud2()" +
             (s.cloud.in_double ? "; x is stored as float64, PCL wants float32" : ""),
         "take a place near the cloud off in double, then store x, y, z as float32");
 }
@@ -73,13 +73,13 @@ checkReading(const Subject& s)
 void
 checkDuplicates(const Subject& s)
 {
-  constexpr double kShare = 0.01; // below, they change no mean by more
+  constexpr double kShare = 0.01; // smaller shares hardly affect means
   if (static_cast<double>(s.of.duplicates) <= kShare * static_cast<double>(s.of.points))
     return;
   s.add(Severity::kWarning,
-        "has points in the place of another, as float has them",
+        "has points at equal coordinates in float",
         shareText(s.of.duplicates, s.of.points),
-        "one point per voxel (pcl6d::OctreeReduction), so that none counts twice");
+        "one point per voxel (pcl6d::OctreeReduction), to count each place once");
 }
 
 void
@@ -98,11 +98,11 @@ checkNormals(const Subject& s)
   if (zero + odd == 0)
     return;
   s.add(Severity::kWarning,
-        "has normals that are none",
+        "has normals of zero length or NaN",
         shareText(zero, s.of.points) + " are zero or NaN, " + std::to_string(odd) +
             " are not of unit length",
-        "estimate them anew, or take pcl6d::ICP6DWithNormals, which does where they "
-        "are missing");
+        "estimate the normals anew, or use pcl6d::ICP6DWithNormals: the class "
+        "estimates missing normals");
 }
 
 void
@@ -111,15 +111,15 @@ checkNoReturn(const Subject& s)
   if (!s.of.no_return)
     return;
   s.add(Severity::kWarning,
-        "holds points that stand for no echo",
+        "holds points of rays without echo",
         shareText(s.of.num_no_return, s.of.points) + " lie at " +
             shortNumber(*s.of.no_return, 5) +
-            " m from the scanner, all at one range: no surface",
+            " m from the scanner, at a single range: no surface",
         "keep ranges below " + shortNumber(0.999 * *s.of.no_return, 4) +
             " m (pcl6d::RangeGate)");
 }
 
-/** Float against the spacing, as far from 0 as the cloud is. */
+/** Float resolution against the spacing, at the cloud's distance from 0. */
 void
 checkDigits(const Subject& s)
 {
@@ -128,31 +128,31 @@ checkDigits(const Subject& s)
   const double share = s.of.float_step / s.of.spacing;
   const std::string offset = "(" + vectorText(s.cloud.offset) + ")";
   s.add(share > 0.1 ? Severity::kProblem : Severity::kWarning,
-        "lies so far from 0 that float has few digits left",
+        "lies far from 0: float has few digits left",
         "float steps are " + metres(s.of.float_step) +
             " at its coordinates, the spacing " + metres(s.of.spacing) +
-            "; as float, x, y and z of " + std::to_string(s.of.points) +
+            "; in float, x, y and z of " + std::to_string(s.of.points) +
             " points have " + std::to_string(s.of.values[0]) + ", " +
             std::to_string(s.of.values[1]) + " and " + std::to_string(s.of.values[2]) +
             " different values",
         s.cloud.in_double
             ? "take " + offset + " off in double, before x, y, z become float"
-            : "the file holds float32, so its digits are lost: take " + offset +
-                  " off in double where it is made, before it is stored");
+            : "the file holds float32 and lost digits: take " + offset +
+                  " off in double before storing the cloud");
 }
 
 void
 checkUnits(const Subject& s)
 {
-  constexpr double kLarge = 5000;       // [m] no scanner on the ground ranges so far
+  constexpr double kLarge = 5000; // [m] beyond the range of scanners on the ground
   const double reach = 2 * s.of.spread; // half of the points are within the spread
   if (reach > kLarge)
     s.add(Severity::kWarning,
           "is large for metres",
-          "half of its points are within " + metres(s.of.spread) +
-              " of its middle; as millimetres that is " + metres(1e-3 * s.of.spread) +
+          "half of the points are within " + metres(s.of.spread) +
+              " of the middle; read as millimetres " + metres(1e-3 * s.of.spread) +
               ", as feet " + metres(0.3048 * s.of.spread),
-          "scale it to metres, for which the defaults of all classes are meant");
+          "scale the cloud to metres: the defaults of the classes are in metres");
 }
 
 void
@@ -164,10 +164,10 @@ checkViewpoint(const Subject& s)
   const double lost = (place - place.cast<float>().cast<double>()).norm();
   const bool is_lost = lost > 0.1 * s.of.spacing && s.of.spacing > 0;
   s.add(is_lost ? Severity::kWarning : Severity::kNote,
-        "has a VIEWPOINT, which align() does not look at",
-        "(" + vectorText(place) + "), as sensor_origin_, which is float, " +
-            metres(lost) + " beside it",
-        "pass what it tells as guess, computed in double");
+        "has a VIEWPOINT, ignored by align()",
+        "(" + vectorText(place) + "), as sensor_origin_ in float " + metres(lost) +
+            " beside it",
+        "pass the VIEWPOINT as guess, computed in double");
 }
 
 void

@@ -11,9 +11,9 @@ namespace pcl6d::app {
 
 namespace {
 void
-judgeAll(const DoctorSettings& s, const Interrupt& interrupt, Diagnosis& d)
+verifyAll(const DoctorSettings& s, const Interrupt& interrupt, Diagnosis& d)
 {
-  judge(d.pair, s.time_limit, d.rows, interrupt);
+  evaluate(d.pair, s.time_limit, d.rows, interrupt);
   d.best = bestOf(d.pair, d.rows, false);
   d.best_of_ours = bestOf(d.pair, d.rows, true);
 }
@@ -33,11 +33,11 @@ diagnose(const DoctorSettings& s, ProgressBar& bar, const Interrupt& interrupt)
   bar.say(text::counted(d.pair.of_source.points, "point") + " on " +
           std::to_string(d.pair.of_target.points));
   d.rows = runExperiments(d.pair, s.time_limit, bar, interrupt);
-  judgeAll(s, interrupt, d);
+  verifyAll(s, interrupt, d);
   if (!d.isVerified() && d.pair.canBeMatched()) {
     const auto more = runCoarseStarts(d.pair, s.time_limit, bar, interrupt);
     std::copy(more.begin(), more.end(), std::back_inserter(d.rows));
-    judgeAll(s, interrupt, d);
+    verifyAll(s, interrupt, d);
   }
   append(checkClouds(d.pair), d.findings);
   append(checkStart(d.pair), d.findings);
@@ -54,9 +54,9 @@ std::string
 conclusionOf(const Diagnosis& d)
 {
   if (!d.pair.canBeMatched())
-    return "nothing can be registered: a cloud has fewer than 3 points that count";
+    return "registration is impossible: a cloud has fewer than 3 valid points";
   if (!d.best_of_ours)
-    return "none of our classes found a pose";
+    return "no class of pcl6d found a pose";
   const Experiment& ours = d.rows[*d.best_of_ours];
   const std::string by = std::string(toString(ours.method)) + ", " + ours.setting_words;
   const PoseVerdict& verdict = ours.verdict;

@@ -12,17 +12,18 @@
 
 namespace pcl6d::app {
 
-/** \brief A line of what to set. */
+/** \brief A recommended setting. */
 struct Advice {
   std::string what; ///< "setMaxCorrespondenceDistance(0.05)"
   std::string why;
 };
 
-/** \brief All that the reports tell. */
+/** \brief Content of the reports. */
 struct Diagnosis {
   DoctorPair pair;
   std::vector<Experiment> rows;
-  /** places of the poses that are believed most: of all, of ours; none: there is none */
+  /** indices of the most reliable poses: over every class, and over our classes; empty:
+   * no pose */
   std::optional<std::size_t> best, best_of_ours;
   Findings findings; ///< the worst first
   std::vector<Advice> advice;
@@ -35,16 +36,16 @@ struct Diagnosis {
   }
 };
 
-/** \brief Runs and checks everything.
+/** \brief Runs the experiments and checks.
  * \throws IoFailed, UsageError as loadPair() \throws Interrupted */
 Diagnosis
 diagnose(const DoctorSettings& settings, ProgressBar& bar, const Interrupt& interrupt);
 
-/** \return what to set, by what was found */
+/** \return recommended settings, from the findings */
 std::vector<Advice>
 adviceFor(const Diagnosis& diagnosis);
 
-/** \return one sentence: what our result is worth */
+/** \return one sentence on the reliability of our result */
 std::string
 conclusionOf(const Diagnosis& diagnosis);
 

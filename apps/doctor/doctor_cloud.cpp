@@ -17,7 +17,7 @@
 namespace pcl6d::app {
 
 namespace {
-/** \return three fields of all rows; empty if one of them is missing */
+/** \return three fields of every row; empty if a field is missing */
 std::vector<Eigen::Vector3d>
 rowsOf(const pcl::PCLPointCloud2& cloud, const std::array<const char*, 3>& names)
 {
@@ -42,7 +42,7 @@ isDoubleField(const pcl::PCLPointCloud2& cloud)
       });
 }
 
-/** \return how many rows PCL's conversion gives other coordinates than the file has */
+/** \return number of rows whose coordinates are changed by PCL's conversion */
 std::size_t
 lostByPcl(const pcl::PCLPointCloud2& cloud, const std::vector<Eigen::Vector3d>& rows)
 {
@@ -116,7 +116,7 @@ readDoctorCloud(const std::string& file, ScanFormat format)
 {
   const ScanFormat known =
       format == ScanFormat::kAuto ? scanFormatOfExtension(file) : format;
-  ScanCloud scan = readScanCloud(file, format); // names what is wrong with the file
+  ScanCloud scan = readScanCloud(file, format); // throws naming the error of the file
   DoctorCloud read;
   read.file = file;
   read.left_out = scan.dropped;
@@ -142,8 +142,8 @@ readRowNumbers(const std::string& file, const DoctorCloud& cloud)
   if (cloud.left_out > 0)
     throw IoFailed(file + ": " + cloud.file + " has " +
                    text::counted(cloud.left_out, "row") +
-                   " without finite coordinates, which the reader of its format leaves "
-                   "out: numbers of points do not tell which are meant");
+                   " without finite coordinates, left out by the reader of the format: "
+                   "the numbers of points are not unique");
   const std::string content = text::readFile(file);
   pcl::Indices numbers;
   for (text::Lines lines(content); lines.next();) {

@@ -16,23 +16,23 @@
 
 namespace pcl6d::app {
 
-/** \brief A cloud as a program with PCL would have it: all its rows, NaN included. */
+/** \brief A cloud as a program with PCL would get it: every row, including NaN. */
 struct DoctorCloud {
   std::string file;
   std::vector<Eigen::Vector3d> rows; ///< [m] x y z as stored
-  Normals normals;                   ///< one per row; empty: the file has none
+  Normals normals;                   ///< one per row; empty: not in the file
   std::vector<std::string> fields;
   std::size_t width = 0, height = 1;
   bool in_double = false;   ///< x, y, z are stored as float64
-  std::size_t left_out = 0; ///< rows without finite x, y, z that the reader left out
-  /** rows whose x, y, z PCL's conversion to pcl::PointXYZ does not give; of PCD files */
+  std::size_t left_out = 0; ///< rows without finite x, y, z, dropped by the reader
+  /** number of rows of a PCD file with x, y, z changed by PCL's conversion to pcl::PointXYZ */
   std::size_t lost_by_pcl = 0;
   std::optional<Eigen::Isometry3d> viewpoint; ///< of a PCD file, if not the identity
-  std::optional<pcl::Indices> indices;        ///< rows that count; none: all
+  std::optional<pcl::Indices> indices;        ///< selected rows; empty: every row
   /** [m] taken off the coordinates to measure near 0, in double */
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 
-  /** \return the rows that are finite, and, if wanted, are chosen by the indices */
+  /** \return the finite rows; if chosen is true, only rows selected by the indices */
   std::vector<std::size_t>
   finiteRows(bool chosen) const;
 
@@ -44,14 +44,15 @@ struct DoctorCloud {
   numNotFinite() const;
 };
 
-/** \brief Reads a cloud; PCD files with their rows of NaN, others as readScan().
+/** \brief Reads a cloud; PCD files keep their NaN rows, other formats are read by
+ * readScan().
  * \throws IoFailed as readScan() */
 DoctorCloud
 readDoctorCloud(const std::string& file, ScanFormat format);
 
 /** \brief Reads numbers of rows, separated by white space.
- * \throws IoFailed naming the number: it is none, or no row of the cloud; or the reader left
- * out rows, so that numbers do not tell which is meant */
+ * \throws IoFailed naming the text: no number, or no row of the cloud; or the reader
+ * dropped rows, which makes row numbers ambiguous */
 pcl::Indices
 readRowNumbers(const std::string& file, const DoctorCloud& cloud);
 

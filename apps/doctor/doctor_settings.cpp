@@ -15,15 +15,15 @@ usage()
 {
   return std::string("usage: ") + kDoctor +
          R"( SOURCE TARGET [options]
-What PCL's registration classes and ours make of these two clouds: what PCL does
-in silence, what each result is worth, what to set. Everything it says was measured
-on the clouds, by runs with a time limit that cannot take the program down.
-Distances in metres, angles in degrees. What the words mean: share/doc/doctor.md.
-Exit code 0: done, and our result is verified; 3: it is not to be trusted.
+Runs the registration classes of PCL and of pcl6d on two clouds and reports silent
+failures of PCL, the reliability of each result, and the options to set. Every statement
+is measured on the clouds, by runs with a time limit in separate processes.
+Distances in metres, angles in degrees. Meaning of the words: share/doc/doctor.md.
+Exit code 0: done, and the result of pcl6d is verified; 3: the result is doubtful.
 )";
 }
 
-/** \throws UsageError the text is no place */
+/** \throws UsageError the text is no position */
 Eigen::Vector3d
 placeOfText(const std::string& option, const std::string& text)
 {
@@ -47,11 +47,11 @@ addOptions(OptionTable& table, DoctorSettings& s)
   table.add("guess \"X Y Z R P Y\"|FILE", &s.guess)
       .help("start: pose of SOURCE in the frame of TARGET, [m] and roll pitch yaw "
             "[deg]; a file may hold a matrix (12 or 16 numbers, row by row) instead; "
-            "by default the identity, as align() takes");
+            "by default the identity, like align()");
   table.add("indices FILE", &s.indices)
-      .help("numbers of the points of SOURCE that count, from 0, for setIndices()");
+      .help("numbers of the points of SOURCE to use, from 0, for setIndices()");
   table.add("format", &s.format, scanFormatFromName)
-      .help("auto|pcd|ply|uos|uosr|kitti|xyz");
+      .help("auto|pcd|ply|uos|uosr|kitti|xyz|las|laz");
   const auto addOrigin = [&](const std::string& name,
                              std::optional<Eigen::Vector3d>* place,
                              const std::string& cloud) {
@@ -61,8 +61,8 @@ addOptions(OptionTable& table, DoctorSettings& s)
             "",
             [=](const std::string& text) { *place = placeOfText("--" + name, text); })
         .help("[m] where the scanner stood in " + cloud +
-              ", for the verdict by its rays; by default 0 of its coordinates, its "
-              "VIEWPOINT or its middle, the first that can be");
+              ", for the free-space test; by default the origin, the VIEWPOINT or the "
+              "middle of the cloud, the first possible");
   };
   addOrigin("source-origin", &s.source_origin, "SOURCE");
   addOrigin("target-origin", &s.target_origin, "TARGET");
@@ -72,10 +72,10 @@ addOptions(OptionTable& table, DoctorSettings& s)
       .help("[m] limit of the pair distance; by default derived from the clouds");
   table.add("time-limit", &s.time_limit)
       .above(0, "finite and > 0", kFinite)
-      .help("[s] a run is ended after it");
+      .help("[s] longest time of a run");
   table.group("Output");
   table.add("output,o FILE", &s.html).help("report to write, one HTML file (.html)");
-  table.add("json FILE", &s.json).help("the same as data (.json)");
+  table.add("json FILE", &s.json).help("the report as data (.json)");
   table.add("quiet", &s.quiet).help("print the report, warnings and errors only");
 }
 } // namespace
@@ -93,7 +93,7 @@ parseDoctorSettings(const std::vector<std::string>& arguments, DoctorSettings& s
        {std::pair(s.html, "--output"), std::pair(s.json, "--json")})
     refuseInputs(file, {s.source, s.target, s.guess, s.indices}, "an input", option);
   if (!s.html.empty() && s.html == s.json)
-    throw UsageError("--output and --json are the same file");
+    throw UsageError("--output and --json name one file");
   return true;
 }
 

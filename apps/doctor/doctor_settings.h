@@ -18,7 +18,7 @@ struct DoctorSettings {
   std::string guess;          ///< T_target_source: numbers or a file; or empty
   std::string indices;        ///< file of point numbers of the source; or empty
   ScanFormat format = ScanFormat::kAuto;
-  std::optional<Eigen::Vector3d> source_origin; ///< [m] where the scanner stood
+  std::optional<Eigen::Vector3d> source_origin; ///< [m] position of the scanner
   std::optional<Eigen::Vector3d> target_origin;
   std::optional<double> max_distance; ///< [m] none: derived
   double time_limit = 30;             ///< [s] of each run
@@ -28,8 +28,8 @@ struct DoctorSettings {
 };
 
 /** \brief Fills the settings from the command line and the config file.
- * \return false when there is nothing more to do (--help)
- * \throws UsageError, boost::program_options::error an option breaks its rule */
+ * \return false: --help was given, and the program is to end
+ * \throws UsageError, boost::program_options::error an option is invalid */
 bool
 parseDoctorSettings(const std::vector<std::string>& arguments,
                     DoctorSettings& settings);

@@ -34,7 +34,7 @@ asItIs(Class method, const DoctorPair& pair)
   return row;
 }
 
-/** With what the clouds ask for; for both suites the same. */
+/** With recommended settings, equal for PCL and our classes. */
 Experiment
 asSet(Class method, const DoctorPair& pair)
 {
@@ -70,7 +70,7 @@ planned(const DoctorPair& pair)
     if (pair.canBeMatched())
       rows.push_back(asSet(method, pair));
   }
-  for (const Class method : kClasses) // as advised, where float has no digits
+  for (const Class method : kClasses) // as advised for coordinates too large for float
     if (pair.canBeMatched() && pair.isFar() && !isPcl(method))
       rows.push_back(nearZero(asSet(method, pair)));
   return rows;
@@ -97,7 +97,7 @@ public:
     return out;
   }
 
-  /** Once more with whatever may matter on these clouds. */
+  /** Repeats a run with each variant that may matter for the clouds. */
   void
   probe(Experiment& row) const
   {
@@ -114,7 +114,7 @@ public:
     row.own_normals = again(wantsNormals(row.method) && hasNormals(), ownNormals());
   }
 
-  /** A class of pairs from another start, with the distance that it asks for. */
+  /** A class with pairs, from another start, with a maximum distance suited to the start. */
   Experiment
   fromStart(Class method, const Eigen::Isometry3d& start, const char* words) const
   {
@@ -151,7 +151,7 @@ private:
   {
     InputVariant v;
     v.extracted = true;
-    v.without_nan = true; // which may hide what indices do
+    v.without_nan = true; // NaN may hide the effect of indices
     return v;
   }
   static InputVariant
@@ -181,8 +181,8 @@ private:
     return !pair_.source.normals.empty() || !pair_.target.normals.empty();
   }
 
-  /** With ten times the iterations and steps down to a hundredth of what can be told apart:
-   * whether the place where it stopped is one of rest. */
+  /** Repeats with ten times the iterations and a stop at a hundredth of the tolerance,
+   * to test whether the run had converged. */
   std::optional<ClassOutcome>
   goOn(const Experiment& row) const
   {
@@ -204,7 +204,7 @@ private:
   InputMaker inputs_;
 };
 
-/** A coarse placement in a process of its own. \return none: it found none, or in no time */
+/** Coarse alignment in a process of its own. \return empty: no pose found, or timeout */
 std::optional<Eigen::Isometry3d>
 placement(double time_limit,
           const Interrupt& interrupt,
@@ -227,7 +227,7 @@ placement(double time_limit,
   return pose;
 }
 
-/** The source moved so that its middle is that of the target. */
+/** The source moved onto the target by aligning their middles. */
 Eigen::Isometry3d
 middleOnMiddle(const DoctorPair& pair)
 {

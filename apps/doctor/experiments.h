@@ -11,21 +11,22 @@
 
 namespace pcl6d::app {
 
-/** \brief Another way of giving a class the same clouds, to see what changes. */
+/** \brief Variant of the input of a class, to see changes of the result. */
 struct InputVariant {
-  bool local = false;       ///< less the offsets, in double before they are float
+  /** relative to the offsets, subtracted in double before rounding to float */
+  bool local = false;
   bool without_nan = false; ///< rows of NaN are taken out
   bool extracted = false;   ///< only the points of the indices, in place of the indices
   bool without_indices = false; ///< all points
-  bool own_normals = false;     ///< estimated ones in place of those of the file
+  bool own_normals = false;     ///< estimated normals in place of the file's
 };
 
-/** \brief What is to be made of a pose; by RegistrationVerifier. */
+/** \brief Assessment of a pose by RegistrationVerifier. */
 struct PoseVerdict {
-  std::string trust; ///< "good", "unverified", "weak", "wrong"; empty: not judged
+  std::string trust; ///< "good", "unverified", "weak", "wrong"; empty: not tested
   double probability_wrong = 1;
   std::size_t patches = 0, contradicted = 0;
-  std::string reason; ///< in words; of one not judged: why
+  std::string reason; ///< in words; for an untested pose: the cause
   PoseFit fit;        ///< within the distance of the pair
 
   bool
@@ -39,13 +40,13 @@ struct PoseVerdict {
 struct Experiment {
   RegistrationClass method = RegistrationClass::kPclIcp;
   ClassSettings settings;
-  InputVariant input;        ///< of the outcome; its probes change one thing more
+  InputVariant input;        ///< of the outcome; probes change one more setting
   std::string setting_words; ///< "as it is", "max distance 0.1 m"
   std::string start_words;   ///< empty: the start of the pair
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity(); ///< local
   ClassOutcome outcome;
   PoseVerdict verdict;
-  /** The same once more, with one thing changed; none: there was no reason to. */
+  /** Repetitions with one change each; empty: not needed. */
   std::optional<ClassOutcome> longer, local, without_nan, extracted, whole, own_normals;
 
   std::string
@@ -55,30 +56,32 @@ struct Experiment {
   }
 };
 
-/** \brief Runs the classes from the start of the pair, and once more each for what may change
- * their results. \throws Interrupted */
+/** \brief Runs the classes from the start of the pair, and again with each variant that
+ * may change their results. \throws Interrupted */
 std::vector<Experiment>
 runExperiments(const DoctorPair& pair,
                double time_limit,
                ProgressBar& bar,
                const Interrupt& interrupt);
 
-/** \brief Ours from the starts of coarse alignment that finds any. \throws Interrupted */
+/** \brief Runs our classes from the starts found by coarse alignment.
+ * \throws Interrupted */
 std::vector<Experiment>
 runCoarseStarts(const DoctorPair& pair,
                 double time_limit,
                 ProgressBar& bar,
                 const Interrupt& interrupt);
 
-/** \brief Asks RegistrationVerifier about the poses of all experiments. \throws Interrupted */
+/** \brief Tests the pose of every experiment by RegistrationVerifier.
+ * \throws Interrupted */
 void
-judge(const DoctorPair& pair,
-      double time_limit,
-      std::vector<Experiment>& experiments,
-      const Interrupt& interrupt);
+evaluate(const DoctorPair& pair,
+         double time_limit,
+         std::vector<Experiment>& experiments,
+         const Interrupt& interrupt);
 
-/** \return the place of the experiment whose pose is to be believed most: by its verdict,
- * then by the fit, then ours before PCL's; none if there is no pose */
+/** \return the index of the experiment with the most reliable pose: by verdict, then by
+ * fit, then ours before PCL's; empty without a pose */
 std::optional<std::size_t>
 bestOf(const DoctorPair& pair,
        const std::vector<Experiment>& experiments,

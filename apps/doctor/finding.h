@@ -8,8 +8,8 @@ namespace pcl6d::app {
 
 /** \brief How much a finding matters. */
 enum class Severity {
-  kProblem, ///< a result is wrong, or there is none, because of it
-  kWarning, ///< a result is worse than it could be, or says more than it knows
+  kProblem, ///< causes a wrong or missing result
+  kWarning, ///< causes a worse or overconfident result
   kNote     ///< good to know
 };
 
@@ -17,12 +17,12 @@ enum class Severity {
 const char*
 toString(Severity severity);
 
-/** \brief What the doctor found on the clouds of the user, and what to do about it. */
+/** \brief A finding on the clouds of the user, with advice. */
 struct Finding {
   Severity severity = Severity::kNote;
   std::string what;     ///< one line
-  std::string measured; ///< the numbers that say so
-  std::string advice;   ///< what to set or do; empty: nothing
+  std::string measured; ///< supporting numbers
+  std::string advice;   ///< recommended action; may be empty
 };
 
 using Findings = std::vector<Finding>;

@@ -37,7 +37,7 @@ svg { border: 1px solid #ddd; max-width: 100%; }
 <body>
 )";
 
-/** Text that means no tags; what is no UTF-8 is shown as question marks. */
+/** Escapes markup; invalid UTF-8 becomes question marks. */
 std::string
 escaped(const std::string& text)
 {

@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr char kStageMark = '\x01';
 
-/** A pipe whose ends are closed at the end of its scope. */
+/** A pipe that is closed at destruction. */
 struct Pipe {
   Pipe()
   {
@@ -59,17 +59,17 @@ writeAll(int file, const std::string& text)
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t count = ::write(file, text.data() + done, text.size() - done);
     if (count <= 0)
-      return; // nobody listens any more
+      return; // the reader has closed the pipe
     done += static_cast<std::size_t>(count);
   }
 }
 
-/** The process of the run: never returns, and runs no destructors of this one. */
+/** Main function of the child: never returns, and runs no destructors of the parent. */
 [[noreturn]] void
 beChild(const std::function<nlohmann::json()>& work, int result, int said, pid_t parent)
 {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) // it ended before the line above
+  if (::getppid() != parent) // the parent ended before prctl()
     ::_exit(127);
   for (const int number : {SIGPIPE, SIGINT, SIGTERM, SIGHUP})
     ::signal(number, SIG_DFL);
@@ -84,7 +84,7 @@ beChild(const std::function<nlohmann::json()>& work, int result, int said, pid_t
   } catch (const std::exception& e) {
     answer["threw"] = e.what();
   } catch (...) {
-    answer["threw"] = "what is no std::exception";
+    answer["threw"] = "an object that is no std::exception";
   }
   std::fflush(nullptr);
   using Json = nlohmann::json;
@@ -92,7 +92,7 @@ beChild(const std::function<nlohmann::json()>& work, int result, int said, pid_t
   ::_exit(0);
 }
 
-/** \return the stages that a run told, in its output, and the rest of that */
+/** \return the output of a run without stage marks \param[out] stage the last stage */
 std::string
 withoutStages(const std::string& text, std::string& stage)
 {
@@ -107,8 +107,8 @@ withoutStages(const std::string& text, std::string& stage)
   return rest;
 }
 
-/** \return the first lines of what was printed, as one, without colours; of a failed
- * assertion what it says */
+/** \return the first lines of an output, on one line, without colours; of a failed
+ * assertion its message */
 std::string
 shortened(const std::string& text)
 {
@@ -125,7 +125,7 @@ shortened(const std::string& text)
   return line.substr(std::min(line.find_first_not_of(' '), line.size()));
 }
 
-/** Reads what there is. \return false at the end */
+/** Reads the available bytes. \return false at the end */
 bool
 readSome(int file, std::string& text, std::size_t most)
 {
@@ -164,9 +164,9 @@ listen(double seconds,
   return RunEnd::kDone;
 }
 
-/** \return what a process that ended by itself came to */
+/** \return the result of a process that ended by itself */
 LimitedRun
-judged(int status, const std::string& answer)
+evaluated(int status, const std::string& answer)
 {
   LimitedRun run;
   const auto json = nlohmann::json::parse(answer, nullptr, false);
@@ -216,7 +216,7 @@ runLimited(double seconds,
     ::kill(child, SIGKILL);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
-  LimitedRun run = end == RunEnd::kDone ? judged(status, texts[0]) : LimitedRun();
+  LimitedRun run = end == RunEnd::kDone ? evaluated(status, texts[0]) : LimitedRun();
   if (end != RunEnd::kDone)
     run.end = end;
   run.said = shortened(withoutStages(texts[1], run.stage));

@@ -10,32 +10,33 @@
 
 namespace pcl6d::app {
 
-/** \brief How a run in a process of its own ended. */
+/** \brief End of a run in a process of its own. */
 enum class RunEnd {
   kDone,
   kThrew,       ///< an exception: words
   kCrashed,     ///< a signal: words
-  kTimeOut,     ///< it was ended because its time was over
-  kInterrupted, ///< so was it because a signal came to this process
+  kTimeOut,     ///< killed at the time limit
+  kInterrupted, ///< killed after a signal to this process
 };
 
-/** \brief What a run in a process of its own came to. */
+/** \brief Result of a run in a process of its own. */
 struct LimitedRun {
   RunEnd end = RunEnd::kDone;
   nlohmann::json result; ///< of kDone
-  std::string words;     ///< what was thrown, or which signal it was
-  std::string said;      ///< what it printed, without colours, shortened
-  std::string stage;     ///< that it entered last; empty: none
+  std::string words;     ///< message of the exception, or name of the signal
+  std::string said;      ///< printed text, without colours, shortened
+  std::string stage;     ///< last stage entered; may be empty
 };
 
-/** \brief Within a run: tells what is done next, in case that it is the last thing. */
+/** \brief Within a run: announces the next stage, in case the run ends there. */
 void
 enterStage(const char* name);
 
-/** \brief Computes in a process of its own, a copy of this one: whatever it does to memory,
- * however long it takes, this process goes on. PCL's warnings and errors are heard.
+/** \brief Computes in a child process, a copy of this process. Memory errors and
+ * endless loops of the work do not harm this process. Warnings and errors of PCL are
+ * captured.
  * \param[in] seconds time limit, > 0
- * \throws IoFailed no process can be made */
+ * \throws IoFailed the child process cannot be made */
 LimitedRun
 runLimited(double seconds,
            const Interrupt& interrupt,

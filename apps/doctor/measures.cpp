@@ -17,12 +17,12 @@
 namespace pcl6d::app {
 
 namespace {
-/** Float keeps so many steps of itself in a spacing, or coordinates count as far away: a
- * thousandth of the spacing is far below what registration tells apart. */
+/** Least number of float steps per spacing; otherwise coordinates count as far away. A
+ * thousandth of the spacing is far below the accuracy of registration. */
 constexpr double kStepsPerSpacing = 1000;
 
-/** A tenth of the spacing, as RegistrationVerifier takes a tenth of its voxel: points do
- * not tell nearer places apart. */
+/** A tenth of the spacing, like the tenth of a voxel in RegistrationVerifier: points
+ * cannot distinguish poses closer together. */
 constexpr double kToldApart = 0.1;
 
 Eigen::Vector3d
@@ -46,7 +46,7 @@ floatStep(double value)
   return std::nextafter(size, std::numeric_limits<float>::infinity()) - size;
 }
 
-/** \return the number of different coordinates on each axis, as float has them */
+/** \return the number of distinct coordinates on each axis, as float */
 std::array<std::size_t, 3>
 valuesOf(const DoctorCloud& cloud, const std::vector<std::size_t>& rows)
 {
@@ -73,7 +73,7 @@ duplicatesAmong(const DoctorCloud& cloud, const std::vector<std::size_t>& rows)
   return static_cast<std::size_t>(points.end() - end);
 }
 
-/** A scanner stands in its cloud or before it: no farther off than the cloud is large. */
+/** Position of the scanner: inside the cloud, or outside by at most the size of the cloud. */
 ScannerPlace
 scannerOf(const DoctorCloud& cloud,
           const CloudMeasures& of,
@@ -87,7 +87,7 @@ scannerOf(const DoctorCloud& cloud,
   if (cloud.viewpoint &&
       of.box.exteriorDistance(cloud.viewpoint->translation().eval()) <= size)
     return {cloud.viewpoint->translation(), "its VIEWPOINT", true};
-  return {of.middle, "its middle, as nothing says where", false};
+  return {of.middle, "its middle: no VIEWPOINT is given", false};
 }
 
 void
@@ -106,8 +106,8 @@ measureRanges(const DoctorCloud& cloud,
         }));
 }
 
-/** The whole metres to take off, if float is too coarse for the spacing there, and finer by
- * three bits and more in the middle of the cloud. */
+/** Sets an offset in whole metres if float is too coarse for the spacing, and at least
+ * three bits finer near the middle of the cloud. */
 void
 chooseOffset(DoctorCloud& cloud, const CloudMeasures& of)
 {
@@ -158,14 +158,15 @@ readGuess(const DoctorSettings& s, DoctorPair& pair)
                          : poseFromText("--guess", s.guess);
 }
 
-/** Clouds in one far frame lose the same metres, so that the identity stays the identity. */
+/** Clouds in one far frame get a common offset, which preserves the identity. */
 void
 joinOffsets(DoctorPair& pair)
 {
   if (pair.source.offset.isZero() || pair.target.offset.isZero())
     return;
   const double size = pair.of_source.box.merged(pair.of_target.box).diagonal().norm();
-  constexpr double kFrame = 10000; // [m] as worldOffset(): float has a millimetre there
+  // [m] as worldOffset(): float steps reach a millimetre
+  constexpr double kFrame = 10000;
   if (size < kFrame)
     pair.source.offset = pair.target.offset;
 }

@@ -15,27 +15,27 @@
 
 namespace pcl6d::app {
 
-/** \brief Where a scanner stood, in the coordinates of its cloud. */
+/** \brief Position of a scanner, in the coordinates of its cloud. */
 struct ScannerPlace {
   Eigen::Vector3d place = Eigen::Vector3d::Zero(); ///< [m]
   std::string why;                                 ///< "0 of its coordinates"
-  bool known = true;                               ///< false: nothing says where
+  bool known = true;                               ///< false: the position is a guess
 };
 
-/** \brief The numbers of a cloud; of its finite points that count. */
+/** \brief Measures of the finite, selected points of a cloud. */
 struct CloudMeasures {
-  std::size_t points = 0;     ///< finite ones that count
+  std::size_t points = 0;     ///< finite and selected
   std::size_t not_finite = 0; ///< rows
   Eigen::AlignedBox3d box;    ///< [m] in full coordinates
   Eigen::Vector3d middle =
       Eigen::Vector3d::Zero();         ///< median of each, full coordinates
-  double spread = 0;                   ///< [m] median distance from there
+  double spread = 0;                   ///< [m] median distance from the middle
   double spacing = 0;                  ///< [m] median distance of neighbours
   double float_step = 0;               ///< [m] of the largest coordinate
-  std::array<std::size_t, 3> values{}; ///< different ones of x, y, z, as float
-  std::size_t duplicates = 0;          ///< points in the place of another
+  std::array<std::size_t, 3> values{}; ///< distinct values of x, y, z, as float
+  std::size_t duplicates = 0;          ///< points with the coordinates of another point
   ScannerPlace scanner;
-  std::optional<double> no_return; ///< [m] the range that stands for no echo
+  std::optional<double> no_return; ///< [m] range used by the scanner for no echo
   std::size_t num_no_return = 0;   ///< points there
 };
 
@@ -46,7 +46,7 @@ struct PoseFit {
   double misfit = 0; ///< [m] root of the mean square, no distance above the limit
 };
 
-/** \brief Both clouds, what is measured of them, and what follows for settings. Poses are
+/** \brief Both clouds, their measures, and settings derived from the measures. Poses are
  * T_target_source of the local coordinates (DoctorCloud::offset) unless said otherwise. */
 struct DoctorPair {
   DoctorCloud source, target;
@@ -55,14 +55,13 @@ struct DoctorPair {
   Eigen::Isometry3d guess_given; ///< in full coordinates
   Eigen::Isometry3d start;       ///< the same, local
   PoseFit at_start;
-  double spacing = 0; ///< [m] of the coarser cloud
-  double max_distance =
-      0; ///< [m] limit of pairs; 0: there are no points to derive it from
+  double spacing = 0;      ///< [m] of the coarser cloud
+  double max_distance = 0; ///< [m] limit of pairs; 0: no points
   std::string max_distance_why;
   double resolution = 0; ///< [m] of the cells of NDT
   double voxel = 0;      ///< [m] leaf of a reduction
   std::string voxel_why;
-  double reach = 0; ///< [m] from the scanner, of points that a reduction can take
+  double reach = 0; ///< [m] largest range of points that a reduction can process
   Points source_points, target_points; ///< local, finite, that count
   std::optional<PointTree> tree;       ///< of the target's
 
@@ -72,15 +71,16 @@ struct DoctorPair {
     return of_source.points >= 3 && of_target.points >= 3;
   }
 
-  /** \return [m] limit of pairs at a start: three spacings, or what most pairs need */
+  /** \return [m] limit of pairs at a start: three spacings, or twice the median
+   * distance if larger */
   double
   maxDistanceAt(const PoseFit& fit) const;
 
-  /** \return the points that count, as their scanner sees them */
+  /** \return the selected points, in the frame of their scanner */
   Points
   seen(const DoctorCloud& cloud) const;
 
-  /** \return whether most points start farther from the target than it is large */
+  /** \return whether most points start farther from the target than the size of the target */
   bool
   startsApart() const
   {
@@ -99,12 +99,12 @@ struct DoctorPair {
   Eigen::Isometry3d
   toFull(const Eigen::Isometry3d& pose) const;
 
-  /** \return [m] poses that lie nearer together cannot be told apart by these points */
+  /** \return [m] least difference of poses that the points can distinguish */
   double
   tolerance() const;
 
-  /** \brief The motion between poses, where the source is: of its middle [m], turn [rad].
-   * Their sum with the turn at the cloud's spread is [m] shift. */
+  /** \brief The motion between poses, at the source: translation of its middle [m], rotation
+   * [rad]. Shift [m] is the translation plus the rotation times the cloud's spread. */
   struct Difference {
     double translation = 0, rotation = 0, shift = 0;
   };
@@ -115,7 +115,7 @@ struct DoctorPair {
   fitAt(const Eigen::Isometry3d& pose, double limit) const;
 };
 
-/** \brief Reads everything, and measures what needs no registration.
+/** \brief Reads the input, and measures everything that needs no registration.
  * \throws IoFailed a file is missing or broken \throws UsageError no pose in --guess */
 DoctorPair
 loadPair(const DoctorSettings& settings);

@@ -11,7 +11,7 @@ namespace pcl6d::app {
 namespace {
 using Point = pcl::PointXYZ;
 
-/** What ours say of themselves, and the pose in double. */
+/** Results specific to our classes, and the pose in double. */
 template <typename Class>
 void
 takeResult(const Class& registration, ClassOutcome& out)

@@ -6,7 +6,7 @@
 namespace pcl6d::app {
 
 namespace {
-/** \return why PCL says that it stopped \param[out] at_limit it was the iterations */
+/** \return PCL's reason for stopping \param[out] at_limit whether at the iteration limit */
 template <typename Criteria>
 std::string
 stateOf(Criteria& criteria, bool& at_limit)

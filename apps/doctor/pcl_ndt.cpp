@@ -12,13 +12,12 @@ alignPclNdt(const ClassSettings& s, const ClassInput& input, ClassOutcome& out)
   Counting<pcl::NormalDistributionsTransform<Point, Point>> ndt;
   if (s.resolution) {
     ndt.setResolution(static_cast<float>(*s.resolution));
-    ndt.setStepSize(0.1 * *s.resolution); // as PCL's 0.1 m of 1 m
+    ndt.setStepSize(0.1 * *s.resolution); // PCL's default is 0.1 m for cells of 1 m
   }
   if (s.iterations)
     ndt.setMaximumIterations(*s.iterations);
   if (s.at_rest)
-    ndt.setTransformationEpsilon(*s.at_rest *
-                                 *s.at_rest); // it is compared with squares
+    ndt.setTransformationEpsilon(*s.at_rest * *s.at_rest); // compared with squares
   alignAsUser<Point>(ndt, input, out);
 }
 

@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
-/** \file The reports: text, HTML and JSON say the same. */
+/** \file The reports: text, HTML and JSON have equal content. */
 namespace pcl6d::app {
 
 using Cells = std::vector<std::string>;
 
-/** \brief A table as both reports print it. */
+/** \brief A table for the text and HTML reports. */
 struct ReportTable {
   Cells heads;
   std::vector<Cells> rows;
 };
 
-/** \return a row for each cloud: points, extent, spacing and so on */
+/** \return a row for each cloud: points, extent, spacing and further measures */
 ReportTable
 cloudTable(const Diagnosis& diagnosis);
 
@@ -38,12 +38,12 @@ poseBlocks(const Diagnosis& diagnosis);
 std::string
 textReport(const Diagnosis& diagnosis);
 
-/** \return a page that needs nothing else */
+/** \return a self-contained HTML page */
 std::string
 htmlReport(const Diagnosis& diagnosis);
 
-/** \return both clouds, thinned, as they lie at a pose, from the side that shows most of
- * them: a drawing for HTML; empty without points */
+/** \return drawing (SVG) of both clouds, thinned, at a pose, seen from the side with
+ * the largest extent; empty without points */
 std::string
 svgOfPose(const DoctorPair& pair, const Eigen::Isometry3d& pose);
 

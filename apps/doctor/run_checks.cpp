@@ -11,14 +11,14 @@
 namespace pcl6d::app {
 
 namespace {
-/** What all checks of the runs look at. */
+/** Common input of the checks of runs. */
 struct Runs {
   const DoctorPair& pair;
   const std::vector<Experiment>& rows;
   const std::optional<std::size_t>& best;
 };
 
-/** One finding for what several runs have in common: a line for each of them. */
+/** One finding common to several runs: a line for each run. */
 class Gathered {
 public:
   Gathered(const std::string& what, const std::string& advice)
@@ -51,10 +51,8 @@ private:
 void
 checkEnds(const Runs& runs, Findings& findings)
 {
-  Gathered bad(
-      "classes did not come to an end",
-      "what else is found here about the clouds; --time-limit for those that only "
-      "take long");
+  Gathered bad("classes did not come to an end",
+               "the further findings on the clouds; --time-limit for slow classes");
   for (const Experiment& row : runs.rows)
     if (row.outcome.end != RunEnd::kDone)
       bad.add(row.outcome.end == RunEnd::kTimeOut ? Severity::kWarning
@@ -66,10 +64,9 @@ checkEnds(const Runs& runs, Findings& findings)
 void
 checkFinite(const Runs& runs, Findings& findings)
 {
-  Gathered bad(
-      "success is reported without a pose",
-      "look at getFinalTransformation() before it is used, or take ours, whose "
-      "hasConverged() is then false");
+  Gathered bad("success is reported without a pose",
+               "check getFinalTransformation() before use, or use the class of pcl6d, "
+               "with hasConverged() false in this case");
   for (const Experiment& row : runs.rows)
     if (row.outcome.end == RunEnd::kDone && row.outcome.converged &&
         !row.outcome.is_rigid)
@@ -79,11 +76,11 @@ checkFinite(const Runs& runs, Findings& findings)
   bad.moveTo(findings);
 }
 
-/** What was printed by runs that came to an end: easily lost in the output of a program. */
+/** Messages of runs that ended normally: easily lost in the output of a program. */
 void
 checkSaid(const Runs& runs, Findings& findings)
 {
-  Gathered said("classes print warnings, and say no more", "");
+  Gathered said("classes only print warnings", "");
   for (const Experiment& row : runs.rows)
     if (row.outcome.end == RunEnd::kDone && !row.outcome.said.empty())
       said.add(row.outcome.converged ? Severity::kWarning : Severity::kNote,
@@ -92,7 +89,7 @@ checkSaid(const Runs& runs, Findings& findings)
   said.moveTo(findings);
 }
 
-/** \return how the pose of another run lies beside that of a row */
+/** \return the difference between the pose of another run and the pose of a row, in words */
 std::string
 besideWords(const Runs& runs, const Experiment& row, const ClassOutcome& other)
 {
@@ -112,8 +109,8 @@ void
 checkLimit(const Runs& runs, Findings& findings)
 {
   Gathered counted("the iteration limit is counted as convergence",
-                   "setMaximumIterations() as high as the longer run needed; "
-                   "hasConverged() of pcl6d's classes is false at the limit");
+                   "setMaximumIterations() of the longer run; hasConverged() of "
+                   "pcl6d's classes is false at the limit");
   for (const Experiment& row : runs.rows) {
     const ClassOutcome& out = row.outcome;
     if (!isPcl(row.method) || !out.hasPose() || !out.converged || !out.at_limit)
@@ -159,7 +156,7 @@ checkEarlyStop(const Runs& runs, Findings& findings)
   early.moveTo(findings);
 }
 
-/** One thing changed in the input. */
+/** One change of the input. */
 struct Change {
   std::optional<ClassOutcome> Experiment::*probe;
   const char* what;   ///< of the finding
@@ -167,7 +164,7 @@ struct Change {
   std::string advice; ///< of the finding
 };
 
-/** Whether a class gives the answer that it gives on a better input. */
+/** Checks whether a class keeps its result on a better input. */
 void
 checkChange(const Runs& runs, const Change& change, Findings& findings)
 {
@@ -190,10 +187,11 @@ checkChange(const Runs& runs, const Change& change, Findings& findings)
 void
 checkIndices(const Runs& runs, Findings& findings)
 {
-  Gathered ignored("setIndices() is not honoured",
-                   "pcl::ExtractIndices, and register what it gives, without indices");
+  Gathered ignored(
+      "setIndices() is not honoured",
+      "pcl::ExtractIndices, and register the extracted cloud, without indices");
   for (const Experiment& row : runs.rows) {
-    // NaN may hide what indices do: all three are without.
+    // NaN may hide the effect of indices: the three compared runs are without NaN.
     const ClassOutcome& with = row.without_nan ? *row.without_nan : row.outcome;
     if (!row.extracted || !row.whole || !isElsewhere(runs, with, *row.extracted))
       continue;
@@ -211,12 +209,12 @@ checkIndices(const Runs& runs, Findings& findings)
   ignored.moveTo(findings);
 }
 
-/** What the defaults are worth here. */
+/** Checks the results with default settings. */
 void
 checkDefaults(const Runs& runs, Findings& findings)
 {
   Gathered worse("the defaults do not suit these clouds",
-                 "what was set in the rows of the table");
+                 "the settings in the rows of the table");
   for (std::size_t i = 0; i + 1 < runs.rows.size(); ++i) {
     const Experiment& a = runs.rows[i];
     const Experiment& b = runs.rows[i + 1];
@@ -237,9 +235,9 @@ checkDefaults(const Runs& runs, Findings& findings)
 void
 checkTrust(const Runs& runs, Findings& findings)
 {
-  Gathered wrong("success is reported of poses that are not to be trusted",
-                 "believe no hasConverged() and no fitness: ask "
-                 "pcl6d::RegistrationVerifier");
+  Gathered wrong(
+      "success is reported for doubtful poses",
+      "do not rely on hasConverged() and fitness: use pcl6d::RegistrationVerifier");
   const bool has_truth = runs.best && runs.rows[*runs.best].verdict.isGood();
   for (const Experiment& row : runs.rows) {
     if (!row.outcome.hasPose() || !row.outcome.converged || row.verdict.isGood())
@@ -291,7 +289,7 @@ checkRuns(const DoctorPair& pair,
               {&Experiment::own_normals,
                "the normals of the file change the result",
                "with normals estimated from 20 neighbours",
-               "compare both rows; normals of the file may be those of another filter"},
+               "compare both rows; normals of the file may come from another filter"},
               findings);
   checkDefaults(runs, findings);
   checkSaid(runs, findings);

@@ -7,16 +7,17 @@
 
 namespace pcl6d::app {
 
-/** \return how a run ended that is not done: "crashed: Segmentation fault" */
+/** \return the end of a failed run in words: "crashed: Segmentation fault" */
 std::string
 endWords(const ClassOutcome& out);
 
-/** \return what a class says: "converged", "not converged (iteration limit)", or in a word
- * how it ended */
+/** \return the state reported by a class: "converged", "not converged (iteration
+ * limit)", or the end of the run in a word */
 std::string
 briefWords(const ClassOutcome& out);
 
-/** \return the same in one word, for tables: "converged", "not converged", "no pose" */
+/** \return the state as briefWords(), shorter, for tables: "converged", "not
+ * converged", "no pose" */
 std::string
 saidShortly(const ClassOutcome& out);
 

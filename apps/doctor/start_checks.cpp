@@ -11,8 +11,8 @@
 namespace pcl6d::app {
 
 namespace {
-/** Another start than that of the user counts as better if its median distance is so many
- * times smaller. */
+/** Another start counts as better than the user's if its median distance is smaller by
+ * this factor. */
 constexpr double kClearly = 1.5;
 
 bool
@@ -21,7 +21,7 @@ compare(const Eigen::Vector3f& a, const Eigen::Vector3f& b)
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/** \return how many points of the source, as they are, are points of the target, too */
+/** \return number of source points, untransformed, that are also points of the target */
 std::size_t
 commonPoints(const DoctorPair& pair)
 {
@@ -46,11 +46,11 @@ checkCopies(const DoctorPair& pair, Findings& findings)
   if (2 * common <= pair.of_source.points)
     return;
   findings.push_back({Severity::kWarning,
-                      "the clouds hold the very same points",
+                      "the clouds hold identical points",
                       shareText(common, pair.of_source.points) +
                           " points of SOURCE are points of TARGET",
-                      "two measurements: a copy fits at the identity whatever was "
-                      "measured, and says nothing of a pose"});
+                      "two measurements: a copy fits at the identity for any scene, "
+                      "and tests no pose"});
 }
 
 void
@@ -78,11 +78,11 @@ checkOverlap(const DoctorPair& pair, Findings& findings)
   const double box_share =
       static_cast<double>(inside) / static_cast<double>(pair.of_source.points);
   if (box_share < kLittle || pair.startsApart())
-    findings.push_back({Severity::kProblem,
-                        "the clouds hardly meet at the start",
-                        measured,
-                        "a guess that brings them together, such as those of "
-                        "pcl6d::searchByOverlap() and alignByFeatures()"});
+    findings.push_back(
+        {Severity::kProblem,
+         "the clouds hardly meet at the start",
+         measured,
+         "a guess with overlap, from pcl6d::searchByOverlap() or alignByFeatures()"});
 }
 
 void
@@ -94,13 +94,13 @@ checkSpacing(const DoctorPair& pair, Findings& findings)
     return;
   findings.push_back(
       {Severity::kWarning,
-       "one cloud is much denser than the other",
+       "the clouds differ much in density",
        "spacing " + metres(a) + " of SOURCE, " + metres(b) +
            " of TARGET: " + shortNumber(std::max(a, b) / std::min(a, b), 2) + " times",
        "reduce both with one leaf size, " + metres(pair.voxel) + " or more"});
 }
 
-/** Clouds whose sizes are in the ratio of two units. */
+/** Clouds whose ratio of sizes equals the ratio of two units. */
 void
 checkScale(const DoctorPair& pair, Findings& findings)
 {
@@ -116,7 +116,8 @@ checkScale(const DoctorPair& pair, Findings& findings)
     return;
   const double ratio = std::max(a, b) / std::min(a, b);
   for (const auto& [factor, words] : units)
-    if (std::abs(ratio / factor - 1) < 0.1) // two views of a thing differ so much
+    // two views of an object may differ in size by this
+    if (std::abs(ratio / factor - 1) < 0.1)
       findings.push_back({Severity::kWarning,
                           "the clouds may be in different units",
                           "the points spread " + metres(a) + " in SOURCE, " +
@@ -126,7 +127,7 @@ checkScale(const DoctorPair& pair, Findings& findings)
                           "pcl6d::ICP6D::setEstimateScale(true)"});
 }
 
-/** The inverse of a guess, no guess, and what the VIEWPOINTs say, against the start. */
+/** Compares the start with the inverse of the guess, no guess, and the VIEWPOINTs. */
 void
 checkGuess(const DoctorPair& pair, Findings& findings)
 {
@@ -135,7 +136,7 @@ checkGuess(const DoctorPair& pair, Findings& findings)
                                const std::string& advice) {
     const PoseFit fit = pair.fitAt(pair.toLocal(full), pair.max_distance);
     if (kClearly * fit.median >= pair.at_start.median ||
-        pair.at_start.median < pair.spacing) // as near as points are
+        pair.at_start.median < pair.spacing) // within the point spacing
       return;
     findings.push_back({Severity::kWarning,
                         what,
@@ -146,13 +147,13 @@ checkGuess(const DoctorPair& pair, Findings& findings)
   };
   const bool is_given = !pair.guess_given.isApprox(Eigen::Isometry3d::Identity(), 0);
   if (is_given) {
-    compareWith(pair.guess_given.inverse(),
-                "the guess seems to be the wrong way round",
-                "pass its inverse: align() wants the pose of SOURCE in the frame of "
-                "TARGET");
+    compareWith(
+        pair.guess_given.inverse(),
+        "the guess seems to be the wrong way round",
+        "pass the inverse: align() wants the pose of SOURCE in the frame of TARGET");
     compareWith(Eigen::Isometry3d::Identity(),
-                "the guess is worse than none",
-                "leave it out, or look where it comes from");
+                "the guess is worse than the identity",
+                "leave the guess out, or check the source of the guess");
   }
   if (pair.source.viewpoint || pair.target.viewpoint) {
     const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
@@ -161,7 +162,7 @@ checkGuess(const DoctorPair& pair, Findings& findings)
     compareWith(relative,
                 "the VIEWPOINTs are a better start",
                 "pass them as guess: " + vectorText(relative.translation()) +
-                    " [m] and so on; pcl_slam6d takes them by itself");
+                    " [m] and the rotation; pcl_slam6d uses VIEWPOINTs by default");
   }
 }
 } // namespace

@@ -13,7 +13,7 @@ namespace {
 constexpr double kWidth = 480, kMargin = 8; // [pixels]
 constexpr std::size_t kMostDots = 2500;     // of a cloud
 
-/** \return the two directions in which the points spread most, as rows */
+/** \return the two directions of largest extent of the points, as rows */
 Eigen::Matrix<double, 2, 3>
 planeOf(const Points& points, const Eigen::Vector3d& middle)
 {
@@ -42,7 +42,7 @@ flat(const Points& points,
   return dots;
 }
 
-/** \return the box of all but the outermost hundredth on each side */
+/** \return bounding box without the outermost hundredth on each side */
 Eigen::AlignedBox2d
 boxOf(std::vector<Eigen::Vector2d> dots)
 {

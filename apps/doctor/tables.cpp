@@ -72,7 +72,8 @@ classRow(const Diagnosis& d, const Experiment& row)
   const bool is_fitness = out.fitness < std::numeric_limits<double>::max();
   cells.push_back(is_fitness ? shortNumber(out.fitness) : "-"); // that: no pairs
   if (!out.is_rigid || !d.best) {
-    cells.insert(cells.end(), {"-", "-", "-", out.is_rigid ? "not judged" : "no pose"});
+    cells.insert(cells.end(),
+                 {"-", "-", "-", out.is_rigid ? "not verified" : "no pose"});
     return cells;
   }
   const auto moved = d.pair.between(d.pair.start, out.pose);
@@ -81,7 +82,7 @@ classRow(const Diagnosis& d, const Experiment& row)
   cells.push_back(motionText(off.translation, off.rotation));
   cells.push_back(percentText(row.verdict.fit.share) + ", " +
                   metres(row.verdict.fit.misfit));
-  cells.push_back(row.verdict.trust.empty() ? "not judged" : row.verdict.trust);
+  cells.push_back(row.verdict.trust.empty() ? "not verified" : row.verdict.trust);
   return cells;
 }
 } // namespace
@@ -154,13 +155,12 @@ poseBlocks(const Diagnosis& d)
     return blocks;
   const Experiment& row = d.rows[*d.best_of_ours];
   const std::string trust =
-      row.verdict.trust.empty() ? "not judged" : row.verdict.trust;
+      row.verdict.trust.empty() ? "not verified" : row.verdict.trust;
   blocks.emplace_back("pose of SOURCE in the frame of TARGET by " + row.name() + " (" +
                           trust + ")",
                       matrixRows(d.pair.toFull(row.outcome.pose)));
   if (d.pair.isFar())
-    blocks.emplace_back("the same after the offsets are taken off",
-                        matrixRows(row.outcome.pose));
+    blocks.emplace_back("after subtracting the offsets", matrixRows(row.outcome.pose));
   if (!row.start_words.empty())
     blocks.emplace_back("guess by " + row.start_words,
                         matrixRows(d.pair.toFull(row.start)));

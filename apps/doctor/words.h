@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <string>
 
-/** \file Numbers as the doctor's reports write them. */
+/** \file Formatting of numbers in the doctor's reports. */
 namespace pcl6d::app {
 
-/** \return so many significant digits: "0.0123" */
+/** \return the value with a number of significant digits: "0.0123" */
 std::string
 shortNumber(double value, int digits = 3);
 
@@ -29,11 +29,12 @@ shareText(std::size_t part, std::size_t whole);
 std::string
 motionText(double translation, double rotation);
 
-/** \return the three numbers with all digits that they need: "450000, 5950000, 120" */
+/** \return the three numbers with the digits needed: "450000, 5950000, 120" */
 std::string
 vectorText(const Eigen::Vector3d& v);
 
-/** \return a place to look at: millimetres, or four digits: "450000.125, 0.03406, 120.05" */
+/** \return the text of a position: millimetres, or four digits: "450000.125, 0.03406,
+ * 120.05" */
 std::string
 placeText(const Eigen::Vector3d& v);
 

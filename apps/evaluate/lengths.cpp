@@ -113,8 +113,8 @@ runLengths(const std::vector<std::string>& arguments)
   std::string file, output;
   OptionTable table(std::string("usage: ") + kEvaluate +
                     R"( lengths FILE [options]
-Compares ratios of lengths in a map with those in a reference, such as a plan or
-an aerial picture, whose scale need not be known. A row of FILE is a length in the
+Compares ratios of lengths in a map with the ratios in a reference (plan, aerial
+picture); the scale of the reference need not be known. A row of FILE is a length in the
 map and in the reference (2 numbers), two points of the map and the length (7), or
 two points of each (12).
 )");

@@ -26,7 +26,7 @@ poseOfSix(const double* v)
                        {radians(v[3]), radians(v[4]), radians(v[5])});
 }
 
-/** The rows of a matrix. \throws IoFailed it is no rigid motion */
+/** Reads the rows of a matrix. \throws IoFailed no rigid motion */
 Eigen::Isometry3d
 poseOfRows(const std::vector<double>& rows, const std::string& file)
 {
@@ -49,7 +49,7 @@ poseInFolder(const fs::path& file, const ScanFolder& folder, const std::string& 
   for (std::size_t i = 0; i < folder.size(); ++i)
     if (fs::equivalent(folder.file(i), file))
       return {folder.poseOfFile(i), folder.poseSource(), folder.hasPoses()};
-  throw IoFailed(file.string() + ": no scan of its folder; give " + option);
+  throw IoFailed(file.string() + ": no scan of the folder; give " + option);
 }
 } // namespace
 

@@ -16,20 +16,21 @@ struct PairPose {
   bool found = true;  ///< false: the identity, for want of a pose
 };
 
-/** \brief Six numbers, x y z [m] roll pitch yaw [deg]. \param[in] option that holds them
- * \throws UsageError there are others */
+/** \brief Six numbers, x y z [m] roll pitch yaw [deg]. \param[in] option name of the
+ * option
+ * \throws UsageError not six numbers */
 Eigen::Isometry3d
 poseFromText(const std::string& option, const std::string& text);
 
 /** \brief The numbers of a file: 6 as poseFromText(), 12 or 16 of a matrix, row by row.
- * \throws IoFailed unreadable, other numbers, or no rigid motion */
+ * \throws IoFailed unreadable, another count of numbers, or no rigid motion */
 Eigen::Isometry3d
 poseFromFile(const std::string& file);
 
-/** \brief The pose by the initial poses of the folders that the scans are in, of the points
- * as the files have them.
- * \param[in] option that messages advise to give
- * \throws IoFailed as ScanFolder, or the poses of the scans are not of a kind */
+/** \brief The pose from the initial poses in the folders of the scans, for the points
+ * as stored in the files.
+ * \param[in] option recommended in messages
+ * \throws IoFailed as ScanFolder, or the two scans have poses of different kinds */
 PairPose
 poseOfPair(const std::string& scan_a,
            const std::string& scan_b,

@@ -11,13 +11,14 @@
 
 namespace pcl6d::app {
 
-/** \brief A scan of a pair, its points brought near if they are far; says so.
+/** \brief Reads a scan of a pair; far coordinates are moved near the origin by an
+ * offset, with a message.
  * \throws IoFailed unreadable, or fewer than 3 finite points */
 NearScan
 readNear(const std::string& file, ScanFormat format, ProgressBar& bar);
 
-/** \return the pose of B's points as they were brought near, seen from A's, of a pose of
- * those in the files */
+/** \return the pose of B's moved points in A's moved frame, from the pose of the points
+ * in the files */
 Eigen::Isometry3d
 nearPose(const Eigen::Isometry3d& T_a_b, const NearScan& a, const NearScan& b);
 

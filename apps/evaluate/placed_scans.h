@@ -8,7 +8,7 @@
 
 namespace pcl6d::app {
 
-/** \return places of the scans that a run ties to its world */
+/** \return indices of the scans connected to the world of a run */
 std::vector<std::size_t>
 placedScans(const RunResult& run);
 

@@ -6,14 +6,14 @@
 
 namespace pcl6d::app {
 
-/** \return whether a file name ends so, whatever the case; extension: ".json" */
+/** \return whether a file name has the extension, in any case; extension: ".json" */
 bool
 hasExtension(const std::string& file, const std::string& extension);
 
-/** \brief Before the work: looks whether the file of an option can be its result; empty: none
- * is asked for.
- * \throws UsageError it has none of the extensions
- * \throws IoFailed it cannot be written */
+/** \brief Checks before the work whether the file of an option can be written; empty:
+ * no file was asked for.
+ * \throws UsageError unknown extension
+ * \throws IoFailed the file cannot be written */
 void
 requireResultFile(const std::string& option,
                   const std::string& file,

@@ -7,7 +7,7 @@ namespace pcl6d::app {
 
 constexpr const char* kEvaluate = "pcl_slam6d_evaluate"; ///< the program's name
 
-/** \file What the verbs do stands in the table of pcl_slam6d_evaluate.cpp. */
+/** \file The verbs are described in the table of pcl_slam6d_evaluate.cpp. */
 int
 runChanges(const Arguments& arguments);
 int

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/option_table.h"
+#include "graph/reading.h"
 #include "graph/verbs.h"
 
-#include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
+#include <pcl6d/graph_relaxation/constrained_graph.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/pose_graph_io.h>
 
@@ -19,6 +20,7 @@ struct OptimizeSettings {
   std::string output;
   PoseGraphFormat format = PoseGraphFormat::kAuto;
   PoseGraphOptions options;
+  PoseGraphReaderOptions reading;
 };
 
 constexpr const char* kGraduated = "graduated"; ///< beside the kernels, for --robust
@@ -32,6 +34,8 @@ addOptions(OptionTable& table, OptimizeSettings& s)
   table.add("output,o FILE", &s.output).required().help("graph file");
   table.add("format", &s.format, poseGraphFormatFromName)
       .help("auto|g2o|toro; auto: TORO for OUT.graph and OUT.toro, else g2o");
+  table.group("Input");
+  addReading(table, s.reading);
   table.group("Optimisation");
   table.add("method NAME", &options.method, graphMethodFromName)
       .help(joined(graphMethodNames()));
@@ -42,15 +46,15 @@ addOptions(OptionTable& table, OptimizeSettings& s)
   };
   table.addWord("robust NAME", toString(options.robust), takeRobust)
       .help(joined(robustKernelNames()) + "|" + kGraduated +
-            "; graduated: geman-mcclure, first wide, then narrow, which switches wrong "
+            "; graduated: geman-mcclure, first wide, then narrow, to switch wrong "
             "links off");
   table.add("robust-width R", &options.robust_width)
-      .help("error of a link, in standard deviations, at which the kernel sets in");
+      .help("error of a link, in standard deviations, where the kernel sets in");
   table.add("trust-chain", &options.trust_chain)
       .help("links between neighbours (odometry) always count fully");
   table.add("iterations N", &options.max_iterations).help("at most");
   table.add("threads N", &options.num_threads)
-      .help("0: one per core; never changes the result");
+      .help("0: a thread per core; never changes the result");
 }
 
 bool
@@ -60,9 +64,10 @@ parse(const std::vector<std::string>& arguments, OptimizeSettings& s)
                     R"( optimize IN -o OUT [options]
 Finds the poses that fit the links of a pose graph best and writes the graph with
 them. IN: g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT) or TORO (VERTEX3, EDGE3); without
-vertices the chain of links gives the first poses. The first pose of each component
-keeps its place. chi2 is the sum of e^T information e over all links, before and
-after.
+vertices the chain of links gives the first poses. Poses that FIX names keep their
+place, else the first pose of each component without priors. Landmarks, priors and
+switchable edges of g2o count and are kept; a switchable edge counts s^2 times, with the
+switch s that fits best. chi2 is the sum of e^T information e, before and after.
 )");
   addOptions(table, s);
   if (!table.parse(arguments))
@@ -73,11 +78,13 @@ after.
 }
 
 void
-printResult(const PoseGraph& graph, const PoseGraphResult& result, double seconds)
+printResult(const PoseGraph& graph,
+            const ConstrainedGraphResult& result,
+            double seconds)
 {
   std::printf("poses %zu edges %zu\n", graph.poses.size(), graph.links.size());
-  if (result.components.size() > 1)
-    std::printf("components %zu\n", result.components.size());
+  if (result.components > 1)
+    std::printf("components %zu\n", result.components);
   std::printf("chi2 %.10g %.10g\n", result.chi2_before, result.chi2_after);
   std::printf("iterations %d\nseconds %.3f\n", result.iterations, seconds);
   const auto off = std::count_if(result.weights.begin(),
@@ -85,6 +92,7 @@ printResult(const PoseGraph& graph, const PoseGraphResult& result, double second
                                  [](double weight) { return weight < 0.1; });
   if (off > 0)
     std::printf("edges of weight below 0.1: %td\n", off);
+  printConstraints(result.constraints);
   flushOutput();
 }
 } // namespace
@@ -96,15 +104,17 @@ runOptimize(const std::vector<std::string>& arguments)
   OptimizeSettings s;
   if (!parse(arguments, s))
     return kDone;
-  PoseGraph graph = readPoseGraph(s.input);
+  PoseGraphFile file = readPoseGraphFile(s.input, s.reading);
+  warnOfSkipped(file);
   requireWritable(s.output);
+  refuseConstraintsOfToro(file, s.output, s.format);
   const auto start = Clock::now();
-  PoseGraphOptimizer optimizer(graph, s.options);
-  const PoseGraphResult& result = optimizer.optimize();
+  const ConstrainedGraphResult result =
+      optimizeConstrained(file.graph, file.constraints, s.options);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  printResult(graph, result, seconds);
-  graph.poses = result.poses;
-  writePoseGraph(s.output, graph, s.format);
+  printResult(file.graph, result, seconds);
+  file.graph.poses = result.poses;
+  writePoseGraph(s.output, file.graph, s.format, result.constraints);
   if (result.status == Status::kOk)
     return kDone;
   std::fprintf(stderr,

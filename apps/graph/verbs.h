@@ -7,7 +7,7 @@ namespace pcl6d::app {
 
 constexpr const char* kGraph = "pcl_slam6d_graph"; ///< the program's name
 
-/** \file What the verbs do stands in the table of pcl_slam6d_graph.cpp. */
+/** \file The verbs are described in the table of pcl_slam6d_graph.cpp. */
 int
 runOptimize(const Arguments& arguments);
 int

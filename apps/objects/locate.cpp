@@ -19,10 +19,10 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
-/** Reads the i-th scan that is looked at. */
+/** Reads the i-th scan of the search. */
 using ReadCloud = std::function<ScanCloud(std::size_t)>;
 
-/** \param[out] read the scans once more, as they were looked at \throws Interrupted */
+/** \param[out] read reads the searched scans once more \throws Interrupted */
 ObjectObservations
 observe(const LocateSettings& s, FolderJob& job, ReadCloud& read)
 {
@@ -53,7 +53,7 @@ observe(const LocateSettings& s, FolderJob& job, ReadCloud& read)
   return found;
 }
 
-/** The objects of the input, and of each observation which one it is of. */
+/** The objects of the input, and the object of each observation. */
 struct Joined {
   std::vector<MapObject> objects;
   std::vector<std::uint32_t> id_of_observation;
@@ -79,7 +79,7 @@ join(const ObjectObservations& located, bool fuse)
   return joined;
 }
 
-/** Writes each scan as it was read, with the field object_id. */
+/** Writes each scan unchanged, with the field object_id. */
 void
 writeLabelledScans(const OutputFolder& out,
                    const LocateSettings& s,

@@ -25,23 +25,24 @@ addFiles(OptionTable& table, LocateSettings& s)
 {
   table.group("Files");
   table.add("output,o OUT_DIR", &s.out).required().help("folder to write");
-  table.add("force", &s.force).help("accept an OUT_DIR that holds other things");
+  table.add("force", &s.force).help("accept an OUT_DIR that is not empty");
   table.add("model MODEL", &s.models)
       .composing()
       .multitoken()
-      .help("what to look for; several may follow, and it may be repeated");
-  table.add("store DIR", &s.store).help("all models of a store, such as share/models");
+      .help("model to search for; several may follow, and the option may be repeated");
+  table.add("store DIR", &s.store)
+      .help("the models of a store, for example share/models");
   table.add("scale", &s.file.units.scale)
       .above(0, "> 0")
-      .help("[m] per unit of model files: 0.001 if they are in mm");
+      .help("[m] per unit of model files: 0.001 for mm");
   table.add("up", &s.file.units.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}})
-      .help("y|z: axis of model files that points up");
+      .help("y|z: upward axis of model files");
   const auto takeClass = [&s](const std::string& name) {
     checkObjectClass(name);
     s.file.object_class = name;
   };
   table.addWord("class NAME", "", takeClass)
-      .help("of a model file (default: its name)");
+      .help("of a model file (default: the file name)");
 }
 
 void
@@ -49,9 +50,9 @@ addInput(OptionTable& table, LocateSettings& s)
 {
   table.group("Input");
   table.add("format", &s.folder.format, scanFormatFromName)
-      .help("auto|pcd|ply|uos|kitti|xyz");
+      .help("auto|pcd|ply|uos|kitti|xyz|las|laz");
   table.add("poses FILE", &s.folder.poses_file)
-      .help("poses of the scans of a folder, KITTI or TUM rows (default: those of the "
+      .help("poses of the scans of a folder, KITTI or TUM rows (default: poses of the "
             "run, or *.pose, odometry.txt, poses.txt, PCD VIEWPOINT)");
   table.add("first", &s.folder.first).help("index of the first scan to take");
   table.add("last", &s.folder.last)
@@ -61,10 +62,11 @@ addInput(OptionTable& table, LocateSettings& s)
       .within(0, kNoBound, ">= 0")
       .help("[m] nearer points are dropped");
   table.add("max-range", &s.max_range)
-      .help("[m] farther points are dropped; 0: none, but of a run what it dropped");
+      .help(
+          "[m] farther points are dropped; 0: drop only the points dropped by the run");
 }
 
-/** Which of a model's cascades are asked, and how their answers are joined. */
+/** Chooses the cascades of a model, and the rule that joins them. */
 void
 takeRule(const std::string& rule, ObjectFinderOptions& finder)
 {
@@ -82,36 +84,35 @@ addSearch(OptionTable& table, LocateSettings& s)
   LocalizerOptions& o = s.finder.localizer;
   table.group("Search");
   table.add("proposals", &s.finder.proposals, proposalMethodFromName, "auto")
-      .help("auto|clusters|features|cascade: where to look: at what stands on planes, "
-            "anywhere by pairs of points, where the model's cascades see one; auto: "
-            "clusters, and features if that finds none");
+      .help("auto|clusters|features|cascade: candidates: clusters of points on planes, "
+            "pairs of points anywhere, or detections by the cascades of the model; "
+            "auto: clusters, then features if no object is found");
   table.addWord("rule", "and", [&s](const auto& rule) { takeRule(rule, s.finder); })
-      .help(
-          "and|or|range|reflectance: of the two cascades of a model, both must see it, "
-          "either, or only this one is asked");
+      .help("and|or|range|reflectance: of the two cascades of a model, both must "
+            "detect, either, or only the given channel is used");
   table.add("min-visible", &o.min_visible)
-      .help("share of the surface that faces the scanner which must be seen");
+      .help("least share seen of the surface facing the scanner");
   table.add("min-agreement", &o.min_agreement)
-      .help("share of the surface seen there which must fit");
+      .help("least share that fits of the surface seen");
   table.add("max-violation", &o.max_violation)
-      .help("share of it where the scanner may have seen through");
+      .help("largest share of the surface with rays passing through");
   table.add("min-support", &o.min_support)
-      .help("pieces of the scan's surface that must be on an object");
+      .help("least number of surface patches of the scan on an object");
   table.add("separate", &s.fuse)
-      .help(
-          "keep what each scan saw, do not join what several scans saw of one object");
+      .help("keep the object of each scan, do not merge detections of one object by "
+            "several scans");
   table.group("Run");
   table.addAs<int>("threads", &o.num_threads)
       .within(0, 1024, "0 to 1024")
-      .help("0: one per core; never changes the result");
+      .help("0: a thread per core; never changes the result");
   table.add("quiet", &s.quiet).help("print warnings and errors only");
 }
 
 void
-judgeUse(const OptionTable& table, LocateSettings& s)
+checkUse(const OptionTable& table, LocateSettings& s)
 {
   if (s.models.empty() && s.store.empty())
-    throw UsageError("give what to look for: --model MODEL, or --store DIR");
+    throw UsageError("give the objects to search for: --model MODEL, or --store DIR");
   if (table.given("class") && s.models.size() != 1)
     throw UsageError("--class names one model, but " + std::to_string(s.models.size()) +
                      " are given");
@@ -141,7 +142,7 @@ parseLocate(const std::vector<std::string>& arguments, LocateSettings& settings)
             "0 or > --min-range");
     settings.finder.localizer.validate();
   });
-  judgeUse(table, settings);
+  checkUse(table, settings);
   return true;
 }
 

@@ -9,7 +9,7 @@
 
 namespace pcl6d::app {
 
-/** \brief What `locate` was asked to do. */
+/** \brief Settings of `locate`. */
 struct LocateSettings {
   std::string input; ///< a scan, a folder of scans, or a run
   std::vector<std::string> models;
@@ -19,14 +19,14 @@ struct LocateSettings {
   ScanFolderOptions folder;
   ObjectFinderOptions finder;
   double min_range = 0;
-  double max_range = 0; ///< 0: all
-  bool fuse = true;     ///< what several scans saw
+  double max_range = 0; ///< 0: no limit
+  bool fuse = true;     ///< fuse observations of several scans
   bool force = false;
   bool quiet = false;
-  std::string without_effect; ///< a sentence about options that do not count
+  std::string without_effect; ///< a sentence about options without effect
 };
 
-/** \return false if there is nothing more to do (--help) \throws UsageError */
+/** \return false after --help \throws UsageError */
 bool
 parseLocate(const std::vector<std::string>& arguments, LocateSettings& settings);
 

@@ -27,7 +27,7 @@ readModel(const std::string& path, const MeshOptions& units)
   TriangleMesh mesh = fs::is_directory(path)
                           ? readStoredModel(path).mesh
                           : readModelFile(path, {units, "model"}).mesh;
-  windowShapeOf({mesh}); // its size
+  windowShapeOf({mesh}); // checks its size
   return mesh;
 }
 
@@ -89,7 +89,7 @@ finish(const TrainSettings& s, CascadeTraining& training, double seconds)
   flushOutput();
   if (training.stages.empty())
     throw ComputeFailed(
-        "nothing in the pictures tells the object from the backgrounds");
+        "no feature in the pictures tells the object from the backgrounds");
   writeCascade(s.output, training.cascade);
   if (training.end != TrainingEnd::kCannotSeparate)
     return kDone;
@@ -141,14 +141,14 @@ runTrain(const std::vector<std::string>& arguments)
   if (!parseTrain(arguments, s))
     return kDone;
   const std::filesystem::path folder = std::filesystem::path(s.output).parent_path();
-  if (folder.empty() || text::isThere(folder)) // else --state may make it
+  if (folder.empty() || text::isThere(folder)) // otherwise --state may make it
     requireWritable(s.output);
   const Interrupt interrupt;
   ProgressBar bar(s.quiet);
   try {
     return train(s, watched(bar, interrupt), bar);
   } catch (const Interrupted&) {
-    bar.warn("interrupted; the same command goes on with what is in " + s.state);
+    bar.warn("interrupted; the same command goes on from " + s.state);
     return kInterrupted;
   }
 }

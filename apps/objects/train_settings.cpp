@@ -9,7 +9,7 @@
 
 namespace pcl6d::app {
 namespace {
-/** Options that become something else in the settings. */
+/** Options that are converted for the settings. */
 struct Words {
   std::string scanner = "rotating";
   std::optional<double> resolution; // [deg]
@@ -28,10 +28,10 @@ usageOfTrain()
   return std::string("usage: ") + kObjects +
          R"( train MODEL... --background SCANS -o CASCADE.xml [options]
 Trains a detector for one class of objects. The models (meshes .ply, .obj, .stl,
-clouds, or folders of a model store) stand upright in free places of the background scans, which must not hold
-the object, and are measured there by a simulated scanner. CASCADE.xml is read by
-the job locate and by OpenCV 4 (cv::CascadeClassifier). What is done is kept in the
-state folder: the same command goes on where it was stopped.
+clouds, or folders of a model store) stand upright in free places of the background
+scans and are measured there by a simulated scanner; the background must not hold the
+object. CASCADE.xml is read by the job locate and by OpenCV 4 (cv::CascadeClassifier).
+The work done is kept in the state folder: the same command goes on after a stop.
 )";
 }
 
@@ -52,9 +52,9 @@ addFiles(OptionTable& table, TrainSettings& s)
       .help("where to keep finished stages; else the output's name with .training");
   table.add("scale", &s.mesh.scale)
       .above(0, "> 0", kFinite)
-      .help("[m] per unit of the models: 0.001 if they are in mm");
+      .help("[m] per unit of the models: 0.001 for mm");
   table.add("up", &s.mesh.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}})
-      .help("axis of the models that points up: y or z");
+      .help("upward axis of the models: y or z");
 }
 
 void
@@ -63,25 +63,24 @@ addPictures(OptionTable& table, TrainSettings& s, Words& words)
   TrainingImageOptions& i = s.images;
   table.group("Pictures");
   table.add("scanner", &words.scanner)
-      .help("that measures, see pcl_slam6d_simulate --help");
+      .help("simulated scanner, see pcl_slam6d_simulate --help");
   table.addAuto("resolution", &words.resolution)
-      .help("[deg] between its samples; auto: its own");
+      .help("[deg] between samples of the scanner; auto: from the scanner");
   table
       .add("channel",
            &i.channel,
            {{"range", ImageChannel::kRange},
             {"reflectance", ImageChannel::kReflectance}})
-      .help("what the detector looks at: range or reflectance");
+      .help("channel of the detector: range or reflectance");
   table.addAuto("pixel", &words.pixel)
-      .help("[deg] of the pictures; auto: at most 0.5, so that the window holds the "
-            "object up to --max-distance");
+      .help("[deg] of the pictures; auto: at most 0.5, with the object in the window "
+            "up to --max-distance");
   table.add("slice-depth", &s.views.slice_depth).help("[m] of a picture of ranges");
   table.add("max-range", &s.views.max_range).help("[m] of the scans");
   table.add("positives N", &i.positives).help("pictures of the object");
   table.add("min-distance", &i.min_distance).help("[m] of the object in plan");
   table.add("max-distance", &i.max_distance).help("[m]");
-  table.add("min-visible", &i.min_visible)
-      .help("share of the object that is not hidden");
+  table.add("min-visible", &i.min_visible).help("least visible share of the object");
   table.add("min-reflectance", &i.min_reflectance).help("of the object, 0 to 1");
   table.add("max-reflectance", &i.max_reflectance).help("drawn between both");
 }
@@ -93,22 +92,22 @@ addTraining(OptionTable& table, TrainSettings& s)
   table.group("Training");
   table.add("stages N", &t.stages).help("at most");
   table.add("negatives N", &t.negatives)
-      .help("for each stage, false alarms of those before");
+      .help("for each stage, false alarms of the stages before");
   table.add("min-hit-rate", &t.min_hit_rate).help("of each stage");
   table.add("max-false-alarm", &t.max_false_alarm).help("of each stage");
   table.add("target-false-alarm", &t.target_false_alarm)
-      .help("on the backgrounds; then it ends");
+      .help("on the backgrounds; training then ends");
   table.add("splits", &t.splits).help("of each tree; 1: stumps");
   table.add("max-trees", &t.max_trees).help("of a stage");
   table.add("features", &t.features, haarFeatureSetFromName, "all")
-      .help("upright|all: with all, tilted ones too");
+      .help("upright|all: only upright features, or tilted features too");
   table.add("features-per-stage", &t.features_per_stage)
-      .help("drawn from them for each stage");
+      .help("features drawn for each stage");
   table.add("features-per-tree", &t.features_per_tree)
-      .help("drawn from those for each tree");
+      .help("features of a stage drawn for each tree");
   table.add("seed", &t.seed).help("same seed, same cascade");
   table.add("threads N", &t.num_threads)
-      .help("0: one per core; never changes the result");
+      .help("0: a thread per core; never changes the result");
   table.add("quiet", &s.quiet).help("no progress");
 }
 
@@ -121,7 +120,7 @@ apply(const Words& words, TrainSettings& s)
   s.images.seed = s.training.seed;
   s.views.validate();
   if (!words.pixel)
-    s.views.pixel = 0; // the models tell
+    s.views.pixel = 0; // chosen for the models
   s.images.validate();
   s.training.validate();
 }

@@ -7,7 +7,7 @@
 
 namespace pcl6d::app {
 
-/** \brief What `train` was asked to do. */
+/** \brief Settings of `train`. */
 struct TrainSettings {
   std::vector<std::string> models;
   std::vector<std::string> backgrounds; ///< folders of scans, or scans
@@ -16,13 +16,13 @@ struct TrainSettings {
   int every = 1;     ///< of the scans of a folder
   MeshOptions mesh;
   ScannerPreset scanner;
-  DetectionViewOptions views; ///< pixel 0: as suits the models
+  DetectionViewOptions views; ///< pixel 0: chosen for the models
   TrainingImageOptions images;
   CascadeTrainingOptions training;
   bool quiet = false;
 };
 
-/** \return false if there is nothing more to do (--help) \throws UsageError */
+/** \return false after --help \throws UsageError */
 bool
 parseTrain(const std::vector<std::string>& arguments, TrainSettings& settings);
 

@@ -7,9 +7,11 @@ namespace pcl6d::app {
 
 constexpr const char* kObjects = "pcl_slam6d_objects"; ///< the program's name
 
-/** \file What the verbs do stands in the table of pcl_slam6d_objects.cpp. */
+/** \file The verbs; their descriptions are in the table of pcl_slam6d_objects.cpp. */
 int
 runLocate(const Arguments& arguments);
+int
+runTargets(const Arguments& arguments);
 int
 runTrain(const Arguments& arguments);
 

@@ -18,21 +18,21 @@ struct PlaneSettings {
   std::string input; ///< a scan, a folder of scans, or a run folder
   std::string out;
   ScanFolderOptions folder;        ///< format of a single scan, too
-  std::optional<double> min_range; ///< [m] none: derived
-  std::optional<double> max_range; ///< [m] none: derived
-  std::optional<double> voxel;     ///< [m] of the map of a folder; none: derived
+  std::optional<double> min_range; ///< [m] default: derived
+  std::optional<double> max_range; ///< [m] default: derived
+  std::optional<double> voxel;     ///< [m] of the map of a folder; default: derived
   PlaneFinderOptions step;
-  std::string rules_file; ///< that step.rules come from; empty: those of the book
+  std::string rules_file; ///< source of step.rules; empty: the book's rules
   bool force = false;
   MemoryOption memory;
   bool quiet = false;
   bool verbose = false;       ///< explain the labels
-  std::string without_effect; ///< options that were given for nothing; else empty
+  std::string without_effect; ///< options without effect; else empty
 };
 
 /** \brief Fills the settings from the command line and the config file.
- * \return false when there is nothing more to do (--help)
- * \throws UsageError, boost::program_options::error an option breaks its rule */
+ * \return false after --help
+ * \throws UsageError, boost::program_options::error an option is invalid */
 bool
 parsePlaneSettings(const std::vector<std::string>& arguments, PlaneSettings& settings);
 

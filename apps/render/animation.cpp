@@ -31,7 +31,7 @@ frameName(std::size_t number)
   return name.str();
 }
 
-/** Draws the film and hands out its frames. \return false if interrupted */
+/** Draws the frames and passes them on. \return false if interrupted */
 bool
 play(const RunAnimation& animation,
      const AnimationSettings& s,

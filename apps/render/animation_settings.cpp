@@ -15,8 +15,8 @@ namespace pcl6d::app {
 namespace {
 constexpr const char* kUsageText =
     R"( animation RUN --kind KIND -o OUT [options]
-Shows a run of pcl_slam6d as a film. OUT is a folder, which gets a PNG file per
-frame and a video if there is a codec for it, or one video file (.mp4, .avi,
+Shows a run of pcl_slam6d as a film. OUT is a folder for a PNG file per frame
+and a video, if OpenCV has a codec, or one video file (.mp4, .avi,
 .mkv, .webm). Growth and relaxation need the run's scans/ and frames/.
 )";
 
@@ -47,10 +47,8 @@ checkSize(const PixelSize& size)
 {
   for (const int side : {size.width, size.height})
     require(side >= 200 && side <= 8192, "size", side, "200 to 8192 pixels each");
-  require(size.width % 2 == 0 && size.height % 2 == 0,
-          "size",
-          size,
-          "even, as video wants it");
+  require(
+      size.width % 2 == 0 && size.height % 2 == 0, "size", size, "even for a video");
 }
 
 void
@@ -66,15 +64,17 @@ addFilm(OptionTable& table, AnimationSettings& s)
             {"relaxation", AnimationKind::kRelaxation}})
       .required()
       .help("flythrough|turntable|growth|relaxation: along the trajectory, once around "
-            "the map, scan by scan, from the given poses to the final ones round by "
-            "round");
+            "the map, scan by scan, from the given to the final poses, round by round");
   table.add("frames N", &s.frames)
       .within(2, 100000, "2 to 100000")
-      .help("how many, of flythrough and turntable; growth has one per scan");
+      .help(
+          "number of frames of flythrough and turntable; growth has a frame per scan");
   table.add("steps N", &s.steps)
       .within(1, 1000, "1 to 1000")
       .help("frames from one round of relaxation to the next");
-  table.add("points N", &s.points).above(0, "> 0").help("at most so many are drawn");
+  table.add("points N", &s.points)
+      .above(0, "> 0")
+      .help("largest number of points drawn");
 }
 } // namespace
 
@@ -98,7 +98,7 @@ parseAnimationSettings(const std::vector<std::string>& arguments, AnimationSetti
   table.add("fps N", &fps)
       .above(0, "above 0, up to 240", 240)
       .help("frames per second of the video; by default 25, of growth 8");
-  table.add("force", &s.force).help("write into a folder that holds other files");
+  table.add("force", &s.force).help("write into a folder that is not empty");
   s.memory.addTo(table);
   table.add("quiet", &s.quiet).help("print errors only");
   addFilm(table, s);

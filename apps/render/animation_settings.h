@@ -9,12 +9,12 @@
 
 namespace pcl6d::app {
 
-/** \brief What an animation shows. */
+/** \brief Kind of an animation. */
 enum class AnimationKind {
   kFlyThrough, ///< the map, along the trajectory
   kTurntable,  ///< the map, once around
-  kGrowth,     ///< scan after scan, as they were matched
-  kRelaxation  ///< from the given poses to the final ones, stage by stage
+  kGrowth,     ///< scan after scan, in the order of matching
+  kRelaxation  ///< from the initial to the final poses, stage by stage
 };
 
 /** \brief The command line of `animation`. */
@@ -37,7 +37,7 @@ struct AnimationSettings {
   isVideo() const;
 };
 
-/** \return false if there is nothing more to do
+/** \return false: --help or --version was given, and the program is to end
  * \throws UsageError, boost::program_options::error the arguments break a rule */
 bool
 parseAnimationSettings(const std::vector<std::string>& arguments,

@@ -14,7 +14,7 @@ namespace pcl6d::app {
 namespace {
 constexpr std::size_t kMostSteps = 8; // panels of a strip
 
-/** What a step of the history is called, and from which frame it is. */
+/** Name of a step of the history, and its frame. */
 struct HistoryStep {
   std::string name;
   std::size_t frame;
@@ -38,7 +38,7 @@ stepsOf(const std::vector<Frame>& frames)
   return steps;
 }
 
-/** \return the steps that moved the scan, at most so many, and the last one */
+/** \return at most kMostSteps steps that moved the scan, including the last */
 std::vector<HistoryStep>
 someOf(const std::vector<HistoryStep>& steps, const std::vector<Frame>& frames)
 {
@@ -72,7 +72,7 @@ distanceText(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& last)
   return text;
 }
 
-/** What the other scans measured, with each in its place of that step. */
+/** Points of the other scans, at their poses of the step. */
 Points
 othersAt(std::size_t frame,
          std::size_t own,
@@ -111,8 +111,8 @@ RunPictures::drawConvergence()
                    ": the history of the scan is missing in frames/");
   const auto last = run_.trajectory().poses;
   ConvergenceStripScene scene;
-  scene.title =
-      title("scan " + std::to_string(scans[own].index) + " on the way to its place");
+  scene.title = title("scan " + std::to_string(scans[own].index) +
+                      " on the way to the final pose");
   scene.scan = run_.readScan(own);
   if (scene.scan.empty())
     throw IoFailed(run_.path().string() + ": the scan is missing in scans/");

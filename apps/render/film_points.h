@@ -11,19 +11,18 @@
 
 namespace pcl6d::app {
 
-/** \return the places of the points that a picture shows, ascending; at most so many,
- * evenly left out */
+/** \return ascending indices of the visible points, evenly thinned to at most `most` */
 std::vector<std::size_t>
 chosenPoints(const Points& points,
              const Trajectory& path,
              const HeightCut& cut,
              std::size_t most);
 
-/** \return the median of the points in x, y and z; there must be one */
+/** \return the median of the points in x, y and z \param[in] points not empty */
 Eigen::Vector3d
 middleOf(const Points& points);
 
-/** \return the heights [m] between which nearly all lies that is near the path */
+/** \return the range of heights [m] of nearly every point near the path */
 std::array<double, 2>
 heightsAlong(const Trajectory& path, const Points& points);
 

@@ -19,7 +19,7 @@ stateOf(const RunLink& link)
   return link.counts() ? LinkState::kUsed : LinkState::kRefused;
 }
 
-/** Scans that are not to be trusted. */
+/** Whether a scan is unreliable. */
 bool
 isDoubtful(const ScanResult& scan)
 {
@@ -27,7 +27,7 @@ isDoubtful(const ScanResult& scan)
          scan.state == ScanState::kPending;
 }
 
-/** The paths with room around: where something is to be seen of each pose. */
+/** The bounding box of the paths with a margin, for the surroundings of each pose. */
 Eigen::AlignedBox2d
 areaAround(const Trajectory& trajectory)
 {
@@ -92,7 +92,7 @@ RunPictures::drawPerspective()
   return view.draw(scene, chosenCamera(view, scene)).image;
 }
 
-/** The map with each scan where it was at first. */
+/** The map with each scan at its initial pose. */
 TopViewScene
 RunPictures::sceneBefore(const TopViewScene& after, PointColour colour)
 {
@@ -105,7 +105,7 @@ RunPictures::sceneBefore(const TopViewScene& after, PointColour colour)
   if (before.scans.size() != before.points.size())
     throw IoFailed(
         run_.path().string() + ": before-after needs the scan of each point" +
-        (colour == PointColour::kLabel ? ", which colour label has not" : ""));
+        (colour == PointColour::kLabel ? ", missing with colour label" : ""));
   for (std::size_t k = 0; k < before.points.size(); ++k) {
     const auto& motion = motions[placeOf(static_cast<int>(before.scans[k]))];
     before.points[k] = (motion * before.points[k].cast<double>()).cast<float>();

@@ -14,8 +14,8 @@
 namespace pcl6d::app {
 
 namespace {
-constexpr float kFarthest = 0.5F;     // [m] beyond, another scan did not see the place
-constexpr std::size_t kNearScans = 6; // whose points are looked at
+constexpr float kFarthest = 0.5F; // [m] beyond, the other scan did not see the surface
+constexpr std::size_t kNearScans = 6; // number of scans searched for neighbours
 
 /** A scan in the world, ready for searches. */
 struct SearchedScan {
@@ -23,7 +23,7 @@ struct SearchedScan {
   PointTree tree;
 };
 
-/** The distance to the plane through some points, or to the first if there is none. */
+/** The distance to the plane through some points, or else to the first point. */
 float
 distanceToSurface(const Eigen::Vector3f& place,
                   const Points& points,
@@ -50,7 +50,7 @@ distanceToSurface(const Eigen::Vector3f& place,
   return std::min(to_first, static_cast<float>(std::abs(off)));
 }
 
-/** Per scan the others, nearest first. */
+/** Per scan the kNearScans nearest scans, nearest first. */
 std::vector<std::vector<std::size_t>>
 nearScans(const std::vector<Eigen::Isometry3d>& poses)
 {

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kModelFile = "model.json";
 
-/** \return the folders of models in a folder, or itself, if it is one */
+/** \return the folders of models in a folder, or the folder, if it contains a model */
 std::vector<fs::path>
 modelsIn(const fs::path& folder)
 {

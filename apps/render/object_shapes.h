@@ -11,16 +11,16 @@
 
 namespace pcl6d::app {
 
-/** \brief The shapes of objects by their class, out of a folder that holds CLASS.ply, .obj
- * or .stl [m], or is a store of models as pcl_slam6d_objects takes it. */
+/** \brief The shapes of objects by class, from a folder of CLASS.ply, .obj or .stl [m],
+ * or from a model store of pcl_slam6d_objects. */
 class ObjectShapes {
 public:
-  /** \param[in] folder empty: there are none
-   * \throws IoFailed it is no folder */
+  /** \param[in] folder may be empty: no shapes
+   * \throws IoFailed the path is no folder */
   explicit ObjectShapes(const std::filesystem::path& folder);
 
-  /** \return the shape in the object's frame, kept for the next time; null if there is
-   * none \throws IoFailed its file is broken */
+  /** \return the shape in the object's frame, cached; null if missing \throws IoFailed
+   * its file is broken */
   const TriangleMesh*
   of(const std::string& object_class);
 

@@ -12,7 +12,7 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
-/** \return what the run lacks, in one line; empty if nothing */
+/** \return the missing parts of a run, in one line; empty if complete */
 std::string
 lackOf(const RunFolder& run)
 {
@@ -32,7 +32,7 @@ isPictureFile(const fs::path& path)
   return path.extension() == ".png" || path.extension() == ".PNG";
 }
 
-/** Makes the folder of the pictures, if there is to be one. \return where a view goes */
+/** Makes the folder of the pictures, if needed. \return path of a view */
 fs::path
 prepareOutput(const PictureSettings& s, std::size_t views)
 {
@@ -40,8 +40,9 @@ prepareOutput(const PictureSettings& s, std::size_t views)
       s.output.empty() ? fs::path(s.run) / "pictures" : fs::path(s.output);
   if (isPictureFile(output)) {
     if (views != 1)
-      throw UsageError("--output = " + s.output + " is one file, but there are " +
-                       std::to_string(views) + " views; give a folder or one --view");
+      throw UsageError(
+          "--output = " + s.output + " is one file, but the options ask for " +
+          std::to_string(views) + " views; give a folder or a single --view");
     return output;
   }
   std::error_code error;
@@ -70,7 +71,7 @@ runPicture(const std::vector<std::string>& arguments)
     const fs::path file = isPictureFile(output) ? output : output / (view + ".png");
     try {
       writePng(file, pictures.draw(view));
-    } catch (const BadArgument& e) { // nothing to draw, in this view
+    } catch (const BadArgument& e) { // an empty scene for the view
       if (!s.views.empty())
         throw IoFailed(s.run + ": " + view + ": " + e.what());
       std::cerr << kRender << ": warning: no picture of " << view << ": " << e.what()
@@ -81,7 +82,7 @@ runPicture(const std::vector<std::string>& arguments)
     std::cout << file.string() << '\n';
   }
   if (!drawn)
-    throw IoFailed(s.run + ": there is nothing to draw");
+    throw IoFailed(s.run + ": nothing to draw");
   return kDone;
 }
 

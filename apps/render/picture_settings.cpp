@@ -65,7 +65,7 @@ addOutput(OptionTable& table, PictureSettings& s, std::vector<std::string>& view
   table.add("output,o PATH", &s.output)
       .help("PNG file for one view, or folder; by default RUN/pictures");
   table.add("view NAME,...", &views)
-      .help("by their names, see above; by default all that suit the run");
+      .help("names of views, see above; by default every view that suits the run");
   table.addWord("size WxH", "auto", [&s](const auto& size) { takeSize(size, s); })
       .help("[px] 200 to 8192 each");
   s.memory.addTo(table);
@@ -85,8 +85,8 @@ addLook(OptionTable& table, PictureSettings& s)
   };
   table.group("Look");
   table.addWord("colour NAME", "auto", takeColour)
-      .help("auto|height|scan|reflectance|residual|label|plain: of points; auto: what "
-            "suits the view");
+      .help("auto|height|scan|reflectance|residual|label|plain: of points; auto: "
+            "suited to the view");
   table.addWord("colour-map NAME", "auto", takeMap)
       .help("auto|viridis|turbo|magma|grey");
   table.add("background NAME", &s.background, backgroundFromName, "dark")
@@ -94,7 +94,7 @@ addLook(OptionTable& table, PictureSettings& s)
   table.add("transparent", &s.transparent).help("nothing in its place");
   table.add("points N", &s.points)
       .above(0, "> 0")
-      .help("draw at most so many, evenly chosen");
+      .help("largest number of points drawn, evenly chosen");
 }
 
 void
@@ -107,16 +107,16 @@ addViews(OptionTable& table, PictureSettings& s)
   table.group("Single views");
   table.addAuto("height Z", &s.slice_height)
       .within(-kFinite, kFinite, "finite")
-      .help("[m] slice: height in the world; auto: that of the nearest pose");
+      .help("[m] slice: height in the world; auto: height of the nearest pose");
   table.add("thickness D", &s.slice_thickness)
       .above(0, "> 0")
       .help("[m] slice: of the layer");
   table.addWord("scan N", "auto", takeScan)
-      .help("panorama, convergence: index of the scan; auto: in the middle of the run, "
-            "or the one that was corrected most");
+      .help("panorama, convergence: index of the scan; auto: the middle scan of the "
+            "run, or the scan with the largest correction");
   table.add("viewpoint N", &s.viewpoint)
       .within(1, 4, "1 to 4")
-      .help("perspective, objects: the N-th best one, 1 to 4");
+      .help("perspective, objects: the N-th best view, 1 to 4");
   table.addAuto("azimuth DEG", &s.azimuth, kDegree)
       .within(-kFinite, kFinite, "finite")
       .help(
@@ -124,8 +124,8 @@ addViews(OptionTable& table, PictureSettings& s)
   table.addAuto("elevation DEG", &s.elevation, kDegree)
       .help("of the camera above the horizon");
   table.add("models DIR", &s.models)
-      .help("objects: shapes to draw, CLASS.ply, .obj or .stl [m], or a store such as "
-            "share/models");
+      .help("objects: shapes to draw, CLASS.ply, .obj or .stl [m], or a store "
+            "(share/models)");
 }
 } // namespace
 

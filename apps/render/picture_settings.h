@@ -12,12 +12,12 @@
 
 namespace pcl6d::app {
 
-/** \brief What `picture` is asked for. */
+/** \brief Settings of `picture`. */
 struct PictureSettings {
   std::string run; ///< folder of a run
   MemoryOption memory;
   std::string output;             ///< file or folder; empty: pictures/ in the run
-  std::vector<std::string> views; ///< names; empty: all that suit the run
+  std::vector<std::string> views; ///< names; empty: every view suited to the run
   std::optional<PointColour> colour;
   std::optional<ColourMap> colour_map;
   Background background = Background::kDark;
@@ -31,11 +31,11 @@ struct PictureSettings {
   std::size_t viewpoint = 1;
   std::optional<double> azimuth;   ///< [rad]
   std::optional<double> elevation; ///< [rad]
-  std::string models;              ///< folder of meshes; empty: none
-  std::string title;               ///< empty: says what the run is
+  std::string models;              ///< folder of meshes; may be empty
+  std::string title;               ///< empty: describes the run
 };
 
-/** \return false if there is nothing more to do
+/** \return false: --help or --version was given, and the program is to end
  * \throws UsageError, boost::program_options::error the arguments break a rule */
 bool
 parsePictureSettings(const std::vector<std::string>& arguments,

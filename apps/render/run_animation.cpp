@@ -57,7 +57,7 @@ RunAnimation::RunAnimation(const RunFolder& run, const AnimationSettings& settin
   }
 }
 
-/** Takes the points of the map. \return a frame that shows them */
+/** Takes the points of the map. \return a frame with the map */
 RunAnimation::Frame
 RunAnimation::readMap(const HeightCut& cut)
 {
@@ -89,7 +89,7 @@ RunAnimation::tellTurntable()
   }
 }
 
-/** From within, the map is seen closely, and with its ceiling: the scans are denser. */
+/** From inside, the map appears near and with its ceiling: the scans have denser points. */
 void
 RunAnimation::tellFlyThrough()
 {
@@ -110,9 +110,9 @@ RunAnimation::tellFlyThrough()
   try {
     cameras = flyThrough(path, MapView(view_).box(), options);
   } catch (const BadArgument&) {
-    throw IoFailed(run_.path().string() + ": its path has no length to fly along");
+    throw IoFailed(run_.path().string() + ": the path has no length to fly along");
   }
-  frame.path = {}; // the camera is on it
+  frame.path = {}; // the camera is on the path
   view_.colour = PointColour::kHeight;
   view_.colour_range = heightsAlong(path, sceneOf(frame).points);
   view_.point_size = 0.7;
@@ -122,7 +122,7 @@ RunAnimation::tellFlyThrough()
   }
 }
 
-/** \return per scan its history; of the same length for all */
+/** \return per scan its history, padded to equal lengths */
 std::vector<std::vector<pcl6d::Frame>>
 RunAnimation::readHistory() const
 {
@@ -141,7 +141,7 @@ RunAnimation::readHistory() const
   return history;
 }
 
-/** Takes the points of the scans, without those that are cut off at the poses. */
+/** Takes the points of the scans, without points cut off at the poses. */
 void
 RunAnimation::readScans(const std::vector<Eigen::Isometry3d>& poses,
                         const HeightCut& cut)
@@ -192,7 +192,7 @@ RunAnimation::tellGrowth()
     matched.push_back(frames[1].T_world_scan);
   }
   if (matched.empty())
-    throw IoFailed(run_.path().string() + ": no scan of it was registered");
+    throw IoFailed(run_.path().string() + ": no scan of the run was registered");
   readScans(matched, {});
   Frame frame;
   for (std::size_t i = 0; i < matched.size(); ++i) {

@@ -15,8 +15,8 @@ namespace pcl6d::app {
 /** \brief The frames of a run's film. */
 class RunAnimation {
 public:
-  /** \param[in] run, settings are referred to, not copied
-   * \throws IoFailed the run lacks what the film shows, or a file of it is broken */
+  /** \param[in] run, settings kept by reference, not copied
+   * \throws IoFailed the run lacks data for the film, or a file is broken */
   RunAnimation(const RunFolder& run, const AnimationSettings& settings);
 
   std::size_t
@@ -25,19 +25,19 @@ public:
     return frames_.size();
   }
 
-  /** \throws IoFailed it cannot be drawn */
+  /** \throws IoFailed drawing failed */
   Image
   draw(std::size_t frame) const;
 
 private:
-  /** Points that move together: of a scan, in its frame, or of the map, in the world. */
+  /** Points with a common motion: of a scan, in its frame, or of the map, in the world. */
   struct Part {
     Points points;
     std::uint32_t scan = 0; ///< index
   };
   struct Frame {
     std::vector<Eigen::Isometry3d>
-        poses; ///< of the first parts; the others are not seen
+        poses; ///< of the first parts; further parts are hidden
     Trajectory path;
     Camera camera;
     std::string title;

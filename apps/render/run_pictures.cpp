@@ -10,11 +10,11 @@
 
 namespace pcl6d::app {
 
-/** A view, and how it is drawn. */
+/** A view, and its drawing function. */
 struct RunPictures::View {
   const char* name;
   const char* purpose;
-  /** files of the run without which it cannot be drawn; of "a|b" one will do */
+  /** files of the run needed for the view; "a|b" needs one of two */
   std::vector<std::string> needs;
   Image (RunPictures::*draw)();
 };
@@ -36,12 +36,12 @@ RunPictures::views()
        {"summary.json"},
        &R::drawCovariance},
       {"slice",
-       "a horizontal layer, as in a floor plan",
+       "a horizontal layer, like a floor plan",
        {"map.pcd|scans"},
        &R::drawSlice},
       {"panorama", "all around one scan", {"scans"}, &R::drawPanorama},
       {"convergence",
-       "the way of one scan to its place",
+       "the way of a scan to the final pose",
        {"frames", "scans"},
        &R::drawConvergence},
       {"planes", "planes with hulls and labels", {"planes.json"}, &R::drawPlanes},
@@ -127,7 +127,7 @@ RunPictures::draw(const std::string& view)
   return (this->*viewOf(view).draw)();
 }
 
-/** map.pcd; where it is missing, all scans in their places. */
+/** map.pcd; if missing, the scans at their poses. */
 const RunMap&
 RunPictures::map()
 {

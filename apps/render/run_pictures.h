@@ -12,31 +12,31 @@
 
 namespace pcl6d::app {
 
-/** \brief Draws the views of one run. What they share is read once, when it is needed. */
+/** \brief Draws the views of one run. Data shared by views is read once, on demand. */
 class RunPictures {
 public:
   /** Both are referred to, not copied. */
   RunPictures(const RunFolder& run, const PictureSettings& settings);
 
-  /** \return whether there is a view of that name */
+  /** \return whether a view of the name exists */
   static bool
   isView(const std::string& name);
-  /** \return the names of all views with commas between */
+  /** \return the names of the views, separated by commas */
   static std::string
   viewNames();
-  /** \return the names and what they show, a line each, for --help */
+  /** \return a line per view with name and description, for --help */
   static std::string
   viewTable();
 
-  /** \return the views that suit the run, in the order of the table */
+  /** \return the views suited to the run, in the order of the table */
   std::vector<std::string>
   suitableViews() const;
 
-  /** \return what the run lacks for a view, such as "planes.json"; empty if nothing */
+  /** \return a file of the run missing for a view, such as "planes.json"; empty if complete */
   std::string
   lackedBy(const std::string& view) const;
 
-  /** \throws IoFailed, BadArgument it cannot be drawn */
+  /** \throws IoFailed, BadArgument drawing failed */
   Image
   draw(const std::string& view);
 

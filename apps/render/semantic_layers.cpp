@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of the meaning of a map: labels of points, objects, rooms.
+// Semantic content of a map: labels of points, objects, rooms.
 #include "render/run_pictures.h"
 
 #include <pcl6d/common/error.h>
@@ -37,7 +37,7 @@ semanticCloud(const RunFolder& run)
   return cloud;
 }
 
-/** \return whether a level at this height [m] along up cuts a room */
+/** \return whether a horizontal plane at a height [m] along up cuts a room */
 bool
 isCut(const MapRoom& room, const SemanticMap& map, double height)
 {
@@ -85,7 +85,7 @@ RunPictures::planeLabelledCloud() const
   return cloud;
 }
 
-/** In full coordinates: objects.json, else those of the semantic map. */
+/** In full coordinates: from objects.json, else from the semantic map. */
 std::vector<ObjectPose>
 RunPictures::objects() const
 {
@@ -97,7 +97,7 @@ RunPictures::objects() const
   return objects;
 }
 
-/** The outlines of the rooms that a floor plan cuts, if there is a semantic map. */
+/** The outlines of the rooms cut by a floor plan, if the run has a semantic map. */
 Overlay
 RunPictures::roomOverlay() const
 {

@@ -7,7 +7,7 @@ namespace pcl6d::app {
 
 constexpr const char* kRender = "pcl_slam6d_render"; ///< the program's name
 
-/** \file What the verbs do stands in the table of pcl_slam6d_render.cpp. */
+/** \file The verbs are described in the table of pcl_slam6d_render.cpp. */
 int
 runAnimation(const Arguments& arguments);
 int

@@ -18,7 +18,7 @@ namespace pcl6d::app {
 namespace fs = std::filesystem;
 
 namespace {
-/** The codecs of a kind of file, those that play nearly everywhere first. */
+/** The codecs for a file type, the most widely playable first. */
 const std::vector<std::string>&
 codecsFor(const std::string& extension)
 {
@@ -30,7 +30,7 @@ codecsFor(const std::string& extension)
   return kCodecs.at(extension);
 }
 
-/** \return the frames that a film really holds. They are not decoded. */
+/** \return the number of frames stored in a film, counted without decoding */
 std::size_t
 framesIn(const fs::path& path)
 {
@@ -45,8 +45,8 @@ framesIn(const fs::path& path)
   return frames;
 }
 
-/** \return whether nothing more can be written to a file, for want of space or by a limit:
- * then its end may be missing */
+/** \return whether a file can grow no more, for lack of space or by a limit: its end
+ * may then be missing */
 bool
 isFull(const fs::path& path)
 {
@@ -74,7 +74,7 @@ VideoFile::VideoFile(const fs::path& path,
 {
   if (!std::ofstream(path))
     throw IoFailed(name + ": cannot be written");
-  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0); // quiet: what is wrong is told below
+  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0); // quiet: errors are reported below
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   for (const auto& codec : codecsFor(fs::path(name).extension()))
     if (writer_->video.open(
@@ -96,7 +96,7 @@ VideoFile::add(const Image& image)
       image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  writer_->video.write(bgr); // says nothing of a full disk
+  writer_->video.write(bgr); // does not report a full disk
   ++writer_->frames;
 }
 
@@ -106,7 +106,7 @@ VideoFile::close()
   writer_->video.release();
   const std::size_t written = framesIn(path_);
   if (written < writer_->frames)
-    throw IoFailed(name_ + ": cannot be written: it holds " + std::to_string(written) +
+    throw IoFailed(name_ + ": cannot be written: holds " + std::to_string(written) +
                    " of " + std::to_string(writer_->frames) +
                    " frames; the disk may be full");
   if (isFull(path_))

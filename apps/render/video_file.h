@@ -9,12 +9,12 @@
 
 namespace pcl6d::app {
 
-/** \brief A video that is written frame by frame, with the first codec that OpenCV has for
- * the extension of its name. */
+/** \brief A video written frame by frame, with the first codec of OpenCV for the
+ * extension of its name. */
 class VideoFile {
 public:
   /** \param[in] name of the file in messages
-   * \throws IoFailed there is no codec, or the file cannot be written */
+   * \throws IoFailed no codec, or the file cannot be written */
   VideoFile(const std::filesystem::path& path,
             const std::string& name,
             int width,
@@ -28,8 +28,8 @@ public:
   void
   add(const Image& image);
 
-  /** \brief Ends the file. \throws IoFailed it does not hold all frames: the disk may be
-   * full */
+  /** \brief Ends the file. \throws IoFailed frames are missing in the file: the disk
+   * may be full */
   void
   close();
 

@@ -42,17 +42,18 @@ addOptions(OptionTable& table, BuildSettings& s)
   table.positional("RUN_DIR", &s.run);
   table.group("Input");
   table.add("planes FILE", &s.planes)
-      .help("planes.json; by default that of the run, else planes are found in its "
+      .help("planes.json; by default the file of the run, else planes are found in the "
             "scans");
   table.add("objects FILE", &s.objects)
-      .help("objects.json; by default that of the run, else there are no objects");
+      .help(
+          "objects.json; by default the file of the run, else the map has no objects");
   table.add("model MODEL", &s.models)
       .composing()
       .multitoken()
       .help("look for objects in the scans: a mesh, a cloud or a folder of the model "
-            "store, as of pcl_slam6d_objects locate; several may follow");
+            "store, like in pcl_slam6d_objects locate; several may follow");
   table.add("store DIR", &s.store)
-      .help("look for all models of a store, such as share/models");
+      .help("look for the models of a store, for example share/models");
   table.add("rules FILE", &s.rules)
       .help("rules of labels (share/rules); by default the book's");
   table.group("Output");
@@ -62,14 +63,14 @@ addOptions(OptionTable& table, BuildSettings& s)
             "semantic_map.pcd in RUN_DIR");
   table.group("Run");
   table.add("keep-observations", &s.keep_observations)
-      .help("do not make one object of what several scans saw at one place");
+      .help("do not merge objects seen by several scans at one place");
   table.addAs<int>("threads N", &s.threads)
       .within(0, kNoBound, ">= 0")
-      .help("0: one per core; never changes the result");
+      .help("0: a thread per core; never changes the result");
   table.add("quiet", &s.quiet).help("print errors only");
 }
 
-/** \brief Makes sure that no input is overwritten. \throws UsageError */
+/** \brief Checks that no input is overwritten. \throws UsageError */
 void
 checkOutputs(const BuildSettings& s)
 {
@@ -95,8 +96,7 @@ with labels, objects, rooms, how they lie to each other, and what each point is.
   if (!table.parse(arguments))
     return false;
   if (!s.objects.empty() && (!s.models.empty() || !s.store.empty()))
-    throw UsageError(
-        "--objects gives the objects; it does not go with --model or --store");
+    throw UsageError("--objects gives the objects and excludes --model and --store");
   const fs::path folder = s.run;
   if (s.output.empty())
     s.output = (folder / kMapFile).string();
@@ -109,16 +109,16 @@ with labels, objects, rooms, how they lie to each other, and what each point is.
   return true;
 }
 
-/** The file that an option names, else that of the run; empty if there is none. */
+/** The file named by an option, or else the run's file; empty without either. */
 fs::path
 fileOf(const std::string& option, const fs::path& of_run)
 {
   return option.empty() && text::isThere(of_run) ? of_run : fs::path(option);
 }
 
-/** Objects of the given file, those of the models that are found in the scans, as
- * pcl_slam6d_objects does, or those of objects.json in the folder of the run.
- * \return where they come from, for people \throws Interrupted */
+/** Adds the objects of the given file, of models found in the scans (see
+ * pcl_slam6d_objects), or of objects.json in the run's folder.
+ * \return their source, for messages \throws Interrupted */
 std::string
 addObjects(const BuildSettings& s,
            ProgressBar& bar,
@@ -141,9 +141,9 @@ addObjects(const BuildSettings& s,
   return file.string();
 }
 
-/** Planes of the given file, of planes.json in the folder of the run, or found in its
- * scans, labelled and refined (book 7.1), as pcl_slam6d_planes does.
- * \return where they come from, for people \throws Interrupted */
+/** Adds the planes of the given file, of planes.json in the run's folder, or found in
+ * its scans, labelled and refined (book 7.1; see pcl_slam6d_planes).
+ * \return their source, for messages \throws Interrupted */
 std::string
 addPlanes(const BuildSettings& s,
           ProgressBar& bar,

@@ -11,7 +11,7 @@
 namespace pcl6d::app {
 
 FinishedRun::FinishedRun(const std::filesystem::path& folder)
-: run_(RunFolder::finished(folder, "the run was interrupted; run it again"))
+: run_(RunFolder::finished(folder, "the run was interrupted; start the run again"))
 {
   std::vector<std::pair<MapScan, std::size_t>> scans;
   for (const ScanResult& scan : run_.summary().scans) {
@@ -55,7 +55,7 @@ FinishedRun::readLinks() const
     kept.to = link.to;
     kept.kind = toString(link.kind);
     kept.pairs = link.pairs;
-    if (!std::isnan(link.rms)) // of links without pairs there is none
+    if (!std::isnan(link.rms)) // NaN for links without pairs
       kept.rms = link.rms;
     const auto found = known.find({link.from, link.to});
     if (found != known.end())
@@ -64,7 +64,7 @@ FinishedRun::readLinks() const
   return links;
 }
 
-/** \return what is wrong with a link that counts, or nothing */
+/** \return the fault of a link in use, or an empty text */
 std::string
 FinishedRun::faultOf(const RunLink& link) const
 {

@@ -10,8 +10,8 @@
 
 namespace pcl6d::app {
 
-/** \brief A finished run of pcl_slam6d (share/doc/run_folder.md), as far as a semantic map
- * needs it. */
+/** \brief A finished run of pcl_slam6d (share/doc/run_folder.md): the parts for a
+ * semantic map. */
 class FinishedRun {
 public:
   /** \throws IoFailed the folder is no run, or was interrupted */
@@ -30,15 +30,15 @@ public:
     return scans_;
   }
 
-  /** \return whole metres that are subtracted from the clouds of the run */
+  /** \return whole metres subtracted from the clouds of the run */
   const Eigen::Vector3d&
   worldOffset() const
   {
     return run_.summary().world_offset;
   }
 
-  /** \brief Reads links.csv and graph.g2o; without the former there are no links.
-   * \return the links that count \throws IoFailed they are broken */
+  /** \brief Reads links.csv and graph.g2o; without links.csv the run has no links.
+   * \return the links in use \throws IoFailed a file is broken */
   std::vector<MapLink>
   readLinks() const;
 

@@ -57,8 +57,8 @@ runMapInfo(const std::vector<std::string>& arguments)
   std::string file;
   OptionTable table(std::string("usage: ") + kSemanticMap +
                     R"( info MAP
-Tells what a semantic map holds: scans, planes by label, objects by class, rooms,
-relations. MAP: semantic_map.json, or a folder that holds it.
+Prints the content of a semantic map: scans, planes by label, objects by class, rooms,
+relations. MAP: semantic_map.json, or the folder of this file.
 )");
   table.positional("MAP", &file);
   if (!table.parse(arguments))

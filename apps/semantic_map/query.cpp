@@ -12,11 +12,11 @@ namespace pcl6d::app {
 namespace {
 constexpr const char* kQueryUsage =
     R"( query MAP "SUBJECT CONDITION..." [options]
-Finds things in a semantic map. MAP: semantic_map.json, or a folder that holds it.
+Finds entities in a semantic map. MAP: semantic_map.json, or the folder of this file.
 SUBJECT: objects, planes, rooms, storeys, scans, links, relations.
 CONDITION: [not] KEY OP VALUE[,VALUE...] with OP one of = != < <= > >=.
-All conditions must hold, of the values one. VALUE: a number, a word, text in
-quotes, a thing such as plane:12, or * for anything. Keys: share/doc/semantic_map.md.
+Every condition must be true, for at least one of its values. VALUE: a number, a
+word, text in quotes, an entity like plane:12, or * for any value. Keys: share/doc/semantic_map.md.
 
   objects class=chair on=floor room=2
   planes label=wall area>4 parallel=12
@@ -37,7 +37,7 @@ runMapQuery(const std::vector<std::string>& arguments)
   table.positional("QUERY", &text);
   table.group("Output");
   table.add("json", &as_json)
-      .help("print JSON with all properties in place of a table");
+      .help("print JSON with every property in place of a table");
   if (!table.parse(arguments))
     return kDone;
   const SemanticMap map = readSemanticMap(mapFile(file));

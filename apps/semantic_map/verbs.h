@@ -11,7 +11,8 @@ namespace pcl6d::app {
 constexpr const char* kSemanticMap = "pcl_slam6d_semantic_map"; ///< the program's name
 constexpr const char* kMapFile = "semantic_map.json"; ///< in the folder of a run
 
-/** \file What the verbs do stands in the table of pcl_slam6d_semantic_map.cpp. */
+/** \file The verbs; their descriptions are in the table of
+ * pcl_slam6d_semantic_map.cpp. */
 int
 runMapBuild(const Arguments& arguments);
 int
@@ -19,7 +20,7 @@ runMapQuery(const Arguments& arguments);
 int
 runMapInfo(const Arguments& arguments);
 
-/** \return the file of a map: the argument, or kMapFile in it if it is a folder */
+/** \return the file of a map: the argument, or kMapFile in it for a folder */
 inline std::filesystem::path
 mapFile(const std::string& argument)
 {

@@ -7,7 +7,7 @@
 
 namespace pcl6d::app {
 namespace {
-constexpr double kDigits = 1e4; // 0.1 mm and 0.1 ms are enough to know who is where
+constexpr double kDigits = 1e4; // 0.1 mm and 0.1 ms are enough to locate a body
 
 double
 rounded(double value)

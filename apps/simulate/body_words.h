@@ -11,14 +11,15 @@
 
 namespace pcl6d::app {
 
-/** \brief What moves, for scene.json: of each body its class, its way [m] and when it is
- * where [s], or its speed.
- * \param[in] T_world_scene from the frame of the ways to that of the scans */
+/** \brief Describes moving bodies for scene.json: class, way [m], and times [s] or
+ * speed of each body.
+ * \param[in] T_world_scene from the frame of the ways to the frame of the scans */
 nlohmann::ordered_json
 describeBodies(const std::vector<MovingBody>& bodies,
                const Eigen::Isometry3d& T_world_scene);
 
-/** \brief How the robot drives on while it scans, for scene.json. \param[in] speed [m/s] */
+/** \brief Describes the robot's motion during scans for scene.json. \param[in] speed
+ * [m/s] */
 nlohmann::ordered_json
 describeMotion(const SimulateSettings& settings, double speed);
 

@@ -40,8 +40,8 @@ public:
   {
     requireNoOtherScans(out_);
     if (!scans_.folder().hasPoses() && !scans_.summary() && s_.poses.empty())
-      throw IoFailed(s_.input + ": the scans have no poses: where would somebody walk? "
-                                "Register them with pcl_slam6d, and take its folder");
+      throw IoFailed(s_.input + ": the scans have no poses; register the scans with "
+                                "pcl_slam6d, and give the folder of the run");
     takeInitialPoses();
     takePoses();
     takeStamps();
@@ -70,20 +70,20 @@ public:
     writeRecord(intruders, options.up);
     out_.publish();
     if (!s_.quiet)
-      std::printf("%s: %zu scans, %zu points, %zu of them (%.2f %%) on what moves: "
-                  "%d people, %d cars\nwritten to %s: scan*.pcd odometry.txt times.txt "
-                  "%s%s\n",
-                  s_.input.c_str(),
-                  size(),
-                  points_,
-                  moving_,
-                  100.0 * static_cast<double>(moving_) /
-                      static_cast<double>(std::max<std::size_t>(1, points_)),
-                  options.people,
-                  options.cars,
-                  s_.out.c_str(),
-                  has_truth_ ? "groundtruth.txt " : "",
-                  kSceneFile);
+      std::printf(
+          "%s: %zu scans, %zu points, %zu of them (%.2f %%) on moving bodies: %d "
+          "people, %d cars\nwritten to %s: scan*.pcd odometry.txt times.txt %s%s\n",
+          s_.input.c_str(),
+          size(),
+          points_,
+          moving_,
+          100.0 * static_cast<double>(moving_) /
+              static_cast<double>(std::max<std::size_t>(1, points_)),
+          options.people,
+          options.cars,
+          s_.out.c_str(),
+          has_truth_ ? "groundtruth.txt " : "",
+          kSceneFile);
     return kDone;
   }
 
@@ -103,7 +103,7 @@ private:
                                    : scans_.folder().initialPose(i));
   }
 
-  // Truth is welcome here, as nothing is to be found out from it.
+  // Ground-truth poses may be used: the program estimates nothing from them.
   void
   takePoses()
   {
@@ -133,14 +133,14 @@ private:
       trajectory_.stamps.push_back(static_cast<double>(i) * s_.period.value_or(1));
   }
 
-  // The mean of what scans say near the z of the poses, or are sure of: walls alone leave
-  // three directions, of which the expected one is meant.
+  // The mean of the scans' verticals that are certain or near the z of the poses. Walls
+  // alone leave three directions, of which the expected direction is taken.
   Eigen::Vector3d
   verticalOfScans()
   {
     constexpr std::size_t kSome = 8; // scans along the way
     constexpr double kTilted =
-        0.9397; // cosine of 20 deg: of poses that begin at a sensor
+        0.9397; // cosine of 20 deg, for poses that begin at a sensor
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     const std::size_t step = (size() + kSome - 1) / kSome;
     for (std::size_t i = 0; i < size(); i += step) {
@@ -168,7 +168,8 @@ private:
       ScanCloud scan = scans_.folder().readCloud(i);
       if (fieldValues(scan.cloud, "dynamic"))
         throw IoFailed(scans_.folder().file(i).string() +
-                       ": has a field dynamic already: who walks there is unknown");
+                       ": already has a field dynamic, from other moving bodies; give "
+                       "scans without this field");
       const Points measured = coordinatesOf(scan.cloud);
       const IntrudedPoints intruded = intruders.enter(i, measured);
       std::vector<double> dynamic(measured.size(), 0);
@@ -187,7 +188,7 @@ private:
     return true;
   }
 
-  // Only this point: all others keep their bits, also of coordinates in double.
+  // Writes this point only: other points keep their bits, also in double coordinates.
   static void
   storePoint(const Eigen::Vector3f& point, std::size_t i, pcl::PCLPointCloud2& cloud)
   {

@@ -17,17 +17,17 @@ constexpr const char* kIntrude = "intrude"; ///< the job's name
 struct IntrudeSettings {
   std::string input; ///< folder of scans, or a run
   ScanFolderOptions scans;
-  std::string poses; ///< file with the poses to walk by; empty: those of the folder
+  std::string poses;            ///< file with the poses; empty: the folder's poses
   std::string up = "auto";      ///< auto, or x,y,z in the frame of the poses
-  std::optional<double> period; ///< [s] from scan to scan; none: the stamps, else 1
+  std::optional<double> period; ///< [s] from scan to scan; default: the stamps, else 1
   IntruderOptions intruders;
   std::string out;
   bool force = false;
   bool quiet = false;
 };
 
-/** \return false when there is nothing more to do (--help) \throws UsageError,
- * boost::program_options::error an option breaks its rule */
+/** \return false after --help \throws UsageError, boost::program_options::error an
+ * option is invalid */
 bool
 parseIntrudeSettings(const Arguments& arguments, IntrudeSettings& settings);
 

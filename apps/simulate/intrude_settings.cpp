@@ -39,24 +39,23 @@ addOptions(OptionTable& table, IntrudeSettings& s)
       .help("same seed, same bytes");
   table.group("Input");
   table.add("poses FILE", &s.poses)
-      .help("KITTI or TUM, one row per scan: where the scans were, better than the "
-            "initial "
-            "poses of the folder, which stay as they are in what is written");
+      .help("KITTI or TUM, a row per scan: poses better than the initial poses of the "
+            "folder; the initial poses are written unchanged");
   table.add("format", &s.scans.format, scanFormatFromName)
-      .help("auto|pcd|ply|uos|uosr|kitti|xyz");
+      .help("auto|pcd|ply|uos|uosr|kitti|xyz|las|laz");
   table.addAuto("period", &s.period)
       .within(1e-6, 36000, "in [1e-6, 36000]")
       .help("[s] from scan to scan; auto: the time stamps of the folder, else 1");
   table.add("up", &s.up)
-      .help("auto, or x,y,z: which way is up in the frame of the poses; auto: by the "
-            "surfaces of the scans, where they tell, else z");
+      .help("auto, or x,y,z: upward direction in the frame of the poses; auto: from "
+            "the surfaces of the scans if possible, else z");
   table.group("Run");
   table.add("output,o DIR", &s.out).required().help("folder to write; made if missing");
   table.add("force", &s.force)
-      .help("write into a folder that holds other files, but no scans");
+      .help("write into a folder that is not empty, but holds no scans");
   table.addAs<int>("threads", &s.intruders.num_threads)
       .within(0, kNoBound, ">= 0")
-      .help("0: one per core; never changes results");
+      .help("0: a thread per core; never changes results");
   table.add("quiet", &s.quiet).help("print errors only");
 }
 } // namespace
@@ -67,15 +66,16 @@ parseIntrudeSettings(const Arguments& arguments, IntrudeSettings& s)
   OptionTable table(
       std::string("usage: ") + kSimulate + " " + kIntrude +
       " RUN -o DIR --people N --cars N [options]\nLets people and cars move through "
-      "recorded scans, each point labelled: dynamic is 1 on them, else 0.\nRUN is a "
-      "folder of scans with initial poses, or the folder of a finished run. A point is "
-      "taken for a ray from the origin of its scan: it moves to a body that is nearer. "
-      "Rays without a return are not in a scan, so nothing shows there.");
+      "recorded scans, each point labelled: dynamic is 1 on people and cars, else "
+      "0.\nRUN is a folder of scans with initial poses, or the folder of a finished "
+      "run. A point is the end of a ray from the origin of the scan: a nearer body "
+      "takes the point. Rays without a return are missing in a scan, and so are bodies "
+      "on these rays.");
   addOptions(table, s);
   if (!table.parse(arguments))
     return false;
   if (s.intruders.people + s.intruders.cars == 0)
-    throw UsageError("--people or --cars must be above 0: nothing would move");
+    throw UsageError("--people or --cars must be above 0");
   if (s.up != "auto")
     s.intruders.up = directionOf(s.up);
   return true;

@@ -81,14 +81,14 @@ addScene(OptionTable& table, SceneSettings& s)
       .above(0, "> 0")
       .help("of a mesh: [m] per unit of the file");
   table.add("up", &s.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}})
-      .help("of a mesh: y|z, the axis that points up");
+      .help("of a mesh: y|z, the upward axis");
   table.add("labels", &s.labels, {{"auto", std::nullopt}, {"yes", true}, {"no", false}})
       .help("yes|no|auto: points carry plane_id, object_id and label, and "
             "planes_truth.json and objects_truth.json are written; auto: not for "
             "corridor");
   table.add("without CLASS", &s.without)
       .composing()
-      .help("leaves out the objects of a class, such as chair; may be repeated");
+      .help("leaves out the objects of a class, for example chair; may be repeated");
 }
 
 SimulationScene
@@ -101,7 +101,7 @@ loadScene(const SceneSettings& s, std::uint64_t seed)
 bool
 wantsLabels(const SceneSettings& s)
 {
-  // The bytes of corridor, which others compare with, stay as they are.
+  // Others compare with the bytes of corridor, which therefore stay unchanged.
   return s.labels.value_or(s.name != "corridor");
 }
 

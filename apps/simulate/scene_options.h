@@ -13,14 +13,14 @@
 
 namespace pcl6d::app {
 
-/** \brief Which scene, as given on the command line. */
+/** \brief The scene, from the command line. */
 struct SceneSettings {
   std::string name;       ///< of a built-in scene, or a file .json, .ply, .obj, .stl
   std::string path;       ///< file with waypoints; for meshes
   double scale = 1;       ///< [m] per unit of a mesh
   UpAxis up = UpAxis::kZ; ///< of a mesh
-  std::optional<bool> labels;       ///< none: not for corridor
-  std::vector<std::string> without; ///< classes of objects that are left out
+  std::optional<bool> labels;       ///< default: labels except for corridor
+  std::vector<std::string> without; ///< classes of objects to leave out
 };
 
 /** \return the known scenes, a line each, for --help */
@@ -30,8 +30,8 @@ sceneList();
 void
 addScene(OptionTable& table, SceneSettings& scene);
 
-/** \brief Makes or reads the scene. \param[in] seed of what is random in it
- * \throws UsageError the scene is not known, or options do not fit it
+/** \brief Makes or reads the scene. \param[in] seed of random parts
+ * \throws UsageError the scene is unknown, or options do not fit it
  * \throws IoFailed a file is wrong */
 SimulationScene
 loadScene(const SceneSettings& words, std::uint64_t seed);
@@ -40,7 +40,7 @@ loadScene(const SceneSettings& words, std::uint64_t seed);
 bool
 wantsLabels(const SceneSettings& words);
 
-/** \brief Adds to scene.json what the scene was made from. */
+/** \brief Adds the source of the scene to scene.json. */
 void
 describeScene(const SceneSettings& words,
               const SimulationScene& scene,

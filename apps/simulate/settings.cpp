@@ -24,18 +24,18 @@ void
 addScanner(OptionTable& table, SimulateSettings& s)
 {
   table.group("Scanner");
-  table.add("scanner", &s.scanner).help("by its name, see above");
+  table.add("scanner", &s.scanner).help("name of the scanner, see above");
   table.addAuto("resolution", &s.resolution)
       .help("[deg] between samples and lines; auto: the scanner's");
   table.addAuto("noise", &s.noise)
-      .help("[m] standard deviation of the ranges, apart from what grows with range or "
-            "angle; auto: the scanner's");
+      .help("[m] standard deviation of the ranges, without the parts growing with "
+            "range or angle; auto: from the scanner");
   table.addAuto("max-range", &s.max_range)
-      .help("[m] farther things are not seen; auto: what suits the scene for rotating, "
-            "the scanner's for all others");
+      .help("[m] largest range; auto: suited to the scene for rotating, else from the "
+            "scanner");
   table.add("exact", &s.exact)
-      .help("one ideal ray per sample and true ranges; with --noise: that noise and no "
-            "other error");
+      .help("one ideal ray per sample and true ranges; with --noise: only this noise, "
+            "no further error");
 }
 
 void
@@ -49,22 +49,20 @@ addDrive(OptionTable& table, SimulateSettings& s)
       .above(0, "in (0, 50]", 50)
       .help("[m/s] or auto: 1, slower if a scan takes longer than the way to the next");
   table.add("turns-in-place", &s.simulation.turns_in_place)
-      .help("drive straight from waypoint to waypoint, stop there and turn; with "
-            "--motion "
-            "continuous, as all that follow");
+      .help("drive straight from waypoint to waypoint, stop and turn; like every "
+            "option below, with --motion continuous");
   table.addAuto("turn-rate", &s.simulation.turn_rate, M_PI / 180)
       .within(0.1, 570, "in [0.1, 570]")
       .help("[deg/s] never turn faster: slow down in bends; auto: any rate, 30 with "
             "--turns-in-place");
   table.add("vibration", &s.simulation.vibration)
       .within(0, 0.1, "in [0, 0.1]")
-      .help("[m] rms by which the sensor shakes, at 1 to 10 Hz, in all six degrees of "
+      .help("[m] rms of the shaking of the sensor, at 1 to 10 Hz, in six degrees of "
             "freedom");
   table.addAuto("period", &s.simulation.period)
       .above(0, "> 0")
-      .help(
-          "[s] from scan to scan; auto: evenly along the way. That of a scan, 0.1 for "
-          "ouster, gives sweeps one behind the other");
+      .help("[s] from scan to scan; auto: evenly along the way. The duration of a "
+            "scan, 0.1 for ouster, gives successive sweeps");
   const auto takeOdometry = [&s](const std::string& name) {
     s.simulation.odometry_kind = odometryKindFromName(name);
     s.odometry = name;
@@ -81,12 +79,11 @@ addMoving(OptionTable& table, SimulateSettings& s)
   table.group("What moves");
   table.add("people", &s.traffic.people)
       .within(0, kMostBodies, "in [0, 200]")
-      .help(
-          "walk about the robot, on free floor, never nearer to it than 1.2 m; points "
-          "then have the field dynamic: 1 on what moves, else 0");
+      .help("walk about the robot, on free floor, never nearer than 1.2 m; points then "
+            "have the field dynamic: 1 on moving bodies, else 0");
   table.add("traffic", &s.traffic.cars)
       .within(0, kMostBodies, "in [0, 200]")
-      .help("cars that drive about the robot in the same way, never nearer than 3.5 m");
+      .help("cars driving about the robot, never nearer than 3.5 m");
 }
 
 void
@@ -95,10 +92,10 @@ addOptions(OptionTable& table, SimulateSettings& s)
   table.positional("SCENE", &s.scene.name);
   table.group("Simulation");
   table.add("scans", &s.scans)
-      .help("number of scans, evenly along the way; by default what suits the scene");
+      .help("number of scans, evenly along the way; by default suited to the scene");
   table.addAs<std::int64_t>("seed", &s.simulation.seed)
       .within(0, kNoBound, ">= 0")
-      .help("same seed, same bytes; also of what is random in a scene");
+      .help("equal seeds give equal bytes; also seed of the random parts of a scene");
   addScene(table, s.scene);
   addMoving(table, s);
   addScanner(table, s);
@@ -106,14 +103,14 @@ addOptions(OptionTable& table, SimulateSettings& s)
   table.group("Run");
   table.add("output,o DIR", &s.out).required().help("folder to write; made if missing");
   table.add("force", &s.force)
-      .help("write into a folder that holds other files, but no scans");
+      .help("write into a folder that is not empty, but holds no scans");
   table.addAs<int>("threads", &s.simulation.range.num_threads)
       .within(0, kNoBound, ">= 0")
-      .help("0: one per core; never changes results");
+      .help("0: a thread per core; never changes results");
   table.add("quiet", &s.quiet).help("print errors only");
 }
 
-/** Sets the scanner and how it measures. */
+/** Sets the scanner and its measurement options. */
 void
 applyScanner(const SimulateSettings& s, double scene_range, SimulationOptions& options)
 {

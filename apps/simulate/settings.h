@@ -17,12 +17,12 @@ constexpr const char* kSimulate = "pcl_slam6d_simulate"; ///< the program's name
 /** \brief The command line of pcl_slam6d_simulate. */
 struct SimulateSettings {
   SceneSettings scene;
-  std::optional<int> scans; ///< none: what suits the scene
+  std::optional<int> scans; ///< default: chosen for the scene
   std::string scanner = "rotating";
-  std::optional<double> resolution; ///< [deg] none: the scanner's
-  std::optional<double> noise;      ///< [m] none: the scanner's
-  std::optional<double> max_range;  ///< [m] none: what suits scene or scanner
-  TrafficOptions traffic;           ///< its seed is that of the simulation
+  std::optional<double> resolution; ///< [deg] default: the scanner's
+  std::optional<double> noise;      ///< [m] default: the scanner's
+  std::optional<double> max_range;  ///< [m] default: chosen for scene or scanner
+  TrafficOptions traffic;           ///< its seed is the simulation's seed
   bool exact = false;               ///< rays and ranges without errors
   std::string odometry = "wheel";
   std::string out;
@@ -32,13 +32,13 @@ struct SimulateSettings {
 };
 
 /** \brief Fills the settings from the command line and the config file.
- * \return false when there is nothing more to do (--help)
- * \throws UsageError, boost::program_options::error an option breaks its rule */
+ * \return false after --help
+ * \throws UsageError, boost::program_options::error an option is invalid */
 bool
 parseSettings(const std::vector<std::string>& arguments, SimulateSettings& settings);
 
-/** \brief Makes or reads the scene, and fills in what the user left to it.
- * \throws UsageError the scene is not known, or options do not fit it
+/** \brief Makes or reads the scene, and fills in unset settings.
+ * \throws UsageError the scene is unknown, or options do not fit it
  * \throws IoFailed a file is wrong */
 SimulationScene
 sceneOf(SimulateSettings& settings);

@@ -31,7 +31,7 @@ requireNoOtherScans(const OutputFolder& folder)
   for (const auto& entry : fs::directory_iterator(folder.folder(), error))
     if (entry.path().extension() == ".pcd")
       throw IoFailed(folder.folder().string() +
-                     ": holds scans that were not simulated; use another folder");
+                     ": holds measured scans; use another folder");
 }
 
 } // namespace pcl6d::app

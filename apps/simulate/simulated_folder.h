@@ -8,15 +8,15 @@
 
 namespace pcl6d::app {
 
-constexpr const char* kSceneFile = "scene.json"; ///< only simulated folders have it
+constexpr const char* kSceneFile = "scene.json"; ///< only in simulated folders
 
-/** \brief What a simulation may do to the folder that it writes. */
+/** \brief Rules for the output folder of a simulation. */
 OutputRules
 simulatedFolder(const std::string& out,
                 bool force,
                 const std::vector<std::filesystem::path>& inputs = {});
 
-/** \throws IoFailed the folder holds scans, but not those of an earlier simulation */
+/** \throws IoFailed the folder holds scans that are not from an earlier simulation */
 void
 requireNoOtherScans(const OutputFolder& folder);
 

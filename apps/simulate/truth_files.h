@@ -9,8 +9,8 @@
 namespace pcl6d::app {
 
 /** \brief Writes planes_truth.json and objects_truth.json in the world of the scans.
- * \param[in] scene the one that was simulated
- * \param[in] counts points of all scans */
+ * \param[in] scene the simulated scene
+ * \param[in] counts points of every scan */
 void
 writeTruthFiles(const OutputFolder& folder,
                 const SimulationScene& scene,

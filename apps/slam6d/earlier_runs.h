@@ -10,18 +10,18 @@
 
 namespace pcl6d::app {
 
-/** \brief The finished runs whose scans are taken over as they are: the one that goes on
- * (--continue), or those that are joined (--join). */
+/** \brief The finished runs whose scans are taken over: the continued run (--continue), or the
+ * joined runs (--join). */
 struct EarlierRuns {
-  /** A scan, by its run and its place in the summary of that. */
+  /** A scan, by its run and its index in the run's summary. */
   struct Taken {
     std::size_t run = 0;
     std::size_t place = 0;
   };
 
   std::vector<RunFolder> runs;
-  std::vector<Taken> scans;       ///< the first ones of the folder, in their order
-  std::vector<std::string> notes; ///< what is to be said of them, for people
+  std::vector<Taken> scans;       ///< first scans of the folder, in order
+  std::vector<std::string> notes; ///< messages about the runs, for people
 
   bool
   empty() const
@@ -34,8 +34,8 @@ struct EarlierRuns {
   {
     return runs.size() > 1;
   }
-  /** \return the result of a scan. Where runs are joined, one that nothing ties to its run
-   * counts as predicted: its place is looked for anew */
+  /** \return the result of a scan. In joined runs, a scan disconnected from its run counts as
+   * predicted: its pose is searched for again */
   ScanResult
   resultOf(std::size_t scan) const;
 };

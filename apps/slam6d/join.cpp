@@ -4,6 +4,7 @@
 #include "slam6d/join_checks.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/option_names.h>
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/registered_scans.h>
@@ -28,14 +29,13 @@ countOf(std::size_t run, const EarlierRuns& runs)
       }));
 }
 
-/** \return the name of a run's folder; with that of the folder above, if another run has it,
- * too */
+/** \return the name of a run's folder, with its parent folder if another run has an equal name */
 std::string
 shortNameOf(std::size_t run, const EarlierRuns& runs)
 {
   const auto nameOf = [&](std::size_t r) {
     const fs::path path = fs::absolute(runs.runs[r].path()).lexically_normal();
-    return path.has_filename() ? path : path.parent_path(); // "run/" names it, too
+    return path.has_filename() ? path : path.parent_path(); // for "run/"
   };
   const fs::path path = nameOf(run);
   for (std::size_t r = 0; r < runs.runs.size(); ++r)
@@ -44,7 +44,7 @@ shortNameOf(std::size_t run, const EarlierRuns& runs)
   return path.filename().string();
 }
 
-/** \return the names of a run's scans, none of which is taken \param[in,out] taken gets them */
+/** \return unused names for a run's scans \param[in,out] taken gets the names */
 std::vector<std::string>
 freeNames(const std::vector<std::string>& names,
           const std::string& run,
@@ -65,7 +65,7 @@ freeNames(const std::vector<std::string>& names,
   }
 }
 
-/** \return stamps of all scans; nothing unless all runs have some, and they increase */
+/** \return stamps of all scans; empty unless all runs have increasing stamps */
 std::vector<double>
 stampsOfAll(const EarlierRuns& runs)
 {
@@ -98,7 +98,7 @@ lengthOf(std::size_t run, const std::string& name, const EarlierRuns& runs)
   return lengthOfRun(folder.summary(), name, folder.path() / "summary.json");
 }
 
-/** \return the largest of what the runs worked with, or the smallest */
+/** \return the largest or smallest value of a length used by the runs */
 double
 extremeOf(const std::string& name, bool largest, const EarlierRuns& runs)
 {
@@ -129,15 +129,15 @@ openJoined(const Settings& settings)
   for (const std::string& path : settings.joined) {
     requireOutside(settings.out, path);
     runs.runs.push_back(RunFolder::finished(
-        path, "the run was interrupted; run it again, then join it"));
+        path, "the run was interrupted; start the run again, then join"));
     runs.runs.back().requireWhole("scans/");
   }
   requireSameUnits(runs.runs);
   takeScans(runs);
   for (std::size_t r = 1; r < runs.runs.size(); ++r)
     if (!areAlike(runs.runs[r].summary().moved, runs.runs[0].summary().moved)) {
-      runs.notes.push_back("the runs did not bring far points near alike: poses are "
-                           "those of the points in scans/, near their origin");
+      runs.notes.push_back("the runs subtracted different offsets from far points: "
+                           "poses belong to the points in scans/, near the origin");
       break;
     }
   return runs;
@@ -183,12 +183,12 @@ gatesOf(const EarlierRuns& runs, const Settings& settings)
   // Where the grid ends, at 2^18 voxels, is no gate of a scanner.
   constexpr double kOpen = 1e5; // voxels
   const auto gateOf = [&](std::size_t run) {
-    const double most = lengthOf(run, "max-range", runs);
+    const double most = lengthOf(run, kMaxRangeOption, runs);
     const bool is_open =
-        settings.slam.max_range || most > kOpen * lengthOf(run, "voxel", runs);
-    return std::make_pair(settings.slam.min_range ? 0.0
-                                                  : lengthOf(run, "min-range", runs),
-                          is_open ? std::numeric_limits<double>::infinity() : most);
+        settings.slam.max_range || most > kOpen * lengthOf(run, kVoxelOption, runs);
+    return std::make_pair(
+        settings.slam.min_range ? 0.0 : lengthOf(run, kMinRangeOption, runs),
+        is_open ? std::numeric_limits<double>::infinity() : most);
   };
   std::vector<std::pair<double, double>> gates;
   bool differ = false;
@@ -211,9 +211,9 @@ takeLengths(const EarlierRuns& runs, Settings& settings)
     length = extremeOf(name, largest, runs);
     settings.length_reasons[name] = "the " + what + " of the runs";
   };
-  take("voxel", true, "coarsest", settings.slam.voxel);
-  take("min-range", false, "smallest", settings.slam.min_range);
-  take("max-range", true, "largest", settings.slam.max_range);
+  take(kVoxelOption, true, "coarsest", settings.slam.voxel);
+  take(kMinRangeOption, false, "smallest", settings.slam.min_range);
+  take(kMaxRangeOption, true, "largest", settings.slam.max_range);
 }
 
 std::string

@@ -11,29 +11,29 @@
 #include <utility>
 #include <vector>
 
-/** \file pcl_slam6d --join: finished runs that become one. */
+/** \file pcl_slam6d --join: joins finished runs. */
 namespace pcl6d::app {
 
-/** \brief Opens the runs that are joined. Scans that a run before holds, too, are left out.
- * \throws UsageError one is given twice
- * \throws IoFailed one is no finished run, was interrupted or is not as it was written, or
- * holds the output folder; units differ; one has no scan that those before it lack */
+/** \brief Opens the runs to be joined. Scans also contained in an earlier run are left out.
+ * \throws UsageError a run is given twice
+ * \throws IoFailed a folder has no finished run, or its files have changed, or contains the output
+ * folder; units differ; a run has no scan in addition to the runs before */
 EarlierRuns
 openJoined(const Settings& settings);
 
-/** \return their scans, run by run. The first run keeps its names and numbers; a run with a
- * name that is taken gets that of its folder in front of all of its names
+/** \return the scans of all runs, run by run. The first run keeps its names and numbers; if a name
+ * is already used, all names of the run get its folder as prefix
  * \throws IoFailed the file of a scan, or the trajectory of a run, is missing */
 ScanFolder
 joinedFolder(const EarlierRuns& runs);
 
-/** \return of each scan the ranges [m] that count by its own run, where this is narrower than
- * the gate of all and none is given; empty if there is no such run */
+/** \return for each scan the range gate [m] of its own run, if narrower than the common gate and
+ * not given by the user; empty without a difference between runs */
 std::vector<std::pair<double, double>>
 gatesOf(const EarlierRuns& runs, const Settings& settings);
 
-/** \brief Fills in the lengths that are not given, with reasons: the coarser voxel and the
- * wider gate of the runs. */
+/** \brief Sets lengths not given by the user, with reasons: the coarser voxel and the wider gate of
+ * the runs. */
 void
 takeLengths(const EarlierRuns& runs, Settings& settings);
 
@@ -41,8 +41,8 @@ takeLengths(const EarlierRuns& runs, Settings& settings);
 std::string
 joinedWords(const EarlierRuns& runs);
 
-/** \brief Slam6D::optimize(). \throws ComputeFailed also if runs that are joined do not meet,
- * with their names */
+/** \brief Slam6D::optimize(). \throws ComputeFailed also if joined runs do not overlap, with their
+ * names */
 bool
 optimize(Slam6D& slam, const EarlierRuns& runs);
 

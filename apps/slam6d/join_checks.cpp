@@ -6,6 +6,7 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/fingerprint.h>
 #include <pcl6d/common/median.h>
+#include <pcl6d/common/option_names.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/registered_scans.h>
@@ -20,16 +21,16 @@ namespace pcl6d::app {
 namespace {
 namespace fs = std::filesystem;
 
-/** So many scans of a run, evenly among all, tell how far its scans reach. */
+/** Number of evenly chosen scans of a run from which the range of its scans is estimated. */
 constexpr std::size_t kMeasured = 4;
 
-/** \return [m] the median range of the points that the run counted */
+/** \return [m] median range of the points within the run's range gate */
 double
 typicalRange(const RunFolder& run)
 {
   const fs::path file = run.path() / "summary.json";
-  const double least = lengthOfRun(run.summary(), "min-range", file);
-  const double most = lengthOfRun(run.summary(), "max-range", file);
+  const double least = lengthOfRun(run.summary(), kMinRangeOption, file);
+  const double most = lengthOfRun(run.summary(), kMaxRangeOption, file);
   const std::size_t count = run.summary().scans.size();
   const std::size_t measured = std::min(count, kMeasured);
   std::vector<double> ranges;
@@ -39,12 +40,12 @@ typicalRange(const RunFolder& run)
   return upperMedian(ranges);
 }
 
-/** \brief Scans by what they hold. Only those that have equally many points are read. */
+/** \brief Scans identified by their content. Only scans with equal numbers of points are read. */
 class SeenScans {
 public:
   explicit SeenScans(const std::vector<RunFolder>& runs) : runs_(runs) {}
 
-  /** \return whether a run before holds the very same points */
+  /** \return whether an earlier run has a scan with identical points */
   bool
   isKnown(const EarlierRuns::Taken& scan)
   {
@@ -83,7 +84,7 @@ private:
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> fingerprints_;
 };
 
-/** What is to be said of a run. */
+/** Adds the messages about a run. */
 void
 noteOf(const RunFolder& run, std::size_t copies, std::vector<std::string>& notes)
 {
@@ -91,16 +92,16 @@ noteOf(const RunFolder& run, std::size_t copies, std::vector<std::string>& notes
   const std::string name = run.path().string() + ": ";
   if (copies > 0)
     notes.push_back(name + text::counted(copies, "scan") +
-                    " with the very same points as one of a run before: taken once");
+                    " with the very same points as a run before: used once");
   const auto unsure = std::count_if(
       summary.scans.begin(), summary.scans.end(), [&](const ScanResult& scan) {
         return scan.state == ScanState::kPredicted || isFloating(scan, summary);
       });
   if (unsure > 0)
     notes.push_back(name + text::counted(static_cast<std::size_t>(unsure), "scan") +
-                    " that nothing ties to its others: looked for anew among all");
+                    " disconnected from the run: searched anew in the joined map");
   else if (!summary.trusted)
-    notes.push_back(name + "not to be trusted by its own verdict");
+    notes.push_back(name + "doubtful by the verdict of the run");
 }
 } // namespace
 
@@ -114,19 +115,18 @@ requireOnce(const std::vector<std::string>& folders)
     for (std::size_t a = 0; a < b; ++a)
       if (fs::equivalent(folders[a], folders[b], error))
         throw UsageError("--join " + folders[a] + ' ' + folders[b] +
-                         ": both are the same folder");
+                         ": both arguments are one folder");
 }
 
 void
 requireOutside(const fs::path& out, const fs::path& run)
 {
-  std::error_code
-      error; // of what is not there: it is then no folder that holds another
+  std::error_code error; // missing files are ignored: they contain no folder
   fs::path above = fs::weakly_canonical(fs::absolute(out), error).parent_path();
   for (; above.has_relative_path(); above = above.parent_path())
     if (fs::equivalent(above, run, error))
       throw IoFailed(out.string() + ": lies inside " + run.string() +
-                     ", which is joined; write beside it");
+                     ", an input of --join; write outside of this folder");
 }
 
 void
@@ -165,7 +165,7 @@ takeScans(EarlierRuns& runs)
                  "its " + text::counted(count, "scan") + (count > 1 ? " are" : " is") +
                      " in " +
                      (r == 1 ? runs.runs[0].path().string() : "the runs before") +
-                     " already, with the very same points: nothing to join");
+                     " already, with identical points: nothing to join");
     noteOf(runs.runs[r], before + count - runs.scans.size(), runs.notes);
     for (std::size_t k = before; k < runs.scans.size(); ++k)
       seen.add(runs.scans[k]);

@@ -7,28 +7,29 @@
 #include <string>
 #include <vector>
 
-/** \file Whether runs can be joined, and which of their scans are taken. */
+/** \file Checks of runs to be joined, and selection of their scans. */
 namespace pcl6d::app {
 
-/** \throws UsageError fewer than two folders, or one of them twice */
+/** \throws UsageError fewer than two folders, or a folder given twice */
 void
 requireOnce(const std::vector<std::string>& folders);
 
-/** \throws IoFailed a folder to be written lies in that of a run */
+/** \throws IoFailed the output folder is inside the folder of a run */
 void
 requireOutside(const std::filesystem::path& out, const std::filesystem::path& run);
 
-/** \throws IoFailed scans of one run are so much larger than those of another that their units
- * differ, or a scan cannot be read */
+/** \throws IoFailed the sizes of the runs' scans indicate different units, or a scan cannot be
+ * read */
 void
 requireSameUnits(const std::vector<RunFolder>& runs);
 
-/** \return whether nothing ties a scan to the first one of its run */
+/** \return whether a scan is disconnected from the first scan of its run */
 bool
 isFloating(const ScanResult& scan, const RunResult& run);
 
-/** \brief Fills in the scans, and notes: those of the first run, and of each further one those
- * whose points no run before it holds. \throws IoFailed a run has no such scan */
+/** \brief Selects the scans, with messages: all scans of the first run, and from each further run
+ * the scans with points not contained in an earlier run. \throws IoFailed a run without new
+ * scans */
 void
 takeScans(EarlierRuns& runs);
 

@@ -52,8 +52,7 @@ KeptClouds::takeRaw(std::size_t i)
     return std::move(kept.cloud);
   pcl::PCLPointCloud2 cloud = scans_.read(i).cloud;
   if (fingerprintOf(cloud) != kept.fingerprint)
-    throw IoFailed(scans_.folder().file(i).string() +
-                   ": has changed since it was read in this run");
+    throw IoFailed(scans_.folder().title(i) + ": was changed after the first reading");
   return cloud;
 }
 

@@ -12,14 +12,14 @@
 
 namespace pcl6d::app {
 
-/** \brief The clouds of a run from reading to writing: in memory as far as a budget goes, the
- * others are read again when they are written. */
+/** \brief The clouds of a run from reading to writing: kept in memory within a budget; the rest is
+ * read again for writing. */
 class KeptClouds {
 public:
   /** Keeps a reference to the scans. \param[in] budget [bytes] of the clouds in memory */
   KeptClouds(RunScans& scans, std::size_t budget) : scans_(scans), budget_(budget) {}
 
-  /** \brief The next cloud, as it was read. */
+  /** \brief Adds the next cloud, as read. */
   void
   add(pcl::PCLPointCloud2 cloud);
 
@@ -29,9 +29,8 @@ public:
     return clouds_.size();
   }
 
-  /** \brief Gives a cloud up. \param[in] motion that is undone, if it was found
-   * \throws IoFailed its file cannot be read again, or holds
-   * something else now */
+  /** \brief Returns a cloud and drops it here. \param[in] motion for deskewing, if estimated
+   * \throws IoFailed its file cannot be read again, or has changed */
   pcl::PCLPointCloud2
   take(std::size_t i, const std::optional<MotionWithinScan>& motion = {});
 
@@ -40,8 +39,8 @@ private:
   takeRaw(std::size_t i);
 
   struct Kept {
-    pcl::PCLPointCloud2 cloud;     ///< without data if it is to be read again
-    std::uint64_t fingerprint = 0; ///< of what is to be read again
+    pcl::PCLPointCloud2 cloud;     ///< without data if not in memory
+    std::uint64_t fingerprint = 0; ///< of clouds not in memory
     bool in_memory = false;
   };
 

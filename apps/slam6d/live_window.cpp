@@ -57,7 +57,8 @@ LiveWindow::linger(const std::string& verdict, const std::function<bool()>& stop
   if (!view_ || !view_->isOpen() || stop())
     return;
   view_->setText(verdict);
-  bar_.say("all is written; close the window (key q), or press Ctrl-C, to end");
+  bar_.say(
+      "the results are written; close the window (key q), or press Ctrl-C, to end");
   view_->waitUntilClosed(stop);
 }
 

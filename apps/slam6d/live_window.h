@@ -13,32 +13,31 @@
 
 namespace pcl6d::app {
 
-/** \brief The live view of a run, if it is wanted and there is a display. */
+/** \brief The live view of a run, if requested and if a display is available. */
 class LiveWindow {
 public:
-  /** \brief Opens it, or warns that it cannot be opened: the run needs no window. */
+  /** \brief Opens the window, or warns if opening fails: the run needs no window. */
   LiveWindow(bool wanted, const std::string& title, ProgressBar& bar);
 
   /** \brief A scan was read. */
   void
   add(const Points& points, const Eigen::Isometry3d& initial_pose);
 
-  /** \brief Shows the scans that are registered where they are now. */
+  /** \brief Shows the registered scans at their present poses. */
   void
   update(const Slam6DResult& result);
 
-  /** \brief Tells what the run does. */
+  /** \brief Shows the progress of the run. */
   void
   show(const Progress& progress);
 
-  /** \brief Leaves the result to be looked at until the window is closed, or stop says
-   * true. */
+  /** \brief Shows the result until the window is closed, or stop returns true. */
   void
   linger(const std::string& verdict, const std::function<bool()>& stop);
 
 private:
   std::optional<LiveView> view_;
-  std::vector<Eigen::Isometry3d> placed_; ///< of the scans that are seen
+  std::vector<Eigen::Isometry3d> placed_; ///< of the visible scans
   ProgressBar& bar_;
 };
 

@@ -12,7 +12,7 @@
 namespace pcl6d::app {
 
 namespace {
-constexpr const char* kField = "dynamic"; // 1: it moved, else 0
+constexpr const char* kField = "dynamic"; // 1: dynamic, 0: otherwise
 }
 
 Moving
@@ -20,7 +20,7 @@ movingFromName(const std::string& name)
 {
   constexpr Named<Moving> kWords[] = {
       {Moving::kKeep, "keep"}, {Moving::kLabel, "label"}, {Moving::kRemove, "remove"}};
-  return fromName(kWords, "moving", name, WordList::kBars);
+  return fromName(kWords, "word", name, WordList::kBars);
 }
 
 MovingOutput::MovingOutput(Moving policy, const Slam6D& slam)
@@ -34,9 +34,9 @@ MovingOutput::MovingOutput(Moving policy, const Slam6D& slam)
   result_->removed = policy == Moving::kRemove;
   result_->blind = moving->blind;
   result_->background = moving->background;
-  if (moving->judged > 0)
+  if (moving->evaluated > 0)
     result_->unknown =
-        static_cast<double>(moving->unknown) / static_cast<double>(moving->judged);
+        static_cast<double>(moving->unknown) / static_cast<double>(moving->evaluated);
 }
 
 MovingOutput::Parted

@@ -12,33 +12,33 @@
 
 namespace pcl6d::app {
 
-/** \brief What becomes of points that moved (--moving). */
+/** \brief Treatment of dynamic points (--moving). */
 enum class Moving {
-  kKeep,  ///< nobody asks what moved
-  kLabel, ///< a field `dynamic` in scans/; they are not in the map
-  kRemove ///< they are in neither
+  kKeep,  ///< no test for dynamic points
+  kLabel, ///< a field `dynamic` in scans/; left out of the map
+  kRemove ///< left out of scans/ and of the map
 };
 
-/** \throws BadArgument no such name; the message lists all */
+/** \throws BadArgument unknown name; the message lists the valid names */
 Moving
 movingFromName(const std::string& name);
 
-/** \brief Labels or removes the points of scans that moved, and counts them. */
+/** \brief Labels or removes dynamic points of scans, and counts them. */
 class MovingOutput {
 public:
-  /** \param[in] slam whose scans were judged; kept by reference */
+  /** \param[in] slam with tested scans; kept by reference */
   MovingOutput(Moving policy, const Slam6D& slam);
 
   struct Parted {
-    Points standing; ///< [m] one per point of the cloud; not finite where it moved
-    Points moving;   ///< [m] those that moved
+    Points standing; ///< [m] one per point of the cloud; not finite for dynamic points
+    Points moving;   ///< [m] the dynamic points
   };
-  /** \brief Judges all points of a scan. \param[in,out] cloud with its points labelled, or without
-   * those that moved */
+  /** \brief Tests all points of a scan. \param[in,out] cloud gets its points labelled, or its
+   * dynamic points removed */
   Parted
   apply(std::size_t scan, pcl::PCLPointCloud2& cloud);
 
-  /** \return none if nobody asked */
+  /** \return none if not tested */
   const std::optional<MovingResult>&
   result() const
   {

@@ -3,19 +3,22 @@
 
 #include "slam6d/settings.h"
 
+#include <pcl6d/common/option_spec.h>
+
 #include <string>
 #include <vector>
 
 namespace pcl6d::app {
 
-class OptionTable;
+/** \return the options of pcl_slam6d in the order of --help: the library's options (Slam6DOptions),
+ * and the program's own options, each defined once in input_options.cpp or option_groups.cpp.
+ * \param[in,out] settings set by the options; kept by reference
+ * \param[in,out] used the lengths used by a run; kept by reference */
+OptionList
+optionsOf(Settings& settings, Slam6DParameters& used);
 
-/** \brief Adds the options of pcl_slam6d to a table, group by group. They fill in the settings,
- * which are kept by reference. \param[out] joins whether the arguments are runs to be joined */
-void
-addOptions(OptionTable& table, Settings& settings, bool& joins);
-
-/** \throws UsageError `--scale` is among the words; says why there is no such option */
+/** \throws UsageError `--scale` is among the arguments; the message explains why the option does
+ * not exist */
 void
 refuseScale(const std::vector<std::string>& arguments);
 

@@ -8,7 +8,7 @@
 
 namespace pcl6d::app {
 
-/** \brief A filter of a plug-in (ScanFilter), and its word. */
+/** \brief A filter of a plug-in (ScanFilter) with its word. */
 struct OtherFilter {
   std::string name;
   std::function<pcl::PCLPointCloud2(const pcl::PCLPointCloud2&)> filter; ///< null: none

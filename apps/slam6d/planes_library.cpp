@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam6d/planes_of_run.h"
+#include "slam6d/settings.h"
 
 #include <pcl6d/common/late_library.h>
 
@@ -9,8 +10,8 @@ WritePlanesOfRun&
 planesOfRun()
 {
 #ifdef PCL6D_LATE_LIBRARIES
-  static void* const address =
-      symbolOfLateLibrary("--planes", "pcl6d_planes_of_run", "pcl6d_planes_of_run");
+  static void* const address = symbolOfLateLibrary(
+      std::string("--") + kPlanesOption, "pcl6d_planes_of_run", "pcl6d_planes_of_run");
   return *reinterpret_cast<WritePlanesOfRun*>(address);
 #else
   return pcl6d_planes_of_run;

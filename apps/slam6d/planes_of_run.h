@@ -7,26 +7,25 @@
 #include <string>
 #include <vector>
 
-/** \file The planes of a run, in a library of their own: what finds them is as much to
- * compile as a quarter of the program, and only --planes needs it. */
+/** \file The planes of a run, in a separate library: the plane finder takes as long to compile as a
+ * quarter of the program, and is required only for --planes. */
 namespace pcl6d::app {
 
-/** \brief What a run knows when its planes are looked for. */
+/** \brief Data of a run for the search for planes. */
 struct PlanesOfRun {
-  const MapBuilder& map; ///< whose scan numbers are places in poses
+  const MapBuilder& map; ///< with scan numbers that are indices into poses
   const std::vector<Eigen::Isometry3d>& poses;
   Eigen::Vector3d world_offset;
   unsigned int num_threads;
   std::filesystem::path folder;
-  std::string generator; ///< as it stands in planes.json
+  std::string generator; ///< for planes.json
 };
 
 /** \brief Finds planes and writes them. \throws as PlaneFinder */
 using WritePlanesOfRun = void(const PlanesOfRun& run);
 
-/** \return the function that does it; its library is opened with the first call, and is
- * there from then on
- * \throws IoFailed the library is not there; the message says what builds it */
+/** \return the function of the library, which is loaded by the first call and stays loaded
+ * \throws IoFailed the library is missing; the message says how to build it */
 WritePlanesOfRun&
 planesOfRun();
 

@@ -17,14 +17,11 @@
 
 namespace pcl6d::app {
 
-const char* const kOneScale =
-    "scans of a run have one scale, that of their scanner; pcl_slam6d_evaluate icp "
-    "--scale estimates that of one scan to another";
+const char* const kOneScale = "scans of a run have one scale; pcl_slam6d_evaluate icp "
+                              "--scale estimates the scale between two scans";
 
 namespace {
-constexpr char kScaleMinimiser[] = "scale-quaternion";
-
-/** \return the words of the suite, then those of plug-ins */
+/** \return the words of the suite, then the words of plug-ins */
 template <typename Part>
 std::vector<std::string>
 allWords(std::vector<std::string> words, const PluginParts<Part>& parts)
@@ -34,25 +31,24 @@ allWords(std::vector<std::string> words, const PluginParts<Part>& parts)
   return words;
 }
 
-/** \throws BadArgument the word is none of these \param[in] between in the list */
+/** \throws BadArgument unknown word; the message lists the valid words */
 template <typename Part>
 void
-requireWord(const char* option,
-            const std::string& word,
+requireWord(const std::string& word,
             std::vector<std::string> own,
             const PluginParts<Part>& parts)
 {
   const std::vector<std::string> words = allWords(std::move(own), parts);
   require(std::find(words.begin(), words.end(), word) != words.end(),
-          option,
+          "word", // checkOption() puts the name of the option here
           word,
           joined(words));
 }
 
-std::string loading; ///< the plug-in that is being loaded, for endWithWords()
+std::string loading; ///< the plug-in being loaded, for endWithWords()
 
-/** What a static object of a library throws cannot be caught: it ends the program, but not
- * without a word. */
+/** Exceptions from a library's static objects cannot be caught and end the program; this handler
+ * first prints a message. */
 [[noreturn]] void
 endWithWords()
 {
@@ -64,11 +60,11 @@ endWithWords()
     what = e.what();
   } catch (...) {}
   std::cerr << program_invocation_short_name << ": error: --plugin: " << loading
-            << ": throws while it is loaded: " << what << " (see --help)" << std::endl;
+            << ": throws while loading: " << what << " (see --help)" << std::endl;
   std::_Exit(kUsage);
 }
 
-/** Ends the program with words in its scope, if it has to end at once. */
+/** Sets endWithWords() as terminate handler in its scope. */
 class Loading {
 public:
   explicit Loading(const std::string& file) : before_(std::set_terminate(endWithWords))
@@ -133,22 +129,14 @@ pluginCondition(const Settings& settings)
   return text.tellp() > 0 ? text.str() : "none";
 }
 
-std::vector<std::string>
-minimisersOfMotion()
-{
-  std::vector<std::string> names = minimiserNames();
-  names.erase(std::remove(names.begin(), names.end(), kScaleMinimiser), names.end());
-  return names;
-}
-
 void
 takeMinimiser(Settings& settings, const std::string& word)
 {
   if (word == kScaleMinimiser)
-    throw UsageError("--minimiser = " + word + ": " + kOneScale);
+    throw BadArgument("word = " + word + ": " + kOneScale);
   loadPlugins(settings);
   const auto& parts = settings.plugins.minimisers();
-  requireWord("minimiser", word, minimisersOfMotion(), parts);
+  requireWord(word, minimisersOfMotion(), parts);
   const RigidMinimiser* const found = parts.find(word);
   settings.slam.minimiser = found ? *found : minimiserFromName(word);
 }
@@ -158,7 +146,7 @@ takePlaneMinimiser(Settings& settings, const std::string& word)
 {
   loadPlugins(settings);
   const auto& parts = settings.plugins.planeMinimisers();
-  requireWord("plane_minimiser", word, planeMinimiserNames(), parts);
+  requireWord(word, planeMinimiserNames(), parts);
   const PlaneMinimiser* const found = parts.find(word);
   settings.slam.plane_minimiser = found ? *found : planeMinimiserFromName(word);
 }
@@ -175,7 +163,7 @@ takeSearch(Settings& settings, const std::string& word)
   try {
     settings.slam.search = searchMethodFromName(word);
   } catch (const BadArgument&) {
-    requireWord("search", word, searchMethodNames(), parts);
+    requireWord(word, searchMethodNames(), parts);
     throw;
   }
 }
@@ -185,7 +173,7 @@ takeFilter(Settings& settings, const std::string& word)
 {
   loadPlugins(settings);
   const auto& parts = settings.plugins.filters();
-  requireWord("filter", word, lineFilterNames(), parts);
+  requireWord(word, lineFilterNames(), parts);
   if (const ScanFilter* const found = parts.find(word))
     settings.other_filter = {word, *found};
   else

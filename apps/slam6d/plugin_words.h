@@ -8,29 +8,29 @@
 
 namespace pcl6d::app {
 
-/** Files in the word of the summary, as in $PATH. */
+/** Separator of the files in the summary, like in $PATH. */
 constexpr char kPluginSeparator = ':';
 
-/** \brief Loads the plug-ins of the command line, unless they are there.
- * \throws UsageError one cannot be used */
+/** \brief Loads the plug-ins of the command line, unless already loaded.
+ * \throws UsageError a plug-in cannot be used */
 void
 loadPlugins(Settings& settings);
 
-/** \return the files of the plug-ins as one word, absolute; "none" */
+/** \return the absolute files of the plug-ins as one word, or "none" */
 std::string
 pluginWord(const Settings& settings);
 
-/** \return the files of such a word */
+/** \return the files of a word from pluginWord() */
 std::vector<std::string>
 pluginFiles(const std::string& word);
 
-/** \return the plug-ins and their bytes: what is computed follows from them */
+/** \return the plug-ins with a hash of their content: the results depend on both */
 std::string
 pluginCondition(const Settings& settings);
 
-/** \brief Each takes the word of an option: one of a plug-in or of the suite.
- * \throws BadArgument there is no such word; the message lists all
- * \throws UsageError a plug-in cannot be used, or the word is refused */
+/** \brief Each function reads the word of an option, from a plug-in or from the suite.
+ * \throws BadArgument unknown word; the message lists the valid words
+ * \throws UsageError a plug-in cannot be used, or the word is not allowed */
 void
 takeMinimiser(Settings& settings, const std::string& word);
 void
@@ -42,11 +42,7 @@ takeFilter(Settings& settings, const std::string& word);
 void
 takeFormat(Settings& settings, const std::string& word);
 
-/** \return the minimisers of the suite that estimate a motion alone, without a scale */
-std::vector<std::string>
-minimisersOfMotion();
-
-/** Why there is no minimiser of a scale. */
+/** Why a minimiser with a scale is not allowed. */
 extern const char* const kOneScale;
 
 } // namespace pcl6d::app

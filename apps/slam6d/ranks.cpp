@@ -27,7 +27,7 @@
 namespace pcl6d::app {
 
 namespace {
-/** \return the value of the first variable that is set; null if none is */
+/** \return the value of the first variable that is set; null if none */
 const char*
 firstSet(std::initializer_list<const char*> names)
 {
@@ -37,8 +37,8 @@ firstSet(std::initializer_list<const char*> names)
   return nullptr;
 }
 
-/** \return how many processes a launcher says that it has started together: Open MPI, MPICH
- * and its kin, and Slurm, where it speaks to MPI; 1: there is none */
+/** \return the number of processes started together by a launcher: Open MPI, MPICH and its
+ * variants, and Slurm with MPI; 1: no launcher */
 int
 launchedRanks()
 {
@@ -63,7 +63,7 @@ hostName()
   return ::gethostname(host.data(), host.size() - 1) == 0 ? host.data() : "unknown";
 }
 
-/** What a process runs and sees. */
+/** Program, input and options of a process. */
 struct View {
   std::string host;
   int pid = 0;
@@ -106,7 +106,7 @@ viewOf(const Settings& settings, const ScanFolder& folder)
   return view;
 }
 
-/** \return what differs in the lists of scans, in words; empty: nothing */
+/** \return the difference of the lists of scans, in words; empty: equal */
 std::string
 differenceOfScans(const View& first, const View& other)
 {
@@ -132,23 +132,24 @@ differenceOf(const View& first, const View& other)
 {
   if (first.build != other.build)
     return "runs another build of the program than rank 0 on " + first.host +
-           ": install the same one on all machines";
+           ": install one version on every machine";
   for (std::size_t k = 0; k < first.options.size(); ++k)
     if (k >= other.options.size() || first.options[k] != other.options[k])
       return "has another value of --" + first.options[k].first + " than rank 0";
   if (const auto scans = differenceOfScans(first, other); !scans.empty())
     return "sees another folder of scans: " + scans;
   if (first.pose_source != other.pose_source || first.poses != other.poses)
-    return "sees other initial poses or links than rank 0 (" + other.pose_source + ")";
+    return "has different initial poses or links than rank 0 (" + other.pose_source +
+           ")";
   return "";
 }
 
-/** What a signal is to know. */
+/** Data for the signal handler. */
 struct Ending {
   std::array<char, 512> line{};
   std::size_t size = 0;
   std::size_t rank = 0;
-  std::array<int, 2> speakers{}; ///< processes of ranks 0 and 1; 0: not on this machine
+  std::array<int, 2> speakers{}; ///< processes of ranks 0 and 1; 0: on another machine
 };
 Ending g_ending;
 
@@ -158,16 +159,16 @@ isGone(int pid)
   return pid > 0 && ::kill(pid, 0) != 0 && errno == ESRCH;
 }
 
-/** Rank 1 speaks if it sees that rank 0 is there no more. */
+/** Rank 1 reports the loss of rank 0. */
 bool
 speaks()
 {
   return g_ending.rank == 0 || (g_ending.rank == 1 && isGone(g_ending.speakers[0]));
 }
 
-/** mpirun sends SIGTERM to all, and kills all when one has ended or a second is over: who
- * ends before another has spoken may end it without its words. Only calls what a signal
- * may. */
+/** mpirun sends SIGTERM to all processes, and kills the rest when one has ended or after a second.
+ * A process that ends too early may prevent another's message. Only calls functions allowed in
+ * signal handlers. */
 void
 letOthersSpeak()
 {
@@ -194,9 +195,8 @@ endOnSignals(const WorkSharing& ranks,
              const std::vector<View>& views)
 {
   const std::string line =
-      name +
-      ": error: another process of the run has ended, or the run was stopped; "
-      "what was done is kept: the same command goes on with it, --resume says so\n";
+      name + ": error: another process of the run has ended, or the run was stopped; "
+             "the work done is kept: the same command goes on (--resume)\n";
   g_ending.size = std::min(line.size(), g_ending.line.size());
   std::copy_n(line.begin(), g_ending.size, g_ending.line.begin());
   g_ending.rank = ranks.rank();
@@ -224,13 +224,12 @@ joinRanks()
   if (ranks->numRanks() != static_cast<std::size_t>(launched))
     throw IoFailed("started as one of " + std::to_string(launched) +
                    " processes, but MPI finds " + std::to_string(ranks->numRanks()) +
-                   ": start it with the launcher of the MPI that it was built with");
+                   ": start the program with the launcher of its MPI library");
   return ranks;
 #else
-  throw IoFailed(
-      "started as one of " + std::to_string(launched) +
-      " processes, but built without MPI: install libopenmpi-dev and build it "
-      "again, or start it alone");
+  throw IoFailed("started as one of " + std::to_string(launched) +
+                 " processes, but built without MPI: install libopenmpi-dev and build "
+                 "again, or start without mpirun");
 #endif
 }
 
@@ -265,7 +264,8 @@ void
 help(WorkSharing& ranks, const std::string& name, const Settings& settings)
 {
   const EarlierRuns earlier = openEarlier(settings);
-  const ScanFolder folder = openFolder(settings, earlier);
+  const RunInput input = openInput(settings, earlier);
+  const ScanFolder& folder = input.folder;
   RunScans scans = openScans(folder, settings, earlier);
   const Settings all = resolved(settings, folder, earlier);
   const MemoryBudget memory(all.memory, all.out);
@@ -274,7 +274,7 @@ help(WorkSharing& ranks, const std::string& name, const Settings& settings)
   agreeOnInput(ranks, name, all, folder);
   SharedReading reading(scans, earlier, &ranks);
   reading.readAll([&](std::size_t i, const Scan& scan) {
-    memory.require(scan.points.size(), folder.file(i).string());
+    memory.require(scan.points.size(), folder.title(i));
     reading.add(i, scan, slam);
     return true;
   });

@@ -10,30 +10,30 @@
 
 namespace pcl6d::app {
 
-/** \brief Joins the processes that mpirun or srun has started together. Of these the first
- * alone prints.
+/** \brief Joins the processes started together by mpirun or srun. Only the first process prints.
  * \return null if this process was started alone
- * \throws IoFailed the program was built without MPI, or with another one than that of the
- * launcher */
+ * \throws IoFailed the program was built without MPI, or with an MPI different from the
+ * launcher's */
 std::unique_ptr<WorkSharing>
 joinRanks();
 
-/** \return what the first process is to print of an error that another one has alone */
+/** \return the message that the first process prints about an error of another process */
 std::string
 ofRank(const WorkSharing& ranks, const std::string& error);
 
-/** \brief Makes sure that all processes run the same build on the same scans, poses and options.
- * Afterwards a signal, by which a launcher ends the others when one of them dies, ends this one
- * at once; the first tells the user how to go on.
+/** \brief Checks that all processes run equal builds on equal scans, poses and options. Afterwards,
+ * this process ends at once on the signal that a launcher sends when a process dies; the first
+ * process tells the user how to continue.
  * \param[in] name of the program, for messages
- * \throws IoFailed they do not; the first difference is named */
+ * \throws IoFailed naming the first difference */
 void
 agreeOnInput(WorkSharing& ranks,
              const std::string& name,
              const Settings& settings,
              const ScanFolder& folder);
 
-/** \brief What all but the first process do: their share of the work. Writes nothing. */
+/** \brief The part of every process except the first: computes its share of the work, and writes no
+ * files. */
 void
 help(WorkSharing& ranks, const std::string& name, const Settings& settings);
 

@@ -2,6 +2,7 @@
 #include "common/app.h"
 #include "common/child_process.h"
 #include "slam6d/run_drawing.h"
+#include "slam6d/settings.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/text.h>
@@ -9,6 +10,7 @@
 #include <pcl6d/visualization/private_display.h>
 #include <pcl6d/visualization/report.h>
 #include <pcl6d/visualization/run_scenes.h>
+#include <pcl6d/visualization/survey_report.h>
 
 #include <algorithm>
 #include <chrono>
@@ -29,13 +31,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSlam6d = "pcl_slam6d";
-/** [s] Far more than a picture takes: 2 s of 2 million points on an old core. A run that
- * took longer may have larger pictures. */
+/** [s] Far more than a picture takes: 2 s for 2 million points on an old core. A longer run may
+ * have larger pictures. */
 constexpr double kLeastTime = 120;
-/** [bytes] What VTK, Mesa and the largest picture take is a quarter of it. */
+/** [bytes] VTK, Mesa and the largest picture take a quarter of this. */
 constexpr std::size_t kLeastMemory = std::size_t{2} << 30;
 
-/** \return whether an option of a run was given, of those that are "yes" or "no" */
+/** \return whether an option of a run with the values "yes" and "no" is "yes" */
 bool
 isOn(const RunResult& run, const std::string& name)
 {
@@ -44,19 +46,43 @@ isOn(const RunResult& run, const std::string& name)
   });
 }
 
-/** \return the names of what is to be drawn */
+/** \return the names of the files to be drawn */
 std::vector<std::string>
 wantedOf(const RunResult& run)
 {
   std::vector<std::string> names;
   const bool has_map = run.complete && run.map_points > 0;
-  if (has_map && !isOn(run, "no-picture"))
+  if (has_map && !isOn(run, kNoPictureOption))
     names.push_back("top_view.png");
-  if (has_map && isOn(run, "planes"))
+  if (has_map && isOn(run, kPlanesOption))
     names.push_back("planes.png");
-  if (isOn(run, "report"))
+  if (isOn(run, kReportOption)) {
     names.push_back("report.html");
+    if (run.complete)
+      names.push_back("survey.html");
+  }
   return names;
+}
+
+/** \return the given value of an option of a run; empty: not given */
+std::string
+valueOf(const RunResult& run, const std::string& name)
+{
+  for (const auto& option : run.options)
+    if (option.name == name && option.source == "given")
+      return option.value;
+  return {};
+}
+
+void
+writeSurvey(const RunFolder& run)
+{
+  const SurveyReport report =
+      surveyOf(run,
+               surveyOptionsFrom({valueOf(run.summary(), kProjectOption)},
+                                 valueOf(run.summary(), kToleranceOption)));
+  writeSurveyReport(run.path() / "survey.html", report);
+  writeSurveyTables(run.path() / "survey", report);
 }
 
 void
@@ -67,11 +93,13 @@ draw(const RunFolder& run, const std::string& name)
     TopView().write(file, topSceneOf(run));
   else if (name == "planes.png")
     PlaneView().write(file, planeSceneOf(run));
+  else if (name == "survey.html")
+    writeSurvey(run);
   else
     writeReport(file, gatherReport(run));
 }
 
-/** \brief A file without a name, for what another process says. */
+/** \brief An anonymous file for the messages of another process. */
 class Listener {
 public:
   Listener() : file_(::memfd_create("pcl6d", MFD_CLOEXEC)) {}
@@ -91,7 +119,7 @@ public:
                      : fs::path("/proc/self/fd/" + std::to_string(file_));
   }
 
-  /** \return the last line that was said; empty: none */
+  /** \return the last line of the messages; empty: none */
   std::string
   lastLine() const
   {
@@ -110,7 +138,7 @@ private:
   int file_;
 };
 
-/** \return how it ended; nothing if it was interrupted */
+/** \return how the child ended; nothing if interrupted */
 std::optional<ProcessEnd>
 waitFor(ChildProcess& child, const Interrupt& interrupt)
 {
@@ -124,7 +152,7 @@ waitFor(ChildProcess& child, const Interrupt& interrupt)
   }
 }
 
-/** \return why something is missing, in words */
+/** \return why a file is missing, in words */
 std::string
 reasonOf(const std::optional<ProcessEnd>& end, const std::string& said)
 {
@@ -133,12 +161,12 @@ reasonOf(const std::optional<ProcessEnd>& end, const std::string& said)
   if (end->timed_out)
     return "it took longer than " + std::to_string(std::lround(end->seconds)) + " s";
   if (end->signal != 0)
-    return std::string("it was ended by a signal: ") + ::strsignal(end->signal);
+    return std::string("ended by a signal: ") + ::strsignal(end->signal);
   return said.empty() ? "exit code " + std::to_string(end->exit_code) : said;
 }
 
-/** Starts what pictures need while the files are read. Failing, or without a thread for it, it
- * is tried again when a picture is drawn, where its error is told. */
+/** Starts the display for pictures while files are read. A failure, or the lack of a thread, is
+ * ignored here: the start is repeated, and its error reported, when a picture is drawn. */
 std::future<void>
 startDisplay()
 {
@@ -212,8 +240,8 @@ drawApart(const fs::path& folder,
   drawing.is_missing = !missing.empty();
   if (drawing.is_missing)
     drawing.warnings.push_back("not drawn: " + missing + " (" + reason +
-                               "); all else is written. To try again: " + kSlam6d +
-                               ' ' + kDrawWord + ' ' + folder.string());
+                               "); the remaining results are written. To try again: " +
+                               kSlam6d + ' ' + kDrawWord + ' ' + folder.string());
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   drawing.seconds = spent.count();
   return drawing;

@@ -9,31 +9,32 @@
 #include <string>
 #include <vector>
 
-/** \file The pictures and the report of a run, drawn when all else is in its place: by a
- * process of their own, as OpenGL drivers and X servers end the one that calls them. */
+/** \file The pictures and the report of a run, drawn after all other files are published: in a
+ * separate process, because OpenGL drivers and X servers may end the calling process. */
 namespace pcl6d::app {
 
-/** The only word before the folder with which pcl_slam6d draws and does nothing else. */
+/** Word that makes pcl_slam6d draw the run in the folder given after it, and exit. */
 constexpr const char* kDrawWord = "--draw";
 
-/** \brief Draws what the options of a finished run ask for: top_view.png, planes.png,
- * report.html. Tells on stderr what cannot be drawn, and why.
- * \return the exit code: kDoubtful if something is missing
- * \throws IoFailed there is no run in the folder */
+/** \brief Draws the files requested by the options of a finished run: top_view.png, planes.png,
+ * report.html, survey.html. Reports failures on stderr, with reasons.
+ * \return the exit code: kDoubtful if a file is missing
+ * \throws IoFailed the folder has no run */
 int
 drawRun(const std::filesystem::path& folder);
 
-/** \brief What became of the pictures. */
+/** \brief The result of drawing. */
 struct Drawing {
   std::vector<std::filesystem::path> drawn;
-  std::vector<std::string> warnings; ///< what is missing, why, and how to draw it again
-  bool is_missing = false;           ///< something that was asked for
+  std::vector<std::string> warnings; ///< missing files, with reasons and how to draw
+                                     ///< them again
+  bool is_missing = false;           ///< a requested file is missing
   double seconds = 0;
 };
 
-/** \brief The same by a process of its own, with limits of time and memory.
- * \param[in] run what is in the folder
- * \param[in] memory [bytes] that it may take at least */
+/** \brief drawRun() in a separate process, with limits of time and memory.
+ * \param[in] run the run in the folder
+ * \param[in] memory [bytes] lower bound of the memory limit */
 Drawing
 drawApart(const std::filesystem::path& folder,
           const RunResult& run,

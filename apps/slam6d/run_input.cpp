@@ -3,9 +3,12 @@
 #include "common/progress_bar.h"
 #include "slam6d/join.h"
 #include "slam6d/run_input.h"
+#include "slam6d/stage_timer.h"
+#include "slam6d/sweep_tracking.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/io/text.h>
+#include <pcl6d/sources/open_source.h>
 
 #include <algorithm>
 #include <optional>
@@ -14,16 +17,15 @@
 namespace pcl6d::app {
 
 namespace {
-/** \return of many scans without common poses, what is done with them and how long that takes;
- * else empty */
+/** \return for many scans without common poses, the planned comparisons and their duration; else
+ * empty */
 std::string
 foreseenWork(const Settings& settings,
              const EarlierRuns& earlier,
              std::size_t num_scans)
 {
-  // Said where it is more than a few minutes. Seconds of one core for a pair that is compared
-  // and for one that is placed, four of each scan: those of bench_join, which differ by a
-  // factor of two between scenes.
+  // Only reported if above a few minutes. Seconds of one core per compared pair and per placed
+  // pair, with four placed pairs per scan, from bench_join; scenes differ by a factor of two.
   constexpr std::size_t kMany = 100;
   constexpr double kCompared = 0.015, kPlaced = 0.35, kPlacedOfEach = 4;
   if (settings.slam.initial_guess != InitialGuess::kGlobal || num_scans < kMany)
@@ -32,22 +34,29 @@ foreseenWork(const Settings& settings,
   double pairs = n * (n - 1) / 2;
   for (std::size_t r = 0; earlier.areJoined() && r < earlier.runs.size(); ++r) {
     const auto m = static_cast<double>(earlier.runs[r].summary().scans.size());
-    pairs -= m * (m - 1) / 2; // within a run nothing is compared
+    pairs -= m * (m - 1) / 2; // no comparisons within a run
   }
   const double seconds = (kCompared * pairs + kPlaced * kPlacedOfEach * n) /
                          threadCount(settings.slam.num_threads);
   if (earlier.areJoined())
-    return "all pairs of scans of different runs are compared, which takes about " +
+    return "all pairs of scans of different runs are compared, in about " +
            durationText(seconds);
-  return "without poses all pairs of " + std::to_string(num_scans) +
-         " scans are compared, which takes about " + durationText(seconds) +
-         "; with rough poses (--poses FILE) it takes a part of it";
+  return std::string(settings.slam.order_first
+                         ? "without poses the order of the files is tried first; if "
+                           "scans stay disconnected, all pairs of "
+                         : "without poses all pairs of ") +
+         std::to_string(num_scans) + " scans are compared, in about " +
+         durationText(seconds) + "; rough poses (--poses FILE) save most of the time";
 }
 
 std::string
-whatIsRead(const ScanFolder& folder, const EarlierRuns& earlier)
+whatIsRead(const ScanFolder& folder,
+           const EarlierRuns& earlier,
+           const std::optional<DriveResult>& drive)
 {
   std::string text = text::counted(folder.size(), "scan");
+  if (drive)
+    text += " (keyframes of " + text::counted(drive->files.size(), "sweep") + ")";
   if (earlier.areJoined())
     return text + " of " + folder.poseSource();
   if (!earlier.empty())
@@ -66,24 +75,32 @@ openEarlier(const Settings& settings)
   if (settings.continued.empty())
     return earlier;
   earlier.runs.push_back(RunFolder::finished(
-      settings.continued, "the run was interrupted; run it again, then go on with it"));
+      settings.continued, "the run was interrupted; start the run again, then go on"));
   earlier.runs[0].requireWhole("scans/");
   for (std::size_t i = 0; i < earlier.runs[0].summary().scans.size(); ++i)
     earlier.scans.push_back({0, i});
   return earlier;
 }
 
-ScanFolder
-openFolder(const Settings& settings, const EarlierRuns& earlier)
+RunInput
+openInput(const Settings& settings, const EarlierRuns& earlier)
 {
   if (earlier.areJoined())
-    return joinedFolder(earlier);
+    return {joinedFolder(earlier), {}, std::nullopt};
   std::optional<ScanFolder> folder;
-  checkOptions([&] { folder.emplace(settings.input, settings.folder); },
-               {{"poses_file", "poses"}});
+  checkOptions([&] { folder.emplace(openScanFiles(settings.inputs, settings.folder)); },
+               {{"poses_file", kPosesOption}});
   if (!earlier.empty())
     folder->continueRun(earlier.runs[0].path(), earlier.runs[0].summary());
-  return *std::move(folder);
+  std::vector<RunResult::Stage> stages;
+  std::optional<DriveResult> drive;
+  if (earlier.empty() && isTracked(settings, *folder)) {
+    const StageTimer timer("tracking", stages);
+    drive = trackSweeps(settings, *folder);
+  }
+  else if (earlier.empty())
+    drive = selectKeyframes(settings, *folder);
+  return {*std::move(folder), std::move(stages), std::move(drive)};
 }
 
 RunScans
@@ -96,7 +113,10 @@ openScans(const ScanFolder& folder,
     scans.gate(gatesOf(earlier, settings));
     return scans;
   }
-  if (settings.deskew == Deskew::kOdometry)
+  // Sweeps tracked with the times of their points are deskewed along the tracked motion.
+  const bool is_tracked_in_motion = settings.deskew == Deskew::kNone &&
+                                    folder.posesAreEstimated() && haveTimes(folder);
+  if (settings.deskew == Deskew::kOdometry || is_tracked_in_motion)
     scans.deskew(settings.interpolation);
   if (settings.deskew == Deskew::kEstimate)
     scans.estimateMotion();
@@ -115,6 +135,7 @@ resolved(Settings settings, const ScanFolder& folder, const EarlierRuns& earlier
   for (std::size_t i = 0; i < folder.size(); ++i)
     indices.push_back(folder.index(i));
   settings.readLinks(indices);
+  settings.readControl(folder);
   return settings;
 }
 
@@ -122,10 +143,11 @@ std::vector<std::string>
 describeInput(const Settings& settings,
               const RunScans& scans,
               const EarlierRuns& earlier,
+              const std::optional<DriveResult>& drive,
               std::size_t num_processes)
 {
   const ScanFolder& folder = scans.folder();
-  std::string first = whatIsRead(folder, earlier);
+  std::string first = whatIsRead(folder, earlier, drive);
   if (num_processes > 1)
     first += ", shared by " + std::to_string(num_processes) + " processes";
   if (!earlier.areJoined())
@@ -134,6 +156,7 @@ describeInput(const Settings& settings,
   for (const auto& plugin : settings.plugins.loaded())
     lines.push_back("plug-in " + plugin.name + " (" + plugin.file.string() +
                     "): " + plugin.adds);
+  lines.push_back(folder.note());
   lines.push_back(folder.coordinates());
   lines.insert(lines.end(), earlier.notes.begin(), earlier.notes.end());
   lines.insert(lines.end(), scans.descriptions().begin(), scans.descriptions().end());

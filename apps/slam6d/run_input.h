@@ -5,37 +5,49 @@
 #include "slam6d/run_scans.h"
 #include "slam6d/settings.h"
 
+#include <pcl6d/common/run_result.h>
+
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace pcl6d::app {
 
-/** \return the finished run that goes on (--continue), or those that are joined, if so
- * \throws IoFailed one is none, or was interrupted, or as openJoined() */
+/** \return the finished run of --continue, or the runs of --join; empty without these options
+ * \throws IoFailed a folder has no run, or an interrupted run; or see openJoined() */
 EarlierRuns
 openEarlier(const Settings& settings);
 
-/** \return the chosen scans, behind those of an earlier run, or those of runs that are joined
- * \throws UsageError no scan is chosen: a mistake of the command line */
-ScanFolder
-openFolder(const Settings& settings, const EarlierRuns& earlier);
+/** \brief The scans of a run. */
+struct RunInput {
+  ScanFolder folder;
+  std::vector<RunResult::Stage> stages; ///< time and memory of tracking
+  std::optional<DriveResult> drive; ///< the drive whose keyframes are the scans; empty:
+                                    ///< no drive
+};
 
-/** \return the scans as they are to be registered */
+/** \return the chosen scans, after the scans of an earlier run; or the scans of joined runs
+ * \throws UsageError no scan is chosen: a mistake of the command line */
+RunInput
+openInput(const Settings& settings, const EarlierRuns& earlier);
+
+/** \return the scans for registration */
 RunScans
 openScans(const ScanFolder& folder,
           const Settings& settings,
           const EarlierRuns& earlier);
 
-/** \return the settings with what follows from the folder and earlier runs */
+/** \return the settings with values derived from the folder and earlier runs */
 Settings
 resolved(Settings settings, const ScanFolder& folder, const EarlierRuns& earlier);
 
-/** \return what is read and how it is worked on, for people, a line each */
+/** \return a description of the input and its processing, for people, a line each */
 std::vector<std::string>
 describeInput(const Settings& settings,
               const RunScans& scans,
               const EarlierRuns& earlier,
+              const std::optional<DriveResult>& drive,
               std::size_t num_processes);
 
 } // namespace pcl6d::app

@@ -3,6 +3,7 @@
 #include "common/run_files.h"
 #include "slam6d/planes_of_run.h"
 #include "slam6d/run_output.h"
+#include "slam6d/sweep_tracking.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/parallel.h>
@@ -18,7 +19,6 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
-#include <sys/resource.h>
 #include <utility>
 
 namespace pcl6d::app {
@@ -26,7 +26,7 @@ namespace pcl6d::app {
 namespace {
 constexpr const char* kProgram = "pcl_slam6d";
 
-/** \return the values of the field "intensity", whatever its type, or nothing */
+/** \return the values of the field "intensity" of any type; empty if missing */
 std::vector<float>
 intensitiesOf(const pcl::PCLPointCloud2& cloud)
 {
@@ -42,7 +42,7 @@ optionsOf(const Settings& settings, const Slam6DParameters& parameters)
   std::vector<RunResult::Option> options;
   for (const auto& word : settings.words)
     options.push_back({word.name, word.value, word.given ? "given" : "default", ""});
-  for (const auto& [name, parameter] : named(parameters, settings)) {
+  for (const auto& [name, unit, parameter] : named(parameters, settings)) {
     options.push_back({name,
                        text::shortest(parameter.value),
                        parameter.given ? "given" : "derived",
@@ -50,19 +50,22 @@ optionsOf(const Settings& settings, const Slam6DParameters& parameters)
   }
   return options;
 }
-} // namespace
 
-StageTimer::StageTimer(const std::string& name, std::vector<RunResult::Stage>& stages)
-: name_(name), stages_(stages), start_(std::chrono::steady_clock::now())
-{}
-
-StageTimer::~StageTimer()
+/** \return the result of a start without poses, in one line */
+std::string
+textOf(const StartResult& start, std::size_t total)
 {
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  stages_.push_back({name_, spent.count(), usage.ru_maxrss / 1024.0});
+  const std::string of_all = " of " + std::to_string(total) + " scans";
+  const std::string way = start.guess == InitialGuess::kOdometry
+                              ? "start in the order of the files: "
+                              : "start in any order: ";
+  if (!start.is_complete)
+    return way + "given up: too many scans could not be matched with the scan before";
+  return way + std::to_string(start.registered) + of_all + " registered, " +
+         std::to_string(start.connected) + " connected" +
+         (start.is_kept ? ", kept" : ", not kept");
 }
+} // namespace
 
 std::string
 timingOf(const RunResult& run, double drawing)
@@ -85,7 +88,7 @@ timingOf(const RunResult& run, double drawing)
       const bool is_first = part.kind == StageKind::kMatching;
       line(is_first ? "  scan after scan" : std::string("  ") + toString(part.kind),
            part.seconds)
-          << (part.undone ? "  not taken: " + part.reason : "") << '\n';
+          << (part.undone ? "  reverted: " + toWords(part.rejection) : "") << '\n';
       rest -= part.seconds;
     }
     line("  loops, verdict", std::max(0.0, rest)) << '\n';
@@ -101,10 +104,15 @@ runFolderRules(const Settings& settings, const ScanFolder& folder)
 {
   OutputRules rules;
   rules.folder = settings.out;
-  rules.inputs = {settings.input, settings.folder.poses_file, settings.graph_in};
+  rules.inputs = settings.inputs;
+  rules.inputs.insert(rules.inputs.end(),
+                      {settings.folder.poses_file,
+                       settings.graph_in,
+                       settings.control.points,
+                       settings.control.targets});
   for (std::size_t i = 0; i < folder.size(); ++i)
     if (std::error_code error; std::filesystem::is_symlink(folder.file(i), error))
-      rules.inputs.push_back(folder.file(i)); // what it leads to may be in OUT
+      rules.inputs.push_back(folder.file(i)); // its target may be in OUT
   rules.inputs.insert(
       rules.inputs.end(), settings.joined.begin(), settings.joined.end());
   rules.program = kProgram;
@@ -112,7 +120,8 @@ runFolderRules(const Settings& settings, const ScanFolder& folder)
   rules.files = std::regex(runFilePattern() +
                            "|(objects|semantic_map)\\.json|"
                            "semantic_map\\.(pcd|ply)|"
-                           "top_view\\.png|report\\.html|pictures/[a-z-]+\\.png|" +
+                           "top_view\\.png|report\\.html|survey(_[a-z]+)?\\.(html|csv|"
+                           "xml|pdf)|pictures/[a-z-]+\\.png|" +
                            planeFilePattern());
   rules.force = settings.force;
   rules.journal = ".pcl6d-journal";
@@ -132,13 +141,14 @@ holdsCompleteRun(const OutputFolder& out)
 }
 
 RunOutput::RunOutput(const Settings& settings,
-                     const ScanFolder& folder,
+                     const RunInput& input,
                      const Slam6D& slam,
                      const OutputFolder& out,
                      ProgressBar& bar,
                      const Interrupt& interrupt)
 : settings_(settings)
-, folder_(folder)
+, input_(input)
+, folder_(input.folder)
 , result_(slam.result())
 , moving_(settings.moving, slam)
 , out_(out)
@@ -158,6 +168,7 @@ RunOutput::write(bool complete, const RunLog& log, KeptClouds& clouds)
     if (!result_.stages.empty())
       writer.writeGraph(result_.graph);
     writer.writeVerification();
+    writer.writeControl();
     MapBuilder fine_map(planeVoxel(voxel), run_.world_offset);
     run_.complete = writeScans(clouds, map, settings_.planes ? &fine_map : nullptr);
     if (run_.complete && settings_.planes)
@@ -166,7 +177,8 @@ RunOutput::write(bool complete, const RunLog& log, KeptClouds& clouds)
       run_.moving = moving_.result();
     run_.map_points = run_.complete ? map.points().size() : 0;
   }
-  run_.trusted = run_.complete && result_.trusted();
+  run_.trusted =
+      run_.complete && result_.trusted() && (!run_.drive || run_.drive->lost.empty());
   run_.verdict = verdictOf(run_) + (log.joined.empty() ? "" : '\n' + log.joined);
   run_.files = writtenFiles(out_.staging());
   writer.writeSummary();
@@ -174,7 +186,7 @@ RunOutput::write(bool complete, const RunLog& log, KeptClouds& clouds)
   return run_;
 }
 
-/** Somebody may have removed them meanwhile, as one who clears away hidden folders. */
+/** A cleaning job may have removed hidden folders during the run. */
 void
 RunOutput::requireAllFiles() const
 {
@@ -208,6 +220,7 @@ RunOutput::describe(bool complete, const RunLog& log)
   for (std::size_t i = 0; i < folder_.size(); ++i)
     run_.scans[i].dropped = log.dropped[i];
   run_.complete = complete;
+  describeDrive();
   const bool is_followed =
       settings_.slam.motion.gives_poses &&
       std::any_of(run_.scans.begin(), run_.scans.end(), [](const ScanResult& scan) {
@@ -215,20 +228,48 @@ RunOutput::describe(bool complete, const RunLog& log)
       });
   if (!folder_.hasPoses() && folder_.size() > 1)
     run_.warnings.push_back(
-        is_followed ? "no initial poses were found: each scan starts from the one "
-                      "before, by the motion that was found"
+        is_followed ? "no initial poses were found: each scan starts from the scan "
+                      "before, by the motion found"
+        : !result_.starts.empty() ? "no initial poses were found"
         : isWithoutPrior(settings_.slam.initial_guess)
-            ? "no initial poses were found: scans were placed by what they see alone"
-            : "no initial poses were found: each scan starts where the one before is, "
-              "which only fits scans taken close together; give poses with --poses or "
-              "odometry.txt");
+            ? "no initial poses were found: place recognition found the poses"
+            : "no initial poses were found: each scan starts at the pose of the scan "
+              "before, suited only to scans taken close together; give poses with "
+              "--poses or odometry.txt");
+  for (const StartResult& start : result_.starts)
+    run_.warnings.push_back(textOf(start, run_.scans.size()));
   if (!settings_.without_effect.empty())
     run_.warnings.push_back(settings_.without_effect);
   if (settings_.slam.initial_guess == InitialGuess::kOverlap)
     warnOfOdometry();
+  warnOfBoundedRecovery();
 }
 
-/** Tells of scans that the overlap search was asked for, and found no clear place. */
+/** Moves the sweeps between the scans of the map together with these scans. */
+void
+RunOutput::describeDrive()
+{
+  if (!input_.drive)
+    return;
+  run_.drive = input_.drive;
+  followKeyframes(run_.scans, *run_.drive);
+}
+
+/** Warns of lost scans that a longer search may find. */
+void
+RunOutput::warnOfBoundedRecovery()
+{
+  const std::size_t lost = result_.count(ScanState::kPredicted);
+  if (settings_.slam.recovery != RecoveryEffort::kBounded || lost == 0 ||
+      isWithoutPrior(settings_.slam.initial_guess))
+    return;
+  run_.warnings.push_back(text::counted(lost, "scan") + (lost == 1 ? " was" : " were") +
+                          " searched only at the likeliest places; --recovery " +
+                          toString(RecoveryEffort::kThorough) +
+                          " searches everywhere, and takes longer");
+}
+
+/** Warns of scans for which the overlap search found no unambiguous pose. */
 void
 RunOutput::warnOfOdometry()
 {
@@ -245,7 +286,7 @@ RunOutput::warnOfOdometry()
   if (count > 0)
     run_.warnings.push_back(
         "the overlap search was not sure of " + text::counted(count, "scan") +
-        ", which started from the odometry: " + names + (count > 5 ? ", ..." : ""));
+        ", started from the odometry: " + names + (count > 5 ? ", ..." : ""));
 }
 
 /** Writes scans/ and map.pcd, and gives the clouds up. \return false if interrupted */

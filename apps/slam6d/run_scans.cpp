@@ -2,9 +2,9 @@
 #include "slam6d/run_scans.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/deskew/motion_icp.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/io/text.h>
-#include <pcl6d/registration/motion_icp.h>
 
 #include <algorithm>
 #include <utility>
@@ -21,8 +21,7 @@ fieldNames(const pcl::PCLPointCloud2& cloud)
   return names;
 }
 
-/** \return what the call returns; a rule that the data break is told with the file's
- * name */
+/** \return the result of the call; BadArgument becomes IoFailed with the file's name */
 template <typename Call>
 auto
 withName(const std::string& name, Call&& call)
@@ -33,21 +32,28 @@ withName(const std::string& name, Call&& call)
     throw IoFailed(name + ": " + e.what());
   }
 }
+/** \return the folder or file of all scans \param[in] i any of the scans */
+std::string
+nameOfAll(const ScanFolder& folder, std::size_t i)
+{
+  const auto& file = folder.file(i);
+  return (folder.sharesFile(i) ? file : file.parent_path()).string();
+}
 } // namespace
 
 void
 RunScans::deskew(MotionInterpolation interpolation)
 {
   const std::size_t first = folder_.numRegistered();
-  const std::string file = folder_.file(first).string();
-  const std::string name = folder_.file(first).parent_path().string();
+  const std::string file = folder_.title(first);
+  const std::string name = nameOfAll(folder_, first);
   if (!folder_.hasPoses())
     throw IoFailed(name + ": --deskew needs the motion of the scanner, but no poses "
                           "were found");
   if (folder_.stamps().empty())
     throw IoFailed(name +
-                   ": --deskew needs the time stamps of the scans, but there is "
-                   "no times.txt, and the poses (" +
+                   ": --deskew needs the time stamps of the scans, but times.txt is "
+                   "missing, and the poses (" +
                    folder_.poseSource() + ") are no TUM rows");
   correction_ = withName(
       name, [&] { return MotionCorrection(folder_.odometry(), interpolation); });
@@ -59,7 +65,7 @@ RunScans::deskew(MotionInterpolation interpolation)
                           ", " + toString(format_));
 }
 
-/** Stamps tell the unit of times; without any, times tell it alone. */
+/** The unit of times is derived from stamps; without stamps, from the times alone. */
 void
 RunScans::estimateMotion()
 {
@@ -69,12 +75,12 @@ RunScans::estimateMotion()
     Trajectory clock;
     clock.stamps = stamps;
     clock.poses.assign(stamps.size(), Eigen::Isometry3d::Identity());
-    clock_ = withName(folder_.file(first).parent_path().string(),
-                      [&] { return MotionCorrection(clock); });
+    clock_ =
+        withName(nameOfAll(folder_, first), [&] { return MotionCorrection(clock); });
   }
   first_ = folder_.read(first);
   const FieldValues times = timesOf(first_->cloud, first);
-  format_ = withName(folder_.file(first).string(), [&] {
+  format_ = withName(folder_.title(first), [&] {
     return clock_ ? clock_->timeFormat(times, stamps[first]) : timeFormatAlone(times);
   });
   estimates_motion_ = true;
@@ -91,11 +97,11 @@ RunScans::scanTimes(const pcl::PCLPointCloud2& cloud, std::size_t i) const
   if (!stamps.empty())
     times.stamp = stamps[i];
   if (clock_) {
-    times.times = withName(folder_.file(i).string(),
+    times.times = withName(folder_.title(i),
                            [&] { return clock_->timesOf(field, format_, stamps[i]); });
     return times;
   }
-  withName(folder_.file(i).string(), [&] { return timeFormatAlone(field); });
+  withName(folder_.title(i), [&] { return timeFormatAlone(field); });
   for (const double value : field.values)
     times.times.push_back(value * format_.unit);
   if (format_.is_absolute && !times.times.empty()) {
@@ -118,7 +124,7 @@ RunScans::undoMotion(const MotionWithinScan& motion,
                      std::size_t i,
                      pcl::PCLPointCloud2& cloud) const
 {
-  if (!motion.undone || motion.path.poses.empty()) // or an earlier run has done it
+  if (!motion.undone || motion.path.poses.empty()) // or deskewed by an earlier run
     return;
   TimedPoints scan{coordinatesOf(cloud), scanTimes(cloud, i).times};
   storeCoordinates(pcl6d::undoMotion(scan, motion.path, 0, 1), cloud);
@@ -164,17 +170,17 @@ RunScans::gateRegistered(Scan& scan, std::size_t i) const
   const std::size_t dropped = scan.dropped;
   maskOutOfRange(gates_[i].first, gates_[i].second, scan.points);
   storeCoordinates(scan.points, scan.cloud);
-  static_cast<ScanCloud&>(scan) = finiteScan(scan.cloud, folder_.file(i).string());
+  static_cast<ScanCloud&>(scan) = finiteScan(scan.cloud, folder_.title(i));
   scan.dropped += dropped;
   scan.points = coordinatesOf(scan.cloud);
 }
 
-/** Counts the points that it made not finite, and those of the file. */
+/** Counts the non-finite points of the file and of the filter. */
 void
 RunScans::filterByOther(Scan& scan, std::size_t i) const
 {
   const std::size_t dropped = scan.dropped;
-  const std::string file = folder_.file(i).string();
+  const std::string file = folder_.title(i);
   try {
     static_cast<ScanCloud&>(scan) = finiteScan(other_filter_.filter(scan.cloud), file);
   } catch (const ComputeFailed& e) {
@@ -188,18 +194,19 @@ void
 RunScans::requireLines(const Scan& scan, std::size_t i) const
 {
   if (scan.row_length == 0)
-    throw IoFailed(folder_.file(i).string() + ": --filter " + toString(filter_) +
-                   " needs scan lines, but the points are one list; give organized "
-                   "PCD files (HEIGHT > 1, a scan line per row), or --filter none");
+    throw IoFailed(
+        folder_.title(i) + ": --filter " + toString(filter_) +
+        " needs scan lines, but the points form a plain list; give organized PCD files "
+        "(HEIGHT > 1, a scan line per row), or --filter none");
 }
 
 FieldValues
 RunScans::timesOf(const pcl::PCLPointCloud2& cloud, std::size_t i) const
 {
-  const std::string file = folder_.file(i).string();
+  const std::string file = folder_.title(i);
   auto times = withName(file, [&] { return timeField(cloud); });
   if (!times)
-    throw IoFailed(file + ": has no field t or time, which --deskew needs (fields: " +
+    throw IoFailed(file + ": has no field t or time for --deskew (fields: " +
                    fieldNames(cloud) + ")");
   return *std::move(times);
 }
@@ -215,8 +222,8 @@ RunScans::read(std::size_t i)
   }
   if (filter_ != LineFilter::kNone)
     requireLines(scan, i);
-  withName(folder_.file(i).string(), [&] {
-    // The median compares ranges as measured; groups need the place of their points.
+  withName(folder_.title(i), [&] {
+    // The median compares ranges as measured; merging needs the final positions of points.
     if (filter_ == LineFilter::kMedian || filter_ == LineFilter::kBoth)
       filterByMedian(scan);
     if (correction_)

@@ -4,10 +4,10 @@
 #include "slam6d/other_filter.h"
 
 #include <pcl6d/common/run_result.h>
+#include <pcl6d/deskew/motion_correction.h>
+#include <pcl6d/deskew/motion_options.h>
 #include <pcl6d/filters/line_filter.h>
-#include <pcl6d/filters/motion_correction.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/slam6d/motion_options.h>
 
 #include <optional>
 #include <string>
@@ -16,22 +16,21 @@
 
 namespace pcl6d::app {
 
-/** \brief The scans of a folder as they are registered: as they were measured, or with
- * the motion of the scanner during each of them undone (--deskew), and filtered along
- * their lines (--filter). Those of a finished
- * run that goes on are as that run wrote them. */
+/** \brief The scans of a folder, prepared for registration: as measured, or deskewed (--deskew),
+ * and filtered along their lines (--filter). Scans of a finished, continued run are read as the
+ * run wrote them. */
 class RunScans {
 public:
   /** Keeps a reference to the folder. */
   explicit RunScans(const ScanFolder& folder) : folder_(folder) {}
 
-  /** \brief From now on the motion is undone. Reads the first scan to be registered, which
-   * tells how times are stored. \throws IoFailed poses, stamps or times are missing or broken */
+  /** \brief Enables deskewing. Reads the first scan to be registered, to detect how times are
+   * stored. \throws IoFailed poses, stamps or times are missing or broken */
   void
   deskew(MotionInterpolation interpolation);
 
-  /** \brief From now on scans come with the times of their points, so that their motion can be
-   * found. Reads the first scan to be registered, which tells how times are stored.
+  /** \brief Enables reading of the times of points, to estimate the motion within scans. Reads the
+   * first scan to be registered, to detect how times are stored.
    * \throws IoFailed times are missing or broken */
   void
   estimateMotion();
@@ -44,28 +43,27 @@ public:
   }
 
   /** \return the times of the points of a scan that was read
-   * \throws IoFailed they are missing or broken */
+   * \throws IoFailed times are missing or broken */
   ScanTimes
   scanTimes(const Scan& scan, std::size_t i) const;
 
-  /** \brief Brings a scan that was read to the pose at its stamp.
+  /** \brief Deskews a scan to the pose at its stamp.
    * \throws IoFailed as scanTimes() */
   void
   undoMotion(const MotionWithinScan& motion,
              std::size_t i,
              pcl::PCLPointCloud2& cloud) const;
 
-  /** \brief From now on scans go through filters along their lines (--filter). */
+  /** \brief Enables filters along the lines of scans (--filter). */
   void
   filterLines(LineFilter filter);
 
-  /** \brief From now on scans go through a filter of a plug-in, in the end. Its result is a
-   * scan of its own. */
+  /** \brief Enables a filter of a plug-in, applied last. Its result is a separate scan. */
   void
   filterBy(const OtherFilter& filter);
 
-  /** \brief From now on registered scans lose the points outside the ranges [m] that their
-   * run counted. \param[in] gates one per scan that is registered, or none */
+  /** \brief Enables removal of points of registered scans outside the range gates [m] of their
+   * runs. \param[in] gates one per registered scan, or empty */
   void
   gate(std::vector<std::pair<double, double>> gates);
 
@@ -75,13 +73,13 @@ public:
     return folder_;
   }
 
-  /** \brief Reads the i-th selected scan. \throws IoFailed as ScanFolder::read(), its
-   * times are missing or broken, it has no lines to filter along, or a filter of a plug-in
-   * makes no scan of it */
+  /** \brief Reads the i-th selected scan. \throws IoFailed as ScanFolder::read(); its times are
+   * missing or broken; it has no lines to filter along; or a filter of a plug-in returns no valid
+   * scan */
   Scan
   read(std::size_t i);
 
-  /** \return what is done to the scans, for people; a line each */
+  /** \return the processing of the scans, for people; a line each */
   const std::vector<std::string>&
   descriptions() const
   {
@@ -107,7 +105,7 @@ private:
   bool estimates_motion_ = false;
   std::optional<MotionCorrection>
       clock_;                 ///< of estimated motion: the stamps of the scans
-  std::optional<Scan> first_; ///< to be registered, if it was read already
+  std::optional<Scan> first_; ///< to be registered, if already read
   TimeFormat format_;
   LineFilter filter_ = LineFilter::kNone;
   OtherFilter other_filter_;

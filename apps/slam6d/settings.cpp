@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/listed_options.h"
 #include "common/option_table.h"
 #include "slam6d/option_groups.h"
 #include "slam6d/plugin_words.h"
@@ -9,104 +10,72 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/link_list_io.h>
 #include <pcl6d/io/text.h>
+#include <pcl6d/run/survey_options.h>
+#include <pcl6d/sources/coordinate_system.h>
 
 #include <algorithm>
-#include <set>
 
 namespace pcl6d::app {
 
 namespace {
 constexpr const char* kUsageText =
-    R"(usage: pcl_slam6d SCAN_DIR -o OUT_DIR [options]
+    R"(usage: pcl_slam6d SCAN_DIR|SITE.e57|DRIVE.bag|FILE FILE ... -o OUT_DIR [options]
        pcl_slam6d --join RUN_A RUN_B -o OUT_DIR [options]
-Registers the 3D scans of a folder (PCD, PLY, 3DTK uos, KITTI bin, xyz) into one map
-and writes poses, map, picture and summary. Distances are in metres.
+Registers the 3D scans of a folder (PCD, PLY, LAS, LAZ, PTX, PTS, CSV, 3DTK uos, KITTI bin,
+xyz), of an E57 or PTX file, of a robot's recording (ROS .bag, .mcap, .db3), or of several
+files in the order given into one map and writes poses, map, picture and summary. Distances
+are in metres.
 Processes on one machine or many share the work: mpirun -n 4 pcl_slam6d SCAN_DIR -o OUT_DIR
 )";
 
-/** The options that go into the summary; lengths go there as parameters. */
-constexpr const char* kWords[] = {"plugin",
-                                  "first",
-                                  "last",
-                                  "every",
-                                  "poses",
-                                  "format",
-                                  "deskew",
-                                  "interpolation",
-                                  "knots",
-                                  "filter",
-                                  "reduction",
-                                  "reduction-points",
-                                  "metric",
-                                  "minimiser",
-                                  "plane-minimiser",
-                                  "search",
-                                  "robust",
-                                  "initial-guess",
-                                  "metascan",
-                                  "loop-closing",
-                                  "close-loops",
-                                  "loop-gate",
-                                  "relaxation",
-                                  "links",
-                                  "link-weights",
-                                  "link-hysteresis",
-                                  "relaxation-rounds",
-                                  "graph-in",
-                                  "continue",
-                                  "join",
-                                  "iterations",
-                                  "min-overlap",
-                                  "max-correction",
-                                  "moving",
-                                  "no-recovery",
-                                  "planes",
-                                  "report",
-                                  "threads",
-                                  "no-picture",
-                                  "no-verification",
-                                  "seed"};
-
-/** \return the options that poses follow from: an interrupted run goes on with the same
- * alone. Given poses, links and runs are told apart by what they hold. */
+/** \return the options of the summary, without lengths, which are parameters there */
 std::vector<OptionWord>
-conditionsOf(const std::vector<OptionWord>& words, const OptionTable& table)
+summaryWords(const OptionList& options, const OptionTable& table)
 {
-  const std::set<std::string> others = {"poses",
-                                        "graph-in",
-                                        "continue",
-                                        "planes",
-                                        "report",
-                                        "threads",
-                                        "no-picture",
-                                        "no-verification"};
-  std::vector<OptionWord> conditions = table.words({"min-range",
-                                                    "max-range",
-                                                    "voxel",
-                                                    "line-spacing",
-                                                    "max-distance",
-                                                    "max-distance-start",
-                                                    "loop-distance",
-                                                    "loop-gap",
-                                                    "loop-pairs",
-                                                    "link-distance"});
-  for (const OptionWord& word : words)
-    if (others.count(word.name) == 0)
-      conditions.push_back(word);
+  std::vector<std::string> names;
+  for (const OptionSpec& option : options.rows())
+    if (isInSummary(option.role) && !option.parameter)
+      names.push_back(option.name);
+  return table.words(names);
+}
+
+/** \return the options that change poses: an interrupted run resumes only with equal values.
+ * Lengths have six digits here; the task hashes compare all bits. */
+std::vector<OptionWord>
+conditionsOf(const OptionList& options, const OptionTable& table)
+{
+  std::vector<OptionWord> conditions = table.words(namesOf(options, mustStayAlike));
+  for (OptionWord& word : conditions)
+    for (const OptionSpec& option : options.rows())
+      if (const auto* number = std::get_if<double*>(&option.variable);
+          number && option.name == word.name)
+        word.value = text::shortest(**number);
   return conditions;
 }
 
-/** \return the arguments, in which `--deskew estimate` is `--deskew=estimate`: as the word may be
- * left out, the parser takes another argument for no word of it */
+/** \return the arguments with `--deskew estimate` replaced by `--deskew=estimate`: the word is
+ * optional, and the parser would take a separate word for another argument */
 std::vector<std::string>
-withDeskewWord(std::vector<std::string> arguments)
+withDeskewWord(const std::string& option, std::vector<std::string> arguments)
 {
   for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
-    if (arguments[i] == "--deskew" &&
-        (arguments[i + 1] == "estimate" || arguments[i + 1] == "odometry")) {
+    if (arguments[i] == "--" + option &&
+        (arguments[i + 1] == kDeskewEstimate || arguments[i + 1] == kDeskewOdometry)) {
       arguments[i] += "=" + arguments[i + 1];
       arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     }
+  return arguments;
+}
+
+/** \return the arguments with former words replaced
+ * \param[in] recovery name of the option */
+std::vector<std::string>
+withWordsOfToday(const std::string& recovery, std::vector<std::string> arguments)
+{
+  std::replace(arguments.begin(),
+               arguments.end(),
+               "--no-" + recovery,
+               "--" + recovery + "=" + toString(RecoveryEffort::kOff));
   return arguments;
 }
 
@@ -117,15 +86,19 @@ wordOf(const std::string& name, std::vector<OptionWord>& words)
       words.begin(), words.end(), [&](const auto& one) { return one.name == name; });
 }
 
-/** Takes the arguments: a folder of scans, or runs that are joined. */
+/** Takes the arguments: a folder of scans, or runs to be joined. */
 void
-takeInputs(const std::vector<std::string>& inputs, bool joins, Settings& settings)
+takeInputs(const std::vector<std::string>& inputs, Settings& settings)
 {
-  if (!joins && inputs.size() > 1)
-    throw UsageError("SCAN_DIR is one folder, but " + text::quoted(inputs[1]) +
-                     " is given, too (runs are joined by --join)");
-  if (!joins) {
-    settings.input = inputs.front();
+  std::error_code missing;
+  for (const auto& input : inputs)
+    if (!settings.joins && inputs.size() > 1 &&
+        std::filesystem::is_directory(input, missing))
+      throw UsageError("SCAN_DIR is one folder, or several files are given, but " +
+                       text::quoted(input) +
+                       " is a folder among files (runs are joined by --join)");
+  if (!settings.joins) {
+    settings.inputs.assign(inputs.begin(), inputs.end());
     return;
   }
   settings.joined = inputs;
@@ -137,22 +110,74 @@ takeInputs(const std::vector<std::string>& inputs, bool joins, Settings& setting
   settings.slam.initial_guess = InitialGuess::kGlobal;
 }
 
-/** Where runs are joined: what the summary says of that. */
+/** Words of the summary for joined runs. */
 void
-nameJoined(Settings& settings)
+nameJoined(const OptionList& options, Settings& settings)
 {
   if (settings.joined.empty())
     return;
-  wordOf("join", settings.words).value = joined(settings.joined, " ");
-  wordOf("initial-guess", settings.words) = {
-      "initial-guess", toString(settings.slam.initial_guess), false};
+  wordOf(options.of(&settings.joins).name, settings.words).value =
+      joined(settings.joined, " ");
+  const std::string guess = options.of(&settings.slam.initial_guess).name;
+  wordOf(guess, settings.words) = {guess, toString(settings.slam.initial_guess), false};
+}
+
+/** \return a word, marked as given */
+OptionWord
+givenWord(const std::string& name, const std::string& value)
+{
+  return {name, value, true};
+}
+
+/** Words of the summary for the options set by --start. */
+void
+nameStart(const OptionList& options, const OptionTable& table, Settings& settings)
+{
+  const std::string& start = options.of(&settings.start).name;
+  const std::string& guess = options.of(&settings.slam.initial_guess).name;
+  const std::string& track = options.of(&settings.track).name;
+  if (settings.start == "auto" || !settings.joined.empty())
+    return;
+  for (const std::string& name : {guess, track})
+    if (table.given(name))
+      throw UsageError("--" + start + " sets --" + name + ": give one of them");
+  for (auto* words : {&settings.words, &settings.conditions}) {
+    wordOf(guess, *words) = givenWord(guess, toString(settings.slam.initial_guess));
+    wordOf(track, *words) =
+        givenWord(track, settings.track == Tracking::kOn ? "on" : "off");
+  }
+}
+
+/** Sets values derived from several options. */
+void
+takeWords(const OptionList& options, const OptionTable& table, Settings& settings)
+{
+  const std::string& plugins = options.of(&settings.plugin_files).name;
+  settings.words = summaryWords(options, table);
+  wordOf(plugins, settings.words).value = pluginWord(settings);
+  if (!settings.project.empty())
+    wordOf(options.of(&settings.project).name, settings.words).value =
+        joined(settings.project, "\n");
+  nameJoined(options, settings);
+  settings.conditions = conditionsOf(options, table);
+  wordOf(plugins, settings.conditions).value = pluginCondition(settings);
+  if (!settings.joined.empty())
+    for (const void* place : {static_cast<const void*>(&settings.joins),
+                              static_cast<const void*>(&settings.slam.initial_guess)})
+      wordOf(options.of(place).name, settings.conditions) =
+          wordOf(options.of(place).name, settings.words);
+  nameStart(options, table, settings);
+  settings.without_effect = withoutEffect(table, options);
 }
 } // namespace
 
 std::string
 Settings::inputWords() const
 {
-  return input.empty() ? pcl6d::app::joined(joined, " ") : input;
+  std::vector<std::string> names = joined;
+  for (const auto& input : inputs)
+    names.push_back(input.string());
+  return pcl6d::app::joined(names, " ");
 }
 
 void
@@ -163,9 +188,12 @@ Settings::resolveGuess(bool has_poses)
     return;
   slam.motion.gives_poses = !has_poses && deskew == Deskew::kEstimate;
   slam.initial_guess = has_poses ? InitialGuess::kOdometry : InitialGuess::kGlobal;
+  slam.order_first = !has_poses;
+  Slam6DParameters unused;
+  const std::string name = optionsOf(*this, unused).of(&slam.initial_guess).name;
   for (auto* options : {&words, &conditions})
     for (auto& word : *options)
-      if (word.name == "initial-guess")
+      if (word.name == name)
         word.value = toString(slam.initial_guess);
 }
 
@@ -188,109 +216,61 @@ Settings::readLinks(const std::vector<std::size_t>& indices)
 bool
 parseSettings(const std::vector<std::string>& given, Settings& settings)
 {
-  const std::vector<std::string> arguments = withDeskewWord(given);
+  Slam6DParameters unused;
+  const OptionList options = optionsOf(settings, unused);
+  const std::vector<std::string> arguments =
+      withWordsOfToday(options.of(&settings.slam.recovery).name,
+                       withDeskewWord(options.of(&settings.deskew).name, given));
   refuseScale(arguments);
   OptionTable table(kUsageText);
   std::vector<std::string> inputs;
-  bool joins = false;
   table.positionals("SCAN_DIR", &inputs);
-  addOptions(table, settings, joins);
-  table.bringOptions("continue", [&table](const std::string& run) {
-    return optionsOfRun(run, table.given("plugin"));
+  addOptions(table, options);
+  const OptionSpec& plugins = options.of(&settings.plugin_files);
+  table.bringOptions(options.of(&settings.continued).name, [&](const std::string& run) {
+    return optionsOfRun(run, options, plugins, table.given(plugins.name));
   });
   if (!table.parse(arguments))
     return false;
-  takeInputs(inputs, joins, settings);
+  takeInputs(inputs, settings);
   if (settings.out.empty())
     settings.out = settings.continued;
-  if (settings.out.empty())
+  if (settings.out.empty() && !settings.explain)
     throw UsageError("-o OUT_DIR is missing");
   table.check(
       [&] {
         settings.folder.validate();
         settings.slam.validate();
+        surveyOptionsFrom(settings.project, settings.tolerance);
+        if (settings.epsg != 0)
+          wktOfEpsg(settings.epsg);
       },
-      {{"max_iterations", "iterations"}, {"reduction_points", "reduction-points"}});
-  settings.slam.verify = !settings.no_verification;
+      optionsOfFields(options));
   settings.slam.leave_out_moving = settings.moving != Moving::kKeep;
-  settings.slam.recover = !settings.no_recovery;
   if (settings.resume && settings.fresh)
     throw UsageError("--resume and --fresh contradict each other");
   loadPlugins(settings);
-  settings.words = table.words({std::begin(kWords), std::end(kWords)});
-  wordOf("plugin", settings.words).value = pluginWord(settings);
-  nameJoined(settings);
-  settings.conditions = conditionsOf(settings.words, table);
-  wordOf("plugin", settings.conditions).value = pluginCondition(settings);
-  // Words have six digits; lengths are compared to the last bit by the tasks' names.
-  for (const auto& [name, value] :
-       {std::pair("min-overlap", settings.slam.min_overlap),
-        std::pair("max-correction", settings.slam.max_correction),
-        std::pair("loop-gate", settings.slam.loop_gate),
-        std::pair("link-hysteresis", settings.slam.link_hysteresis)})
-    settings.conditions.push_back({name, text::shortest(value), true});
-  const bool planes = settings.slam.metric != Metric::kPoint;
-  const bool relaxes = settings.slam.relaxation.has_value();
-  const bool closes = settings.slam.loop_closing != LoopClosing::kNone;
-  settings.without_effect = table.withoutEffect(
-      {{"first", !joins, "of SCAN_DIR"},
-       {"last", !joins, "of SCAN_DIR"},
-       {"every", !joins, "of SCAN_DIR"},
-       {"poses", !joins, "of SCAN_DIR"},
-       {"format", !joins, "of SCAN_DIR"},
-       {"deskew", !joins, "of SCAN_DIR"},
-       {"filter", !joins, "of SCAN_DIR"},
-       {"initial-guess", !joins, "of SCAN_DIR"},
-       {"resume", !joins, "of SCAN_DIR"},
-       {"fresh", !joins, "of SCAN_DIR"},
-       {"interpolation", settings.deskew == Deskew::kOdometry, "of --deskew"},
-       {"knots", settings.deskew == Deskew::kEstimate, "of --deskew estimate"},
-       {"line-spacing", !settings.slam.voxel, "where --voxel is derived"},
-       {"reduction-points",
-        settings.slam.reduction == ReductionMethod::kRandom,
-        "of --reduction random"},
-       {"close-loops", closes, "of --loop-closing"},
-       {"loop-distance", closes, "of --loop-closing"},
-       {"loop-gap", closes, "of --loop-closing"},
-       {"loop-pairs", closes, "of --loop-closing"},
-       {"loop-gate", closes, "of --loop-closing"},
-       {"links", relaxes, "of --relaxation"},
-       {"link-distance",
-        relaxes && settings.slam.links == LinkRule::kDistance,
-        "of --links distance"},
-       {"link-hysteresis", relaxes, "of --relaxation"},
-       {"link-weights", relaxes, "of --relaxation"},
-       {"relaxation-rounds", relaxes, "of --relaxation"},
-       {"graph-in", relaxes, "of --relaxation"},
-       {"minimiser", !planes, "of the metric point"},
-       {"plane-minimiser", planes, "of the metrics plane and gicp"}});
+  takeWords(options, table, settings);
   return true;
 }
 
-std::vector<std::pair<std::string, Parameter>>
+std::vector<NamedParameter>
 named(const Slam6DParameters& parameters, const Settings& settings)
 {
-  std::vector<std::pair<std::string, Parameter>> known = {
-      {"min-range", parameters.min_range},
-      {"max-range", parameters.max_range},
-      {"voxel", parameters.voxel},
-      {"line-spacing", parameters.line_spacing},
-      {"max-distance", parameters.max_distance},
-      {"max-distance-start", parameters.max_distance_start},
-      {"loop-distance", parameters.loop_distance},
-      {"loop-gap", parameters.loop_gap},
-      {"loop-pairs", parameters.loop_pairs},
-      {"link-distance", parameters.link_distance}};
-  known.erase(std::remove_if(known.begin(),
-                             known.end(),
-                             [](const auto& one) {
-                               return !one.second.given && one.second.why.empty();
-                             }),
-              known.end());
-  for (auto& [name, parameter] : known)
-    if (const auto reason = settings.length_reasons.find(name);
+  Slam6DOptions options = settings.slam;
+  Slam6DParameters used = parameters;
+  OptionList list;
+  describe(options, used, list);
+  std::vector<NamedParameter> known;
+  for (const OptionSpec& option : list.rows()) {
+    if (!option.parameter ||
+        (!option.parameter->given && option.parameter->why.empty()))
+      continue;
+    known.push_back({option.name, option.unit, *option.parameter});
+    if (const auto reason = settings.length_reasons.find(option.name);
         reason != settings.length_reasons.end())
-      parameter.why = reason->second;
+      known.back().parameter.why = reason->second;
+  }
   return known;
 }
 

@@ -10,7 +10,7 @@
 
 namespace pcl {
 
-// For other processes; in the namespace of the types.
+// For transfer to other processes; in the namespace of the types.
 
 template <typename Archive>
 void
@@ -42,7 +42,7 @@ packFields(Archive& archive, Scan& scan)
 namespace pcl6d::app {
 
 namespace {
-/** Each process reads so many scans, then all go on to the next ones. */
+/** Number of scans read by each process before all continue with the next scans. */
 constexpr std::size_t kReadAtATime = 4;
 } // namespace
 
@@ -51,7 +51,7 @@ SharedReading::read(std::size_t i)
 {
   Scan scan = scans_.read(i);
   if (scan.points.size() < 3)
-    throw IoFailed(scans_.folder().file(i).string() + ": " +
+    throw IoFailed(scans_.folder().title(i) + ": " +
                    std::to_string(scan.points.size()) +
                    " points with finite coordinates (" + std::to_string(scan.dropped) +
                    " without), but at least 3 are needed");
@@ -64,7 +64,7 @@ SharedReading::readAll(const Take& take)
   return ranks_ ? readTogether(take) : readAhead(take);
 }
 
-/** The next scan is read while this one is prepared, or after it if there are no threads. */
+/** Reads the next scan while the present scan is prepared; without threads, afterwards. */
 bool
 SharedReading::readAhead(const Take& take)
 {
@@ -111,14 +111,12 @@ SharedReading::add(std::size_t i, const Scan& scan, Slam6D& slam) const
 {
   const ScanFolder& folder = scans_.folder();
   if (i >= folder.numRegistered() && scans_.estimatesMotion()) {
-    slam.addScan(scan.points,
-                 scans_.scanTimes(scan, i),
-                 folder.initialPose(i),
-                 folder.file(i).string());
+    slam.addScan(
+        scan.points, scans_.scanTimes(scan, i), folder.initialPose(i), folder.title(i));
     return scan.dropped;
   }
   if (i >= folder.numRegistered()) {
-    slam.addScan(scan.points, folder.initialPose(i), folder.file(i).string());
+    slam.addScan(scan.points, folder.initialPose(i), folder.title(i));
     return scan.dropped;
   }
   const ScanResult earlier = earlier_.resultOf(i); // files of runs are called alike

@@ -11,26 +11,25 @@
 
 namespace pcl6d::app {
 
-/** \brief The scans of a run, in their order: read by this process, or each by the one that
- * owns it. */
+/** \brief Reads the scans of a run in order, in this process, or each scan in its owner. */
 class SharedReading {
 public:
-  /** Keeps references. \param[in] earlier the runs that go on or are joined, if so
-   * \param[in] ranks null: this process reads all */
+  /** Keeps references. \param[in] earlier the continued or joined runs, if any
+   * \param[in] ranks null: this process reads all scans */
   SharedReading(RunScans& scans, const EarlierRuns& earlier, WorkSharing* ranks)
   : scans_(scans), earlier_(earlier), ranks_(ranks)
   {}
 
-  /** Told of each scan; the first process of all, others of their own ones, and of the rest as
-   * empty ones. \return false to stop */
+  /** Called for each scan. The first process gets every scan with points; the remaining processes
+   * get only their own scans with points, and the rest empty. \return false to stop */
   using Take = std::function<bool(std::size_t, Scan)>;
 
-  /** \return false if it was stopped
+  /** \return false if stopped
    * \throws IoFailed a scan cannot be read, or has fewer than 3 finite points */
   bool
   readAll(const Take& take);
 
-  /** \brief Adds a scan that was read. \return how many of its points were not finite */
+  /** \brief Adds a scan that was read. \return the number of its non-finite points */
   std::size_t
   add(std::size_t i, const Scan& scan, Slam6D& slam) const;
 

@@ -75,12 +75,12 @@ struct RoomRun : TempFolder {
       writePcd(*this / ("run/scans/" + scanName(i) + ".pcd"), roomCloud({i - 1.0}));
     }
     links.push_back(
-        {0, 1, LinkKind::kSequence, LinkVerdict::kUsed, "", 1, 9, 0.02, 0.9, 0.5, 1});
+        {0, 1, LinkKind::kSequence, LinkVerdict::kUsed, {}, 1, 9, 0.02, 0.9, 0.5, 1});
     links.push_back({1,
                      2,
                      LinkKind::kSequence,
                      LinkVerdict::kRefused,
-                     "few pairs",
+                     pcl6d::Rejection::stated("few pairs"),
                      1,
                      2,
                      0.4,

@@ -176,7 +176,7 @@ TEST(Graph, RefusesAWrongCommandLine)
   const Files files;
   const std::string in = files.name("in.g2o"), out = files.name("out.g2o");
   const std::string before = readText(in);
-  expectError(graphProgram({}), 2, {"optimize, info"});
+  expectError(graphProgram({"paint"}), 2, {"optimize, info"});
   expectError(graphProgram({"solve"}), 2, {"'solve'", "optimize, info"});
   expectError(graphProgram({"optimize", in}), 2, {"output"});
   expectError(graphProgram({"optimize", "-o", out}), 2, {"IN"});
@@ -226,4 +226,80 @@ TEST(Graph, Helps)
   for (const char* const word :
        {"--method", "--robust", "--threads", "--iterations", "gauss-newton", "4.1"})
     EXPECT_NE(details.out.find(word), std::string::npos) << word;
+}
+
+TEST(Graph, FixedPosesKeepTheirPlaceAndStayFixed)
+{
+  const Files files;
+  for (const std::string fixed : {"FIX 7\n", "FIX 7\nFIX 20\n"}) {
+    writeText(files.name("fixed.g2o"), readText(files.name("in.g2o")) + fixed);
+    const auto outcome = graphProgram(
+        {"optimize", files.name("fixed.g2o"), "-o", files.name("out.g2o")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto out = pcl6d::readPoseGraphFile(files.name("out.g2o"));
+    for (const std::size_t i : out.constraints.fixed)
+      EXPECT_TRUE(out.graph.poses[i].isApprox(files.graph.poses[i], 1e-12));
+    EXPECT_EQ(out.constraints.fixed.size(), fixed.size() > 7 ? 2U : 1U);
+    EXPECT_FALSE(out.graph.poses[0].isApprox(files.graph.poses[0], 1e-6));
+    EXPECT_LT(chi2Of(out.graph), chi2Of(files.graph));
+  }
+  // One fixed pose only chooses the frame.
+  writeText(files.name("fixed.g2o"), readText(files.name("in.g2o")) + "FIX 7\n");
+  graphProgram({"optimize", files.name("fixed.g2o"), "-o", files.name("a.g2o")});
+  graphProgram({"optimize", files.name("in.g2o"), "-o", files.name("b.g2o")});
+  EXPECT_NEAR(chi2Of(pcl6d::readPoseGraph(files.name("a.g2o"))),
+              chi2Of(pcl6d::readPoseGraph(files.name("b.g2o"))),
+              1e-6);
+}
+
+TEST(Graph, WhatItCannotUseIsAnErrorUnlessItIsSkipped)
+{
+  const Files files;
+  writeText(files.name("more.g2o"),
+            readText(files.name("in.g2o")) + "VERTEX_XY 99 1 2\n");
+  expectError(graphProgram({"info", files.name("more.g2o")}),
+              1,
+              {"VERTEX_XY", "--skip-unknown leaves unknown lines out"});
+  const auto outcome = graphProgram({"info", files.name("more.g2o"), "--skip-unknown"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "pcl_slam6d_graph: warning: skipped 1 line VERTEX_XY\n");
+}
+
+TEST(Graph, ConstraintsCountAndAreKept)
+{
+  const Files files;
+  // The priors place the ring 100 m away; the switchable link is wrong.
+  pcl6d::GraphConstraints constraints;
+  for (const std::size_t i : {0U, 10U, 20U}) {
+    pcl6d::PosePrior prior;
+    prior.pose = i;
+    prior.T_world_pose = Eigen::Translation3d(100, 0, 0) * files.graph.poses[i];
+    prior.information.setIdentity();
+    constraints.priors.push_back(prior);
+  }
+  PoseGraph graph = files.graph;
+  graph.links.push_back(graph.links.front());
+  graph.links.back().to = 15;
+  constraints.switches = {{graph.links.size() - 1, 77, 1, 1, 10}};
+  pcl6d::writePoseGraph(
+      files.name("c.g2o"), graph, pcl6d::PoseGraphFormat::kG2o, constraints);
+  const auto info = graphProgram({"info", files.name("c.g2o")});
+  EXPECT_NE(info.out.find("priors 3\nswitches 1 off 0\n"), std::string::npos)
+      << info.out;
+  const auto outcome =
+      graphProgram({"optimize", files.name("c.g2o"), "-o", files.name("out.g2o")});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("switches 1 off 1\n"), std::string::npos) << outcome.out;
+  const auto out = pcl6d::readPoseGraphFile(files.name("out.g2o"));
+  EXPECT_EQ(out.constraints.priors.size(), 3U);
+  ASSERT_EQ(out.constraints.switches.size(), 1U);
+  EXPECT_LT(out.constraints.switches[0].value, 0.1);
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < graph.poses.size(); ++i)
+    shift += out.graph.poses[i].translation() - graph.poses[i].translation();
+  EXPECT_NEAR(shift.x() / static_cast<double>(graph.poses.size()), 100, 2);
+  for (const std::string verb : {"optimize", "convert"})
+    expectError(graphProgram({verb, files.name("c.g2o"), "-o", files.name("c.toro")}),
+                1,
+                {"TORO has no lines for landmarks, priors and switches"});
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What every program says of itself: --help, its man page, and completion in bash.
+#include "support/folders.h"
 #include "support/run_program.h"
 
 #include <boost/process.hpp>
@@ -153,6 +154,48 @@ TEST(Help, FitsTheColumnsAndBreaksListsBehindBars)
   EXPECT_NE(narrow.find("svd|quaternion|orthonormal|\n"), std::string::npos) << narrow;
 }
 
+TEST(Help, EndsWithThePageOfMessages)
+{
+  const std::string end =
+      "\n\nErrors and warnings, with cause and remedy: share/doc/messages.md\n";
+  for (const auto& program : programs()) {
+    Words jobs = jobsOf(program);
+    jobs.insert("");
+    for (const auto& job : jobs) {
+      const std::string text = help(program, 100, job);
+      EXPECT_EQ(text.substr(text.size() - std::min(text.size(), end.size())), end)
+          << program << ' ' << job;
+    }
+  }
+  EXPECT_TRUE(fs::exists(PCL6D_SOURCE_DIR "/share/doc/messages.md"));
+}
+
+TEST(Help, WithoutArgumentsIsFiveLinesWithThreeCommandsOfTheProgram)
+{
+  for (const auto& program : programs()) {
+    const Outcome outcome = pcl6d::test::runProgram(program, {});
+    EXPECT_EQ(outcome.exit_code, 2) << program;
+    EXPECT_EQ(outcome.out, "") << program;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 5)
+        << outcome.err;
+    const Words jobs = jobsOf(program);
+    std::istringstream lines(outcome.err);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line.rfind(program + ' ', 0), 0u) << line;
+    for (int i = 0; i < 3 && std::getline(lines, line); ++i) {
+      EXPECT_EQ(line.rfind("  " + program + ' ', 0), 0u) << line;
+      EXPECT_LE(line.size(), 110u) << line;
+      const std::string first = line.substr(
+          program.size() + 3, line.find(' ', program.size() + 3) - program.size() - 3);
+      const std::string job = isIn(first, jobs) ? first : "";
+      EXPECT_TRUE(isIn(job, jobs)) << line;
+      for (const auto& option : allMatches(line, "(--[a-z0-9-]+)"))
+        EXPECT_TRUE(isIn(option, optionsOf(help(program, 10000, job)))) << line;
+    }
+  }
+}
+
 TEST(Help, InAVeryWideWindowHasEachOptionOnOneLineWithTheSameWords)
 {
   const auto squeezed = [](const std::string& text) {
@@ -163,7 +206,9 @@ TEST(Help, InAVeryWideWindowHasEachOptionOnOneLineWithTheSameWords)
   std::istringstream lines(wide.substr(wide.find("\n\n")));
   for (std::string line; std::getline(lines, line);)
     EXPECT_TRUE(std::regex_match(
-        line, std::regex("|[A-Z][a-z ]+:|  (-., )?--[a-z-]+( [^ ]+)*  +[^ ].*")))
+        line,
+        std::regex(
+            "|[A-Z][a-z ]+:|  (-., )?--[a-z-]+( [^ ]+)*  +[^ ].*|Errors and .*")))
         << line;
 }
 
@@ -209,7 +254,7 @@ TEST(ManPages, SayWhatTheHelpSays)
   const std::string shown = shownPage(pageOf("pcl_slam6d")).out;
   for (const char* words :
        {"pcl_slam6d - registers the 3D scans of a folder",
-        "pcl_slam6d SCAN_DIR -o OUT_DIR [options]",
+        "pcl_slam6d SCAN_DIR|SITE.e57|DRIVE.bag|FILE FILE ... -o OUT_DIR [options]",
         "-o, --output OUT_DIR\n              folder to write; made if missing\n",
         "lines `name = value`; the command line wins",
         ".g2o, or lines 'a b' with the indices",

@@ -244,7 +244,7 @@ TEST_F(Intrude, WantsPosesAndGroundAndScansOfItsOwn)
   expectError(run({"intrude", out, "-o", folder_ / "again", "--people", "1"}),
               kSimulate,
               1,
-              {"has a field dynamic already"});
+              {"already has a field dynamic"});
   expectError(run({"intrude",
                    scans_->path().string(),
                    "-o",

@@ -281,7 +281,7 @@ TEST(OptionTable, BroughtValuesObeyTheRules)
                 .title.find("run/summary.json: option 'count': the argument"),
             std::string::npos);
   EXPECT_EQ(brought({{"config", "x"}}).title,
-            "run/summary.json: option 'config': there is no such option");
+            "run/summary.json: option 'config': no option has this name");
 }
 
 TEST(OptionTable, NumbersAreReadWhateverTheLocale)

@@ -190,7 +190,7 @@ TEST(Planes, OfARunNeedALibraryWhoseAbsenceIsToldBeforeTheWork)
       pcl6d::test::slam(folder / "no scans", run, {"--planes"}),
       "pcl_slam6d",
       1,
-      {"--planes: ", "libpcl6d_planes_of_run.so is not there", "builds it"});
+      {"--planes: ", "libpcl6d_planes_of_run.so is missing", "builds it"});
   EXPECT_FALSE(fs::exists(run));
   const auto outcome = pcl6d::test::slam(corridor(), run, {"--last", "1"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

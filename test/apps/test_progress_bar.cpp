@@ -2,6 +2,7 @@
 // The progress that a run shows: on a pseudo terminal, in a file, and not at all.
 #include "common/progress_bar.h"
 #include "corridor_run.h"
+#include "support/folders.h"
 
 #include <gtest/gtest.h>
 

@@ -55,10 +55,9 @@ TEST(RunMain, TellsEveryExceptionInWords)
   expectWords(std::bad_alloc(), "not enough memory");
   expectWords(std::bad_array_new_length(), "not enough memory");
   expectWords(std::length_error("vector::reserve"),
-              "not enough memory: more was asked for than there can be "
-              "(vector::reserve)");
+              "not enough memory: the request exceeds every limit (vector::reserve)");
   expectWords(std::system_error(EAGAIN, std::generic_category()),
-              "no more threads, or no memory for one");
+              "no more threads, or no memory for a thread");
   expectWords(42, "an exception of an unknown kind was thrown: i");
   expectWords(std::runtime_error("a\nb\x1b[31m"), "a\\nb\\x1b[31m");
   expectWords(std::system_error(0, std::generic_category(), "x.pcd: cannot be read"),

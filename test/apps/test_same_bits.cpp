@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rule "same binary, same input, same bits on any x86-64 CPU" (portable_math.h).
+#include "support/folders.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +53,7 @@ TEST(SameBits, ComeFromTheCLibrarysOtherCode)
     const std::string simulate =
         PCL6D_BIN_DIR "/pcl_slam6d_simulate corridor --scans 3 --quiet -o ";
     EXPECT_EQ(outputOf(simulate + out + "/scans", is_plain_cpu), "exit 0\n");
-    // Three scans are too far apart for all to be believed: exit code 3 is fine.
+    // Three scans are too far apart for all to be accepted: exit code 3 is fine.
     const std::string slam = PCL6D_BIN_DIR "/pcl_slam6d --quiet ";
     const std::string printed =
         outputOf(slam + out + "/scans -o " + out + "/map", is_plain_cpu);

@@ -221,8 +221,7 @@ TEST(SemanticMap, RefusesAWrongCommandLine)
 {
   const TrueMap& map = trueMap();
   const std::string run = map.run().string();
-  expectError(program({}), 2, {"build, query, info"});
-  expectError(program({"find"}), 2, {"'find'"});
+  expectError(program({"find"}), 2, {"'find'", "build, query, info"});
   expectError(program({"build"}), 2, {"RUN_DIR"});
   expectError(program({"build", run, "--threads", "-1"}), 2, {"--threads = -1"});
   expectError(program({"build", run, "--objects", "a.json", "--model", "a.ply"}),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the name of a method in share/suites promises, its options set: a table tells no method
 // that did not run.
+#include "support/folders.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every program with a small real job where the surroundings are odd: a locale that is not
 // installed, one that writes 0,5, standard output that is full or closed.
+#include "support/folders.h"
 #include "support/run_program.h"
 #include "support/sanitizer.h"
 

@@ -57,4 +57,5 @@ elif [ $part = modules ] && [ -f $of_programs/CTestTestfile.cmake ]; then
   filter+=(--exclude-regex "^($names)\\.")
 fi
 echo "== 3/3 tests"
-ctest --test-dir $tests --output-on-failure --no-tests=error -j "$(nproc)" "${filter[@]}" "$@"
+# A test that hangs is named before the time of the whole step is up.
+ctest --test-dir $tests --output-on-failure --no-tests=error --timeout 600 -j "$(nproc)" "${filter[@]}" "$@"

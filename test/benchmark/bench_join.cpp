@@ -104,7 +104,7 @@ run(const std::vector<std::string>& arguments)
         const std::size_t middle = middleOf(set, joined, group);
         for (const std::size_t i : group)
           if (group.size() == 1)
-            std::cout << "  " << i << " loose: " << joined.scans[i].reason << '\n';
+            std::cout << "  " << i << " loose: " << joined.scans[i].rejection << '\n';
           else if (!isRight(set, joined, middle, i))
             std::cout << "  " << i << " WRONG: at "
                       << (joined.scans[middle].T_group_scan.inverse() *

@@ -140,7 +140,7 @@ run(const std::vector<std::string>& arguments)
     std::size_t points = 0;
     std::vector<std::vector<PointMotion>> told;
     for (std::size_t i = 0; i < set.scans.size(); ++i) {
-      told.push_back(judges.judge(i, set.measured[i]));
+      told.push_back(judges.evaluate(i, set.measured[i]));
       points += set.measured[i].size();
     }
     const double spent = processorSeconds() - start;
@@ -163,7 +163,7 @@ run(const std::vector<std::string>& arguments)
     if (knobs["peers"])
       for (const MovingPeer& peer : movingPeers()) {
         const double begun = processorSeconds();
-        const auto by_peer = peer.judge(set.measured, set.T_world_scan);
+        const auto by_peer = peer.evaluate(set.measured, set.T_world_scan);
         const double its = processorSeconds() - begun;
         Score theirs;
         for (std::size_t i = 0; i < by_peer.size(); ++i)

@@ -119,7 +119,7 @@ public:
         continue;
       const double overlap = overlapOf(i, j);
       if (taken[classOf(overlap)]++ < wanted)
-        judge(i, j, overlap);
+        evaluate(i, j, overlap);
     }
     print();
   }
@@ -141,7 +141,7 @@ private:
   }
 
   void
-  judge(std::size_t i, std::size_t j, double overlap)
+  evaluate(std::size_t i, std::size_t j, double overlap)
   {
     judgeOurs(i, j, overlap);
     if (knobs_.numbers.at("peers") == 0)
@@ -198,10 +198,10 @@ private:
     std::cout << "pair " << set_.name << ' ' << i << ' ' << j << ' ' << overlap << ' '
               << seconds << ' ' << toString(found.answer) << ' '
               << set_.scans[i].selfContradiction() << ' '
-              << set_.scans[j].selfContradiction() << ' ' << found.reason << '\n';
+              << set_.scans[j].selfContradiction() << ' ' << found.rejection << '\n';
     for (const auto& one : found.candidates)
       show("cand", truth(i, j), one);
-    show("truth", truth(i, j), judgePlace(scans_[i], scans_[j], truth(i, j)));
+    show("truth", truth(i, j), evaluatePlace(scans_[i], scans_[j], truth(i, j)));
   }
 
   static void
@@ -215,8 +215,8 @@ private:
               << one.overlap << ' ' << one.contradiction << ' ' << s.confirmed << ' '
               << s.free << ' ' << s.behind << ' ' << s.edge << ' ' << s.unseen << ' '
               << s.patches << ' ' << s.confirmed_patches << ' '
-              << s.contradicted_patches << ' ' << one.opinion.probability_wrong << ' '
-              << one.evidence.leaving() << ' ' << one.evidence.deviation() << ' '
+              << s.contradicted_patches << ' ' << one.test_result.probability_wrong
+              << ' ' << one.evidence.leaving() << ' ' << one.evidence.deviation() << ' '
               << fit.open_directions << ' ' << fit.residual << ' ' << fit.overlap
               << '\n';
   }

@@ -36,6 +36,8 @@ const std::vector<Way> kWays = {
     {"uos", ScanFormat::kUos},
     {"uosr", ScanFormat::kUosr},
     {"xyz", ScanFormat::kXyz},
+    {"las", ScanFormat::kLas},
+    {"laz", ScanFormat::kLaz},
 };
 
 /** \brief A scan in memory and, written by us, as a file. */

@@ -43,7 +43,7 @@ print(const LinkSet& set, const SeenLink& one, double background)
   const auto& [link, evidence, milliseconds] = one;
   const SightEvidence& sight = evidence.sight;
   const SurfaceFit& fit = evidence.fit;
-  const LinkOpinion opinion = judgeLink(evidence, background);
+  const LinkTestResult test_result = testLink(evidence, background);
   std::cout << set.name << ',' << link.kind << ',' << link.first << ',' << link.second
             << ',' << link.off << ',' << link.turn << ',' << set.voxel << ','
             << set.scans[link.first].noise() << ',' << sight.confirmed << ','
@@ -52,7 +52,8 @@ print(const LinkSet& set, const SeenLink& one, double background)
             << ',' << evidence.leaving() << ',' << evidence.deviation() << ','
             << fit.mahalanobisSq() << ',' << fit.open_directions << ',' << fit.spread
             << ',' << fit.pairs << ',' << milliseconds << ',' << background << ','
-            << opinion.probability_wrong << ',' << toString(opinion.trust) << '\n';
+            << test_result.probability_wrong << ',' << toString(test_result.trust)
+            << '\n';
 }
 
 int
@@ -64,7 +65,7 @@ run(const std::vector<std::string>& arguments)
       << "set,kind,first,second,off,turn,voxel,noise,confirmed,free,points,patches,"
          "contradicted,overlap,residual,displacement,deviation,mahalanobis_sq,open,"
          "spread,pairs,ms,background,wrong,trust\n";
-  std::vector<JudgedLink> judged;
+  std::vector<TestedLink> evaluated;
   for (const std::string& argument : arguments) {
     const auto equals = argument.find('=');
     if (equals != std::string::npos) {
@@ -92,16 +93,16 @@ run(const std::vector<std::string>& arguments)
     for (const SeenLink& one : links) {
       print(set, one, background);
       const TestedLink& link = one.link;
-      judged.push_back({set.name,
-                        link.kind,
-                        link.off,
-                        link.turn,
-                        one.evidence,
-                        judgeLink(one.evidence, background).trust});
+      evaluated.push_back({set.name,
+                           link.kind,
+                           link.off,
+                           link.turn,
+                           one.evidence,
+                           testLink(one.evidence, background).trust});
     }
   }
-  printVerdicts(judged, std::cerr);
-  printLeaveOneOut(judged, std::cerr);
+  printVerdicts(evaluated, std::cerr);
+  printLeaveOneOut(evaluated, std::cerr);
   return 0;
 }
 } // namespace

@@ -19,7 +19,7 @@ struct MovingPeer {
   std::function<std::vector<std::vector<PointMotion>>(
       const std::vector<Points>& scans,
       const std::vector<Eigen::Isometry3d>& T_world_scan)>
-      judge;
+      evaluate;
 };
 
 /** \return counting of hits and passing rays in voxels, as OctoMap does, and range images

@@ -132,9 +132,9 @@ look(const Points& scan, const Eigen::Isometry3d& T_first_scan, Map& map)
 }
 
 std::vector<std::vector<PointMotion>>
-judge(const std::vector<Points>& scans,
-      const std::vector<Eigen::Isometry3d>& T_world_scan,
-      bool reverts)
+evaluate(const std::vector<Points>& scans,
+         const std::vector<Eigen::Isometry3d>& T_world_scan,
+         bool reverts)
 {
   std::vector<Eigen::Isometry3d> T_first_scan;
   for (const auto& T : T_world_scan)
@@ -155,14 +155,14 @@ std::vector<std::vector<PointMotion>>
 removeAndRevert(const std::vector<Points>& scans,
                 const std::vector<Eigen::Isometry3d>& T_world_scan)
 {
-  return judge(scans, T_world_scan, true);
+  return evaluate(scans, T_world_scan, true);
 }
 
 std::vector<std::vector<PointMotion>>
 removeByImages(const std::vector<Points>& scans,
                const std::vector<Eigen::Isometry3d>& T_world_scan)
 {
-  return judge(scans, T_world_scan, false);
+  return evaluate(scans, T_world_scan, false);
 }
 
 } // namespace pcl6d::bench

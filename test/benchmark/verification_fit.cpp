@@ -10,23 +10,23 @@
 namespace pcl6d::bench {
 
 namespace {
-using Links = std::vector<const JudgedLink*>;
+using Links = std::vector<const TestedLink*>;
 
 bool
-isRight(const JudgedLink& link)
+isRight(const TestedLink& link)
 {
   return link.kind == "right" || link.kind == "truth";
 }
 
 bool
-isElsewhere(const JudgedLink& link)
+isElsewhere(const TestedLink& link)
 {
   return link.kind == "minimum" || link.kind == "fold" || link.kind == "apart";
 }
 
 /** \return whether it is a known shift or turn that must be noticed */
 bool
-isShifted(const JudgedLink& link)
+isShifted(const TestedLink& link)
 {
   constexpr double kLeast = 0.05; // [m]
   const double way =
@@ -36,31 +36,31 @@ isShifted(const JudgedLink& link)
 }
 
 std::vector<std::string>
-setsOf(const std::vector<JudgedLink>& links)
+setsOf(const std::vector<TestedLink>& links)
 {
   std::vector<std::string> sets;
-  for (const JudgedLink& link : links)
+  for (const TestedLink& link : links)
     if (std::find(sets.begin(), sets.end(), link.set) == sets.end())
       sets.push_back(link.set);
   return sets;
 }
 
 Links
-linksWhere(const std::vector<JudgedLink>& links,
-           const std::function<bool(const JudgedLink&)>& holds)
+linksWhere(const std::vector<TestedLink>& links,
+           const std::function<bool(const TestedLink&)>& holds)
 {
   Links found;
-  for (const JudgedLink& link : links)
+  for (const TestedLink& link : links)
     if (holds(link))
       found.push_back(&link);
   return found;
 }
 
 std::size_t
-countOf(const Links& links, const std::function<bool(const JudgedLink&)>& holds)
+countOf(const Links& links, const std::function<bool(const TestedLink&)>& holds)
 {
   return static_cast<std::size_t>(
-      std::count_if(links.begin(), links.end(), [&](const JudgedLink* link) {
+      std::count_if(links.begin(), links.end(), [&](const TestedLink* link) {
         return holds(*link);
       }));
 }
@@ -72,7 +72,7 @@ struct ContradictionFit {
 };
 
 double
-shareOf(const JudgedLink& link)
+shareOf(const TestedLink& link)
 {
   const SightEvidence& sight = link.evidence.sight;
   return static_cast<double>(sight.contradicted_patches) /
@@ -85,7 +85,7 @@ fitOf(const Links& links)
 {
   constexpr std::size_t kTelling = 30; // patches
   double right = 0, wrong = 0, wrong_sq = 0, num_right = 0, num_wrong = 0;
-  for (const JudgedLink* link : links) {
+  for (const TestedLink* link : links) {
     if (link->evidence.sight.patches < kTelling)
       continue;
     const double share = shareOf(*link);
@@ -121,7 +121,7 @@ logBetaBinomial(double k, double n, double a, double b)
 
 /** \return the probability that a link belongs elsewhere, by a fit */
 double
-elsewhereBy(const ContradictionFit& fit, const JudgedLink& link)
+elsewhereBy(const ContradictionFit& fit, const TestedLink& link)
 {
   constexpr double kPrecision = 40, kPriorOdds = 0.1; // as calibration.h
   const auto n = static_cast<double>(link.evidence.sight.patches);
@@ -136,10 +136,10 @@ elsewhereBy(const ContradictionFit& fit, const JudgedLink& link)
 
 /** \return the limit of a score (more is better) that doubts 3 % of right links */
 double
-limitOf(const Links& links, const std::function<double(const JudgedLink&)>& score)
+limitOf(const Links& links, const std::function<double(const TestedLink&)>& score)
 {
   std::vector<double> scores;
-  for (const JudgedLink* link : links)
+  for (const TestedLink* link : links)
     if (isRight(*link))
       scores.push_back(score(*link));
   if (scores.empty())
@@ -155,7 +155,7 @@ ratio(std::size_t count, std::size_t of)
 }
 
 void
-printLeftOut(const std::vector<JudgedLink>& all,
+printLeftOut(const std::vector<TestedLink>& all,
              const std::string& set,
              std::ostream& out)
 {
@@ -165,12 +165,12 @@ printLeftOut(const std::vector<JudgedLink>& all,
   const Links wrong =
       linksWhere(all, [&](const auto& l) { return l.set == set && isElsewhere(l); });
   const ContradictionFit fit = fitOf(others);
-  const auto isGood = [&](const JudgedLink& l) {
+  const auto isGood = [&](const TestedLink& l) {
     return elsewhereBy(fit, l) < 0.01 && l.evidence.sight.patches >= 30;
   };
-  const auto isDoubted = [&](const JudgedLink& l) { return elsewhereBy(fit, l) > 0.9; };
-  const auto overlap = [](const JudgedLink& l) { return l.evidence.fit.overlap; };
-  const auto rms = [](const JudgedLink& l) {
+  const auto isDoubted = [&](const TestedLink& l) { return elsewhereBy(fit, l) > 0.9; };
+  const auto overlap = [](const TestedLink& l) { return l.evidence.fit.overlap; };
+  const auto rms = [](const TestedLink& l) {
     return -l.evidence.fit.residual / l.evidence.voxel;
   };
   const double least = limitOf(others, overlap), most = limitOf(others, rms);
@@ -184,7 +184,7 @@ printLeftOut(const std::vector<JudgedLink>& all,
 } // namespace
 
 void
-printVerdicts(const std::vector<JudgedLink>& links, std::ostream& out)
+printVerdicts(const std::vector<TestedLink>& links, std::ostream& out)
 {
   out << "| set | right: good / weak / wrong | other places: good / of | wrong shifts "
          "and "
@@ -194,7 +194,7 @@ printVerdicts(const std::vector<JudgedLink>& links, std::ostream& out)
       return linksWhere(links, [&](const auto& l) { return l.set == set && holds(l); });
     };
     const auto with = [](LinkTrust trust) {
-      return [trust](const JudgedLink& l) { return l.trust == trust; };
+      return [trust](const TestedLink& l) { return l.trust == trust; };
     };
     const Links right = of(isRight), wrong = of(isElsewhere), shifted = of(isShifted);
     const std::size_t good = countOf(right, with(LinkTrust::kGood));
@@ -207,7 +207,7 @@ printVerdicts(const std::vector<JudgedLink>& links, std::ostream& out)
 }
 
 void
-printLeaveOneOut(const std::vector<JudgedLink>& links, std::ostream& out)
+printLeaveOneOut(const std::vector<TestedLink>& links, std::ostream& out)
 {
   const std::vector<std::string> sets = setsOf(links);
   if (sets.size() < 2)

@@ -30,7 +30,7 @@ struct LinkSet {
 LinkSet
 readLinkSet(const std::filesystem::path& folder, int every, std::size_t most);
 
-/** \brief A relative pose to be judged, and how far it is from the reference. */
+/** \brief A relative pose to be evaluated, and how far it is from the reference. */
 struct TestedLink {
   std::string kind; ///< "right", "truth", "minimum", "fold", "apart" or "shift ..."
   std::size_t first = 0, second = 0;

@@ -13,7 +13,7 @@ namespace pcl6d::faults {
 struct Limits {
   double seconds = 20; ///< of the clock, then it is killed with all that it started
   /** Memory of its own beyond which allocations fail: it protects the machine. What is
-   * too much is judged by the peak that the system measured. */
+   * too much is evaluated by the peak that the system measured. */
   std::size_t memory = std::size_t{3} << 30;
   std::size_t file = std::size_t{1} << 30; ///< size of a file
 };

@@ -205,7 +205,7 @@ listingOf(const fs::path& folder)
 }
 
 std::vector<Finding>
-judge(const Case& one, const Trace& trace)
+evaluate(const Case& one, const Trace& trace)
 {
   std::vector<Finding> findings;
   const auto add = [&](const std::string& kind, const std::vector<std::string>& found) {

@@ -26,6 +26,6 @@ struct Trace {
 
 /** \return what is wrong, in the order of findingKinds(); nothing: it passed */
 std::vector<Finding>
-judge(const Case& one, const Trace& trace);
+evaluate(const Case& one, const Trace& trace);
 
 } // namespace pcl6d::faults

@@ -125,7 +125,7 @@ run(const Settings& s)
         begin + std::chrono::milliseconds(static_cast<std::int64_t>(1000 * s.seconds));
   runCases(cases, options, [&](const Case& one, const Trace& trace) {
     std::vector<Finding> findings;
-    for (const Finding& finding : judge(one, trace))
+    for (const Finding& finding : evaluate(one, trace))
       if (!isAccepted(one, finding, acceptances))
         findings.push_back(finding);
     std::cout << report.add(one, trace, findings) << std::flush;

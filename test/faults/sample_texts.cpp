@@ -22,6 +22,34 @@ constexpr const char* kScene = R"({
 }
 )";
 
+constexpr const char* kSitePtx = R"(2
+2
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+1 0 0 0
+0 1 0 0
+0 0 1 0
+0 0 0 1
+0 0 0 0.5
+1 0 1 0.2
+1 0 2 0.3
+0 1 0 0.4
+1
+2
+4 5 6
+0 1 0
+-1 0 0
+0 0 1
+0 1 0 0
+-1 0 0 0
+0 0 1 0
+4 5 6 1
+7 8 9 0.25 255 128 1
+1 2 3 0.5 7 8 9
+)";
+
 constexpr const char* kObjects = R"({
  "schema_version": 1, "seconds": 0.5,
  "objects": [
@@ -208,6 +236,11 @@ sampleTexts()
       {"angles.csv",
        "-20,0\n-15,0.1\n-10,0.2\n-5,0.3\n0,0.4\n5,0.5\n10,0.6\n15,0.7\n20,0.8\n"},
       {"waypoints.txt", "1 1 0\n3 1 0\n3 4 0\n"},
+      {"scan.csv",
+       "\xEF\xBB\xBFTime;X;Y;Z;R;G;B\n1,5;1,25;0;3;1;2;3\n1,6;2;0,5;-3;4;5;6\n1,7;0;1;"
+       "2;7;8;9\n"},
+      {"scan.pts", "3\n1 2 3 -1035 97 59 38\n4 5 6 12 0 0 255\n7 8 9 1 2 3 4\n"},
+      {"site.ptx", kSitePtx},
       {"indices.txt", "0\n1\n2\n5\n7\n11\n13\n17\n19\n23\n"},
       {"guess.txt", "0.1 0.2 0 0 0 5\n"},
       {"links.txt", "0 1\n1 2\n0 3\n"},

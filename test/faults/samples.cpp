@@ -135,9 +135,12 @@ makeScans(const Maker& run, const fs::path& folder)
   run("pcl_slam6d_convert", convert + ".3d");
   run("pcl_slam6d_convert", convert + ".bin");
   run("pcl_slam6d_convert", convert + ".xyz");
+  run("pcl_slam6d_convert", convert + ".las");
+  run("pcl_slam6d_convert", convert + ".laz");
   for (const char* const format : {"uos", "uosr", "kitti", "xyz", "ply", "pcd"})
     run("pcl_slam6d_convert",
         std::string("scans scans -o folder_") + format + " --format " + format);
+  run("pcl_slam6d_convert", "scans scans -o site.e57");
   makeFarScans(folder);
 }
 
@@ -171,6 +174,7 @@ makeRun(const Maker& run, const fs::path& folder)
   fs::copy(folder / "objects.json", folder / "run/objects.json");
   forgetSums(folder / "run/summary.json");
   fs::remove(folder / "run/planes.png");
+  run("pcl_slam6d", "site.e57 -o run_of_site --last 2 --no-picture --quiet");
   fs::remove(folder / "run/hulls.ply");
   fs::copy(folder / "run/graph.g2o", folder / "graph.g2o");
   run("pcl_slam6d_graph", "convert graph.g2o -o graph.toro");

@@ -47,7 +47,7 @@ protected:
     options.limits.seconds = seconds;
     Kinds kinds;
     runCases({one}, options, [&](const Case& ran, const Trace& trace) {
-      for (const Finding& finding : judge(ran, trace))
+      for (const Finding& finding : evaluate(ran, trace))
         kinds.insert(finding.kind);
     });
     return kinds;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluate/suite_file.h"
+#include "evaluate/suite/suite_file.h"
 #include "fuzz/fuzz_target.h"
 #include "fuzz/targets.h"
 

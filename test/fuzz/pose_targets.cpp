@@ -3,6 +3,7 @@
 #include "fuzz/targets.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/control_points_io.h>
 #include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/link_list_io.h>
 #include <pcl6d/io/pose_graph_io.h>
@@ -99,6 +100,28 @@ link_list(const std::uint8_t* data, std::size_t size)
   return readAsFile(".txt", data, size, [](const auto& file) {
     for (const auto& [from, to] : readLinkList(file))
       expect(from != to, "no link of a scan to itself");
+  });
+}
+
+int
+control_points(const std::uint8_t* data, std::size_t size)
+{
+  return readAsFile(".csv", data, size, [](const auto& file) {
+    for (const auto& point : readControlPoints(file)) {
+      expect(point.position.allFinite(), "finite coordinates");
+      expect(!point.sigma || *point.sigma > 0, "sigma above 0");
+    }
+  });
+}
+
+int
+scan_targets(const std::uint8_t* data, std::size_t size)
+{
+  return readAsFile(".csv", data, size, [](const auto& file) {
+    for (const auto& target : readScanTargets(file, {"scan000.pcd", "b.pcd"}, {0, 7})) {
+      expect(target.position.allFinite(), "finite coordinates");
+      expect(target.scan < 2, "a scan that is there");
+    }
   });
 }
 

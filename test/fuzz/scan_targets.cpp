@@ -3,6 +3,7 @@
 #include "fuzz/targets.h"
 
 #include <pcl6d/io/pcd_io.h>
+#include <pcl6d/io/ptx_io.h>
 #include <pcl6d/io/scan_reader.h>
 
 #include <cmath>
@@ -63,6 +64,60 @@ int
 kitti(const std::uint8_t* data, std::size_t size)
 {
   return readScanOf(ScanFormat::kKitti, data, size);
+}
+
+int
+bin(const std::uint8_t* data, std::size_t size)
+{
+  // The first byte names the layout, so that each is met.
+  if (size == 0)
+    return 0;
+  return readAsFile(".bin", data + 1, size - 1, [&](const auto& file) {
+    ScanReaderOptions options;
+    options.bin_layout = static_cast<BinLayout>(data[0] % 11);
+    const ScanCloud scan = readScanCloud(file, options);
+    expect(scan.cloud.data.size() ==
+               std::size_t{scan.cloud.width} * scan.cloud.point_step,
+           "the cloud has its bytes");
+  });
+}
+
+int
+csv(const std::uint8_t* data, std::size_t size)
+{
+  readAsFile(".csv", data, size, [](const auto& file) {
+    ScanReaderOptions options;
+    options.columns = {"z", "", "x", "y", "r", "g", "b", "time", "ring"};
+    readScanCloud(file, options);
+  });
+  return readScanOf(ScanFormat::kCsv, data, size);
+}
+
+int
+pts(const std::uint8_t* data, std::size_t size)
+{
+  return readScanOf(ScanFormat::kPts, data, size);
+}
+
+int
+ptx(const std::uint8_t* data, std::size_t size)
+{
+  readAsFile(".ptx", data, size, [](const auto& file) {
+    for (const auto& scan : listPtxScans(file)) {
+      expect(scan.T_world_scan.matrix().allFinite(), "a pose is finite");
+      const auto cloud = readPtxScan(file, scan).cloud;
+      expect(cloud.data.size() ==
+                 std::size_t{scan.columns} * scan.rows * cloud.point_step,
+             "a point for each cell");
+    }
+  });
+  return readScanOf(ScanFormat::kPtx, data, size);
+}
+
+int
+las(const std::uint8_t* data, std::size_t size)
+{
+  return readScanOf(ScanFormat::kLas, data, size);
 }
 
 int

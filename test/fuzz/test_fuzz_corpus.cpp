@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fuzz/fuzz_target.h"
+#include "support/folders.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>

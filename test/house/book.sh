@@ -15,8 +15,8 @@ table() {
   cat <<'TEXT'
 # The book, section by section
 
-Where each method of A. Nüchter, *3D Robotic Mapping* (Springer 2009) is: the header and the name in it, the words of a command line that run it, the
-test suite that holds it to the book. `-`: as a library alone. Made from `book.tsv` by `test/house/book.sh --write`; the test `house.book` checks every row.
+Methods of A. Nüchter, *3D Robotic Mapping* (Springer 2009): for each, the header and the name in it, a command line that runs it, and the
+test suite that checks it against the book. `-`: only in the library. Made from `book.tsv` by `test/house/book.sh --write`; the test `house.book` checks every row.
 
 | section | method | header | name | program | test |
 |---|---|---|---|---|---|

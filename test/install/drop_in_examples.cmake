@@ -21,6 +21,7 @@ run(COMMAND ${work}/examples_build/place_drop_in PRINTS "place: unique" "of thes
 run(COMMAND ${work}/examples_build/verify_drop_in PRINTS "near +PCL: converged.*PCL6D: good" "told from the right one")
 run(COMMAND ${work}/examples_build/moving_drop_in PRINTS "the walker is gone, the room stands")
 run(COMMAND ${work}/examples_build/slam_in_memory PRINTS "7 of 7 scans matched")
+run(COMMAND ${work}/examples_build/slam_stage PRINTS "back at start: [1-9].* links" "used by the relaxation")
 run(COMMAND ${work}/examples_build/loop_closing_drop_in PRINTS "with pcl6d::ELCH .ok.")
 run(COMMAND ${work}/examples_build/relaxation_drop_in PRINTS "pcl6d::LUM ok")
 run(COMMAND ${work}/examples_build/object_localization_drop_in PRINTS "the block is found")

@@ -14,24 +14,31 @@ list(JOIN rows "\n" text)
 set(poses ${work}/plugin/odometry.txt)
 file(WRITE ${poses} "${text}\n")
 
-# The same rows as CSV.
-file(GLOB files RELATIVE ${scans} ${scans}/*.xyz)
-foreach(file IN LISTS files)
-  file(STRINGS ${scans}/${file} rows)
-  list(TRANSFORM rows REPLACE "^([^ ]+) ([^ ]+) ([^ ]+).*" "\\1,\\2,\\3,1")
-  list(JOIN rows "\n" text)
-  string(REPLACE ".xyz" ".csv" file ${file})
-  file(WRITE ${scans}/${file} "x,y,z,intensity\n${text}\n")
-endforeach()
+# The same points in polar coordinates: azimuth, elevation, range.
+find_program(python python3 REQUIRED)
+file(WRITE ${work}/plugin/polar.py "
+import math, pathlib, sys
+for file in pathlib.Path(sys.argv[1]).glob('*.xyz'):
+    rows = ['azimuth,elevation,range,intensity']
+    for line in file.read_text().splitlines():
+        if line.startswith('#'):
+            continue
+        x, y, z = map(float, line.split()[:3])
+        flat = math.hypot(x, y)
+        rows.append('%.7f,%.7f,%.7f,1' % (math.degrees(math.atan2(y, x)),
+                    math.degrees(math.atan2(z, flat)), math.hypot(flat, z)))
+    file.with_suffix('.polar').write_text('\\n'.join(rows) + '\\n')
+")
+run(COMMAND ${python} ${work}/plugin/polar.py ${scans})
 
 set(plugin ${work}/examples_build/libslam6d_plugin.so)
 run(COMMAND env -i ${prefix}/bin/pcl_slam6d ${scans} -o ${work}/plugin/out --no-picture
-  --poses ${poses} --plugin ${plugin} --format csv --metric point
+  --poses ${poses} --plugin ${plugin} --format polar --metric point
   --minimiser level
-  PRINTS "plug-in level scanners and CSV files .*minimiser level, reader csv"
+  PRINTS "plug-in level scanners and polar files .*minimiser level, reader polar"
     "4 scans")
 file(READ ${work}/plugin/out/summary.json summary)
-foreach(pair IN ITEMS minimiser:level format:csv)
+foreach(pair IN ITEMS minimiser:level format:polar)
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 option)
   list(GET pair 1 word)
@@ -41,7 +48,7 @@ foreach(pair IN ITEMS minimiser:level format:csv)
   endif()
 endforeach()
 
-file(WRITE ${scans}/scan002.csv "x,y,z,intensity\n1,2,three,4\n")
+file(WRITE ${scans}/scan002.polar "azimuth,elevation,range,intensity\n1,2,three,4\n")
 run(COMMAND env -i ${prefix}/bin/pcl_slam6d ${scans} -o ${work}/plugin/broken --no-picture
-  --poses ${poses} --plugin ${plugin} --format csv EXIT 1
-  PRINTS "error: .*scan002.csv: format csv: .*line 2: expected x,y,z,intensity")
+  --poses ${poses} --plugin ${plugin} --format polar EXIT 1
+  PRINTS "error: .*scan002.polar: format polar: .*line 2: expected azimuth,elevation,range,intensity")

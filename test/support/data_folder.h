@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -11,16 +10,8 @@ namespace pcl6d::test {
 
 /** \return the folder of a recorded data set: $PCL6D_DATA/name or ../shared/data/name
  * beside the source tree; empty if it is not there */
-inline std::filesystem::path
-dataFolder(const std::string& name)
-{
-  const char* root = std::getenv("PCL6D_DATA");
-  const std::filesystem::path folder =
-      (root ? std::filesystem::path(root)
-            : std::filesystem::path(PCL6D_SOURCE_DIR).parent_path() / "shared/data") /
-      name;
-  return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
-}
+std::filesystem::path
+dataFolder(const std::string& name);
 
 } // namespace pcl6d::test
 

@@ -5,7 +5,7 @@
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/trajectory.h>
-#include <pcl6d/registration/motion_icp.h>
+#include <pcl6d/deskew/motion_icp.h>
 #include <pcl6d/registration/twist.h>
 
 #include <algorithm>

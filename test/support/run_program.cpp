@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/folders.h"
 #include "support/run_program.h"
 
 #include <boost/process.hpp>

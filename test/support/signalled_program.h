@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "support/folders.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 

@@ -7,6 +7,14 @@ find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(Boost 1.71 REQUIRED COMPONENTS program_options filesystem)
 find_package(Threads REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(EXPAT 2.4 REQUIRED) # the XML of E57; before 2.4 without a bound on entities
+find_package(BZip2 REQUIRED) # the recordings of robots, with the next three
+find_package(Lz4 REQUIRED)
+find_package(OctoMap REQUIRED) # maps for planners
+find_package(GDAL QUIET) # GeoTIFF, if it is there
+find_package(PROJ REQUIRED CONFIG) # names of coordinate systems
+find_package(Zstd REQUIRED)
+find_package(SQLite3 REQUIRED)
 find_package(nlohmann_json 3.9 REQUIRED)
 find_package(embree 3 REQUIRED)
 if(PCL6D_MPI)

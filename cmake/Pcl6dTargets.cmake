@@ -189,8 +189,8 @@ endfunction()
 #                [PROGRAMS app ...] [LABELS data|slow ...] [LOCK name] [ALONE sources ...]
 #                [BATCH n])
 # makes a GoogleTest program, each of whose test suites is one test of ctest: what a suite sets
-# up for its tests is made once, and one test alone runs by --gtest_filter. The compile
-# definition PCL6D_BIN_DIR names the folder of the PROGRAMS, which are built before it.
+# up for its tests is made once, and one test alone runs by --gtest_filter. The PROGRAMS, whose
+# folder is PCL6D_BIN_DIR (test/support/folders.h), are built before it.
 # Tests with the same LOCK never run at the same time. BATCH sources are compiled as one,
 # as the headers cost most of the time; ALONE are those that need a unit to themselves.
 function(pcl6d_add_test name)
@@ -217,10 +217,6 @@ function(pcl6d_add_test name)
     UNITY_BUILD_BATCH_SIZE ${ARG_BATCH}
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test/bin)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
-  target_compile_definitions(${name} PRIVATE
-    PCL6D_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}"
-    PCL6D_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    PCL6D_BUILD_DIR="${CMAKE_BINARY_DIR}")
   list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
   target_link_libraries(${name} PRIVATE
     ${modules} ${ARG_LINK_PRIVATE} pcl6d_test_support GTest::gtest_main)
@@ -273,33 +269,10 @@ function(pcl6d_add_benchmark name)
   _pcl6d_need_worlds(${name} ${ARG_DEPENDS})
 endfunction()
 
-# Headers that have moved keep their former path for one version, as a header that says so
-# and includes the new one: cmake/former_headers.txt has a line `former new` for each.
-function(pcl6d_install_former_headers)
-  set(table ${PROJECT_SOURCE_DIR}/cmake/former_headers.txt)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
-  file(STRINGS ${table} rows)
-  foreach(row IN LISTS rows)
-    string(REPLACE " " ";" row "${row}")
-    list(GET row 0 former)
-    list(GET row 1 new)
-    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/former/pcl6d/${former} @ONLY CONTENT
-"// SPDX-License-Identifier: BSD-3-Clause
-// Moved to <pcl6d/@new@>; this path goes with the next version.
-#pragma once
-#pragma message(\"pcl6d/@former@ has moved: include pcl6d/@new@\")
-#include <pcl6d/@new@>
-")
-  endforeach()
-  install(DIRECTORY ${PROJECT_BINARY_DIR}/former/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-    COMPONENT common)
-endfunction()
-
 # Installs pcl6dConfig.cmake, which knows every module and what it needs.
 function(pcl6d_install_package)
   get_property(PCL6D_MODULES GLOBAL PROPERTY PCL6D_MODULES)
   set(PCL6D_MODULE_TABLE "")
-  pcl6d_install_former_headers()
   foreach(module IN LISTS PCL6D_MODULES)
     get_property(depends GLOBAL PROPERTY PCL6D_${module}_DEPENDS)
     get_property(components GLOBAL PROPERTY PCL6D_${module}_PCL_COMPONENTS)
@@ -320,7 +293,33 @@ function(pcl6d_install_package)
   install(FILES
     ${PROJECT_BINARY_DIR}/pcl6dConfig.cmake
     ${PROJECT_BINARY_DIR}/pcl6dConfigVersion.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindLz4.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindOctoMap.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindZstd.cmake
     DESTINATION ${destination} COMPONENT common)
+  pcl6d_install_pkg_config()
+endfunction()
+
+# Installs pcl6d.pc, with all libraries and the packages whose headers theirs include.
+function(pcl6d_install_pkg_config)
+  get_property(modules GLOBAL PROPERTY PCL6D_MODULES)
+  set(names "")
+  set(components common)
+  foreach(module IN LISTS modules)
+    get_property(of_module GLOBAL PROPERTY PCL6D_${module}_PCL_COMPONENTS)
+    list(APPEND components ${of_module})
+    list(APPEND names pcl6d_${module})
+    if(TARGET pcl6d_${module}_pcl)
+      list(APPEND names pcl6d_${module}_pcl)
+    endif()
+  endforeach()
+  list(REVERSE names) # who needs a library stands before it
+  list(REMOVE_DUPLICATES components)
+  list(JOIN names " -l" PCL6D_LIBRARY_NAMES)
+  list(JOIN components " pcl_" PCL6D_PCL_NAMES)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/pcl6d.pc.in ${PROJECT_BINARY_DIR}/pcl6d.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/pcl6d.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT common)
 endfunction()
 
 # The map of the rooms in CONTRIBUTING.md, between two comments: the target `rooms` writes
@@ -328,7 +327,7 @@ endfunction()
 function(pcl6d_add_rooms)
   get_property(rooms GLOBAL PROPERTY PCL6D_ROOMS)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/rooms.md @ONLY CONTENT
-"| floor | module | book | what lives there | builds on |
+"| floor | module | book | content | builds on |
 |---|---|---|---|---|
 @rooms@")
   set(script ${CMAKE_COMMAND} -D TABLE=${PROJECT_BINARY_DIR}/rooms.md

@@ -2,9 +2,10 @@
 # Installs what the suite needs to build, test and run, on Debian and Ubuntu. Does nothing
 # where everything is there. On another system it lists the packages and exits with 1.
 # usage: cmake/install_dependencies.sh [--tests] [--checks]
-#   --tests: also what only some tests need, which skip without it: a browser and npm
-#   --checks: also the checkers of sources, in the version that the sources follow, and the
-#     compiler of the fuzzers
+#   --tests: also what only some tests need, which skip without it: a browser, npm and rosbag,
+#     and what the Python package is built and tested with
+#   --checks: also the checkers of sources, in the version that the sources follow, the
+#     compiler of the fuzzers, and what makes and checks Debian packages
 set -euo pipefail
 
 # Per line: the Debian package, then a file or program that it gives. A package is only
@@ -18,6 +19,14 @@ needs=(
   "libceres-dev /usr/include/ceres/ceres.h"
   "libboost-all-dev /usr/include/boost/process.hpp"
   "libeigen3-dev /usr/include/eigen3/Eigen/Core"
+  "libbz2-dev /usr/include/bzlib.h"
+  "libproj-dev /usr/include/proj.h"
+  "liblz4-dev /usr/include/lz4frame.h"
+  "liboctomap-dev /usr/include/octomap/OcTree.h"
+  "libgdal-dev /usr/include/gdal/gdal.h"
+  "libsqlite3-dev /usr/include/sqlite3.h"
+  "libzstd-dev /usr/include/zstd.h"
+  "libexpat1-dev /usr/include/expat.h"
   "libembree-dev /usr/include/embree3/rtcore.h"
   "libflann-dev /usr/include/flann/flann.hpp"
   "libgtest-dev /usr/include/gtest/gtest.h"
@@ -32,16 +41,38 @@ needs=(
   "nlohmann-json3-dev /usr/include/nlohmann/json.hpp"
 )
 
-# What only tests need: the report is opened in a browser, and made again by npm.
+# What only tests need: the report is opened in a browser, and made again by npm; bags are
+# written by an independent program, maps are read by such ones; the site is made. The Python package is built where
+# Python, pybind11 and numpy are found.
 needs_of_tests=(
   "chromium chromium"
+  "doxygen doxygen"
+  "furo /usr/lib/python3/dist-packages/furo/__init__.py"
+  "python3-myst-parser /usr/lib/python3/dist-packages/myst_parser/__init__.py"
+  "python3-sphinx sphinx-build"
   "nodejs node"
   "npm npm"
+  "python3-dev /usr/include/python3.*/Python.h"
+  "pybind11-dev /usr/include/pybind11/pybind11.h"
+  "python3-numpy /usr/lib/python3/dist-packages/numpy/__init__.py"
+  "python3-pytest /usr/lib/python3/dist-packages/pytest/__init__.py"
+  "mypy mypy"
+  "python3-rosbag /usr/lib/python3/dist-packages/rosbag/__init__.py"
+  "python3-roslz4 /usr/lib/python3/dist-packages/roslz4/__init__.py"
+  "python3-nav-msgs /usr/lib/python3/dist-packages/nav_msgs/__init__.py"
+  "python3-sensor-msgs /usr/lib/python3/dist-packages/sensor_msgs/__init__.py"
+  "octomap-tools bt2vrml"
+  "pkg-config pkg-config"
+  "gdal-bin gdalinfo"
 )
 
 needs_of_checks=(
   "clang-format-14 clang-format-14"
   "clang-tidy-14 clang-tidy-14"
+  "chrpath chrpath"
+  "debhelper dh"
+  "dh-python dh_python3"
+  "lintian lintian"
   "time /usr/bin/time"
   "clang clang++"
   "libclang-rt-14-dev /usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-x86_64.a"

@@ -24,15 +24,15 @@ endfunction()
 
 set(wanted "# Classes of PCL and their counterparts
 
-What to write instead, and what changes. All derive from PCL's base class, so they also go wherever PCL takes that class. The last
+Our class for each class of PCL, and the differences. Each derives from PCL's base class, so you can use it everywhere PCL takes the base class. The last
 column names a program in [share/examples](../examples).
 
-How: *one name* - the program compiles and runs with that name changed and nothing else; *with setters* - other settings are asked
-for; *new* - PCL has none; *no counterpart* - take PCL's. On your own two clouds, `pcl_slam6d_doctor` shows what changes
+How: *one name* - the program compiles and runs after a change of this name only; *with setters* - other settings are
+needed; *new* - PCL has no such class; *no counterpart* - take PCL's. On your own two clouds, `pcl_slam6d_doctor` shows the differences
 ([doctor.md](doctor.md)).
 
-This page is made of `pcl_classes.json` by `cmake --build build/release --target pcl_classes`. The test `test_pcl_classes` compiles and
-runs the same code with both names of each row that says *one name*, and looks at what comes out.
+This page is made from `pcl_classes.json` by `cmake --build build/release --target pcl_classes`. The test `test_pcl_classes` compiles and
+runs the same code with both names of each row with *one name*, and compares the results.
 ")
 string(JSON sections LENGTH "${table}" sections)
 math(EXPR last_section "${sections} - 1")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shows: where to start ICP. alignByFeatures() says without any guess where the second scan
 // stood, searchByOverlap() mends a guess that is off by metres; both say whether that can
-// be believed. ICP6D makes it exact.
+// be accepted. ICP6D makes it exact.
 #include "synthetic.h"
 
 #include <pcl6d/registration/feature_alignment.h>

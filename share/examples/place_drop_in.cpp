@@ -34,7 +34,7 @@ isNear(const char* name,
   return error.translation < within;
 }
 
-// The whole of it in one class; its hasConverged() may be believed.
+// The whole of it in one class; its hasConverged() may be accepted.
 bool
 placeInOne(const Cloud::ConstPtr& source,
            const Cloud::ConstPtr& target,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plug-in of pcl_slam6d: a minimiser for scanners that stay level, and a reader of CSV files.
+// A plug-in of pcl_slam6d: a minimiser for scanners that stay level, and a reader of
+// measurements in polar coordinates.
 //   pcl_slam6d SCAN_DIR -o OUT_DIR --plugin build/libslam6d_plugin.so
-//     --format csv --metric point --minimiser level
+//     --format polar --metric point --minimiser level
 #include <pcl6d/slam6d/plugin.h>
 
 #include <pcl/conversions.h>
@@ -34,9 +35,10 @@ minimiseLevel(const pcl6d::PairSums& sums)
   return estimate;
 }
 
-/** Rows "x,y,z,intensity" in metres below one line of titles. */
+/** Rows "azimuth,elevation,range,intensity" in degrees and metres, below one line of titles:
+ * azimuth 0 is the x axis (forward), 90 degrees the y axis (left). */
 pcl::PCLPointCloud2
-readCsv(const std::filesystem::path& file)
+readPolar(const std::filesystem::path& file)
 {
   std::ifstream stream(file);
   std::string line;
@@ -45,11 +47,18 @@ readCsv(const std::filesystem::path& file)
   pcl::PointCloud<pcl::PointXYZI> cloud;
   for (int number = 2; std::getline(stream, line); ++number) {
     std::istringstream row(line);
+    double azimuth = 0, elevation = 0, range = 0;
     pcl::PointXYZI p;
     char comma = 0;
-    if (!(row >> p.x >> comma >> p.y >> comma >> p.z >> comma >> p.intensity))
+    if (!(row >> azimuth >> comma >> elevation >> comma >> range >> comma >>
+          p.intensity))
       throw std::runtime_error("line " + std::to_string(number) +
-                               ": expected x,y,z,intensity");
+                               ": expected azimuth,elevation,range,intensity");
+    azimuth *= M_PI / 180;
+    elevation *= M_PI / 180;
+    p.x = static_cast<float>(range * std::cos(elevation) * std::cos(azimuth));
+    p.y = static_cast<float>(range * std::cos(elevation) * std::sin(azimuth));
+    p.z = static_cast<float>(range * std::sin(elevation));
     cloud.push_back(p);
   }
   pcl::PCLPointCloud2 read;
@@ -61,9 +70,9 @@ void
 addParts(pcl6d::PluginRegistry& registry)
 {
   registry.addMinimiser("level", minimiseLevel);
-  registry.addReader("csv", ".csv", readCsv);
+  registry.addReader("polar", ".polar", readPolar);
 }
 
 } // namespace
 
-PCL6D_PLUGIN("level scanners and CSV files", addParts)
+PCL6D_PLUGIN("level scanners and polar files", addParts)

@@ -37,11 +37,11 @@ registerAndVerify(const Cloud::ConstPtr& source,
       name,
       icp.hasConverged() ? "converged" : "not converged",
       icp.getFitnessScore(),
-      pcl6d::toString(verdict.opinion.trust),
+      pcl6d::toString(verdict.test_result.trust),
       verdict.evidence.sight.contradicted_patches,
       verdict.evidence.sight.patches,
-      verdict.opinion.reason.c_str());
-  return verdict.opinion.trust;
+      toWords(verdict.test_result.rejection).c_str());
+  return verdict.test_result.trust;
 }
 
 int

@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: BSD-3-Clause
+constexpr ReasonWords kReasons[] = {{Reason::kUnripe, "unripe", "{text}"}};

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Makes a man page of what a program says to --help, each option on a line of its own:
 #   COLUMNS=10000 pcl_slam6d --help | awk -f help_to_man.awk -v name=pcl_slam6d \
-#     -v version=0.1.0 -v also="pcl_slam6d_convert(1)"
+#     -v version=0.2.0 -v also="pcl_slam6d_convert(1)"
 # That is: a line "usage: ..." (more below it, indented as far), what it does, and groups
 # "Caption:" of lines "  name or option  text", two spaces or more between.
 
@@ -94,9 +94,9 @@ END {
   printf ".SH DESCRIPTION\n%s", body
   print ".SH EXIT STATUS"
   print ".TP\n.B 0\ndone"
-  print ".TP\n.B 1\nfailed: bad data, or a file said no"
+  print ".TP\n.B 1\nfailed: bad data, or a file could not be read or written"
   print ".TP\n.B 2\nthe command line or the config file is wrong"
-  print ".TP\n.B 3\nfinished, but part of the result is not to be trusted"
+  print ".TP\n.B 3\nfinished, but part of the result is not reliable"
   print ".TP\n.B 130\ninterrupted"
   if (also != "")
     printf ".SH SEE ALSO\n%s\n", quoted(also)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The target deb: Debian packages from this build tree, below deb/ in it.
+# The target deb: Debian packages from this build tree, below deb/ in it (recipe: share/packaging/debian).
 
 function(pcl6d_add_debs)
   find_program(PCL6D_DH dh)

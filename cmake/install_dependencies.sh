@@ -42,7 +42,7 @@ needs=(
 )
 
 # What only tests need: the report is opened in a browser, and made again by npm; bags are
-# written by an independent program, maps are read by such ones; the site is made. The Python package is built where
+# written by an independent program, maps are read by such ones; files are compared with their JSON Schemas; the site is made. The Python package is built where
 # Python, pybind11 and numpy are found.
 needs_of_tests=(
   "chromium chromium"
@@ -55,6 +55,7 @@ needs_of_tests=(
   "python3-dev /usr/include/python3.*/Python.h"
   "pybind11-dev /usr/include/pybind11/pybind11.h"
   "python3-numpy /usr/lib/python3/dist-packages/numpy/__init__.py"
+  "python3-jsonschema /usr/lib/python3/dist-packages/jsonschema/__init__.py"
   "python3-pytest /usr/lib/python3/dist-packages/pytest/__init__.py"
   "mypy mypy"
   "python3-rosbag /usr/lib/python3/dist-packages/rosbag/__init__.py"

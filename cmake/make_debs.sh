@@ -8,7 +8,7 @@ folder=$build/deb
 rm -rf "$folder"
 mkdir -p "$folder/work/share"
 cd "$folder/work"
-cp -a "$source"/debian .
+cp -a "$source"/share/packaging/debian .
 cp -a "$source"/{CHANGELOG.md,LICENSE} .
 cp -a "$source"/share/{doc,examples} share/
 umask 022

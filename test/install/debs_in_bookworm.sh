@@ -9,7 +9,7 @@ here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 [ -e "$root/etc/debian_version" ] || debootstrap --variant=minbase bookworm "$root"
 rm -rf "$root/debs" "$root/tests"
 cp -a "$debs" "$root/debs"
-cp -a "$here/../../debian/tests" "$root/tests"
+cp -a "$here/../../share/packaging/debian/tests" "$root/tests"
 mount -t proc proc "$root/proc"
 trap 'umount "$root/proc"' EXIT
 begin=$EPOCHREALTIME
@@ -28,7 +28,7 @@ step() { # words of a command in the new system
 
 step 'apt-get update'
 begin=$EPOCHREALTIME
-step 'apt-get install -y --no-install-recommends /debs/libpcl6d0.1_*.deb /debs/pcl6d-tools_*.deb xvfb libgl1-mesa-dri'
+step 'apt-get install -y --no-install-recommends /debs/libpcl6d0.2_*.deb /debs/pcl6d-tools_*.deb xvfb libgl1-mesa-dri'
 step 'rm -rf /w && mkdir /w && pcl_slam6d_simulate corridor -o /w/scans'
 step 'pcl_slam6d /w/scans -o /w/map'
 tail -n 6 "$root/step.log"

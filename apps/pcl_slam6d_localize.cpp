@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Poses of further scans in the map of a finished run.
 #include "common/app.h"
-#include "common/folder_job.h"
+#include "common/output/folder_job.h"
 #include "common/printable.h"
 #include "localize/known_map.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scan or a map in, its planes out: options, then PlaneFinder, then files.
 #include "common/app.h"
-#include "common/folder_job.h"
 #include "common/open_scans.h"
-#include "common/plane_files.h"
+#include "common/output/folder_job.h"
+#include "common/output/plane_files.h"
 #include "planes/plane_settings.h"
 
 #include <pcl6d/common/error.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scans of a built-in scene with drifting odometry and exact truth.
 #include "common/app.h"
-#include "common/interrupt.h"
+#include "common/process/interrupt.h"
 #include "common/progress_bar.h"
 #include "simulate/body_words.h"
 #include "simulate/intrude.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/first_steps.h"
-#include "common/option_words.h"
+#include "common/options/first_steps.h"
+#include "common/options/option_words.h"
 #include "common/printable.h"
 
 #include <pcl6d/common/error.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/bag_options.h"
-#include "common/option_table.h"
+#include "common/options/bag_options.h"
+#include "common/options/option_table.h"
 
 #include <pcl6d/io/bag_options.h>
 

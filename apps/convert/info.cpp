@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/open_scans.h"
-#include "common/option_table.h"
+#include "common/options/option_table.h"
 #include "common/printable.h"
 #include "convert/bag_table.h"
 #include "convert/verbs.h"

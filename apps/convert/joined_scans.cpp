@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/interrupt.h"
 #include "common/open_scans.h"
-#include "common/option_table.h"
+#include "common/options/option_table.h"
+#include "common/process/interrupt.h"
 #include "common/progress_bar.h"
 #include "convert/joined_layout.h"
 #include "convert/loss_tally.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/interrupt.h"
 #include "common/open_scans.h"
+#include "common/process/interrupt.h"
 #include "common/progress_bar.h"
 #include "convert/map_settings.h"
 #include "convert/scan_settings.h"

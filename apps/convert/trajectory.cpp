@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/option_table.h"
-#include "common/output_folder.h"
+#include "common/options/option_table.h"
+#include "common/output/output_folder.h"
 #include "convert/loss_tally.h"
 #include "convert/verbs.h"
 

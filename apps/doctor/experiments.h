@@ -41,7 +41,7 @@ struct Experiment {
   RegistrationClass method = RegistrationClass::kPclIcp;
   ClassSettings settings;
   InputVariant input;        ///< of the outcome; probes change one more setting
-  std::string setting_words; ///< "as it is", "max distance 0.1 m"
+  std::string setting_words; ///< for the table, e.g. "max distance 0.1 m"
   std::string start_words;   ///< empty: the start of the pair
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity(); ///< local
   ClassOutcome outcome;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/interrupt.h"
+#include "common/process/interrupt.h"
 
 #include <nlohmann/json.hpp>
 

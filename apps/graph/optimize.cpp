@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/option_table.h"
+#include "common/options/option_table.h"
 #include "graph/reading.h"
 #include "graph/verbs.h"
 

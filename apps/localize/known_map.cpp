@@ -22,14 +22,6 @@ openRun(const std::string& path)
                    "then the scans");
   return RunFolder::finished(path, "the run was interrupted; start the run again");
 }
-
-std::uint64_t
-sumOf(const Points& points)
-{
-  Fingerprint sum;
-  sum.add(points);
-  return sum.value();
-}
 } // namespace
 
 KnownMap::KnownMap(const LocalizeSettings& s, const ProgressCallback& show)
@@ -50,7 +42,7 @@ KnownMap::KnownMap(const LocalizeSettings& s, const ProgressCallback& show)
     parallelFor(end - begin, s.num_threads, [&](std::size_t k) {
       const std::size_t i = begin + k;
       const Points points = run_.readScan(places_[i]);
-      fingerprints_[i] = sumOf(points);
+      fingerprints_[i] = fingerprintOf(points);
       prepared_->set(i, points, run_.summary().scans[places_[i]].file);
     });
     show({"reading", end, places_.size()});
@@ -88,7 +80,7 @@ std::set<std::size_t>
 KnownMap::copiesOf(const Points& points) const
 {
   std::set<std::size_t> copies;
-  const std::uint64_t sum = sumOf(points);
+  const std::uint64_t sum = fingerprintOf(points);
   for (std::size_t i = 0; i < fingerprints_.size(); ++i)
     if (fingerprints_[i] == sum)
       copies.insert(i);

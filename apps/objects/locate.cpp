@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/folder_job.h"
 #include "common/open_scans.h"
+#include "common/output/folder_job.h"
 #include "objects/locate_settings.h"
 #include "objects/verbs.h"
 

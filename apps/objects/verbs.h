@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/verbs.h"
+#include "common/options/verbs.h"
 
 namespace pcl6d::app {
 

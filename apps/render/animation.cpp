@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/interrupt.h"
-#include "common/output_folder.h"
+#include "common/output/output_folder.h"
+#include "common/process/interrupt.h"
 #include "common/progress_bar.h"
 #include "render/run_animation.h"
 #include "render/verbs.h"

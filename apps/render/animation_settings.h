@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/memory_budget.h"
+#include "common/process/memory_budget.h"
 
 #include <cstddef>
 #include <string>

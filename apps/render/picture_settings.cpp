@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/option_table.h"
+#include "common/options/option_table.h"
 #include "render/picture_settings.h"
 #include "render/run_pictures.h"
 #include "render/verbs.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/memory_budget.h"
-#include "common/option_table.h"
+#include "common/options/option_table.h"
+#include "common/process/memory_budget.h"
 #include "common/progress_bar.h"
 #include "render/survey.h"
 #include "render/verbs.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/child_process.h"
+#include "common/process/child_process.h"
 #include "render/survey.h"
 
 #include <pcl6d/common/error.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/verbs.h"
+#include "common/options/verbs.h"
 
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/simulation/intruders.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/output_folder.h"
+#include "common/output/output_folder.h"
 
 #include <pcl6d/simulation/simulator.h>
 #include <pcl6d/simulation/truth_fields.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/bag_options.h"
-#include "common/option_table.h"
+#include "common/options/bag_options.h"
+#include "common/options/option_table.h"
 #include "slam6d/input_options.h"
 #include "slam6d/plugin_words.h"
 

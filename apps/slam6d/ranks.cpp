@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
 #include "common/build_id.h"
-#include "common/memory_budget.h"
+#include "common/process/memory_budget.h"
 #include "slam6d/ranks.h"
 #include "slam6d/shared_reading.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/child_process.h"
+#include "common/process/child_process.h"
 #include "slam6d/run_drawing.h"
 #include "slam6d/settings.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/option_table.h"
+#include "common/options/option_table.h"
 
 #include <pcl6d/common/option_spec.h>
 

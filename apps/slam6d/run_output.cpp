@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/plane_file_names.h"
-#include "common/run_files.h"
+#include "common/output/plane_file_names.h"
+#include "common/output/run_files.h"
 #include "slam6d/planes_of_run.h"
 #include "slam6d/run_output.h"
 #include "slam6d/sweep_tracking.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/interrupt.h"
-#include "common/output_folder.h"
+#include "common/output/output_folder.h"
+#include "common/process/interrupt.h"
 #include "common/progress_bar.h"
 #include "slam6d/kept_clouds.h"
 #include "slam6d/moving_output.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/listed_options.h"
-#include "common/option_table.h"
+#include "common/options/listed_options.h"
+#include "common/options/option_table.h"
 #include "slam6d/option_groups.h"
 #include "slam6d/plugin_words.h"
 #include "slam6d/run_options.h"

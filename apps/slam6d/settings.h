@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/memory_budget.h"
-#include "common/option_table.h"
+#include "common/options/option_table.h"
+#include "common/process/memory_budget.h"
 #include "slam6d/moving_output.h"
 #include "slam6d/other_filter.h"
 

@@ -258,7 +258,7 @@ TEST(ManPages, SayWhatTheHelpSays)
         "-o, --output OUT_DIR\n              folder to write; made if missing\n",
         "lines `name = value`; the command line wins",
         ".g2o, or lines 'a b' with the indices",
-        "not to be trusted",
+        "is not reliable",
         "pcl_slam6d_graph(1)"})
     EXPECT_NE(shown.find(words), std::string::npos) << words << "\n" << shown;
 }

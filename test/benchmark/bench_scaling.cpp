@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <common/child_process.h>
+#include <common/process/child_process.h>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>

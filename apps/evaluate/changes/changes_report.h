@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/folder_job.h"
+#include "common/output/folder_job.h"
 #include "evaluate/changes/changes_world.h"
 
 #include <pcl6d/moving_objects/run_changes.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/folder_job.h"
+#include "common/output/folder_job.h"
 #include "evaluate/icp/icp_report.h"
 #include "evaluate/pair_pose.h"
 #include "evaluate/pair_scan.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/folder_job.h"
+#include "common/output/folder_job.h"
 #include "evaluate/icp/icp_settings.h"
 
 #include <pcl6d/slam6d/slam6d_result.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/option_table.h"
-#include "common/reduction_options.h"
+#include "common/options/option_table.h"
+#include "common/options/reduction_options.h"
 #include "evaluate/icp/icp_settings.h"
 #include "evaluate/pair_pose.h"
 #include "evaluate/verbs.h"
@@ -17,7 +17,7 @@ namespace pcl6d::app {
 namespace {
 using Words = std::vector<std::string>;
 
-/** Names of methods as typed, including "all". */
+/** Names of methods on the command line; "all" is a name, too. */
 struct Methods {
   Words metrics = {"all"};
   Words minimisers = {"quaternion", "helix", "small-angle", "euler"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/option_table.h"
+#include "common/options/option_table.h"
 #include "common/printable.h"
 #include "evaluate/map/map_report.h"
 

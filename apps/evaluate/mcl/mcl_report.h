@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/folder_job.h"
+#include "common/output/folder_job.h"
 #include "evaluate/mcl/mcl_evaluation.h"
 
 namespace pcl6d::app {

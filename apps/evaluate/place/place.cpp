@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/option_table.h"
+#include "common/options/option_table.h"
+#include "common/options/reduction_options.h"
 #include "common/progress_bar.h"
-#include "common/reduction_options.h"
 #include "evaluate/pair_pose.h"
 #include "evaluate/pair_scan.h"
 #include "evaluate/place/place_report.h"

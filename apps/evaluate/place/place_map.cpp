@@ -28,14 +28,6 @@ openMap(const std::string& path)
   return RunFolder::finished(path, "the run was interrupted; start the run again");
 }
 
-std::uint64_t
-fingerprintOf(const Points& points)
-{
-  Fingerprint sum;
-  sum.add(points);
-  return sum.value();
-}
-
 void
 requireSameUnits(const PlaceSettings& s,
                  const Points& scan,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/interrupt.h"
+#include "common/process/interrupt.h"
 #include "evaluate/pair_scan.h"
 #include "evaluate/place/place_map.h"
 #include "evaluate/place/place_report.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/child_process.h"
+#include "common/process/child_process.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/option_table.h"
+#include "common/options/option_table.h"
 #include "evaluate/suite/suite_report.h"
 
 #include <pcl6d/common/error.h>

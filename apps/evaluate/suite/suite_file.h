@@ -27,7 +27,7 @@ struct SuiteDamage {
 
   std::string name;            ///< empty: nothing is done
   SuiteOptions options;        ///< of pcl_slam6d
-  nlohmann::ordered_json text; ///< the other fields, as in the file
+  nlohmann::ordered_json text; ///< remaining fields, unchanged
   double odometry_noise = 1;   ///< factor of the error of each step
   double odometry_scale = 1; ///< factor of every position, as for feet taken as metres
   double turn = 0;           ///< [deg] of each scan's axes about z, against its pose

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/folder_job.h"
+#include "common/output/folder_job.h"
 #include "evaluate/verbs.h"
 #include "evaluate/verify/verify_report.h"
 

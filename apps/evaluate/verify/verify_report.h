@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/folder_job.h"
+#include "common/output/folder_job.h"
 #include "evaluate/verify/verify_source.h"
 
 #include <pcl6d/common/map_verification.h>

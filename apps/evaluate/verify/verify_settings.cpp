@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
-#include "common/option_table.h"
-#include "common/reduction_options.h"
+#include "common/options/option_table.h"
+#include "common/options/reduction_options.h"
 #include "evaluate/verbs.h"
 #include "evaluate/verify/verify_settings.h"
 

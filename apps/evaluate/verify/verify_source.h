@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/interrupt.h"
+#include "common/process/interrupt.h"
 #include "common/progress_bar.h"
 #include "evaluate/verify/verify_settings.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What pcl_slam6d_convert says of wrong command lines and broken scans.
-#include "apps/convert_test.h"
+#include "apps/convert/convert_test.h"
 
 namespace fs = std::filesystem;
 using pcl6d::test::cloudOf;

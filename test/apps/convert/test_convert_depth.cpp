@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_convert depth and calibrate as a user runs them.
-#include "apps/convert_test.h"
+#include "apps/convert/convert_test.h"
 #include "scanner/rendered_board.h"
 
 #include <pcl6d/common/pose.h>

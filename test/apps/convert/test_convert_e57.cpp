@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // E57 to the other formats and back.
-#include "apps/convert_test.h"
+#include "apps/convert/convert_test.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/scan_folder.h>

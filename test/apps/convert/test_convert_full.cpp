@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_convert scans --full: runs and folders joined.
-#include "apps/convert_test.h"
+#include "apps/convert/convert_test.h"
 #include "support/poses.h"
 #include "support/sanitizer.h"
 

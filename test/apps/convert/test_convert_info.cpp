@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/convert_test.h"
-#include "apps/corridor_run.h"
+#include "apps/convert/convert_test.h"
+#include "apps/support/corridor_run.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run as a map for planners: pcl_slam6d_convert map.
-#include "apps/convert_test.h"
-#include "apps/corridor_run.h"
+#include "apps/convert/convert_test.h"
+#include "apps/support/corridor_run.h"
 #include "support/shared_run.h"
 
 #include <pcl6d/io/trajectory_io.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_convert scans as a user runs it.
-#include "apps/convert_test.h"
+#include "apps/convert/convert_test.h"
 #include "support/poses.h"
 
 #include <pcl6d/io/scan_folder.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_doctor on what is no pair of scans.
-#include "apps/doctor_test.h"
+#include "apps/doctor/doctor_test.h"
 #include "support/folders.h"
 #include "support/points.h"
 

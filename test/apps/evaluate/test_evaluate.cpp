@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate as a user runs it.
-#include "apps/evaluate_program.h"
-#include "apps/program_names.h"
+#include "apps/evaluate/evaluate_program.h"
+#include "apps/support/program_names.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate changes: what differs between two runs of one room, each in a world of
 // its own, and what is refused.
-#include "apps/joined_rooms.h"
+#include "apps/support/joined_rooms.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

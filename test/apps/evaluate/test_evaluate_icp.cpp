@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate icp as a user runs it.
-#include "apps/csv_rows.h"
-#include "apps/room_pair.h"
+#include "apps/evaluate/csv_rows.h"
+#include "apps/support/room_pair.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

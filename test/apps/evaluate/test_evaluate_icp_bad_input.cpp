@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate icp when something is wrong.
-#include "apps/evaluate_program.h"
-#include "apps/room_pair.h"
+#include "apps/evaluate/evaluate_program.h"
+#include "apps/support/room_pair.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

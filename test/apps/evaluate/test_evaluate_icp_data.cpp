@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate icp on recorded scans.
-#include "apps/csv_rows.h"
+#include "apps/evaluate/csv_rows.h"
 #include "support/data_folder.h"
 #include "support/run_program.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate place SCAN RUN as a user runs it: where in a map was this scan taken?
-#include "apps/joined_rooms.h"
-#include "apps/program_names.h"
-#include "apps/room_run.h"
+#include "apps/support/joined_rooms.h"
+#include "apps/support/program_names.h"
+#include "apps/support/room_run.h"
 
 #include <string>
 #include <vector>

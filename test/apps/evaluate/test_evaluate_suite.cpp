@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate suite: what it runs, measures, repeats and leaves out.
-#include "apps/bad_input.h"
-#include "apps/suite_test.h"
+#include "apps/evaluate/suite_test.h"
+#include "apps/support/bad_input.h"
 #include "support/folders.h"
 
 #include <pcl6d/benchmarking/relative_error.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Suite files with mistakes: all are told before anything runs.
-#include "apps/bad_input.h"
-#include "apps/suite_test.h"
+#include "apps/evaluate/suite_test.h"
+#include "apps/support/bad_input.h"
 
 #include <functional>
 

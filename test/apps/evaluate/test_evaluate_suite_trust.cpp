@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate suite: seeds, damages, and verdicts compared with the truth.
-#include "apps/suite_test.h"
+#include "apps/evaluate/suite_test.h"
 #include "support/folders.h"
 
 #include <pcl6d/io/scan_reader.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate trajectory: RPE, drift, loops, other times; and lengths.
-#include "apps/program_names.h"
+#include "apps/support/program_names.h"
 #include "support/run_program.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_evaluate verify as a user runs it.
-#include "apps/room_pair.h"
+#include "apps/support/room_pair.h"
 #include "support/data_folder.h"
 
 #include <pcl6d/io/scan_reader.h>

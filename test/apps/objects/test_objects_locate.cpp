@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_objects locate as a user runs it, against the truth of a simulation.
-#include "apps/located_room.h"
+#include "apps/objects/located_room.h"
 #include "support/constants.h"
 
 #include <pcl6d/common/pose.h>

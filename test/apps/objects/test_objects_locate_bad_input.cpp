@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What pcl_slam6d_objects locate says of input that it cannot use.
-#include "apps/located_room.h"
+#include "apps/objects/located_room.h"
 
 #include <pcl6d/io/mesh_io.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_render picture as a user runs it, on a small run that is made here.
-#include "apps/program_names.h"
-#include "apps/room_run.h"
+#include "apps/support/program_names.h"
+#include "apps/support/room_run.h"
 #include "support/folders.h"
 
 #include <boost/process.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The report of the demo's drive, as a user gets it.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 #include "support/browser.h"
 
 #include <gtest/gtest.h>

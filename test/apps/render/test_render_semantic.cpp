@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_render picture of what a map means: objects with their shapes, labels, rooms.
-#include "apps/program_names.h"
-#include "apps/room_run.h"
+#include "apps/support/program_names.h"
+#include "apps/support/room_run.h"
 #include "support/folders.h"
 
 #include <pcl6d/semantic_map/semantic_map_io.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/program_names.h"
-#include "apps/simulate_program.h"
+#include "apps/simulate/simulate_program.h"
+#include "apps/support/program_names.h"
 #include "support/folders.h"
 #include "support/run_program.h"
 

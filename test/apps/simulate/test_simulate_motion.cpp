@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d_simulate --motion continuous and the odometry models.
-#include "apps/program_names.h"
+#include "apps/support/program_names.h"
 #include "support/run_program.h"
 
 #include <pcl6d/common/pose.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/program_names.h"
-#include "apps/simulate_program.h"
-#include "apps/without_late_libraries.h"
+#include "apps/simulate/simulate_program.h"
+#include "apps/support/program_names.h"
+#include "apps/support/without_late_libraries.h"
 #include "support/run_program.h"
 
 #include <pcl6d/io/pcd_io.h>

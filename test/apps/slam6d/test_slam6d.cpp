@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d as a user runs it, on scans of the simulator.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/frames_io.h>

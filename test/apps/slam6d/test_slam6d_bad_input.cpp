@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a user may get wrong: one line that says what and where, and nothing half-written.
-#include "apps/bad_input.h"
+#include "apps/support/bad_input.h"
 
 #include <pcl6d/io/trajectory_io.h>
 

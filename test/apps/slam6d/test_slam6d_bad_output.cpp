@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Output folders that are refused, and what a failure leaves in them.
-#include "apps/bad_input.h"
+#include "apps/support/bad_input.h"
 
 namespace {
 namespace fs = std::filesystem;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Control points, from the E57 file of a site to poses in their frame.
-#include "apps/control_site.h"
+#include "apps/slam6d/control_site.h"
 
 #include <pcl6d/run/run_summary.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --deskew: scans that were taken on the move.
-#include "apps/bad_input.h"
-#include "apps/corridor_run.h"
+#include "apps/support/bad_input.h"
+#include "apps/support/corridor_run.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/pcd_io.h>

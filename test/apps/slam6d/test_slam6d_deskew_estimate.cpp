@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --deskew estimate: scans on the move without odometry of the motion.
-#include "apps/bad_input.h"
-#include "apps/corridor_run.h"
+#include "apps/support/bad_input.h"
+#include "apps/support/corridor_run.h"
 #include "support/moving_room.h"
 
 #include <pcl6d/io/pcd_io.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An E57 file in place of a folder: the same map, and its poses written back.
-#include "apps/convert_test.h"
-#include "apps/corridor_run.h"
+#include "apps/convert/convert_test.h"
+#include "apps/support/corridor_run.h"
 
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/run/run_summary.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --filter and --reduction: what stands for the points of a scan.
-#include "apps/bad_input.h"
-#include "apps/corridor_run.h"
+#include "apps/support/bad_input.h"
+#include "apps/support/corridor_run.h"
 
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/io/trajectory_io.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d when it cannot do all: interrupted, without a display, without poses.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 #include "support/folders.h"
 #include "support/signalled_program.h"
 

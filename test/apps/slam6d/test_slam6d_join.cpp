@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --join: two maps of one site, without common poses, become one.
-#include "apps/joined_rooms.h"
-#include "apps/program_names.h"
+#include "apps/support/joined_rooms.h"
+#include "apps/support/program_names.h"
 
 #include <pcl6d/io/scan_reader.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --join: what cannot be joined is refused in words, and nothing is written.
-#include "apps/joined_rooms.h"
-#include "apps/program_names.h"
+#include "apps/support/joined_rooms.h"
+#include "apps/support/program_names.h"
 #include "support/signalled_program.h"
 
 #include <boost/process.hpp>

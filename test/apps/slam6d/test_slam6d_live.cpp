@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --live-view, on a private X server in the place of the user's display.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 #include "support/folders.h"
 #include "support/x_server.h"
 

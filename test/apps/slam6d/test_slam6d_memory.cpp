@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Programs within a budget of memory.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 #include "support/folders.h"
 
 #include <gtest/gtest.h>

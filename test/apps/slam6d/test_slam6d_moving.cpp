@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --moving: what moved while scans were taken is labelled, left out or kept.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 #include "support/walked_room.h"
 
 #include <pcl6d/io/pcd_io.h>

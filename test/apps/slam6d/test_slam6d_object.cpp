@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Row 6.5 of the book: a small object, scanned once around, with the program that maps streets.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/pose.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d on scans of a 2D scanner: known as such, registered in their plane.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/io/trajectory_io.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --plugin: parts that the program does not have itself.
-#include "apps/plugin_run.h"
+#include "apps/slam6d/plugin_run.h"
 
 #include <pcl6d/slam6d/plugins.h>
 

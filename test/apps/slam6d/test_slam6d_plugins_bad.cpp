@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plug-ins that cannot be used, and parts that fail at work: one clear line each.
-#include "apps/plugin_run.h"
+#include "apps/slam6d/plugin_run.h"
 #include "support/folders.h"
 
 #include <pcl6d/common/error.h>

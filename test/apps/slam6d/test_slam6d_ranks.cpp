@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d as several processes that MPI joins.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 #include "support/folders.h"
 
 #include <boost/process.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d that is killed, and started again.
-#include "apps/corridor_run.h"
+#include "apps/support/corridor_run.h"
 #include "support/folders.h"
 #include "support/signalled_program.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pcl_slam6d --track: the sweeps of a drive without poses, tracked in their order.
-#include "apps/corridor_run.h"
-#include "apps/simulated_drive.h"
+#include "apps/support/corridor_run.h"
+#include "apps/support/simulated_drive.h"
 
 #include <pcl6d/common/pose.h>
 #include <pcl6d/io/trajectory_io.h>

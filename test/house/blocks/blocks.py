@@ -28,7 +28,7 @@ SYSTEM = {"apt", "apt-get", "cd", "cmake", "ctest", "cp", "export", "for", "g++"
 
 
 def documents(tree):
-    return [path for pattern in ("*.md", "cmake/**/*.md", "modules/*/*.md", "share/**/*.md", "test/benchmark/*.md")
+    return [path for pattern in ("*.md", "modules/*/*.md", "share/**/*.md", "test/benchmark/*.md")
             for path in sorted(tree.glob(pattern))]
 
 

@@ -43,7 +43,7 @@ struct JustificationScan {
 /** \brief Difference between one way of matching and the localisation, over the trusted
  * scans. */
 struct JustificationRow {
-  std::string method;       ///< such as "map, no ground"
+  std::string method;       ///< of matching, e.g. "map, no ground"
   ErrorStatistics position; ///< [m] in the plan
   ErrorStatistics yaw;      ///< [rad]
   std::size_t failed = 0;   ///< scans without pairs, or with diverging ICP

@@ -40,7 +40,7 @@ struct TrustRun {
   std::string data;   ///< scene or recording
   std::string damage; ///< kind of damage to the data; may be empty
   std::string method;
-  std::string name; ///< name of the run, such as its folder
+  std::string name; ///< of the run; the programs take its folder
   TrustCall call = TrustCall::kNone;
   /** doubted by how matching went, though verification is not against the map */
   bool doubted_by_matching = false;

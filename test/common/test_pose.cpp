@@ -37,6 +37,24 @@ TEST(ExtrapolateOdometry, PlanarMotionStaysInThePlaneOfASlopingRobot)
   EXPECT_NEAR((step.linear() * Eigen::Vector3d::UnitZ()).z(), 1, 1e-14);
 }
 
+TEST(ExactlyRigid, RemovesRoundingErrorsAndKeepsThePosition)
+{
+  constexpr double kScale = 1e-6;     // also the largest turn [rad] by the scale
+  constexpr double kRounding = 4e-15; // of products of unit vectors
+  Random random(4);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Isometry3d pose = pcl6d::test::randomPose(random, 50, 3.0);
+    Eigen::Isometry3d grown = pose;
+    grown.linear() *= 1 + kScale;
+    const Eigen::Isometry3d exact = pcl6d::exactlyRigid(grown);
+    const Eigen::Matrix3d R = exact.linear();
+    EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(),
+              kRounding);
+    EXPECT_EQ(exact.translation(), pose.translation());
+    EXPECT_LT(pcl6d::distanceBetween(pose, exact).rotation, kScale);
+  }
+}
+
 TEST(IsRigid, AcceptsPosesAndRefusesScaleMirrorAndNan)
 {
   Random random(2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/option_table.h"
+#include "common/options/option_table.h"
 #include "fuzz/fuzz_target.h"
 #include "fuzz/targets.h"
 

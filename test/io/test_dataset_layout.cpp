@@ -1,201 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Layouts of published data sets, with made scans of known points, times and stamps.
+#include "dataset_folder.h"
 #include "pcd_samples.h"
 
-#include <pcl6d/io/scan_fields.h>
-#include <pcl6d/io/scan_folder.h>
-#include <pcl6d/io/trajectory_io.h>
-
 #include <cmath>
+#include <cstdint>
 
 namespace {
 namespace fs = std::filesystem;
 using pcl6d::BinLayout;
-using pcl6d::fieldValues;
 using pcl6d::ScanFolder;
 using pcl6d::ScanFolderOptions;
 using pcl6d::test::expectIoFailed;
+using pcl6d::test::fieldNames;
+using pcl6d::test::floats;
+using pcl6d::test::kittiScan;
+using pcl6d::test::layoutName;
 using pcl6d::test::messageOf;
-using pcl6d::test::TempFolder;
-using pcl6d::test::writeText;
+using pcl6d::test::valuesOf;
+using pcl6d::test::writeFile;
+
+using DatasetLayouts = pcl6d::test::DatasetFolder;
 
 /** \return the bytes of a number, lowest first */
 template <typename T>
 std::string
-bytesOf(T value)
+bytesOfNumber(T value)
 {
-  std::string bytes(sizeof value, '\0');
-  std::memcpy(bytes.data(), &value, sizeof value);
-  return bytes;
+  return pcl6d::test::bytesOf(std::vector<T>{value});
 }
-
-std::string
-floats(const std::vector<float>& values)
-{
-  std::string bytes;
-  for (const float value : values)
-    bytes += bytesOf(value);
-  return bytes;
-}
-
-/** Four points of KITTI: ahead, left, right, and behind. */
-std::string
-kittiScan()
-{
-  return floats({5, 0, 1, 0.5f, 0, 4, 1, 0.25f, 0, -4, 1, 0.75f, -3, -3, 1, 1});
-}
-
-void
-writeFile(const fs::path& path, const std::string& content)
-{
-  fs::create_directories(path.parent_path());
-  writeText(path, content);
-}
-
-std::vector<double>
-valuesOf(const pcl::PCLPointCloud2& cloud, const std::string& field)
-{
-  const auto values = fieldValues(cloud, field);
-  return values ? values->values : std::vector<double>{};
-}
-
-std::string
-fieldNames(const pcl::PCLPointCloud2& cloud)
-{
-  std::string names;
-  for (const auto& field : cloud.fields)
-    names += (names.empty() ? "" : " ") + field.name;
-  return names;
-}
-
-/** \return the name of the layout; empty: none */
-std::string
-layoutName(const ScanFolder& scans)
-{
-  return scans.layout() ? scans.layout()->name : "";
-}
-
-class DatasetLayouts : public testing::Test {
-protected:
-  fs::path
-  root() const
-  {
-    return folder_ / "data";
-  }
-
-  /** Writes a sequence of KITTI odometry with poses of reference. */
-  void
-  writeKitti(const std::string& sequence, int scans = 3) const
-  {
-    const fs::path path = root() / "sequences" / sequence;
-    for (int i = 0; i < scans; ++i)
-      writeFile(path / "velodyne" / ("00000" + std::to_string(i) + ".bin"),
-                kittiScan());
-    writeFile(path / "times.txt", "0\n0.1\n0.2\n");
-    writeFile(path / "calib.txt", "Tr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n");
-    writeFile(root() / "poses" / (sequence + ".txt"), "1 0 0 7 0 1 0 0 0 0 1 0\n");
-  }
-
-  /** Writes three sweeps of KITTI raw or KITTI-360. */
-  static void
-  writeRaw(const fs::path& sequence)
-  {
-    for (int i = 0; i < 3; ++i)
-      writeFile(sequence / "velodyne_points/data" /
-                    ("000000000" + std::to_string(i) + ".bin"),
-                kittiScan());
-    writeFile(sequence / "velodyne_points/timestamps.txt",
-              "2011-09-26 13:02:25.500000000\n2011-09-26 13:02:25.600000000\n"
-              "2011-09-26 13:02:25.700000000\n");
-  }
-
-  TempFolder folder_;
-};
 } // namespace
-
-TEST_F(DatasetLayouts, KittiOdometryIsFoundFromAnyOfItsFolders)
-{
-  writeKitti("07");
-  const fs::path sequence = root() / "sequences/07";
-  for (const fs::path& path :
-       {root(), root() / "sequences", sequence, sequence / "", sequence / "velodyne"}) {
-    SCOPED_TRACE(path.string());
-    const ScanFolder scans(path);
-    EXPECT_EQ(layoutName(scans), "KITTI odometry");
-    ASSERT_EQ(scans.size(), 3u);
-    EXPECT_EQ(scans.stamps(), (std::vector<double>{0, 0.1, 0.2}));
-    EXPECT_FALSE(scans.hasPoses()); // those of the reference are not taken
-    EXPECT_EQ(fieldNames(scans.read(1).cloud), "x y z intensity");
-    EXPECT_NE(
-        scans.note().find(
-            "data set KITTI odometry; points xyzi; x forward, y left, z up [m]; "
-            "stamps of times.txt; times of points: none: sweeps are deskewed "
-            "already; calibration calib.txt; reference ../../poses/07.txt, not read"),
-        std::string::npos)
-        << scans.note();
-  }
-}
-
-TEST_F(DatasetLayouts, OfSeveralSequencesOneMustBeNamed)
-{
-  writeKitti("00");
-  writeKitti("03");
-  expectIoFailed(
-      root(),
-      "holds several sequences of scans: sequences/00/velodyne (KITTI odometry), "
-      "sequences/03/velodyne (KITTI odometry); give the folder of a single sequence",
-      [&] { const ScanFolder scans(root()); });
-  EXPECT_EQ(ScanFolder(root() / "sequences/03").size(), 3u);
-}
-
-TEST_F(DatasetLayouts, StampsOfMissingScansAreLeftOut)
-{
-  writeKitti("00");
-  fs::remove(root() / "sequences/00/velodyne/000001.bin");
-  EXPECT_EQ(ScanFolder(root()).stamps(), (std::vector<double>{0, 0.2}));
-  writeFile(root() / "sequences/00/times.txt", "0\n");
-  expectIoFailed(root() / "sequences/00/times.txt",
-                 "1 time stamp, but the folder holds 2 scans",
-                 [&] { const ScanFolder scans(root()); });
-}
-
-// The scanner turns clockwise and is stamped when it faces forward.
-TEST_F(DatasetLayouts, KittiRawHasTimesByAzimuthAndStampsByDate)
-{
-  const fs::path drive = root() / "2011_09_26/2011_09_26_drive_0001_sync";
-  writeRaw(drive);
-  fs::create_directories(drive / "oxts/data");
-  const double first = 1317042145.5; // date -u -d "2011-09-26 13:02:25.5" +%s
-  for (const fs::path& path : {root(), drive, drive / "velodyne_points/data"}) {
-    SCOPED_TRACE(path.string());
-    const ScanFolder scans(path);
-    EXPECT_EQ(layoutName(scans), "KITTI raw");
-    ASSERT_EQ(scans.stamps().size(), 3u);
-    EXPECT_EQ(scans.stamps()[0], first);
-    EXPECT_NEAR(scans.stamps()[2], first + 0.2, 1e-6);
-    const auto times = valuesOf(scans.read(0).cloud, "time");
-    ASSERT_EQ(times.size(), 4u);
-    const double period = 0.1, rounding = 1e-6; // of stamps as double
-    EXPECT_NEAR(times[0], 0, rounding);
-    EXPECT_NEAR(times[1], -period / 4, rounding);
-    EXPECT_NEAR(times[2], period / 4, rounding);
-    EXPECT_NEAR(times[3], period * 3 / 8, rounding);
-  }
-}
-
-TEST_F(DatasetLayouts, Kitti360IsToldByItsFolder)
-{
-  const fs::path drive = root() / "data_3d_raw/2013_05_28_drive_0000_sync";
-  writeRaw(drive);
-  const std::string poses = "data_poses/2013_05_28_drive_0000_sync/poses.txt";
-  writeFile(root() / poses, "0 1 0 0 0 0 1 0 0 0 0 1 0\n");
-  const ScanFolder scans(root());
-  EXPECT_EQ(layoutName(scans), "KITTI-360");
-  EXPECT_EQ(scans.layout()->reference,
-            (fs::absolute(root()) / poses).lexically_normal());
-  EXPECT_FALSE(scans.hasPoses());
-  EXPECT_EQ(valuesOf(scans.read(0).cloud, "time").size(), 4u);
-}
 
 TEST_F(DatasetLayouts, MulRanHasTimesByOrder)
 {
@@ -247,14 +81,15 @@ TEST_F(DatasetLayouts, HeliprHasFourRecords)
   };
   const std::uint8_t byte = 7;
   write("Avia",
-        bytesOf(byte) + bytesOf(byte) + bytesOf(byte) +
-            bytesOf(std::uint32_t{90000000}),
+        bytesOfNumber(byte) + bytesOfNumber(byte) + bytesOfNumber(byte) +
+            bytesOfNumber(std::uint32_t{90000000}),
         name);
   const auto avia = read("Avia");
   EXPECT_EQ(fieldNames(avia), "x y z intensity tag line time");
   EXPECT_EQ(valuesOf(avia, "y"), (std::vector<double>{-2, -2}));
   EXPECT_EQ(valuesOf(avia, "time"), (std::vector<double>{9e7, 9e7}));
-  const std::string aeva = floats({0.5f, -1.5f}) + bytesOf(std::int32_t{-5}) + "\x03";
+  const std::string aeva =
+      floats({0.5f, -1.5f}) + bytesOfNumber(std::int32_t{-5}) + "\x03";
   write("Aeva", aeva + floats({9}), name);
   EXPECT_EQ(fieldNames(read("Aeva")),
             "x y z reflectivity velocity time line intensity");
@@ -264,13 +99,16 @@ TEST_F(DatasetLayouts, HeliprHasFourRecords)
   EXPECT_EQ(fieldNames(read("Aeva")), "x y z reflectivity velocity time line");
   EXPECT_EQ(valuesOf(read("Aeva"), "velocity"), (std::vector<double>{-1.5, -1.5}));
   write("Ouster",
-        floats({4}) + bytesOf(std::uint32_t{42}) + bytesOf(std::uint16_t{1}) +
-            bytesOf(std::uint16_t{63}) + bytesOf(std::uint16_t{3}),
+        floats({4}) + bytesOfNumber(std::uint32_t{42}) +
+            bytesOfNumber(std::uint16_t{1}) + bytesOfNumber(std::uint16_t{63}) +
+            bytesOfNumber(std::uint16_t{3}),
         name);
   EXPECT_EQ(fieldNames(read("Ouster")),
             "x y z intensity time reflectivity ring ambient");
   EXPECT_EQ(valuesOf(read("Ouster"), "ring"), (std::vector<double>{63, 63}));
-  write("Velodyne", floats({4}) + bytesOf(std::uint16_t{15}) + floats({-0.05f}), name);
+  write("Velodyne",
+        floats({4}) + bytesOfNumber(std::uint16_t{15}) + floats({-0.05f}),
+        name);
   EXPECT_EQ(fieldNames(read("Velodyne")), "x y z intensity ring time");
   EXPECT_NEAR(valuesOf(read("Velodyne"), "time")[1], -0.05, 1e-9);
   const std::string message =
@@ -375,51 +213,4 @@ TEST_F(DatasetLayouts, TwoLayoutsClash)
             root().string() +
                 ": holds several sequences of scans: Ouster (MulRan), velodyne_sync "
                 "(NCLT); give the folder of a single sequence");
-}
-
-TEST(NameStamps, AreReadOfAllKindsOrNotAtAll)
-{
-  using pcl6d::stampsOfNames;
-  EXPECT_EQ(stampsOfNames({"a_1500000000_5.pcd", "a_1500000000_500000000.pcd"}),
-            (std::vector<double>{1500000000 + 5e-9, 1500000000.5}));
-  EXPECT_EQ(stampsOfNames({"1500000000.25.pcd", "1500000000.5.pcd"}),
-            (std::vector<double>{1500000000.25, 1500000000.5}));
-  EXPECT_EQ(stampsOfNames({"x_1500000000500000.ply"}),
-            (std::vector<double>{1500000000.5}));
-  EXPECT_EQ(stampsOfNames({"1500000000250000000.bin", "1500000000500000000.bin"}),
-            (std::vector<double>{1500000000.25, 1500000000.5}));
-  EXPECT_TRUE(stampsOfNames({"1500000000500000.bin", "scan001.bin"}).empty());
-  EXPECT_TRUE(stampsOfNames({"1500000000500000.bin", "1500000000500000.bin"}).empty());
-  for (const char* const name : {"scan001.pcd",
-                                 "0000000001.bin",
-                                 "0500000000500000.bin",
-                                 "1500000000.pcd",
-                                 "1500000000_.pcd",
-                                 "1500000000_1234567890.pcd",
-                                 "150000000_5.pcd",
-                                 "20240312_101500.pcd",
-                                 ".pcd"})
-    EXPECT_TRUE(stampsOfNames({name}).empty()) << name;
-}
-
-TEST(DateStamps, AreSecondsSince1970)
-{
-  const TempFolder folder;
-  const auto read = [&](const std::string& text) {
-    writeText(folder / "timestamps.txt", text);
-    return pcl6d::readStamps(folder / "timestamps.txt");
-  };
-  // date -u -d "..." +%s
-  EXPECT_EQ(read("1970-01-01 00:00:00\n2000-02-29 23:59:59.25\n2000-03-01 00:00:00\n"),
-            (std::vector<double>{0, 951868799.25, 951868800}));
-  EXPECT_EQ(read("2013-05-28 08:46:02.900000000\r\n"),
-            (std::vector<double>{1369730762.9}));
-  for (const char* const line : {"2011-02-29 00:00:00",
-                                 "2011-13-01 00:00:00",
-                                 "2011-09-26 24:00:00",
-                                 "2011-09-26 13:02",
-                                 "2011-09-26",
-                                 "2011-09-26 13:02:25.9e3",
-                                 "2011-09-26 13:02:25 7"})
-    EXPECT_THROW(read(line), pcl6d::IoFailed) << line;
 }

@@ -2,7 +2,7 @@
 // Scans that cannot be matched where the odometry expects them, and all after them: jumps,
 // turns, scans of elsewhere and pieces that meet the map again later, with exact truth.
 #include "corridor_drive.h"
-#include "recovery/recovery.h"
+#include "recovery/motion_guesses.h"
 #include "registered_run.h"
 #include "support/points.h"
 
@@ -133,10 +133,10 @@ TEST(Recovery, IsLeftOutWhereNotWanted)
 
 TEST(Recovery, EffortsHaveWords)
 {
-  for (const std::string& word : recoveryEffortNames())
-    EXPECT_EQ(toString(recoveryEffortFromName(word)), word);
-  EXPECT_EQ(recoveryEffortNames().size(), 3u);
-  EXPECT_THROW(recoveryEffortFromName("everywhere"), BadArgument);
+  for (const std::string& word : pcl6d::recoveryEffortNames())
+    EXPECT_EQ(toString(pcl6d::recoveryEffortFromName(word)), word);
+  EXPECT_EQ(pcl6d::recoveryEffortNames().size(), 3u);
+  EXPECT_THROW(pcl6d::recoveryEffortFromName("everywhere"), BadArgument);
   EXPECT_EQ(Slam6DOptions().recovery, RecoveryEffort::kBounded);
 }
 

@@ -6,7 +6,10 @@
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/verification/verified_scan.h>
 
+#include <cmath>
+#include <cstddef>
 #include <deque>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -138,6 +141,30 @@ within(const Points& points, float range)
     if (p.norm() < range)
       kept.push_back(p);
   return kept;
+}
+
+inline std::vector<std::string>
+namesOf(std::size_t count)
+{
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < count; ++i)
+    names.push_back("scan " + std::to_string(i));
+  return names;
+}
+
+constexpr std::size_t kRoomScans = 6;
+
+/** \return poses of kRoomScans scans along a path through the room, with roll, pitch and yaw */
+inline std::vector<Eigen::Isometry3d>
+roomPoses()
+{
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < kRoomScans; ++i) {
+    const double s = static_cast<double>(i);
+    poses.push_back(poseFromEuler({-1.5 + s, 0.5 * std::sin(s), 0.1 * std::cos(s)},
+                                  {0.03 * std::sin(s), 0.02, 0.4 * s}));
+  }
+  return poses;
 }
 
 } // namespace pcl6d::test

@@ -23,10 +23,15 @@ extrapolateOdometry(const Eigen::Isometry3d& corrected,
                     const Eigen::Isometry3d& odometry_from,
                     const Eigen::Isometry3d& odometry_to)
 {
-  Eigen::Isometry3d predicted = corrected * odometry_from.inverse() * odometry_to;
-  predicted.linear() =
-      Eigen::Quaterniond(predicted.linear()).normalized().toRotationMatrix();
-  return predicted;
+  return exactlyRigid(corrected * odometry_from.inverse() * odometry_to);
+}
+
+Eigen::Isometry3d
+exactlyRigid(const Eigen::Isometry3d& pose)
+{
+  Eigen::Isometry3d rigid = pose;
+  rigid.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
+  return rigid;
 }
 
 MotionSize

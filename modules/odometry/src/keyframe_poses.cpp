@@ -60,8 +60,8 @@ posesByKeyframes(const std::vector<Eigen::Isometry3d>& tracked,
 {
   requireKeyframes(tracked.size(), keyframes, corrected.size());
   const auto by = [&](std::size_t key, std::size_t sweep) {
-    return odometry::rigid(corrected[key] *
-                           (tracked[keyframes[key]].inverse() * tracked[sweep]));
+    return exactlyRigid(corrected[key] *
+                        (tracked[keyframes[key]].inverse() * tracked[sweep]));
   };
   std::vector<Eigen::Isometry3d> poses;
   poses.reserve(tracked.size());

@@ -4,6 +4,7 @@
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/common/pose.h>
 #include <pcl6d/registration/localizability.h>
 #include <pcl6d/registration/plane_sums.h>
 
@@ -268,7 +269,7 @@ private:
   moved(const Eigen::Isometry3d& pose, const Twist& step) const
   {
     const Eigen::Translation3d there(prior_.centre), back(-prior_.centre);
-    return rigid(there * motionFromTwist(step) * back * pose);
+    return exactlyRigid(there * motionFromTwist(step) * back * pose);
   }
 
   void

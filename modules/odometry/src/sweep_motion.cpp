@@ -55,11 +55,4 @@ movedInformation(const Eigen::Matrix<double, 6, 6>& information,
   return back.transpose() * information * back;
 }
 
-Eigen::Isometry3d
-rigid(Eigen::Isometry3d pose)
-{
-  pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
-  return pose;
-}
-
 } // namespace pcl6d::odometry

@@ -57,8 +57,4 @@ movedInformation(const Eigen::Matrix<double, 6, 6>& information,
                  const Eigen::Vector3d& from,
                  const Eigen::Vector3d& to);
 
-/** \return the pose with the rotation made exactly rigid */
-Eigen::Isometry3d
-rigid(Eigen::Isometry3d pose);
-
 } // namespace pcl6d::odometry

@@ -11,7 +11,6 @@
 namespace pcl6d {
 
 using odometry::kLeastSweepPoints;
-using odometry::rigid;
 using odometry::SweepMatch;
 using odometry::SweepMotion;
 using odometry::SweepPrior;
@@ -27,8 +26,10 @@ constexpr double kVoxelOfRange = 0.03;
 constexpr double kAngleOfVoxel = 0.1;
 constexpr int kMostMapLevels = 8; ///< the limit of LocalMap
 
-/** Planes are known to this share of the smallest voxel: the spread that still shows the normal of
- * a plane (1/16), reduced by the mean over 6 points or more. */
+/** Least standard deviation of a plane's position, as a share of the smallest voxel's edge. Points
+ * that fill a face of a voxel spread by edge / sqrt(12) along the plane, and at most a fifth of it
+ * across: edge / 17 (kFlatness, local_map.cpp). Their mean deviates by edge / 42 for 6 points, the
+ * least number, and by edge / 49 for 8. The value is rounded down. */
 constexpr double kNoiseOfVoxel = 1.0 / 50;
 
 /** Parts of a sweep, within which the velocity is taken as constant: a change of 3 degrees a sweep
@@ -111,7 +112,7 @@ SweepTracker::Track::begin(const Current& now)
   if (num_sweeps_ > 1 && num_lost_ > 0)
     ++segment_;
   const Eigen::Isometry3d predicted =
-      now.prediction ? *now.prediction : rigid(last_.end());
+      now.prediction ? *now.prediction : exactlyRigid(last_.end());
   last_ = SweepMotion();
   last_.begin = predicted;
   last_begin_ = now.begin;
@@ -231,17 +232,17 @@ SweepTracker::Track::describe(const Current& now, const SweepMotion& motion) con
   found.points = now.span.points.size();
   found.begin = now.span.begin;
   found.end = now.span.end;
-  found.T_world_begin = rigid(motion.begin);
-  found.T_world_end = now.is_timed ? rigid(motion.end()) : found.T_world_begin;
+  found.T_world_begin = exactlyRigid(motion.begin);
+  found.T_world_end = now.is_timed ? exactlyRigid(motion.end()) : found.T_world_begin;
   found.T_world_sweep = found.T_world_begin;
   for (int knot = 0; now.is_timed && knot <= kPathSteps; ++knot) {
     const double share = static_cast<double>(knot) / kPathSteps;
     found.path.stamps.push_back(now.span.begin + share * now.length);
     found.path.poses.push_back(
-        rigid(motion.begin * motionFromTwist(motion.twistAt(share))));
+        exactlyRigid(motion.begin * motionFromTwist(motion.twistAt(share))));
   }
   if (now.is_timed && now.span.begin != 0)
-    found.T_world_sweep = rigid(
+    found.T_world_sweep = exactlyRigid(
         motion.begin * motionFromTwist(motion.twistAt(-now.span.begin / now.length)));
   return found;
 }

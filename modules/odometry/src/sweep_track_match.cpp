@@ -2,13 +2,15 @@
 // Prediction and match of a sweep, and the update of the expected deviations.
 #include "sweep_track.h"
 
+#include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/pose.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace pcl6d {
 
 using odometry::Matrix6;
-using odometry::rigid;
 using odometry::SweepMatch;
 using odometry::SweepPrior;
 
@@ -53,10 +55,10 @@ SweepTracker::Track::priorOf(const Current& now) const
   const double steps = std::clamp(pause * per_time, 0.0, kLongestPause);
   const bool goes_on = now.is_timed && steps <= kNoPause;
   const Eigen::Isometry3d from = now.is_timed ? last_.end() : last_.begin;
-  prior.motion.begin = now.prediction ? *now.prediction
-                       : goes_on
-                           ? rigid(from)
-                           : rigid(from * motionFromTwist(steps * last_.velocity));
+  prior.motion.begin =
+      now.prediction ? *now.prediction
+      : goes_on      ? exactlyRigid(from)
+                     : exactlyRigid(from * motionFromTwist(steps * last_.velocity));
   prior.motion.velocity =
       now.is_timed ? Twist(last_.velocity * (now.length * per_time)) : last_.velocity;
   prior.goes_on = goes_on && num_lost_ == 0;
@@ -156,7 +158,7 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
   loose.rotation = std::max(kDisconnecting * wider.rotation, widest / range_);
   loose.begin_information /= kDisconnecting * kDisconnecting;
   attempt(loose);
-  loose.motion.begin = rigid(now.is_timed ? last_.end() : last_.begin);
+  loose.motion.begin = exactlyRigid(now.is_timed ? last_.end() : last_.begin);
   if (prior.goes_on)
     loose.motion.velocity.setZero();
   attempt(loose);

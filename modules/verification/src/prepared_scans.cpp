@@ -62,9 +62,7 @@ PreparedScans::set(std::size_t place, const Points& measured, const std::string&
   options.num_threads = num_threads_;
   surfaces_.at(place).emplace(reduced(points, name, voxel), options);
   scans_[place] = VerifiedScan(points, *surfaces_[place], voxel);
-  Fingerprint fingerprint;
-  fingerprint.add(points);
-  fingerprints_[place] = fingerprint.value();
+  fingerprints_[place] = fingerprintOf(points);
 }
 
 std::size_t

@@ -10,14 +10,6 @@
 namespace pcl6d {
 
 namespace {
-/** \return the pose with an exact rotation: products of poses collect rounding errors */
-Eigen::Isometry3d
-exactlyRigid(Eigen::Isometry3d pose)
-{
-  pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
-  return pose;
-}
-
 /** \return the scans of a map nearest to a position, the nearest first */
 std::vector<KnownScan>
 nearestOf(const std::vector<KnownScan>& map,

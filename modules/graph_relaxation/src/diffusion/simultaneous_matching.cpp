@@ -102,8 +102,7 @@ private:
       return false;
     }
     Eigen::Isometry3d& pose = result_.poses[s];
-    pose = pose * found.T_target_source;
-    pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
+    pose = exactlyRigid(pose * found.T_target_source);
     const MotionSize moved =
         distanceBetween(Eigen::Isometry3d::Identity(), found.T_target_source);
     return moved.translation > o_.min_translation || moved.rotation > o_.min_rotation;

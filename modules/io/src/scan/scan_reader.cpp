@@ -8,12 +8,10 @@
 #include <pcl6d/io/other_scan_format.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_fields.h>
-#include <pcl6d/io/scan_source.h>
 #include <pcl6d/io/text.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 
@@ -21,55 +19,7 @@ namespace pcl6d {
 
 using namespace io;
 
-ScanSource::~ScanSource() = default;
-
-const std::filesystem::path&
-ScanSource::fileOf(std::size_t /*i*/) const
-{
-  return path();
-}
-
-std::string
-ScanSource::titleOf(std::size_t i) const
-{
-  return path().string() + ": scan " + std::to_string(i) + " (" + scans().at(i).name +
-         ")";
-}
-
-std::string
-ScanSource::poseSource() const
-{
-  return path().filename().string();
-}
-
-std::string
-ScanSource::note() const
-{
-  return {};
-}
-
 namespace {
-
-/** Names of the formats on the command line, and extensions. */
-struct FormatName {
-  ScanFormat format;
-  std::string_view name;
-  std::string_view extension;
-};
-// If two formats share an extension, the first is the default.
-constexpr std::array<FormatName, 13> kFormats = {{{ScanFormat::kPcd, "pcd", ".pcd"},
-                                                  {ScanFormat::kPly, "ply", ".ply"},
-                                                  {ScanFormat::kUos, "uos", ".3d"},
-                                                  {ScanFormat::kUosr, "uosr", ".3d"},
-                                                  {ScanFormat::kKitti, "kitti", ".bin"},
-                                                  {ScanFormat::kXyz, "xyz", ".xyz"},
-                                                  {ScanFormat::kLas, "las", ".las"},
-                                                  {ScanFormat::kLaz, "laz", ".laz"},
-                                                  {ScanFormat::kPtx, "ptx", ".ptx"},
-                                                  {ScanFormat::kPts, "pts", ".pts"},
-                                                  {ScanFormat::kCsv, "csv", ".csv"},
-                                                  {ScanFormat::kTxt, "txt", ".txt"},
-                                                  {ScanFormat::kTxt, "txt", ".asc"}}};
 
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
@@ -199,14 +149,6 @@ dropInvalid(const std::filesystem::path& path, ScanCloud& scan)
   scan.cloud.is_dense = true;
 }
 
-std::string
-inLowerCase(std::string text)
-{
-  for (char& c : text)
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 /** \throws BadArgument fields and data of a cloud do not fit together */
 void
 requireFitting(const pcl::PCLPointCloud2& cloud)
@@ -256,44 +198,6 @@ finitePart(const std::filesystem::path& path, ScanCloud scan)
 
 } // namespace
 
-ScanFormat
-scanFormatOfExtension(const std::filesystem::path& path)
-{
-  const std::string extension = inLowerCase(path.extension().string());
-  for (const auto& known : kFormats)
-    if (extension == known.extension)
-      return known.format;
-  return ScanFormat::kAuto;
-}
-
-std::string
-extensionOf(ScanFormat format)
-{
-  for (const auto& known : kFormats)
-    if (known.format == format)
-      return std::string(known.extension);
-  return {};
-}
-
-std::string
-toString(ScanFormat format)
-{
-  for (const auto& known : kFormats)
-    if (known.format == format)
-      return std::string(known.name);
-  return "auto";
-}
-
-std::string
-io::allExtensions()
-{
-  std::string extensions;
-  for (const auto& known : kFormats)
-    if (extensions.find(known.extension) == std::string::npos)
-      extensions += (extensions.empty() ? "" : " ") + std::string(known.extension);
-  return extensions;
-}
-
 bool
 io::needsDouble(const std::filesystem::path& path, const pcl::PCLPointCloud2& cloud)
 {
@@ -304,19 +208,6 @@ io::needsDouble(const std::filesystem::path& path, const pcl::PCLPointCloud2& cl
   std::error_code error;
   return has_floats && !offsetOfFar(cloud).isZero(0) &&
          std::filesystem::is_regular_file(path, error);
-}
-
-ScanFormat
-scanFormatFromName(const std::string& name)
-{
-  if (name == "auto")
-    return ScanFormat::kAuto;
-  for (const auto& known : kFormats)
-    if (name == known.name)
-      return known.format;
-  throw BadArgument("format = " + text::quoted(name) +
-                    ", but must be auto, pcd, ply, uos, uosr, kitti, xyz, las, "
-                    "laz, ptx, pts, csv or txt");
 }
 
 ScanCloud
@@ -331,12 +222,6 @@ readScanCloud(const std::filesystem::path& path, ScanFormat format)
   ScanReaderOptions options;
   options.format = format;
   return readScanCloud(path, options);
-}
-
-bool
-hasExtensionOf(const OtherScanFormat& format, const std::filesystem::path& path)
-{
-  return inLowerCase(path.extension().string()) == inLowerCase(format.extension);
 }
 
 ScanCloud

@@ -32,7 +32,7 @@ placesOf(const Surfels& surfels, const std::vector<std::uint32_t>& chosen)
 float
 leastSpacing(const Surfels& all, const std::vector<std::uint32_t>& surfels)
 {
-  constexpr std::size_t kDense = 4; // one surfel in four is as dense
+  constexpr std::size_t kDense = 4; // the densest quarter of the surfels
   std::vector<float> radii;
   for (const auto i : surfels)
     radii.push_back(all.radii[i]);

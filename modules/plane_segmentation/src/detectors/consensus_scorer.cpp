@@ -256,7 +256,7 @@ ConsensusScorer::climbed(const ConsensusCandidate& start,
                          bool only_fits) const
 {
   ConsensusCandidate best = evaluated(start, start.fit, only_fits);
-  PlaneFit place = start.fit; // best is this plane or its fit
+  PlaneFit place = start.fit; // the plane whose candidate, or fit, is `best`
   double step = climb.step * options_.max_distance;
   std::size_t looks = 0;
   for (int halvings = 0; halvings <= climb.halvings && !isPerfect(best.score);) {

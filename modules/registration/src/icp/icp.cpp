@@ -4,6 +4,7 @@
 #include "icp/sampled_localizability.h"
 
 #include <pcl6d/common/name_table.h>
+#include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/icp.h>
@@ -17,14 +18,6 @@ namespace pcl6d {
 using namespace registration;
 
 namespace {
-/** Makes an accumulated motion exactly rigid again, against accumulated rounding. */
-Eigen::Isometry3d
-rigid(Eigen::Isometry3d T)
-{
-  T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
-  return T;
-}
-
 std::size_t
 countFinite(const Points& points)
 {
@@ -103,7 +96,7 @@ private:
         hasGrown(step, limit) || !takeScale(step))
       return IcpStop::kDiverged;
     is_unique_ = step.motion.status == Status::kOk;
-    result_.T_target_source = rigid(motion * result_.T_target_source);
+    result_.T_target_source = exactlyRigid(motion * result_.T_target_source);
     return observe(step, limit);
   }
 

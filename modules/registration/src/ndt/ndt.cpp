@@ -120,7 +120,7 @@ private:
     result.last_step = length > o_.step_size
                            ? partOf(step.transform, centroid, o_.step_size / length)
                            : step.transform;
-    result.T_target_source = rigid(result.last_step * result.T_target_source);
+    result.T_target_source = exactlyRigid(result.last_step * result.T_target_source);
     if (size.translation <= o_.translation_epsilon &&
         size.rotation <= o_.rotation_epsilon)
       return IcpStop::kAtRest;
@@ -142,13 +142,6 @@ private:
     part.translation() =
         centroid + share * (step * centroid - centroid) - part.linear() * centroid;
     return part;
-  }
-
-  static Eigen::Isometry3d
-  rigid(Eigen::Isometry3d T)
-  {
-    T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
-    return T;
   }
 
   NdtSums

@@ -129,7 +129,7 @@ RangeErrorModel::measure(std::vector<Echo>& echoes, Random& random) const
       echoes.size() == 1 && numRays() == 1 ? echoes.front() : strongestEcho(echoes);
   double range =
       echo.range + sigma(echo.range, echo.intensity, echo.cos_incidence) * error;
-  // Negated, so that NaN counts as no return.
+  // Negated: a NaN range is no return.
   if (!(range <= options_.max_range) ||
       range > options_.signal_range * std::sqrt(echo.intensity))
     return no_return;

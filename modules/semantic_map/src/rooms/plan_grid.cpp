@@ -151,7 +151,7 @@ PlanGrid::labelAt(const Eigen::Vector2d& point) const
 void
 PlanGrid::addLine(const PlanLine& line)
 {
-  constexpr double kBeyond = 1e-6; // [cells], so that ends that meet leave no hole
+  constexpr double kBeyond = 1e-6; // [cells] overlap of ends that touch
   const Eigen::Vector2d half(0.5, 0.5);
   Eigen::Vector2d a = (line.from - origin_) / cell_ - half; // centres are whole numbers
   Eigen::Vector2d b = (line.to - origin_) / cell_ - half;

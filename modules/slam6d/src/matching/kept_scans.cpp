@@ -38,7 +38,7 @@ constexpr std::size_t kScansForParameters = 16;
 constexpr std::size_t kPreparedAtATime = 4;
 } // namespace
 
-/** A scan as prepared by its owner. */
+/** A scan, prepared by the process that owns the scan. */
 struct PreparedScan {
   std::optional<IcpModel> model; ///< of an own scan
   Points gated;                  ///< of an own scan

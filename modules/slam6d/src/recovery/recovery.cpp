@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "recovery/motion_guesses.h"
 #include "recovery/recovery.h"
 #include "registered.h"
 
 #include <pcl6d/common/parallel.h>
-#include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/global_registration/scan_joiner.h>
 
@@ -34,95 +34,11 @@ constexpr std::size_t kAskedOfPiece = 12;
 /** Number of scans in a search without prediction, at about 10 ms per scan. */
 constexpr std::size_t kLatestEverywhere = 24, kNearestEverywhere = 40;
 
-/** Number of scans from which the deviation of the odometry is estimated. */
-constexpr std::size_t kCorrections = 20;
-
 /** Range of a search about the prediction, in deviations: 99.7 %. */
 constexpr double kDeviations = 3;
 
-/** Turns [rad] tried from the prediction. The spacing is half the basin of ICP, which is 15 to 20
- * deg about each start (book, 4.2). */
-constexpr double kTurns[] = {0, 0.35, -0.35, 0.7, -0.7};
-
 /** Largest pair distance at the start of matching [voxels], equal to the default of a run. */
 constexpr double kReachVoxels = 12;
-
-/** Motion since the last registered scan. */
-struct Way {
-  std::size_t last = 0;  ///< last registered scan
-  std::size_t steps = 0; ///< since last
-  Eigen::Isometry3d T_world_last = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d odometry = Eigen::Isometry3d::Identity(); ///< predicted, since last
-  /** previous motion repeated; the odometry if unknown */
-  Eigen::Isometry3d carried = Eigen::Isometry3d::Identity();
-  double deviation = 0; ///< [m] of the odometry over all steps
-};
-
-/** \return [m] rms correction of the latest scans registered from odometry */
-double
-deviationOfStep(const std::vector<ScanResult>& scans, std::size_t before, double least)
-{
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t i = before; i-- > 0 && count < kCorrections;)
-    if (isRegistered(scans[i]) && scans[i].state != ScanState::kFixed &&
-        scans[i].recovered == RecoveredBy::kNone) {
-      sum += scans[i].correction * scans[i].correction;
-      ++count;
-    }
-  return std::max(least, count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0);
-}
-
-std::optional<Way>
-wayTo(std::size_t scan, const std::vector<ScanResult>& scans, double voxel)
-{
-  Way way;
-  std::vector<std::size_t> accepted; // the last two
-  for (std::size_t i = scan; i-- > 0 && accepted.size() < 2;)
-    if (isRegistered(scans[i]))
-      accepted.push_back(i);
-  if (accepted.empty())
-    return std::nullopt;
-  way.last = accepted[0];
-  way.steps = scan - way.last;
-  way.T_world_last = scans[way.last].T_world_scan;
-  way.odometry = way.T_world_last.inverse() * scans[scan].T_world_scan;
-  way.carried = way.odometry;
-  if (accepted.size() == 2 && accepted[0] == accepted[1] + 1)
-    way.carried = repeated(scans[accepted[1]].T_world_scan.inverse() * way.T_world_last,
-                           way.steps);
-  way.deviation =
-      deviationOfStep(scans, scan, voxel) * std::sqrt(static_cast<double>(way.steps));
-  return way;
-}
-
-/** Poses by odometry, by the motion before, by mixtures of both, and the pose of the last scan. */
-std::vector<Eigen::Isometry3d>
-motionsOf(const Way& way)
-{
-  Eigen::Isometry3d turned = way.carried, moved = way.odometry;
-  turned.translation() = way.odometry.translation();
-  moved.translation() = way.carried.translation();
-  std::vector<Eigen::Isometry3d> guesses;
-  for (const auto& motion : {way.odometry,
-                             turned,
-                             way.carried,
-                             moved,
-                             Eigen::Isometry3d(Eigen::Isometry3d::Identity())})
-    guesses.push_back(way.T_world_last * motion);
-  return guesses;
-}
-
-/** Rodrigues' formula, with equal bits on every machine. */
-Eigen::Matrix3d
-turnAbout(const Eigen::Vector3d& axis, double angle)
-{
-  const SinCos turn = portableSinCos(angle);
-  Eigen::Matrix3d cross;
-  cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
-  return Eigen::Matrix3d::Identity() + turn.sin * cross +
-         (1 - turn.cos) * cross * cross;
-}
 
 /** A long search takes the time of this many matches (16 to 27 with lidars and cameras). */
 constexpr std::size_t kMatchesOfSearch = 24;
@@ -156,15 +72,6 @@ bool
 isBounded(const Slam6DOptions& options)
 {
   return options.recovery == RecoveryEffort::kBounded;
-}
-
-Eigen::Isometry3d
-repeated(const Eigen::Isometry3d& motion, std::size_t count)
-{
-  Eigen::Isometry3d all = Eigen::Isometry3d::Identity();
-  for (std::size_t i = 0; i < count; ++i)
-    all = all * motion;
-  return all;
 }
 
 Recovery::Recovery(const Slam6DOptions& options,
@@ -273,25 +180,6 @@ Recovery::seemsContradicted(std::size_t scan,
   return contradictionOfPlace(placeable(scan), last, T_world_scan) > kSuspicious;
 }
 
-/** \return poses around a pose: turned about the vertical, and shifted to four sides
- * \param[in] up in the frame of the pose \param[in] by [m] */
-std::vector<Eigen::Isometry3d>
-Recovery::spread(const Eigen::Isometry3d& about,
-                 const Eigen::Vector3d& up,
-                 double by) const
-{
-  const Eigen::Matrix3d level = uprightRotation(up).transpose(); // columns: axes
-  std::vector<Eigen::Isometry3d> poses;
-  for (const double turn : kTurns)
-    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-      Eigen::Isometry3d pose = about;
-      pose.translation() += about.linear() * level * Eigen::Vector3d(x * by, y * by, 0);
-      pose.linear() = about.linear() * turnAbout(up, turn);
-      poses.push_back(pose);
-    }
-  return poses;
-}
-
 /** \return options of guesses where the odometry leads \param[in] deviation [m] of the odometry */
 GuessOptions
 Recovery::guessOptions(std::size_t scan,
@@ -310,13 +198,13 @@ Recovery::guessOptions(std::size_t scan,
 std::optional<Recovery::Found>
 Recovery::findByMotion(std::size_t scan, const std::vector<ScanResult>& scans)
 {
-  const auto way = wayTo(scan, scans, verified_[scan].voxel());
+  const auto way = motionSinceLast(scan, scans, verified_[scan].voxel());
   if (!way)
     return std::nullopt;
   const GuessedPlace place =
       placeByGuesses(placeable(scan),
                      knownAround(scan, scans[scan].T_world_scan.translation(), scans),
-                     motionsOf(*way),
+                     posesByMotion(*way),
                      guessOptions(scan, scans, way->deviation));
   if (!place.accepted)
     return std::nullopt;
@@ -329,7 +217,7 @@ Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
 {
   if (const auto found = findByMotion(scan, scans))
     return found;
-  const auto way = wayTo(scan, scans, verified_[scan].voxel());
+  const auto way = motionSinceLast(scan, scans, verified_[scan].voxel());
   if (!way || !isSearchDue(scan, scans, isBounded(options_)))
     return std::nullopt;
   GuessOptions options = guessOptions(scan, scans, way->deviation);
@@ -337,8 +225,8 @@ Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
   const double by = std::max(kDeviations * way->deviation, options.reach);
   const Eigen::Vector3d up = placeable(scan).vertical().up;
   std::vector<Eigen::Isometry3d> guesses =
-      spread(way->T_world_last * way->odometry, up, by);
-  const auto more = spread(way->T_world_last, up, by);
+      posesAround(way->T_world_last * way->odometry, up, by);
+  const auto more = posesAround(way->T_world_last, up, by);
   guesses.insert(guesses.end(), more.begin(), more.end());
   const GuessedPlace place =
       placeByGuesses(placeable(scan),

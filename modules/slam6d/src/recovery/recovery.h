@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl6d/common/export.h>
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/global_registration/place_by_guesses.h>
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -18,10 +17,6 @@ namespace pcl6d::slam6d {
 /** \return whether the time of failed searches is limited to about the time of matching */
 bool
 isBounded(const Slam6DOptions& options);
-
-/** \return a motion repeated: motion^count */
-PCL6D_EXPORTS Eigen::Isometry3d // exported for its test
-repeated(const Eigen::Isometry3d& motion, std::size_t count);
 
 /** \brief Recovery of scans without a match at the pose predicted by odometry (algorithms.md G.3).
  * Searches by the previous motion, then around the prediction, then without prediction. Points and
@@ -99,8 +94,6 @@ private:
   guessOptions(std::size_t scan,
                const std::vector<ScanResult>& scans,
                double deviation) const;
-  std::vector<Eigen::Isometry3d>
-  spread(const Eigen::Isometry3d& about, const Eigen::Vector3d& up, double by) const;
   std::optional<Found>
   findEverywhere(std::size_t scan, const std::vector<ScanResult>& scans);
 

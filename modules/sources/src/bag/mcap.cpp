@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Format: "MCAP file format specification", mcap.dev/spec.
 #include "bag/chunked_bag.h"
+#include "bag/mcap_records.h"
 
 #include <pcl6d/common/error.h>
 
@@ -11,23 +12,9 @@
 namespace pcl6d::sources {
 
 namespace {
-constexpr std::uint8_t kMcapMagic[8] = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 constexpr std::size_t kMcapHead = 9; // [byte] kind and length of a record
 constexpr std::size_t kFooterSize = kMcapHead + 8 + 8 + 4;
 constexpr const char* kRecover = "`mcap recover` writes an index";
-
-/** Kinds of records. */
-enum McapOp : std::uint8_t {
-  kMcapFooter = 2,
-  kMcapSchema = 3,
-  kMcapChannel = 4,
-  kMcapMessage = 5,
-  kMcapChunk = 6,
-  kMcapMessageIndex = 7,
-  kMcapChunkIndex = 8,
-  kMcapStatistics = 11,
-  kMcapDataEnd = 15
-};
 
 /** \brief An MCAP file. */
 class Mcap : public ChunkedBag {

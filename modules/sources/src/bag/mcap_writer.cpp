@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Format: "MCAP file format specification", mcap.dev/spec.
+#include "bag/mcap_records.h"
 #include "bag/mcap_writer.h"
 
 #include <algorithm>
@@ -9,26 +10,11 @@
 namespace pcl6d::sources {
 
 namespace {
-constexpr char kMagicOfMcap[] = "\x89MCAP0\r\n";
 constexpr std::size_t kChunkSize = 786432; ///< [byte] 768 kB, the default of rosbag2
-
-/** Kinds of records that are written. */
-enum McapRecord : std::uint8_t {
-  kHeaderRecord = 1,
-  kFooterRecord = 2,
-  kSchemaRecord = 3,
-  kChannelRecord = 4,
-  kMessageRecord = 5,
-  kChunkRecord = 6,
-  kMessageIndexRecord = 7,
-  kChunkIndexRecord = 8,
-  kStatisticsRecord = 11,
-  kDataEndRecord = 15
-};
 
 /** \return the kind and the length of a record, followed by the content */
 std::string
-recordOf(McapRecord kind, const ByteWriter& content)
+recordOf(McapOp kind, const ByteWriter& content)
 {
   return ByteWriter()
       .number(static_cast<std::uint8_t>(kind))
@@ -47,8 +33,8 @@ crcOf(const std::string& bytes)
 
 McapWriter::McapWriter(std::ostream& stream) : stream_(stream)
 {
-  put(std::string(kMagicOfMcap, sizeof kMagicOfMcap - 1));
-  put(recordOf(kHeaderRecord, ByteWriter().counted("ros2").counted("pcl6d")));
+  put(std::string(kMcapMagic, sizeof kMcapMagic));
+  put(recordOf(kMcapHeader, ByteWriter().counted("ros2").counted("pcl6d")));
 }
 
 void
@@ -66,10 +52,10 @@ McapWriter::addTopic(const std::string& topic,
   const auto number = static_cast<std::uint16_t>(counts_.size() + 1);
   counts_[number] = 0;
   const std::string schema = recordOf(
-      kSchemaRecord,
+      kMcapSchema,
       ByteWriter().number(number).counted(type).counted("ros2msg").counted(definition));
   const std::string channel = recordOf(
-      kChannelRecord,
+      kMcapChannel,
       ByteWriter().number(number).number(number).counted(topic).counted("cdr").counted(
           "")); // no metadata
   descriptions_ += schema + channel;
@@ -86,7 +72,7 @@ McapWriter::addMessage(std::uint16_t topic,
   chunk_first_ = is_first ? time : std::min(chunk_first_, time);
   chunk_last_ = is_first ? time : std::max(chunk_last_, time);
   entries_[topic].emplace_back(time, chunk_.bytes().size());
-  chunk_.raw(recordOf(kMessageRecord,
+  chunk_.raw(recordOf(kMcapMessage,
                       ByteWriter()
                           .number(topic)
                           .number(static_cast<std::uint32_t>(counts_[topic]++))
@@ -103,7 +89,7 @@ McapWriter::endChunk()
   if (entries_.empty())
     return;
   const std::uint64_t size = chunk_.bytes().size(), begin = place_;
-  put(recordOf(kChunkRecord,
+  put(recordOf(kMcapChunk,
                ByteWriter()
                    .number(chunk_first_)
                    .number(chunk_last_)
@@ -119,10 +105,9 @@ McapWriter::endChunk()
     ByteWriter rows;
     for (const auto& [time, offset] : entries)
       rows.number(time).number(offset);
-    put(recordOf(kMessageIndexRecord,
-                 ByteWriter().number(topic).counted(rows.bytes())));
+    put(recordOf(kMcapMessageIndex, ByteWriter().number(topic).counted(rows.bytes())));
   }
-  indices_ += recordOf(kChunkIndexRecord,
+  indices_ += recordOf(kMcapChunkIndex,
                        ByteWriter()
                            .number(chunk_first_)
                            .number(chunk_last_)
@@ -150,7 +135,7 @@ McapWriter::statistics() const
     counts.number(topic).number(count);
   }
   constexpr std::uint32_t kNone = 0; // attachments, metadata
-  return recordOf(kStatisticsRecord,
+  return recordOf(kMcapStatistics,
                   ByteWriter()
                       .number(messages)
                       .number(static_cast<std::uint16_t>(counts_.size()))
@@ -168,19 +153,19 @@ McapWriter::finish()
 {
   endChunk();
   constexpr std::uint32_t kNoChecksum = 0; // the chunks have theirs
-  put(recordOf(kDataEndRecord, ByteWriter().number(kNoChecksum)));
+  put(recordOf(kMcapDataEnd, ByteWriter().number(kNoChecksum)));
   constexpr std::uint64_t kNoOffsets = 0;
   constexpr std::uint64_t kFooterLength = 8 + 8 + 4; // [byte]
   const std::string summary = descriptions_ + statistics() + indices_;
   const std::string footer = ByteWriter()
-                                 .number(static_cast<std::uint8_t>(kFooterRecord))
+                                 .number(static_cast<std::uint8_t>(kMcapFooter))
                                  .number(kFooterLength)
                                  .number(place_)
                                  .number(kNoOffsets)
                                  .bytes();
   put(summary);
   put(ByteWriter().raw(footer).number(crcOf(summary + footer)).bytes());
-  put(std::string(kMagicOfMcap, sizeof kMagicOfMcap - 1));
+  put(std::string(kMcapMagic, sizeof kMcapMagic));
 }
 
 } // namespace pcl6d::sources

@@ -46,7 +46,7 @@ export function mapLayer(run, space, size) {
   return points;
 }
 
-/** What moved. */
+/** Dynamic points. */
 export function movingLayer(run, space, size) {
   const moving = {...run.map, positions: run.map.moving};
   return mapPoints(moving, space, asDiscs(new PointsMaterial({size, color: kColours.moving}), 2.4));

@@ -7,7 +7,7 @@ import {View} from './view.js';
 
 const kLayers = [
   ['map', 'Map', (run) => run.map.positions.length > 0],
-  ['moving', 'What moved', (run) => run.map.moving.length > 0],
+  ['moving', 'Dynamic points', (run) => run.map.moving.length > 0],
   ['trajectory', 'Trajectory', (run) => run.scans.length > 0],
   ['initial', 'Initial poses', (run) => run.scans.length > 1],
   ['links', 'Links', (run) => run.links.length > 0],
@@ -158,7 +158,7 @@ export class MapPanel {
     const links = this.run.links.filter(({from, to}) => from === scan.index || to === scan.index);
     const rows = [['State', scan.state], ['Overlap', fixed(scan.overlap, 2)], ['Residual', metres(scan.rms)],
       ['Correction', metres(scan.correction)], ['Links', counted(links.length, 'link')],
-      ...(scan.moved ? [['Moved', counted(scan.moved, 'point')]] : [])];
+      ...(scan.moved ? [['Dynamic', counted(scan.moved, 'point')]] : [])];
     this.card.replaceChildren(
       el('button', {type: 'button', class: 'close', 'aria-label': 'close', onclick: () =>
         this.selection.choose(scan, this)}, '\u00d7'),

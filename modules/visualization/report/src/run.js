@@ -17,7 +17,7 @@ function decodedMap(map) {
   return {
     ...map,
     positions: shortsOf(map.positions), // x y z of each point, in steps from the origin
-    moving: shortsOf(map.moving ?? ''), // the same of what moved, which is not in the map
+    moving: shortsOf(map.moving ?? ''), // the same of dynamic points, which are not in the map
     scans: map.scans === undefined ? null : shortsOf(map.scans), // place in run.scans
     intensities: map.intensities === undefined ? null : bytesOf(map.intensities),
   };

@@ -27,7 +27,7 @@ export function scanTable(run, selection) {
       badge('State', 'state', 'fixed: the first one; matched; anything else is not to be trusted',
         (scan) => isDoubtful(scan) ? 'bad' : 'good'),
       count('Points', 'points', 'as measured'),
-      ...(run.moving?.points > 0 ? [count('Moved', 'moved', 'points on what moved')] : []),
+      ...(run.moving?.points > 0 ? [count('Dynamic', 'moved', 'points on dynamic objects')] : []),
       count('Pairs', 'pairs', 'within the largest pair distance'),
       number('Overlap', 'overlap', 2, 'pairs / points left after reduction'),
       length('Residual', 'rms', 'rms of the pairs'),
@@ -36,7 +36,7 @@ export function scanTable(run, selection) {
       length('Drift', 'drift', 'from the initial pose to the final one'),
       count('Iterations', 'iterations', 'of ICP'),
       word('Start', 'start', 'where ICP started from'),
-      word('Why not believed', 'reason'),
+      word('Reason', 'reason', 'why its pose was rejected'),
     ],
   });
   selection.follow((scan, source) => table.pick(scan, source !== table));

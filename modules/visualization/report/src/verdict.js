@@ -41,7 +41,7 @@ function meaning(run) {
 
 const percent = (share) => fixed(100 * share, share > 0 && share < 0.01 ? 2 : 1) + ' %';
 
-/** What moved while the scans were taken, or why that is not known. */
+/** Number of dynamic points, or why it is not known. */
 function movingWords({moving, map}) {
   if (moving.blind)
     return `What moved is not known: rays contradict ${percent(moving.background)} of the points even where ` +
@@ -93,7 +93,7 @@ function refusedNotes(run) {
 
 function stageNotes(run) {
   return run.graph_stages.filter((stage) => stage.undone).map((stage) =>
-    el('li', {}, `${stage.name} was not taken: ${stage.reason}`));
+    el('li', {}, `${stage.name} reverted: ${stage.reason}`));
 }
 
 const kMostNotes = 10; // of one kind

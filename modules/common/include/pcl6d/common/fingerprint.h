@@ -63,4 +63,13 @@ private:
   std::uint64_t sum_ = 14695981039346656037U;
 };
 
+/** \return the fingerprint of a scan's points */
+inline std::uint64_t
+fingerprintOf(const Points& points)
+{
+  Fingerprint sum;
+  sum.add(points);
+  return sum.value();
+}
+
 } // namespace pcl6d

@@ -42,6 +42,12 @@ distanceBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 bool
 isRigid(const Eigen::Isometry3d& pose, double tolerance = 1e-3);
 
+/** \return the pose with its rotation replaced by the rotation of the normalised quaternion.
+ * Repeated products collect rounding errors; call this after each product of a long sequence.
+ * \param[in] pose rigid, up to rounding */
+Eigen::Isometry3d
+exactlyRigid(const Eigen::Isometry3d& pose);
+
 /** \brief The whole metres to subtract from all poses of a run to keep the digits of float
  * points: the rounded first position if farther than 10 km from the origin, else zero. */
 Eigen::Vector3d

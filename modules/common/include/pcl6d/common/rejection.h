@@ -26,10 +26,10 @@ enum class RejectReason {
   kUnrelatedPoints,    ///< rms of the pairs [m]; largest rms of scans that overlap
   kCorrectionTooLarge, ///< correction [m]; step of the odometry [m]
   kAgreementLost,      ///< agreement after; before
-  kAgreementWithPreviousLost, ///< the same with the previous scan alone
+  kAgreementWithPreviousLost, ///< agreement with the previous scan after; before
   kInconsistentPose,          ///< verification contradicts the matched pose
   kNotMatchedWhereFound,      ///< recovery found a pose, ICP rejected it: cause
-  kLostTogether,              ///< scans that were lost with this one, and match it
+  kLostTogether,              ///< number of further lost scans, matched to each other
   kNoPoseInMap,               ///< recovery found none: cause
   kNotJoined,                 ///< no pose relative to any other scan: cause
 
@@ -42,10 +42,10 @@ enum class RejectReason {
   kInconsistentLink, ///< the link with a scan is wrong: cause
   kNoConsistentLink, ///< no link confirms the pose
   kInconsistentTogether, ///< violated patches of all links together; patches
-  kInTwoGroups,          ///< a pose in two groups that have none relative to each other
-  kNeighbourInTwoGroups, ///< the scan that it was joined to has
-  kBetterPoseElsewhere,  ///< without the scan's own links another pose is better
-  kLinkNotGood,          ///< text: trust of the link at the best pose; cause
+  kInTwoGroups,          ///< a pose in each of two disconnected groups
+  kNeighbourInTwoGroups, ///< the scan at the other end of the link has poses in two groups
+  kBetterPoseElsewhere, ///< without the scan's own links another pose is better
+  kLinkNotGood,         ///< text: trust of the link at the best pose; cause
   kFreeDirection,    ///< poses along a direction that surfaces leave free fit as well
   kRunWithoutPose,   ///< scans of the run that were looked for; cause
   kRunContradictory, ///< scans of the run that were looked for
@@ -62,7 +62,7 @@ enum class RejectReason {
   kSamePoints,       ///< both scans hold the same points
   kScanUnregistered, ///< a scan of the link is not registered
   kContradictsLinks, ///< switched off by the other links
-  kContradictsLoops, ///< loops beside it that it contradicts; that it agrees with
+  kContradictsLoops, ///< neighbouring loops that contradict the link; that agree
   kSurfacePassed,    ///< share of points near surfaces; least share
 
   // a stage
@@ -82,7 +82,7 @@ enum class RejectReason {
   kTurnTooLarge,       ///< turn between two knots [deg]; largest turn [deg]
   kNoPreviousScanMet,  ///< overlap; least overlap
   kTooLittleKnown,     ///< of the motion after the first scan
-  kOneTime,            ///< all points have the same time
+  kOneTime,            ///< times of the points do not differ
   kNoNextScan          ///< no scan follows
 };
 
@@ -111,17 +111,17 @@ struct Rejection {
 
   RejectReason reason = RejectReason::kNone;
   double measured = 0;   ///< unit by reason
-  double needed = 0;     ///< what it was compared with, in the same unit
-  double deviations = 0; ///< their difference in standard deviations; 0: not known
+  double needed = 0;     ///< limit or reference of measured, in its unit
+  double deviations = 0; ///< |measured - needed| / standard deviation; 0: not known
   Status status = Status::kOk;   ///< of the estimator that failed
   std::string text;              ///< a name, by reason
-  std::vector<Rejection> causes; ///< what the decision rests on: none or one
+  std::vector<Rejection> causes; ///< cause of this rejection: at most one element
 };
 
 /** \return one sentence without a full stop, with the numbers; "" if accepted */
 std::string
 toWords(const Rejection& rejection);
-/** \return the same of all, with semicolons between */
+/** \return the sentences of several rejections, separated by semicolons */
 std::string
 toWords(const std::vector<Rejection>& rejections);
 

@@ -228,7 +228,7 @@ private:
   MotionSampler sampler_;
   MotionIcpOptions icp_;
   bool assumes_moving_ = false;
-  double cube_; ///< [m] edge; points of one cube count as one sample
+  double cube_; ///< [m] edge of the cubes whose points count as a single observation
   std::vector<TrackedScan> scans_;
   std::size_t num_settled_ = 0;
   MovingScan first_; ///< until the second scan is tracked

@@ -16,10 +16,11 @@ class WorkSharing;
  * deviation of the difference by chance.
  * \ingroup graph_relaxation */
 struct AgreementChange {
-  double before = 0;    ///< in [-1, 1]
-  double after = 0;     ///< in [-1, 1]
-  double deviation = 0; ///< standard deviation of the difference by chance; points of
-                        ///< one cube count as one, as they reach a surface together
+  double before = 0; ///< in [-1, 1]
+  double after = 0;  ///< in [-1, 1]
+  /** standard deviation of the difference by chance. The points of a cube (agreementCube())
+   * are correlated and count as a single observation */
+  double deviation = 0;
 
   /** \return whether the agreement fell by more than this multiple of its standard deviation */
   bool

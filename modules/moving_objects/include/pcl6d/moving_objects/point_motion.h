@@ -10,9 +10,9 @@ namespace PCL6D_EXPORTS pcl6d {
 /** \brief Classification of a measured point by other scans.
  * \ingroup moving_objects */
 enum class PointMotion : std::uint8_t {
-  kUnknown, ///< no other scan observed its position
-  kStatic,  ///< its surface was measured at other times, too
-  kDynamic  ///< its position was free at other times: the object moved
+  kUnknown, ///< not observed by another scan
+  kStatic,  ///< on a surface that other scans measured, too
+  kDynamic  ///< in space that was free at other times: the object moved
 };
 
 /** \return "unknown", "static" or "dynamic" */

@@ -27,7 +27,7 @@ struct ProposalOptions {
   double min_height = 0.015; ///< [m] of an object's top over its support, at least; > 0
   double contact = 0.12;     ///< [m] from an object's lowest point to its support; > 0
   double overhang = 0.5; ///< [m] of an object beyond the visible part of its support,
-                         ///< such as the floor under a shelf; >= 0
+                         ///< for example the floor under a shelf; >= 0
   double gap = 2;        ///< [spacings] between two objects; >= 1
   double crease = 0.3; ///< sine of the angle to the chord over a concave crease between
                        ///< two touching objects; in (0, 1)
@@ -36,7 +36,7 @@ struct ProposalOptions {
   double max_float = 1;
   std::size_t min_points = 12; ///< of an object; >= 3
   bool parts = true; ///< whether to propose also the parts between creases and planes,
-                     ///< such as each box of a stack
+                     ///< for example each box of a stack
   unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   /** \throws BadArgument naming the first invalid field and its value */
   void

@@ -47,7 +47,7 @@ struct MovingBody {
   Eigen::Isometry3d
   poseAt(double time) const;
 
-  /** \return whether it ever leaves its start */
+  /** \return whether the body ever leaves its first pose */
   bool
   moves() const;
 

@@ -116,7 +116,7 @@ struct RelaxationOptions {
    * matching, 5.1.3) */
   bool simultaneous = false;
   std::optional<Relaxation> relaxation =
-      Relaxation::kHelix;              ///< of all scans together (5.2); none: off
+      Relaxation::kHelix;              ///< method (5.2); nullopt: no relaxation
   LinkRule links = LinkRule::kOverlap; ///< rule of links in relaxation (6.3)
   LinkWeights link_weights = LinkWeights::kCovariance; ///< of the links
   std::optional<double> link_distance; ///< [m] of LinkRule::kDistance; finite, > 0

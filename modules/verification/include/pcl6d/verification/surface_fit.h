@@ -11,11 +11,12 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Knobs of fitSurfaces(). */
+/** \brief Options of fitSurfaces(). */
 struct SurfaceFitOptions {
   double max_distance = 0.25; ///< [m] farther pairs are dropped; finite, > 0
   std::size_t points = 1500;  ///< paired points of a scan; > 0
-  double cube_voxels = 16;    ///< [voxels] cube whose points count as one; finite, > 0
+  /** [voxels] edge of the cubes whose points count as a single observation; finite, > 0 */
+  double cube_voxels = 16;
   /** share of the residuals that is an error common to all pairs: points are denser near the
    * scanner, which pulls scans together along oblique surfaces; >= 0. Fitted to the poses of
    * eleven simulated scenes, to keep the roughest within its bounds: in a mine, scans come 1 % too

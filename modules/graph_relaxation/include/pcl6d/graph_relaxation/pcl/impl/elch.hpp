@@ -95,7 +95,7 @@ ELCH<PointT>::requireScans() const
             "given");
 }
 
-/** \return the scan and its adjacent scans, as one cloud */
+/** \return a cloud with the points of the scan and of its adjacent scans */
 template <typename PointT>
 typename ELCH<PointT>::PointCloudPtr
 ELCH<PointT>::withNeighbours(VertexId vertex) const

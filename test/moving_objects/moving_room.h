@@ -69,6 +69,7 @@ struct MovingRoom {
   std::vector<Body> bodies;
   double step = 0.015;  ///< [rad] between rays
   double noise = 0.005; ///< [m] of a range
+  double beam = 0;      ///< [rad] width: the range is the mean of those at both sides
 
   TrueScan
   scan(const Eigen::Isometry3d& T_world_scan, Random& random) const
@@ -81,7 +82,7 @@ struct MovingRoom {
         const Eigen::Vector3d ray(
             std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up));
         const Eigen::Vector3d way = T_world_scan.linear() * ray;
-        const auto [range, met] = cast(T_world_scan.translation(), way);
+        const auto [range, met] = returnOf(T_world_scan, ray);
         scan.points.push_back(((range + noise * random.normal()) * ray).cast<float>());
         scan.met.push_back(met);
         scan.height.push_back(T_world_scan.translation().z() + range * way.z());
@@ -94,6 +95,22 @@ private:
     double range;
     Met met;
   };
+  Hit
+  returnOf(const Eigen::Isometry3d& T_world_scan, const Eigen::Vector3d& ray) const
+  {
+    const Eigen::Vector3d origin = T_world_scan.translation();
+    Hit hit = cast(origin, T_world_scan.linear() * ray);
+    if (beam == 0)
+      return hit;
+    const Eigen::Vector3d side = ray.unitOrthogonal().cross(ray).normalized();
+    const auto aside = [&](double angle) {
+      return cast(origin,
+                  T_world_scan.linear() *
+                      (std::cos(angle) * ray + std::sin(angle) * side));
+    };
+    hit.range = (aside(-beam / 2).range + aside(beam / 2).range) / 2;
+    return hit;
+  }
   Hit
   cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& way) const
   {

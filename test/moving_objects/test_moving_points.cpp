@@ -141,6 +141,20 @@ TEST(MovingPoints, AThinPoleThatSomeScansMissStands)
   EXPECT_EQ(toldOf(scans, motion, Met::kRoom).dynamic, 0u);
 }
 
+// Returns of beams that hit a post and the wall behind it are no thing that moved.
+TEST(MovingPoints, ReturnsBetweenTwoSurfacesAreNoThing)
+{
+  MovingRoom room;
+  room.beam = 0.01;
+  const auto scans = scansOf(room, 5, [](std::size_t) {
+    return std::vector<Body>{standing(0, 2.6, {0.5, 0.4, 2.5}),
+                             standing(-2.8, -0.5, {0.4, 0.4, 2.5})};
+  });
+  const auto motion = motionOf(scans);
+  EXPECT_EQ(toldOf(scans, motion, Met::kThing).dynamic, 0u);
+  EXPECT_EQ(toldOf(scans, motion, Met::kRoom).dynamic, 0u);
+}
+
 TEST(MovingPoints, AFenceStands)
 {
   const auto scans = scansOf({}, 8, [](std::size_t) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "cluster_width.h"
 #include "moving_clusters.h"
 
 #include <pcl6d/common/components.h>
-#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/parallel.h>
 
 #include <algorithm>
@@ -56,35 +56,9 @@ constexpr double kLineCells = 1.1;
 /** [cells] If points are farther apart, like reduced points, a line gives no information. */
 constexpr double kDenseCells = 1.5;
 
-/** \return the spread of points across the direction of their largest spread */
-double
-widthOf(const std::vector<Eigen::Vector3d>& points)
-{
-  const auto count = static_cast<double>(points.size());
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points)
-    middle += p / count;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points)
-    scatter += (p - middle) * (p - middle).transpose() / count;
-  // The variance of points spread evenly over a width is width^2 / 12.
-  return std::sqrt(12 * std::max(0.0, symmetricEigenvalues<3>(scatter)(1)));
-}
-
-/** \return [m] the width of points across the rays from a position */
-double
-seenWidthOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& from)
-{
-  Eigen::Vector3d ray = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points)
-    ray += p - from;
-  ray.normalize();
-  std::vector<Eigen::Vector3d> seen;
-  seen.reserve(points.size());
-  for (const Eigen::Vector3d& p : points)
-    seen.push_back(p - ray.dot(p - from) * ray);
-  return widthOf(seen);
-}
+/** [cells] Width of the part of a ray image that decides on one direction: a cell and the cells
+ * around. */
+constexpr double kCellsLookedAt = 3;
 } // namespace
 
 MovingClusters::MovingClusters(const TestedPositions& observed,
@@ -208,7 +182,28 @@ MovingClusters::moves(const std::vector<std::size_t>& cluster) const
   const bool was_seen_there = 2 * hits > misses;
   if (clear < (was_seen_there ? kClearObservers : std::min(kClearObservers, telling)))
     return false;
-  return excess >= kLeastMisses && !isPassedBeside(cluster, excess);
+  return excess >= kLeastMisses && !isPassedBeside(cluster, excess) &&
+         !isMixture(cluster);
+}
+
+/** \return whether the cluster may consist of returns of beams that hit two surfaces. Such points
+ * lie between a nearer and a farther surface, on neither, in a row along the edge of the nearer
+ * one; rays of other scans pass there. The image of the own scan tells of nearer and farther
+ * surfaces within one cell around a cell, so the row is narrower than these cells. */
+bool
+MovingClusters::isMixture(const std::vector<std::size_t>& cluster) const
+{
+  const RayImage& own = *observer_votes_.observed().rays;
+  std::size_t between = 0;
+  std::vector<Eigen::Vector3d> directions;
+  directions.reserve(cluster.size());
+  for (const std::size_t place : cluster) {
+    const Eigen::Vector3f& at = observed_.places[place];
+    between += own.look(at, 0).sight == Sight::kEdge ? 1 : 0;
+    directions.push_back((at - observed_.origin).cast<double>().normalized());
+  }
+  return 2 * between > cluster.size() &&
+         arcWidthOf(directions) < kCellsLookedAt * observed_.cell;
 }
 
 Eigen::Vector3d
@@ -372,7 +367,7 @@ MovingClusters::dropLines()
   std::vector<bool> is_line;
   for (std::size_t m = 0; m < directions.size(); ++m)
     is_line.push_back(2 * dense[m] > directions[m].size() &&
-                      widthOf(directions[m]) < kLineCells * observed_.cell);
+                      arcWidthOf(directions[m]) < kLineCells * observed_.cell);
   for (int& mover : mover_)
     if (mover != kNobody && is_line[static_cast<std::size_t>(mover)])
       mover = kNobody;

@@ -51,6 +51,8 @@ private:
   moves(const std::vector<std::size_t>& cluster) const;
   bool
   isPassedBeside(const std::vector<std::size_t>& cluster, int excess) const;
+  bool
+  isMixture(const std::vector<std::size_t>& cluster) const;
   Eigen::Vector3d
   middleOf(const std::vector<std::size_t>& cluster) const;
   std::uint16_t

@@ -3,6 +3,7 @@
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/filters/scan_parameters.h>
+#include <pcl6d/filters/scan_sampling.h>
 #include <pcl6d/filters/voxel_reduction.h>
 #include <pcl6d/moving_objects/moving_scans.h>
 #include <pcl6d/visibility/range_noise.h>
@@ -63,6 +64,7 @@ struct MovingScans::Kept {
     points = gateByRange(points, min_range, max_range);
     RayImageOptions image;
     image.noise = rangeNoise(points);
+    image.between_lines = samplingOf(points).structure != ScanStructure::kEven;
     rays = plausibleRays(points, image);
     surface = reducedBy(voxel, points);
     tree = PointTree(surface, num_threads);

@@ -281,6 +281,13 @@ TEST(Verdict, OfAnUnconvergedMatchIsANoteWhereRaysConfirmThePlace)
   RunResult run = runOfThree();
   run.scans[1].state = pcl6d::ScanState::kUnconverged;
   EXPECT_TRUE(has(verdictOf(run), "NOT TO BE TRUSTED: 1 scan did not converge"));
+  run.scans[1].status = pcl6d::Status::kRankDeficient;
+  EXPECT_TRUE(
+      has(verdictOf(run),
+          "NOT TO BE TRUSTED: 1 scan placed by the given poses along a direction "
+          "that surfaces leave open (a corridor or tunnel without features?): "
+          "b.pcd"));
+  run.scans[1].status = pcl6d::Status::kMaxIterations;
   run.verification.emplace().trust = MapTrust::kGood;
   EXPECT_TRUE(has(
       verdictOf(run),

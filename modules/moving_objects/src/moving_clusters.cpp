@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cluster_width.h"
+#include "edge_lines.h"
 #include "moving_clusters.h"
 
 #include <pcl6d/common/components.h>
@@ -48,13 +49,6 @@ constexpr float kSideSigmas = 3;
 constexpr std::size_t kPlacesPerBlock = 256;
 
 constexpr int kNobody = -1;
-
-/** [cells] Narrower objects are a single line. Points lie anywhere in their cells, so widthOf()
- * is up to 1 for a line. Two lines have 1.7, down to 1.25 where points are denser than cells. */
-constexpr double kLineCells = 1.1;
-
-/** [cells] If points are farther apart, like reduced points, a line gives no information. */
-constexpr double kDenseCells = 1.5;
 
 /** [cells] Width of the part of a ray image that decides on one direction: a cell and the cells
  * around. */
@@ -200,7 +194,7 @@ MovingClusters::isMixture(const std::vector<std::size_t>& cluster) const
   for (const std::size_t place : cluster) {
     const Eigen::Vector3f& at = observed_.places[place];
     between += own.look(at, 0).sight == Sight::kEdge ? 1 : 0;
-    directions.push_back((at - observed_.origin).cast<double>().normalized());
+    directions.push_back(observed_.directionOf(place).cast<double>());
   }
   return 2 * between > cluster.size() &&
          arcWidthOf(directions) < kCellsLookedAt * observed_.cell;
@@ -345,29 +339,12 @@ MovingClusters::grow()
   }
 }
 
-/** Removes each object that is a single line of cells, seen from the scanner. The edge of a
- * table has this form. The scanner sees the top at a flat angle, so the last row of points lies
- * along the edge, and rays of other scans pass beside the edge, by the error of the poses. */
+/** Removes each object that is a single line of cells, seen from the scanner. */
 void
 MovingClusters::dropLines()
 {
-  std::vector<std::vector<Eigen::Vector3d>> directions(movers_.size());
-  std::vector<std::size_t> dense(movers_.size(), 0);
-  for (std::size_t place = 0; place < mover_.size(); ++place) {
-    if (mover_[place] == kNobody)
-      continue;
-    const auto mover = static_cast<std::size_t>(mover_[place]);
-    const Eigen::Vector3d ray =
-        (observed_.places[place] - observed_.origin).cast<double>();
-    directions[mover].push_back(ray.normalized());
-    const auto nearest = tree_.nearestK(observed_.places[place], 2);
-    const double apart = kDenseCells * observed_.cell * ray.norm();
-    dense[mover] += nearest.size() == 2 && nearest[1].distance_sq < apart * apart;
-  }
-  std::vector<bool> is_line;
-  for (std::size_t m = 0; m < directions.size(); ++m)
-    is_line.push_back(2 * dense[m] > directions[m].size() &&
-                      arcWidthOf(directions[m]) < kLineCells * observed_.cell);
+  const std::vector<bool> is_line =
+      areEdgeLines(observed_, mover_, movers_.size(), num_threads_);
   for (int& mover : mover_)
     if (mover != kNobody && is_line[static_cast<std::size_t>(mover)])
       mover = kNobody;

@@ -2,20 +2,13 @@
 #pragma once
 
 #include "sight_votes.h"
+#include "tested_positions.h"
 
 #include <pcl6d/search/point_tree.h>
 
 #include <vector>
 
 namespace pcl6d::moving_objects {
-
-/** \brief The tested places of a scan, with their resolution. */
-struct TestedPositions {
-  const Points& places;   ///< [m] in the scan's frame
-  Eigen::Vector3f origin; ///< [m] of its rays
-  double cell = 0;        ///< [rad] angular distance of places, seen from the origin
-  double noise = 0;       ///< [m] standard deviation of a point
-};
 
 /** \brief Clusters places with misses, and classifies the clusters as dynamic or static (see
  * MovingPoints). */

@@ -67,6 +67,32 @@ describeLoose(const RunResult& run, std::ostream& text)
          << (run.floating.size() > 1 ? ", ..." : "");
 }
 
+/** Matches that did not come to rest, and matches that took a motion from the given poses. */
+void
+describeUnconverged(const RunResult& run, std::ostream& text)
+{
+  std::vector<std::string> held, unconverged;
+  for (const auto& scan : run.scans)
+    if (scan.state == ScanState::kUnconverged)
+      (scan.status == Status::kRankDeficient ? held : unconverged).push_back(scan.file);
+  const bool is_confirmed =
+      run.verification && run.verification->trust == MapTrust::kGood;
+  const auto describe =
+      [&](const std::vector<std::string>& files, const char* what, const char* why) {
+        if (!files.empty())
+          text << (is_confirmed ? "\nnote: " : "\nNOT TO BE TRUSTED: ")
+               << text::counted(files.size(), "scan") << what
+               << (is_confirmed ? ", but points and rays confirm the poses" : why)
+               << listed(files);
+      };
+  describe(unconverged,
+           " did not converge",
+           " (bad initial pose, little overlap, --metascan too small?)");
+  describe(held,
+           " placed by the given poses along a direction that surfaces leave open",
+           " (a corridor or tunnel without features?)");
+}
+
 /** Scans that were lost and recovered, and how. */
 void
 describeRecovered(const RunResult& run, std::ostream& text)
@@ -274,16 +300,7 @@ verdictOf(const RunResult& run)
   describeDrive(run, text);
   describeLoose(run, text);
   describeRecovered(run, text);
-  if (const auto limit = countScans(run.scans, ScanState::kUnconverged)) {
-    const bool is_confirmed =
-        run.verification && run.verification->trust == MapTrust::kGood;
-    text << (is_confirmed ? "\nnote: " : "\nNOT TO BE TRUSTED: ")
-         << text::counted(limit, "scan")
-         << (is_confirmed ? " did not converge, but points and rays confirm the poses"
-                          : " did not converge (bad initial pose, little overlap, "
-                            "--metascan too small?)")
-         << filesIn(ScanState::kUnconverged, run);
-  }
+  describeUnconverged(run, text);
   describeVerification(run, text);
   text << controlWords(run);
   describeQuality(run, text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/agreement.h"
+#include "matching/open_directions.h"
 #include "matching/scan_matcher.h"
 
 #include <pcl6d/common/pose.h>
@@ -44,6 +45,14 @@ constexpr double kNormalVoxels = 3;
 
 /** Number of points of a scan that suffices while the pair distance shrinks. */
 constexpr std::size_t kPointsToComeNear = 1500;
+
+Rejection
+failureOf(const IcpResult& found)
+{
+  if (found.status != Status::kOk && found.status != Status::kMaxIterations)
+    return {RejectReason::kIcpFailed, found.status};
+  return {};
+}
 
 /** \return [m] rms displacement of points between two poses */
 double
@@ -177,8 +186,11 @@ ScanMatcher::matchFrom(const StartingPose& start,
   guess.translation() -= origin;
   predicted.translation() -= origin;
   const IcpTarget target = metascan_.around(origin);
-  const IcpResult found =
+  IcpResult found =
       icp(target, points.source(), guess, icpOptions(points.points().size()));
+  const bool is_measured = !odometry.isApprox(Eigen::Isometry3d::Identity(), 1e-12) &&
+                           !isWithoutPrior(start.from);
+  const bool is_held = is_measured && holdOpenDirections(predicted, found);
 
   scan.status = found.status;
   scan.pairs = found.pairs;
@@ -187,8 +199,12 @@ ScanMatcher::matchFrom(const StartingPose& start,
   scan.iterations = found.iterations;
   scan.correction =
       (found.T_target_source.translation() - predicted.translation()).norm();
-  Rejection rejection =
-      rejectionOf(found, start.from, scan.correction, odometry.translation().norm());
+  Rejection rejection;
+  if (!(is_held && found.status == Status::kRankDeficient))
+    rejection = failureOf(found);
+  if (!rejection)
+    rejection =
+        rejectionOf(found, start.from, scan.correction, odometry.translation().norm());
   if (!rejection)
     rejection = lossOfAgreement(
         target, points, measured, predicted, found.T_target_source, origin);
@@ -220,8 +236,6 @@ ScanMatcher::rejectionOf(const IcpResult& found,
   const double largest_rms =
       max_distance *
       (options_.metric == Metric::kPoint ? kLargestRmsShare : kLargestRmsShareOfPlanes);
-  if (found.status != Status::kOk && found.status != Status::kMaxIterations)
-    return {RejectReason::kIcpFailed, found.status};
   if (found.overlap < options_.min_overlap)
     return {RejectReason::kOverlapTooSmall, found.overlap, options_.min_overlap};
   if (found.rms > largest_rms)

@@ -52,6 +52,7 @@ stagesOfRun(const AddedStages& added)
   list.push_back(keepInPlane());
   list.push_back(verifyMap());
   list.push_back(lookAgain(listOf(recoverLost(), relaxGraph(), verifyMap())));
+  list.push_back(returnUnconfirmed());
   list.push_back(describeMotion());
   list.push_back(adjustToControl());
   return list;

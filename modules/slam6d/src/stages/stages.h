@@ -58,6 +58,12 @@ verifyMap();
 StagePtr
 lookAgain(StageList stages);
 
+/** Scans that a search found after matching had failed, and that the verdict connects with no
+ * others, return to where the given poses lead: one wrong place would take the lost scans behind
+ * it along. */
+StagePtr
+returnUnconfirmed();
+
 /** Writes the results on dynamic points and on motion within scans, at the final poses. */
 StagePtr
 describeMotion();

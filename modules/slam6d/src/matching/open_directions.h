@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl6d/common/export.h>
+#include <pcl6d/registration/icp.h>
+
+namespace pcl6d::slam6d {
+
+/** \brief Where the surfaces leave a motion open, as along a corridor, takes the motion from the
+ * prediction: of ICP's correction only the part that surfaces measure is kept.
+ * \param[in] predicted the pose of the source by odometry, in the target's frame
+ * \param[in,out] found by ICP; its status stays, and the pose changes
+ * \return whether surfaces leave up to three motions open (of more, as on one line, nothing is kept)
+ * \note Source: J. Zhang, M. Kaess, S. Singh, "On degeneracy of optimization-based state estimation
+ * problems", ICRA 2016, solution remapping */
+PCL6D_EXPORTS bool // exported for its test
+holdOpenDirections(const Eigen::Isometry3d& predicted, IcpResult& found);
+
+} // namespace pcl6d::slam6d

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // OctreeReduction where pcl::VoxelGrid stood: the same setters, the same voxels, in the same
 // order, on the same clouds; PCL's class is the oracle.
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/poses.h"
 

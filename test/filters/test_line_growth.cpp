@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of scans whose lines lie far apart, against the walls that were measured.
+#include "support/clouds.h"
 #include "support/points.h"
 
 #include <pcl6d/common/random.h>

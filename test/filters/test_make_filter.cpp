@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCL's filters by the words of the command line.
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/poses.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // NormalEstimation beside pcl::NormalEstimation and pcl::NormalEstimationOMP.
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/poses.h"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/poses.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ApproximateVoxelGrid and UniformSampling beside PCL's classes of these names: the same cases
 // for both, and where PCL's answer is another one, why.
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/poses.h"
 

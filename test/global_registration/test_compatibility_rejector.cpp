@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rejector of pairs that one motion cannot bring together: exact truth, features, PCL's ICP.
+#include "support/clouds.h"
 #include "support/pcl_peers.h"
 #include "support/points.h"
 #include "verification/verified_rooms.h"

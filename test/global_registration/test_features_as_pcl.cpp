@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scale from data and the vertical as classes for PCL's users.
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/room.h"
 #include "verification/verified_rooms.h"

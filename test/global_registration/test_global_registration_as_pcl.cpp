@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // GlobalRegistration as a pcl::Registration.
 #include "placeable.h"
+#include "support/clouds.h"
 #include "support/points.h"
 #include "verification/verified_rooms.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compiled twice: what holds for pcl::registration::ELCH holds for ours. Headings are near
 // zero, and results are read from the graph, where both put them.
+#include "support/clouds.h"
 #include "support/pcl_peers.h"
 #include "support/points.h"
 #include "support/room.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "moving_room.h"
+#include "support/clouds.h"
 #include "support/points.h"
 
 #include <pcl6d/moving_objects/pcl/moving_point_filter.h>

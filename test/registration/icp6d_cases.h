@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/bits.h"
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/room.h"
 

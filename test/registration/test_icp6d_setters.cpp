@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/bits.h"
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/room.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCL's classes by the words of the command line.
 #include "icp_cases.h"
+#include "support/clouds.h"
 #include "support/pcl_peers.h"
 #include "support/points.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The structures behind PCL's interface.
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/poses.h"
 

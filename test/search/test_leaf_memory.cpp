@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cached k-d tree for callers that do not number their queries.
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/poses.h"
 

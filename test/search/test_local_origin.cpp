@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clouds far from the origin: the place that coordinates are counted from.
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/poses.h"
 

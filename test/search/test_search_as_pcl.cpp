@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The search classes where PCL's stand, with what their constructors and setters take.
+#include "support/clouds.h"
 #include "support/points.h"
 #include "support/poses.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "registered_run.h"
+#include "support/clouds.h"
 #include "support/points.h"
 
 #include <pcl/point_types.h>

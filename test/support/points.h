@@ -37,21 +37,6 @@ expectSamePoints(const Points& found, const Points& expected)
                   << ", expected " << b->transpose();
 }
 
-/** \return a cloud of the points; other fields as the point type sets them up */
-template <typename PointT>
-typename pcl::PointCloud<PointT>::Ptr
-toCloud(const Points& points)
-{
-  auto cloud = pcl::make_shared<pcl::PointCloud<PointT>>();
-  for (const auto& p : points) {
-    PointT point;
-    point.getVector3fMap() = p;
-    cloud->push_back(point);
-    cloud->is_dense = cloud->is_dense && p.allFinite();
-  }
-  return cloud;
-}
-
 /** \return the message of the BadArgument that the call throws; "" if it does not */
 template <typename Call>
 std::string

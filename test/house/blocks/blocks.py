@@ -3,8 +3,8 @@
 """The fenced blocks of the documents are right.
 usage: blocks.py --cpp TREE GIVEN OUT.cpp    writes all blocks of C++ as one source, to be compiled
        blocks.py TREE GIVEN BIN_DIR          checks all other blocks
-C++ is compiled, each block with its declarations of GIVEN. Lines of sh are not run, as they need a
-user's data: programs and files of the tree that they name must exist, and options of ours be known.
+C++ is compiled, each block with its declarations of GIVEN. Programs and files of the tree in lines of
+sh must exist, and options of ours be known; ../sh_blocks.py runs the lines.
 JSON is parsed. python.moving_from runs blocks of Python. Other languages need a reason in REASONS.
 """
 import json

@@ -3,10 +3,13 @@
 // they leave open comes from the given poses.
 #include "corridor_drive.h"
 #include "matching/open_directions.h"
+#include "recovery/second_look.h"
 #include "registered_run.h"
 
+#include <pcl6d/registration/localizability.h>
+#include <pcl6d/registration/plane_sums.h>
+
 #include <cmath>
-#include <limits>
 
 namespace {
 using pcl6d::IcpResult;
@@ -45,6 +48,47 @@ TEST(OpenDirections, TakeTheOpenMotionFromThePrediction)
   EXPECT_EQ(found.status, Status::kRankDeficient);
 }
 
+// In a tunnel of any direction, seen from anywhere: of a slide along it and a turn only the slide
+// goes, and the slide is nowhere carried across.
+TEST(OpenDirections, ATurnDoesNotCarryTheSlideAcross)
+{
+  Random random(7);
+  const Eigen::Isometry3d T_world_tunnel = poseFromEuler({30, 20, 3}, {0.1, -0.2, 0.7});
+  pcl6d::PlaneAccumulator walls;
+  for (int k = 0; k < 4000; ++k) {
+    const double x = random.uniform(-6, 9), a = random.uniform(-1.5, 1.5);
+    const double side = k % 4 < 2 ? -1.5 : 1.5;
+    const bool is_wall = k % 2 == 0;
+    const Eigen::Vector3d p =
+        is_wall ? Eigen::Vector3d(x, side, a) : Eigen::Vector3d(x, a, side);
+    const Eigen::Vector3d place = T_world_tunnel * p;
+    walls.add(
+        place, place, T_world_tunnel.linear() * Eigen::Vector3d::Unit(is_wall ? 1 : 2));
+  }
+  IcpResult found;
+  found.localizability = pcl6d::localizabilityOf(walls.sums());
+  ASSERT_EQ(found.localizability->openDirections(), 1);
+  const Eigen::Vector3d along = T_world_tunnel.linear().col(0);
+  const Eigen::Translation3d middle(found.localizability->centroid);
+  const Eigen::Isometry3d truth = T_world_tunnel * poseFromEuler({0.2, 0.1, 0}, {});
+  for (const double turn : {0.0, 0.05, 0.2}) {
+    const Eigen::Isometry3d off =
+        poseFromEuler(0.6 * along, {turn / 3, turn / 2, turn});
+    const Eigen::Isometry3d predicted = middle * off * middle.inverse() * truth;
+    found.T_target_source = truth;
+    found.status = Status::kMaxIterations;
+    EXPECT_TRUE(holdOpenDirections(predicted, found));
+    const Eigen::Isometry3d error = found.T_target_source * truth.inverse();
+    const Eigen::Vector3d moved =
+        error * found.localizability->centroid - found.localizability->centroid;
+    // A turn of 0.2 rad tilts the direction in which nothing is measured.
+    EXPECT_LT((moved - moved.dot(along) * along).norm(), 1e-3 + 0.02 * turn) << turn;
+    EXPECT_NEAR(moved.dot(along), 0.6, 1e-3 + 0.6 * turn * turn) << turn;
+    EXPECT_EQ(found.status, Status::kRankDeficient);
+    EXPECT_FALSE(found.covariance);
+  }
+}
+
 TEST(OpenDirections, KeepTurnsAboutTheMiddleOfThePoints)
 {
   const Eigen::Translation3d middle(5, 1, 0);
@@ -72,7 +116,7 @@ TEST(OpenDirections, ChangeNothingWhereNoneOrNearlyAllAreOpen)
 /** \return a drive through a straight tunnel whose ends are out of sight; the odometry drifts along
  * and across it, and turns */
 DriftingRun
-tunnelRun()
+tunnelRun(int rests_at = -1)
 {
   PillarRoom tunnel;
   tunnel.walls = {Eigen::Vector3d(-60, -1.5, -1), Eigen::Vector3d(60, 1.5, 1.5)};
@@ -81,20 +125,23 @@ tunnelRun()
   DriftingRun run;
   const Eigen::Isometry3d drift = poseFromEuler({0.02, 0.02, 0.005}, {0, 0, 0.012});
   for (int i = 0; i < 6; ++i) {
-    run.truth.push_back(poseFromEuler({0.8 * i, 0.1 * i, 0}, {0, 0, 0.02 * i}));
-    run.odometry.push_back(i == 0 ? run.truth[0]
-                                  : run.odometry.back() *
-                                        run.truth[run.truth.size() - 2].inverse() *
-                                        run.truth.back() * drift);
+    run.truth.push_back(i == rests_at
+                            ? run.truth.back()
+                            : poseFromEuler({0.8 * i, 0.1 * i, 0}, {0, 0, 0.02 * i}));
+    if (i == 0 || i == rests_at)
+      run.odometry.push_back(i == 0 ? run.truth[0] : run.odometry.back());
+    else
+      run.odometry.push_back(run.odometry.back() *
+                             run.truth[run.truth.size() - 2].inverse() *
+                             run.truth.back() * drift);
     run.scans.push_back(pcl6d::test::shortSighted(tunnel, run.truth.back(), random));
   }
   return run;
 }
 
-TEST(OpenDirections, ATunnelIsStraightAndItsLengthIsThatOfTheOdometry)
+void
+expectStraight(const DriftingRun& run, const Slam6DResult& result)
 {
-  const DriftingRun run = tunnelRun();
-  const Slam6DResult result = pcl6d::test::registered(run);
   for (std::size_t i = 1; i < run.truth.size(); ++i) {
     const pcl6d::ScanResult& scan = result.scans[i];
     EXPECT_EQ(scan.state, ScanState::kUnconverged) << i;
@@ -108,5 +155,76 @@ TEST(OpenDirections, ATunnelIsStraightAndItsLengthIsThatOfTheOdometry)
     EXPECT_LT(std::abs(off.x()), 0.02 * static_cast<double>(i) + 0.02) << i;
   }
   EXPECT_FALSE(result.trusted());
+}
+
+TEST(OpenDirections, ATunnelIsStraightAndItsLengthIsThatOfTheOdometry)
+{
+  const DriftingRun run = tunnelRun();
+  expectStraight(run, pcl6d::test::registered(run));
+}
+
+TEST(OpenDirections, ARestInATunnelChangesNothing)
+{
+  const DriftingRun run = tunnelRun(3);
+  expectStraight(run, pcl6d::test::registered(run));
+}
+
+/** \return a map of five scans along x, all with given poses; scan 2 was found far off, and scan 3
+ * is lost behind it */
+Slam6DResult
+mapWithAFind(bool is_confirmed)
+{
+  Slam6DResult map;
+  map.verification.emplace();
+  map.verification->scans.resize(5);
+  for (int i = 0; i < 5; ++i) {
+    pcl6d::ScanResult scan;
+    scan.initial_pose = pcl6d::test::movedBy(i);
+    scan.T_world_scan = pcl6d::test::movedBy(1.1 * i);
+    scan.state = i == 3 ? ScanState::kPredicted : ScanState::kMatched;
+    map.scans.push_back(scan);
+  }
+  map.scans[2].recovered = pcl6d::RecoveredBy::kSearch;
+  map.scans[2].T_world_scan = pcl6d::test::movedBy(-7);
+  map.scans[3].T_world_scan = pcl6d::test::movedBy(-6);
+  pcl6d::LinkCheck link;
+  link.from = 1;
+  link.to = 2;
+  link.trust = is_confirmed ? pcl6d::LinkTrust::kGood : pcl6d::LinkTrust::kWeak;
+  map.verification->links.push_back(link);
+  pcl6d::ScanLink used;
+  used.from = 1;
+  used.to = 2;
+  map.links.push_back(used);
+  return map;
+}
+
+TEST(ReturnUnconfirmed, AFindThatNoLinkConfirmsGoesBackWithTheLostBehindIt)
+{
+  Slam6DResult map = mapWithAFind(false);
+  EXPECT_TRUE(pcl6d::slam6d::returnUnconfirmed(0, map));
+  const double expected[] = {0, 1.1, 2.1, 3.1, 4.4}; // steps of the given poses
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(map.scans[i].T_world_scan.translation().x(), expected[i], 1e-12) << i;
+  EXPECT_EQ(map.scans[2].state, ScanState::kPredicted);
+  EXPECT_EQ(map.scans[2].rejections.front().reason,
+            pcl6d::RejectReason::kNoConsistentLink);
+  EXPECT_EQ(map.links[0].verdict, pcl6d::LinkVerdict::kRefused);
+}
+
+TEST(ReturnUnconfirmed, WhatIsConfirmedOrEarlierOrWithoutGivenPosesStays)
+{
+  Slam6DResult confirmed = mapWithAFind(true);
+  EXPECT_FALSE(pcl6d::slam6d::returnUnconfirmed(0, confirmed));
+  EXPECT_NEAR(confirmed.scans[2].T_world_scan.translation().x(), -7, 1e-12);
+  Slam6DResult earlier = mapWithAFind(false);
+  EXPECT_FALSE(pcl6d::slam6d::returnUnconfirmed(3, earlier));
+  Slam6DResult unverified = mapWithAFind(false);
+  unverified.verification.reset();
+  EXPECT_FALSE(pcl6d::slam6d::returnUnconfirmed(0, unverified));
+  Slam6DResult without = mapWithAFind(false);
+  for (pcl6d::ScanResult& scan : without.scans)
+    scan.initial_pose = pcl6d::test::movedBy(3);
+  EXPECT_FALSE(pcl6d::slam6d::returnUnconfirmed(0, without));
 }
 } // namespace

@@ -2,6 +2,7 @@
 #include "sight_votes.h"
 
 #include <pcl6d/common/parallel.h>
+#include <pcl6d/visibility/sight_evidence.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,14 +79,9 @@ Observer::isMiss(const SightOfPlace& seen,
                  const Eigen::Vector3f& place,
                  const Eigen::Vector3f& normal) const
 {
-  if (normal.isZero())
-    return true;
-  const Eigen::Vector3f ray = T_observer_observed_ * place - observer_->rays->origin();
-  const float slope =
-      std::abs((T_observer_observed_.linear() * normal).dot(ray.normalized()));
-  // look() gives the distance in thirds of its tolerance, valid from 45 deg on.
-  const float tolerance = 3 * seen.beyond / seen.sigmas;
-  return seen.beyond * slope > tolerance;
+  return passedThrough(seen,
+                       T_observer_observed_.linear() * normal,
+                       T_observer_observed_ * place - observer_->rays->origin());
 }
 
 /** \return [m] across the surface, at a point in the observer's frame; empty without a surface */

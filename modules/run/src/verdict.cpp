@@ -77,20 +77,18 @@ describeUnconverged(const RunResult& run, std::ostream& text)
       (scan.status == Status::kRankDeficient ? held : unconverged).push_back(scan.file);
   const bool is_confirmed =
       run.verification && run.verification->trust == MapTrust::kGood;
-  const auto describe =
-      [&](const std::vector<std::string>& files, const char* what, const char* why) {
-        if (!files.empty())
-          text << (is_confirmed ? "\nnote: " : "\nNOT TO BE TRUSTED: ")
-               << text::counted(files.size(), "scan") << what
-               << (is_confirmed ? ", but points and rays confirm the poses" : why)
-               << listed(files);
-      };
-  describe(unconverged,
-           " did not converge",
-           " (bad initial pose, little overlap, --metascan too small?)");
-  describe(held,
-           " placed by the given poses along a direction that surfaces leave open",
-           " (a corridor or tunnel without features?)");
+  if (!unconverged.empty())
+    text << (is_confirmed ? "\nnote: " : "\nNOT TO BE TRUSTED: ")
+         << text::counted(unconverged.size(), "scan")
+         << (is_confirmed ? " did not converge, but points and rays confirm the poses"
+                          : " did not converge (bad initial pose, little overlap, "
+                            "--metascan too small?)")
+         << listed(unconverged);
+  if (!held.empty())
+    text << "\nNOT TO BE TRUSTED: " << text::counted(held.size(), "scan")
+         << " placed by the given poses along a direction that surfaces leave open (a "
+            "corridor or tunnel without features?)"
+         << listed(held);
 }
 
 /** Scans that were lost and recovered, and how. */

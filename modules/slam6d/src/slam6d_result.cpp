@@ -2,6 +2,8 @@
 #include <pcl6d/common/pose.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
+#include <algorithm>
+
 namespace pcl6d {
 
 std::size_t
@@ -16,8 +18,12 @@ Slam6DResult::trusted() const
   // If points and rays confirm the whole map, a match stopped at its iteration limit counts as
   // converged.
   const bool is_confirmed = verification && verification->trust == MapTrust::kGood;
-  const std::size_t matched = count(ScanState::kFixed) + count(ScanState::kMatched) +
-                              (is_confirmed ? count(ScanState::kUnconverged) : 0);
+  const auto matched = static_cast<std::size_t>(
+      std::count_if(scans.begin(), scans.end(), [&](const ScanResult& scan) {
+        return scan.state == ScanState::kFixed || scan.state == ScanState::kMatched ||
+               (is_confirmed && scan.state == ScanState::kUnconverged &&
+                scan.status != Status::kRankDeficient); // held by the given poses
+      }));
   if (control && (!control->adjusted || !control->doubt.empty()))
     return false;
   return floating.empty() && (!verification || verification->trusted()) &&

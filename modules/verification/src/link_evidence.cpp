@@ -14,14 +14,14 @@ namespace pcl6d {
 using namespace verification;
 
 namespace {
-/** An even selection of the points. */
-Points
-sampleOf(const Points& points)
+/** An even selection of the values. */
+std::vector<Eigen::Vector3f>
+sampleOf(const std::vector<Eigen::Vector3f>& values)
 {
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kLookedAt);
-  Points sample;
-  for (std::size_t i = 0; i < points.size(); i += stride)
-    sample.push_back(points[i]);
+  const std::size_t stride = std::max<std::size_t>(1, values.size() / kLookedAt);
+  std::vector<Eigen::Vector3f> sample;
+  for (std::size_t i = 0; i < values.size(); i += stride)
+    sample.push_back(values[i]);
   return sample;
 }
 
@@ -36,8 +36,10 @@ lookFrom(const VerifiedScan& from,
   PlaceUncertainty uncertainty;
   const double misfit = std::min(fit.residual, kMostMisfit * voxel);
   uncertainty.noise = std::sqrt(at.noise() * at.noise() + misfit * misfit);
+  const Points points = sampleOf(at.surfaces().points());
+  const Normals normals = sampleOf(at.surfaces().normals());
   return sightEvidence(from.rays(),
-                       sampleOf(at.surfaces().points()),
+                       TestedSurface(points, normals),
                        T_from_at,
                        uncertainty,
                        {std::max(kPatchVoxels * voxel, kPatchSpread * fit.spread),

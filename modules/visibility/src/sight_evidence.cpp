@@ -109,7 +109,8 @@ varianceAlong(const Eigen::Vector3d& place,
 
 /** Finite points, their positions in an image, and their standard deviations. */
 struct UncertainPlaces {
-  Points points, places;
+  std::vector<std::size_t> points; ///< indices
+  Points places;
   std::vector<float> sigmas; ///< [m] one per place
 };
 
@@ -123,12 +124,12 @@ placesOf(const RayImage& image,
   all.points.reserve(points.size());
   all.places.reserve(points.size());
   all.sigmas.reserve(points.size());
-  for (const auto& p : points) {
-    if (!p.allFinite())
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite())
       continue;
-    const Eigen::Vector3d place = T_image_points * p.cast<double>();
+    const Eigen::Vector3d place = T_image_points * points[i].cast<double>();
     const Eigen::Vector3d ray = place - image.origin().cast<double>();
-    all.points.push_back(p);
+    all.points.push_back(i);
     all.places.emplace_back(place.cast<float>());
     all.sigmas.push_back(
         static_cast<float>(std::sqrt(varianceAlong(place, ray, uncertainty))));
@@ -165,9 +166,21 @@ SightEvidence::confirmation() const
   return shareOf(confirmed, points() - confirmed);
 }
 
+bool
+passedThrough(const SightOfPlace& seen,
+              const Eigen::Vector3f& normal,
+              const Eigen::Vector3f& ray)
+{
+  if (normal.isZero())
+    return true;
+  // look() gives the distance in thirds of its tolerance, valid from 45 deg on.
+  const float tolerance = 3 * seen.beyond / seen.sigmas;
+  return seen.beyond * std::abs(normal.dot(ray.normalized())) > tolerance;
+}
+
 SightEvidence
 sightEvidence(const RayImage& image,
-              const Points& points,
+              const TestedSurface& surface,
               const Eigen::Isometry3d& T_image_points,
               const PlaceUncertainty& uncertainty,
               const SightPatch& patch,
@@ -181,15 +194,20 @@ sightEvidence(const RayImage& image,
           "largest_thing",
           patch.largest_thing,
           "finite and >= 0");
+  require(!surface.normals || surface.normals->size() == surface.points.size(),
+          "normals",
+          surface.normals ? surface.normals->size() : 0,
+          "one per point");
+  const Eigen::Matrix3f R = T_image_points.linear().cast<float>();
   SightEvidence evidence;
   std::vector<Observer> observers;
   // The caller's list is unchanged if a point throws.
   std::vector<Contradiction> found;
   const auto [finite, places, sigmas] =
-      placesOf(image, points, T_image_points, uncertainty);
+      placesOf(image, surface.points, T_image_points, uncertainty);
   const std::vector<SightOfPlace> sights = image.look(places, sigmas);
   for (std::size_t i = 0; i < finite.size(); ++i) {
-    const Eigen::Vector3f& p = finite[i];
+    const Eigen::Vector3f& p = surface.points[finite[i]];
     const SightOfPlace& seen = sights[i];
     switch (seen.sight) {
     case Sight::kUnseen:
@@ -208,6 +226,12 @@ sightEvidence(const RayImage& image,
     case Sight::kFree:
       break;
     }
+    if (surface.normals && !passedThrough(seen,
+                                          R * (*surface.normals)[finite[i]],
+                                          places[i] - image.origin())) {
+      ++evidence.edge;
+      continue;
+    }
     ++evidence.free;
     observers.push_back({voxelKey(p, patch.edge), true, found.size(), p});
     found.push_back({p, seen.beyond, false});
@@ -218,6 +242,18 @@ sightEvidence(const RayImage& image,
   if (contradictions)
     contradictions->insert(contradictions->end(), found.begin(), found.end());
   return evidence;
+}
+
+SightEvidence
+sightEvidence(const RayImage& image,
+              const Points& points,
+              const Eigen::Isometry3d& T_image_points,
+              const PlaceUncertainty& uncertainty,
+              const SightPatch& patch,
+              std::vector<Contradiction>* contradictions)
+{
+  return sightEvidence(
+      image, TestedSurface(points), T_image_points, uncertainty, patch, contradictions);
 }
 
 double

@@ -2,6 +2,7 @@
 #include "matching/open_directions.h"
 
 #include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/twist.h>
 
 namespace pcl6d::slam6d {
@@ -23,10 +24,18 @@ holdOpenDirections(const Eigen::Isometry3d& predicted, IcpResult& found)
   const Eigen::Isometry3d correction =
       centre.inverse() * (found.T_target_source * predicted.inverse()) * centre;
   const PlaneSums::Matrix& directions = found.localizability->directions;
-  Twist shares = inverted<6>(directions) * twistFromMotion(correction);
+  // Shift and turn apart: along the screw of both, a turn would carry a part of the open shift
+  // across.
+  Twist motion;
+  motion << correction.translation(), rotationVector(correction.linear());
+  Twist shares = inverted<6>(directions) * motion;
   shares.head(open).setZero(); // ascending: the open motions are the first
-  found.T_target_source =
-      centre * motionFromTwist(directions * shares) * centre.inverse() * predicted;
+  motion = directions * shares;
+  Eigen::Isometry3d kept(rotationFromVector(motion.tail<3>()));
+  kept.pretranslate(motion.head<3>());
+  found.T_target_source = centre * kept * centre.inverse() * predicted;
+  found.status = Status::kRankDeficient;
+  found.covariance.reset();
   return true;
 }
 

@@ -188,10 +188,8 @@ ScanMatcher::matchFrom(const StartingPose& start,
   const IcpTarget target = metascan_.around(origin);
   IcpResult found =
       icp(target, points.source(), guess, icpOptions(points.points().size()));
-  const bool is_measured = !odometry.isApprox(Eigen::Isometry3d::Identity(), 1e-12) &&
-                           !isWithoutPrior(start.from);
-  const bool is_held = is_measured && holdOpenDirections(predicted, found);
-
+  const bool is_held = holds_open_directions_ && !isWithoutPrior(start.from) &&
+                       holdOpenDirections(predicted, found);
   scan.status = found.status;
   scan.pairs = found.pairs;
   scan.rms = found.rms;
@@ -199,9 +197,7 @@ ScanMatcher::matchFrom(const StartingPose& start,
   scan.iterations = found.iterations;
   scan.correction =
       (found.T_target_source.translation() - predicted.translation()).norm();
-  Rejection rejection;
-  if (!(is_held && found.status == Status::kRankDeficient))
-    rejection = failureOf(found);
+  Rejection rejection = is_held ? Rejection() : failureOf(found);
   if (!rejection)
     rejection =
         rejectionOf(found, start.from, scan.correction, odometry.translation().norm());

@@ -28,6 +28,14 @@ public:
   IcpModel
   prepare(Points reduced) const;
 
+  /** \brief Whether scans have measured initial poses, from which matches take the motions that
+   * surfaces leave open (holdOpenDirections()). */
+  void
+  setHoldsOpenDirections(bool holds)
+  {
+    holds_open_directions_ = holds;
+  }
+
   /** \brief Adds the first scan, with a fixed pose.
    * \param[in] points, measured kept by reference, like in match() */
   void
@@ -113,6 +121,7 @@ private:
   std::vector<RegisteredScan> placed_; ///< the first scan, and all accepted scans
   Before before_;
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero(); ///< position of the first scan [m]
+  bool holds_open_directions_ = false;
 };
 
 } // namespace pcl6d::slam6d

@@ -5,6 +5,7 @@
 
 #include <pcl6d/common/pose.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,14 @@ isRecovering(const Slam6DOptions& options)
   return options.recovery != RecoveryEffort::kOff &&
          (options.initial_guess == InitialGuess::kOdometry ||
           options.initial_guess == InitialGuess::kOverlap);
+}
+
+bool
+hasGivenPoses(const std::vector<ScanResult>& scans)
+{
+  return std::any_of(scans.begin(), scans.end(), [&](const ScanResult& scan) {
+    return !scan.initial_pose.isApprox(scans.front().initial_pose, 1e-12);
+  });
 }
 
 Eigen::Isometry3d
@@ -57,16 +66,13 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
   const Eigen::Isometry3d odometry =
       scans[i - 1].initial_pose.inverse() * scan.initial_pose;
   const ScanResult predicted = scan;
+  matcher_.setHoldsOpenDirections(hasGivenPoses(scans));
   bool is_contradicted = false;
   const auto verify = [&](const ScanResult& found) {
     Rejection rejection;
     if (isDoubtful(found, i, scans))
-      rejection = recovery_.rejectionOf(i,
-                                        found.T_world_scan,
-                                        scans,
-                                        isExpected(found, i, scans)
-                                            ? PlaceNeeds::kConfirmedAsExpected
-                                            : PlaceNeeds::kConfirmed);
+      rejection = recovery_.rejectionOf(
+          i, found.T_world_scan, scans, neededBy(found, i, scans));
     is_contradicted = static_cast<bool>(rejection);
     return rejection;
   };
@@ -121,6 +127,19 @@ SequenceMatcher::isDoubtful(const ScanResult& found,
          (!isRegistered(scans[i - 1]) ||
           !matcher_.isSmallCorrection(found, predictedPose(scans, i)) ||
           recovery_.seemsContradicted(i, found.T_world_scan, scans));
+}
+
+/** \return what the place of a match needs. Where surfaces leave a motion open, no link can confirm
+ * it */
+PlaceNeeds
+SequenceMatcher::neededBy(const ScanResult& found,
+                          std::size_t i,
+                          const std::vector<ScanResult>& scans) const
+{
+  if (found.status == Status::kRankDeficient)
+    return PlaceNeeds::kNoContradiction;
+  return isExpected(found, i, scans) ? PlaceNeeds::kConfirmedAsExpected
+                                     : PlaceNeeds::kConfirmed;
 }
 
 /** \return whether a match agrees with the odometry from the previous scan. Isolated objects that

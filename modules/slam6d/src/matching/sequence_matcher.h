@@ -18,6 +18,10 @@ namespace pcl6d::slam6d {
 bool
 isRecovering(const Slam6DOptions& options);
 
+/** \return whether initial poses were measured: without, all are equal */
+bool
+hasGivenPoses(const std::vector<ScanResult>& scans);
+
 /** \return the pose predicted from the previous scan by odometry; for the first scan, its initial
  * pose */
 Eigen::Isometry3d
@@ -56,6 +60,10 @@ private:
   isDoubtful(const ScanResult& found,
              std::size_t scan,
              const std::vector<ScanResult>& scans);
+  PlaceNeeds
+  neededBy(const ScanResult& found,
+           std::size_t scan,
+           const std::vector<ScanResult>& scans) const;
   bool
   isExpected(const ScanResult& found,
              std::size_t scan,

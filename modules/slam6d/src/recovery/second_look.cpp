@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "matching/sequence_matcher.h"
 #include "recovery/recovery.h"
 #include "recovery/second_look.h"
 #include "registered.h"
@@ -17,13 +18,31 @@ isWithFirst(const Slam6DResult& result, std::size_t scan)
   return checks[scan].tied == checks[0].tied && (scan == 0 || checks[0].tied);
 }
 
+/** \return whether a motion of the scan is that of the given poses, as surfaces leave it open: no
+ * link could connect it, and another search would not either */
+bool
+isHeld(const ScanResult& scan)
+{
+  return scan.state == ScanState::kUnconverged && scan.status == Status::kRankDeficient;
+}
+
+bool
+isConfirmed(const MapVerification& map, std::size_t scan)
+{
+  return std::any_of(map.links.begin(), map.links.end(), [&](const LinkCheck& link) {
+    return (link.from == scan || link.to == scan) &&
+           (link.trust == LinkTrust::kGood || link.trust == LinkTrust::kUnverified);
+  });
+}
+
 /** \return the scans to be disconnected from the map */
 std::vector<std::size_t>
 disconnectedScans(std::size_t keeps, const Slam6DResult& result)
 {
   std::vector<std::size_t> loose;
   for (std::size_t i = std::max<std::size_t>(1, keeps); i < result.scans.size(); ++i)
-    if (isRegistered(result.scans[i]) && !isWithFirst(result, i))
+    if (isRegistered(result.scans[i]) && !isHeld(result.scans[i]) &&
+        !isWithFirst(result, i))
       loose.push_back(i);
   return loose;
 }
@@ -44,7 +63,8 @@ hasDisconnected(const Slam6DResult& result)
   if (!result.verification || result.verification->trust != MapTrust::kDoubtful)
     return false;
   for (std::size_t i = 0; i < result.scans.size(); ++i)
-    if (isRegistered(result.scans[i]) && !result.verification->scans[i].tied)
+    if (isRegistered(result.scans[i]) && !isHeld(result.scans[i]) &&
+        !result.verification->scans[i].tied)
       return true;
   return false;
 }
@@ -73,6 +93,51 @@ bool
 isBetterConnected(const Slam6DResult& now, const Slam6DResult& before)
 {
   return countConnected(now) > countConnected(before);
+}
+
+bool
+isUnconfirmed(const Slam6DResult& result, std::size_t scan)
+{
+  const RecoveredBy by = result.scans[scan].recovered;
+  return isRegistered(result.scans[scan]) &&
+         (by == RecoveredBy::kSearch || by == RecoveredBy::kEverywhere) &&
+         !isConfirmed(*result.verification, scan);
+}
+
+bool
+returnUnconfirmed(std::size_t keeps, Slam6DResult& result)
+{
+  if (!result.verification || !hasGivenPoses(result.scans))
+    return false;
+  std::vector<bool> is_moved(result.scans.size(), false);
+  for (std::size_t i = std::max<std::size_t>(1, keeps); i < is_moved.size(); ++i) {
+    ScanResult& scan = result.scans[i];
+    const bool is_unconfirmed = isUnconfirmed(result, i);
+    is_moved[i] = is_unconfirmed || (is_moved[i - 1] && !isRegistered(scan));
+    if (is_unconfirmed) {
+      scan.state = ScanState::kPredicted;
+      scan.recovered = RecoveredBy::kNone;
+      scan.covariance.reset();
+      scan.rejections = {RejectReason::kNoConsistentLink};
+    }
+    if (!is_moved[i])
+      continue;
+    scan.T_world_scan = scan.matched_pose = predictedPose(result.scans, i);
+    if (i < result.graph.poses.size())
+      result.graph.poses[i] = scan.T_world_scan;
+    for (StageResult& stage : result.stages)
+      if (!stage.history.empty() && i < stage.history.back().size())
+        stage.history.back()[i] = scan.T_world_scan;
+  }
+  const auto isOfMoved = [&](const auto& link) {
+    return is_moved[link.from] || is_moved[link.to];
+  };
+  auto& links = result.graph.links;
+  links.erase(std::remove_if(links.begin(), links.end(), isOfMoved), links.end());
+  for (ScanLink& link : result.links)
+    if (isOfMoved(link) && link.verdict == LinkVerdict::kUsed)
+      link.verdict = LinkVerdict::kRefused;
+  return std::find(is_moved.begin(), is_moved.end(), true) != is_moved.end();
 }
 
 void

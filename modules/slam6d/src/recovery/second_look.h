@@ -31,6 +31,18 @@ countConnected(const Slam6DResult& result);
 bool
 isBetterConnected(const Slam6DResult& now, const Slam6DResult& before);
 
+/** \return whether a search found the scan after matching had failed, and no consistent link of the
+ * verification confirms its place */
+bool
+isUnconfirmed(const Slam6DResult& result, std::size_t scan);
+
+/** \brief Returns unconfirmed scans, and lost scans directly behind them, to where the given poses
+ * lead from the scan before; their links are refused. One wrong place would take the lost scans
+ * along. \param[in] keeps number of first scans left unchanged
+ * \return whether a scan has moved; never without given poses or verification */
+PCL6D_EXPORTS bool // exported for its test
+returnUnconfirmed(std::size_t keeps, Slam6DResult& result);
+
 /** \brief Restores the matched poses of scans that were never lost. */
 void
 keepMatchedPoses(const Slam6DResult& before, Slam6DResult& now);

@@ -78,11 +78,48 @@ struct Contradiction {
   bool clear = false; ///< in a contradicted patch
 };
 
+/** \brief Points of a scan to be tested, with the normals of their surfaces. Keeps references. */
+struct TestedSurface {
+  explicit TestedSurface(const Points& tested) : points(tested) {}
+  TestedSurface(const Points& tested, const std::vector<Eigen::Vector3f>& of_points)
+  : points(tested), normals(&of_points)
+  {}
+
+  const Points& points; ///< [m] in the scan's frame
+  /** one per point, of length 1; zero: not known; null: none is known */
+  const std::vector<Eigen::Vector3f>* normals = nullptr;
+};
+
+/** \brief Whether a ray that ended behind a point passed through the surface of the point, rather
+ * than along it: at a grazing angle a ray that misses the point by the width of a cell ends on the
+ * same surface, far behind. The distance across the surface must exceed the tolerance of the
+ * image.
+ * \param[in] seen the answer kFree of the image
+ * \param[in] normal of the surface at the point, in the image's frame; zero: not known
+ * \param[in] ray from the image's origin to the point */
+bool
+passedThrough(const SightOfPlace& seen,
+              const Eigen::Vector3f& normal,
+              const Eigen::Vector3f& ray);
+
 /** \brief Tests the points of one scan with the ray image of another.
+ *
+ * Points with a normal are contradicted by rays that passed through their surface
+ * (passedThrough()); if rays passed along it, the result is inconclusive, and counted as edge.
  * \param[in] T_image_points pose of the points' scan seen from the image's scan
  * \param[in] patch grouping of the points
  * \param[out] contradictions if given, the contradicted points are appended
- * \throws BadArgument patch is invalid, or a point is too far away for its edge (see voxelKey()) */
+ * \throws BadArgument patch is invalid, normals are not one per point, or a point is too far away
+ * for the edge of the patch (see voxelKey()) */
+SightEvidence
+sightEvidence(const RayImage& image,
+              const TestedSurface& surface,
+              const Eigen::Isometry3d& T_image_points,
+              const PlaceUncertainty& uncertainty,
+              const SightPatch& patch,
+              std::vector<Contradiction>* contradictions = nullptr);
+
+/** \overload of points whose surfaces have unknown directions */
 SightEvidence
 sightEvidence(const RayImage& image,
               const Points& points,

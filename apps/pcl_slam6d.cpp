@@ -43,11 +43,14 @@ constexpr const char* kName = "pcl_slam6d";
 /** The main job: reading, matching, writing. */
 class Job {
 public:
-  /** \param[in] ranks the processes that share the work; null: a single process */
+  /** Tracks the scans of a drive. Several processes track without interruption, because each
+   * of them tracks the whole drive.
+   * \param[in] ranks the processes that share the work; null: a single process
+   * \throws Interrupted a signal came in during tracking */
   Job(const Settings& settings, WorkSharing* ranks)
   : ranks_(ranks)
   , earlier_(app::openEarlier(settings))
-  , input_(app::openInput(settings, earlier_))
+  , input_(app::openInput(settings, earlier_, ranks ? nullptr : &interrupt_))
   , folder_(input_.folder)
   , scans_(app::openScans(folder_, settings, earlier_))
   , settings_(app::resolved(settings, folder_, earlier_))
@@ -287,12 +290,12 @@ private:
   }
 
   WorkSharing* ranks_;
+  const app::Interrupt interrupt_;
   const app::EarlierRuns earlier_;
   const app::RunInput input_;
   const ScanFolder& folder_;
   app::RunScans scans_;
   const Settings settings_;
-  const app::Interrupt interrupt_;
   app::ProgressBar bar_;
   std::set<std::string> printed_; ///< parameters
   app::OutputFolder out_;
@@ -304,6 +307,18 @@ private:
   app::RunLog log_;
   std::filesystem::path published_; ///< where the files are in the end
 };
+
+int
+runJob(const Settings& settings, WorkSharing* ranks)
+{
+  try {
+    return Job(settings, ranks).run();
+  } catch (const app::Interrupted&) {
+    app::ProgressBar(settings.quiet)
+        .say("interrupted while tracking; nothing is written");
+    return app::kInterrupted;
+  }
+}
 } // namespace
 
 int
@@ -326,7 +341,7 @@ main(int argc, char** argv)
     if (settings.planes)
       app::planesOfRun(); // reports a missing library before the work
     if (!ranks || ranks->isFirst())
-      return Job(settings, ranks.get()).run();
+      return runJob(settings, ranks.get());
     app::help(*ranks, kName, settings);
     return static_cast<int>(app::kDone);
   };

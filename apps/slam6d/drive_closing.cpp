@@ -37,20 +37,22 @@ parametersOf(const Settings& settings, const ScanFolder& folder)
 } // namespace
 
 void
-closeLoopsOfDrive(const Settings& settings, ScanFolder& folder, ProgressBar& bar)
+closeLoopsOfDrive(const Settings& settings,
+                  ScanFolder& folder,
+                  const ProgressCallback& progress)
 {
   const std::vector<Eigen::Isometry3d> poses = posesOf(folder);
   const ScanParameters parameters = parametersOf(settings, folder);
   DriveLoopOptions options;
   options.num_threads = settings.slam.num_threads;
-  options.progress = [&bar](const Progress& now) { bar.show(now); };
+  options.progress = progress;
   if (!mayHoldDriveLoops(poses, parameters.median_range, options))
     return;
   PreparedScans prepared(folder.size(), parameters, options.num_threads);
   try {
     for (std::size_t i = 0; i < folder.size(); ++i) {
       prepared.set(i, folder.read(i).points, folder.title(i));
-      bar.show({"preparing", i + 1, folder.size()});
+      progress({"preparing", i + 1, folder.size()});
     }
   } catch (const ComputeFailed&) {
     return; // a sweep of a few points; the registration reports its name

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/app.h"
+#include "common/open_scans.h"
 #include "common/printable.h"
 #include "common/progress_bar.h"
 #include "slam6d/explain.h"

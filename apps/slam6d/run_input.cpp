@@ -83,7 +83,9 @@ openEarlier(const Settings& settings)
 }
 
 RunInput
-openInput(const Settings& settings, const EarlierRuns& earlier)
+openInput(const Settings& settings,
+          const EarlierRuns& earlier,
+          const Interrupt* interrupt)
 {
   if (earlier.areJoined())
     return {joinedFolder(earlier), {}, std::nullopt};
@@ -96,7 +98,7 @@ openInput(const Settings& settings, const EarlierRuns& earlier)
   std::optional<DriveResult> drive;
   if (earlier.empty() && isTracked(settings, *folder)) {
     const StageTimer timer("tracking", stages);
-    drive = trackSweeps(settings, *folder);
+    drive = trackSweeps(settings, *folder, interrupt);
   }
   else if (earlier.empty())
     drive = selectKeyframes(settings, *folder);
@@ -130,7 +132,7 @@ resolved(Settings settings, const ScanFolder& folder, const EarlierRuns& earlier
 {
   if (earlier.areJoined())
     takeLengths(earlier, settings);
-  settings.resolveGuess(folder.hasPoses());
+  settings.resolveGuess(folder.posesDiffer());
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < folder.size(); ++i)
     indices.push_back(folder.index(i));

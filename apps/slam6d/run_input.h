@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/process/interrupt.h"
 #include "slam6d/earlier_runs.h"
 #include "slam6d/run_scans.h"
 #include "slam6d/settings.h"
@@ -28,9 +29,13 @@ struct RunInput {
 };
 
 /** \return the chosen scans, after the scans of an earlier run; or the scans of joined runs
- * \throws UsageError no scan is chosen: a mistake of the command line */
+ * \param[in] interrupt ends the tracking of a drive; may be null
+ * \throws UsageError no scan is chosen: a mistake of the command line
+ * \throws Interrupted a signal came in */
 RunInput
-openInput(const Settings& settings, const EarlierRuns& earlier);
+openInput(const Settings& settings,
+          const EarlierRuns& earlier,
+          const Interrupt* interrupt = nullptr);
 
 /** \return the scans for registration */
 RunScans

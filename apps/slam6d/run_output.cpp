@@ -221,21 +221,7 @@ RunOutput::describe(bool complete, const RunLog& log)
     run_.scans[i].dropped = log.dropped[i];
   run_.complete = complete;
   describeDrive();
-  const bool is_followed =
-      settings_.slam.motion.gives_poses &&
-      std::any_of(run_.scans.begin(), run_.scans.end(), [](const ScanResult& scan) {
-        return scan.motion && scan.motion->undone;
-      });
-  if (!folder_.hasPoses() && folder_.size() > 1)
-    run_.warnings.push_back(
-        is_followed ? "no initial poses were found: each scan starts from the scan "
-                      "before, by the motion found"
-        : !result_.starts.empty() ? "no initial poses were found"
-        : isWithoutPrior(settings_.slam.initial_guess)
-            ? "no initial poses were found: place recognition found the poses"
-            : "no initial poses were found: each scan starts at the pose of the scan "
-              "before, suited only to scans taken close together; give poses with "
-              "--poses or odometry.txt");
+  warnOfMissingPoses();
   for (const StartResult& start : result_.starts)
     run_.warnings.push_back(textOf(start, run_.scans.size()));
   if (!settings_.without_effect.empty())
@@ -243,6 +229,38 @@ RunOutput::describe(bool complete, const RunLog& log)
   if (settings_.slam.initial_guess == InitialGuess::kOverlap)
     warnOfOdometry();
   warnOfBoundedRecovery();
+}
+
+/** Warns about initial poses that are missing, or all equal. */
+void
+RunOutput::warnOfMissingPoses()
+{
+  if (folder_.posesDiffer() || folder_.size() == 1)
+    return;
+  if (folder_.hasPoses()) {
+    if (settings_.auto_guess)
+      run_.warnings.push_back("the initial poses (" + folder_.poseSource() +
+                              ") are all equal, and count as missing");
+    return;
+  }
+  const bool is_followed =
+      settings_.slam.motion.gives_poses &&
+      std::any_of(run_.scans.begin(), run_.scans.end(), [](const ScanResult& scan) {
+        return scan.motion && scan.motion->undone;
+      });
+  // An interrupted run may have no pose that was found.
+  const bool is_tried =
+      !result_.starts.empty() ||
+      (!run_.complete && isWithoutPrior(settings_.slam.initial_guess));
+  run_.warnings.push_back(
+      is_followed ? "no initial poses were found: each scan starts from the scan "
+                    "before, by the motion found"
+      : is_tried  ? "no initial poses were found"
+      : isWithoutPrior(settings_.slam.initial_guess)
+          ? "no initial poses were found: place recognition found the poses"
+          : "no initial poses were found: each scan starts at the pose of the scan "
+            "before, suited only to scans taken close together; give poses with "
+            "--poses or odometry.txt");
 }
 
 /** Moves the sweeps between the scans of the map together with these scans. */

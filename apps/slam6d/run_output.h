@@ -69,6 +69,8 @@ private:
   void
   warnOfOdometry();
   void
+  warnOfMissingPoses();
+  void
   warnOfBoundedRecovery();
   bool
   writeScans(KeptClouds& clouds, MapBuilder& map, MapBuilder* fine_map);

@@ -110,7 +110,9 @@ struct Settings {
   std::string
   inputWords() const;
 
-  /** Resolves --initial-guess auto for a folder. */
+  /** Resolves --initial-guess auto for a folder.
+   * \param[in] has_poses whether initial poses tell where the scans are
+   * (ScanFolder::posesDiffer()) */
   void
   resolveGuess(bool has_poses);
 

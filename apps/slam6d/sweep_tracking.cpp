@@ -75,6 +75,7 @@ driveOf(const ScanFolder& folder)
 std::optional<DriveResult>
 trackAll(const Settings& settings,
          const ScanFolder& folder,
+         const ProgressCallback& progress,
          ProgressBar& bar,
          std::vector<std::size_t>& keyframes)
 {
@@ -103,7 +104,7 @@ trackAll(const Settings& settings,
     else if (found.is_keyframe || found.status == SweepStatus::kFirst || i + 1 == count)
       keyframes.push_back(i);
     drive.poses.push_back(found.T_world_sweep);
-    bar.show({"tracking", i + 1, count});
+    progress({"tracking", i + 1, count});
     if (settings.track == Tracking::kAuto && drive.lost.size() * kOneIn > count) {
       bar.say("tracking in the order of the files: given up at " + folder.title(i) +
               ", " + std::to_string(drive.lost.size()) + " scans were lost");
@@ -132,17 +133,21 @@ isTracked(const Settings& settings, const ScanFolder& folder)
 {
   if (settings.track != Tracking::kAuto)
     return settings.track == Tracking::kOn;
-  return settings.auto_guess && !folder.hasPoses() && folder.size() > kFewScans &&
+  return settings.auto_guess && !folder.posesDiffer() && folder.size() > kFewScans &&
          settings.deskew != Deskew::kEstimate;
 }
 
 std::optional<DriveResult>
-trackSweeps(const Settings& settings, ScanFolder& folder)
+trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* interrupt)
 {
   ProgressBar bar(settings.quiet);
+  ProgressCallback progress = [&bar](const Progress& now) { bar.show(now); };
+  if (interrupt != nullptr)
+    progress = watched(bar, *interrupt);
   const std::size_t count = folder.size();
   std::vector<std::size_t> keyframes;
-  std::optional<DriveResult> drive = trackAll(settings, folder, bar, keyframes);
+  std::optional<DriveResult> drive =
+      trackAll(settings, folder, progress, bar, keyframes);
   if (!drive)
     return std::nullopt;
   folder.replacePoses(drive->poses,
@@ -152,7 +157,7 @@ trackSweeps(const Settings& settings, ScanFolder& folder)
   if (!settings.takes_keyframes || keyframes.size() < 2 || keyframes.size() == count)
     return std::nullopt;
   folder.keepOnly(keyframes);
-  closeLoopsOfDrive(settings, folder, bar);
+  closeLoopsOfDrive(settings, folder, progress);
   return drive;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/process/interrupt.h"
 #include "slam6d/run_scans.h"
 #include "slam6d/settings.h"
 
@@ -23,10 +24,11 @@ haveTimes(const ScanFolder& folder);
 /** \brief Tracks the scans of a folder in order (SweepTracker), and replaces its initial poses by
  * the tracked poses. With --track auto the poses are kept if more than a quarter of the scans is
  * lost. With --every auto only the keyframes remain selected. Prints the result.
+ * \param[in] interrupt ends the work between two scans; may be null
  * \return all sweeps with the tracked poses; none if each selected scan remains a scan of the map
- * \throws IoFailed a scan cannot be read */
+ * \throws IoFailed a scan cannot be read \throws Interrupted a signal came in */
 std::optional<DriveResult>
-trackSweeps(const Settings& settings, ScanFolder& folder);
+trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* interrupt);
 
 /** \brief Selects keyframes among the sweeps of a recording with poses, with --every auto: for more
  * than 60 sweeps, at most half of which are keyframes; scans taken far apart are all kept.

@@ -140,7 +140,7 @@ void
 makeRun(Job job, CallWatch& watch)
 {
   const ScanFolder folder = openScanFiles(job.inputs, job.folder);
-  if (!job.is_guess_given && !folder.hasPoses()) { // like --initial-guess auto
+  if (!job.is_guess_given && !folder.posesDiffer()) { // like --initial-guess auto
     job.slam.initial_guess = InitialGuess::kGlobal;
     job.slam.order_first = true;
   }

@@ -34,6 +34,15 @@ takeCovariances(const MapVerification& map, std::vector<ScanResult>& scans)
       scan.covariance = covariance;
   }
 }
+
+/** \return whether the pose comes from a search, which finds wrong places that look alike as well:
+ * with hopeless odometry, the search around the predicted pose covers half a turn and metres */
+bool
+isFoundBySearch(RecoveredBy by)
+{
+  return by == RecoveredBy::kSearch || by == RecoveredBy::kEverywhere ||
+         by == RecoveredBy::kTogether;
+}
 } // namespace
 
 void
@@ -71,9 +80,7 @@ RunVerification::verify(const std::vector<std::string>& names, Slam6DResult& res
   std::vector<Verified> map;
   for (const ScanResult& scan : result.scans)
     map.push_back({scan.T_world_scan,
-                   isWithoutPrior(scan.start) ||
-                       scan.recovered == RecoveredBy::kEverywhere ||
-                       scan.recovered == RecoveredBy::kTogether});
+                   isWithoutPrior(scan.start) || isFoundBySearch(scan.recovered)});
   const auto isSame = [](const Verified& a, const Verified& b) {
     return a.T_world_scan.matrix() == b.T_world_scan.matrix() &&
            a.is_unsure == b.is_unsure;

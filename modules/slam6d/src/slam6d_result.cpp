@@ -22,7 +22,7 @@ Slam6DResult::trusted() const
       std::count_if(scans.begin(), scans.end(), [&](const ScanResult& scan) {
         return scan.state == ScanState::kFixed || scan.state == ScanState::kMatched ||
                (is_confirmed && scan.state == ScanState::kUnconverged &&
-                scan.status != Status::kRankDeficient); // held by the given poses
+                scan.status != Status::kRankDeficient); // a motion of the given poses
       }));
   if (control && (!control->adjusted || !control->doubt.empty()))
     return false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/initial_poses.h"
+#include "scan/stamps_of_scans.h"
 #include "trajectory/camera_poses.h"
 
 #include <pcl6d/common/error.h>
@@ -30,6 +31,9 @@ readPoses(const fs::path& file,
 {
   Trajectory trajectory = readTrajectory(file);
   const std::size_t poses = trajectory.poses.size();
+  if (poses != scans.size())
+    if (auto of_scans = posesAtStamps(trajectory, stampsOfNames(scans)))
+      return *std::move(of_scans);
   if (poses != scans.size())
     text::fail(file,
                text::counted(poses, "pose") + ", but " + holder + " holds " +
@@ -125,7 +129,7 @@ namespace {
 InitialPoses
 posesOfFile(const fs::path& file, const Paths& scans, const Paths& folders)
 {
-  InitialPoses poses{readPoses(file, scans), file.string()};
+  InitialPoses poses{readPoses(file, scans), file.string(), {}};
   for (const auto& folder : folders)
     if (text::isThere(folder / kCalibration) &&
         takeCameraPoses(folder / kCalibration, poses.trajectory)) {
@@ -147,7 +151,7 @@ findPoses(const Paths& folders,
   if (std::any_of(scans.begin(), scans.end(), [](const fs::path& scan) {
         return text::isThere(posePath(scan));
       }))
-    return {readScanPoses(scans), "scan poses (*.pose)"};
+    return {readScanPoses(scans), "scan poses (*.pose)", {}};
   for (const auto& folder : folders)
     for (const char* const name : {"odometry.txt", "poses.txt"})
       if (text::isThere(folder / name)) {
@@ -159,11 +163,12 @@ findPoses(const Paths& folders,
     Trajectory own = readOwnPoses(scans, format);
     if (!std::all_of(own.poses.begin(), own.poses.end(), isIdentity))
       return {std::move(own),
-              format == ScanFormat::kPcd ? "PCD VIEWPOINT" : "headers of PTX"};
+              format == ScanFormat::kPcd ? "PCD VIEWPOINT" : "headers of PTX",
+              {}};
   }
   Trajectory identity;
   identity.poses.assign(scans.size(), Eigen::Isometry3d::Identity());
-  return {std::move(identity), kNoPoses};
+  return {std::move(identity), kNoPoses, {}};
 }
 
 /** \return if the scans are named by row numbers, from 0 on, the stamps of the rows (KITTI, with
@@ -209,11 +214,33 @@ stampsFileOf(const FoundScans& scans)
 }
 } // namespace
 
+namespace {
+/** \return for a folder without poses, a sentence on .pose files that belong to no scan; or empty */
+std::string
+noteOfUnusedPoses(const fs::path& folder)
+{
+  std::size_t count = 0;
+  std::string first;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (entry->path().extension() != ".pose")
+      continue;
+    const std::string name = entry->path().filename().string();
+    if (++count == 1 || name < first)
+      first = name;
+  }
+  return count == 0 ? ""
+                    : text::counted(count, ".pose file") +
+                          " not used: no scan has the name of " + first;
+}
+} // namespace
+
 InitialPoses
 io::initialPosesOf(const ScanSource& source, const fs::path& poses_file)
 {
   Paths names;
-  InitialPoses poses{{}, source.poseSource()};
+  InitialPoses poses{{}, source.poseSource(), {}};
   bool has_poses = false;
   for (const auto& scan : source.scans()) {
     names.emplace_back(scan.name);
@@ -231,7 +258,7 @@ io::initialPosesOf(const ScanSource& source, const fs::path& poses_file)
   Trajectory given = readPoses(poses_file, names, source.path().string());
   if (given.stamps.empty())
     given.stamps = std::move(poses.trajectory.stamps);
-  return {std::move(given), poses_file.string()};
+  return {std::move(given), poses_file.string(), {}};
 }
 
 InitialPoses
@@ -239,11 +266,16 @@ io::findInitialPoses(const FoundScans& scans, const fs::path& poses_file)
 {
   InitialPoses poses = findPoses(scans.folders, scans.files, scans.format, poses_file);
   std::vector<double>& stamps = poses.trajectory.stamps;
-  if (!stamps.empty())
-    return poses;
-  if (const fs::path file = stampsFileOf(scans); !file.empty())
-    stamps = readScanStamps(file, scans.files);
-  else
+  std::string source = poses.source;
+  if (stamps.empty())
+    if (const fs::path file = stampsFileOf(scans); !file.empty()) {
+      stamps = readScanStamps(file, scans.files);
+      source = file.filename().string();
+    }
+  poses.note = contradictionOfStamps(stamps, source, scans.files);
+  if (poses.note.empty() && poses.source == kNoPoses)
+    poses.note = noteOfUnusedPoses(scans.folders.front());
+  if (stamps.empty())
     stamps = stampsOfNames(scans.files);
   return poses;
 }

@@ -27,6 +27,9 @@ constexpr const char* kCalibration = "calib.txt";
 struct InitialPoses {
   Trajectory trajectory;
   std::string source; ///< see ScanFolder::poseSource()
+  /** see ScanFolder::note(): stamps that contradict the names of the scans, or pose files that
+   * belong to no scan */
+  std::string note;
 };
 
 /** \return whether the name marks reference poses, which a run must not use */

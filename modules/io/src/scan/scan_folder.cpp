@@ -42,6 +42,8 @@ ScanFolder::ScanFolder(const fs::path& folder, const ScanFolderOptions& options)
   FoundScans scans = findScans(folder, options);
   InitialPoses poses = findInitialPoses(scans, options.poses_file);
   takeLayout(scans, options, poses.trajectory.stamps);
+  if (!poses.note.empty())
+    note_ += (note_.empty() ? "" : "; ") + poses.note;
   pose_source_ = poses.source;
   std::vector<Entry> all(scans.files.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -250,6 +252,17 @@ bool
 ScanFolder::hasPoses() const
 {
   return pose_source_ != kNoPoses;
+}
+
+bool
+ScanFolder::posesDiffer() const
+{
+  constexpr std::size_t kFew = 3; // two scans may be taken from one position
+  if (!hasPoses() || are_estimated_ || entries_.size() < kFew)
+    return hasPoses();
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return entry.given.matrix() != entries_.front().given.matrix();
+  });
 }
 
 Scan

@@ -62,7 +62,9 @@ struct ScanFolderOptions {
  * else from the names of the scans (stampsOfNames()). A folder of a published data set is
  * recognised (findDataset()): the folder of the scans, of a sequence, or of the data set, if
  * the data set has a single sequence. The number of rows must match all scans of the folder,
- * including scans skipped by first, last and every. \ingroup io */
+ * including scans skipped by first, last and every; if it does not, and poses and names of scans
+ * have stamps, each scan takes the pose nearest in time. Stamps that contradict the names are
+ * named in note(). \ingroup io */
 class ScanFolder {
 public:
   /** \throws IoFailed the folder is missing or unreadable, holds no scan, holds scans of several
@@ -191,6 +193,12 @@ public:
   /** \return false without a pose source: all poses are the identity */
   bool
   hasPoses() const;
+
+  /** \return whether the initial poses tell where the scans are: there are poses, and those of
+   * the selected scans are not all equal, as a constant VIEWPOINT is. Poses of fewer than three
+   * scans, and estimated poses, always count */
+  bool
+  posesDiffer() const;
 
   /** \return the offset of points far from the origin; empty: points are not moved */
   const std::optional<MovedPoints>&

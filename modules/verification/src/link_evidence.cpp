@@ -37,7 +37,11 @@ lookFrom(const VerifiedScan& from,
   const double misfit = std::min(fit.residual, kMostMisfit * voxel);
   uncertainty.noise = std::sqrt(at.noise() * at.noise() + misfit * misfit);
   const Points points = sampleOf(at.surfaces().points());
-  const Normals normals = sampleOf(at.surfaces().normals());
+  // Between lines that lie far apart, rays miss a floor that they graze. The images of other scans
+  // are filled, and the calibration of the verdict counts their few errors.
+  const Normals normals = from.rays().isBetweenLines()
+                              ? sampleOf(at.surfaces().normals())
+                              : Normals(points.size(), Eigen::Vector3f::Zero());
   return sightEvidence(from.rays(),
                        TestedSurface(points, normals),
                        T_from_at,

@@ -96,6 +96,12 @@ public:
   {
     return origin_;
   }
+  /** \return RayImageOptions::between_lines: rays may pass beside a point by more than a cell */
+  bool
+  isBetweenLines() const
+  {
+    return between_lines_;
+  }
   /** \return [rad] the finest cells in use; 0 if the points are too few to fill any */
   double
   resolution() const
@@ -108,7 +114,7 @@ public:
   friend void
   packFields(Archive& archive, RayImage& image)
   {
-    archive(image.origin_, image.noise_, image.levels_);
+    archive(image.origin_, image.noise_, image.between_lines_, image.levels_);
   }
 
 private:
@@ -144,6 +150,7 @@ private:
 
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
   double noise_ = 0;
+  bool between_lines_ = false;
   std::vector<Level> levels_; ///< from fine to coarse
 };
 

@@ -94,16 +94,16 @@ TEST(OpenDirections, KeepTurnsAboutTheMiddleOfThePoints)
   const Eigen::Translation3d middle(5, 1, 0);
   const Eigen::Isometry3d turn = poseFromEuler({}, {0.01, -0.02, 0.05});
   const Eigen::Isometry3d predicted = poseFromEuler({0.5, 0.1, 0}, {0, 0, 0.3});
-  IcpResult found = foundWith(2, middle * turn * middle.inverse() * predicted);
+  IcpResult found = foundWith(1, middle * turn * middle.inverse() * predicted);
   const Eigen::Isometry3d pose = found.T_target_source;
   EXPECT_TRUE(holdOpenDirections(predicted, found));
   EXPECT_LT((found.T_target_source.matrix() - pose.matrix()).norm(), 1e-12);
 }
 
-TEST(OpenDirections, ChangeNothingWhereNoneOrNearlyAllAreOpen)
+TEST(OpenDirections, ChangeNothingWhereNoneOrSeveralAreOpen)
 {
   const Eigen::Isometry3d pose = poseFromEuler({1.2, 0.12, 0.03}, {});
-  for (const int open : {0, 4, 6}) {
+  for (const int open : {0, 2, 3, 6}) {
     IcpResult found = foundWith(open, pose);
     EXPECT_FALSE(holdOpenDirections(Eigen::Isometry3d::Identity(), found)) << open;
     EXPECT_EQ(found.T_target_source.matrix(), pose.matrix());

@@ -7,18 +7,12 @@
 
 namespace pcl6d::slam6d {
 
-namespace {
-/** A single plane leaves three motions open. */
-constexpr int kMostOpen = 3;
-} // namespace
-
 bool
 holdOpenDirections(const Eigen::Isometry3d& predicted, IcpResult& found)
 {
   if (!found.localizability)
     return false;
-  const int open = found.localizability->openDirections();
-  if (open < 1 || open > kMostOpen)
+  if (found.localizability->openDirections() != 1)
     return false;
   const Eigen::Translation3d centre(found.localizability->centroid);
   const Eigen::Isometry3d correction =
@@ -29,7 +23,7 @@ holdOpenDirections(const Eigen::Isometry3d& predicted, IcpResult& found)
   Twist motion;
   motion << correction.translation(), rotationVector(correction.linear());
   Twist shares = inverted<6>(directions) * motion;
-  shares.head(open).setZero(); // ascending: the open motions are the first
+  shares(0) = 0; // ascending: the open motion is the first
   motion = directions * shares;
   Eigen::Isometry3d kept(rotationFromVector(motion.tail<3>()));
   kept.pretranslate(motion.head<3>());

@@ -6,12 +6,13 @@
 
 namespace pcl6d::slam6d {
 
-/** \brief Where the surfaces leave a motion open, as along a corridor, takes the motion from the
+/** \brief Where the surfaces leave one motion open, as along a corridor, takes the motion from the
  * prediction: of ICP's correction only the part that surfaces measure is kept.
  * \param[in] predicted the pose of the source by odometry, in the target's frame
  * \param[in,out] found by ICP: the pose changes; the status becomes kRankDeficient, without a
  * covariance; the other figures stay those of the pose that ICP came to rest at
- * \return whether surfaces leave up to three motions open (of more, as on one line, nothing is kept)
+ * \return whether surfaces leave one motion open. Of more, as on a single wall or line, nothing is
+ * kept: relaxation would pull scans of one plane into each other
  * \note Source: J. Zhang, M. Kaess, S. Singh, "On degeneracy of optimization-based state estimation
  * problems", ICRA 2016, solution remapping */
 PCL6D_EXPORTS bool // exported for its test

@@ -26,13 +26,16 @@ isHeld(const ScanResult& scan)
   return scan.state == ScanState::kUnconverged && scan.status == Status::kRankDeficient;
 }
 
+/** \return whether the scan is connected, or has a consistent link to a scan that is not either: a
+ * right piece beside the map stays whole */
 bool
 isConfirmed(const MapVerification& map, std::size_t scan)
 {
-  return std::any_of(map.links.begin(), map.links.end(), [&](const LinkCheck& link) {
-    return (link.from == scan || link.to == scan) &&
-           (link.trust == LinkTrust::kGood || link.trust == LinkTrust::kUnverified);
-  });
+  return map.scans[scan].tied ||
+         std::any_of(map.links.begin(), map.links.end(), [&](const LinkCheck& link) {
+           return (link.from == scan || link.to == scan) &&
+                  link.trust == LinkTrust::kGood;
+         });
 }
 
 /** \return the scans to be disconnected from the map */

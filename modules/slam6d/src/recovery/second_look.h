@@ -31,8 +31,8 @@ countConnected(const Slam6DResult& result);
 bool
 isBetterConnected(const Slam6DResult& now, const Slam6DResult& before);
 
-/** \return whether a search found the scan after matching had failed, and no consistent link of the
- * verification confirms its place */
+/** \return whether a search found the scan after matching had failed, and the verification neither
+ * connects it nor has a consistent link of it */
 bool
 isUnconfirmed(const Slam6DResult& result, std::size_t scan);
 

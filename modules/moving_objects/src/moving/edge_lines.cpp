@@ -43,6 +43,7 @@ areDenseAround(const TestedPositions& observed,
     });
   }
   std::vector<bool> is_dense;
+  is_dense.reserve(count);
   for (std::size_t k = 0; k < count; ++k)
     is_dense.push_back(2 * dense[k] > all[k]);
   return is_dense;
@@ -61,6 +62,7 @@ areEdgeLines(const TestedPositions& observed,
       directions[static_cast<std::size_t>(object[place])].push_back(
           observed.directionOf(place).cast<double>());
   std::vector<bool> is_line;
+  is_line.reserve(count);
   for (const auto& of_object : directions)
     is_line.push_back(arcWidthOf(of_object) < kLineCells * observed.cell);
   if (std::find(is_line.begin(), is_line.end(), true) == is_line.end())

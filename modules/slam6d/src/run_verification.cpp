@@ -108,6 +108,7 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
   }
   std::vector<std::string> files; // file names without directories, for the text of the
                                   // verdict
+  files.reserve(names.size());
   for (const std::string& name : names)
     files.push_back(std::filesystem::path(name).filename().string());
   MapVerification map = MapVerifier(scans_, files, options).verify(poses);

@@ -77,7 +77,7 @@ ScanFolder::takeLayout(const FoundScans& scans,
     reading_.times = {layout_->times, upperMedian(std::move(steps))};
 }
 
-ScanFolder::ScanFolder(std::shared_ptr<const ScanSource> source,
+ScanFolder::ScanFolder(const std::shared_ptr<const ScanSource>& source,
                        const ScanFolderOptions& options)
 {
   options.validate();

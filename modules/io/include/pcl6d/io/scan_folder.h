@@ -78,7 +78,7 @@ public:
    * \param[in] options the formats are ignored
    * \throws IoFailed the poses of the given file are incomplete or broken
    * \throws BadArgument an option is invalid, selects no scan, or the source is null */
-  explicit ScanFolder(std::shared_ptr<const ScanSource> source,
+  explicit ScanFolder(const std::shared_ptr<const ScanSource>& source,
                       const ScanFolderOptions& options = {});
 
   /** \brief A scan registered in a finished run, in the run's file. */

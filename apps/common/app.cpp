@@ -43,7 +43,7 @@ sensible(std::string message)
   return message;
 }
 
-/** \return the text of a file system error in the suite's order: the file, then the reason */
+/** \return the text of a file system error, in the order of all messages: the file, then the reason */
 std::string
 wordsOf(const std::filesystem::filesystem_error& error)
 {

@@ -20,7 +20,7 @@ in a file given by `--config` it is `name = value`.
 - *default*: `auto` means that the value is derived from the first 16 scans, or, for loops and
   links, from the matched scans.
 - *result*: `yes` means that the option may change the poses. An interrupted run resumes only if
-  these options have the same values as before. `--continue` reuses the values given to the
+  every option so marked has its former value. `--continue` reuses the values given to the
   previous run, except of the options that select the input.
 - An option in *italics* is a field of `pcl6d::Slam6DOptions` that only callers of the library set.
 )";

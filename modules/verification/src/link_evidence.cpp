@@ -39,11 +39,11 @@ lookFrom(const VerifiedScan& from,
   const Points points = sampleOf(at.surfaces().points());
   // Between lines that lie far apart, rays miss a floor that they graze. The images of other scans
   // are filled, and the calibration of the verdict counts their few errors.
-  const Normals normals = from.rays().isBetweenLines()
-                              ? sampleOf(at.surfaces().normals())
-                              : Normals(points.size(), Eigen::Vector3f::Zero());
+  const Normals normals =
+      from.rays().isBetweenLines() ? sampleOf(at.surfaces().normals()) : Normals();
   return sightEvidence(from.rays(),
-                       TestedSurface(points, normals),
+                       normals.empty() ? TestedSurface(points)
+                                       : TestedSurface(points, normals),
                        T_from_at,
                        uncertainty,
                        {std::max(kPatchVoxels * voxel, kPatchSpread * fit.spread),

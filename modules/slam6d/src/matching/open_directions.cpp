@@ -3,7 +3,6 @@
 
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/rotation.h>
-#include <pcl6d/registration/twist.h>
 
 namespace pcl6d::slam6d {
 

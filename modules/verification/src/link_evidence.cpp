@@ -37,10 +37,9 @@ lookFrom(const VerifiedScan& from,
   const double misfit = std::min(fit.residual, kMostMisfit * voxel);
   uncertainty.noise = std::sqrt(at.noise() * at.noise() + misfit * misfit);
   const Points points = sampleOf(at.surfaces().points());
-  // Between lines that lie far apart, rays miss a floor that they graze. The images of other scans
-  // are filled, and the calibration of the verdict counts their few errors.
-  const Normals normals =
-      from.rays().isBetweenLines() ? sampleOf(at.surfaces().normals()) : Normals();
+  // In the gaps between rays that lie far apart, rays miss a floor that they graze. The images of
+  // other scans are filled, and the calibration of the verdict counts their few errors.
+  const Normals normals = from.hasGaps() ? sampleOf(at.surfaces().normals()) : Normals();
   return sightEvidence(from.rays(),
                        normals.empty() ? TestedSurface(points)
                                        : TestedSurface(points, normals),

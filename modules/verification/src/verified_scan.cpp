@@ -49,8 +49,9 @@ VerifiedScan::VerifiedScan(const Points& measured,
   RayImageOptions options;
   options.origin = origin;
   options.noise = rangeNoise(measured);
-  options.between_lines =
-      samplingOf(measured, origin).structure != ScanStructure::kEven;
+  const ScanSampling sampling = samplingOf(measured, origin);
+  options.between_lines = sampling.structure != ScanStructure::kEven;
+  has_gaps_ = sampling.hasGaps();
   is_off_centre_ = !isPlausibleOrigin(measured, origin);
   rays_ = RayImage(is_off_centre_ ? Points() : measured, options);
   self_contradiction_ = pcl6d::selfContradiction(measured, origin, options.noise);

@@ -74,6 +74,7 @@ function(pcl6d_add_module name)
   target_include_directories(${target}
     PUBLIC
       $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/internal> # not installed
       $<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}/include>
       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE src)
@@ -100,7 +101,8 @@ function(pcl6d_add_module name)
   set_property(GLOBAL PROPERTY PCL6D_${name}_DEPENDS ${ARG_DEPENDS})
   set_property(GLOBAL PROPERTY PCL6D_${name}_PCL_COMPONENTS ${ARG_PCL_COMPONENTS})
   set_property(GLOBAL PROPERTY PCL6D_${name}_PRIVATE ${ARG_LINK_PRIVATE})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name}
+    OPTIONAL) # some modules serve our programs only
   install(EXPORT pcl6d_${name} NAMESPACE pcl6d:: FILE module_${name}.cmake
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl6d COMPONENT ${name})
 endfunction()

@@ -9,6 +9,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/frames_io.h>
 
 #include <functional>
 #include <iomanip>

@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/io/frames_io.h>
 #include <pcl6d/visualization/convergence_strip.h>
 
 #include <algorithm>

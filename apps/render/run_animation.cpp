@@ -3,6 +3,7 @@
 #include "render/run_animation.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/frames_io.h>
 #include <pcl6d/visualization/camera_path.h>
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 
 #include "render/animation_settings.h"
 
+#include <pcl6d/io/frames_io.h>
 #include <pcl6d/run/run_folder.h>
 #include <pcl6d/visualization/map_view.h>
 

@@ -12,6 +12,7 @@
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/run_folder.h>
+#include <pcl6d/run/run_summary.h>
 #include <pcl6d/run/run_writer.h>
 #include <pcl6d/run/written_files.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/packing.h>
 #include <pcl6d/common/rejection.h>
 
 #include <gtest/gtest.h>

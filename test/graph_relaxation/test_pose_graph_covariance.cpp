@@ -2,6 +2,7 @@
 #include "graph_cases.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/graph_relaxation/link_error.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 
 #include <Eigen/LU>

@@ -5,6 +5,7 @@
 #include "support/bits.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/graph_relaxation/link_error.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 
 #include <gtest/gtest.h>

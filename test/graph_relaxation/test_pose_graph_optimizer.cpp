@@ -3,6 +3,7 @@
 #include "optimized.h"
 #include "support/bits.h"
 
+#include <pcl6d/graph_relaxation/link_error.h>
 #include <pcl6d/graph_relaxation/merge_links.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "graph_cases.h"
 
+#include <pcl6d/graph_relaxation/link_error.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 
 #include <gtest/gtest.h>

@@ -16,14 +16,16 @@ table() {
 # The book, section by section
 
 Methods of A. Nüchter, *3D Robotic Mapping* (Springer 2009): for each, the header and the name in it, a command line that runs it, and the
-test suite that checks it against the book. `-`: only in the library. Made from `book.tsv` by `test/house/book.sh --write`; the test `house.book` checks every row.
+test suite that checks it against the book. `-`: only in the library. Internal headers are not installed. Made from `book.tsv` by `test/house/book.sh --write`; the test `house.book` checks every row.
 
 | section | method | header | name | program | test |
 |---|---|---|---|---|---|
 TEXT
   while IFS=$'\t' read -r section method place words test; do
     [[ $words == - ]] || words="\`$words\`"
-    echo "| $section | $method | \`${place%%#*}\` | \`${place##*#}\` | $words | \`$test\` |"
+    local kind=
+    compgen -G "$source/modules/*/internal/${place%%#*}" > /dev/null && kind=" (internal)"
+    echo "| $section | $method | \`${place%%#*}\`$kind | \`${place##*#}\` | $words | \`$test\` |"
   done < "$rows"
 }
 
@@ -48,7 +50,7 @@ check_words() {
 
 while IFS=$'\t' read -r section method place words test; do
   [[ -n $test ]] || fail "$section $method: five columns are needed"
-  header=$(compgen -G "$source/modules/*/include/${place%%#*}" || true)
+  header=$(compgen -G "$source/modules/*/include/${place%%#*}" || compgen -G "$source/modules/*/internal/${place%%#*}" || true)
   if [[ -z $header ]]; then
     fail "$section $method: there is no header ${place%%#*}"
   else

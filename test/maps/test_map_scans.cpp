@@ -7,6 +7,7 @@
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/maps/map_scans.h>
 #include <pcl6d/maps/octree_map.h>
+#include <pcl6d/run/run_summary.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>

@@ -2,6 +2,7 @@
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/object_io.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/plane_io.h>
@@ -9,6 +10,8 @@
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/run/registered_scans.h>
 #include <pcl6d/run/run_folder.h>
+#include <pcl6d/run/run_links_io.h>
+#include <pcl6d/run/run_summary.h>
 #include <pcl6d/run/written_files.h>
 
 #include <pcl/conversions.h>

@@ -2,6 +2,7 @@
 #include <pcl6d/common/number_range.h>
 #include <pcl6d/common/option_names.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/object_io.h>
 #include <pcl6d/io/plane_io.h>
 #include <pcl6d/io/pose_graph_io.h>
@@ -11,6 +12,8 @@
 #include <pcl6d/io/text.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/run/run_folder.h>
+#include <pcl6d/run/run_links_io.h>
+#include <pcl6d/run/run_summary.h>
 #include <pcl6d/run/written_files.h>
 
 namespace pcl6d {

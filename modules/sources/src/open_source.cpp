@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ptx_source.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/natural_order.h>
 #include <pcl6d/sources/bag_source.h>
@@ -6,7 +8,6 @@
 #include <pcl6d/sources/file_list_source.h>
 #include <pcl6d/sources/folder_source.h>
 #include <pcl6d/sources/open_source.h>
-#include <pcl6d/sources/ptx_source.h>
 
 #include <algorithm>
 #include <cctype>

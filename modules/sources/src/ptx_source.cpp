@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ptx_source.h"
+
 #include <pcl6d/common/require.h>
-#include <pcl6d/sources/ptx_source.h>
 
 #include <cstdio>
 

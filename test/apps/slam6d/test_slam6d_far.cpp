@@ -3,6 +3,7 @@
 #include "support/run_program.h"
 
 #include <pcl6d/common/pose.h>
+#include <pcl6d/io/far_points.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_folder.h>

@@ -4,6 +4,7 @@
 #include "support/run_program.h"
 
 #include <pcl6d/common/pose.h>
+#include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/object_io.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/plane_io.h>
@@ -11,6 +12,8 @@
 #include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
 #include <pcl6d/run/run_folder.h>
+#include <pcl6d/run/run_links_io.h>
+#include <pcl6d/run/run_summary.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>

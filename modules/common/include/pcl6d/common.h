@@ -3,26 +3,15 @@
 
 /** \file All public headers of the module common. Poses and rotations, the plain data of several
  * modules, errors, threads, and functions with the same bits on every CPU. Left out:
- * instantiate.h, late_library.h and simd_clones.h, which serve the sources of the suite. */
-#include <pcl6d/common/angle.h>
-#include <pcl6d/common/components.h>
+ * instantiate.h, which the headers of PCL classes include. */
 #include <pcl6d/common/control_points.h>
-#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/export.h>
-#include <pcl6d/common/fingerprint.h>
 #include <pcl6d/common/graph_constraints.h>
-#include <pcl6d/common/information.h>
-#include <pcl6d/common/line.h>
 #include <pcl6d/common/map_verification.h>
-#include <pcl6d/common/median.h>
 #include <pcl6d/common/moved_points.h>
 #include <pcl6d/common/name_table.h>
-#include <pcl6d/common/number_range.h>
 #include <pcl6d/common/object_pose.h>
-#include <pcl6d/common/option_names.h>
-#include <pcl6d/common/option_spec.h>
-#include <pcl6d/common/packing.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/parameter.h>
 #include <pcl6d/common/plane.h>
@@ -33,7 +22,6 @@
 #include <pcl6d/common/pose_graph.h>
 #include <pcl6d/common/progress.h>
 #include <pcl6d/common/random.h>
-#include <pcl6d/common/range_lines.h>
 #include <pcl6d/common/rejection.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/require_indices.h>
@@ -46,4 +34,3 @@
 #include <pcl6d/common/version.h>
 #include <pcl6d/common/voxel_key.h>
 #include <pcl6d/common/voxel_numbers.h>
-#include <pcl6d/common/work_sharing.h>

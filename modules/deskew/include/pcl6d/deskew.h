@@ -3,11 +3,5 @@
 
 /** \file All public headers of the module deskew. Motion of the scanner within a scan: corrected
  * along known poses, or estimated from the points. */
-#include <pcl6d/deskew/elastic_terms.h>
 #include <pcl6d/deskew/motion_correction.h>
-#include <pcl6d/deskew/motion_icp.h>
 #include <pcl6d/deskew/motion_options.h>
-#include <pcl6d/deskew/motion_relaxation.h>
-#include <pcl6d/deskew/motion_sample.h>
-#include <pcl6d/deskew/motion_tracker.h>
-#include <pcl6d/deskew/surface_map.h>

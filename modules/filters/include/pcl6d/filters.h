@@ -6,14 +6,11 @@
  * normals, and the parameters of a run derived from the scans. */
 #include <pcl6d/filters/depth_median.h>
 #include <pcl6d/filters/leaf_cells.h>
-#include <pcl6d/filters/line_filter.h>
 #include <pcl6d/filters/line_growth.h>
 #include <pcl6d/filters/map_builder.h>
-#include <pcl6d/filters/planar_scan.h>
 #include <pcl6d/filters/point_normals.h>
 #include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/filters/scan_line.h>
 #include <pcl6d/filters/scan_parameters.h>
-#include <pcl6d/filters/scan_sampling.h>
 #include <pcl6d/filters/surface_patch.h>
 #include <pcl6d/filters/voxel_reduction.h>

@@ -4,20 +4,12 @@
 /** \file All public headers of the module graph_relaxation but its PCL classes, in
  * pcl6d/graph_relaxation/pcl. Loops and networks of scans: detection and closing of loops,
  * GraphSLAM, pose graphs. */
-#include <pcl6d/graph_relaxation/block_system.h>
-#include <pcl6d/graph_relaxation/constrained_graph.h>
 #include <pcl6d/graph_relaxation/control_adjustment.h>
 #include <pcl6d/graph_relaxation/error_diffusion.h>
 #include <pcl6d/graph_relaxation/graph_slam.h>
-#include <pcl6d/graph_relaxation/link_error.h>
 #include <pcl6d/graph_relaxation/link_sums.h>
-#include <pcl6d/graph_relaxation/loop_detection.h>
-#include <pcl6d/graph_relaxation/map_agreement.h>
-#include <pcl6d/graph_relaxation/merge_links.h>
 #include <pcl6d/graph_relaxation/network_scan.h>
 #include <pcl6d/graph_relaxation/parameterisations.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
 #include <pcl6d/graph_relaxation/scan_network.h>
-#include <pcl6d/graph_relaxation/simultaneous_matching.h>
-#include <pcl6d/graph_relaxation/stage_agreement.h>

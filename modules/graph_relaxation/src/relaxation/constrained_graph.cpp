@@ -5,6 +5,7 @@
 #include <pcl6d/common/information.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/graph_relaxation/constrained_graph.h>
+#include <pcl6d/graph_relaxation/link_error.h>
 
 #include <algorithm>
 #include <cmath>

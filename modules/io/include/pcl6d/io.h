@@ -2,36 +2,20 @@
 #pragma once
 
 /** \file All public headers of the module io. Scans, poses, pose graphs, meshes and further
- * results as files. Left out: json_numbers.h and json_object.h, which need nlohmann/json. */
-#include <pcl6d/io/atomic_file.h>
+ * results as files. */
 #include <pcl6d/io/bag_options.h>
 #include <pcl6d/io/control_points_io.h>
 #include <pcl6d/io/dataset_layout.h>
-#include <pcl6d/io/far_points.h>
-#include <pcl6d/io/frames_io.h>
-#include <pcl6d/io/label_colours.h>
-#include <pcl6d/io/link_list_io.h>
 #include <pcl6d/io/mesh_io.h>
-#include <pcl6d/io/natural_order.h>
-#include <pcl6d/io/nesting.h>
-#include <pcl6d/io/object_io.h>
 #include <pcl6d/io/other_scan_format.h>
 #include <pcl6d/io/pcd_io.h>
 #include <pcl6d/io/plane_io.h>
-#include <pcl6d/io/plane_mesh_io.h>
-#include <pcl6d/io/point_list_io.h>
 #include <pcl6d/io/point_times.h>
 #include <pcl6d/io/pose_graph_io.h>
-#include <pcl6d/io/ptx_io.h>
-#include <pcl6d/io/range_lines_io.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/io/scan_source.h>
 #include <pcl6d/io/scan_writer.h>
 #include <pcl6d/io/segment_io.h>
-#include <pcl6d/io/text.h>
-#include <pcl6d/io/trajectory_formats.h>
 #include <pcl6d/io/trajectory_io.h>
-#include <pcl6d/io/vector_field.h>

@@ -7,6 +7,7 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/io/far_points.h>
 #include <pcl6d/io/scan_fields.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/io/text.h>

@@ -3,10 +3,6 @@
 
 /** \file All public headers of the module maps. Maps for planners of robots, from a finished
  * run: OctoMap, grid map, heights as GeoTIFF. */
-#include <pcl6d/maps/floor_heights.h>
-#include <pcl6d/maps/grid_map.h>
-#include <pcl6d/maps/height_map.h>
-#include <pcl6d/maps/map_raster.h>
 #include <pcl6d/maps/map_scans.h>
 #include <pcl6d/maps/mapped_scan.h>
 #include <pcl6d/maps/octree_map.h>

@@ -4,10 +4,6 @@
 /** \file All public headers of the module moving_objects but its PCL classes, in
  * pcl6d/moving_objects/pcl. Points of dynamic objects in registered scans, and changes between
  * two runs of one site. */
-#include <pcl6d/moving_objects/compared_run.h>
 #include <pcl6d/moving_objects/moving_points.h>
 #include <pcl6d/moving_objects/moving_scans.h>
 #include <pcl6d/moving_objects/point_motion.h>
-#include <pcl6d/moving_objects/run_alignment.h>
-#include <pcl6d/moving_objects/run_changes.h>
-#include <pcl6d/moving_objects/surface_distance.h>

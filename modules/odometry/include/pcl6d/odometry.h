@@ -3,6 +3,4 @@
 
 /** \file All public headers of the module odometry. Sweeps tracked at the rate of the sensor:
  * local map, motion within a sweep, keyframes. */
-#include <pcl6d/odometry/keyframe_poses.h>
-#include <pcl6d/odometry/local_map.h>
 #include <pcl6d/odometry/sweep_tracker.h>

@@ -18,6 +18,5 @@
 #include <pcl6d/registration/plane_minimiser.h>
 #include <pcl6d/registration/plane_sums.h>
 #include <pcl6d/registration/pose_information.h>
-#include <pcl6d/registration/reduced_scans.h>
 #include <pcl6d/registration/rigid_minimiser.h>
 #include <pcl6d/registration/twist.h>

@@ -3,14 +3,6 @@
 
 /** \file All public headers of the module run. The folder of a run of pcl_slam6d: written, read
  * and continued. */
-#include <pcl6d/run/control_table.h>
-#include <pcl6d/run/record_file.h>
 #include <pcl6d/run/registered_scans.h>
-#include <pcl6d/run/run_fields.h>
 #include <pcl6d/run/run_folder.h>
-#include <pcl6d/run/run_links_io.h>
-#include <pcl6d/run/run_summary.h>
 #include <pcl6d/run/run_writer.h>
-#include <pcl6d/run/survey_options.h>
-#include <pcl6d/run/verification_io.h>
-#include <pcl6d/run/written_files.h>

@@ -3,7 +3,6 @@
 
 /** \file All public headers of the module search but its PCL classes, in pcl6d/search/pcl.
  * Nearest points: k-d tree, octree and FLANN. */
-#include <pcl6d/search/flann_tree.h>
 #include <pcl6d/search/leaf_memory.h>
 #include <pcl6d/search/neighbour.h>
 #include <pcl6d/search/point_list.h>

@@ -3,12 +3,8 @@
 
 /** \file All public headers of the module semantic_map. Rooms, planes and objects of a map, the
  * relations between them, and queries. */
-#include <pcl6d/semantic_map/find_rooms.h>
 #include <pcl6d/semantic_map/map_entity.h>
 #include <pcl6d/semantic_map/map_query.h>
-#include <pcl6d/semantic_map/map_relations.h>
-#include <pcl6d/semantic_map/object_fusion.h>
-#include <pcl6d/semantic_map/object_observations.h>
 #include <pcl6d/semantic_map/point_labels.h>
 #include <pcl6d/semantic_map/semantic_map.h>
 #include <pcl6d/semantic_map/semantic_map_builder.h>

@@ -4,14 +4,8 @@
 /** \file All public headers of the module slam6d. The whole chain in a class: scans and rough
  * poses in, a map with a verdict out. Left out: plugin.h, which a plug-in includes itself
  * (share/doc/plugins.md). */
-#include <pcl6d/slam6d/auto_parameters.h>
-#include <pcl6d/slam6d/groups_apart.h>
 #include <pcl6d/slam6d/plugins.h>
-#include <pcl6d/slam6d/pose_bounds.h>
-#include <pcl6d/slam6d/run_journal.h>
-#include <pcl6d/slam6d/scan_preparation.h>
 #include <pcl6d/slam6d/slam6d.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 #include <pcl6d/slam6d/slam_stage.h>
-#include <pcl6d/slam6d/task_memory.h>

@@ -3,6 +3,7 @@
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/graph_relaxation/link_error.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 #include <pcl6d/registration/twist.h>
 #include <pcl6d/slam6d/pose_bounds.h>

@@ -7,9 +7,6 @@
 #include <pcl6d/verification/link_evidence.h>
 #include <pcl6d/verification/map_verifier.h>
 #include <pcl6d/verification/pair_verifier.h>
-#include <pcl6d/verification/pose_mistake.h>
 #include <pcl6d/verification/prepared_scans.h>
 #include <pcl6d/verification/surface_fit.h>
-#include <pcl6d/verification/ties.h>
-#include <pcl6d/verification/twin_search.h>
 #include <pcl6d/verification/verified_scan.h>

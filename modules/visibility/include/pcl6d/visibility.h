@@ -6,5 +6,4 @@
 #include <pcl6d/visibility/cube_faces.h>
 #include <pcl6d/visibility/range_noise.h>
 #include <pcl6d/visibility/ray_image.h>
-#include <pcl6d/visibility/ray_origin.h>
 #include <pcl6d/visibility/sight_evidence.h>

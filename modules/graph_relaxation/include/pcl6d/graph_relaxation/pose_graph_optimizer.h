@@ -2,8 +2,8 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/pose_graph.h>
 #include <pcl6d/common/status.h>
-#include <pcl6d/graph_relaxation/link_error.h>
 #include <pcl6d/registration/icp_options.h>
 
 #include <memory>
@@ -117,13 +117,13 @@ public:
   /** \return the covariance of each pose relative to the fixed pose of its component, for small
    * motions (translation [m], rotation [rad]) in its own axes; zero for fixed poses
    * \throws ComputeFailed the links leave a motion free */
-  std::vector<Matrix6>
+  std::vector<Eigen::Matrix<double, 6, 6>>
   marginalCovariances() const;
 
   /** \return the covariance of the relative pose T_a^-1 T_b, for small motions in the axes of b
    * \throws BadArgument an index out of range, or a and b are not connected
    * \throws ComputeFailed the links leave a motion free */
-  Matrix6
+  Eigen::Matrix<double, 6, 6>
   relativeCovariance(std::size_t a, std::size_t b) const;
 
 private:

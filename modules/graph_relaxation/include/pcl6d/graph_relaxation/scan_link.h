@@ -2,7 +2,6 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
-#include <pcl6d/common/packing.h>
 #include <pcl6d/common/run_result.h>
 
 #include <Eigen/Geometry>

@@ -7,7 +7,6 @@
 #include <pcl6d/common/trajectory.h>
 #include <pcl6d/io/bag_options.h>
 #include <pcl6d/io/dataset_layout.h>
-#include <pcl6d/io/far_points.h>
 #include <pcl6d/io/other_scan_format.h>
 #include <pcl6d/io/scan_reader.h>
 #include <pcl6d/io/scan_source.h>
@@ -19,6 +18,8 @@
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
+
+struct PointsPlace;
 
 namespace io {
 struct FoundScans;

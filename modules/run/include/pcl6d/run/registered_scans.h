@@ -2,8 +2,8 @@
 #pragma once
 
 #include <pcl6d/common/export.h>
+#include <pcl6d/common/run_result.h>
 #include <pcl6d/io/scan_folder.h>
-#include <pcl6d/run/run_summary.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -6,11 +6,9 @@
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/points.h>
 #include <pcl6d/common/pose_graph.h>
+#include <pcl6d/common/run_result.h>
 #include <pcl6d/common/trajectory.h>
-#include <pcl6d/io/frames_io.h>
 #include <pcl6d/io/scan_reader.h>
-#include <pcl6d/run/run_links_io.h>
-#include <pcl6d/run/run_summary.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -19,6 +17,8 @@
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
+
+struct Frame;
 
 /** \brief The map of a run: map.pcd. */
 struct RunMap {

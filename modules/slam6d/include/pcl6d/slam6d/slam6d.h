@@ -9,7 +9,6 @@
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 #include <pcl6d/slam6d/slam_stage.h>
-#include <pcl6d/slam6d/task_memory.h>
 
 #include <pcl/point_cloud.h>
 
@@ -20,6 +19,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
+class TaskMemory;
 class WorkSharing;
 
 /** \brief 6D SLAM as a class (book, chapter 6.1): scans and rough poses in, a consistent trajectory

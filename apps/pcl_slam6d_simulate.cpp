@@ -45,6 +45,8 @@ writeSceneFile(const fs::path& path,
                                  {"scans", s.simulation.num_scans},
                                  {"scanner", s.scanner},
                                  {"noise", s.simulation.range.noise}};
+  if (s.simulation.last)
+    json["last"] = *s.simulation.last;
   if (s.simulation.motion == ScanMotion::kContinuous)
     json["motion"] = app::describeMotion(s, simulator.speed());
   if (s.odometry != SimulateSettings().odometry)
@@ -182,8 +184,11 @@ run(const std::vector<std::string>& arguments)
     return app::kDone;
   SimulationScene scene = app::sceneOf(s);
   std::optional<Simulator> drive;
-  app::checkOptions([&] { drive.emplace(scene, s.simulation); });
-  if (s.traffic.people + s.traffic.cars > 0) {
+  SimulationOptions whole = s.simulation; // traffic goes about the whole way
+  whole.last.reset();
+  const bool has_traffic = s.traffic.people + s.traffic.cars > 0;
+  app::checkOptions([&] { drive.emplace(scene, has_traffic ? whole : s.simulation); });
+  if (has_traffic) {
     addTraffic(scene, *drive, s.traffic);
     drive.emplace(scene, s.simulation);
   }

@@ -122,35 +122,6 @@ TEST(ScanSampling, OfAGridIsEven)
   EXPECT_NEAR(sampling.line_angle, 0.5 * kDegree, 0.1 * kDegree);
 }
 
-TEST(ScanSampling, HasGapsBetweenUnevenRings)
-{
-  // Rings as of a lidar whose middle is dense: 40 of them 1/6 deg apart, above and below them six
-  // more at up to 5 deg.
-  Points points;
-  const auto add = [&](double elevation) {
-    for (double azimuth = 0; azimuth < 360 * kDegree; azimuth += 0.2 * kDegree) {
-      const Eigen::Vector3d ray = rayAt(azimuth, elevation);
-      points.push_back((rangeInBox(ray) * ray).cast<float>());
-    }
-  };
-  for (int ring = 0; ring < 40; ++ring)
-    add((ring - 19.5) / 6 * kDegree);
-  for (const double elevation : {4.3, 6.3, 9.3, -5.3, -9.3, -14.3})
-    add(elevation * kDegree);
-  const ScanSampling uneven = samplingOf(points);
-  EXPECT_EQ(uneven.structure, ScanStructure::kEven);
-  EXPECT_NEAR(uneven.line_angle, 1.0 / 6 * kDegree, 0.02 * kDegree);
-  EXPECT_GE(uneven.wide_angle, 0.9 * kDegree);
-  EXPECT_TRUE(uneven.hasGaps());
-}
-
-TEST(ScanSampling, HasGapsBetweenLinesAndNoneInAGrid)
-{
-  EXPECT_TRUE(samplingOf(ringScan(16, 2 * kDegree, 0.2 * kDegree)).hasGaps());
-  EXPECT_FALSE(samplingOf(ringScan(60, 0.5 * kDegree, 0.5 * kDegree)).hasGaps());
-  EXPECT_FALSE(ScanSampling().hasGaps()); // of no scan
-}
-
 TEST(ScanSampling, OfRandomDirectionsIsEven)
 {
   pcl6d::Random random(3);

@@ -28,7 +28,7 @@ constexpr double kSameRay = 1e-6; // [rad]
 constexpr double kFarthest = 0.5; // [rad]
 /** Least ratio of the spacing of lines to the spacing of points. A square grid has 1, its diagonal,
  * which noise may bring out, 1.4. */
-constexpr double kLineRatio = kGapOfLines;
+constexpr double kLineRatio = 2;
 constexpr double kQuarter = 1.5707963267948966; // [rad] of a turn
 
 /** Offsets of unit vectors from a direction; their lengths are about the angles [rad]. */
@@ -195,10 +195,6 @@ samplingOf(const Points& points, const Eigen::Vector3f& origin)
     return sampling;
   }
   sampling.line_angle = upperMedian(across);
-  const auto wide =
-      across.begin() + static_cast<std::ptrdiff_t>(across.size() * 9 / 10);
-  std::nth_element(across.begin(), wide, across.end());
-  sampling.wide_angle = *wide;
   if (sampling.line_angle >= kLineRatio * sampling.point_angle) {
     sampling.structure = ScanStructure::kLines;
     if (10 * level > 9 * along.size())

@@ -39,13 +39,19 @@ struct RaysAgainst {
       0; ///< poses along even surfaces, e.g. in a corridor: few contradictions
 };
 
-/** \param[in] background share contradicted in right links \param[in] precision of this share
- * between links: the sum of both parameters of a beta distribution */
+/** \brief How often right links are contradicted. */
+struct RightLinks {
+  double background = 0; ///< share of their patches
+  double least =
+      0; ///< a link without contradictions is as usual as with this background
+  double precision =
+      0; ///< of the share between links: the sum of both parameters of a beta
+         ///< distribution
+};
+
+/** \return the log likelihood ratios of the two kinds */
 RaysAgainst
-raysAgainst(std::size_t contradicted,
-            std::size_t patches,
-            double background,
-            double precision);
+raysAgainst(std::size_t contradicted, std::size_t patches, const RightLinks& usual);
 
 /** \return the log likelihood ratio of both kinds, weighted by their frequency */
 double

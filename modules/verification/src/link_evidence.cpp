@@ -37,12 +37,9 @@ lookFrom(const VerifiedScan& from,
   const double misfit = std::min(fit.residual, kMostMisfit * voxel);
   uncertainty.noise = std::sqrt(at.noise() * at.noise() + misfit * misfit);
   const Points points = sampleOf(at.surfaces().points());
-  // In the gaps between rays that lie far apart, rays miss a floor that they graze. The images of
-  // other scans are filled, and the calibration of the verdict counts their few errors.
-  const Normals normals = from.hasGaps() ? sampleOf(at.surfaces().normals()) : Normals();
+  const Normals normals = sampleOf(at.surfaces().normals());
   return sightEvidence(from.rays(),
-                       normals.empty() ? TestedSurface(points)
-                                       : TestedSurface(points, normals),
+                       TestedSurface(points, normals),
                        T_from_at,
                        uncertainty,
                        {std::max(kPatchVoxels * voxel, kPatchSpread * fit.spread),

@@ -116,18 +116,16 @@ contradictionBackground(const std::vector<LinkEvidence>& links)
 
 namespace verification {
 RaysAgainst
-raysAgainst(std::size_t contradicted,
-            std::size_t patches,
-            double background,
-            double precision)
+raysAgainst(std::size_t contradicted, std::size_t patches, const RightLinks& usual)
 {
   const auto n = static_cast<double>(patches), k = static_cast<double>(contradicted);
   const auto rightWith = [&](double share) {
-    return logBetaBinomial(k, n, share * precision, (1 - share) * precision);
+    return logBetaBinomial(
+        k, n, share * usual.precision, (1 - share) * usual.precision);
   };
   // A link without contradictions never indicates another pose, whatever the background.
-  const double right = std::max(rightWith(background),
-                                rightWith(std::min(background, kLeastBackground)));
+  const double right = std::max(rightWith(usual.background),
+                                rightWith(std::min(usual.background, usual.least)));
   return {logBetaBinomial(k, n, kWrongFree, kWrongConfirmed) - right,
           logBetaBinomial(k, n, kEvenFree, kEvenConfirmed) - right};
 }
@@ -154,10 +152,10 @@ LinkTestResult
 testLink(const LinkEvidence& evidence, double background)
 {
   require(background > 0 && background < 1, "background", background, "in (0, 1)");
-  const double rays = logRatioOf(raysAgainst(evidence.sight.contradicted_patches,
-                                             evidence.sight.patches,
-                                             background,
-                                             kBackgroundPrecision));
+  const double rays =
+      logRatioOf(raysAgainst(evidence.sight.contradicted_patches,
+                             evidence.sight.patches,
+                             {background, kLeastBackground, kBackgroundPrecision}));
   const double surfaces = surfacesAgainst(evidence);
   LinkTestResult test_result;
   // Rays detect a different pose, surfaces a small shift: independent questions.

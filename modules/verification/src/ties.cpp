@@ -93,8 +93,8 @@ private:
   std::size_t clock_ = 0;
 };
 
-/** The joint evidence of the links across a cut against these links, with the background of the
- * rest of the map. The ray part of each link is stored for several backgrounds. */
+/** The joint evidence of the links across a cut against these links, each with its background. The
+ * ray part of each link is stored for several backgrounds. */
 class CutEvidence {
 public:
   explicit CutEvidence(const std::vector<LinkCheck>& links)
@@ -102,14 +102,14 @@ public:
   {}
 
   /** \return the log likelihood ratios. Links are correlated: m links count as sqrt(m) independent
-   * links, each with their mean. */
+   * links, each with their mean. \param[in] backgrounds one per link of the cut */
   RaysAgainst
-  against(const std::vector<std::size_t>& cut, double background)
+  against(const std::vector<std::size_t>& cut, const std::vector<double>& backgrounds)
   {
-    const std::size_t level = levelOf(background);
     RaysAgainst sum;
-    for (const std::size_t k : cut) {
-      const RaysAgainst& rays = raysOf(k, level);
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+      const std::size_t k = cut[i];
+      const RaysAgainst& rays = raysOf(k, levelOf(backgrounds[i]));
       const double surfaces = kCutSurfaces * surfacesAgainst(links_[k]);
       sum.usual += rays.usual + surfaces;
       sum.even += rays.even + surfaces;
@@ -120,14 +120,15 @@ public:
   }
 
 private:
-  static constexpr std::size_t kLevels = 16;
-  static constexpr double kLadder = 1.25; ///< to 0.057, beyond kMostBackground
+  static constexpr std::size_t kLevels = 22;
+  static constexpr double kLadder = 1.25; ///< to 0.054, beyond kMostBackground
 
   static std::size_t
   levelOf(double background)
   {
     std::size_t level = 0;
-    for (double b = kLeastBackground * kLadder; b < background && level + 1 < kLevels;
+    for (double b = kLeastCutBackground * kLadder;
+         b < background && level + 1 < kLevels;
          b *= kLadder)
       ++level;
     return level;
@@ -136,7 +137,7 @@ private:
   static double
   backgroundOf(std::size_t level)
   {
-    double background = kLeastBackground;
+    double background = kLeastCutBackground;
     for (std::size_t i = 0; i < level; ++i)
       background *= kLadder;
     return background;
@@ -149,8 +150,7 @@ private:
     if (!known)
       known = raysAgainst(links_[link].contradicted,
                           links_[link].patches,
-                          backgroundOf(level),
-                          kCutPrecision);
+                          {backgroundOf(level), kLeastCutBackground, kCutPrecision});
     return *known;
   }
 
@@ -273,7 +273,7 @@ private:
     }
     if (!is_held)
       return;
-    cut.against = evidence_.against(cut.links, backgroundBut(cut.links));
+    cut.against = evidence_.against(cut.links, backgroundsOf(cut.links));
     cut.probability = probabilityOf(cut.against);
     if (cut.probability > worst.probability ||
         (cut.probability == worst.probability && cut.against.even > worst.against.even))
@@ -293,6 +293,41 @@ private:
     }
     return (contradicted + kLeastBackground * kKnownPatches) /
            (patches + kKnownPatches);
+  }
+
+  /** \return the background of each link across a cut: the share contradicted in the rest of the
+   * map, or in the other links of its two scans, if that is larger. Objects that move about a scan
+   * contradict its links on either side of a cut. */
+  std::vector<double>
+  backgroundsOf(const std::vector<std::size_t>& cut)
+  {
+    for (const std::size_t k : cut)
+      for (const std::size_t i : {links_[k].from, links_[k].to}) {
+        own_[i].contradicted -= links_[k].contradicted;
+        own_[i].patches -= links_[k].patches;
+      }
+    const double rest = backgroundBut(cut);
+    std::vector<double> backgrounds;
+    backgrounds.reserve(cut.size());
+    for (const std::size_t k : cut) {
+      const Counted &a = own_[links_[k].from], &b = own_[links_[k].to];
+      const auto contradicted = static_cast<double>(a.contradicted + b.contradicted);
+      const auto patches = static_cast<double>(a.patches + b.patches);
+      backgrounds.push_back(std::max(
+          rest, (contradicted + rest * kRestPatches) / (patches + kRestPatches)));
+    }
+    for (const std::size_t k : cut)
+      addToOwn(links_[k]);
+    return backgrounds;
+  }
+
+  void
+  addToOwn(const LinkCheck& link)
+  {
+    for (const std::size_t i : {link.from, link.to}) {
+      own_[i].contradicted += link.contradicted;
+      own_[i].patches += link.patches;
+    }
   }
 
   /** \return whether the evidence exceeded the limit, and the part was cut */
@@ -326,7 +361,15 @@ private:
     part_.resize(at_.size());
     for (std::size_t i = 0; i < at_.size(); ++i)
       part_[i] = joined.firstOf(i);
+    own_.assign(at_.size(), {});
+    for (std::size_t k = 0; k < links_.size(); ++k)
+      if (!is_cut_[k] && part_[links_[k].from] == part_[links_[k].to])
+        addToOwn(links_[k]);
   }
+
+  struct Counted {
+    std::size_t contradicted = 0, patches = 0;
+  };
 
   const std::vector<LinkCheck>& links_;
   CutEvidence evidence_;
@@ -334,6 +377,8 @@ private:
   std::vector<bool> is_cut_;                   ///< one per link
   std::vector<std::vector<std::size_t>> at_;   ///< links of each scan
   std::vector<std::size_t> part_;              ///< of each scan: its component
+  std::vector<Counted>
+      own_; ///< of each scan: its links within its component, without cut ones
   Ties ties_;
 };
 } // namespace

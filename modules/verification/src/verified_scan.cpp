@@ -49,9 +49,8 @@ VerifiedScan::VerifiedScan(const Points& measured,
   RayImageOptions options;
   options.origin = origin;
   options.noise = rangeNoise(measured);
-  const ScanSampling sampling = samplingOf(measured, origin);
-  options.between_lines = sampling.structure != ScanStructure::kEven;
-  has_gaps_ = sampling.hasGaps();
+  options.between_lines =
+      samplingOf(measured, origin).structure != ScanStructure::kEven;
   is_off_centre_ = !isPlausibleOrigin(measured, origin);
   rays_ = RayImage(is_off_centre_ ? Points() : measured, options);
   self_contradiction_ = pcl6d::selfContradiction(measured, origin, options.noise);

@@ -122,6 +122,37 @@ TEST(Simulate, WritesTheSameBytesForTheSameSeed)
   EXPECT_EQ(other["groundtruth.txt"], expected.at("groundtruth.txt"));
 }
 
+TEST(Simulate, EndsAfterTheLastScanWithoutChangingTheScansBefore)
+{
+  const TempFolder folder;
+  const auto files = [&](const std::string& name, const std::vector<std::string>& more) {
+    const auto out = folder / name;
+    std::vector<std::string> arguments = {
+        "campus", "-o", out.string(), "--scans", "300", "--resolution", "8", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = simulate(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return contentOf(out);
+  };
+  for (const std::vector<std::string>& moving :
+       {std::vector<std::string>{}, {"--traffic", "1"}}) {
+    std::vector<std::string> two = moving, four = moving;
+    two.insert(two.end(), {"--last", "1"});
+    four.insert(four.end(), {"--last", "3"});
+    auto of_two = files("two", two), of_four = files("four", four);
+    EXPECT_EQ(of_two.count("scan002.pcd"), 0u);
+    EXPECT_EQ(of_four.count("scan003.pcd"), 1u);
+    EXPECT_EQ(of_four.count("scan004.pcd"), 0u);
+    for (const char* scan : {"scan000.pcd", "scan001.pcd"})
+      EXPECT_TRUE(of_two[scan] == of_four[scan]) << scan;
+    for (const char* poses : {"odometry.txt", "groundtruth.txt"})
+      EXPECT_EQ(of_four[poses].rfind(of_two[poses], 0), 0u) << poses;
+  }
+  EXPECT_EQ(
+      simulate({"corridor", "-o", (folder / "x").string(), "--last", "-1"}).exit_code,
+      2);
+}
+
 TEST(Simulate, ReplacesAnEarlierRunWhole)
 {
   const TempFolder folder;

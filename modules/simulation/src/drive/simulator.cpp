@@ -34,6 +34,14 @@ streamSeed(std::uint64_t seed, Stream stream)
   return mixBits(mixBits(seed) ^ stream);
 }
 
+/** \return the number of scans up to the last */
+int
+scansOf(const SimulationOptions& options)
+{
+  return options.last ? std::min(options.num_scans - 1, *options.last) + 1
+                      : options.num_scans;
+}
+
 Trajectory
 odometryOf(const Trajectory& truth, const SimulationOptions& options)
 {
@@ -80,6 +88,7 @@ SimulationOptions::validate() const
 {
   require(
       num_scans >= 1 && num_scans <= 100000, "num_scans", num_scans, "in [1, 100000]");
+  require(!last || *last >= 0, "last", last.value_or(0), ">= 0");
   require(!speed || (*speed > 0 && *speed <= kHighestSpeed),
           "speed",
           speed.value_or(0),
@@ -127,7 +136,7 @@ Simulator::stopAndScan()
 {
   speed_ = options_.speed.value_or(kUsualSpeed);
   T_scene_world_ = path_.sensorPose(caster(), 0);
-  for (int i = 0; i < options_.num_scans; ++i) {
+  for (int i = 0; i < scansOf(options_); ++i) {
     const double way = path_.length() * i / options_.num_scans;
     const Eigen::Isometry3d T_scene_scan = path_.sensorPose(caster(), way);
     truth_.poses.push_back(i == 0 ? Eigen::Isometry3d::Identity()
@@ -173,7 +182,7 @@ Simulator::scanOnTheMove()
               " m/s: a scan takes " + std::to_string(scanner().duration()) +
               " s, and the next scan starts " + std::to_string(step) + " m on");
   T_scene_world_ = motion_->poseAt(0);
-  for (int i = 0; i < options_.num_scans; ++i) {
+  for (int i = 0; i < scansOf(options_); ++i) {
     truth_.stamps.push_back(period * i);
     truth_.poses.push_back(i == 0 ? Eigen::Isometry3d::Identity()
                                   : T_scene_world_.inverse() *

@@ -14,10 +14,6 @@ namespace PCL6D_EXPORTS pcl6d {
  * lose detail of narrow corridors, below 1 registration of rooms fails). */
 inline constexpr double kVoxelOfLines = 1.3;
 
-/** \brief Lines that lie so many times farther apart than usual leave a gap between them, as the
- * spacing of lines is at least so many times that of their points. */
-inline constexpr double kGapOfLines = 2;
-
 /** \brief Arrangement of the points of a scan, seen from the scanner. */
 enum class ScanStructure {
   kEven,   ///< equally dense in every direction: grids, merged and unordered points
@@ -41,7 +37,6 @@ struct ScanSampling {
   double point_angle = 0;  ///< [rad] from a point to its nearest neighbour, median
   double line_angle = 0;   ///< [rad] from a point to the nearest point across its line;
                            ///< 0 for a single line or no scan
-  double wide_angle = 0;   ///< [rad] a tenth of the points lie farther from the next line; 0 as above
   double median_range = 0; ///< [m]
   double lowest = 0;       ///< [rad] elevation above the x-y plane, 0.5 % lie below
   double highest = 0;      ///< [rad] 0.5 % lie above
@@ -52,13 +47,6 @@ struct ScanSampling {
   lineSpacing() const
   {
     return line_angle * median_range;
-  }
-  /** \return whether rays leave gaps: they lie in lines, or a tenth of them at least kGapOfLines
-   * times farther apart than usual (lidars with uneven rings, rosettes) */
-  bool
-  hasGaps() const
-  {
-    return structure != ScanStructure::kEven || wide_angle >= kGapOfLines * line_angle;
   }
   /** \return the derivation of the line spacing, for example "16 rings 2 deg apart, at 2.3 m" */
   std::string

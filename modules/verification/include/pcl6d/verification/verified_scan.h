@@ -34,7 +34,7 @@ public:
   packFields(Archive& archive, VerifiedScan& scan)
   {
     archive(scan.voxel_, scan.rays_, scan.self_contradiction_, scan.patches_);
-    archive(scan.is_off_centre_, scan.has_gaps_);
+    archive(scan.is_off_centre_);
   }
 
   const IcpModel&
@@ -63,13 +63,6 @@ public:
   selfContradiction() const
   {
     return self_contradiction_;
-  }
-  /** \return whether its rays leave gaps, so that they miss a surface that they graze
-   * (ScanSampling::hasGaps()) */
-  bool
-  hasGaps() const
-  {
-    return has_gaps_;
   }
   /** \return the number of surface patches, which scans can confirm or contradict */
   std::size_t
@@ -100,7 +93,6 @@ private:
   double self_contradiction_ = 0;
   std::size_t patches_ = 0;
   bool is_off_centre_ = false;
-  bool has_gaps_ = false;
 };
 
 } // namespace pcl6d

@@ -96,12 +96,6 @@ public:
   {
     return origin_;
   }
-  /** \return RayImageOptions::between_lines: rays may pass beside a point by more than a cell */
-  bool
-  isBetweenLines() const
-  {
-    return between_lines_;
-  }
   /** \return [rad] the finest cells in use; 0 if the points are too few to fill any */
   double
   resolution() const

@@ -103,7 +103,7 @@ RayImageOptions::validate() const
 }
 
 RayImage::RayImage(const Points& measured, const RayImageOptions& options)
-: origin_(options.origin), noise_(options.noise), between_lines_(options.between_lines)
+: origin_(options.origin), noise_(options.noise)
 {
   options.validate();
   constexpr double kFace = 1.5707963267948966; // [rad] width of a face

@@ -108,7 +108,7 @@ public:
   friend void
   packFields(Archive& archive, RayImage& image)
   {
-    archive(image.origin_, image.noise_, image.between_lines_, image.levels_);
+    archive(image.origin_, image.noise_, image.levels_);
   }
 
 private:
@@ -144,7 +144,6 @@ private:
 
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
   double noise_ = 0;
-  bool between_lines_ = false;
   std::vector<Level> levels_; ///< from fine to coarse
 };
 

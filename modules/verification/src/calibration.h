@@ -67,8 +67,9 @@ constexpr double kEvenShare = 0.015, kEvenFree = 1, kEvenConfirmed = 19;
 
 /** Precision of the background in right cuts, like kBackgroundPrecision, and the least background:
  * cuts count the contradictions of many links together, where rays that graze a surface no longer
- * count. Fitted to 189 maps (eleven scenes, fourteen damages; sixteen sensors): the right cuts of 8
- * links at 0.002 are 19, with one more of a right map, whose scans hardly overlap. */
+ * count. Fitted to 170 maps (eleven scenes, fourteen damages; sixteen sensors): of the cuts at wrong
+ * places 19 are found, with 0.002 it was 8, and one more right map is cut, whose scans hardly
+ * overlap. */
 constexpr double kCutPrecision = 80, kLeastCutBackground = 0.0005;
 
 /** Weight [patches] of the rest of the map in the background of a link across a cut, beside the

@@ -13,6 +13,7 @@
 #include <pcl6d/common/fingerprint.h>
 #include <pcl6d/common/graph_constraints.h>
 #include <pcl6d/common/information.h>
+#include <pcl6d/common/interruption.h>
 #include <pcl6d/common/line.h>
 #include <pcl6d/common/map_verification.h>
 #include <pcl6d/common/median.h>

@@ -14,7 +14,7 @@ using pcl6d::test::badArgumentOf;
 
 namespace {
 const double kInfinity = std::numeric_limits<double>::infinity();
-const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 enum class OptionHue { kRed, kBlue };
 const char*
@@ -52,7 +52,7 @@ TEST(OptionRange, HoldsItsEndsAsItSays)
   EXPECT_FALSE(open.holds(1));
   for (const OptionRange& range :
        {finiteAbove0(), finiteFrom0(), above0(), from0(), from1(), open})
-    EXPECT_FALSE(range.holds(kNan)) << range.words;
+    EXPECT_FALSE(range.holds(kNoNumber)) << range.words;
 }
 
 TEST(OptionRange, OfWholeNumbersHoldsNoFraction)
@@ -88,7 +88,7 @@ TEST(OptionList, NamesTheFirstVariableOutOfItsRange)
   length = kInfinity;
   EXPECT_EQ(badArgumentOf([&] { list.check(); }),
             "link_length = inf, but must be finite and > 0");
-  length = kNan;
+  length = kNoNumber;
   EXPECT_NE(badArgumentOf([&] { list.check(); }), "");
 }
 

@@ -3,6 +3,8 @@
 programs, PYTHON_MADE by functions here, from other inputs. Both are made in a common folder."""
 import json
 import math
+import pathlib
+import re
 import struct
 
 from sh_block_pictures import (boards, camera_file, depth_images, phase_images, textured_pair)
@@ -18,6 +20,7 @@ SHELL_MADE = {
         for poses in odometry groundtruth; do head -n 10 corridor_50/$poses.txt > SCAN_DIR/$poses.txt; done""",
     "OUT": "pcl_slam6d SCAN_DIR -o OUT",
     "OUT_DIR": "cp -r OUT OUT_DIR",
+    "RUN_DIR": "cp -r OUT RUN_DIR",
     "kurt3d": "pcl_slam6d_convert scans SCAN_DIR -o kurt3d --format uos",
     "scan000.3d": "cp kurt3d/scan000.3d scan000.3d",
     "site.e57": "pcl_slam6d_convert scans SCAN_DIR -o site.e57",
@@ -62,6 +65,27 @@ def write_room(path):
 def write_control(path):
     """The centres of the spheres in large coordinates."""
     path.write_text("".join(f"P{k} {3000 + x} {5000 + y} {z}\n" for k, (x, y, z) in enumerate(SPHERES)))
+
+
+def json_of(page):
+    """The block of JSON in a page of share/doc."""
+    path = pathlib.Path(__file__).resolve().parents[2] / "share/doc" / page
+    return json.loads(re.findall(r"```json\n(.*?)```", path.read_text(), re.S)[0])
+
+
+def write_rules(path):
+    """The rules in planes.md."""
+    path.write_text(json.dumps(json_of("planes.md")))
+
+
+def write_suite(path):
+    """The suite in benchmark.md, with small data and one run of each."""
+    suite = json_of("benchmark.md")
+    suite["repetitions"] = 1
+    suite["data"]["flat"]["simulate"].update(scans=3, resolution=3)
+    scans = path.parent / "SCAN_DIR"
+    suite["data"]["street"].update(folder=str(scans), reference=str(scans / "groundtruth.txt"))
+    path.write_text(json.dumps(suite))
 
 
 def counted(data):
@@ -138,6 +162,8 @@ def bag_of(chunk, connections, entries):
 PYTHON_MADE = {
     "room.json": ((), write_room),
     "control.csv": ((), write_control),
+    "my_rules.json": ((), write_rules),
+    "my_suite.json": (("SCAN_DIR",), write_suite),
     "drive.bag": (("sweeps_xyz", "sweeps"), write_bag),
     "camera.yml": ((), lambda path: camera_file(path, 640, 480, 525)),
     "tof.yml": ((), lambda path: camera_file(path, 176, 144, 240)),

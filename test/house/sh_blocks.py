@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the blocks of sh in the documents.
 usage: sh_blocks.py TREE BIN WORK [WORD]
-Runs each block of sh of README.md, CONTRIBUTING.md and share/doc/*.md with `bash -e` in a folder
-of its own in the new folder WORK, with the programs of BIN and small inputs of the names in the
-block (sh_block_inputs.py). With WORD: only blocks whose place `FILE:LINE` contains WORD. A block
-of another kind has its reason in a comment on the line before it:
+Runs each block of sh of all documents with `bash -e` in a folder of its own in the new folder WORK,
+with the programs of BIN, the Python package beside BIN, the interpreter $PCL6D_PYTHON as python3, and
+small inputs of the names in the block (sh_block_inputs.py). With WORD: only blocks whose place
+`FILE:LINE` contains WORD. A block of another kind has its reason in a comment on the line before it:
     <!-- not run: installs packages -->
+Blocks between `<!-- suite NAME -->` and its end were written by a program, which ran them.
 Prints for each block whether it ran. Exit code 1: a block failed, left an output out, or has a
 reason that is empty or stands before no block of sh.
 """
@@ -20,12 +21,14 @@ import subprocess
 import sys
 import time
 
+from documents import documents, fences_of
 from sh_block_inputs import FILE_NAMES, PYTHON_MADE, SHELL_MADE
 
 SECONDS = 180  # that a block may take
 # Messages of a build that was made without an optional library, or of a machine without it.
-OPTIONAL = re.compile(r".*(?:GeoTIFF needs GDAL|OpenCV has no codec|cannot draw pictures).*")
+OPTIONAL = re.compile(r".*(?:GeoTIFF needs GDAL|OpenCV has no codec|cannot draw pictures|No module named '(?:pcl6d|numpy)').*")
 REASON = re.compile(r"<!-- not run:(.*)-->$")
+SUITE = re.compile(r"<!-- (end of )?suite \w+ -->$")
 
 
 @dataclasses.dataclass
@@ -37,29 +40,24 @@ class Block:
 
 
 def blocks_of(tree, path):
-    """The blocks of a document, and (place, None) for each reason before no block of sh."""
+    """The blocks of a document in order, and one without text for each reason before no block of sh."""
     lines = path.read_text().split("\n")
-    fence = None
-    for number, line in enumerate(lines):
-        place = f"{path.relative_to(tree)}:{number + 1}"
-        found = REASON.match(line)
-        if fence is None and found and lines[number + 1:number + 2] != ["```sh"]:
-            yield Block(place, "", None)
-        if line.startswith("```"):
-            if fence is None:
-                fence = number
-                continue
-            if lines[fence] == "```sh":
-                before = REASON.match(lines[fence - 1]) if fence > 0 else None
-                yield Block(f"{path.relative_to(tree)}:{fence + 2}", "\n".join(lines[fence + 1:number]) + "\n",
-                            before[1].strip() if before else None)
-            fence = None
-
-
-def documents(tree):
-    """The documents whose blocks are run."""
-    paths = [tree / "README.md", tree / "CONTRIBUTING.md", *sorted((tree / "share/doc").glob("*.md"))]
-    return [path for path in paths if path.exists()]
+    name = path.relative_to(tree)
+    fences, found = list(fences_of(lines)), []
+    inside = {number for fence in fences for number in range(fence.line, fence.line + fence.text.count("\n"))}
+    for number, line in enumerate(lines, 1):
+        if number not in inside and REASON.match(line) and lines[number:number + 1] != ["```sh"]:
+            found.append((number, Block(f"{name}:{number}", "", None)))
+    for fence in fences:
+        if fence.language != "sh":
+            continue
+        before = REASON.match(lines[fence.line - 3]) if fence.line > 2 else None
+        marks = [match for match in map(SUITE.match, lines[:fence.line]) if match]
+        reason = before[1].strip() if before else None
+        if reason is None and marks and not marks[-1][1]:
+            reason = "written by pcl_slam6d_evaluate suite, which ran it"
+        found.append((fence.line, Block(f"{name}:{fence.line}", fence.text, reason)))
+    return [block for _, block in sorted(found, key=lambda row: row[0])]
 
 
 def commands_of(text):
@@ -87,7 +85,7 @@ def outputs_of(text):
 
 def run(text, folder, programs):
     """Runs lines of sh in a folder; returns the exit code and what they printed."""
-    environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"}
+    environment = {**os.environ, "PATH": f"{folder / '.python'}:{programs}:{os.environ['PATH']}"}
     with subprocess.Popen(["bash", "-e", "-c", text], cwd=folder, env=environment,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           text=True, errors="replace", start_new_session=True) as process:
@@ -125,6 +123,11 @@ def folder_of(block, tree, programs, work):
     inputs.mkdir(exist_ok=True)
     (folder / "build/release").mkdir(parents=True)
     (folder / "build/release/bin").symlink_to(programs)
+    if (programs.parent / "python").exists():
+        (folder / "build/release/python").symlink_to(programs.parent / "python")
+    if "PCL6D_PYTHON" in os.environ:
+        (folder / ".python").mkdir()
+        (folder / ".python/python3").symlink_to(os.environ["PCL6D_PYTHON"])
     (folder / "share").symlink_to(tree / "share")
     for name in inputs_of(block.text):
         make_input(name, inputs, programs)

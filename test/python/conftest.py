@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Simulated rooms with exact truth."""
 
+import signal
+
 import numpy as np
 import pytest
 
@@ -49,6 +51,14 @@ def room(count, seed):
 def error_of(T, truth, points):
     """Largest distance [m] of points that both poses move."""
     return np.abs(moved(T, points) - moved(truth, points)).max()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def ctrl_c():
+    """Shells start commands in the background with SIGINT ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="session")

@@ -109,6 +109,41 @@ def test_any_layout_gives_the_same_result(dtype):
         assert np.array_equal(pcl6d.voxel_downsample(array, 0.5), reduced), name
 
 
+def test_rows_of_stride_zero_are_points_at_one_place():
+    rows = np.broadcast_to(GOOD[0], (50, 3))
+    assert pcl6d.voxel_downsample(rows, 0.5).shape == (1, 3)
+    assert len(pcl6d.KdTree(rows)) == 50
+
+
+@pytest.mark.parametrize("name", [name for name in FUNCTIONS if name != "write_map"])
+def test_the_array_of_the_caller_is_not_changed(name):
+    points = GOOD.copy()
+    points[7] = np.nan
+    before = points.copy()
+    FUNCTIONS[name](points)
+    assert np.array_equal(points, before, equal_nan=True)
+
+
+def test_poses_of_any_layout_are_the_same_pose():
+    guess = np.eye(4)
+    guess[:3, 3] = 0.25, 0.5, -0.125  # exact in float32
+    expected = pcl6d.icp(source=GOOD, target=GOOD, guess=guess, max_distance=1)
+    readonly = guess.copy()
+    readonly.setflags(write=False)
+    for value in (guess.tolist(), np.asfortranarray(guess), guess.astype(np.float32), readonly,
+                  np.pad(guess, 2)[2:6, 2:6], guess.astype(">f8")):
+        result = pcl6d.icp(source=GOOD, target=GOOD, guess=value, max_distance=1)
+        assert np.array_equal(result.T_target_source, expected.T_target_source)
+
+
+def test_infinite_rows_are_left_out_like_nan_rows():
+    points = np.concatenate([GOOD, [[np.inf, 0, 0], [0, -np.inf, 1], [np.nan, 0, 0]]])
+    expected = pcl6d.icp(source=GOOD, target=GOOD, max_distance=1)
+    result = pcl6d.icp(source=points, target=points, max_distance=1)
+    assert np.array_equal(result.T_target_source, expected.T_target_source)
+    assert len(pcl6d.KdTree(points)) == len(GOOD)
+
+
 def test_nan_rows_keep_the_rows_of_results():
     points = GOOD.copy()
     points[::3] = np.nan

@@ -137,6 +137,31 @@ def test_two_threads_at_once(pair):
     assert not errors and len(results) == 2
 
 
+def test_two_threads_read_the_same_scans_and_the_same_run(scan_folder, tmp_path):
+    scans = pcl6d.read_scans(scan_folder[0])
+    run = pcl6d.map_folder(scan_folder[0], tmp_path / "run", voxel=0.1)
+    expected = [scan.points for scan in pcl6d.read_scans(scan_folder[0])]
+    world = run.map().world
+    errors = []
+
+    def work():
+        try:
+            for _ in range(5):
+                for i in range(3):
+                    assert np.array_equal(scans[i].points, expected[i])
+                assert np.array_equal(run.map().world, world)
+                assert len(run.scan(1)) > 0
+        except BaseException as error:
+            errors.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not errors
+
+
 def test_a_slam_takes_one_call_at_a_time(pair):
     work = pcl6d.Slam6D(voxel=0.1)
     work.add_scan(pair[0])
@@ -174,6 +199,35 @@ sys.exit(0 if same and status == 0 else 1)
 
 def test_a_fork_has_threads_of_its_own():
     assert subprocess.run([sys.executable, "-c", FORK], timeout=60).returncode == 0
+
+
+FORK_AMID = """
+import os, sys, threading
+import numpy as np
+import pcl6d
+points = np.random.default_rng(1).random((5000, 3)) * 4
+def work():
+    return pcl6d.icp(source=points + 0.01, target=points, num_threads=2).T_target_source
+before = work()
+began = threading.Event()
+def busy():
+    pcl6d.icp(source=points, target=points, max_distance_start=4, max_distance=1,
+              distance_decay=1 - 1e-9, max_iterations=300, progress=lambda *_: began.set())
+thread = threading.Thread(target=busy)
+thread.start()
+began.wait()
+child = os.fork()  # amid a call of the other thread
+same = np.array_equal(work(), before)
+if child == 0:
+    sys.exit(0 if same else 1)
+thread.join()
+_, status = os.waitpid(child, 0)
+sys.exit(0 if same and status == 0 else 1)
+"""
+
+
+def test_a_fork_amid_a_call_of_another_thread():
+    assert subprocess.run([sys.executable, "-c", FORK_AMID], timeout=60).returncode == 0
 
 
 LEFT_BEHIND = """

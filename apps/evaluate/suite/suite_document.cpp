@@ -92,8 +92,8 @@ documentOf(const Suite& suite,
   if (!suite.description.empty())
     text += suite.description + "\n\n";
   text += table;
-  text += "\n" + sentence + " Machine: " + machine() + ".\n\n```\n" + command +
-          "\n```\nruns, each in a process of its own:\n```\n" + commandsOf(suite) +
+  text += "\n" + sentence + " Machine: " + machine() + ".\n\n```sh\n" + command +
+          "\n```\nruns, each in a process of its own:\n```sh\n" + commandsOf(suite) +
           "```\n";
   return text;
 }

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "stop_flag.h"
+
+#include <pcl6d/common/interruption.h>
 #include <pcl6d/common/parallel.h>
 
 #include <algorithm>
@@ -13,6 +16,7 @@
 #include <pthread.h>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace pcl6d {
@@ -63,13 +67,17 @@ struct ThreadPool::Loop {
   : count(count_), body(body_)
   {}
 
-  /** Takes steps until the loop is exhausted. */
+  /** Takes steps until the loop is exhausted. Steps after a stop are empty. */
   void
   takeSteps()
   {
+    const std::atomic<bool>* const outer = std::exchange(common::stopFlag(), stop);
     for (std::size_t i = next++; i < count; i = next++) {
       try {
-        body(i);
+        if (stop != nullptr && *stop)
+          is_stopped = true;
+        else
+          body(i);
       } catch (...) {
         keepError(i);
       }
@@ -78,6 +86,7 @@ struct ThreadPool::Loop {
         all_finished.notify_all();
       }
     }
+    common::stopFlag() = outer;
   }
 
   void
@@ -102,6 +111,9 @@ struct ThreadPool::Loop {
   const std::size_t count;
   /** The caller's; called only for steps, which end before the caller's run(). */
   const std::function<void(std::size_t)>& body;
+  /** Of the StopScope of the caller, or null; read only for steps. */
+  const std::atomic<bool>* const stop = common::stopFlag();
+  std::atomic<bool> is_stopped{false};
   std::atomic<std::size_t> next{0};
   std::atomic<std::size_t> finished{0};
   std::mutex mutex;
@@ -158,6 +170,8 @@ ThreadPool::run(std::size_t count,
   offer(loop, num_threads - 1);
   loop->takeSteps();
   loop->waitForHelpers();
+  if (loop->is_stopped)
+    throw Interrupted();
   if (loop->error)
     std::rethrow_exception(loop->error);
 }
@@ -213,8 +227,10 @@ parallelFor(std::size_t count,
   const std::size_t threads = std::min<std::size_t>(threadCount(num_threads), count);
   if (threads > 1)
     return ThreadPool::instance().run(count, threads, body);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
+    throwIfStopped();
     body(i);
+  }
 }
 
 std::size_t

@@ -15,7 +15,7 @@ namespace pcl6d::python {
 
 namespace {
 constexpr std::chrono::milliseconds kLook{50};       ///< between looks for signals
-constexpr std::chrono::milliseconds kPatience{2000}; ///< for stopped work
+constexpr std::chrono::milliseconds kPatience{1000}; ///< for stopped work
 
 /** State of a call, shared by the caller and the thread. */
 struct Call {
@@ -30,6 +30,7 @@ struct Call {
   run()
   {
     try {
+      const StopScope scope(watch.flag());
       work(watch);
     } catch (...) {
       error = std::current_exception();
@@ -92,7 +93,7 @@ void
 CallWatch::report(const Progress& progress)
 {
   if (stopped_)
-    throw Stopped();
+    throw Interrupted();
   tell(progress);
 }
 

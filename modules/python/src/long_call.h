@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/interruption.h>
 #include <pcl6d/common/progress.h>
 
 #include <atomic>
@@ -19,17 +20,14 @@ namespace pcl6d::python {
 
 namespace py = pybind11;
 
-/** \brief Thrown through the library when the caller has stopped the call. */
-struct Stopped {};
-
 /** \brief Channel between the work of a call and the caller: progress and stop request. */
 class CallWatch {
 public:
   /** \brief Reports progress to the caller, from any thread. */
   void
   tell(const Progress& progress);
-  /** \brief tell(), with a check for a stop request. \throws Stopped the caller has stopped the
-   * call */
+  /** \brief tell(), with a check for a stop request. \throws Interrupted the caller has stopped
+   * the call */
   void
   report(const Progress& progress);
   /** \return report() as a callback of the library; must not outlive the object */
@@ -37,6 +35,12 @@ public:
   callback();
   bool
   isStopped() const
+  {
+    return stopped_;
+  }
+  /** \return the flag of isStopped() */
+  const std::atomic<bool>&
+  flag() const
   {
     return stopped_;
   }
@@ -57,8 +61,8 @@ private:
 
 /** \brief Runs work in a separate thread, without Python's lock, and waits for the end. Signals
  * and progress are handled in the calling thread meanwhile. After Ctrl-C, or an exception of
- * `progress`, the work is asked to stop; work that does not stop within two seconds continues
- * in the background, and the result is dropped.
+ * `progress`, the work is asked to stop: its parallel loops and reports throw Interrupted. Work
+ * that does not stop within a second continues in the background, and the result is dropped.
  * \param[in] progress None, or called with stage, done and total
  * \param[in] work must own all data used
  * \throws error_already_set Python's exception; rethrows exceptions of work */

@@ -87,7 +87,7 @@ registerScans(const ScanFolder& folder, Slam6D& slam, CallWatch& watch)
       watch.tell(report);
   });
   if (!slam.optimize())
-    throw Stopped();
+    throw Interrupted();
 }
 
 RunResult

@@ -32,7 +32,7 @@ translate(std::exception_ptr thrown)
     raise("FileError", e.what());
   } catch (const std::filesystem::filesystem_error& e) {
     raise("FileError", e.what());
-  } catch (const Stopped&) {
+  } catch (const Interrupted&) {
     raise("ComputeFailed", "the call was stopped");
   }
 }

@@ -49,19 +49,13 @@ struct Neighbours {
 };
 
 Neighbours
-nearest(const Tree& tree,
-        const Points& queries,
-        std::size_t k,
-        double max_distance,
-        CallWatch& watch)
+nearest(const Tree& tree, const Points& queries, std::size_t k, double max_distance)
 {
   Neighbours found;
   found.distances.assign(queries.size() * k, std::numeric_limits<double>::infinity());
   found.indices.assign(queries.size() * k, -1);
   constexpr std::size_t kBlock = 1024;
   parallelBlocks(queries.size(), kBlock, 0, [&](const Block& block) {
-    if (watch.isStopped())
-      throw Stopped();
     std::vector<Neighbour> row(k);
     for (std::size_t i = block.begin; i < block.end; ++i) {
       const std::size_t count = tree.points.nearestK(queries[i], k, row.data());
@@ -95,7 +89,7 @@ queryTree(const std::shared_ptr<Tree>& tree,
   const auto found =
       longCall(progress, [tree, cloud, columns, max_distance](CallWatch& watch) {
         watch.report({"searching", 0, 1});
-        return nearest(*tree, cloud->points, columns, max_distance, watch);
+        return nearest(*tree, cloud->points, columns, max_distance);
       });
   const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(cloud->points.size()),
                                        static_cast<py::ssize_t>(columns)};

@@ -80,6 +80,9 @@ optimize(const std::shared_ptr<Slam>& slam, const py::object& progress)
 {
   const auto turn = std::make_shared<Turn>(slam);
   return longCall(progress, [turn](CallWatch& watch) {
+    // A stage ends after a whole scan, so that optimize() can go on later.
+    static const std::atomic<bool> never{false};
+    const StopScope whole_scans(never);
     Slam6D& slam6d = (*turn)->slam;
     slam6d.setProgressCallback([&](const Progress& report) {
       if (watch.isStopped())

@@ -2,6 +2,7 @@
 #include "lowest_node.h"
 #include "median_split.h"
 
+#include <pcl6d/common/interruption.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/search/point_tree.h>
 
@@ -118,6 +119,8 @@ private:
     if (part.num_threads >= 2 && last - first > kShareFrom)
       parallelFor(2, 2, buildHalf);
     else {
+      if (last - first > kShareFrom)
+        throwIfStopped();
       buildHalf(0);
       buildHalf(1);
     }

@@ -5,8 +5,10 @@ usage: blocks.py --cpp TREE GIVEN OUT.cpp    writes all blocks of C++ as one sou
        blocks.py TREE GIVEN BIN_DIR          checks all other blocks
 C++ is compiled, each block with its declarations of GIVEN. Programs and files of the tree in lines of
 sh must exist, and options of ours be known; ../sh_blocks.py runs the lines.
-JSON is parsed. python.moving_from runs blocks of Python. Other languages need a reason in REASONS.
+JSON is parsed, and read by the program in a block of sh, see JSON_READ. Other languages need a reason in REASONS, and each
+block a language. Prints the number of blocks by language.
 """
+import collections
 import json
 import pathlib
 import re
@@ -14,33 +16,32 @@ import shlex
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from documents import documents, fences_of  # noqa: E402
 from moving_from import fault_of  # noqa: E402
 
 REASONS = {
-    "cmake": "test/install/consumer is a project of the same two lines, and is built",
+    "cmake": "install.cmake_blocks configures a project with each of them",
     "python": "the only one is in modules/python/README.md, and python.moving_from runs it",
+    "text": "no program reads it: layout of folders, grammar, output",
+    "{languages}": "names files of share/examples: house.site reads the names; install.map_example, "
+                   "python.examples and python.maps run the files",
     "{toctree}": "a list of pages, which house.site reads",
 }
+# Blocks of JSON, and the file of the same text, which a block of sh on the page reads (../sh_block_inputs.py).
+JSON_READ = {"share/doc/benchmark.md 1": "my_suite.json", "share/doc/planes.md 1": "my_rules.json"}
 # Programs of the system in lines of sh.
 SYSTEM = {"apt", "apt-get", "cd", "cmake", "ctest", "cp", "export", "for", "g++", "git", "gdb", "kill", "mkdir", "man",
           "mpirun", "mpiexec", "pip", "python3", "PYTHONPATH", "rosbag", "sed", "source", "ssh", "tar",
           "wget", "done", "do", "xdg-open", "sudo", "echo", "env", "slurm", "sbatch", "srun", "scp", "convert"}
 
 
-def documents(tree):
-    return [path for pattern in ("*.md", "modules/*/*.md", "share/**/*.md", "test/benchmark/*.md")
-            for path in sorted(tree.glob(pattern))]
-
-
 def blocks(tree):
     """(file, number among those of its language, line, language, text)"""
     for path in documents(tree):
-        text = path.read_text()
-        count = {}
-        for m in re.finditer(r"^```(\S+)\n(.*?)^```", text, re.S | re.M):
-            count[m[1]] = count.get(m[1], 0) + 1
-            line = text.count("\n", 0, m.start()) + 2
-            yield path.relative_to(tree).as_posix(), count[m[1]], line, m[1], m[2]
+        count = collections.Counter()
+        for fence in fences_of(path.read_text().split("\n")):
+            count[fence.language] += 1
+            yield path.relative_to(tree).as_posix(), count[fence.language], fence.line, fence.language, fence.text
 
 
 def given(file):
@@ -101,6 +102,10 @@ def fault_of_line(tree, folder, line):
 
 def faults(tree, table, folder):
     keys = set()
+    shell = collections.defaultdict(list)
+    for file, _, _, language, text in blocks(tree):
+        if language == "sh":
+            shell[file].append(text)
     for file, number, line, language, text in blocks(tree):
         place = f"{file}:{line}"
         if language == "cpp":
@@ -112,12 +117,17 @@ def faults(tree, table, folder):
                 json.loads(text)
             except ValueError as error:
                 yield f"{place}: {error}"
+            reader = JSON_READ.get(f"{file} {number}")
+            if not reader or reader not in " ".join(shell.get(file, [])):
+                yield f"{place}: no block of sh reads this block of JSON"
         elif language == "sh":
             joined = re.sub(r"\\\n", lambda m: " ", text)
             for offset, row in enumerate(joined.split("\n")):
                 fault = fault_of_line(tree, folder, row)
                 if fault:
                     yield f"{file}:{line + offset}: {fault}"
+        elif not language:
+            yield f"{place}: the block has no language"
         elif language not in REASONS:
             yield f"{place}: nothing checks blocks of {language}"
     for key in set(table) - keys:
@@ -133,7 +143,9 @@ def main():
     tree, folder = pathlib.Path(arguments[0]), pathlib.Path(arguments[2])
     found = list(faults(tree, given(pathlib.Path(arguments[1])), folder))
     print("\n".join(found))
-    print(f"{sum(1 for _ in blocks(tree))} blocks, {len(found)} faults")
+    counts = collections.Counter(block[3] for block in blocks(tree))
+    print(f"{sum(counts.values())} blocks, {len(found)} faults;",
+          ", ".join(f"{count} {language}" for language, count in sorted(counts.items())))
     sys.exit(1 if found else 0)
 
 

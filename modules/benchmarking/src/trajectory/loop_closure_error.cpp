@@ -2,6 +2,7 @@
 #include "trajectory/pose_pairs.h"
 
 #include <pcl6d/benchmarking/loop_closure_error.h>
+#include <pcl6d/common/interruption.h>
 #include <pcl6d/common/require.h>
 
 #include <cmath>
@@ -39,6 +40,7 @@ findRevisits(const Trajectory& reference,
   };
   std::vector<Revisit> revisits;
   for (std::size_t now = 0; now < pairs.size(); ++now) {
+    throwIfStopped(); // each pose is compared with all before
     std::size_t nearest = now;
     double least = options.radius;
     for (std::size_t then = 0; then < now; ++then) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl6d/common/decompositions.h>
+#include <pcl6d/common/interruption.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/filters/line_growth.h>
 #include <pcl6d/filters/voxel_reduction.h>
@@ -137,11 +138,13 @@ distributionsOf(const Points& points,
   if (growsAcrossLines(points, Eigen::Vector3f::Zero(), growth))
     tree.emplace(points);
   std::vector<Distribution> found;
-  for (std::size_t g = 0; g < groups.size(); ++g)
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    throwIfStopped();
     if (groups.indices(g).size() >= least_points)
       if (const auto distribution = distributionOf(
               points, groups.indices(g), tree ? &*tree : nullptr, resolution))
         found.push_back(*distribution);
+  }
   return found;
 }
 } // namespace

@@ -100,7 +100,7 @@ struct KnotPlace {
  * off. The begin of a scan need not be the end of the scan before (P. Dellenbach et al.,
  * "CT-ICP", ICRA 2022).
  * \param[in] a, b stamps and numbers of the last two knots, c, d of the first two of the next
- * \param[in] slack [m] and [rad] standard deviation between the scans even without a gap; > 0
+ * \param[in] slack_translation, slack_rotation [m, rad] least standard deviation of the gap; > 0
  * \throws BadArgument stamps do not increase (b may be c or later), or the noise is invalid */
 std::vector<ElasticTerm>
 elasticTermsBetween(const KnotPlace& a,

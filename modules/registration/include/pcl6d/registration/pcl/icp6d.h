@@ -260,10 +260,10 @@ protected:
   void
   forgetTargetNormals();
 
-  /** The normals of chosen points, given or estimated.
-   * \param[in] tree over the points; null: to be made */
+  /** The normals of chosen points, given or estimated. */
   virtual Normals
   sourceNormals(const Points& points, const IcpOptions& options) const;
+  /** Like sourceNormals(). \param[in] tree over the points; null: to be made */
   virtual Normals
   targetNormals(const pcl::Indices& indices,
                 const Points& points,

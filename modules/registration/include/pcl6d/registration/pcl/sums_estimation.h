@@ -45,8 +45,8 @@ public:
     return minimise(sums);
   }
 
-  /** \brief Result of PCL's overloads: \return the matrix of the motion found
-   * \param[in] sums of the last pass over the pairs */
+  /** \brief The result of PCL's overloads. The sums are those of the last pass over the pairs.
+   * \return the matrix of the motion found */
   virtual Eigen::Matrix4d
   toMatrix(const Eigen::Isometry3d& motion, const Sums& /*sums*/) const
   {

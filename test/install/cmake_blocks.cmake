@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Each block of CMake in the documents builds a project of a user. my_program and
+# slam6d_plugin.cpp, which blocks name, are given.
+include(${SETTINGS})
+file(GLOB_RECURSE documents ${source}/modules/*.md ${source}/share/*.md)
+list(APPEND documents ${source}/README.md ${source}/CONTRIBUTING.md)
+set(count 0)
+foreach(document IN LISTS documents)
+  file(READ ${document} text)
+  string(REGEX MATCHALL "\n```cmake\n[^`;]*\n```" blocks "${text}")
+  foreach(block IN LISTS blocks)
+    math(EXPR count "${count} + 1")
+    set(folder ${work}/cmake_blocks/${count})
+    file(REMOVE_RECURSE ${folder})
+    file(COPY ${source}/share/examples/slam6d_plugin.cpp DESTINATION ${folder})
+    file(WRITE ${folder}/main.cpp "int\nmain()\n{\n}\n")
+    string(REGEX REPLACE "```(cmake)?" "" lines "${block}")
+    file(WRITE ${folder}/CMakeLists.txt "cmake_minimum_required(VERSION 3.20)\nproject(my_project)\n"
+      "add_executable(my_program main.cpp)\n# ${document}${lines}")
+    configure(${folder} ${folder}/build)
+    build(${folder}/build)
+  endforeach()
+endforeach()
+message("${count} blocks of CMake")
+if(count EQUAL 0)
+  message(FATAL_ERROR "no blocks found")
+endif()

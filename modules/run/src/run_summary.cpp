@@ -101,8 +101,8 @@ graphOf(const RunResult& run)
     visitStageFields(stage, Writer{stages.emplace_back()});
   return {{"stages", stages},
           {"links_used", run.links_used},
-          {"links_refused", run.links_refused},
-          {"floating", run.floating}};
+          {"links_rejected", run.links_refused},
+          {"disconnected", run.floating}};
 }
 
 Json
@@ -167,9 +167,9 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
   json["world_offset"] = jsonOf(run.world_offset);
   json["pose_source"] = run.pose_source;
   if (run.moved)
-    visitMovedFields(*run.moved, Writer{json["moved_points"]});
+    visitMovedFields(*run.moved, Writer{json["input_offset"]});
   json["verdict"] = {
-      {"trusted", run.trusted}, {"complete", run.complete}, {"text", run.verdict}};
+      {"reliable", run.trusted}, {"complete", run.complete}, {"text", run.verdict}};
   json["warnings"] = run.warnings;
   json["totals"] = totalsOf(run);
   json["options"] = Json::object();
@@ -184,17 +184,17 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
   if (run.verification)
     json["verification"] = run_files::jsonOfVerification(*run.verification);
   if (run.moving)
-    json["moving"] = {{"points", run.moving->points},
-                      {"removed", run.moving->removed},
-                      {"blind", run.moving->blind},
-                      {"background", run.moving->background},
-                      {"unknown", run.moving->unknown}};
+    json["dynamic"] = {{"points", run.moving->points},
+                       {"removed", run.moving->removed},
+                       {"inconclusive", run.moving->blind},
+                       {"background", run.moving->background},
+                       {"unknown", run.moving->unknown}};
   if (run.control)
     json["control"] = run_files::jsonOfControl(*run.control);
   if (run.drive)
     json["drive"] = {{"first_sweep", run.drive->first},
                      {"lost", run.drive->lost},
-                     {"way", run.drive->way},
+                     {"path_length", run.drive->way},
                      {"seconds", run.drive->seconds},
                      {"files", run.drive->files}};
   json["scans"] = Json::array();

@@ -16,7 +16,9 @@
 
 namespace pcl6d::object_localization {
 namespace {
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
+
+constexpr int kTrainingSchema = 1; ///< schema_version of training.json
 
 /** Hash of every input that determines the result. */
 class Fingerprint {
@@ -117,6 +119,9 @@ TrainingState::load(CascadeTraining& training) const
   if (folder_.empty() || !text::isThere(file))
     return;
   const JsonValue json = readJson(file);
+  if (const auto schema = json.find("schema_version")) // missing in older files
+    schema->require(schema->integer() == kTrainingSchema,
+                    std::to_string(kTrainingSchema));
   if ((json / "fingerprint").text() != fingerprint_)
     throw IoFailed(file.string() + ": belongs to a training with different images or "
                                    "options; remove the folder or give a new one");
@@ -146,7 +151,9 @@ TrainingState::save(const CascadeTraining& training) const
   Json stages = Json::array();
   for (const auto& stage : training.stages)
     stages.push_back(toJson(stage));
-  const Json json = {{"fingerprint", fingerprint_}, {"stages", stages}};
+  const Json json = {{"schema_version", kTrainingSchema},
+                     {"fingerprint", fingerprint_},
+                     {"stages", stages}};
   writeFileAtomically(folder_ / "training.json",
                       [&](std::ostream& out) { out << json.dump(1) << '\n'; });
 }

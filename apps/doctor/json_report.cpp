@@ -4,18 +4,10 @@
 
 #include <pcl6d/io/json_numbers.h>
 
-#include <cmath>
-
 namespace pcl6d::app {
 
 namespace {
 using OrderedJson = nlohmann::ordered_json;
-
-OrderedJson
-finiteOrNull(double value)
-{
-  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
-}
 
 OrderedJson
 toJson(const DoctorCloud& cloud, const CloudMeasures& of)

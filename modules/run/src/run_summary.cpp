@@ -4,7 +4,6 @@
 #include "summary_reader.h"
 #include "verification_json.h"
 
-#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/json_object.h>
 #include <pcl6d/io/text.h>
@@ -202,9 +201,7 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
     json["scans"].push_back(toJson(scan));
   if (!run.files.empty())
     json["files"] = toJson(run.files);
-  writeFileAtomically(path, [&](std::ostream& stream) {
-    stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
-  });
+  writeJson(path, json);
 }
 
 RunResult

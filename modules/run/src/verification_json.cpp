@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -16,14 +15,6 @@ namespace pcl6d {
 
 namespace {
 using run_files::SchemaKeys;
-
-/** JSON has no infinity: null. */
-nlohmann::ordered_json
-numberOrNull(double value)
-{
-  return std::isfinite(value) ? nlohmann::ordered_json(value)
-                              : nlohmann::ordered_json();
-}
 
 /** Lengths, angles and bounds, not negative; null: infinite. */
 double
@@ -41,9 +32,9 @@ jsonOfNoticed(const std::optional<NoticedError>& noticed)
 {
   if (!noticed)
     return {};
-  return {{"least_shift", numberOrNull(noticed->least)},
-          {"largest_shift", numberOrNull(noticed->most)},
-          {"turn", numberOrNull(noticed->turn)},
+  return {{"least_shift", finiteOrNull(noticed->least)},
+          {"largest_shift", finiteOrNull(noticed->most)},
+          {"turn", finiteOrNull(noticed->turn)},
           {"weakest_direction", rowByRow(noticed->weakest.transpose())}};
 }
 
@@ -82,14 +73,12 @@ jsonOfVerification(const MapVerification& map)
 {
   auto scans = nlohmann::ordered_json::array();
   for (const ScanCheck& scan : map.scans)
-    scans.push_back(
-        {{"connected", scan.tied},
-         {"rays_unreliable", scan.abstains},
-         {"off_centre", scan.off_centre},
-         {"bound",
-          scan.bound ? nlohmann::ordered_json(*scan.bound) : nlohmann::ordered_json()},
-         {"detectable", jsonOfNoticed(scan.noticed)},
-         {"doubt", scan.doubt}});
+    scans.push_back({{"connected", scan.tied},
+                     {"rays_unreliable", scan.abstains},
+                     {"off_centre", scan.off_centre},
+                     {"bound", numberOrNull(scan.bound)},
+                     {"detectable", jsonOfNoticed(scan.noticed)},
+                     {"doubt", scan.doubt}});
   return {{"verdict", toString(map.trust)},
           {"links", map.links.size()},
           {"consistent", map.count(LinkTrust::kGood)},

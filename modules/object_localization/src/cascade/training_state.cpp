@@ -3,7 +3,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/random.h>
-#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/json_object.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/object_localization/cascade_file.h>
@@ -154,8 +154,7 @@ TrainingState::save(const CascadeTraining& training) const
   const Json json = {{"schema_version", kTrainingSchema},
                      {"fingerprint", fingerprint_},
                      {"stages", stages}};
-  writeFileAtomically(folder_ / "training.json",
-                      [&](std::ostream& out) { out << json.dump(1) << '\n'; });
+  writeJson(folder_ / "training.json", json);
 }
 
 } // namespace pcl6d::object_localization

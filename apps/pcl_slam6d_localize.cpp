@@ -139,8 +139,11 @@ write(const LocalizeSettings& s,
       const app::OutputFolder& out)
 {
   Trajectory trajectory;
-  Json json{{"generator", app::kLocalize}, {"version", PCL6D_VERSION}, {"run", s.run}};
-  json["totals"] = {{"scans", rows.size()}, {"placed", countPlaced(rows)}};
+  Json json{{"schema_version", 2},
+            {"generator", app::kLocalize},
+            {"version", PCL6D_VERSION},
+            {"run", s.run}};
+  json["totals"] = {{"scans", rows.size()}, {"with_pose", countPlaced(rows)}};
   json["scans"] = Json::array();
   for (const Row& row : rows) {
     Json one{{"file", row.file},
@@ -148,7 +151,7 @@ write(const LocalizeSettings& s,
              {"answer", toString(row.found.answer)},
              {"tracked", row.found.tracked},
              {"overlap", row.found.overlap},
-             {"contradiction", row.found.contradiction},
+             {"violations", row.found.contradiction},
              {"reason", toWords(row.found.rejection)}};
     one["T_world_scan"] =
         row.isPlaced() ? Json(rowByRow(row.T_world_scan.matrix())) : Json();

@@ -4,18 +4,10 @@
 
 #include <pcl6d/io/json_numbers.h>
 
-#include <cmath>
-
 namespace pcl6d::app {
 
 namespace {
 using OrderedJson = nlohmann::ordered_json;
-
-OrderedJson
-finiteOrNull(double value)
-{
-  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
-}
 
 OrderedJson
 toJson(const DoctorCloud& cloud, const CloudMeasures& of)
@@ -49,7 +41,7 @@ toJson(const ClassOutcome& out, const DoctorPair& pair)
                    {"limit", out.limit},
                    {"fitness", finiteOrNull(out.fitness)},
                    {"seconds", out.seconds},
-                   {"said", out.said}};
+                   {"output", out.said}};
   json["pose"] =
       out.hasPose() ? rowByRow(pair.toFull(out.pose).matrix()) : OrderedJson(nullptr);
   return json;
@@ -58,13 +50,13 @@ toJson(const ClassOutcome& out, const DoctorPair& pair)
 OrderedJson
 toJson(const PoseVerdict& verdict)
 {
-  return {{"trust", verdict.trust},
+  return {{"result", verdict.trust},
           {"probability_wrong", verdict.probability_wrong},
           {"patches", verdict.patches},
-          {"contradicted", verdict.contradicted},
+          {"violated", verdict.contradicted},
           {"reason", verdict.reason},
           {"share", verdict.fit.share},
-          {"misfit", verdict.fit.misfit}};
+          {"rms", verdict.fit.misfit}};
 }
 
 OrderedJson
@@ -91,13 +83,15 @@ nlohmann::ordered_json
 jsonReport(const Diagnosis& d)
 {
   const DoctorPair& pair = d.pair;
-  OrderedJson json{{"verified", d.isVerified()}, {"conclusion", conclusionOf(d)}};
+  OrderedJson json{{"schema_version", 2},
+                   {"verified", d.isVerified()},
+                   {"conclusion", conclusionOf(d)}};
   json["source"] = toJson(pair.source, pair.of_source);
   json["target"] = toJson(pair.target, pair.of_target);
-  json["guess"] = rowByRow(pair.guess_given.matrix());
+  json["initial_pose"] = rowByRow(pair.guess_given.matrix());
   json["max_distance"] = pair.max_distance;
   json["resolution"] = pair.resolution;
-  json["told_apart"] = pair.tolerance();
+  json["distinguishable"] = pair.tolerance();
   json["runs"] = OrderedJson::array();
   for (const Experiment& row : d.rows)
     json["runs"].push_back(toJson(row, pair));

@@ -89,7 +89,7 @@ timingOf(const RunResult& run, double drawing)
       const bool is_first = part.kind == StageKind::kMatching;
       line(is_first ? "  scan after scan" : std::string("  ") + toString(part.kind),
            part.seconds)
-          << (part.undone ? "  reverted: " + toWords(part.rejection) : "") << '\n';
+          << (part.reverted ? "  reverted: " + toWords(part.rejection) : "") << '\n';
       rest -= part.seconds;
     }
     line("  loops, verdict", std::max(0.0, rest)) << '\n';
@@ -247,7 +247,7 @@ RunOutput::warnOfMissingPoses()
   const bool is_followed =
       settings_.slam.motion.gives_poses &&
       std::any_of(run_.scans.begin(), run_.scans.end(), [](const ScanResult& scan) {
-        return scan.motion && scan.motion->undone;
+        return scan.motion && scan.motion->deskewed;
       });
   // An interrupted run may have no pose that was found.
   const bool is_tried =

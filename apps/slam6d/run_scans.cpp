@@ -124,7 +124,7 @@ RunScans::undoMotion(const MotionWithinScan& motion,
                      std::size_t i,
                      pcl::PCLPointCloud2& cloud) const
 {
-  if (!motion.undone || motion.path.poses.empty()) // or deskewed by an earlier run
+  if (!motion.deskewed || motion.path.poses.empty()) // or deskewed by an earlier run
     return;
   TimedPoints scan{coordinatesOf(cloud), scanTimes(cloud, i).times};
   storeCoordinates(pcl6d::undoMotion(scan, motion.path, 0, 1), cloud);

@@ -163,8 +163,10 @@ TEST_F(SegmentFiles, GeoJsonNamesWhatIsBroken)
                 R"({"type": "FeatureCollection", "features": [{"type": "Feature",)"
                 R"("geometry": null}, {"type": "Feature", "geometry": )" +
                     geometry("LineString", R"([[0, "north"]])") + "}]}",
-                {"feature 2", "number"});
-  expectRefused("a.geojson", geometry("LineString", "[[0]]"), {"1"});
+                {"/features/1/geometry/coordinates/0: ", "number"});
+  expectRefused("a.geojson",
+                geometry("LineString", "[[0]]"),
+                {"/coordinates/0: [0]", "two numbers"});
   expectRefused("a.geojson",
                 geometry("LineString", "[[0,NaN],[1,1]]"),
                 {"line 1: not the syntax of JSON"});

@@ -135,6 +135,19 @@ TEST_F(Training, GoesOnWhereItWasInterrupted)
   EXPECT_EQ(xmlOf(resumed.cascade), whole);
   EXPECT_EQ(trainCascade(positives, backgrounds, options).resumed_stages, 3u);
 
+  const std::string state = test::readText(folder / "state/training.json");
+  const std::string schema = "\"schema_version\": 1";
+  const std::size_t at = state.find(schema);
+  ASSERT_NE(at, std::string::npos) << state;
+  std::string older = state, newer = state;
+  older.replace(at, schema.size() + 1, "");
+  test::writeText(folder / "state/training.json", older);
+  EXPECT_EQ(trainCascade(positives, backgrounds, options).resumed_stages, 3u);
+  newer.replace(at, schema.size(), "\"schema_version\": 9");
+  test::writeText(folder / "state/training.json", newer);
+  EXPECT_THROW(trainCascade(positives, backgrounds, options), IoFailed);
+  test::writeText(folder / "state/training.json", state);
+
   options.seed = 9; // another training
   EXPECT_THROW(trainCascade(positives, backgrounds, options), IoFailed);
   options.seed = 1;

@@ -248,8 +248,8 @@ TEST(RunResult, BrokenFilesAreNamedWithWhatIsWrong)
   const auto expect = [](const std::string& error, const std::string& part) {
     EXPECT_NE(error.find(part), std::string::npos) << error;
   };
-  expect(errorOf("\"schema_version\": 1", "\"schema_version\": 2"),
-         "/schema_version: 2, but must be 1");
+  expect(errorOf("\"schema_version\": 2", "\"schema_version\": 3"),
+         "/schema_version: 3, but must be 1 to 2");
   expect(errorOf("{", "["), "line 2: not the syntax of JSON");
   expect(errorOf("\"T_world_scan\"", "\"pose\""), "key 'T_world_scan' is missing");
   expect(errorOf("\"version\":", "\"version\""), "line 4: not the syntax of JSON");

@@ -131,8 +131,8 @@ TEST_F(HostileSummary, PosesAreRigidAndNear)
             std::string::npos);
   expectRefused("/world_offset", Json::array({0, 0, 1e100}), "below 1e9");
   expectRefused("/world_offset", Json::array({0, 0}), "expected 3 numbers, got 2");
-  expectRefused("/moved_points/offset", Json::array({0, 0, 1e100}), "below 1e9");
-  expectRefused("/moved_points/poses", "sun", "file");
+  expectRefused("/input_offset/offset", Json::array({0, 0, 1e100}), "below 1e9");
+  expectRefused("/input_offset/poses", "sun", "file");
 }
 
 TEST_F(HostileSummary, CovariancesAreSymmetricAndPositive)

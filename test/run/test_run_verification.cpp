@@ -174,8 +174,10 @@ TEST(RunVerification, IsCountedInTheSummary)
   run.verification = doubtful();
   writeRunSummary(folder / "summary.json", run);
   const std::string text = readText(folder / "summary.json");
-  for (const char* const part :
-       {"\"trust\": \"doubtful\"", "\"links\": 2", "\"good\": 1", "\"wrong\": 1"})
+  for (const char* const part : {"\"verdict\": \"doubtful\"",
+                                 "\"links\": 2",
+                                 "\"consistent\": 1",
+                                 "\"inconsistent\": 1"})
     EXPECT_TRUE(has(text, part)) << part << '\n' << text;
 }
 
@@ -212,12 +214,12 @@ TEST(RunVerification, BrokenOnesAreNamedWithWhatIsWrong)
   EXPECT_EQ(
       errorOf("\"doubtful\"", "\"fine\""),
       file.string() +
-          ": /verification/trust: trust of a map = fine, but must be one of good, "
+          ": /verification/verdict: trust of a map = fine, but must be one of good, "
           "doubtful, ambiguous, unverified");
   EXPECT_TRUE(
       has(errorOf("\"background\"", "\"ground\""), "key 'background' is missing"));
-  EXPECT_TRUE(has(errorOf("\"tied\": true", "\"tied\": 7"),
-                  "/scans/0/tied: 7, but must be true or false"));
+  EXPECT_TRUE(has(errorOf("\"connected\": true", "\"connected\": 7"),
+                  "/scans/0/connected: 7, but must be true or false"));
   EXPECT_TRUE(has(errorOf("\"bound\"", "\"bind\""), "key 'bound' is missing"));
 }
 
@@ -229,8 +231,8 @@ TEST(RunVerification, IsATableOfLinksByTheNumbersOfTheirScans)
   RunWriter(folder.path(), run).writeVerification();
   EXPECT_EQ(
       readText(folder / "verification.csv"),
-      "from,to,trust,probability_wrong,patches,contradicted,shift,deviation,"
-      "open_directions,noticed_least,noticed_most,noticed_turn,reason\n"
+      "from,to,result,probability_wrong,patches,violated,shift,deviation,"
+      "open_directions,detectable_least,detectable_largest,detectable_turn,reason\n"
       "0,2,good,3.33333e-08,320,2,0.0125,0.003,0,0.015,0.0625,0.01,\"\"\n"
       "2,4,wrong,1,41,30,1.5,0.25,2,,,,\"rays go through 30 of 41 \"\"patches\"\", "
       "and more\"\n");
@@ -241,7 +243,7 @@ TEST(RunVerification, IsATableWithoutRowsIfThereAreNoLinks)
   const TempFolder folder;
   pcl6d::writeLinkChecks(folder / "verification.csv", {});
   const std::string text = readText(folder / "verification.csv");
-  EXPECT_EQ(text.find("from,to,trust,"), 0u);
+  EXPECT_EQ(text.find("from,to,result,"), 0u);
   EXPECT_EQ(text.find('\n'), text.size() - 1);
 }
 

@@ -194,7 +194,7 @@ TEST_F(SceneFile, NamesWhatIsWrongAndWhere)
   expectRefused(replaced(kYard, "[40, 40, 0.2]", "[40, 40]"),
                 "/bodies/0/size: expected 3 numbers, got 2");
   expectRefused(replaced(kYard, "[40, 40, 0.2]", "[40, 40, \"x\"]"),
-                "/bodies/0/size: \"x\" is not a number");
+                "/bodies/0/size/2: \"x\" is not a number");
   expectRefused(replaced(kYard, "[40, 40, 0.2]", "[40, 40, 0]"),
                 "/bodies/0: size of a box = 40 40  0, but must be > 0");
   expectRefused(replaced(kYard, "\"radius\": 0.3, ", ""),

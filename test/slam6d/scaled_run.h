@@ -45,7 +45,7 @@ expectSameDecisions(const Slam6DResult& a,
   ASSERT_EQ(a.stages.size(), b.stages.size());
   for (std::size_t k = 0; k < a.stages.size(); ++k) {
     EXPECT_EQ(a.stages[k].kind, b.stages[k].kind);
-    EXPECT_EQ(a.stages[k].undone, b.stages[k].undone) << b.stages[k].rejection;
+    EXPECT_EQ(a.stages[k].reverted, b.stages[k].reverted) << b.stages[k].rejection;
     EXPECT_NEAR(a.stages[k].agreement_after, b.stages[k].agreement_after, 1e-3);
   }
   for (std::size_t i = 0; i < a.scans.size(); ++i) {

@@ -73,7 +73,7 @@ struct MotionWithinScans : testing::Test {
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
       const auto& scan = result.scans[i];
       const pcl6d::Points undone =
-          scan.motion && scan.motion->undone
+          scan.motion && scan.motion->deskewed
               ? pcl6d::undoMotion(sweeps[i], scan.motion->path, 0)
               : sweeps[i].points;
       for (std::size_t k = 0; k < undone.size(); k += 20, ++all) {
@@ -92,7 +92,7 @@ struct MotionWithinScans : testing::Test {
   {
     for (const auto& scan : result.scans) {
       ASSERT_TRUE(scan.motion);
-      EXPECT_FALSE(scan.motion->undone);
+      EXPECT_FALSE(scan.motion->deskewed);
       EXPECT_EQ(scan.motion->rejection.reason, reason)
           << scan.motion->rejection << ", rotation " << scan.motion->rotation;
     }
@@ -111,7 +111,7 @@ TEST_F(MotionWithinScans, IsFoundAndUndoneWithoutOdometry)
     EXPECT_GT(shareInPlace(slam.result()), 0.95);
     for (const auto& scan : slam.result().scans) {
       ASSERT_TRUE(scan.motion);
-      EXPECT_TRUE(scan.motion->undone) << scan.motion->rejection;
+      EXPECT_TRUE(scan.motion->deskewed) << scan.motion->rejection;
       EXPECT_NEAR(scan.motion->translation, kTurn * scanner.velocity.norm(), 0.01);
       EXPECT_NEAR(scan.motion->rotation, kTurn * scanner.turning.norm(), 0.004);
       EXPECT_NEAR(scan.motion->seconds, kTurn, 0.01);
@@ -175,7 +175,7 @@ TEST_F(MotionWithinScans, StopAndGoIsSeenToBeSo)
   timed.optimize();
   plain.optimize();
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_FALSE(timed.result().scans[i].motion->undone);
+    EXPECT_FALSE(timed.result().scans[i].motion->deskewed);
     EXPECT_TRUE(timed.result().scans[i].T_world_scan.matrix() ==
                 plain.result().scans[i].T_world_scan.matrix());
   }
@@ -244,7 +244,7 @@ TEST_F(MotionWithinScans, ATurnThatBeginsWithinASlowScanIsFollowed)
   slam.optimize();
   EXPECT_GT(shareInPlace(slam.result()), 0.95);
   for (const auto& scan : slam.result().scans) {
-    EXPECT_TRUE(scan.motion->undone) << scan.motion->rejection;
+    EXPECT_TRUE(scan.motion->deskewed) << scan.motion->rejection;
     EXPECT_EQ(scan.motion->knots, 5u);
   }
   EXPECT_NEAR(slam.result().scans[3].motion->rotation, 0.6 * 0.52, 0.02);
@@ -278,7 +278,7 @@ TEST_F(MotionWithinScans, GoesOnBehindRegisteredScans)
   ASSERT_EQ(slam.result().scans.size(), 7u);
   EXPECT_FALSE(slam.result().scans[0].motion);
   for (std::size_t i = 2; i < 7; ++i) {
-    EXPECT_TRUE(slam.result().scans[i].motion->undone) << i;
+    EXPECT_TRUE(slam.result().scans[i].motion->deskewed) << i;
     EXPECT_LT(scanner.errorOf(slam.result().scans[i].T_world_scan,
                               static_cast<double>(i - 1) * kTurn),
               kTolerance);

@@ -64,7 +64,7 @@ TEST(Slam6DGraph, RelaxationBringsADriftedRingNearerToTheTruth)
   EXPECT_EQ(relaxed().stages.front().kind, pcl6d::StageKind::kMatching);
   const StageResult& stage = relaxed().stages.back();
   EXPECT_EQ(stage.kind, pcl6d::StageKind::kRelaxation);
-  EXPECT_FALSE(stage.undone) << stage.rejection;
+  EXPECT_FALSE(stage.reverted) << stage.rejection;
   EXPECT_FALSE(stage.rejection);
   EXPECT_GT(stage.rounds, 0);
   EXPECT_GT(stage.agreement_after, stage.agreement_before);
@@ -130,7 +130,7 @@ TEST(Slam6DGraph, AStageThatIsUndoneLeavesThePosesBitForBit)
   const Slam6DResult without = registered(run, matchingOnly());
   const StageResult* stage = stageOf(with, "relaxation");
   ASSERT_NE(stage, nullptr);
-  EXPECT_TRUE(stage->undone);
+  EXPECT_TRUE(stage->reverted);
   EXPECT_EQ(stage->rejection.reason, pcl6d::RejectReason::kNoCycle);
   pcl6d::test::expectSameBits(with, without);
 }

@@ -67,8 +67,8 @@ TEST(Slam6DLoops, AreClosedBeforeRelaxing)
   EXPECT_EQ(whole().stages[2].kind, StageKind::kRelaxation);
   // The ends are 12 cm apart: closing them costs the scans around them more than it gains,
   // relaxation does it without.
-  EXPECT_EQ(whole().stages[1].undone, bool(whole().stages[1].rejection));
-  EXPECT_FALSE(whole().stages[2].undone) << whole().stages[2].rejection;
+  EXPECT_EQ(whole().stages[1].reverted, bool(whole().stages[1].rejection));
+  EXPECT_FALSE(whole().stages[2].reverted) << whole().stages[2].rejection;
   EXPECT_LT(positionRms(whole(), block()),
             0.7 * positionRms(matchedNearSighted(), block()));
 }
@@ -105,7 +105,7 @@ TEST(Slam6DLoops, AreClosedWhileScansAreMatchedIfAsked)
   ASSERT_GE(online.stages.size(), 2u);
   std::size_t closed = 0;
   for (const StageResult& stage : online.stages)
-    closed += stage.kind == StageKind::kLoopClosing && !stage.undone ? 1 : 0;
+    closed += stage.kind == StageKind::kLoopClosing && !stage.reverted ? 1 : 0;
   EXPECT_EQ(closed, 1u) << "what comes next sees the same loop";
   EXPECT_LT(positionRms(online, block()),
             0.95 * positionRms(matchedNearSighted(), block()));
@@ -175,7 +175,7 @@ TEST(Slam6DLoops, AreSpreadScanByScanBySimultaneousMatching)
   const StageResult& stage = result.stages.back();
   EXPECT_EQ(stage.kind, StageKind::kRelaxation);
   EXPECT_GT(stage.rounds, 0);
-  EXPECT_FALSE(stage.undone) << stage.rejection;
+  EXPECT_FALSE(stage.reverted) << stage.rejection;
   EXPECT_GT(stage.agreement_after, stage.agreement_before - 0.01);
   EXPECT_LT(positionRms(result, block()),
             1.05 * positionRms(matchedNearSighted(), block()));

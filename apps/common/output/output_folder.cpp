@@ -21,9 +21,8 @@ isMarkerOf(const fs::path& file, const std::string& program)
   if (!file.has_filename() || !fs::is_regular_file(file, error))
     return false; // the program has no marker, or the folder none
   try {
-    JsonObject json(readJson(file));
     std::string generator;
-    json.read("generator", generator);
+    readJson(file).read("generator", generator);
     return generator == program;
   } catch (const IoFailed&) {
     return false;

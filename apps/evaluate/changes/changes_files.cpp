@@ -60,7 +60,7 @@ changeJson(const Change& one, const Eigen::Vector3d& offset)
     json["lod95"] = one.lod;
     return json;
   }
-  json["witnesses"] = one.num_observers;
+  json["observers"] = one.num_observers;
   if (one.before) {
     const Eigen::Isometry3d motion =
         Eigen::Translation3d(offset) * one.motion * Eigen::Translation3d(-offset);
@@ -76,11 +76,11 @@ tallyJson(const std::string& run, const RunTally& tally)
 {
   return {{"run", run},
           {"points", tally.points},
-          {"there", tally.there},
+          {"on_surface", tally.there},
           {"shifted", tally.shifted},
-          {"seen_through", tally.seen_through},
+          {"violated", tally.seen_through},
           {"changed", tally.changed},
-          {"restless", tally.restless},
+          {"dynamic", tally.restless},
           {"unknown", tally.unknown}};
 }
 
@@ -107,7 +107,7 @@ worldJson(const CommonWorld& world)
           {"T_a_b", rowByRow(world.T_a_b.matrix())},
           {"overlap", world.alignment.overlap},
           {"residual", world.alignment.residual},
-          {"bending", world.alignment.bending},
+          {"deformation", world.alignment.bending},
           {"links",
            {{"good", world.count(LinkTrust::kGood)},
             {"weak", world.count(LinkTrust::kWeak)},
@@ -233,7 +233,7 @@ writeChangesJson(const std::filesystem::path& path, const ChangesReport& report)
   Json changes = Json::array();
   for (const Change& one : report.found.changes)
     changes.push_back(changeJson(one, report.runs.worldOffset()));
-  const Json json = {{"schema_version", 1},
+  const Json json = {{"schema_version", 2},
                      {"generator", kEvaluate},
                      {"world_offset", rowByRow(report.runs.worldOffset())},
                      {"voxel", report.runs.voxel()},

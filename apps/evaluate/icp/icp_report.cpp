@@ -177,7 +177,7 @@ Json
 toJson(const IcpBestPose& best)
 {
   return {{"metric", toString(best.metric)},
-          {"believed", best.doubt.empty()},
+          {"reliable", best.doubt.empty()},
           {"doubt", best.doubt},
           {"T_a_b", rowByRow(best.result.T_target_source.matrix())},
           {"scale", best.result.scale},
@@ -195,7 +195,7 @@ toJson(const IcpSettings& settings, const IcpEvaluation& e)
 {
   const IcpBasinOptions& o = e.options;
   Json json = {
-      {"schema_version", 1},
+      {"schema_version", 2},
       {"generator", kEvaluate},
       {"version", PCL6D_VERSION},
       {"complete", e.basin.complete},

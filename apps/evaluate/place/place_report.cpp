@@ -102,9 +102,9 @@ jsonOfPair(const FoundPlace& place)
   return {{"T_a_b", rowsOf(place.pose)},
           {"score", one.score},
           {"overlap", one.overlap},
-          {"contradiction", one.contradiction},
+          {"violations", one.contradiction},
           {"patches", one.evidence.sight.patches},
-          {"trust", toString(one.test_result.trust)},
+          {"result", toString(one.test_result.trust)},
           {"probability_wrong", one.test_result.probability_wrong},
           {"reason", toWords(one.test_result.rejection)}};
 }
@@ -116,18 +116,18 @@ jsonInRun(const FoundPlace& place)
   for (const LinkWords& one : place.links)
     links.push_back({{"file", one.file},
                      {"index", one.index},
-                     {"trust", toString(one.link.trust)},
+                     {"result", toString(one.link.trust)},
                      {"probability_wrong", one.link.probability_wrong},
                      {"patches", one.link.patches},
-                     {"contradicted", one.link.contradicted},
+                     {"violated", one.link.contradicted},
                      {"shift", one.link.shift},
                      {"deviation", one.link.deviation},
                      {"reason", toWords(one.link.rejection)}});
   return {{"T_world_scan", rowsOf(place.pose)},
           {"score", place.score},
           {"overlap", place.overlap},
-          {"contradiction", place.contradiction},
-          {"trust", place.evaluated},
+          {"violations", place.contradiction},
+          {"result", place.evaluated},
           {"reason", toWords(place.rejection)},
           {"links", links}};
 }
@@ -218,7 +218,7 @@ writePlaces(const PlaceSettings& s, const PlaceReport& report)
   Json candidates = Json::array();
   for (const FoundPlace& place : report.places)
     candidates.push_back(in_run ? jsonInRun(place) : jsonOfPair(place));
-  Json json = {{"schema_version", 1},
+  Json json = {{"schema_version", 2},
                {in_run ? "scan" : "scan_a", s.scan_a},
                {in_run ? "run" : "scan_b", s.scan_b},
                {"voxel", report.voxel},

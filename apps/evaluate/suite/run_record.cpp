@@ -5,6 +5,7 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/version.h>
 #include <pcl6d/io/json_numbers.h>
+#include <pcl6d/io/json_object.h>
 
 #include <nlohmann/json.hpp>
 
@@ -131,22 +132,19 @@ writeRunRecord(const fs::path& file, const RunRecord& record)
 std::optional<RunRecord>
 readRunRecord(const fs::path& file)
 try {
-  std::ifstream stream(file);
-  if (!stream)
-    return std::nullopt;
-  const Json json = Json::parse(stream);
+  const JsonValue json = readJson(file);
   RunRecord record;
-  record.inputs = json.at("inputs");
-  record.end.exit_code = json.at("exit_code");
-  record.end.signal = json.at("signal");
-  record.end.timed_out = json.at("timed_out");
-  record.time_limit = json.at("time_limit");
-  record.end.seconds = json.at("seconds");
-  record.end.cpu_seconds = json.at("cpu_seconds");
-  record.end.peak_memory_mb = json.at("peak_memory_mb");
-  record.message = json.at("message");
+  record.inputs = (json / "inputs").json();
+  record.end.exit_code = (json / "exit_code").integer();
+  record.end.signal = (json / "signal").integer();
+  record.end.timed_out = (json / "timed_out").boolean();
+  record.time_limit = (json / "time_limit").number();
+  record.end.seconds = (json / "seconds").number();
+  record.end.cpu_seconds = (json / "cpu_seconds").number();
+  record.end.peak_memory_mb = (json / "peak_memory_mb").number();
+  record.message = (json / "message").text();
   return record;
-} catch (const Json::exception&) {
+} catch (const IoFailed&) {
   return std::nullopt; // then it runs again
 }
 

@@ -9,6 +9,7 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_numbers.h>
+#include <pcl6d/io/json_object.h>
 
 #include <nlohmann/json.hpp>
 
@@ -17,7 +18,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
 #include <set>
 #include <sys/file.h>
 #include <unistd.h>
@@ -198,9 +198,13 @@ private:
   bool
   isOurs() const
   {
-    std::ifstream stream(folder_ / kMarker);
-    const auto json = Json::parse(stream, nullptr, false);
-    return json.is_object() && json.value("generator", Json()) == kEvaluate;
+    try {
+      std::string generator;
+      readJson(folder_ / kMarker).read("generator", generator);
+      return generator == kEvaluate;
+    } catch (const IoFailed&) {
+      return false;
+    }
   }
 
   void

@@ -27,7 +27,7 @@ agreementOf(const RunResult& summary)
 {
   std::optional<double> agreement;
   for (const auto& stage : summary.graph_stages)
-    agreement = stage.undone ? stage.agreement_before : stage.agreement_after;
+    agreement = stage.reverted ? stage.agreement_before : stage.agreement_after;
   return agreement;
 }
 

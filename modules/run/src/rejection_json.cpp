@@ -2,10 +2,10 @@
 #include "rejection_json.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/json_numbers.h>
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <limits>
 
 namespace pcl6d::run_files {
@@ -13,14 +13,6 @@ namespace pcl6d::run_files {
 namespace {
 /** The deepest chain of causes that this program writes has three members. */
 constexpr int kDeepestCause = 8;
-
-/** JSON has no NaN and no infinity: null. */
-nlohmann::ordered_json
-finiteOrNull(double value)
-{
-  return std::isfinite(value) ? nlohmann::ordered_json(value)
-                              : nlohmann::ordered_json();
-}
 
 double
 numberOrNan(const JsonValue& json, const char* name)

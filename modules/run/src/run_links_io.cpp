@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "schema_keys.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/text.h>
@@ -20,7 +22,7 @@ constexpr std::array<std::string_view, 6> kNeeded =
 
 /** Required columns of a link's test. */
 constexpr std::array<std::string_view, 6> kNeededOfCheck =
-    {"from", "to", "trust", "shift", "deviation", "open_directions"};
+    {"from", "to", "result", "shift", "deviation", "open_directions"};
 
 /** Quotes a text, required for commas in a reason. */
 std::string
@@ -63,8 +65,9 @@ public:
     if (!lines_.next())
       text::fail(path, "is empty, but must have a line with the names of its columns");
     columns_ = cellsOf(lines_.line());
+    is_first_schema_ = has("trust");
     for (const std::string_view name : needed)
-      if (std::find(columns_.begin(), columns_.end(), name) == columns_.end())
+      if (!has(nameInFile(std::string(name))))
         text::failAt(path, 1, "has no column " + text::quoted(name));
   }
 
@@ -89,7 +92,7 @@ public:
   void
   operator()(const char* name, Value& value) const
   {
-    const auto column = std::find(columns_.begin(), columns_.end(), name);
+    const auto column = std::find(columns_.begin(), columns_.end(), nameInFile(name));
     if (column == columns_.end())
       return; // not needed
     const std::string& cell =
@@ -112,10 +115,24 @@ public:
   }
 
 private:
+  bool
+  has(const std::string& column) const
+  {
+    return std::find(columns_.begin(), columns_.end(), column) != columns_.end();
+  }
+
+  /** \return the name of a column in this file: verification.csv has had other names */
+  std::string
+  nameInFile(const std::string& name) const
+  {
+    return is_first_schema_ ? run_files::nameInFirstSchema(name) : name;
+  }
+
   const std::filesystem::path& path_;
   text::Lines lines_;
   std::vector<std::string> columns_;
   std::vector<std::string> cells_;
+  bool is_first_schema_ = false;
 };
 
 /** Writes the visited fields, separated by commas. */
@@ -208,7 +225,7 @@ readLinkChecks(const std::filesystem::path& path)
     table("from", link.from);
     table("to", link.to);
     try {
-      table("trust", link.trust);
+      table("result", link.trust);
     } catch (const BadArgument& error) {
       table.fail(error.what());
     }
@@ -216,15 +233,15 @@ readLinkChecks(const std::filesystem::path& path)
     table("deviation", link.deviation);
     table("open_directions", link.open_directions);
     table("reason", link.rejection);
-    table("noticed_least", least);
-    table("noticed_most", most);
-    table("noticed_turn", turn);
+    table("detectable_least", least);
+    table("detectable_largest", most);
+    table("detectable_turn", turn);
     if (least.empty() && most.empty() && turn.empty())
       continue;
     NoticedError& noticed = link.noticed.emplace();
-    table("noticed_least", noticed.least);
-    table("noticed_most", noticed.most);
-    table("noticed_turn", noticed.turn);
+    table("detectable_least", noticed.least);
+    table("detectable_largest", noticed.most);
+    table("detectable_turn", noticed.turn);
   }
   return links;
 }

@@ -4,7 +4,6 @@
 #include "summary_reader.h"
 #include "verification_json.h"
 
-#include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/json_object.h>
 #include <pcl6d/io/text.h>
@@ -101,8 +100,8 @@ graphOf(const RunResult& run)
     visitStageFields(stage, Writer{stages.emplace_back()});
   return {{"stages", stages},
           {"links_used", run.links_used},
-          {"links_refused", run.links_refused},
-          {"floating", run.floating}};
+          {"links_rejected", run.links_refused},
+          {"disconnected", run.floating}};
 }
 
 Json
@@ -167,9 +166,9 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
   json["world_offset"] = jsonOf(run.world_offset);
   json["pose_source"] = run.pose_source;
   if (run.moved)
-    visitMovedFields(*run.moved, Writer{json["moved_points"]});
+    visitMovedFields(*run.moved, Writer{json["input_offset"]});
   json["verdict"] = {
-      {"trusted", run.trusted}, {"complete", run.complete}, {"text", run.verdict}};
+      {"reliable", run.trusted}, {"complete", run.complete}, {"text", run.verdict}};
   json["warnings"] = run.warnings;
   json["totals"] = totalsOf(run);
   json["options"] = Json::object();
@@ -184,17 +183,17 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
   if (run.verification)
     json["verification"] = run_files::jsonOfVerification(*run.verification);
   if (run.moving)
-    json["moving"] = {{"points", run.moving->points},
-                      {"removed", run.moving->removed},
-                      {"blind", run.moving->blind},
-                      {"background", run.moving->background},
-                      {"unknown", run.moving->unknown}};
+    json["dynamic"] = {{"points", run.moving->points},
+                       {"removed", run.moving->removed},
+                       {"inconclusive", run.moving->blind},
+                       {"background", run.moving->background},
+                       {"unknown", run.moving->unknown}};
   if (run.control)
     json["control"] = run_files::jsonOfControl(*run.control);
   if (run.drive)
     json["drive"] = {{"first_sweep", run.drive->first},
                      {"lost", run.drive->lost},
-                     {"way", run.drive->way},
+                     {"path_length", run.drive->way},
                      {"seconds", run.drive->seconds},
                      {"files", run.drive->files}};
   json["scans"] = Json::array();
@@ -202,9 +201,7 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& run)
     json["scans"].push_back(toJson(scan));
   if (!run.files.empty())
     json["files"] = toJson(run.files);
-  writeFileAtomically(path, [&](std::ostream& stream) {
-    stream << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
-  });
+  writeJson(path, json);
 }
 
 RunResult

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "control_json.h"
 #include "rejection_json.h"
+#include "schema_keys.h"
 #include "summary_reader.h"
 #include "verification_json.h"
 
@@ -71,12 +72,13 @@ covarianceFrom(const JsonValue& json)
 /** Reads each visited field. */
 struct Reader {
   const JsonValue& json;
+  const SchemaKeys& keys;
 
   template <typename Value>
   void
   operator()(const char* name, Value& value) const
   {
-    const JsonValue field = json / name;
+    const JsonValue field = json / keys(name);
     if constexpr (std::is_enum_v<Value>)
       take(field, value);
     else if constexpr (std::is_same_v<Value, std::string>)
@@ -165,12 +167,12 @@ bytesFrom(const JsonValue& json)
 }
 
 ScanResult
-scanFrom(const JsonValue& json)
+scanFrom(const JsonValue& json, const SchemaKeys& keys)
 {
   ScanResult scan;
-  visitScanFields(scan, Reader{json});
+  visitScanFields(scan, Reader{json, keys});
   if (const auto motion = json.find("motion"))
-    visitMotionFields(scan.motion.emplace(), Reader{*motion});
+    visitMotionFields(scan.motion.emplace(), Reader{*motion, keys});
   const JsonValue file = json / "file";
   file.require(scan.file.empty() || json.has(kFileBytes) || isPlainName(scan.file),
                "a name without control characters");
@@ -181,12 +183,12 @@ scanFrom(const JsonValue& json)
 }
 
 std::vector<ScanResult>
-scansFrom(const JsonValue& json)
+scansFrom(const JsonValue& json, const SchemaKeys& keys)
 {
   std::vector<ScanResult> scans;
   std::set<int> indices;
   for (const JsonValue& entry : json.elements()) {
-    scans.push_back(scanFrom(entry));
+    scans.push_back(scanFrom(entry, keys));
     if (!indices.insert(scans.back().index).second)
       (entry / "index")
           .fail("there are two scans " + std::to_string(scans.back().index));
@@ -216,13 +218,13 @@ floatingFrom(const JsonValue& json, const std::vector<ScanResult>& scans)
 }
 
 void
-readGraph(const JsonValue& json, RunResult& run)
+readGraph(const JsonValue& json, const SchemaKeys& keys, RunResult& run)
 {
   for (const JsonValue& stage : (json / "stages").elements())
-    visitStageFields(run.graph_stages.emplace_back(), Reader{stage});
+    visitStageFields(run.graph_stages.emplace_back(), Reader{stage, keys});
   run.links_used = (json / "links_used").count();
-  run.links_refused = (json / "links_refused").count();
-  run.floating = floatingFrom(json / "floating", run.scans);
+  run.links_refused = (json / keys("links_rejected")).count();
+  run.floating = floatingFrom(json / keys("disconnected"), run.scans);
 }
 
 RunResult::Option
@@ -266,12 +268,19 @@ filesFrom(const JsonValue& json)
   return files;
 }
 
-void
-readHead(const JsonValue& json, RunResult& run)
+SchemaKeys
+keysOf(const JsonValue& schema)
 {
-  const JsonValue schema = json / "schema_version";
-  schema.require(schema.integer() == RunResult::kSchemaVersion,
-                 std::to_string(RunResult::kSchemaVersion));
+  const int version = schema.integer();
+  schema.require(version >= kFirstSchema && version <= RunResult::kSchemaVersion,
+                 std::to_string(kFirstSchema) + " to " +
+                     std::to_string(RunResult::kSchemaVersion));
+  return SchemaKeys(version);
+}
+
+void
+readHead(const JsonValue& json, const SchemaKeys& keys, RunResult& run)
+{
   const JsonValue generator = json / "generator";
   run.generator = generator.text();
   if (run.generator != kProgram)
@@ -279,10 +288,10 @@ readHead(const JsonValue& json, RunResult& run)
   run.version = (json / "version").text();
   run.world_offset = (json / "world_offset").vector3();
   run.pose_source = (json / "pose_source").text();
-  if (const auto moved = json.find("moved_points")) // only where points were far
-    visitMovedFields(run.moved.emplace(), Reader{*moved});
+  if (const auto moved = json.find(keys("input_offset"))) // only where points were far
+    visitMovedFields(run.moved.emplace(), Reader{*moved, keys});
   const JsonValue verdict = json / "verdict";
-  run.trusted = (verdict / "trusted").boolean();
+  run.trusted = (verdict / keys("reliable")).boolean();
   run.complete = (verdict / "complete").boolean();
   run.verdict = (verdict / "text").text();
   run.warnings = textsFrom(json / "warnings");
@@ -316,7 +325,9 @@ shownName(const std::string& name)
 
 namespace {
 MovingResult
-movingFrom(const JsonValue& json, const std::vector<ScanResult>& scans)
+movingFrom(const JsonValue& json,
+           const SchemaKeys& keys,
+           const std::vector<ScanResult>& scans)
 {
   MovingResult moving;
   const auto points = (json / "points").elements();
@@ -327,14 +338,16 @@ movingFrom(const JsonValue& json, const std::vector<ScanResult>& scans)
                       "at most the points of the scan");
   }
   moving.removed = (json / "removed").boolean();
-  moving.blind = (json / "blind").boolean();
+  moving.blind = (json / keys("inconclusive")).boolean();
   moving.background = (json / "background").number();
   moving.unknown = (json / "unknown").number();
   return moving;
 }
 
 DriveResult
-driveFrom(const JsonValue& json, const std::vector<ScanResult>& scans)
+driveFrom(const JsonValue& json,
+          const SchemaKeys& keys,
+          const std::vector<ScanResult>& scans)
 {
   DriveResult drive;
   drive.first = static_cast<int>((json / "first_sweep").count());
@@ -349,7 +362,7 @@ driveFrom(const JsonValue& json, const std::vector<ScanResult>& scans)
     drive.lost.push_back(static_cast<int>(lost.count()));
     lost.require(holds(drive.lost.back()), "the index of a sweep");
   }
-  drive.way = (json / "way").number();
+  drive.way = (json / keys("path_length")).number();
   drive.seconds = (json / "seconds").number();
   return drive;
 }
@@ -359,7 +372,8 @@ RunResult
 runFrom(const JsonValue& json)
 {
   RunResult run;
-  readHead(json, run);
+  const SchemaKeys keys = keysOf(json / "schema_version");
+  readHead(json, keys, run);
   const JsonValue options = json / "options";
   for (const std::string& name : options.keys())
     run.options.push_back(optionFrom(name, options / name));
@@ -367,20 +381,20 @@ runFrom(const JsonValue& json)
     run.stages.push_back({(stage / "name").text(),
                           (stage / "seconds").number(),
                           (stage / "peak_memory_mb").number()});
-  run.scans = scansFrom(json / "scans");
-  readGraph(json / "graph", run);
+  run.scans = scansFrom(json / "scans", keys);
+  readGraph(json / "graph", keys, run);
   if (const auto verification = json.find("verification")) { // missing in older runs
-    run.verification = verificationFrom(*verification);
+    run.verification = verificationFrom(*verification, keys);
     (*verification / "scans")
         .require(run.verification->scans.size() == run.scans.size(),
                  "one check per scan");
   }
-  if (const auto moving = json.find("moving")) // missing in older runs
-    run.moving = movingFrom(*moving, run.scans);
+  if (const auto moving = json.find(keys("dynamic"))) // missing in older runs
+    run.moving = movingFrom(*moving, keys, run.scans);
   if (const auto control = json.find("control")) // only with control points
     run.control = controlFrom(*control, run.scans.size());
   if (const auto drive = json.find("drive")) // only of keyframes
-    run.drive = driveFrom(*drive, run.scans);
+    run.drive = driveFrom(*drive, keys, run.scans);
   if (const auto files = json.find("files")) // missing in older runs
     run.files = filesFrom(*files);
   return run;

@@ -144,8 +144,8 @@ describeStages(const RunResult& run, std::ostream& text)
   for (const auto& stage : run.graph_stages) {
     if (stage.kind == StageKind::kMatching || stage.kind == StageKind::kControl)
       continue;
-    text << '\n' << toString(stage.kind) << (stage.undone ? " reverted: " : ": ");
-    if (stage.undone)
+    text << '\n' << toString(stage.kind) << (stage.reverted ? " reverted: " : ": ");
+    if (stage.reverted)
       text << toWords(stage.rejection);
     else
       text << "agreement " << stage.agreement_before << " to " << stage.agreement_after;
@@ -161,7 +161,7 @@ describeMotion(const RunResult& run, std::ostream& text)
   std::vector<double> ways, turns, times;
   std::map<std::string, std::size_t> reasons; // why a scan was not deskewed
   for (const ScanResult& scan : run.scans)
-    if (scan.motion && scan.motion->undone) {
+    if (scan.motion && scan.motion->deskewed) {
       ways.push_back(scan.motion->translation);
       turns.push_back(scan.motion->rotation);
       times.push_back(scan.motion->seconds);

@@ -2,25 +2,19 @@
 #include "verification_json.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/run_result.h>
 #include <pcl6d/io/json_numbers.h>
 #include <pcl6d/run/verification_io.h>
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <limits>
 #include <optional>
 
 namespace pcl6d {
 
 namespace {
-/** JSON has no infinity: null. */
-nlohmann::ordered_json
-numberOrNull(double value)
-{
-  return std::isfinite(value) ? nlohmann::ordered_json(value)
-                              : nlohmann::ordered_json();
-}
+using run_files::SchemaKeys;
 
 /** Lengths, angles and bounds, not negative; null: infinite. */
 double
@@ -38,35 +32,35 @@ jsonOfNoticed(const std::optional<NoticedError>& noticed)
 {
   if (!noticed)
     return {};
-  return {{"least", numberOrNull(noticed->least)},
-          {"most", numberOrNull(noticed->most)},
-          {"turn", numberOrNull(noticed->turn)},
-          {"weakest", rowByRow(noticed->weakest.transpose())}};
+  return {{"least_shift", finiteOrNull(noticed->least)},
+          {"largest_shift", finiteOrNull(noticed->most)},
+          {"turn", finiteOrNull(noticed->turn)},
+          {"weakest_direction", rowByRow(noticed->weakest.transpose())}};
 }
 
 NoticedError
-noticedFrom(const JsonValue& json)
+noticedFrom(const JsonValue& json, const SchemaKeys& keys)
 {
   NoticedError noticed;
-  noticed.least = sizeOrInfinity(json / "least");
-  noticed.most = sizeOrInfinity(json / "most");
+  noticed.least = sizeOrInfinity(json / keys("least_shift"));
+  noticed.most = sizeOrInfinity(json / keys("largest_shift"));
   noticed.turn = sizeOrInfinity(json / "turn");
-  noticed.weakest = (json / "weakest").vector3();
+  noticed.weakest = (json / keys("weakest_direction")).vector3();
   return noticed;
 }
 
 ScanCheck
-scanCheckFrom(const JsonValue& json)
+scanCheckFrom(const JsonValue& json, const SchemaKeys& keys)
 {
   ScanCheck scan;
-  scan.tied = (json / "tied").boolean();
-  scan.abstains = (json / "abstains").boolean();
+  scan.tied = (json / keys("connected")).boolean();
+  scan.abstains = (json / keys("rays_unreliable")).boolean();
   if (const auto off_centre = json.find("off_centre")) // missing in older runs
     scan.off_centre = off_centre->boolean();
   if (const JsonValue bound = json / "bound"; !bound.isNull())
     scan.bound = sizeOrInfinity(bound);
-  if (const auto noticed = json.find("noticed")) // missing in older runs
-    scan.noticed = noticedFrom(*noticed);
+  if (const auto noticed = json.find(keys("detectable"))) // missing in older runs
+    scan.noticed = noticedFrom(*noticed, keys);
   scan.doubt = (json / "doubt").text();
   return scan;
 }
@@ -79,28 +73,26 @@ jsonOfVerification(const MapVerification& map)
 {
   auto scans = nlohmann::ordered_json::array();
   for (const ScanCheck& scan : map.scans)
-    scans.push_back(
-        {{"tied", scan.tied},
-         {"abstains", scan.abstains},
-         {"off_centre", scan.off_centre},
-         {"bound",
-          scan.bound ? nlohmann::ordered_json(*scan.bound) : nlohmann::ordered_json()},
-         {"noticed", jsonOfNoticed(scan.noticed)},
-         {"doubt", scan.doubt}});
-  return {{"trust", toString(map.trust)},
+    scans.push_back({{"connected", scan.tied},
+                     {"rays_unreliable", scan.abstains},
+                     {"off_centre", scan.off_centre},
+                     {"bound", numberOrNull(scan.bound)},
+                     {"detectable", jsonOfNoticed(scan.noticed)},
+                     {"doubt", scan.doubt}});
+  return {{"verdict", toString(map.trust)},
           {"links", map.links.size()},
-          {"good", map.count(LinkTrust::kGood)},
-          {"wrong", map.count(LinkTrust::kWrong)},
+          {"consistent", map.count(LinkTrust::kGood)},
+          {"inconsistent", map.count(LinkTrust::kWrong)},
           {"background", map.background},
           {"doubts", map.doubts},
           {"scans", scans}};
 }
 
 MapVerification
-verificationFrom(const JsonValue& json)
+verificationFrom(const JsonValue& json, const SchemaKeys& keys)
 {
   MapVerification map;
-  const JsonValue trust = json / "trust", background = json / "background";
+  const JsonValue trust = json / keys("verdict"), background = json / "background";
   try {
     map.trust = mapTrustFromName(trust.text());
   } catch (const BadArgument& error) {
@@ -111,7 +103,7 @@ verificationFrom(const JsonValue& json)
   for (const JsonValue& doubt : (json / "doubts").elements())
     map.doubts.push_back(doubt.text());
   for (const JsonValue& scan : (json / "scans").elements())
-    map.scans.push_back(scanCheckFrom(scan));
+    map.scans.push_back(scanCheckFrom(scan, keys));
   return map;
 }
 } // namespace run_files
@@ -122,7 +114,7 @@ writeVerification(const std::filesystem::path& path,
                   const VerifiedMap& of)
 {
   nlohmann::ordered_json json = {
-      {"schema_version", 1},
+      {"schema_version", RunResult::kSchemaVersion},
       {"generator", of.generator},
       {"map", of.map},
       {"pose_source", of.pose_source},

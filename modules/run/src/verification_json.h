@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "schema_keys.h"
+
 #include <pcl6d/common/map_verification.h>
 #include <pcl6d/io/json_object.h>
 
@@ -13,10 +15,10 @@ namespace pcl6d::run_files {
 nlohmann::ordered_json
 jsonOfVerification(const MapVerification& map);
 
-/** \brief Inverse of jsonOfVerification().
+/** \brief Inverse of jsonOfVerification(). \param[in] keys of the version of the file
  * \throws IoFailed naming file and entry: missing, of another type or out of range, an unknown
  * word */
 MapVerification
-verificationFrom(const JsonValue& json);
+verificationFrom(const JsonValue& json, const SchemaKeys& keys);
 
 } // namespace pcl6d::run_files

@@ -9,12 +9,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json
-orNull(const std::optional<double>& value)
-{
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json
 planeJson(const Interpretation& interpretation, std::size_t plane)
 {
   Json rejections = Json::array();
@@ -38,8 +32,8 @@ writeInterpretation(const std::filesystem::path& path,
   Json storeys = Json::array(), planes = Json::array();
   for (const auto& storey : interpretation.storeys)
     storeys.push_back({{"id", storeys.size() + 1},
-                       {"floor", orNull(storey.floor)},
-                       {"ceiling", orNull(storey.ceiling)},
+                       {"floor", numberOrNull(storey.floor)},
+                       {"ceiling", numberOrNull(storey.ceiling)},
                        {"floor_area", storey.area}});
   for (std::size_t i = 0; i < interpretation.labels.size(); ++i)
     planes.push_back(planeJson(interpretation, i));

@@ -22,7 +22,7 @@ toJson(const PlaneChange& change, std::size_t id, const Plane& plane)
   if (change.kind == RefinedKind::kVertical)
     json["frame"] = change.frame + 1;
   if (!change.refusal.empty())
-    json["refused"] = change.refusal;
+    json["rejected"] = change.refusal;
   return json;
 }
 } // namespace
@@ -43,7 +43,7 @@ writeRefinement(const std::filesystem::path& path, const RefinedModel& model)
     headings.push_back(rowByRow(heading));
   for (std::size_t i = 0; i < model.changes.size(); ++i)
     planes.push_back(toJson(model.changes[i], i + 1, model.planes[i].plane));
-  const Json json = {{"schema_version", 1},
+  const Json json = {{"schema_version", 2},
                      {"status", toString(model.status)},
                      {"up", rowByRow(model.up)},
                      {"headings", headings},

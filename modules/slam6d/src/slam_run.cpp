@@ -113,10 +113,10 @@ void
 SlamRun::addUndone(bool all)
 {
   const auto start = std::chrono::steady_clock::now();
-  std::vector<MotionStage::Ready> undone = state_.motion.take(all);
+  std::vector<MotionStage::Ready> deskewed = state_.motion.take(all);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   state_.result.motion_seconds += spent.count();
-  for (MotionStage::Ready& ready : undone) {
+  for (MotionStage::Ready& ready : deskewed) {
     ScanResult scan;
     scan.initial_pose = scan.T_world_scan = ready.pose;
     addScan(ready.points, scan, ready.name);

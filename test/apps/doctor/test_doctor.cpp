@@ -44,9 +44,10 @@ TEST(Doctor, VerifiesOursAndWritesTheSameAsTextHtmlAndJson)
   arguments.insert(arguments.end(), {"-o", room / "report.html"});
   const Consultation said = consult(arguments);
   ASSERT_EQ(said.exit_code, 0) << said.err << said.out;
+  EXPECT_EQ(said.json["schema_version"], 2);
   EXPECT_TRUE(said.json["verified"].get<bool>());
   const Json best = said.json["runs"][said.json["best_of_ours"].get<std::size_t>()];
-  EXPECT_EQ(best["verdict"]["trust"], "good");
+  EXPECT_EQ(best["verdict"]["result"], "good");
   EXPECT_LT(errorOf(best, room, Eigen::Vector3d::Zero()), kRight);
   const std::string html = readText(room / "report.html");
   for (const auto& run : said.json["runs"])

@@ -100,7 +100,7 @@ TEST_F(EvaluateChanges, TellsWhatVanishedAndAppearedInTheWorldOfTheFirst)
   for (const char* file : {"changes.json", "changes.ply", "changes.png"})
     EXPECT_TRUE(fs::exists(rooms() / "told" / file)) << file;
   const Json told = json("told/changes.json");
-  EXPECT_EQ(told["schema_version"], 1);
+  EXPECT_EQ(told["schema_version"], 2);
   EXPECT_EQ(told["world"]["source"], "search");
   ASSERT_EQ(told["changes"].size(), 2u);
   // Half of a thing is seen from where the scanner stood, or a little more.

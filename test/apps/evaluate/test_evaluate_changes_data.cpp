@@ -47,7 +47,7 @@ expectHardlyAny(const Json& told, double share, std::size_t changes)
     const double points = told[run]["points"];
     EXPECT_GT(points, 10000);
     EXPECT_LE(told[run]["changed"].get<double>(), share * points) << run;
-    EXPECT_GT(told[run]["there"].get<double>(), 0.9 * points) << run;
+    EXPECT_GT(told[run]["on_surface"].get<double>(), 0.9 * points) << run;
   }
   EXPECT_LE(told["changes"].size(), changes) << told["changes"];
 }

@@ -55,7 +55,7 @@ TEST(EvaluateIcp, PrintsATableAndWritesItsFiles)
   EXPECT_EQ(json["start"]["source"], "odometry.txt");
   EXPECT_EQ(json["x"].size(), 3u);
   ASSERT_EQ(json["best"].size(), 3u);
-  EXPECT_TRUE(json["best"][1]["believed"]);
+  EXPECT_TRUE(json["best"][1]["reliable"]);
   // Planes of a room with 5 mm noise fix the pose to a few millimetres.
   const auto T = json["best"][1]["T_a_b"];
   EXPECT_NEAR(T[3], pair.truth.translation().x(), 0.02);

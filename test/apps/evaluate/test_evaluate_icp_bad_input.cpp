@@ -32,7 +32,7 @@ TEST(EvaluateIcp, SaysThatScansCannotBeMatched)
       << outcome.err;
   EXPECT_EQ(outcome.out.find("correct %"), std::string::npos) << outcome.out;
   const auto json = nlohmann::json::parse(readText(pair / "out/icp.json"));
-  EXPECT_FALSE(json["best"][0]["believed"]);
+  EXPECT_FALSE(json["best"][0]["reliable"]);
   const std::string csv = readText(pair / "out/icp.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1) << "names of columns only";
 }

@@ -69,7 +69,7 @@ TEST(EvaluatePlace, FindsTheOnePlace)
   EXPECT_NE(outcome.out.find("\nunique: "), std::string::npos) << outcome.out;
   const Json json = Json::parse(readText(pair / "out.json"));
   EXPECT_EQ(json["answer"], "unique");
-  EXPECT_EQ(json["candidates"][0]["trust"], "good");
+  EXPECT_EQ(json["candidates"][0]["result"], "good");
   const MotionSize off = distanceBetween(pair.truth, poseOfPair(json["candidates"][0]));
   EXPECT_LT(off.translation, kPlaceTol);
   EXPECT_LT(off.rotation, kTurnTol);

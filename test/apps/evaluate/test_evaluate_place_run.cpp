@@ -100,7 +100,7 @@ TEST_F(PlaceInRun, FindsAScanThatWasLeftOut)
   EXPECT_EQ(found["same_as"], Json());
   EXPECT_EQ(found["scans_compared"], 4);
   const Json& best = found["candidates"][0];
-  EXPECT_EQ(best["trust"], "good");
+  EXPECT_EQ(best["result"], "good");
   EXPECT_EQ(best["links"].size(), 4u);
   const MotionSize off = distanceBetween(truth("map", 0, 4), poseInWorld(best));
   EXPECT_LT(off.translation, kPlaceTol);

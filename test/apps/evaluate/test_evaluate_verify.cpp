@@ -142,14 +142,14 @@ TEST(EvaluateVerify, BelievesTheTruePosesOfAnyProgram)
       {drive().scans(), "--poses", drive() / "groundtruth.txt", "-o", out / "out"});
   expectVerdict(outcome, 0, "good");
   const Json j = Json::parse(readText(out / "out/verification.json"));
-  EXPECT_EQ(j["trust"], "good");
+  EXPECT_EQ(j["verdict"], "good");
   EXPECT_EQ(j["generator"], kName);
   EXPECT_EQ(j["files"].size(), Drive::kScans);
   EXPECT_EQ(j["scans"].size(), Drive::kScans);
-  EXPECT_EQ(j["wrong"], 0);
+  EXPECT_EQ(j["inconsistent"], 0);
   EXPECT_EQ(j["doubts"], Json::array());
   const std::string csv = readText(out / "out/verification.csv");
-  EXPECT_EQ(csv.rfind("from,to,trust,probability_wrong,patches,", 0), 0u) << csv;
+  EXPECT_EQ(csv.rfind("from,to,result,probability_wrong,patches,", 0), 0u) << csv;
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + j["links"].get<int>());
   EXPECT_TRUE(fs::exists(out / "out/contradictions.ply"));
 }
@@ -162,7 +162,7 @@ TEST(EvaluateVerify, DoubtsPosesThatDrift)
   expectVerdict(outcome, 3, "doubtful");
   EXPECT_NE(outcome.out.find("scan001.xyz"), std::string::npos) << outcome.out;
   const Json j = Json::parse(readText(out / "out/verification.json"));
-  EXPECT_EQ(j["trust"], "doubtful");
+  EXPECT_EQ(j["verdict"], "doubtful");
   EXPECT_FALSE(j["doubts"].empty());
   const auto points = pcl6d::readScan(out / "out/contradictions.ply");
   EXPECT_GT(points.points.size(), 100u);
@@ -322,7 +322,7 @@ TEST(EvaluateVerify, AgreesWithTheVerdictOfARun)
   const Json run = Json::parse(readText(out / "run/summary.json"))["verification"];
   ASSERT_TRUE(run.is_object());
   const Outcome outcome = verify({out / "run", "-o", out / "out"});
-  EXPECT_EQ(outcome.exit_code, run["trust"] == "good" ? 0 : 3) << outcome.out;
+  EXPECT_EQ(outcome.exit_code, run["verdict"] == "good" ? 0 : 3) << outcome.out;
   const Json j = Json::parse(readText(out / "out/verification.json"));
   for (const auto& [name, value] : run.items())
     expectAlike(j[name], value, name);

@@ -112,7 +112,8 @@ TEST(Localize, AScanOfAnotherPlaceHasNoPoseAndTheOthersGoOn)
   const Outcome outcome = localize(scans, folder / "out");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
   const auto result = resultOf(folder / "out");
-  EXPECT_EQ(result["totals"]["placed"], 2);
+  EXPECT_EQ(result["schema_version"], 2);
+  EXPECT_EQ(result["totals"]["with_pose"], 2);
   EXPECT_NE(result["scans"][1]["answer"], "unique");
   EXPECT_TRUE(result["scans"][1]["T_world_scan"].is_null());
   EXPECT_FALSE(result["scans"][2]["reason"].get<std::string>().empty());

@@ -101,7 +101,8 @@ TEST(RenderReport, OfTheDemoWorksOnDesktopAndPhone)
 
 TEST(RenderReport, TellsWhatMoved)
 {
-  const auto moved = nlohmann::json::parse(readText(busy() / "summary.json"))["moving"];
+  const auto moved =
+      nlohmann::json::parse(readText(busy() / "summary.json"))["dynamic"];
   ASSERT_EQ(moved["points"].size(), 8u);
   std::size_t points = 0;
   for (const auto& of_scan : moved["points"])

@@ -67,7 +67,7 @@ TEST(RobotKeyframes, ARecordingWithPosesGivesKeyframesAndAllPoses)
   const auto summary = nlohmann::json::parse(readText(out / "summary.json"));
   EXPECT_EQ(summary["drive"]["files"].size(), 64u);
   EXPECT_NEAR(summary["drive"]["seconds"], 6.3, 1e-6); // stamps as double
-  EXPECT_NEAR(summary["drive"]["way"], 9.45, 0.3);
+  EXPECT_NEAR(summary["drive"]["path_length"], 9.45, 0.3);
   EXPECT_EQ(summary["pose_source"], "/odom (nav_msgs/Odometry)");
   EXPECT_LT(summary["scans"].size(), 20u);
   EXPECT_GT(summary["scans"].size(), 2u);

@@ -134,7 +134,7 @@ TEST(PclSlam6d, SummaryTellsOptionsStagesScansAndVerdict)
   const fs::path out = folder / "out";
   ASSERT_EQ(slam(scans(), out, {"--last", "3", "--voxel", "0.1"}).exit_code, 0);
   const auto json = nlohmann::json::parse(readText(out / "summary.json"));
-  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["schema_version"], 2);
   EXPECT_EQ(json["world_offset"], (std::vector<double>{0, 0, 0}));
   EXPECT_EQ(json["pose_source"], "odometry.txt");
   EXPECT_EQ(json["options"]["voxel"]["source"], "given");
@@ -142,7 +142,7 @@ TEST(PclSlam6d, SummaryTellsOptionsStagesScansAndVerdict)
   EXPECT_EQ(json["options"]["max-distance"]["source"], "derived");
   EXPECT_FALSE(json["options"]["max-distance"]["why"].get<std::string>().empty());
   EXPECT_EQ(json["options"]["metascan"]["source"], "default");
-  EXPECT_TRUE(json["verdict"]["trusted"]);
+  EXPECT_TRUE(json["verdict"]["reliable"]);
   EXPECT_TRUE(json["verdict"]["complete"]);
   EXPECT_EQ(json["totals"]["scans"], 4);
   std::set<std::string> stages;
@@ -265,7 +265,7 @@ TEST(PclSlam6d, SaysWhichScanCouldNotBeMatched)
   const auto json = nlohmann::json::parse(readText(folder / "out" / "summary.json"));
   EXPECT_EQ(json["scans"][2]["state"], "predicted");
   EXPECT_EQ(json["scans"][3]["state"], "matched");
-  EXPECT_FALSE(json["verdict"]["trusted"]);
+  EXPECT_FALSE(json["verdict"]["reliable"]);
   const auto odometry = pcl6d::readTrajectory(in / "odometry.txt");
   const auto poses = pcl6d::readTrajectory(folder / "out" / "trajectory.kitti");
   const auto predicted =

@@ -131,7 +131,7 @@ TEST_F(EstimatedMotion, IsFoundFromTheFieldTAlone)
       << outcome.out;
   EXPECT_GT(shareInPlace(), 0.95);
   const auto scan = summary()["scans"][3]["motion"];
-  EXPECT_TRUE(scan["undone"]);
+  EXPECT_TRUE(scan["deskewed"]);
   EXPECT_EQ(scan["reason"], "");
   EXPECT_NEAR(scan["translation"], kTurn * scanner.velocity.norm(), 0.01);
   EXPECT_NEAR(scan["rotation"], kTurn * scanner.turning.norm(), 0.004);
@@ -184,7 +184,7 @@ TEST_F(EstimatedMotion, AScannerThatStandsStillGivesTheRunWithoutIt)
   makeSweeps();
   run();
   for (const auto& scan : summary()["scans"])
-    EXPECT_FALSE(scan["motion"]["undone"]) << scan["motion"];
+    EXPECT_FALSE(scan["motion"]["deskewed"]) << scan["motion"];
   auto timed = contentOf(out);
   fs::remove_all(out);
   slam(in, out, {"--no-picture"});
@@ -212,8 +212,8 @@ TEST_F(EstimatedMotion, ARunGoesOn)
   EXPECT_EQ(after.size(), 8u);
   fs::remove_all(out);
   fs::rename(folder / "more", out);
-  EXPECT_TRUE(summary()["scans"][7]["motion"]["undone"]);
-  EXPECT_TRUE(summary()["scans"][2]["motion"]["undone"]) << "by the run before";
+  EXPECT_TRUE(summary()["scans"][7]["motion"]["deskewed"]);
+  EXPECT_TRUE(summary()["scans"][2]["motion"]["deskewed"]) << "by the run before";
   EXPECT_GT(shareInPlace(), 0.9);
 }
 

@@ -81,8 +81,8 @@ TEST_F(Graph, RelaxationBringsTheLoopTogether)
   EXPECT_GE(graph.links.size(), 40u);
   const auto summary = nlohmann::json::parse(readText(out / "summary.json"));
   EXPECT_EQ(summary["graph"]["stages"].back()["name"], "relaxation");
-  EXPECT_FALSE(summary["graph"]["stages"].back()["undone"].get<bool>());
-  EXPECT_TRUE(summary["graph"]["floating"].empty());
+  EXPECT_FALSE(summary["graph"]["stages"].back()["reverted"].get<bool>());
+  EXPECT_TRUE(summary["graph"]["disconnected"].empty());
   EXPECT_EQ(readText(out / "links.csv").substr(0, 27), "from,to,kind,verdict,reason");
 }
 

@@ -48,7 +48,7 @@ TEST_P(InterruptedStart, EndsWithCode130)
   if (now.is_written) {
     const auto summary = nlohmann::json::parse(readText(out / "summary.json"));
     EXPECT_FALSE(summary["verdict"]["complete"]);
-    EXPECT_FALSE(summary["verdict"]["trusted"]);
+    EXPECT_FALSE(summary["verdict"]["reliable"]);
   }
   else {
     EXPECT_FALSE(fs::exists(out));

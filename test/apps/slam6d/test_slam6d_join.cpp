@@ -36,10 +36,10 @@ TEST_F(Join, BringsTheSecondRunIntoTheWorldOfTheFirst)
   for (const char* file : {"map.pcd", "top_view.png", "graph.g2o", "verification.csv"})
     EXPECT_TRUE(fs::exists(rooms() / "both" / file)) << file;
   const auto summary = rooms().summary("both");
-  EXPECT_TRUE(summary["verdict"]["trusted"]);
+  EXPECT_TRUE(summary["verdict"]["reliable"]);
   EXPECT_NE(summary["verdict"]["text"].get<std::string>().find(joined),
             std::string::npos);
-  EXPECT_EQ(summary["verification"]["trust"], "good");
+  EXPECT_EQ(summary["verification"]["verdict"], "good");
   EXPECT_EQ(summary["options"]["join"]["source"], "given");
   EXPECT_EQ(summary["options"]["initial-guess"]["value"], "global");
   EXPECT_EQ(summary["graph"]["stages"].back()["name"], "relaxation");

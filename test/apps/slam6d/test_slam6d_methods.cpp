@@ -77,7 +77,7 @@ protected:
     EXPECT_EQ(summary_["scans"][scan]["state"], "predicted");
     const auto rejection = summary_["scans"][scan]["rejections"][0];
     EXPECT_EQ(rejection["reason"], reason) << summary_["scans"][scan]["reason"];
-    EXPECT_FALSE(summary_["verdict"]["trusted"]);
+    EXPECT_FALSE(summary_["verdict"]["reliable"]);
     EXPECT_NE(outcome_.out.find("NOT TO BE TRUSTED"), std::string::npos)
         << outcome_.out;
     const std::string file = "scan" + std::to_string(scan) + ".xyz";
@@ -215,7 +215,7 @@ TEST_F(Methods, TwoSitesInOneFolderAreBothDelivered)
   run(3, {"--no-picture"});
   EXPECT_NE(outcome_.out.find("2 scans not joined to the others"), std::string::npos)
       << outcome_.out;
-  EXPECT_EQ(summary_["graph"]["floating"], json::array({"scan4.xyz", "scan5.xyz"}));
+  EXPECT_EQ(summary_["graph"]["disconnected"], json::array({"scan4.xyz", "scan5.xyz"}));
   const auto found = poses();
   const auto error = pcl6d::distanceBetween(truth[0].inverse() * truth[1],
                                             found[4].inverse() * found[5]);

@@ -119,7 +119,7 @@ TEST(TrackedDrive, KeyframesAreTheScansOfTheMapAndAllSweepsHavePoses)
   EXPECT_EQ(summary["drive"]["files"].size(), 64u);
   EXPECT_TRUE(summary["drive"]["lost"].empty());
   EXPECT_NEAR(summary["drive"]["seconds"], 6.3, 1e-9);
-  EXPECT_NEAR(summary["drive"]["way"], 9.45, 0.3);
+  EXPECT_NEAR(summary["drive"]["path_length"], 9.45, 0.3);
   EXPECT_LT(summary["scans"].size(), 16u);
   EXPECT_GT(summary["scans"].size(), 2u);
   EXPECT_NE(outcome.out.find("the scans are the keyframes of 64 sweeps along 9."),

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl6d {
 namespace {
@@ -68,23 +69,16 @@ rowByRow(const Eigen::Ref<const Eigen::MatrixXd>& matrix)
   return numbers;
 }
 
-void
-fill(const Json& json, const std::string& name, Eigen::Ref<Eigen::MatrixXd> matrix)
+Json
+finiteOrNull(double value)
 {
-  const auto values = json.get<std::vector<double>>();
-  if (values.size() != static_cast<std::size_t>(matrix.size()))
-    throw std::invalid_argument(name + ": expected " + std::to_string(matrix.size()) +
-                                " numbers, got " + std::to_string(values.size()));
-  for (Eigen::Index i = 0; i < matrix.size(); ++i)
-    matrix(i / matrix.cols(), i % matrix.cols()) = values[static_cast<std::size_t>(i)];
+  return std::isfinite(value) ? Json(value) : Json();
 }
 
-std::string
-reasonOf(const std::exception& error)
+Json
+numberOrNull(const std::optional<double>& value)
 {
-  const std::string message = error.what();
-  const std::size_t end = message.find("] ");
-  return end == std::string::npos ? message : message.substr(end + 2);
+  return value ? Json(*value) : Json();
 }
 
 std::string

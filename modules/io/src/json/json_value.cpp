@@ -76,6 +76,12 @@ JsonValue::fail(const std::string& message) const
 }
 
 void
+JsonValue::fail(const std::string& key, const std::string& message) const
+{
+  part(*json_, key).fail(message);
+}
+
+void
 JsonValue::require(bool kept, const std::string& rule) const
 {
   if (!kept)
@@ -148,12 +154,18 @@ JsonValue::operator/(const std::string& key) const
 }
 
 std::optional<JsonValue>
-JsonValue::find(const std::string& key) const
+JsonValue::member(const std::string& key) const
 {
   if (isObject() && !has(key))
     return {};
-  const JsonValue member = *this / key;
-  return member.isNull() ? std::nullopt : std::make_optional(member);
+  return *this / key;
+}
+
+std::optional<JsonValue>
+JsonValue::find(const std::string& key) const
+{
+  const std::optional<JsonValue> found = member(key);
+  return found && found->isNull() ? std::nullopt : found;
 }
 
 std::vector<std::string>
@@ -168,7 +180,7 @@ JsonValue::keys() const
 }
 
 void
-JsonValue::allow(std::initializer_list<const char*> known) const
+JsonValue::allow(const std::vector<std::string>& known) const
 {
   for (const auto& key : keys())
     if (std::find(known.begin(), known.end(), key) == known.end())
@@ -282,6 +294,15 @@ JsonValue::fill(Eigen::Ref<Eigen::MatrixXd> matrix) const
          std::to_string(values.size()));
   for (Eigen::Index i = 0; i < matrix.size(); ++i)
     matrix(i / matrix.cols(), i % matrix.cols()) = values[static_cast<std::size_t>(i)];
+}
+
+Eigen::Vector2d
+JsonValue::vector2() const
+{
+  Eigen::Vector2d vector;
+  fill(vector);
+  require(isPlace(vector), "two numbers below 1e9");
+  return vector;
 }
 
 Eigen::Vector3d

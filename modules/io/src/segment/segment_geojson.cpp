@@ -1,84 +1,71 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "segment/segment_formats.h"
 
-#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/json_object.h>
 #include <pcl6d/io/text.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pcl6d::io {
 
 namespace {
-using Json = nlohmann::ordered_json;
 using Line = std::vector<Eigen::Vector2d>;
 
-/** Traverses a GeoJSON document (RFC 7946), and tracks the position. */
+/** Traverses a GeoJSON document (RFC 7946). */
 class GeoJsonReader {
 public:
   Segments segments;
-  std::string place; ///< for messages, e.g. feature 3
 
   void
-  read(const Json& json)
+  read(const JsonValue& json)
   {
-    const std::string type = json.at("type").get<std::string>();
+    const std::string type = (json / "type").text();
     if (type == "FeatureCollection")
-      readFeatures(json.at("features"));
+      for (const JsonValue& feature : (json / "features").elements())
+        read(feature);
     else if (type == "Feature")
       readFeature(json);
     else if (type == "GeometryCollection")
-      for (const Json& geometry : json.at("geometries"))
+      for (const JsonValue& geometry : (json / "geometries").elements())
         read(geometry);
     else if (type == "LineString")
-      appendLine(lineOf(json.at("coordinates")), false, segments);
+      appendLine(lineOf(json / "coordinates"), false, segments);
     else if (type == "MultiLineString" || type == "Polygon")
-      readLines(json.at("coordinates"));
+      readLines(json / "coordinates");
     else if (type == "MultiPolygon")
-      for (const Json& polygon : json.at("coordinates"))
+      for (const JsonValue& polygon : (json / "coordinates").elements())
         readLines(polygon);
     else if (type != "Point" && type != "MultiPoint")
-      throw std::invalid_argument("type " + text::quoted(type) + " is no GeoJSON");
+      json.fail("type", text::quoted(type) + " is no GeoJSON");
   }
 
 private:
   void
-  readFeatures(const Json& features)
+  readFeature(const JsonValue& feature)
   {
-    std::size_t number = 0;
-    for (const Json& feature : features) {
-      place = "feature " + std::to_string(++number) + ": ";
-      read(feature);
-    }
-  }
-
-  void
-  readFeature(const Json& feature)
-  {
-    const Json& geometry = feature.at("geometry");
-    if (!geometry.is_null()) // allowed: a feature without a place
+    const JsonValue geometry = feature / "geometry";
+    if (!geometry.isNull()) // allowed: a feature without a place
       read(geometry);
   }
 
   /** Rings of a polygon repeat their first corner at the end. */
   void
-  readLines(const Json& lines)
+  readLines(const JsonValue& lines)
   {
-    for (const Json& line : lines)
+    for (const JsonValue& line : lines.elements())
       appendLine(lineOf(line), false, segments);
   }
 
   static Line
-  lineOf(const Json& coordinates)
+  lineOf(const JsonValue& coordinates)
   {
     Line line;
-    for (const Json& position : coordinates) {
-      line.emplace_back(position.at(0).get<double>(), position.at(1).get<double>());
-      if (!line.back().allFinite())
-        throw std::invalid_argument("a coordinate is not finite");
+    for (const JsonValue& position : coordinates.elements()) {
+      const std::vector<double> numbers = position.numbers();
+      position.require(numbers.size() >= 2, "two numbers, or three");
+      line.emplace_back(numbers[0], numbers[1]);
     }
     return line;
   }
@@ -108,12 +95,15 @@ areDegrees(const Segments& segments)
 
 /** \return the name of the coordinate system (GeoJSON 2008), or empty */
 std::string
-systemOf(const Json& json)
+systemOf(const JsonValue& document)
 {
-  const Json::json_pointer name("/crs/properties/name");
-  return json.contains(name) && json.at(name).is_string()
-             ? json.at(name).get<std::string>()
-             : "";
+  std::optional<JsonValue> found = document;
+  for (const char* const key : {"crs", "properties", "name"}) {
+    found = found->isObject() ? found->find(key) : std::nullopt;
+    if (!found)
+      return "";
+  }
+  return found->isText() ? found->text() : "";
 }
 
 /** Names of WGS 84 in degrees. */
@@ -131,17 +121,10 @@ isGeographic(const std::string& system)
 Segments
 segmentsOfGeoJson(const std::string& content, const std::filesystem::path& path)
 {
+  const JsonValue document = parseJson(content, path.string());
+  const std::string system = systemOf(document);
   GeoJsonReader reader;
-  std::string system;
-  try {
-    const JsonValue document = parseJson(content, path.string());
-    system = systemOf(document.json());
-    reader.read(document.json());
-  } catch (const Json::exception& error) {
-    text::fail(path, reader.place + reasonOf(error));
-  } catch (const std::invalid_argument& error) {
-    text::fail(path, reader.place + error.what());
-  }
+  reader.read(document);
   if (isGeographic(system) || (system.empty() && areDegrees(reader.segments)))
     text::fail(path,
                "coordinates are longitudes and latitudes in degrees, but must be "

@@ -3,7 +3,7 @@
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/random.h>
-#include <pcl6d/io/atomic_file.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/io/json_object.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/object_localization/cascade_file.h>
@@ -16,7 +16,9 @@
 
 namespace pcl6d::object_localization {
 namespace {
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
+
+constexpr int kTrainingSchema = 1; ///< schema_version of training.json
 
 /** Hash of every input that determines the result. */
 class Fingerprint {
@@ -117,6 +119,9 @@ TrainingState::load(CascadeTraining& training) const
   if (folder_.empty() || !text::isThere(file))
     return;
   const JsonValue json = readJson(file);
+  if (const auto schema = json.find("schema_version")) // missing in older files
+    schema->require(schema->integer() == kTrainingSchema,
+                    std::to_string(kTrainingSchema));
   if ((json / "fingerprint").text() != fingerprint_)
     throw IoFailed(file.string() + ": belongs to a training with different images or "
                                    "options; remove the folder or give a new one");
@@ -146,9 +151,10 @@ TrainingState::save(const CascadeTraining& training) const
   Json stages = Json::array();
   for (const auto& stage : training.stages)
     stages.push_back(toJson(stage));
-  const Json json = {{"fingerprint", fingerprint_}, {"stages", stages}};
-  writeFileAtomically(folder_ / "training.json",
-                      [&](std::ostream& out) { out << json.dump(1) << '\n'; });
+  const Json json = {{"schema_version", kTrainingSchema},
+                     {"fingerprint", fingerprint_},
+                     {"stages", stages}};
+  writeJson(folder_ / "training.json", json);
 }
 
 } // namespace pcl6d::object_localization

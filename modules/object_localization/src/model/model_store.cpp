@@ -82,12 +82,15 @@ public:
     const ObjectSymmetry symmetry = readSymmetry();
     const auto shape = fileOf(json_, "file");
     if (!shape)
-      json_.require("file");
-    JsonObject cascades = json_.object("cascades");
-    const auto range = fileOf(cascades, "range");
-    const auto reflectance = fileOf(cascades, "reflectance");
-    cascades.finish();
-    json_.finish();
+      json_.fail("key 'file' is missing");
+    std::optional<fs::path> range, reflectance;
+    if (const auto cascades = json_.member("cascades")) {
+      range = fileOf(*cascades, "range");
+      reflectance = fileOf(*cascades, "reflectance");
+      cascades->allow({"range", "reflectance"});
+    }
+    json_.allow(
+        {"schema_version", "class", "scale", "up", "symmetry", "file", "cascades"});
     StoredModel stored = readShape(*shape, object_class, units);
     stored.range_cascade = range;
     stored.reflectance_cascade = reflectance;
@@ -137,7 +140,7 @@ private:
   }
 
   std::optional<fs::path>
-  fileOf(JsonObject& json, const std::string& key) const
+  fileOf(const JsonValue& json, const std::string& key) const
   {
     if (!json.has(key))
       return {};
@@ -163,7 +166,7 @@ private:
   }
 
   fs::path folder_;
-  JsonObject json_;
+  JsonValue json_;
 };
 } // namespace
 

@@ -2,6 +2,7 @@
 #include "json/map_objects_json.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/io/json_numbers.h>
 #include <pcl6d/semantic_map/semantic_map_io.h>
 
 #include <nlohmann/json.hpp>
@@ -21,12 +22,6 @@ listOf(const std::vector<Eigen::Vector3d>& points)
   for (const auto& point : points)
     list.push_back(rowByRow(point));
   return list;
-}
-
-Json
-orNull(const std::optional<double>& number)
-{
-  return number ? Json(*number) : Json(nullptr);
 }
 
 Json
@@ -77,7 +72,7 @@ toJson(const MapStorey& storey, std::size_t id)
 {
   return {{"id", id},
           {"floor", storey.floor},
-          {"ceiling", orNull(storey.ceiling)},
+          {"ceiling", numberOrNull(storey.ceiling)},
           {"area", storey.area}};
 }
 
@@ -87,7 +82,7 @@ toJson(const MapRoom& room, std::size_t id)
   return {{"id", id},
           {"storey", room.storey},
           {"area", room.area},
-          {"height", orNull(room.height)},
+          {"height", numberOrNull(room.height)},
           {"outline", listOf(room.outline)}};
 }
 

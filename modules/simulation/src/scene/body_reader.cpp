@@ -10,7 +10,7 @@
 namespace pcl6d::simulation {
 namespace {
 PlaneLabel
-readLabel(JsonObject& json)
+readLabel(const JsonValue& json)
 {
   std::string name = "none";
   json.read("label", name);
@@ -21,7 +21,7 @@ readLabel(JsonObject& json)
 }
 
 MeshOptions
-readMeshOptions(JsonObject& json)
+readMeshOptions(const JsonValue& json)
 {
   MeshOptions options;
   json.read("scale", options.scale);
@@ -33,10 +33,18 @@ readMeshOptions(JsonObject& json)
   return options;
 }
 
+// Keys of ramps, and of stairs with others.
+std::vector<std::string>
+slopeKeys()
+{
+  return {
+      "type", "material", "from", "to", "width", "bottom", "from_height", "to_height"};
+}
+
 // Common fields of ramps and stairs.
 template <typename Slope>
 Slope
-readSlope(JsonObject& json)
+readSlope(const JsonValue& json)
 {
   Slope slope;
   slope.from = json.get<Eigen::Vector2d>("from");
@@ -68,11 +76,13 @@ addLeaf(const Wall& wall,
 } // namespace
 
 void
-BodyReader::readMaterials(JsonObject& json)
+BodyReader::readMaterials(const JsonValue& json)
 {
-  JsonObject materials = json.object("materials");
-  for (const auto& name : materials.keys()) {
-    JsonObject material = materials.object(name);
+  const std::optional<JsonValue> materials = json.member("materials");
+  if (!materials)
+    return;
+  for (const auto& name : materials->keys()) {
+    const JsonValue material = *materials / name;
     Surface surface;
     surface.name = name;
     for (const auto& [key, share] :
@@ -83,13 +93,13 @@ BodyReader::readMaterials(JsonObject& json)
         material.fail(key, std::to_string(*share) + ", but must be in [0, 1]");
     }
     surface.label = readLabel(material);
-    material.finish();
+    material.allow({"reflectance", "transmittance", "label"});
     materials_[name] = surface;
   }
 }
 
 Surface
-BodyReader::material(JsonObject& json, const std::string& key)
+BodyReader::material(const JsonValue& json, const std::string& key)
 {
   if (!json.has(key))
     return {};
@@ -101,15 +111,16 @@ BodyReader::material(JsonObject& json, const std::string& key)
 }
 
 void
-BodyReader::readBodies(JsonObject& json, TriangleScene& geometry)
+BodyReader::readBodies(const JsonValue& json, TriangleScene& geometry)
 {
-  json.eachObject("bodies", [&](JsonObject& body) { readBody(body, geometry); });
+  forEachObject(
+      json, "bodies", [&](const JsonValue& body) { readBody(body, geometry); });
 }
 
 void
-BodyReader::readBody(JsonObject& json, TriangleScene& geometry)
+BodyReader::readBody(const JsonValue& json, TriangleScene& geometry)
 {
-  using Reader = void (BodyReader::*)(JsonObject&, TriangleScene&);
+  using Reader = void (BodyReader::*)(const JsonValue&, TriangleScene&);
   static const std::map<std::string, Reader> kTypes = {
       {"box", &BodyReader::readBox},
       {"wall", &BodyReader::readWall},
@@ -130,17 +141,18 @@ BodyReader::readBody(JsonObject& json, TriangleScene& geometry)
 }
 
 void
-BodyReader::readBox(JsonObject& json, TriangleScene& geometry)
+BodyReader::readBox(const JsonValue& json, TriangleScene& geometry)
 {
   Box box;
   box.centre = json.get<Eigen::Vector3d>("centre");
   box.size = json.get<Eigen::Vector3d>("size");
   json.read("yaw", box.yaw);
   addBox(geometry, box, material(json));
+  json.allow({"type", "material", "centre", "size", "yaw"});
 }
 
 void
-BodyReader::readWall(JsonObject& json, TriangleScene& geometry)
+BodyReader::readWall(const JsonValue& json, TriangleScene& geometry)
 {
   Wall wall;
   wall.from = json.get<Eigen::Vector2d>("from");
@@ -149,7 +161,7 @@ BodyReader::readWall(JsonObject& json, TriangleScene& geometry)
   json.read("bottom", wall.bottom);
   json.read("top", wall.top);
   const Surface surface = material(json);
-  json.eachObject("openings", [&](JsonObject& opening) {
+  forEachObject(json, "openings", [&](const JsonValue& opening) {
     Opening hole;
     hole.begin = opening.get<double>("begin");
     hole.end = opening.get<double>("end");
@@ -159,54 +171,62 @@ BodyReader::readWall(JsonObject& json, TriangleScene& geometry)
     wall.openings.push_back(hole);
     if (opening.has("leaf"))
       addLeaf(wall, hole, material(opening, "leaf"), geometry);
+    opening.allow({"begin", "end", "low", "high", "leaf"});
   });
   addWall(geometry, wall, surface);
+  json.allow(
+      {"type", "material", "from", "to", "thickness", "bottom", "top", "openings"});
 }
 
 void
-BodyReader::readRamp(JsonObject& json, TriangleScene& geometry)
+BodyReader::readRamp(const JsonValue& json, TriangleScene& geometry)
 {
   const Ramp ramp = readSlope<Ramp>(json);
   addRamp(geometry, ramp, material(json));
+  json.allow(slopeKeys());
 }
 
 void
-BodyReader::readStairs(JsonObject& json, TriangleScene& geometry)
+BodyReader::readStairs(const JsonValue& json, TriangleScene& geometry)
 {
   Stairs stairs = readSlope<Stairs>(json);
   json.read("steps", stairs.steps);
   addStairs(geometry, stairs, material(json));
+  std::vector<std::string> known = slopeKeys();
+  known.emplace_back("steps");
+  json.allow(known);
 }
 
 void
-BodyReader::readCylinder(JsonObject& json, TriangleScene& geometry)
+BodyReader::readCylinder(const JsonValue& json, TriangleScene& geometry)
 {
   addCylinder(geometry,
               json.get<Eigen::Vector3d>("foot"),
               json.get<double>("radius"),
               json.get<double>("height"),
               material(json));
+  json.allow({"type", "material", "foot", "radius", "height"});
 }
 
 void
-BodyReader::readRevolved(JsonObject& json, TriangleScene& geometry)
+BodyReader::readRevolved(const JsonValue& json, TriangleScene& geometry)
 {
   Revolved body;
   body.foot = json.get<Eigen::Vector3d>("foot");
-  json.require("profile");
   body.profile.clear();
-  json.each("profile", [&](const JsonValue& row) {
+  for (const JsonValue& row : (json / "profile").elements()) {
     const std::vector<double> values = row.numbers();
     if (values.size() != 2)
       json.fail("profile", "a point is not (radius, height)");
     body.profile.emplace_back(values[0], values[1]);
-  });
+  }
   json.read("segments", body.segments);
   addRevolved(geometry, body, material(json));
+  json.allow({"type", "material", "foot", "profile", "segments"});
 }
 
 void
-BodyReader::readTerrain(JsonObject& json, TriangleScene& geometry)
+BodyReader::readTerrain(const JsonValue& json, TriangleScene& geometry)
 {
   TerrainOptions options;
   options.low = json.get<Eigen::Vector2d>("low");
@@ -224,10 +244,20 @@ BodyReader::readTerrain(JsonObject& json, TriangleScene& geometry)
               "too small: the terrains together would have more than 2 million");
   terrains_.emplace_back(options);
   terrains_.back().addTo(geometry, material(json));
+  json.allow({"type",
+              "material",
+              "low",
+              "high",
+              "cell",
+              "height",
+              "slope",
+              "amplitude",
+              "wavelength",
+              "seed"});
 }
 
 void
-BodyReader::readModel(JsonObject& json, TriangleScene& geometry)
+BodyReader::readModel(const JsonValue& json, TriangleScene& geometry)
 {
   Surface surface = material(json);
   surface.is_solid = false; // the mesh of a file may be open
@@ -235,11 +265,13 @@ BodyReader::readModel(JsonObject& json, TriangleScene& geometry)
   const Eigen::Isometry3d pose = readPose(json);
   const std::filesystem::path name = json.get<std::string>("file");
   addMesh(geometry, readMesh(file_.parent_path() / name, options), pose, surface);
+  json.allow(
+      {"type", "material", "file", "scale", "up", "position", "roll", "pitch", "yaw"});
 }
 
 // Several bodies, or a mesh, in a frame of their own.
 TriangleScene
-BodyReader::readShape(JsonObject& json)
+BodyReader::readShape(const JsonValue& json)
 {
   TriangleScene shape;
   if (json.has("bodies")) {
@@ -247,7 +279,7 @@ BodyReader::readShape(JsonObject& json)
     return shape;
   }
   if (!json.has("file"))
-    json.fail("", "neither 'bodies' nor 'file'");
+    json.fail("neither 'bodies' nor 'file'");
   Surface surface = material(json);
   surface.is_solid = false;
   const MeshOptions options = readMeshOptions(json);
@@ -259,8 +291,19 @@ BodyReader::readShape(JsonObject& json)
   return shape;
 }
 
+std::vector<std::string>
+BodyReader::keysOfShape(const JsonValue& json, bool has_pose)
+{
+  std::vector<std::string> keys = {"bodies"};
+  if (!json.has("bodies"))
+    keys = {"file", "material", "scale", "up"};
+  if (has_pose)
+    keys.insert(keys.end(), {"position", "roll", "pitch", "yaw"});
+  return keys;
+}
+
 Eigen::Isometry3d
-BodyReader::readPose(JsonObject& json)
+BodyReader::readPose(const JsonValue& json)
 {
   EulerAngles angles;
   json.read("roll", angles.roll);
@@ -268,13 +311,13 @@ BodyReader::readPose(JsonObject& json)
   json.read("yaw", angles.yaw);
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   if (json.has("position"))
-    position = place(json, "position", json.numbers("position"));
+    position = place(json, "position", (json / "position").numbers());
   return poseFromEuler(position, angles);
 }
 
 // Two numbers lie on the terrain.
 Eigen::Vector3d
-BodyReader::place(JsonObject& json,
+BodyReader::place(const JsonValue& json,
                   const std::string& key,
                   const std::vector<double>& values)
 {
@@ -289,12 +332,11 @@ BodyReader::place(JsonObject& json,
 }
 
 std::vector<Eigen::Vector3d>
-BodyReader::places(JsonObject& json, const std::string& key)
+BodyReader::places(const JsonValue& json, const std::string& key)
 {
   std::vector<Eigen::Vector3d> list;
-  json.each(key, [&](const JsonValue& row) {
+  for (const JsonValue& row : (json / key).elements())
     list.push_back(place(json, key, row.numbers()));
-  });
   return list;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/io/json_object.h>
 #include <pcl6d/simulation/terrain.h>
 
@@ -8,6 +9,21 @@
 
 /** \file The bodies of a scene description. */
 namespace pcl6d::simulation {
+
+/** \brief Calls a function with each object of an array, which may be missing.
+ * \throws IoFailed naming the object that broke a rule */
+template <typename Read>
+void
+forEachObject(const JsonValue& json, const std::string& key, const Read& read)
+{
+  for (const JsonValue& object : json.elements(key)) {
+    try {
+      read(object);
+    } catch (const BadArgument& error) {
+      object.fail(error.what());
+    }
+  }
+}
 
 /** \brief Makes triangles of the bodies of a scene description; see scene_file.h.
  * \throws IoFailed naming error and position */
@@ -17,47 +33,53 @@ public:
 
   /** \brief Reads /materials, which bodies refer to. */
   void
-  readMaterials(JsonObject& json);
+  readMaterials(const JsonValue& json);
 
   /** \brief Adds the `bodies` of a JSON object. */
   void
-  readBodies(JsonObject& json, TriangleScene& geometry);
+  readBodies(const JsonValue& json, TriangleScene& geometry);
 
   /** \return `bodies`, or the mesh `file`, in a frame of their own */
   TriangleScene
-  readShape(JsonObject& json);
+  readShape(const JsonValue& json);
+
+  /** \return the keys of an object that readShape() and readPose() read */
+  static std::vector<std::string>
+  keysOfShape(const JsonValue& json, bool has_pose);
 
   /** \return the pose of position, roll, pitch and yaw */
   Eigen::Isometry3d
-  readPose(JsonObject& json);
+  readPose(const JsonValue& json);
 
   /** \return an array of positions; positions of two numbers lie on the terrain */
   std::vector<Eigen::Vector3d>
-  places(JsonObject& json, const std::string& key);
+  places(const JsonValue& json, const std::string& key);
 
 private:
   Surface
-  material(JsonObject& json, const std::string& key = "material");
+  material(const JsonValue& json, const std::string& key = "material");
   void
-  readBody(JsonObject& json, TriangleScene& geometry);
+  readBody(const JsonValue& json, TriangleScene& geometry);
   void
-  readBox(JsonObject& json, TriangleScene& geometry);
+  readBox(const JsonValue& json, TriangleScene& geometry);
   void
-  readWall(JsonObject& json, TriangleScene& geometry);
+  readWall(const JsonValue& json, TriangleScene& geometry);
   void
-  readRamp(JsonObject& json, TriangleScene& geometry);
+  readRamp(const JsonValue& json, TriangleScene& geometry);
   void
-  readStairs(JsonObject& json, TriangleScene& geometry);
+  readStairs(const JsonValue& json, TriangleScene& geometry);
   void
-  readCylinder(JsonObject& json, TriangleScene& geometry);
+  readCylinder(const JsonValue& json, TriangleScene& geometry);
   void
-  readRevolved(JsonObject& json, TriangleScene& geometry);
+  readRevolved(const JsonValue& json, TriangleScene& geometry);
   void
-  readTerrain(JsonObject& json, TriangleScene& geometry);
+  readTerrain(const JsonValue& json, TriangleScene& geometry);
   void
-  readModel(JsonObject& json, TriangleScene& geometry);
+  readModel(const JsonValue& json, TriangleScene& geometry);
   Eigen::Vector3d
-  place(JsonObject& json, const std::string& key, const std::vector<double>& values);
+  place(const JsonValue& json,
+        const std::string& key,
+        const std::vector<double>& values);
 
   const std::filesystem::path& file_;
   std::map<std::string, Surface> materials_;

@@ -11,15 +11,18 @@ using namespace simulation;
 
 namespace {
 void
-readObject(JsonObject& json, BodyReader& reader, SimulationScene& scene)
+readObject(const JsonValue& json, BodyReader& reader, SimulationScene& scene)
 {
   const auto object_class = json.get<std::string>("class");
   const TriangleScene shape = reader.readShape(json);
   scene.addObject(object_class, shape, reader.readPose(json));
+  std::vector<std::string> known = BodyReader::keysOfShape(json, true);
+  known.emplace_back("class");
+  json.allow(known);
 }
 
 WayEnd
-readEnd(JsonObject& json)
+readEnd(const JsonValue& json)
 {
   std::string end = "return";
   json.read("end", end);
@@ -32,17 +35,19 @@ readEnd(JsonObject& json)
 }
 
 void
-readMoving(JsonObject& json, BodyReader& reader, SimulationScene& scene)
+readMoving(const JsonValue& json, BodyReader& reader, SimulationScene& scene)
 {
   MovingBody body;
   body.name = json.get<std::string>("class");
   body.shape = reader.readShape(json);
-  json.require("way");
   body.way = reader.places(json, "way");
   json.read("speed", body.speed);
   json.read("start", body.start);
   body.end = readEnd(json);
   scene.addMoving(std::move(body));
+  std::vector<std::string> known = BodyReader::keysOfShape(json, false);
+  known.insert(known.end(), {"class", "way", "speed", "start", "end"});
+  json.allow(known);
 }
 } // namespace
 
@@ -50,24 +55,32 @@ SimulationScene
 readScene(const std::filesystem::path& path)
 {
   const JsonValue json = readJson(path);
-  JsonObject root(json);
   BodyReader reader(path);
   SimulationScene scene;
   scene.name = path.stem().string();
   scene.description = json.dump();
-  root.read("name", scene.name);
-  root.read("scans", scene.num_scans);
-  root.read("max_range", scene.max_range);
-  reader.readMaterials(root);
-  root.require("bodies");
-  reader.readBodies(root, scene.geometry);
-  root.eachObject("objects",
-                  [&](JsonObject& object) { readObject(object, reader, scene); });
-  root.eachObject("moving",
-                  [&](JsonObject& moving) { readMoving(moving, reader, scene); });
-  root.require("waypoints");
-  scene.waypoints = reader.places(root, "waypoints");
-  root.finish();
+  json.read("name", scene.name);
+  json.read("scans", scene.num_scans);
+  json.read("max_range", scene.max_range);
+  reader.readMaterials(json);
+  if (!json.has("bodies"))
+    json.fail("key 'bodies' is missing");
+  reader.readBodies(json, scene.geometry);
+  forEachObject(json, "objects", [&](const JsonValue& object) {
+    readObject(object, reader, scene);
+  });
+  forEachObject(json, "moving", [&](const JsonValue& moving) {
+    readMoving(moving, reader, scene);
+  });
+  scene.waypoints = reader.places(json, "waypoints");
+  json.allow({"name",
+              "scans",
+              "max_range",
+              "materials",
+              "bodies",
+              "objects",
+              "moving",
+              "waypoints"});
   numberPlanes(scene.geometry);
   return scene;
 }

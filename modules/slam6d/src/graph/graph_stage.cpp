@@ -62,9 +62,9 @@ conclude(StageResult stage,
          const Poses& poses,
          Slam6DResult& result)
 {
-  stage.undone = static_cast<bool>(stage.rejection);
+  stage.reverted = static_cast<bool>(stage.rejection);
   stage.seconds = secondsSince(start);
-  if (stage.undone)
+  if (stage.reverted)
     stage.history.clear();
   else {
     setPoses(poses, result);
@@ -72,7 +72,7 @@ conclude(StageResult stage,
       stage.history = {poses};
   }
   result.stages.push_back(stage);
-  return !stage.undone;
+  return !stage.reverted;
 }
 } // namespace
 
@@ -258,7 +258,7 @@ GraphStage::odometryLinks(ScanNetwork& network, const Slam6DResult& result) cons
  * \param[in] links of the network, in the order of their scans */
 void
 GraphStage::take(const GraphSlamResult& relaxed,
-                 bool undone,
+                 bool reverted,
                  std::vector<ScanLink> links,
                  const std::vector<ScanLink>& odometry,
                  Slam6DResult& result) const
@@ -267,7 +267,7 @@ GraphStage::take(const GraphSlamResult& relaxed,
   result.graph.links = measuredLinks(odometry, result.scans, parameters_.voxel.value);
   rejectSwitchedOff(relaxed, links, result.graph.links);
   result.floating = relaxed.floating();
-  for (std::size_t i = 1; i < result.scans.size() && !undone; ++i) {
+  for (std::size_t i = 1; i < result.scans.size() && !reverted; ++i) {
     const PoseCovariance covariance =
         eulerCovariance(result.scans[i].T_world_scan, relaxed.covariances[i]);
     if (covariance.allFinite() && !relaxed.open_direction[i])

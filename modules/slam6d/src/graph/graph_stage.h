@@ -90,7 +90,7 @@ private:
   odometryLinks(ScanNetwork& network, const Slam6DResult& result) const;
   void
   take(const GraphSlamResult& relaxed,
-       bool undone,
+       bool reverted,
        std::vector<ScanLink> links,
        const std::vector<ScanLink>& odometry,
        Slam6DResult& result) const;

@@ -226,7 +226,7 @@ MotionStage::motionOf(const Known& known) const
 {
   MotionWithinScan motion;
   const TrackedScan& tracked = known.tracked;
-  motion.undone = tracked.is_moved;
+  motion.deskewed = tracked.is_moved;
   motion.rejection = tracked.rejection;
   motion.seconds = known.end - known.begin;
   if (!tracked.is_moved)

@@ -157,8 +157,8 @@ MotionStage::relax(const ScanMatcher& matcher, KeptScans& scans, Slam6DResult& r
   stage.agreement_after = agreement.total.after;
   stage.rounds = relaxed.rounds;
   stage.rejection = whyNot(relaxed, agreement, members);
-  stage.undone = static_cast<bool>(stage.rejection);
-  if (!stage.undone) {
+  stage.reverted = static_cast<bool>(stage.rejection);
+  if (!stage.reverted) {
     takeOver(members, moving, matcher, scans, result);
     for (const ScanResult& scan : result.scans)
       stage.history.resize(1), stage.history[0].push_back(scan.T_world_scan);

@@ -23,11 +23,11 @@ function pictureSection(run) {
 }
 
 function agreementList(run) {
-  return run.graph_stages.map((stage) => el('li', {class: stage.undone ? 'reverted' : null},
+  return run.graph_stages.map((stage) => el('li', {class: stage.reverted ? 'reverted' : null},
     el('strong', {}, stage.name),
     ` agreement of the scans ${fixed(stage.agreement_before, 3)} to ${fixed(stage.agreement_after, 3)}` +
       (stage.rounds > 0 ? `, ${counted(stage.rounds, 'round')}` : '') +
-      (stage.undone ? `; reverted: ${stage.reason}` : '')));
+      (stage.reverted ? `; reverted: ${stage.reason}` : '')));
 }
 
 function howSection(run) {

@@ -92,7 +92,7 @@ function refusedNotes(run) {
 }
 
 function stageNotes(run) {
-  return run.graph_stages.filter((stage) => stage.undone).map((stage) =>
+  return run.graph_stages.filter((stage) => stage.reverted).map((stage) =>
     el('li', {}, `${stage.name} reverted: ${stage.reason}`));
 }
 

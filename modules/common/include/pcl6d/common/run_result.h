@@ -82,7 +82,7 @@ recoveredByFromName(const std::string& name);
 
 /** \brief Motion of the scanner during a scan. */
 struct MotionWithinScan {
-  bool undone = false;    ///< the scan is deskewed to the pose at the stamp
+  bool deskewed = false;  ///< to the pose at the stamp of the scan
   Rejection rejection;    ///< why not
   double seconds = 0;     ///< from the first to the last point
   double translation = 0; ///< [m] between their poses
@@ -147,8 +147,8 @@ stageKindFromName(const std::string& name);
 /** \brief Change of the poses by a stage, and agreement of the scans before and after. */
 struct StageResult {
   StageKind kind = StageKind::kMatching;
-  bool undone = false; ///< reverted: the map became worse, previous poses are kept
-  Rejection rejection; ///< why the stage was reverted, or had no effect
+  bool reverted = false;       ///< the map became worse: previous poses are kept
+  Rejection rejection;         ///< why the stage was reverted, or had no effect
   double agreement_before = 0; ///< in [-1, 1]
   double agreement_after = 0;
   int rounds = 0; ///< of relaxation
@@ -260,7 +260,7 @@ operator==(const WrittenFile& a, const WrittenFile& b)
 
 /** \brief Results of a run. \ingroup common */
 struct RunResult {
-  static constexpr int kSchemaVersion = 1;
+  static constexpr int kSchemaVersion = 2;
 
   /** \brief An option with the origin of the value. */
   struct Option {

@@ -6,27 +6,24 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
-#include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 
-/** \file Writing of JSON, and matrices in JSON. */
+/** \file Writing of JSON; json_object.h reads it. */
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \return the numbers of a matrix or vector, row by row */
 nlohmann::ordered_json
 rowByRow(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 
-/** \brief Takes the numbers of a matrix or vector, row by row. \param[in] name for messages
- * \throws std::invalid_argument the number of values differs from the size of the matrix */
-void
-fill(const nlohmann::ordered_json& json,
-     const std::string& name,
-     Eigen::Ref<Eigen::MatrixXd> matrix);
+/** \return the number; null if it is not finite, because JSON has no NaN and no infinity */
+nlohmann::ordered_json
+finiteOrNull(double value);
 
-/** \return the message of the JSON library without the bracketed error number */
-std::string
-reasonOf(const std::exception& error);
+/** \return the number; null if it is missing */
+nlohmann::ordered_json
+numberOrNull(const std::optional<double>& value);
 
 /** \return the text of a file, with a line end; invalid UTF-8 is replaced
  * \param[in] indent of each level */

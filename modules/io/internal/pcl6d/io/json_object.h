@@ -8,11 +8,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <initializer_list>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +17,9 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief A value of a JSON document with its path; keeps the document alive. A missing value or
- * a wrong type throws IoFailed "file: /planes/3/area: ..." */
+ * a wrong type throws IoFailed "file: /planes/3/area: ..."
+ *
+ * Every JSON file is read by this class; nlohmann::ordered_json is used for writing. */
 class JsonValue {
 public:
   using Json = nlohmann::ordered_json;
@@ -31,6 +30,10 @@ public:
   /** \throws IoFailed "file: /pointer: message" */
   [[noreturn]] void
   fail(const std::string& message) const;
+
+  /** \brief For a member, which may be missing. \throws IoFailed "file: /pointer/key: message" */
+  [[noreturn]] void
+  fail(const std::string& key, const std::string& message) const;
 
   /** \throws IoFailed "... value, but must be rule" unless the rule is kept */
   void
@@ -60,6 +63,10 @@ public:
   bool
   has(const std::string& key) const;
 
+  /** \return the member of an object; empty if missing */
+  std::optional<JsonValue>
+  member(const std::string& key) const;
+
   /** \return the member of an object; empty if missing or null */
   std::optional<JsonValue>
   find(const std::string& key) const;
@@ -70,7 +77,7 @@ public:
 
   /** \throws IoFailed an object has a key that is not listed */
   void
-  allow(std::initializer_list<const char*> known) const;
+  allow(const std::vector<std::string>& known) const;
 
   /** \return the elements of an array */
   std::vector<JsonValue>
@@ -107,6 +114,8 @@ public:
   void
   fill(Eigen::Ref<Eigen::MatrixXd> matrix) const;
 
+  Eigen::Vector2d
+  vector2() const;
   Eigen::Vector3d
   vector3() const;
   std::vector<Eigen::Vector3d>
@@ -119,6 +128,25 @@ public:
   /** \return six rows of six numbers */
   Eigen::Matrix<double, 6, 6>
   matrix6() const;
+
+  /** \brief Reads the member of an object, if present. \throws IoFailed of another type */
+  template <typename T>
+  void
+  read(const std::string& key, T& value) const
+  {
+    if (const std::optional<JsonValue> json = member(key))
+      json->take(value);
+  }
+
+  /** \return the member of an object, which must exist */
+  template <typename T>
+  T
+  get(const std::string& key) const
+  {
+    T value{};
+    (*this / key).take(value);
+    return value;
+  }
 
   /** \return the value as JSON text, shortened */
   std::string
@@ -139,7 +167,6 @@ public:
   place() const;
 
 private:
-  friend class JsonObject;
   JsonValue(std::shared_ptr<const std::string> file,
             std::shared_ptr<const Json> json,
             std::string pointer);
@@ -150,90 +177,40 @@ private:
   void
   appendNumbers(std::vector<double>& values) const;
 
+  void
+  take(double& value) const
+  {
+    value = number();
+  }
+  void
+  take(int& value) const
+  {
+    value = integer();
+  }
+  void
+  take(std::uint64_t& value) const
+  {
+    value = count();
+  }
+  void
+  take(std::string& value) const
+  {
+    value = text();
+  }
+  void
+  take(Eigen::Vector2d& value) const
+  {
+    value = vector2();
+  }
+  void
+  take(Eigen::Vector3d& value) const
+  {
+    value = vector3();
+  }
+
   std::shared_ptr<const std::string> file_;
   std::shared_ptr<const Json> json_; ///< shares the document
   std::string pointer_;
-};
-
-/** \brief An object {...} of a JSON file, read key by key; reports unread keys as errors. */
-class JsonObject {
-public:
-  /** \throws IoFailed the value is not an object */
-  JsonObject(JsonValue value);
-
-  bool
-  has(const std::string& key) const
-  {
-    return value_.has(key);
-  }
-
-  /** \brief Reads a number, if present. \throws IoFailed the value is not a number */
-  void
-  read(const std::string& key, double& value);
-  void
-  read(const std::string& key, int& value);
-  void
-  read(const std::string& key, std::uint64_t& value);
-  void
-  read(const std::string& key, std::string& value);
-  void
-  read(const std::string& key, Eigen::Vector2d& value);
-  void
-  read(const std::string& key, Eigen::Vector3d& value);
-
-  /** \brief Reads a required value. */
-  template <typename T>
-  T
-  get(const std::string& key)
-  {
-    require(key);
-    T value{};
-    read(key, value);
-    return value;
-  }
-
-  /** \return the numbers of an array */
-  std::vector<double>
-  numbers(const std::string& key);
-
-  /** \brief Calls f with each element of an array, which may be missing. */
-  void
-  each(const std::string& key, const std::function<void(const JsonValue&)>& f);
-
-  /** \brief Calls f with each object of an array, which may be missing, and checks that f read
-   * every key. */
-  void
-  eachObject(const std::string& key, const std::function<void(JsonObject&)>& f);
-
-  /** \return the object; an empty object if missing */
-  JsonObject
-  object(const std::string& key);
-
-  /** \return all keys */
-  std::vector<std::string>
-  keys() const
-  {
-    return value_.keys();
-  }
-
-  /** \throws IoFailed a key was never read */
-  void
-  finish() const;
-
-  /** \throws IoFailed the key is missing */
-  void
-  require(const std::string& key) const;
-
-  /** \throws IoFailed "file: /pointer/key: message" */
-  [[noreturn]] void
-  fail(const std::string& key, const std::string& message) const;
-
-private:
-  std::optional<JsonValue>
-  member(const std::string& key);
-
-  JsonValue value_;
-  std::set<std::string> read_;
 };
 
 /** \return the document; comments are allowed \param[in] name of the file, for messages

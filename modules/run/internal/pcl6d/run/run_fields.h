@@ -39,7 +39,7 @@ template <typename Motion, typename Visit>
 void
 visitMotionFields(Motion& motion, Visit&& visit)
 {
-  visit("undone", motion.undone);
+  visit("deskewed", motion.deskewed);
   visit("rejection", motion.rejection);
   visit("seconds", motion.seconds);
   visit("translation", motion.translation);
@@ -62,7 +62,7 @@ void
 visitStageFields(Stage& stage, Visit&& visit)
 {
   visit("name", stage.kind);
-  visit("undone", stage.undone);
+  visit("reverted", stage.reverted);
   visit("rejection", stage.rejection);
   visit("agreement_before", stage.agreement_before);
   visit("agreement_after", stage.agreement_after);
@@ -96,17 +96,17 @@ visitLinkCheckFields(Link& link, Visit&& visit)
 {
   visit("from", link.from);
   visit("to", link.to);
-  visit("trust", link.trust);
+  visit("result", link.trust);
   visit("probability_wrong", link.probability_wrong);
   visit("patches", link.patches);
-  visit("contradicted", link.contradicted);
+  visit("violated", link.contradicted);
   visit("shift", link.shift);
   visit("deviation", link.deviation);
   visit("open_directions", link.open_directions);
   // Written only: the covariance and the shift required by surfaces are not kept.
-  visit("noticed_least", link.noticed ? &link.noticed->least : nullptr);
-  visit("noticed_most", link.noticed ? &link.noticed->most : nullptr);
-  visit("noticed_turn", link.noticed ? &link.noticed->turn : nullptr);
+  visit("detectable_least", link.noticed ? &link.noticed->least : nullptr);
+  visit("detectable_largest", link.noticed ? &link.noticed->most : nullptr);
+  visit("detectable_turn", link.noticed ? &link.noticed->turn : nullptr);
   visit("reason", link.rejection);
 }
 

@@ -13,8 +13,9 @@ namespace PCL6D_EXPORTS pcl6d {
 void
 writeRunSummary(const std::filesystem::path& path, const RunResult& result);
 
-/** \brief Inverse of writeRunSummary(). \throws IoFailed naming the file and the missing or wrong
- * entry: no JSON, another schema_version, a field of another type
+/** \brief Inverse of writeRunSummary(); files of schema_version 1 are read, too.
+ * \throws IoFailed naming the file and the missing or wrong entry: no JSON, an unknown
+ * schema_version, a field of another type
  * \ingroup run */
 RunResult
 readRunSummary(const std::filesystem::path& path);

@@ -16,15 +16,17 @@ endif()
 # programs, tests.
 set(PCL6D_COOL_OPTIMISATION $<$<CONFIG:Release>:-O1>)
 
-# So many sources are compiled as one: parsing headers is half the work of one alone. test/build_cost.sh
-# names the units above 40 s of processor time or 1 GB.
-set(PCL6D_BATCH 12)
+# So many sources at most are compiled as one: a unit takes 4 to 6 s before its first own function.
+# test/build_cost.sh names the units above 40 s of processor time or 1 GB.
+set(PCL6D_BATCH 20)
 
-# g++ looks for garbage as soon as 128 MB are in use, which every file with Eigen reaches,
-# and takes a tenth of its time for it. With this it begins at 512 MB.
+# g++ looks for garbage as soon as 256 MB are in use, which every file with Eigen reaches, and
+# takes a tenth of its time for it. With this it begins at 1.6 x 480 = 768 MB, and looks again when
+# 1.6 times of what was left is in use, so that a unit stays below 1 GB.
 set(PCL6D_FEWER_COLLECTIONS "")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  set(PCL6D_FEWER_COLLECTIONS "SHELL:--param ggc-min-heapsize=524288")
+  set(PCL6D_FEWER_COLLECTIONS
+    "SHELL:--param ggc-min-heapsize=491520" "SHELL:--param ggc-min-expand=60")
 endif()
 
 # Programs stand together, so that a user finds them and they find their libraries.

@@ -21,17 +21,45 @@ function(_pcl6d_compile_rules target)
     $<$<BOOL:${PCL6D_WERROR}>:-Werror>)
 endfunction()
 
-# Several sources of a target as one: headers are parsed once for all of them. batch: how many,
-# PCL6D_BATCH if empty. ARGN: sources whose own names (of unnamed namespaces) are also names of
-# others beside them, or that take long enough alone.
+# Several sources of a target as one: headers are parsed, and Eigen's types are made, once for all
+# of them. batch: how many at most, PCL6D_BATCH if empty; the units become about equally large.
+# ARGN: sources whose own names (of unnamed namespaces) are also names of others beside them, or
+# that take long enough alone.
 function(_pcl6d_unity target batch)
   if(NOT batch)
     set(batch ${PCL6D_BATCH})
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  if(ARGN)
+    list(REMOVE_ITEM sources ${ARGN})
+  endif()
+  list(LENGTH sources count)
+  math(EXPR units "(${count} + ${batch} - 1) / ${batch}")
+  if(units GREATER 0)
+    math(EXPR batch "(${count} + ${units} - 1) / ${units}")
   endif()
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${PCL6D_UNITY_BUILD}
     UNITY_BUILD_BATCH_SIZE ${batch})
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# pcl6d_hot_sources(NAME sources ...)
+# Sources of the module NAME, which is COOL, that have loops over all points: -O2, as one unit.
+# They have no precompiled header, for that has the optimisation of the others.
+function(pcl6d_hot_sources name)
+  set(sources ${ARGN})
+  if(PCL6D_UNITY_BUILD)
+    list(TRANSFORM sources REPLACE "(.+)" "#include \"${CMAKE_CURRENT_SOURCE_DIR}/\\1\"\n"
+      OUTPUT_VARIABLE includes)
+    list(JOIN includes "" includes)
+    set(sources ${CMAKE_CURRENT_BINARY_DIR}/${name}_hot.cpp)
+    file(CONFIGURE OUTPUT ${sources} CONTENT "${includes}" @ONLY)
+  endif()
+  set_source_files_properties(${sources} PROPERTIES
+    SKIP_PRECOMPILE_HEADERS ON
+    COMPILE_OPTIONS $<$<CONFIG:Release>:-O2>) # which takes it out of the other units
+  target_sources(pcl6d_${name} PRIVATE ${sources})
 endfunction()
 
 # Gives a library of the suite its headers, name, version and installation.
@@ -69,6 +97,9 @@ function(pcl6d_add_module name)
   _pcl6d_unity(${target} "${ARG_BATCH}" ${ARG_ALONE})
   if(ARG_COOL)
     target_compile_options(${target} PRIVATE ${PCL6D_COOL_OPTIMISATION})
+    pcl6d_precompile(${target} cool)
+  else()
+    pcl6d_precompile(${target} hot)
   endif()
   set_target_properties(${target} PROPERTIES PCL6D_FLOOR ${ARG_FLOOR})
   target_include_directories(${target}
@@ -121,6 +152,7 @@ function(pcl6d_add_late_library name)
   _pcl6d_compile_rules(${name})
   _pcl6d_unity(${name} "")
   target_compile_options(${name} PRIVATE ${PCL6D_COOL_OPTIMISATION})
+  pcl6d_precompile(${name} cool)
   target_link_libraries(${name} PRIVATE ${ARG_LINK_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY PCL6D_LATE_LIBRARIES ${name})
   install(TARGETS ${name}
@@ -170,7 +202,9 @@ endfunction()
 function(pcl6d_app_rules target)
   _pcl6d_compile_rules(${target})
   _pcl6d_unity(${target} "" ${ARGN})
-  target_compile_options(${target} PRIVATE ${PCL6D_COOL_OPTIMISATION})
+  # As the libraries, so that they share a precompiled header.
+  target_compile_options(${target} PRIVATE -fPIC ${PCL6D_COOL_OPTIMISATION})
+  pcl6d_precompile(${target} cool)
 endfunction()
 
 # pcl6d_add_app(NAME SOURCES ... [ALONE sources ...] [DEPENDS module ...]
@@ -212,7 +246,7 @@ function(pcl6d_add_test name)
       $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
   if(ARG_DEPENDS) # tests of programs alone see no headers of the suite
-    pcl6d_precompile(${name})
+    pcl6d_precompile(${name} test)
   endif()
   set_target_properties(${name} PROPERTIES
     UNITY_BUILD ${PCL6D_UNITY_BUILD}

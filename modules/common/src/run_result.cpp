@@ -23,11 +23,11 @@ constexpr Named<RecoveredBy> kRecoveries[] = {{RecoveredBy::kNone, ""},
                                               {RecoveredBy::kSearch, "search"},
                                               {RecoveredBy::kEverywhere, "everywhere"},
                                               {RecoveredBy::kTogether, "together"}};
-constexpr Named<StageKind> kStages[] = {{StageKind::kMatching, "matching"},
-                                        {StageKind::kLoopClosing, "loop closing"},
-                                        {StageKind::kRelaxation, "relaxation"},
-                                        {StageKind::kMotion, "motion within scans"},
-                                        {StageKind::kControl, "control points"}};
+constexpr Named<StageKind> kStageKinds[] = {{StageKind::kMatching, "matching"},
+                                            {StageKind::kLoopClosing, "loop closing"},
+                                            {StageKind::kRelaxation, "relaxation"},
+                                            {StageKind::kMotion, "motion within scans"},
+                                            {StageKind::kControl, "control points"}};
 constexpr Named<LinkKind> kKinds[] = {{LinkKind::kSequence, "sequence"},
                                       {LinkKind::kNetwork, "network"},
                                       {LinkKind::kLoop, "loop"},
@@ -110,13 +110,13 @@ poseReadingFromName(const std::string& name)
 const char*
 toString(StageKind kind)
 {
-  return nameOf(kStages, kind);
+  return nameOf(kStageKinds, kind);
 }
 
 StageKind
 stageKindFromName(const std::string& name)
 {
-  return fromName(kStages, "stage", name);
+  return fromName(kStageKinds, "stage", name);
 }
 
 const char*

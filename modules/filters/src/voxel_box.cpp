@@ -72,7 +72,7 @@ VoxelBox::around(const Points& points, double voxel)
 }
 
 namespace {
-constexpr std::size_t kLanes = 4;
+constexpr std::size_t kBoxLanes = 4;
 
 /** floor(x / voxel) of four coordinates. */
 PCL6D_INLINE void
@@ -101,11 +101,11 @@ findCells(const float* coordinates,
           double voxel,
           std::int32_t* cells)
 {
-  const std::size_t in_fours = count - count % kLanes;
-  for (std::size_t i = 0; i < in_fours; i += kLanes)
+  const std::size_t in_fours = count - count % kBoxLanes;
+  for (std::size_t i = 0; i < in_fours; i += kBoxLanes)
     findFourCells(coordinates + i, voxel, cells + i);
-  std::array<float, kLanes> last{};
-  std::array<std::int32_t, kLanes> last_cells;
+  std::array<float, kBoxLanes> last{};
+  std::array<std::int32_t, kBoxLanes> last_cells;
   std::copy(coordinates + in_fours, coordinates + count, last.begin());
   findFourCells(last.data(), voxel, last_cells.data());
   std::copy_n(last_cells.begin(), count - in_fours, cells + in_fours);

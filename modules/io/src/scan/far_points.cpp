@@ -24,7 +24,7 @@ const std::array<std::string, 3> kPlace = {"x", "y", "z"};
 const std::array<std::string, 3> kNormal = {"normal_x", "normal_y", "normal_z"};
 
 std::size_t
-sizeOf(const pcl::PCLPointCloud2& cloud)
+pointsIn(const pcl::PCLPointCloud2& cloud)
 {
   return std::size_t{cloud.width} * cloud.height;
 }
@@ -34,9 +34,9 @@ std::vector<Eigen::Vector3d>
 sampleOf(const pcl::PCLPointCloud2& cloud, const VectorField& place)
 {
   constexpr std::size_t kMost = 10000;
-  const std::size_t step = sizeOf(cloud) / kMost + 1;
+  const std::size_t step = pointsIn(cloud) / kMost + 1;
   std::vector<Eigen::Vector3d> sample;
-  for (std::size_t i = 0; i < sizeOf(cloud); i += step) {
+  for (std::size_t i = 0; i < pointsIn(cloud); i += step) {
     const Eigen::Vector3d p = place.read(&cloud.data[i * cloud.point_step]);
     if (isPlace(p) && !p.isZero(0))
       sample.push_back(p);
@@ -116,7 +116,7 @@ moveCloud(const Eigen::Isometry3d& motion, pcl::PCLPointCloud2& cloud)
   const VectorField place(cloud.fields, kPlace);
   const VectorField normal(cloud.fields, kNormal);
   require(static_cast<bool>(place), "fields", "others", "x, y, z of floating point");
-  for (std::size_t i = 0; i < sizeOf(cloud); ++i) {
+  for (std::size_t i = 0; i < pointsIn(cloud); ++i) {
     std::uint8_t* const point = &cloud.data[i * cloud.point_step];
     const Eigen::Vector3d p = place.read(point);
     place.write(p.isZero(0) ? Eigen::Vector3d::Constant(

@@ -8,7 +8,7 @@ namespace pcl6d {
 namespace {
 
 bool
-isDigit(char c)
+isNumeral(char c)
 {
   return c >= '0' && c <= '9';
 }
@@ -17,7 +17,7 @@ std::string_view
 digitsAt(std::string_view name, std::size_t at)
 {
   std::size_t end = at;
-  while (end < name.size() && isDigit(name[end]))
+  while (end < name.size() && isNumeral(name[end]))
     ++end;
   return name.substr(at, end - at);
 }
@@ -43,7 +43,7 @@ public:
   bool
   isNumber() const
   {
-    return isDigit(front());
+    return isNumeral(front());
   }
 
   /** \return whether the next part is the point and the decimals of a number: at the start of
@@ -54,7 +54,7 @@ public:
     const std::size_t behind = at_ + digitsAt(name_, at_ + 1).size() + 1;
     return front() == '.' && may_have_decimals_ && behind > at_ + 1 &&
            !(behind + 1 < name_.size() && name_[behind] == '.' &&
-             isDigit(name_[behind + 1]));
+             isNumeral(name_[behind + 1]));
   }
 
   /** \return the digits without leading zeros */

@@ -10,7 +10,7 @@
 namespace pcl6d::text {
 
 namespace {
-constexpr std::size_t kBlock = 1 << 20; // bytes read at once
+constexpr std::size_t kReadBlock = 1 << 20; // bytes read at once
 constexpr std::size_t kLongestQuote = 40;
 
 namespace fs = std::filesystem;
@@ -89,8 +89,8 @@ readRest(std::istream& stream, const std::filesystem::path& path)
   std::string content;
   while (stream) { // block by block, since the size of a pipe is unknown
     const std::size_t size = content.size();
-    content.resize(size + kBlock);
-    stream.read(content.data() + size, kBlock);
+    content.resize(size + kReadBlock);
+    stream.read(content.data() + size, kReadBlock);
     content.resize(size + static_cast<std::size_t>(stream.gcount()));
   }
   if (stream.bad())

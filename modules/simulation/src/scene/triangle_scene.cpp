@@ -9,7 +9,7 @@ namespace pcl6d {
 namespace {
 // Twice the area, as a vector normal to the triangle.
 Eigen::Vector3d
-areaVector(const TriangleScene& scene, std::uint32_t triangle)
+twiceArea(const TriangleScene& scene, std::uint32_t triangle)
 {
   const Eigen::Vector3d& a = scene.corner(triangle, 0);
   return (scene.corner(triangle, 1) - a).cross(scene.corner(triangle, 2) - a);
@@ -27,7 +27,7 @@ validateTriangle(const TriangleScene& scene, std::uint32_t index)
   if (triangle.surface >= scene.surfaces.size())
     throw BadArgument(name + "surface " + std::to_string(triangle.surface) +
                       ", but there are " + std::to_string(scene.surfaces.size()));
-  if (!(areaVector(scene, index).squaredNorm() > 0))
+  if (!(twiceArea(scene, index).squaredNorm() > 0))
     throw BadArgument(name + "area is zero, but must be > 0");
 }
 
@@ -58,7 +58,7 @@ TriangleScene::addQuad(const std::array<std::uint32_t, 4>& corners,
 Eigen::Vector3d
 TriangleScene::normal(std::uint32_t triangle) const
 {
-  return areaVector(*this, triangle).normalized();
+  return twiceArea(*this, triangle).normalized();
 }
 
 void

@@ -83,8 +83,7 @@ takeResultOfFirst(SlamState& state, const SlamContext& context)
 StageEnd
 runAlone(Stage& stage, SlamState& state, SlamContext& context)
 {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   const bool is_matching = stage.isMatching();
   const bool was_shared = std::exchange(context.is_shared, !is_matching);
   Slam6DResult before = state.result;
@@ -101,7 +100,7 @@ runAlone(Stage& stage, SlamState& state, SlamContext& context)
   context.is_shared = was_shared;
   if (is_matching) {
     state.result.matching_seconds +=
-        std::chrono::duration<double>(Clock::now() - start).count();
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     end = ofFirst(end, context);
     takeResultOfFirst(state, context);
   }

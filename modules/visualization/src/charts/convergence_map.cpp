@@ -15,15 +15,15 @@ namespace pcl6d {
 using namespace visualization;
 
 namespace {
-constexpr int kLargest = 8192; // [px]
-constexpr double kTextSize = 15;
-constexpr double kMargin = 24;
-constexpr double kAxisRoom = 4.2 * kTextSize;  ///< left of the first column
-constexpr double kTickRoom = 1.5 * kTextSize;  ///< below a panel
-constexpr double kTitleRoom = 1.9 * kTextSize; ///< above a panel
-constexpr double kGap = 1.4 * kTextSize;       ///< between columns
-constexpr double kHeadRoom = 2.0 * kTextSize;  ///< for the title of the picture
-constexpr double kFootRoom = 3.4 * kTextSize;  ///< for x [m] and the colour bar
+constexpr int kMapLargest = 8192; // [px]
+constexpr double kMapTextSize = 15;
+constexpr double kMapMargin = 24;
+constexpr double kMapAxisRoom = 4.2 * kMapTextSize;  ///< left of the first column
+constexpr double kMapTickRoom = 1.5 * kMapTextSize;  ///< below a panel
+constexpr double kMapTitleRoom = 1.9 * kMapTextSize; ///< above a panel
+constexpr double kMapGap = 1.4 * kMapTextSize;       ///< between columns
+constexpr double kMapHeadRoom = 2.0 * kMapTextSize;  ///< for the title of the picture
+constexpr double kMapFootRoom = 3.4 * kMapTextSize;  ///< for x [m] and the colour bar
 
 /** Up to five in a row; more panels fill a rectangle wider than high. */
 int
@@ -56,7 +56,7 @@ layOut(const ConvergenceMapScene& scene, const ConvergenceMapOptions& options)
 {
   const int count = static_cast<int>(scene.panels.size());
   ConvergenceMapLayout layout;
-  layout.text_size = kTextSize;
+  layout.text_size = kMapTextSize;
   layout.columns =
       options.columns > 0 ? std::min(options.columns, count) : columnsFor(count);
   const int rows = (count + layout.columns - 1) / layout.columns;
@@ -64,33 +64,33 @@ layOut(const ConvergenceMapScene& scene, const ConvergenceMapOptions& options)
                 scene.y.front() - 0.5 * spacingOf(scene.y)};
   layout.metres_per_pixel = extentOf(scene.x) / options.panel_width;
   const double panel_height = std::round(extentOf(scene.y) / layout.metres_per_pixel);
-  const double row_height = kTitleRoom + panel_height + kTickRoom;
-  const double top = kMargin + kHeadRoom;
-  const double width =
-      2 * kMargin + kAxisRoom + layout.columns * (options.panel_width + kGap) - kGap;
+  const double row_height = kMapTitleRoom + panel_height + kMapTickRoom;
+  const double top = kMapMargin + kMapHeadRoom;
+  const double width = 2 * kMapMargin + kMapAxisRoom +
+                       layout.columns * (options.panel_width + kMapGap) - kMapGap;
   // for the title; real text is a little wider than its computed width
   const double least_width =
-      2 * kMargin + 1.05 * PixelScene::textWidth(scene.title, 1.15 * kTextSize);
-  const double height = top + rows * row_height + kFootRoom + kMargin;
+      2 * kMapMargin + 1.05 * PixelScene::textWidth(scene.title, 1.15 * kMapTextSize);
+  const double height = top + rows * row_height + kMapFootRoom + kMapMargin;
   layout.width = static_cast<int>(std::ceil(std::max({width, least_width, 480.0})));
   layout.height = static_cast<int>(std::ceil(height));
-  require(layout.width <= kLargest && height <= kLargest,
+  require(layout.width <= kMapLargest && height <= kMapLargest,
           "size of the picture",
           std::to_string(layout.width) + " x " + std::to_string(height),
           "at most 8192 pixels; take fewer columns or smaller panels");
   for (int i = 0; i < count; ++i) {
     PictureBox box;
-    box.left = std::round(kMargin + kAxisRoom +
-                          (i % layout.columns) * (options.panel_width + kGap));
-    box.top = std::round(top + (i / layout.columns) * row_height + kTitleRoom);
+    box.left = std::round(kMapMargin + kMapAxisRoom +
+                          (i % layout.columns) * (options.panel_width + kMapGap));
+    box.top = std::round(top + (i / layout.columns) * row_height + kMapTitleRoom);
     box.right = box.left + options.panel_width;
     box.bottom = box.top + panel_height;
     layout.panels.push_back(box);
   }
-  layout.colour_bar.right = layout.width - kMargin - 3.0 * kTextSize;
+  layout.colour_bar.right = layout.width - kMapMargin - 3.0 * kMapTextSize;
   layout.colour_bar.left = layout.colour_bar.right - 160;
-  layout.colour_bar.bottom = std::round(layout.height - kMargin);
-  layout.colour_bar.top = layout.colour_bar.bottom - std::round(0.8 * kTextSize);
+  layout.colour_bar.bottom = std::round(layout.height - kMapMargin);
+  layout.colour_bar.top = layout.colour_bar.bottom - std::round(0.8 * kMapTextSize);
   return layout;
 }
 

@@ -14,13 +14,14 @@ namespace pcl6d {
 namespace visualization {
 
 namespace {
-constexpr double kTextSize = 15;
-constexpr double kMargin = 20;
-constexpr double kHeadRoom = 2.2 * kTextSize; ///< for the title
-constexpr double kAxisRoom = 5.4 * kTextSize; ///< left of the plot: title and labels
-constexpr double kFootRoom = 3.2 * kTextSize; ///< below the plot
-constexpr double kSample = 1.6 * kTextSize;   ///< width of a sample of the legend
-constexpr double kLegendLine = 1.35 * kTextSize;
+constexpr double kChartTextSize = 15;
+constexpr double kChartMargin = 20;
+constexpr double kChartHeadRoom = 2.2 * kChartTextSize; ///< for the title
+constexpr double kChartAxisRoom =
+    5.4 * kChartTextSize; ///< left of the plot: title and labels
+constexpr double kChartFootRoom = 3.2 * kChartTextSize; ///< below the plot
+constexpr double kSample = 1.6 * kChartTextSize; ///< width of a sample of the legend
+constexpr double kLegendLine = 1.35 * kChartTextSize;
 constexpr double kLeastPlot = 80; ///< [px]
 
 /** Colours distinct also for the colour-blind: Okabe and Ito, 2008, and black. */
@@ -148,8 +149,8 @@ legendWidth(const std::vector<ChartSeries>& series)
   double widest = 0;
   for (const ChartSeries& s : series)
     if (!s.name.empty())
-      widest = std::max(widest, PixelScene::textWidth(s.name, 0.85 * kTextSize));
-  return widest > 0 ? std::ceil(1.08 * widest + kSample + 1.6 * kTextSize) : 0;
+      widest = std::max(widest, PixelScene::textWidth(s.name, 0.85 * kChartTextSize));
+  return widest > 0 ? std::ceil(1.08 * widest + kSample + 1.6 * kChartTextSize) : 0;
 }
 
 void
@@ -159,7 +160,7 @@ placeLegend(const std::vector<ChartSeries>& series, LineChartLayout& layout)
   for (const ChartSeries& s : series) {
     if (s.name.empty())
       continue;
-    const double left = std::round(layout.plot.right + kTextSize);
+    const double left = std::round(layout.plot.right + kChartTextSize);
     layout.legend.push_back({left, top, left + kSample, top + kLegendLine});
     top += kLegendLine;
   }
@@ -180,11 +181,11 @@ layOut(const LineChartScene& scene, const LineChartOptions& options)
   LineChartLayout layout;
   layout.width = options.width;
   layout.height = options.height;
-  layout.text_size = kTextSize;
-  layout.plot.left = std::round(kMargin + kAxisRoom);
-  layout.plot.top = std::round(kMargin + kHeadRoom);
-  layout.plot.right = options.width - kMargin - legendWidth(scene.series);
-  layout.plot.bottom = std::round(options.height - kMargin - kFootRoom);
+  layout.text_size = kChartTextSize;
+  layout.plot.left = std::round(kChartMargin + kChartAxisRoom);
+  layout.plot.top = std::round(kChartMargin + kChartHeadRoom);
+  layout.plot.right = options.width - kChartMargin - legendWidth(scene.series);
+  layout.plot.bottom = std::round(options.height - kChartMargin - kChartFootRoom);
   require(layout.plot.right - layout.plot.left >= kLeastPlot,
           "width",
           options.width,

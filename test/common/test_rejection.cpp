@@ -13,7 +13,7 @@ using pcl6d::RejectReason;
 using pcl6d::Status;
 
 namespace {
-constexpr auto kLast = static_cast<int>(RejectReason::kNoNextScan);
+constexpr auto kLast = static_cast<int>(RejectReason::kPoseNotTested);
 } // namespace
 
 TEST(Rejection, EachReasonHasANameOfItsOwnAndWords)
@@ -46,8 +46,32 @@ TEST(Rejection, OfNoReasonIsAccepted)
   EXPECT_EQ(toWords(Rejection(static_cast<RejectReason>(1000))), "") << "no reason";
 }
 
+TEST(Rejection, OfAMapHasACausePerLink)
+{
+  Rejection doubt(RejectReason::kScansContradict, 10);
+  for (int k = 0; k < 10; ++k) {
+    doubt.causes.emplace_back(RejectReason::kOfScans,
+                              Rejection(RejectReason::kNoCycle));
+    doubt.causes.back().text = std::to_string(k);
+  }
+  const std::string words = toWords(doubt);
+  EXPECT_EQ(
+      words.find("scans contradict each other: 0 (the links close no cycle), 1 ("), 0U);
+  EXPECT_NE(words.find("7 (the links close no cycle) and 2 more"), std::string::npos)
+      << words;
+  EXPECT_EQ(pcl6d::wordsOfEach({doubt, Rejection()}),
+            (std::vector<std::string>{words, ""}));
+}
+
 TEST(Rejection, ItsWordsHoldTheNumbers)
 {
+  Rejection second(RejectReason::kFitsElsewhere, 8.04, 179.6);
+  second.text = "b";
+  EXPECT_EQ(toWords(second), "fits as well 8.0 m away, turned by 180 deg, beside b");
+  Rejection copies(RejectReason::kScansAreCopies, 3);
+  copies.text = "a and b";
+  EXPECT_EQ(toWords(copies),
+            "scans are copies of earlier scans and verify no pose: a and b and 2 more");
   EXPECT_EQ(toWords(Rejection(RejectReason::kOverlapTooSmall, 0.0812, 0.1)),
             "overlap 0.0812 is less than 0.1");
   EXPECT_EQ(toWords(Rejection(RejectReason::kTooFewPairs, 12345, 20000)),

@@ -95,8 +95,19 @@ doubtful()
   map.scans[0].bound = 0;
   map.scans[1].bound = 0.1 / 7;
   map.scans[1].noticed = noticedFrom(0.1 / 3, kInfinity, kInfinity);
-  map.scans[2].doubt = "with b.pcd: säule";
-  map.doubts = {"1 scan not connected to the rest: c.pcd", "two"};
+  map.scans[2].doubt = {pcl6d::RejectReason::kLinkNotConsistent,
+                        {pcl6d::RejectReason::kTooFewPatches, 3, 12}};
+  map.scans[2].doubt.text = "säule.pcd";
+  map.doubts = {{pcl6d::RejectReason::kScansDisconnected, map.scans[2].doubt},
+                {pcl6d::RejectReason::kScansContradict, 2}};
+  map.doubts[0].measured = 1;
+  map.doubts[0].text = "c.pcd";
+  for (const char* const link : {"a.pcd and b.pcd", "a.pcd and c.pcd"}) {
+    map.doubts[1].causes.emplace_back(
+        pcl6d::RejectReason::kOfScans,
+        pcl6d::Rejection(pcl6d::RejectReason::kPatchesViolated, 30, 41));
+    map.doubts[1].causes.back().text = link;
+  }
   return map;
 }
 
@@ -114,7 +125,8 @@ verdictWith(MapTrust trust, const std::vector<std::string>& doubts)
   MapVerification& map = run.verification.emplace();
   map.trust = trust;
   map.links.resize(2);
-  map.doubts = doubts;
+  for (const std::string& doubt : doubts)
+    map.doubts.push_back(pcl6d::Rejection::stated(doubt));
   return verdictOf(run);
 }
 } // namespace

@@ -115,6 +115,12 @@ TEST(SchemaVersions, SummariesWrittenByVersion010AreRead)
   EXPECT_EQ(run.verification->trust, pcl6d::MapTrust::kDoubtful);
   EXPECT_TRUE(run.verification->scans[0].tied);
   EXPECT_FALSE(run.verification->scans[1].tied);
+  EXPECT_FALSE(run.verification->scans[0].doubt);
+  EXPECT_EQ(run.verification->scans[1].doubt,
+            pcl6d::Rejection::stated(
+                "with scan000.pcd: only 0 patches of surface in common"));
+  ASSERT_EQ(run.verification->doubts.size(), 1u);
+  EXPECT_EQ(run.verification->doubts[0].reason, pcl6d::RejectReason::kStated);
   EXPECT_TRUE(readRunSummary(corpus / "moved").moved);
 }
 

@@ -244,7 +244,7 @@ TEST(Slam6DVerification, OfACorridorIsGood)
 {
   const Slam6DResult result = registered(makeCorridorRun(14, 14, 0));
   EXPECT_EQ(result.verification->trust, MapTrust::kGood)
-      << (result.verification->doubts.empty() ? "" : result.verification->doubts[0]);
+      << toWords(result.verification->doubts);
 }
 
 TEST(Slam6DVerification, NamesAllScansBehindAJumpOfTheOdometry)
@@ -257,10 +257,10 @@ TEST(Slam6DVerification, NamesAllScansBehindAJumpOfTheOdometry)
   EXPECT_FALSE(result.trusted());
   EXPECT_EQ(looseOf(*result.verification),
             (std::set<std::size_t>{8, 9, 10, 11, 12, 13}));
-  EXPECT_EQ(result.verification->doubts.at(0).find(
-                "6 scans not connected to the rest: scan 8, "),
-            0u)
-      << result.verification->doubts[0];
+  const pcl6d::Rejection& doubt = result.verification->doubts.at(0);
+  EXPECT_EQ(doubt.reason, pcl6d::RejectReason::kScansDisconnected);
+  EXPECT_EQ(doubt.measured, 6) << doubt;
+  EXPECT_EQ(doubt.text.find("scan 8, "), 0u) << doubt;
 }
 
 TEST(Slam6DVerification, NamesFilesWithoutTheirFolders)
@@ -274,7 +274,8 @@ TEST(Slam6DVerification, NamesFilesWithoutTheirFolders)
   EXPECT_TRUE(slam.optimize());
   const MapVerification& map = *slam.result().verification;
   ASSERT_FALSE(map.doubts.empty());
-  EXPECT_EQ(map.doubts[0].find("1 scan not connected to the rest: b.pcd (with a.pcd: "),
+  EXPECT_EQ(toWords(map.doubts[0])
+                .find("1 scan not connected to the rest: b.pcd (with a.pcd: "),
             0u)
       << map.doubts[0];
 }

@@ -10,6 +10,7 @@ using pcl6d::LinkTestResult;
 using pcl6d::LinkTrust;
 using pcl6d::MapTrust;
 using pcl6d::MapVerification;
+using pcl6d::RejectReason;
 using pcl6d::VerifiedScan;
 using pcl6d::verification::MapDoubts;
 
@@ -68,18 +69,24 @@ TEST(MapDoubts, AFewOutvotedLinksAreNamedAndManyContradictTheMap)
   const MapVerification good = few.told();
   EXPECT_EQ(good.trust, MapTrust::kGood);
   ASSERT_EQ(good.doubts.size(), 1U);
-  EXPECT_NE(good.doubts[0].find("most links of these scans are consistent"),
-            std::string::npos);
+  EXPECT_EQ(good.doubts[0].reason, RejectReason::kSingleLinksContradict);
+  EXPECT_EQ(good.doubts[0].measured, 11);
+  EXPECT_EQ(good.doubts[0].causes.size(), 11U);
 
   Ring many(100);
   many.contradictBySurfaces(12);
   const MapVerification doubtful = many.told();
   EXPECT_EQ(doubtful.trust, MapTrust::kDoubtful);
   ASSERT_EQ(doubtful.doubts.size(), 1U);
-  EXPECT_NE(doubtful.doubts[0].find("scans contradict each other: scan0 and scan1"),
-            std::string::npos)
+  EXPECT_EQ(doubtful.doubts[0].reason, RejectReason::kScansContradict);
+  ASSERT_EQ(doubtful.doubts[0].causes.size(), 12U);
+  EXPECT_EQ(doubtful.doubts[0].causes[0].reason, RejectReason::kOfScans);
+  EXPECT_EQ(doubtful.doubts[0].causes[0].text, "scan0 and scan1");
+  EXPECT_EQ(toWords(doubtful.doubts[0]).find("scans contradict each other: scan0 and"),
+            0U)
       << doubtful.doubts[0];
-  EXPECT_NE(doubtful.scans[0].doubt.find("contradicts scan1"), std::string::npos);
+  EXPECT_EQ(doubtful.scans[0].doubt.reason, RejectReason::kContradictsScan);
+  EXPECT_EQ(doubtful.scans[0].doubt.text, "scan1");
 }
 
 TEST(MapDoubts, ALinkThatRaysAndSurfacesAreAgainstIsProof)

@@ -16,6 +16,7 @@ using pcl6d::MapVerification;
 using pcl6d::MapVerifier;
 using pcl6d::MapVerifierOptions;
 using pcl6d::Random;
+using pcl6d::RejectReason;
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::kNan;
 using pcl6d::test::kRoomScans;
@@ -89,7 +90,7 @@ TEST_F(MapOfARoom, IsGoodAtTheTruth)
   for (const auto& scan : map.scans) {
     EXPECT_TRUE(scan.tied);
     EXPECT_FALSE(scan.abstains);
-    EXPECT_EQ(scan.doubt, "");
+    EXPECT_FALSE(scan.doubt) << scan.doubt;
   }
 }
 
@@ -119,12 +120,12 @@ TEST_F(MapOfARoom, NamesTheScanThatIsDisplacedAndNoOther)
     EXPECT_FALSE(map.trusted());
     EXPECT_EQ(looseOf(map), std::set<std::size_t>{i});
     ASSERT_EQ(map.doubts.size(), 1u);
-    EXPECT_EQ(map.doubts[0].find("1 scan not connected to the rest: scan " +
-                                 std::to_string(i) + " (with scan "),
-              0u)
-        << map.doubts[0];
+    EXPECT_EQ(map.doubts[0].reason, RejectReason::kScansDisconnected);
+    EXPECT_EQ(map.doubts[0].measured, 1);
+    EXPECT_EQ(map.doubts[0].text, "scan " + std::to_string(i));
+    EXPECT_EQ(map.doubts[0].causes.at(0).reason, RejectReason::kLinkNotConsistent);
     for (std::size_t k = 0; k < kRoomScans; ++k)
-      EXPECT_EQ(map.scans[k].doubt.empty(), k != i) << k;
+      EXPECT_EQ(static_cast<bool>(map.scans[k].doubt), k == i) << k;
   }
 }
 
@@ -139,8 +140,8 @@ TEST_F(MapOfARoom, NamesTheSmallerPartBehindABreak)
     EXPECT_EQ(looseOf(map),
               first_behind == 2 ? (std::set<std::size_t>{0, 1})
                                 : (std::set<std::size_t>{4, 5}));
-    EXPECT_EQ(map.doubts[0].find("2 scans not connected to the rest: "), 0u)
-        << map.doubts[0];
+    EXPECT_EQ(map.doubts[0].reason, RejectReason::kScansDisconnected);
+    EXPECT_EQ(map.doubts[0].measured, 2) << map.doubts[0];
   }
 }
 

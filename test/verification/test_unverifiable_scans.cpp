@@ -15,6 +15,7 @@ using pcl6d::MapVerification;
 using pcl6d::MapVerifier;
 using pcl6d::Points;
 using pcl6d::Random;
+using pcl6d::RejectReason;
 using pcl6d::test::kNan;
 using pcl6d::test::looseOf;
 using pcl6d::test::namesOf;
@@ -64,7 +65,9 @@ TEST(MapVerifier, IsNeverGoodWithoutOverlap)
   const MapVerification map = verifiedOf(scans, poses);
   EXPECT_EQ(map.trust, MapTrust::kDoubtful);
   EXPECT_EQ(looseOf(map), (std::set<std::size_t>{1, 2}));
-  EXPECT_EQ(map.scans[1].doubt, "with scan 0: only 0 patches of surface in common");
+  EXPECT_EQ(map.scans[1].doubt.reason, RejectReason::kLinkNotConsistent);
+  EXPECT_EQ(toWords(map.scans[1].doubt),
+            "with scan 0: only 0 patches of surface in common");
 }
 
 TEST(MapVerifier, TiesIdenticalScans)
@@ -89,7 +92,8 @@ TEST(MapVerifier, NamesEmptyAndTinyScans)
   const MapVerification map = verifiedOf(scans, roomPoses());
   EXPECT_EQ(map.trust, MapTrust::kUnverified) << "nothing can tell where they are";
   EXPECT_EQ(looseOf(map), (std::set<std::size_t>{3, 4, 5}));
-  EXPECT_EQ(map.doubts.at(0).find("3 scans cannot be verified: "), 0u) << map.doubts[0];
+  EXPECT_EQ(map.doubts.at(0).reason, RejectReason::kScansNotVerified);
+  EXPECT_EQ(map.doubts[0].measured, 3) << map.doubts[0];
 }
 
 TEST(MapVerifier, LeavesScansThatAbstainUnverified)
@@ -107,10 +111,11 @@ TEST(MapVerifier, LeavesScansThatAbstainUnverified)
       verifiedOf(scans, {roomPoses()[0], roomPoses()[1], roomPoses()[2]});
   EXPECT_NE(map.trust, MapTrust::kGood);
   EXPECT_TRUE(map.scans[2].abstains);
-  EXPECT_EQ(
-      map.doubts.back().find("1 scan cannot be verified: too few surfaces, or rays "
-                             "contradicting points of their own scan"),
-      0u)
+  EXPECT_EQ(map.doubts.back().reason, RejectReason::kScansNotVerified);
+  EXPECT_EQ(toWords(map.doubts.back())
+                .find("1 scan cannot be verified: too few surfaces, or rays "
+                      "contradicting points of their own scan"),
+            0u)
       << map.doubts.back();
 }
 
@@ -137,8 +142,8 @@ TEST(MapVerifier, ComparesOnlySurfacesOfCutOutsInACommonFrame)
   for (const auto& scan : map.scans)
     EXPECT_TRUE(scan.tied && scan.abstains && scan.off_centre);
   ASSERT_EQ(map.doubts.size(), 1u);
-  EXPECT_EQ(map.doubts[0].find("3 scans not centred on the scanner"), 0u)
-      << map.doubts[0];
+  EXPECT_EQ(map.doubts[0].reason, RejectReason::kScansOffCentre);
+  EXPECT_EQ(map.doubts[0].measured, 3) << map.doubts[0];
 }
 
 TEST(MapVerifier, DoesNotTieScansThatAbstainAndShareNothing)
@@ -166,7 +171,8 @@ TEST(MapVerifier, TellsScansOfOneNameApart)
   const MapVerification map =
       MapVerifier(scans.all(), {"same", "same", "same"}).verify(poses);
   ASSERT_FALSE(map.doubts.empty());
-  EXPECT_EQ(map.doubts[0].find("1 scan not connected to the rest: same (with same: "),
+  EXPECT_EQ(toWords(map.doubts[0])
+                .find("1 scan not connected to the rest: same (with same: "),
             0u)
       << map.doubts[0];
 }

@@ -161,12 +161,12 @@ TEST(SurveyReport, VerdictFollowsVerificationAndControl)
   EXPECT_TRUE(holds(blunder.reasons[0], "Control point T<1> has a gross error"));
   run = surveyedRun();
   run.verification->trust = MapTrust::kDoubtful;
-  run.verification->doubts = {"rays contradict"};
+  run.verification->doubts = {pcl6d::RejectReason::kScansContradict};
   run.trusted = false;
   EXPECT_EQ(reportOf(run).verdict, SurveyVerdict::kRejected);
   run = surveyedRun();
   run.verification->trust = MapTrust::kUnverified;
-  run.verification->doubts = {"rays see too little"};
+  run.verification->doubts = {pcl6d::RejectReason::kScansNotVerified};
   EXPECT_EQ(reportOf(run).verdict, SurveyVerdict::kConditional);
   run = surveyedRun();
   run.control->adjusted = false;

@@ -40,7 +40,7 @@ isNamed(const RunResult& run, std::size_t i)
   if (!run.verification)
     return false;
   const ScanCheck& check = run.verification->scans.at(i);
-  return !check.doubt.empty() || (run.scans.size() > 1 && !check.tied);
+  return check.doubt || (run.scans.size() > 1 && !check.tied);
 }
 
 /** \return the lines of a verdict that doubt the map, joined */

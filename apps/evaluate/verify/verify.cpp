@@ -35,9 +35,8 @@ doubtCopies(const VerifySource& source, MapVerification& map)
   }
   if (copies == 0)
     return;
-  map.doubts.push_back(
-      "scans are copies of earlier scans and verify no pose: " + example +
-      (copies > 1 ? " and " + std::to_string(copies - 1) + " more" : ""));
+  map.doubts.emplace_back(RejectReason::kScansAreCopies, static_cast<double>(copies));
+  map.doubts.back().text = example;
   if (map.trust == MapTrust::kGood)
     map.trust = MapTrust::kUnverified;
 }
@@ -53,14 +52,14 @@ verifyMap(const VerifySettings& s, const VerifySource& source)
       MapVerifier(source.scans.scans(), source.names, options).verify(source.poses);
   boundPoses(source.poses, map, s.num_threads);
   if (source.names.size() == 1)
-    map.doubts.emplace_back("a single scan: no second scan to verify the pose");
+    map.doubts.emplace_back(RejectReason::kSingleScan);
   doubtCopies(source, map);
   if (map.trust == MapTrust::kDoubtful || map.trust == MapTrust::kUnverified) {
     const std::string mistake =
         likelyPoseMistake(source.scans.scans(), source.poses, s.num_threads);
     if (!mistake.empty()) {
       map.trust = MapTrust::kDoubtful;
-      map.doubts.push_back("poses: " + mistake);
+      map.doubts.emplace_back(RejectReason::kPoseMistake).text = "poses: " + mistake;
     }
   }
   return map;
@@ -93,15 +92,14 @@ verifyPair(const VerifySource& source)
   if (trust == LinkTrust::kGood)
     return map;
   if (map.links.front().patches == 0 && verdict.evidence.fit.pairs == 0)
-    map.doubts.emplace_back("at this pose the scans have no surfaces in common");
+    map.doubts.emplace_back(RejectReason::kNoSurfacesAtPose);
   else
-    map.doubts.push_back((trust == LinkTrust::kWrong
-                              ? "the scans contradict this pose: "
-                          : trust == LinkTrust::kWeak ? "the scans do not decide: "
-                                                      : "the scans are no evidence: ") +
-                         toWords(verdict.test_result.rejection));
+    map.doubts.emplace_back(trust == LinkTrust::kWrong ? RejectReason::kPoseContradicted
+                            : trust == LinkTrust::kWeak ? RejectReason::kPoseUndecided
+                                                        : RejectReason::kPoseNotTested,
+                            verdict.test_result.rejection);
   if (!map.trusted())
-    map.scans[1].doubt = toWords(verdict.test_result.rejection);
+    map.scans[1].doubt = verdict.test_result.rejection;
   return map;
 }
 

@@ -117,7 +117,7 @@ printVerification(const VerifySettings& s,
         map.count(LinkTrust::kWrong),
         100 * map.background);
   std::printf("%s: %s\n", toString(map.trust), sentenceOf(map, s.isPair()).c_str());
-  for (const std::string& doubt : map.doubts)
+  for (const std::string& doubt : wordsOfEach(map.doubts))
     std::printf("  %s\n", doubt.c_str());
   const std::string exactness = exactnessOf(map, source.names);
   if (!exactness.empty())

@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rejection_numbers.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/rejection.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <ostream>
-#include <sstream>
 
 namespace pcl6d {
 
 namespace {
 /** The name of a reason in files, and its words: {measured}, {needed}, {ratio} of both, {share}
  * and {least} of both in percent, {count:NOUN}, {deviations}, {status}, {found} by a search,
- * {text} and {cause}. */
+ * {text}, {cause} and {causes}; {metres} and {degrees} of a pose, and how many {more}. */
 struct ReasonWords {
   RejectReason reason;
   const char* name;
   const char* words;
 };
 
+using rejection_numbers::andMore;
+using rejection_numbers::countOf;
+using rejection_numbers::fixed;
+using rejection_numbers::percent;
+using rejection_numbers::shortNumber;
 using Reason = RejectReason;
 constexpr ReasonWords kReasons[] = {
     {Reason::kNone, "", ""},
@@ -164,6 +169,62 @@ constexpr ReasonWords kReasons[] = {
      "too little is known of the motion after the scan"},
     {Reason::kOneTime, "one-time", "the points have equal times"},
     {Reason::kNoNextScan, "no-next-scan", "no later scan to compare with"},
+
+    {Reason::kLinkNotConsistent, "link-not-consistent", "with {text}: {cause}"},
+    {Reason::kNoCommonSurfaces,
+     "no-common-surfaces",
+     "no second scan has these surfaces"},
+    {Reason::kContradictsScan, "contradicts-scan", "contradicts {text}: {cause}"},
+    {Reason::kFitsElsewhere,
+     "fits-elsewhere",
+     "fits as well {metres} m away, turned by {degrees} deg, beside {text}"},
+    {Reason::kScansDisconnected,
+     "scans-disconnected",
+     "{count:scan} not connected to the rest: {text} ({cause}); better initial poses "
+     "or "
+     "scans in between would help"},
+    {Reason::kScansContradict,
+     "scans-contradict",
+     "scans contradict each other: {causes}"},
+    {Reason::kSingleLinksContradict,
+     "single-links-contradict",
+     "most links of these scans are consistent, a single link is not (glass, dynamic "
+     "objects, little overlap?): {causes}"},
+    {Reason::kPosesAmbiguous,
+     "poses-ambiguous",
+     "AMBIGUOUS, two places fit: {causes}; rough initial poses, or scans on the way "
+     "between, would decide"},
+    {Reason::kOfScans, "of-scans", "{text} ({cause})"},
+    {Reason::kScansOffCentre,
+     "scans-off-centre",
+     "{count:scan} not centred on the scanner (rays from the origin would cross "
+     "surfaces of their own scan): free-space tests are off, only surfaces were "
+     "compared: {text}"},
+    {Reason::kScansNotVerified,
+     "scans-not-verified",
+     "{count:scan} cannot be verified: too few surfaces, or rays contradicting points "
+     "of their own scan (merged scans, motion during the scan?): {text}"},
+    {Reason::kBackgroundTooHigh,
+     "background-too-high",
+     "rays contradict {share} % of the surface even where scans fit best (glass, "
+     "motion "
+     "during the scan, errors of the scanner?): rays cannot tell equal-looking places "
+     "apart"},
+    {Reason::kPoseMistake, "pose-mistake", "{text}"},
+    {Reason::kScansAreCopies,
+     "scans-are-copies",
+     "scans are copies of earlier scans and verify no pose: {text}{more}"},
+    {Reason::kSingleScan,
+     "single-scan",
+     "a single scan: no second scan to verify the pose"},
+    {Reason::kNoSurfacesAtPose,
+     "no-surfaces-at-pose",
+     "at this pose the scans have no surfaces in common"},
+    {Reason::kPoseContradicted,
+     "pose-contradicted",
+     "the scans contradict this pose: {cause}"},
+    {Reason::kPoseUndecided, "pose-undecided", "the scans do not decide: {cause}"},
+    {Reason::kPoseNotTested, "pose-not-tested", "the scans are no evidence: {cause}"},
 };
 
 const ReasonWords&
@@ -176,33 +237,17 @@ rowOf(RejectReason reason)
   return row != std::end(kReasons) ? *row : kReasons[0];
 }
 
-/** \return three digits, without powers of ten */
+/** \return the first sentences, separated by commas */
 std::string
-shortNumber(double value)
+listOf(const std::vector<Rejection>& causes)
 {
-  constexpr double kWholeFrom = 100;
-  std::ostringstream digits;
-  if (std::abs(value) >= kWholeFrom)
-    digits << std::fixed;
-  digits.precision(std::abs(value) >= kWholeFrom ? 0 : 3);
-  digits << value;
-  return digits.str();
-}
-
-std::string
-percent(double share)
-{
-  std::ostringstream digits;
-  digits.precision(2);
-  digits << 100 * share;
-  return digits.str();
-}
-
-/** \return "1 scan", "2 scans" */
-std::string
-countOf(double number, const std::string& noun)
-{
-  return shortNumber(number) + ' ' + noun + (number == 1 ? "" : "s");
+  constexpr std::size_t kMostListed = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(causes.size(), kMostListed); ++i)
+    text += (i > 0 ? ", " : "") + toWords(causes[i]);
+  return causes.size() > kMostListed
+             ? text + andMore(static_cast<double>(causes.size() - kMostListed))
+             : text;
 }
 
 /** \return why no initial pose was found */
@@ -239,6 +284,14 @@ valueOf(const std::string& name, const Rejection& rejection)
     return searchWords(rejection.status);
   if (name == "cause")
     return toWords(rejection.causes);
+  if (name == "causes")
+    return listOf(rejection.causes);
+  if (name == "metres")
+    return fixed(rejection.measured, 1);
+  if (name == "degrees")
+    return fixed(rejection.needed, 0);
+  if (name == "more")
+    return andMore(rejection.measured - 1);
   return rejection.text;
 }
 } // namespace
@@ -290,6 +343,16 @@ toWords(const std::vector<Rejection>& rejections)
   std::string words;
   for (const Rejection& one : rejections)
     words += (words.empty() ? "" : "; ") + toWords(one);
+  return words;
+}
+
+std::vector<std::string>
+wordsOfEach(const std::vector<Rejection>& rejections)
+{
+  std::vector<std::string> words;
+  words.reserve(rejections.size());
+  for (const Rejection& one : rejections)
+    words.push_back(toWords(one));
   return words;
 }
 

@@ -145,7 +145,7 @@ verificationOrNone(const std::optional<MapVerification>& map)
   py::dict dict;
   dict["verdict"] = toString(map->trust);
   dict["trusted"] = map->trusted();
-  dict["doubts"] = map->doubts;
+  dict["doubts"] = wordsOfEach(map->doubts);
   py::list links;
   for (const LinkCheck& link : map->links) {
     py::dict row;

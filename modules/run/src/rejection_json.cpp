@@ -42,6 +42,8 @@ rejectionAt(const JsonValue& json, int depth)
     rejection.text = text->text();
   if (const auto cause = json.find("cause"))
     rejection.causes = {rejectionAt(*cause, depth + 1)};
+  for (const JsonValue& cause : json.elements("causes"))
+    rejection.causes.push_back(rejectionAt(cause, depth + 1));
   return rejection;
 }
 } // namespace
@@ -58,8 +60,10 @@ jsonOfRejection(const Rejection& rejection)
     json["status"] = toString(rejection.status);
   if (!rejection.text.empty())
     json["text"] = rejection.text;
-  if (!rejection.causes.empty())
+  if (rejection.causes.size() == 1)
     json["cause"] = jsonOfRejection(rejection.causes.front());
+  else if (!rejection.causes.empty())
+    json["causes"] = jsonOfRejections(rejection.causes);
   return json;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "schema_keys.h"
 
+#include <pcl6d/common/run_result.h>
+
 #include <map>
 
 namespace pcl6d::run_files {
@@ -35,6 +37,17 @@ nameInFirstSchema(const std::string& name)
       {"violated", "contradicted"}};
   const auto former = kNames.find(name);
   return former == kNames.end() ? name : former->second;
+}
+
+SchemaKeys
+keysOf(const JsonValue& schema_version)
+{
+  const int version = schema_version.integer();
+  schema_version.require(version >= kFirstSchema &&
+                             version <= RunResult::kSchemaVersion,
+                         std::to_string(kFirstSchema) + " to " +
+                             std::to_string(RunResult::kSchemaVersion));
+  return SchemaKeys(version);
 }
 
 } // namespace pcl6d::run_files

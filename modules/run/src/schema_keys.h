@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/io/json_object.h>
+
 #include <string>
 
 /** \file Names of keys and columns in the files of runs of former schema versions. */
@@ -27,5 +29,9 @@ public:
 private:
   int version_;
 };
+
+/** \return the keys of a file by its `schema_version` \throws IoFailed an unknown version */
+SchemaKeys
+keysOf(const JsonValue& schema_version);
 
 } // namespace pcl6d::run_files

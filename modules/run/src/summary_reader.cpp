@@ -268,16 +268,6 @@ filesFrom(const JsonValue& json)
   return files;
 }
 
-SchemaKeys
-keysOf(const JsonValue& schema)
-{
-  const int version = schema.integer();
-  schema.require(version >= kFirstSchema && version <= RunResult::kSchemaVersion,
-                 std::to_string(kFirstSchema) + " to " +
-                     std::to_string(RunResult::kSchemaVersion));
-  return SchemaKeys(version);
-}
-
 void
 readHead(const JsonValue& json, const SchemaKeys& keys, RunResult& run)
 {

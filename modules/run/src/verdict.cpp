@@ -200,7 +200,7 @@ describeVerification(const RunResult& run, std::ostream& text)
   if (map.trust == MapTrust::kGood)
     text << "\nverified by points and rays: " << map.count(LinkTrust::kGood) << " of "
          << text::counted(map.links.size(), "link") << " confirm the map";
-  for (const std::string& doubt : map.doubts)
+  for (const std::string& doubt : wordsOfEach(map.doubts))
     text << (map.trust == MapTrust::kGood ? "\nnote: "
              : map.trusted()              ? "\nunverified: "
                                           : "\nNOT TO BE TRUSTED: ")

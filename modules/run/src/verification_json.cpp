@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "rejection_json.h"
 #include "verification_json.h"
 
 #include <pcl6d/common/error.h>
@@ -61,7 +62,10 @@ scanCheckFrom(const JsonValue& json, const SchemaKeys& keys)
     scan.bound = sizeOrInfinity(bound);
   if (const auto noticed = json.find(keys("detectable"))) // missing in older runs
     scan.noticed = noticedFrom(*noticed, keys);
-  scan.doubt = (json / "doubt").text();
+  if (const auto reason = json.find("doubt_reason")) // missing in older runs
+    scan.doubt = run_files::rejectionFrom(*reason);
+  else
+    scan.doubt = Rejection::stated((json / "doubt").text());
   return scan;
 }
 } // namespace
@@ -72,19 +76,23 @@ nlohmann::ordered_json
 jsonOfVerification(const MapVerification& map)
 {
   auto scans = nlohmann::ordered_json::array();
-  for (const ScanCheck& scan : map.scans)
+  for (const ScanCheck& scan : map.scans) {
     scans.push_back({{"connected", scan.tied},
                      {"rays_unreliable", scan.abstains},
                      {"off_centre", scan.off_centre},
                      {"bound", numberOrNull(scan.bound)},
                      {"detectable", jsonOfNoticed(scan.noticed)},
-                     {"doubt", scan.doubt}});
+                     {"doubt", toWords(scan.doubt)}});
+    if (scan.doubt)
+      scans.back()["doubt_reason"] = jsonOfRejection(scan.doubt);
+  }
   return {{"verdict", toString(map.trust)},
           {"links", map.links.size()},
           {"consistent", map.count(LinkTrust::kGood)},
           {"inconsistent", map.count(LinkTrust::kWrong)},
           {"background", map.background},
-          {"doubts", map.doubts},
+          {"doubts", wordsOfEach(map.doubts)},
+          {"doubt_reasons", jsonOfRejections(map.doubts)},
           {"scans", scans}};
 }
 
@@ -100,8 +108,11 @@ verificationFrom(const JsonValue& json, const SchemaKeys& keys)
   }
   map.background = background.number();
   background.require(map.background >= 0 && map.background <= 1, "in [0, 1]");
-  for (const JsonValue& doubt : (json / "doubts").elements())
-    map.doubts.push_back(doubt.text());
+  if (const auto reasons = json.find("doubt_reasons")) // missing in older runs
+    map.doubts = rejectionsFrom(*reasons);
+  else
+    for (const JsonValue& doubt : (json / "doubts").elements())
+      map.doubts.push_back(Rejection::stated(doubt.text()));
   for (const JsonValue& scan : (json / "scans").elements())
     map.scans.push_back(scanCheckFrom(scan, keys));
   return map;

@@ -143,7 +143,8 @@ RunVerification::explainDoubts(const std::vector<ScanResult>& scans,
   if (mistake.empty())
     return;
   map.trust = MapTrust::kDoubtful;
-  map.doubts.push_back("initial poses: " + mistake);
+  Rejection& doubt = map.doubts.emplace_back(RejectReason::kPoseMistake);
+  doubt.text = "initial poses: " + mistake;
 }
 
 } // namespace pcl6d::slam6d

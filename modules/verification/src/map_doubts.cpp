@@ -2,12 +2,8 @@
 #include "calibration.h"
 #include "map_doubts.h"
 
-#include <pcl6d/io/text.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace pcl6d::verification {
 
@@ -37,6 +33,33 @@ listed(const std::vector<std::string>& names)
              : text;
 }
 
+/** \return the reason, with the name of a scan and the cause */
+Rejection
+withCause(RejectReason reason, const std::string& name, const Rejection& cause)
+{
+  Rejection rejection(reason, cause);
+  rejection.text = name;
+  return rejection;
+}
+
+/** \return a doubt about scans, by their names */
+Rejection
+aboutScans(RejectReason reason, const std::vector<std::string>& names)
+{
+  Rejection rejection(reason, static_cast<double>(names.size()));
+  rejection.text = listed(names);
+  return rejection;
+}
+
+/** \return a doubt with a cause for each scan or link */
+Rejection
+withCauses(RejectReason reason, const std::vector<Rejection>& causes)
+{
+  Rejection rejection(reason, static_cast<double>(causes.size()));
+  rejection.causes = causes;
+  return rejection;
+}
+
 /** \return for each scan the number of its good links minus the number of wrong ones */
 std::vector<int>
 votesOf(const MapVerification& map)
@@ -49,27 +72,18 @@ votesOf(const MapVerification& map)
                                                    : 1;
   return votes;
 }
-
-std::string
-silenceOf(double background)
-{
-  std::ostringstream text; // read by people
-  text << "rays contradict " << std::fixed << std::setprecision(0) << 100 * background
-       << " % of the surface even where scans fit best (glass, motion during the scan, "
-          "errors of the scanner?): rays cannot tell equal-looking places apart";
-  return text.str();
-}
 } // namespace
 
-std::string
+Rejection
 MapDoubts::told(const LinkCheck& link) const
 {
-  return names_[link.from] + " and " + names_[link.to] + " (" +
-         toWords(link.rejection) + ")";
+  return withCause(RejectReason::kOfScans,
+                   names_[link.from] + " and " + names_[link.to],
+                   link.rejection);
 }
 
 /** \return why a scan is disconnected: its most informative link */
-std::string
+Rejection
 MapDoubts::reasonFor(std::size_t scan, const MapVerification& map) const
 {
   const LinkCheck* telling = nullptr;
@@ -78,19 +92,19 @@ MapDoubts::reasonFor(std::size_t scan, const MapVerification& map) const
         (!telling || link.patches > telling->patches))
       telling = &link;
   if (!telling)
-    return "no second scan has these surfaces";
+    return RejectReason::kNoCommonSurfaces;
   const std::size_t other = telling->from == scan ? telling->to : telling->from;
-  return "with " + names_[other] + ": " + toWords(telling->rejection);
+  return withCause(RejectReason::kLinkNotConsistent, names_[other], telling->rejection);
 }
 
 /** \return the connected scans with an ambiguous pose, with the second pose */
-std::vector<std::string>
+std::vector<Rejection>
 MapDoubts::twins(const MapVerification& map) const
 {
-  std::vector<std::string> twins;
+  std::vector<Rejection> twins;
   for (std::size_t i = 0; i < scans_.size(); ++i)
-    if (map.scans[i].tied && !map.scans[i].doubt.empty())
-      twins.push_back(names_[i] + " (" + map.scans[i].doubt + ")");
+    if (map.scans[i].tied && map.scans[i].doubt)
+      twins.push_back(withCause(RejectReason::kOfScans, names_[i], map.scans[i].doubt));
   return twins;
 }
 
@@ -99,23 +113,23 @@ bool
 MapDoubts::tellLoose(MapVerification& map) const
 {
   std::vector<std::string> loose;
-  std::string why; // the rejected link, or the link of the first scan
+  Rejection why; // the rejected link, or the link of the first scan
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     ScanCheck& scan = map.scans[i];
     if (scan.tied || scans_[i].isTooSmall()) // its pose cannot be tested
       continue;
-    if (scan.doubt.empty())
+    if (!scan.doubt)
       scan.doubt = reasonFor(i, map);
     else
       why = scan.doubt;
-    if (why.empty())
+    if (!why)
       why = scan.doubt;
     loose.push_back(names_[i]);
   }
-  if (!loose.empty())
-    map.doubts.push_back(text::counted(loose.size(), "scan") +
-                         " not connected to the rest: " + listed(loose) + " (" + why +
-                         "); better initial poses or scans in between would help");
+  if (!loose.empty()) {
+    map.doubts.push_back(aboutScans(RejectReason::kScansDisconnected, loose));
+    map.doubts.back().causes = {why};
+  }
   return !loose.empty();
 }
 
@@ -147,18 +161,18 @@ void
 MapDoubts::tellContradicted(const std::vector<std::size_t>& links,
                             MapVerification& map) const
 {
-  std::vector<std::string> contradicted;
+  std::vector<Rejection> contradicted;
   for (const std::size_t k : links) {
     const LinkCheck& link = map.links[k];
     contradicted.push_back(told(link));
     for (const std::size_t i : {link.from, link.to})
-      if (map.scans[i].doubt.empty())
-        map.scans[i].doubt = "contradicts " +
-                             names_[i == link.from ? link.to : link.from] + ": " +
-                             toWords(link.rejection);
+      if (!map.scans[i].doubt)
+        map.scans[i].doubt = withCause(RejectReason::kContradictsScan,
+                                       names_[i == link.from ? link.to : link.from],
+                                       link.rejection);
   }
   if (!contradicted.empty())
-    map.doubts.push_back("scans contradict each other: " + listed(contradicted));
+    map.doubts.push_back(withCauses(RejectReason::kScansContradict, contradicted));
 }
 
 /** \return whether scans cannot be verified */
@@ -170,17 +184,9 @@ MapDoubts::tellAbstaining(MapVerification& map) const
     if (map.scans[i].abstains)
       (map.scans[i].off_centre ? off_centre : abstaining).push_back(names_[i]);
   if (!off_centre.empty())
-    map.doubts.push_back(
-        text::counted(off_centre.size(), "scan") +
-        " not centred on the scanner (rays from the origin would cross surfaces of "
-        "their own scan): free-space tests are off, only surfaces were compared: " +
-        listed(off_centre));
+    map.doubts.push_back(aboutScans(RejectReason::kScansOffCentre, off_centre));
   if (!abstaining.empty())
-    map.doubts.push_back(
-        text::counted(abstaining.size(), "scan") +
-        " cannot be verified: too few surfaces, or rays contradicting points of their "
-        "own scan (merged scans, motion during the scan?): " +
-        listed(abstaining));
+    map.doubts.push_back(aboutScans(RejectReason::kScansNotVerified, abstaining));
   return !abstaining.empty() || !off_centre.empty();
 }
 
@@ -188,24 +194,21 @@ void
 MapDoubts::tell(MapVerification& map) const
 {
   const bool is_silent = map.background > kMostBackground;
-  const std::vector<std::string> twins = this->twins(map); // before further doubts
+  const std::vector<Rejection> twins = this->twins(map); // before further doubts
   const bool is_loose = tellLoose(map);
   const Against against = this->against(map, is_silent);
   tellContradicted(against.proven, map);
   const bool abstains = tellAbstaining(map);
   if (is_silent)
-    map.doubts.push_back(silenceOf(map.background));
-  std::vector<std::string> outvoted;
+    map.doubts.emplace_back(
+        RejectReason::kBackgroundTooHigh, map.background, kMostBackground);
+  std::vector<Rejection> outvoted;
   for (const std::size_t k : against.alone)
     outvoted.push_back(told(map.links[k]));
   if (!outvoted.empty())
-    map.doubts.push_back("most links of these scans are consistent, a single link is "
-                         "not (glass, dynamic objects, little overlap?): " +
-                         listed(outvoted));
+    map.doubts.push_back(withCauses(RejectReason::kSingleLinksContradict, outvoted));
   if (!twins.empty())
-    map.doubts.push_back(
-        "AMBIGUOUS, two places fit: " + listed(twins) +
-        "; rough initial poses, or scans on the way between, would decide");
+    map.doubts.push_back(withCauses(RejectReason::kPosesAmbiguous, twins));
   const bool is_unverified = scans_.size() < 2 || abstains || is_silent;
   map.trust = is_loose || !against.proven.empty() ? MapTrust::kDoubtful
               : !twins.empty()                    ? MapTrust::kAmbiguous

@@ -12,7 +12,7 @@
 
 namespace pcl6d::verification {
 
-/** The doubts about a map with tested links, in words, and its verdict. */
+/** The doubts about a map with tested links, and its verdict. */
 class PCL6D_EXPORTS MapDoubts { // exported for its test
 public:
   /** \param[in] scans, names, test_results results of the links' tests: all kept by reference */
@@ -34,7 +34,7 @@ private:
     std::vector<std::size_t> alone;  ///< outvoted by most links of both scans
   };
 
-  std::vector<std::string>
+  std::vector<Rejection>
   twins(const MapVerification& map) const;
   bool
   tellLoose(MapVerification& map) const;
@@ -44,10 +44,10 @@ private:
   tellContradicted(const std::vector<std::size_t>& links, MapVerification& map) const;
   bool
   tellAbstaining(MapVerification& map) const;
-  std::string
+  Rejection
   reasonFor(std::size_t scan, const MapVerification& map) const;
   /** \return the scans of a link and its reason */
-  std::string
+  Rejection
   told(const LinkCheck& link) const;
 
   const std::deque<VerifiedScan>& scans_;

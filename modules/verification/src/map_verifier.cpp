@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_doubts.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace pcl6d {
 
@@ -205,19 +204,19 @@ void
 MapVerifier::findTwins(const std::vector<Eigen::Isometry3d>& poses,
                        MapVerification& map) const
 {
-  std::vector<std::string> doubts(scans_.size());
+  std::vector<Rejection> doubts(scans_.size());
   sharedFor(options_.sharing, options_.num_threads, doubts, [&](std::size_t i) {
     if (options_.unsure[i] && map.scans[i].tied)
       doubts[i] = twinOf(i, poses, map);
   });
   for (std::size_t i = 0; i < doubts.size(); ++i)
-    if (!doubts[i].empty())
+    if (doubts[i])
       map.scans[i].doubt = doubts[i];
 }
 
 /** Finds a second pose of a scan, relative to the scan before and to the scan with the largest
- * overlap. \return its description; empty: none */
-std::string
+ * overlap. \return its distance; none: accepted */
+Rejection
 MapVerifier::twinOf(std::size_t scan,
                     const std::vector<Eigen::Isometry3d>& poses,
                     const MapVerification& map) const
@@ -236,15 +235,13 @@ MapVerifier::twinOf(std::size_t scan,
       if (!fitsElsewhere(scan, beside, place, poses, map))
         continue;
       const MotionSize way = distanceBetween(poses[scan], place);
-      std::ostringstream text;
-      text << std::fixed << std::setprecision(1) << "fits as well " << way.translation
-           << " m away, turned by " << std::setprecision(0)
-           << way.rotation * 180 / 3.141592653589793 << " deg, beside "
-           << names_[beside];
-      return text.str();
+      Rejection second(
+          RejectReason::kFitsElsewhere, way.translation, degrees(way.rotation));
+      second.text = names_[beside];
+      return second;
     }
   }
-  return "";
+  return {};
 }
 
 /** Detectable shift of the most certain link of each scan. */
@@ -319,7 +316,7 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
     map.scans[i].off_centre = scans_[i].isOffCentre();
     map.scans[i].tied = ties.tied[i];
     if (!ties.tied[i])
-      map.scans[i].doubt = toWords(ties.cut_from[i]);
+      map.scans[i].doubt = ties.cut_from[i];
   }
   if (!options_.unsure.empty())
     findTwins(T_world_scan, map);

@@ -162,7 +162,7 @@ assess(const RunResult& run, bool has_failed, SurveyReport& report)
   if (!run.verification)
     add(SurveyVerdict::kConditional, "The registration was not verified.");
   else
-    for (const std::string& doubt : run.verification->doubts)
+    for (const std::string& doubt : wordsOfEach(run.verification->doubts))
       add(run.verification->trusted() ? SurveyVerdict::kConditional
                                       : SurveyVerdict::kRejected,
           "Verification: " + doubt + '.');

@@ -77,7 +77,7 @@ struct ScanCheck {
    * ellipsoid */
   std::optional<double> bound;
   std::optional<NoticedError> noticed; ///< by the scan's most sensitive good link
-  std::string doubt;                   ///< in words; empty without doubt
+  Rejection doubt;                     ///< about the pose; none: accepted
 };
 
 /** \brief How far a map is to be trusted. */
@@ -100,8 +100,8 @@ struct MapVerification {
   MapTrust trust = MapTrust::kUnverified;
   double background = 0; ///< share of patches contradicted in correct links of the map
   std::vector<LinkCheck> links;
-  std::vector<ScanCheck> scans;    ///< one per scan
-  std::vector<std::string> doubts; ///< in words, each with a remedy
+  std::vector<ScanCheck> scans;  ///< one per scan
+  std::vector<Rejection> doubts; ///< about the map
 
   /** \return whether the map may be used: neither doubtful nor ambiguous */
   bool

@@ -11,7 +11,7 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Why a match, a pose, a link or a stage was rejected. The comment of a reason says what
+/** \brief Why a match, a pose, a link or a stage was rejected, or a map is in doubt. The comment of a reason says what
  * Rejection::measured and Rejection::needed hold; its words are in src/rejection.cpp. */
 enum class RejectReason {
   kNone,   ///< accepted
@@ -82,7 +82,30 @@ enum class RejectReason {
   kNoPreviousScanMet,  ///< overlap; least overlap
   kTooLittleKnown,     ///< of the motion after the first scan
   kOneTime,            ///< times of the points do not differ
-  kNoNextScan          ///< no scan follows
+  kNoNextScan,         ///< no scan follows
+
+  // a doubt about a scan of a map
+  kLinkNotConsistent, ///< text: scan at the other end of its most informative link; cause
+  kNoCommonSurfaces, ///< no link of the scan has surfaces in common
+  kContradictsScan,  ///< text: the other scan, which is connected, too; cause
+  kFitsElsewhere, ///< distance to a second pose [m]; turn to it [deg]; text: scan beside
+
+  // a doubt about a map
+  kScansDisconnected,     ///< number of scans; text: names; cause, of one of them
+  kScansContradict,       ///< number of links; causes: kOfScans, one per link
+  kSingleLinksContradict, ///< number of links; causes: kOfScans, one per link
+  kPosesAmbiguous,        ///< number of scans; causes: kOfScans, one per scan
+  kOfScans,               ///< text: a scan, or the two of a link; cause
+  kScansOffCentre,        ///< number of scans; text: names
+  kScansNotVerified,      ///< number of scans; text: names
+  kBackgroundTooHigh,     ///< share of patches violated in correct links; largest share
+  kPoseMistake,           ///< text: the mistake, such as positions in feet
+  kScansAreCopies,        ///< number of copies; text: a copy and its original
+  kSingleScan,            ///< no second scan to test with
+  kNoSurfacesAtPose,      ///< of two scans: nothing in common at the given pose
+  kPoseContradicted,      ///< of two scans: cause
+  kPoseUndecided,         ///< of two scans: too little to decide; cause
+  kPoseNotTested          ///< of two scans: free-space test inconclusive; cause
 };
 
 /** \return a word for files, such as "overlap-too-small"; "" for kNone */
@@ -112,9 +135,10 @@ struct Rejection {
   double measured = 0;   ///< unit by reason
   double needed = 0;     ///< limit or reference of measured, in its unit
   double deviations = 0; ///< |measured - needed| / standard deviation; 0: not known
-  Status status = Status::kOk;   ///< of the estimator that failed
-  std::string text;              ///< a name, by reason
-  std::vector<Rejection> causes; ///< cause of this rejection: at most one element
+  Status status = Status::kOk; ///< of the estimator that failed
+  std::string text;            ///< a name, by reason
+  std::vector<Rejection>
+      causes; ///< cause of this rejection; several only if the reason says so
 };
 
 /** \return one sentence without a full stop, with the numbers; "" if accepted */
@@ -123,6 +147,10 @@ toWords(const Rejection& rejection);
 /** \return the sentences of several rejections, separated by semicolons */
 std::string
 toWords(const std::vector<Rejection>& rejections);
+
+/** \return the sentence of each rejection */
+std::vector<std::string>
+wordsOfEach(const std::vector<Rejection>& rejections);
 
 bool
 operator==(const Rejection& a, const Rejection& b);

@@ -74,7 +74,7 @@ private:
   speaking(const Pair& pair, const std::vector<Eigen::Isometry3d>& poses) const;
   void
   findTwins(const std::vector<Eigen::Isometry3d>& poses, MapVerification& map) const;
-  std::string
+  Rejection
   twinOf(std::size_t scan,
          const std::vector<Eigen::Isometry3d>& poses,
          const MapVerification& map) const;

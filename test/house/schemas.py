@@ -48,9 +48,14 @@ def read_json(path):
     return json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse_constant)
 
 
+def validator_of(schema):
+    """The rules of a schema."""
+    return jsonschema.Draft7Validator(schema)
+
+
 def errors_of(schema, value):
     """What a schema finds wrong."""
-    return list(jsonschema.Draft7Validator(schema).iter_errors(value))
+    return list(validator_of(schema).iter_errors(value))
 
 
 def faults_of(schemas, path, name=None):

@@ -227,8 +227,10 @@ parallelFor(std::size_t count,
   const std::size_t threads = std::min<std::size_t>(threadCount(num_threads), count);
   if (threads > 1)
     return ThreadPool::instance().run(count, threads, body);
+  const std::atomic<bool>* const stop = common::stopFlag();
   for (std::size_t i = 0; i < count; ++i) {
-    throwIfStopped();
+    if (stop != nullptr && *stop)
+      throw Interrupted();
     body(i);
   }
 }

@@ -89,7 +89,8 @@ def fault_of_line(tree, folder, line):
         return ""
     program = words[0].rsplit("/", 1)[-1]
     if program.startswith("pcl_slam6d"):
-        kept = [word.split("=")[0] if word.startswith("--") else word.replace(" ", "_") for word in words[1:]]
+        split = [part for word in words[1:] for part in (word.split("=", 1) if word.startswith("--") else [word])]
+        kept = [word.replace(" ", "_") for word in split]
         end = next((i for i, word in enumerate(kept) if word in ("|", "&&", ";", "&", ">", "\\")), len(kept))
         fault = fault_of(folder, " ".join([program] + kept[:end]))
         return "" if "--plugin" in kept and " has no " in fault else fault  # a word of the plug-in

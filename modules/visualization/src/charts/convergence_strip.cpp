@@ -88,11 +88,11 @@ layOut(const ConvergenceStripScene& scene, const ConvergenceStripOptions& option
 }
 
 /** Draws one strip; each method adds a part. */
-class Painter {
+class StripPainter {
 public:
-  Painter(const ConvergenceStripScene& scene,
-          const ConvergenceStripLayout& layout,
-          const ConvergenceStripOptions& options)
+  StripPainter(const ConvergenceStripScene& scene,
+               const ConvergenceStripLayout& layout,
+               const ConvergenceStripOptions& options)
   : strip_(scene)
   , layout_(layout)
   , theme_(themeOf(options.background))
@@ -195,7 +195,8 @@ ConvergenceStrip::draw(const ConvergenceStripScene& scene) const
   require(!scene.steps.empty(), "number of steps", 0, "> 0");
   ConvergenceStripPicture picture;
   picture.layout = layOut(scene, options_);
-  picture.image = Painter(scene, picture.layout, options_).paint(options_.transparent);
+  picture.image =
+      StripPainter(scene, picture.layout, options_).paint(options_.transparent);
   return picture;
 }
 

@@ -29,11 +29,11 @@ label(double value, double step)
 }
 
 /** Draws one chart; each method adds a part. */
-class Painter {
+class LineChartPainter {
 public:
-  Painter(const LineChartScene& chart,
-          const LineChartLayout& layout,
-          Background background)
+  LineChartPainter(const LineChartScene& chart,
+                   const LineChartLayout& layout,
+                   Background background)
   : chart_(chart)
   , layout_(layout)
   , dark_(background == Background::kDark)
@@ -199,7 +199,7 @@ LineChart::draw(const LineChartScene& scene) const
 {
   LineChartPicture picture;
   picture.layout = layOut(scene, options_);
-  picture.image = Painter(scene, picture.layout, options_.background).paint();
+  picture.image = LineChartPainter(scene, picture.layout, options_.background).paint();
   return picture;
 }
 

@@ -4,6 +4,7 @@
 #include "plain_point_tree.h"
 
 #include <pcl6d/common/error.h>
+#include <pcl6d/common/interruption.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/simd_clones.h>
 

@@ -95,7 +95,8 @@ addOptions(OptionTable& table, SimulateSettings& s)
       .help("number of scans, evenly along the way; by default suited to the scene");
   table.add("last", &s.simulation.last)
       .within(0, kNoBound, ">= 0")
-      .help("index of the last scan of the way to simulate, for example 19 of --scans 300; "
+      .help("index of the last scan of the way to simulate, for example 19 of --scans "
+            "300; "
             "the scans before it stay the same");
   table.addAs<std::int64_t>("seed", &s.simulation.seed)
       .within(0, kNoBound, ">= 0")

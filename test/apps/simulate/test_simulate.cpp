@@ -125,7 +125,8 @@ TEST(Simulate, WritesTheSameBytesForTheSameSeed)
 TEST(Simulate, EndsAfterTheLastScanWithoutChangingTheScansBefore)
 {
   const TempFolder folder;
-  const auto files = [&](const std::string& name, const std::vector<std::string>& more) {
+  const auto files = [&](const std::string& name,
+                         const std::vector<std::string>& more) {
     const auto out = folder / name;
     std::vector<std::string> arguments = {
         "campus", "-o", out.string(), "--scans", "300", "--resolution", "8", "--quiet"};

@@ -42,8 +42,9 @@ odometryKindFromName(const std::string& name);
 
 /** \brief Knobs of Simulator. */
 struct SimulationOptions {
-  int num_scans = 40;     ///< evenly along the path, in [1, 100000]
-  std::optional<int> last; ///< index of the last scan, >= 0; the scans before it stay the same
+  int num_scans = 40; ///< evenly along the path, in [1, 100000]
+  std::optional<int>
+      last; ///< index of the last scan, >= 0; the scans before it stay the same
   std::uint64_t seed = 1; ///< of every noise; the seed in `range` is not used
   std::shared_ptr<const ScannerModel> scanner; ///< null: a DrivenScanner's default
   RangeOptions range;

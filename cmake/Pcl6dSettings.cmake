@@ -16,9 +16,9 @@ endif()
 # programs, tests.
 set(PCL6D_COOL_OPTIMISATION $<$<CONFIG:Release>:-O1>)
 
-# So many sources at most are compiled as one: a unit takes 4 to 6 s before its first own function.
-# test/build_cost.sh names the units above 40 s of processor time or 1 GB.
-set(PCL6D_BATCH 20)
+# So many sources at most are compiled as one, where a target does not say more: a unit takes 4 to
+# 6 s before its first own function. test/build_cost.sh names the units above 40 s of processor time or 1 GB.
+set(PCL6D_BATCH 12)
 
 # g++ looks for garbage as soon as 256 MB are in use, which every file with Eigen reaches, and
 # takes a tenth of its time for it. With this it begins at 1.6 x 480 = 768 MB, and looks again when

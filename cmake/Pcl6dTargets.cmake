@@ -197,24 +197,31 @@ function(pcl6d_add_pcl_classes name)
     PCL6D_${name}_PCL_COMPONENTS ${ARG_PCL_COMPONENTS})
 endfunction()
 
-# pcl6d_app_rules(TARGET [sources that compile alone ...])
+# pcl6d_app_rules(TARGET [BATCH n] [sources that compile alone ...])
 # How the sources of programs are compiled, in a library of apps/ or in the program itself.
 function(pcl6d_app_rules target)
+  cmake_parse_arguments(PARSE_ARGV 1 RULES "" "BATCH" "")
   _pcl6d_compile_rules(${target})
-  _pcl6d_unity(${target} "" ${ARGN})
-  # As the libraries, so that they share a precompiled header.
+  _pcl6d_unity(${target} "${RULES_BATCH}" ${RULES_UNPARSED_ARGUMENTS})
+  # As the libraries, so that they share a precompiled header, in which Eigen's types are hidden.
+  set_target_properties(${target} PROPERTIES
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON)
   target_compile_options(${target} PRIVATE -fPIC ${PCL6D_COOL_OPTIMISATION})
   pcl6d_precompile(${target} cool)
 endfunction()
 
 # pcl6d_add_app(NAME SOURCES ... [ALONE sources ...] [DEPENDS module ...]
-#               [LINK_PRIVATE targets ...])
+#               [LINK_PRIVATE targets ...] [BATCH n])
 # makes the program NAME in bin/, with the plumbing of apps/common.
 function(pcl6d_add_app name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;DEPENDS;LINK_PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "BATCH" "SOURCES;ALONE;DEPENDS;LINK_PRIVATE" ${ARGN})
   _pcl6d_check_arguments("pcl6d_add_app(${name})")
   add_executable(${name} ${ARG_SOURCES})
-  pcl6d_app_rules(${name} ${ARG_ALONE})
+  if(NOT ARG_BATCH)
+    set(ARG_BATCH ${PCL6D_BATCH})
+  endif()
+  pcl6d_app_rules(${name} BATCH ${ARG_BATCH} ${ARG_ALONE})
   list(TRANSFORM ARG_DEPENDS PREPEND pcl6d:: OUTPUT_VARIABLE modules)
   target_link_libraries(${name} PRIVATE pcl6d_apps_common ${modules} ${ARG_LINK_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY PCL6D_APPS ${name})

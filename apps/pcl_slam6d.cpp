@@ -92,6 +92,10 @@ private:
                                                input_.drive,
                                                ranks_ ? ranks_->numRanks() : 1))
       bar_.say(line);
+    if (const auto work =
+            app::foreseenWork(settings_, earlier_, scans_.folder().size());
+        !work.empty())
+      bar_.say(work);
     log_.warnings = earlier_.notes;
     log_.stages = input_.stages;
     if (!readScans()) {

@@ -8,6 +8,7 @@
 #include "slam6d/run_input.h"
 #include "slam6d/shared_reading.h"
 
+#include <pcl6d/global_registration/scan_joiner.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/slam6d/slam6d.h>
 
@@ -71,35 +72,132 @@ ofFirst(Slam6DParameters parameters)
   return parameters;
 }
 
-/** Registers the first scans, and extrapolates to all scans. */
-void
-measure(const Settings& settings, const EarlierRuns& earlier, RunScans& scans)
-{
-  const std::size_t total = scans.folder().size();
-  const std::size_t count = std::min(kMeasuredScans, total);
-  const double before = residentBytes();
-  const auto start = std::chrono::steady_clock::now();
-  Slam6D slam(optionsOfFirst(settings));
-  SharedReading reading(scans, earlier, nullptr);
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    Scan scan = scans.read(i);
-    points += scan.points.size();
-    reading.add(i, scan, slam);
+/** Time of the first scans. */
+struct MeasuredTime {
+  double total = 0;                     ///< [s]
+  double comparing = 0, placing = 0;    ///< [s] parts of it, without initial poses
+  std::size_t compared = 0, placed = 0; ///< pairs
+};
+
+/** Notes when the comparison of pairs begins and ends. */
+class PairClock {
+public:
+  explicit PairClock(MeasuredTime& time) : time_(time) {}
+
+  void
+  operator()(const Progress& now)
+  {
+    const bool is_comparing = now.stage == "comparing";
+    if (!is_comparing && now.stage != "placing")
+      return;
+    if (now.done == 0)
+      begin_ = Clock::now();
+    if (now.done == 0 || now.done < now.total)
+      return;
+    const std::chrono::duration<double> spent = Clock::now() - begin_;
+    (is_comparing ? time_.comparing : time_.placing) += spent.count();
+    (is_comparing ? time_.compared : time_.placed) += now.total;
   }
-  optimize(slam, earlier);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  for (const auto& [name, unit, parameter] :
-       named(ofFirst(slam.result().parameters), settings))
-    std::cout << parameterLine(name, parameter, unit) << '\n';
-  const double share = static_cast<double>(total) / static_cast<double>(count);
-  const double memory = before + share * std::max(0.0, residentBytes() - before);
-  std::cout << "expected, from the first " << text::counted(count, "scan") << " ("
-            << points << " points): about " << durationText(share * spent.count())
-            << " and " << std::lround(memory / kBytesOfMegabyte)
-            << " MB to read and register " << text::counted(total, "scan")
-            << "; more where scans have many neighbours or are lost\n";
+
+private:
+  using Clock = std::chrono::steady_clock;
+  MeasuredTime& time_;
+  Clock::time_point begin_;
+};
+
+/** \return [s] time for all scans from the time of `count` of them, if every pair is compared */
+double
+inAnyOrder(const MeasuredTime& of_first, std::size_t count, std::size_t total)
+{
+  const auto n = static_cast<double>(total);
+  const double rest = of_first.total - of_first.comparing - of_first.placing;
+  double seconds = rest * n / static_cast<double>(count);
+  if (of_first.compared > 0)
+    seconds +=
+        of_first.comparing / static_cast<double>(of_first.compared) * n * (n - 1) / 2;
+  if (of_first.placed > 0)
+    seconds += of_first.placing / static_cast<double>(of_first.placed) * n *
+               static_cast<double>(JoinOptions().pairs_per_scan);
+  return seconds;
 }
+
+/** Registers the first scans of a folder. */
+class FirstScans {
+public:
+  FirstScans(const Settings& settings, const EarlierRuns& earlier, RunScans& scans)
+  : settings_(settings)
+  , earlier_(earlier)
+  , scans_(scans)
+  , total_(scans.folder().size())
+  , count_(std::min(kMeasuredScans, total_))
+  {}
+
+  /** Prints parameters and expectations. */
+  void
+  explain()
+  {
+    const double before = residentBytes();
+    const MeasuredTime time = registerWith(optionsOfFirst(settings_));
+    const double share = static_cast<double>(total_) / static_cast<double>(count_);
+    const double memory = before + share * std::max(0.0, residentBytes() - before);
+    for (const auto& [name, unit, parameter] : named(ofFirst(parameters_), settings_))
+      std::cout << parameterLine(name, parameter, unit) << '\n';
+    std::cout << "expected, from the first " << text::counted(count_, "scan") << " ("
+              << points_ << " points): about " << timeText(time) << " and "
+              << std::lround(memory / kBytesOfMegabyte) << " MB to read and register "
+              << text::counted(total_, "scan")
+              << "; more where scans have many neighbours or are lost\n";
+  }
+
+private:
+  MeasuredTime
+  registerWith(const Slam6DOptions& options)
+  {
+    MeasuredTime time;
+    const auto start = std::chrono::steady_clock::now();
+    Slam6D slam(options);
+    slam.setProgressCallback(PairClock(time));
+    SharedReading reading(scans_, earlier_, nullptr);
+    points_ = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      Scan scan = scans_.read(i);
+      points_ += scan.points.size();
+      reading.add(i, scan, slam);
+    }
+    optimize(slam, earlier_);
+    parameters_ = slam.result().parameters;
+    const std::chrono::duration<double> spent =
+        std::chrono::steady_clock::now() - start;
+    time.total = spent.count();
+    return time;
+  }
+
+  /** \return a time; a range where the order of the files decides */
+  std::string
+  timeText(const MeasuredTime& time)
+  {
+    const double in_order =
+        time.total * static_cast<double>(total_) / static_cast<double>(count_);
+    if (settings_.slam.initial_guess != InitialGuess::kGlobal)
+      return durationText(in_order);
+    if (!settings_.slam.order_first)
+      return durationText(inAnyOrder(time, count_, total_));
+    Slam6DOptions any_order = optionsOfFirst(settings_);
+    any_order.order_first = false;
+    const Slam6DParameters parameters = parameters_;
+    const double longest =
+        in_order + inAnyOrder(registerWith(any_order), count_, total_);
+    parameters_ = parameters;
+    return durationText(in_order) + " (in the order of the files) to " +
+           durationText(longest) + " (if all pairs of scans must be compared)";
+  }
+
+  const Settings& settings_;
+  const EarlierRuns& earlier_;
+  RunScans& scans_;
+  std::size_t total_, count_, points_ = 0;
+  Slam6DParameters parameters_;
+};
 } // namespace
 
 int
@@ -121,7 +219,7 @@ explainRun(const Settings& given)
     std::cout << "control: " << settings.slam.control.points.size() << " points, "
               << settings.slam.control.targets.size() << " targets, "
               << settings.slam.control.checks.size() << " held back\n";
-  measure(settings, earlier, scans);
+  FirstScans(settings, earlier, scans).explain();
   std::cout << "nothing was written\n";
   flushOutput();
   return kDone;

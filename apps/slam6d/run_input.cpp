@@ -17,38 +17,6 @@
 namespace pcl6d::app {
 
 namespace {
-/** \return for many scans without common poses, the planned comparisons and their duration; else
- * empty */
-std::string
-foreseenWork(const Settings& settings,
-             const EarlierRuns& earlier,
-             std::size_t num_scans)
-{
-  // Only reported if above a few minutes. Seconds of one core per compared pair and per placed
-  // pair, with four placed pairs per scan, from bench_join; scenes differ by a factor of two.
-  constexpr std::size_t kMany = 100;
-  constexpr double kCompared = 0.015, kPlaced = 0.35, kPlacedOfEach = 4;
-  if (settings.slam.initial_guess != InitialGuess::kGlobal || num_scans < kMany)
-    return "";
-  const auto n = static_cast<double>(num_scans);
-  double pairs = n * (n - 1) / 2;
-  for (std::size_t r = 0; earlier.areJoined() && r < earlier.runs.size(); ++r) {
-    const auto m = static_cast<double>(earlier.runs[r].summary().scans.size());
-    pairs -= m * (m - 1) / 2; // no comparisons within a run
-  }
-  const double seconds = (kCompared * pairs + kPlaced * kPlacedOfEach * n) /
-                         threadCount(settings.slam.num_threads);
-  if (earlier.areJoined())
-    return "all pairs of scans of different runs are compared, in about " +
-           durationText(seconds);
-  return std::string(settings.slam.order_first
-                         ? "without poses the order of the files is tried first; if "
-                           "scans stay disconnected, all pairs of "
-                         : "without poses all pairs of ") +
-         std::to_string(num_scans) + " scans are compared, in about " +
-         durationText(seconds) + "; rough poses (--poses FILE) save most of the time";
-}
-
 std::string
 whatIsRead(const ScanFolder& folder,
            const EarlierRuns& earlier,
@@ -141,6 +109,36 @@ resolved(Settings settings, const ScanFolder& folder, const EarlierRuns& earlier
   return settings;
 }
 
+std::string
+foreseenWork(const Settings& settings,
+             const EarlierRuns& earlier,
+             std::size_t num_scans)
+{
+  // Only reported if above a few minutes. Seconds of one core per compared pair and per placed
+  // pair, with four placed pairs per scan, from bench_join; scenes differ by a factor of two.
+  constexpr std::size_t kMany = 100;
+  constexpr double kCompared = 0.015, kPlaced = 0.35, kPlacedOfEach = 4;
+  if (settings.slam.initial_guess != InitialGuess::kGlobal || num_scans < kMany)
+    return "";
+  const auto n = static_cast<double>(num_scans);
+  double pairs = n * (n - 1) / 2;
+  for (std::size_t r = 0; earlier.areJoined() && r < earlier.runs.size(); ++r) {
+    const auto m = static_cast<double>(earlier.runs[r].summary().scans.size());
+    pairs -= m * (m - 1) / 2; // no comparisons within a run
+  }
+  const double seconds = (kCompared * pairs + kPlaced * kPlacedOfEach * n) /
+                         threadCount(settings.slam.num_threads);
+  if (earlier.areJoined())
+    return "all pairs of scans of different runs are compared, in about " +
+           durationText(seconds);
+  return std::string(settings.slam.order_first
+                         ? "without poses the order of the files is tried first; if "
+                           "scans stay disconnected, all pairs of "
+                         : "without poses all pairs of ") +
+         std::to_string(num_scans) + " scans are compared, in about " +
+         durationText(seconds) + "; rough poses (--poses FILE) save most of the time";
+}
+
 std::vector<std::string>
 describeInput(const Settings& settings,
               const RunScans& scans,
@@ -162,7 +160,6 @@ describeInput(const Settings& settings,
   lines.push_back(folder.coordinates());
   lines.insert(lines.end(), earlier.notes.begin(), earlier.notes.end());
   lines.insert(lines.end(), scans.descriptions().begin(), scans.descriptions().end());
-  lines.push_back(foreseenWork(settings, earlier, folder.size()));
   lines.erase(std::remove(lines.begin(), lines.end(), ""), lines.end());
   return lines;
 }

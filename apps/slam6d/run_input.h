@@ -47,7 +47,14 @@ openScans(const ScanFolder& folder,
 Settings
 resolved(Settings settings, const ScanFolder& folder, const EarlierRuns& earlier);
 
-/** \return a description of the input and its processing, for people, a line each */
+/** \return for many scans without common poses, the planned comparisons and their likely duration;
+ * else empty */
+std::string
+foreseenWork(const Settings& settings,
+             const EarlierRuns& earlier,
+             std::size_t num_scans);
+
+/** \return a description of the input, for people, a line each */
 std::vector<std::string>
 describeInput(const Settings& settings,
               const RunScans& scans,

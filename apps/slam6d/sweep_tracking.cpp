@@ -70,14 +70,64 @@ driveOf(const ScanFolder& folder)
   return drive;
 }
 
+/** Says where the track was lost, and where it went on. */
+class LostSweeps {
+public:
+  LostSweeps(const ScanFolder& folder, ProgressBar& bar) : folder_(folder), bar_(bar) {}
+
+  void
+  see(std::size_t i, SweepStatus status)
+  {
+    const bool is_lost = status == SweepStatus::kLost;
+    if (is_lost && !is_lost_)
+      say("lost at sweep ", i, "");
+    else if (!is_lost && is_lost_)
+      say(status == SweepStatus::kFirst ? "the map begins anew at sweep "
+                                        : "found again at sweep ",
+          i,
+          status == SweepStatus::kFirst ? ", from the predicted pose" : "");
+    is_lost_ = is_lost;
+  }
+
+  /** \return where the track was lost first, with a comma before; empty: nowhere */
+  const std::string&
+  first() const
+  {
+    return first_;
+  }
+
+private:
+  void
+  say(const std::string& what, std::size_t i, const std::string& more)
+  {
+    constexpr std::size_t kSaid = 20;
+    const std::string where =
+        what + std::to_string(folder_.index(i)) + " (" + folder_.name(i) + ")" + more;
+    if (first_.empty())
+      first_ = ", first " + where;
+    if (++num_said_ <= kSaid)
+      bar_.say("tracking: " + where);
+    if (num_said_ == kSaid)
+      bar_.say("tracking: further lost sweeps are only counted");
+  }
+
+  const ScanFolder& folder_;
+  ProgressBar& bar_;
+  bool is_lost_ = false;
+  std::size_t num_said_ = 0;
+  std::string first_;
+};
+
 /** Tracks all sweeps. The next sweep is read meanwhile, unless only one thread is allowed.
- * \param[out] keyframes indices of the keyframes \return nothing: given up (--track auto) */
+ * \param[out] keyframes indices of the keyframes \param[out] lost_at where the track was lost first,
+ * in words \return nothing: given up (--track auto) */
 std::optional<DriveResult>
 trackAll(const Settings& settings,
          const ScanFolder& folder,
          const ProgressCallback& progress,
          ProgressBar& bar,
-         std::vector<std::size_t>& keyframes)
+         std::vector<std::size_t>& keyframes,
+         std::string& lost_at)
 {
   SweepTracker tracker(trackerOptions(settings.slam));
   const std::size_t count = folder.size();
@@ -93,6 +143,7 @@ trackAll(const Settings& settings,
     });
   };
   DriveResult drive = driveOf(folder);
+  LostSweeps lost(folder, bar);
   std::future<Sweep> next = read(0);
   for (std::size_t i = 0; i < count; ++i) {
     const Sweep sweep = next.get();
@@ -103,6 +154,7 @@ trackAll(const Settings& settings,
       drive.lost.push_back(folder.index(i));
     else if (found.is_keyframe || found.status == SweepStatus::kFirst || i + 1 == count)
       keyframes.push_back(i);
+    lost.see(i, found.status);
     drive.poses.push_back(found.T_world_sweep);
     progress({"tracking", i + 1, count});
     if (settings.track == Tracking::kAuto && drive.lost.size() * kOneIn > count) {
@@ -111,6 +163,7 @@ trackAll(const Settings& settings,
       return std::nullopt;
     }
   }
+  lost_at = lost.first();
   return drive;
 }
 } // namespace
@@ -146,14 +199,15 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
     progress = watched(bar, *interrupt);
   const std::size_t count = folder.size();
   std::vector<std::size_t> keyframes;
+  std::string lost_at;
   std::optional<DriveResult> drive =
-      trackAll(settings, folder, progress, bar, keyframes);
+      trackAll(settings, folder, progress, bar, keyframes, lost_at);
   if (!drive)
     return std::nullopt;
   folder.replacePoses(drive->poses,
                       "tracking in the order of the files (" +
                           std::to_string(drive->lost.size()) + " of " +
-                          std::to_string(count) + " scans lost)");
+                          std::to_string(count) + " scans lost" + lost_at + ")");
   if (!settings.takes_keyframes || keyframes.size() < 2 || keyframes.size() == count)
     return std::nullopt;
   folder.keepOnly(keyframes);

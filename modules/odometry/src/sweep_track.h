@@ -76,7 +76,10 @@ private:
   odometry::SweepMatch
   match(const Current& now, const odometry::SweepPrior& prior, double gate) const;
   bool
-  isMatched(const odometry::SweepMatch& match) const;
+  isMatched(const odometry::SweepMatch& match, const odometry::SweepPrior& prior) const;
+  bool
+  isElsewhere(const odometry::SweepMatch& match,
+              const odometry::SweepPrior& prior) const;
 
   TrackedSweep
   accept(const Current& now,
@@ -111,6 +114,7 @@ private:
   double translation_sq_ = 0,
          rotation_sq_ = 0; ///< of the deviations from constant velocity
   double usual_fit_ = 0, usual_overlap_ = 0;
+  double usual_deviation_ = 0; ///< of distances, in deviations of their surfaces
   double correlation_ = 1;
 
   Eigen::Vector3d cut_at_ =

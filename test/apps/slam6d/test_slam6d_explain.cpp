@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/support/corridor_run.h"
+#include "apps/support/drive_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -56,5 +57,33 @@ TEST(Slam6dExplain, TellsWhatARunWouldRefuse)
       "pcl_slam6d",
       1,
       {"run"});
+}
+
+// The time of an order that holds, and of every pair of scans: a single range.
+TEST(Slam6dExplain, TellsOneRangeOfTimesForManyScansWithoutPoses)
+{
+  const TempFolder folder;
+  DriveFolder many(folder / "in");
+  for (int i = 0; i < 120; ++i)
+    many.add(flatScans(), i % 60, std::to_string(1000 + i) + ".pcd");
+  const auto explained = [&](const std::string& start) {
+    const Outcome outcome = runProgram("pcl_slam6d",
+                                       {many.path().string(),
+                                        "--explain",
+                                        "--track",
+                                        "off",
+                                        "--initial-guess",
+                                        start});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_FALSE(tells(outcome, "are compared, in about")) << outcome.out;
+    return outcome;
+  };
+  EXPECT_TRUE(tells(explained("global"), "expected, from the first 4 scans ("));
+  const Outcome plain =
+      runProgram("pcl_slam6d", {many.path().string(), "--explain", "--track", "off"});
+  EXPECT_FALSE(tells(plain, "are compared, in about")) << plain.out;
+  EXPECT_TRUE(tells(plain, " (in the order of the files) to ")) << plain.out;
+  EXPECT_TRUE(tells(plain, " (if all pairs of scans must be compared) and "))
+      << plain.out;
 }
 } // namespace

@@ -170,8 +170,14 @@ TEST(TrackedDrive, ASweepThatCannotBeMatchedIsNamed)
                              "predictions: scan030.xyz"),
             std::string::npos)
       << outcome.out;
-  EXPECT_EQ(summaryOfDrive(folder / "out")["drive"]["lost"],
-            nlohmann::json::array({30}));
+  for (const char* words : {"tracking: lost at sweep 30 (scan030.xyz)",
+                            "tracking: found again at sweep 31 (scan031.xyz)"})
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  const auto summary = summaryOfDrive(folder / "out");
+  EXPECT_EQ(summary["drive"]["lost"], nlohmann::json::array({30}));
+  EXPECT_EQ(summary["pose_source"],
+            "tracking in the order of the files (1 of 64 scans lost, first at sweep 30 "
+            "(scan030.xyz))");
 }
 
 TEST(TrackedDrive, AStartSetsTrackingAndInitialGuess)

@@ -57,6 +57,8 @@ rankPairs(const ScanList& scans,
   search.turns /= kCoarser;
   search.reach /= kCoarser;
   std::vector<RankedPair> ranked(pairs.size());
+  if (progress) // each scan is drawn by now
+    progress({"comparing", 0, pairs.size()});
   for (std::size_t begin = 0; begin < pairs.size(); begin += kComparedAtATime) {
     const std::size_t count = std::min(kComparedAtATime, pairs.size() - begin);
     parallelFor(count, num_threads, [&](std::size_t k) {

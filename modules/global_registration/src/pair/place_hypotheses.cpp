@@ -55,6 +55,8 @@ PlaceHypotheses::add(const std::vector<RankedPair>& pairs)
   options.any_axis = false;
   options.num_threads = 1;
   std::vector<PlaceResult> found(pairs.size());
+  if (progress_)
+    progress_({"placing", 0, pairs.size()});
   for (std::size_t begin = 0; begin < pairs.size(); begin += kPlacedAtATime) {
     const std::size_t count = std::min(kPlacedAtATime, pairs.size() - begin);
     parallelFor(count, num_threads_, [&](std::size_t k) {

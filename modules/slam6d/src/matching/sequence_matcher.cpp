@@ -93,7 +93,10 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
     scan.start = InitialGuess::kGlobal;
   if (!isRecovering(options_) || isRegistered(scan))
     return;
-  lookFor(i, scans);
+  lookFor(i,
+          scans,
+          is_contradicted && isRegistered(scans[i - 1]) &&
+              recovery_.areRaysUseless(i, scans));
   // Where rays cannot test, a match without a better alternative is kept: the verdict on the whole
   // map decides.
   if (isRegistered(scan) || !is_contradicted || !isRegistered(scans[i - 1]) ||
@@ -156,11 +159,16 @@ SequenceMatcher::isExpected(const ScanResult& found,
          matcher_.isSmallCorrection(found, predictedPose(scans, i));
 }
 
-/** Recovers a scan without a match at its prediction. */
+/** Recovers a scan without a match at its prediction. \param[in] only_by_motion no long search in a
+ * bounded recovery */
 void
-SequenceMatcher::lookFor(std::size_t i, std::vector<ScanResult>& scans)
+SequenceMatcher::lookFor(std::size_t i,
+                         std::vector<ScanResult>& scans,
+                         bool only_by_motion)
 {
-  const auto found = recovery_.find(i, scans);
+  const auto found = only_by_motion && isBounded(options_)
+                         ? recovery_.findByMotion(i, scans)
+                         : recovery_.find(i, scans);
   if (!found)
     return;
   ScanResult scan = scans[i];

@@ -200,10 +200,10 @@ TEST_F(HostileSummary, EachPlaceHasItsType)
   expectRefused("/options", Json::array(), "is no object");
   expectRefused("/options/voxel", 0.1, "is no object");
   expectRefused("/options/voxel/value", 0.1, "is not a text");
-  expectRefused("/verdict/trusted", "yes", "must be true or false");
+  expectRefused("/verdict/reliable", "yes", "must be true or false");
   expectRefused("/warnings/0", 1, "is not a text");
   expectRefused("/totals/map_points", -1, "is not a whole number >= 0");
-  expectRefused("/verification/trust", "best", "best");
+  expectRefused("/verification/verdict", "best", "best");
   expectRefused("/verification/background", 2, "must be in [0, 1]");
   expectRefused("/verification/scans", Json::array(), "must be one check per scan");
   expectRefused("/graph/links_used", "x", "is not a whole number >= 0");

@@ -120,7 +120,7 @@ SweepTracker::Track::begin(const Current& now)
   last_end_ = now.begin + (now.is_timed ? now.length : 0);
   num_matched_ = 1;
   num_lost_ = 0;
-  usual_fit_ = usual_overlap_ = usual_deviation_ = 0;
+  usual_fit_ = usual_overlap_ = 0;
   map_ = emptyMap();
   addToMap(now, last_);
   const double widest =
@@ -149,7 +149,7 @@ SweepTracker::Track::second(const Current& now)
   for (int round = 0; round < kRounds; ++round) {
     prior = priorOf(now);
     found = bestMatch(now, prior);
-    if (!isMatched(found, prior))
+    if (!isMatched(found))
       break;
     const Twist before = last_.velocity;
     const double steps = (now.begin - last_begin_) / last_length_;
@@ -161,7 +161,7 @@ SweepTracker::Track::second(const Current& now)
     if (change.head<3>().norm() + range_ * change.tail<3>().norm() < kSettled * noise_)
       break;
   }
-  if (!isMatched(found, prior)) { // the first sweep may be at fault
+  if (!isMatched(found)) { // the first sweep may be at fault
     last_ = at_rest;
     num_lost_ = 1;
     return begin(now);
@@ -180,19 +180,7 @@ SweepTracker::Track::next(const Current& now)
 {
   const SweepPrior prior = priorOf(now);
   const SweepMatch found = bestMatch(now, prior);
-  if (getenv("DBGG"))
-    fprintf(stderr,
-            "fit %.3f usual %.3f overlap %.3f usual %.3f deviation %.3f usual %.3f it "
-            "%d pause %d\n",
-            found.fit,
-            usual_fit_,
-            found.overlap,
-            usual_overlap_,
-            found.deviation,
-            usual_deviation_,
-            found.iterations,
-            prior.is_after_pause);
-  return isMatched(found, prior) ? accept(now, prior, found) : lost(now);
+  return isMatched(found) ? accept(now, prior, found) : lost(now);
 }
 
 TrackedSweep

@@ -76,10 +76,7 @@ private:
   odometry::SweepMatch
   match(const Current& now, const odometry::SweepPrior& prior, double gate) const;
   bool
-  isMatched(const odometry::SweepMatch& match, const odometry::SweepPrior& prior) const;
-  bool
-  isElsewhere(const odometry::SweepMatch& match,
-              const odometry::SweepPrior& prior) const;
+  isMatched(const odometry::SweepMatch& match) const;
 
   TrackedSweep
   accept(const Current& now,
@@ -114,7 +111,6 @@ private:
   double translation_sq_ = 0,
          rotation_sq_ = 0; ///< of the deviations from constant velocity
   double usual_fit_ = 0, usual_overlap_ = 0;
-  double usual_deviation_ = 0; ///< of distances, in deviations of their surfaces
   double correlation_ = 1;
 
   Eigen::Vector3d cut_at_ =

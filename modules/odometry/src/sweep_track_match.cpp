@@ -35,13 +35,7 @@ constexpr double kDisconnecting = 10;
 
 /** Shares of the usual fit: below the first, a match is tried again with the widest gate; below the
  * second, or below the least overlap, the sweep is not matched. */
-constexpr double kRetryBelow = 0.9, kMatchedAbove = 0.85, kLeastOverlap = 0.25;
-
-/** Deviation of a match from the surfaces, in the usual deviation, above which the place is wrong:
- * after a pause, and elsewhere if the overlap is below kLittleOverlap of the usual. After gaps of
- * ten sweeps in simulated drives right places have up to 1.3, wrong ones 2.0 and more; without a
- * gap, fast bends reach 1.9 where points have times. */
-constexpr double kOffAfterPause = 1.6, kOff = 2, kLittleOverlap = 0.75;
+constexpr double kRetryBelow = 0.9, kMatchedAbove = 0.7, kLeastOverlap = 0.25;
 
 /** A sweep follows without a pause if the time in between is at most this share of
  * its own duration. */
@@ -68,7 +62,6 @@ SweepTracker::Track::priorOf(const Current& now) const
   prior.motion.velocity =
       now.is_timed ? Twist(last_.velocity * (now.length * per_time)) : last_.velocity;
   prior.goes_on = goes_on && num_lost_ == 0;
-  prior.is_after_pause = num_lost_ > 0 || steps > kNoPause + (now.is_timed ? 0.0 : 1.0);
   prior.centre = prior.motion.end().translation();
   const auto wider = 1 + static_cast<double>(num_lost_);
   prior.translation = wider * std::sqrt(translation_sq_);
@@ -103,25 +96,10 @@ SweepTracker::Track::match(const Current& now,
 }
 
 bool
-SweepTracker::Track::isMatched(const SweepMatch& match, const SweepPrior& prior) const
+SweepTracker::Track::isMatched(const SweepMatch& match) const
 {
   return (match.status == Status::kOk || match.status == Status::kMaxIterations) &&
-         match.overlap >= kLeastOverlap && match.fit >= kMatchedAbove * usual_fit_ &&
-         !isElsewhere(match, prior);
-}
-
-/** \return whether the points lie off the surfaces by more than usual, as at a wrong place that
- * looks alike. A change of velocity within a sweep without times does the same, but little of the
- * sweep is new then */
-bool
-SweepTracker::Track::isElsewhere(const SweepMatch& match, const SweepPrior& prior) const
-{
-  if (num_matched_ < 2)
-    return false;
-  const double usual = std::max(1.0, usual_deviation_);
-  return prior.is_after_pause ? match.deviation > kOffAfterPause * usual
-                              : match.deviation > kOff * usual &&
-                                    match.overlap < kLittleOverlap * usual_overlap_;
+         match.overlap >= kLeastOverlap && match.fit >= kMatchedAbove * usual_fit_;
 }
 
 /** Widens the prior to the change of velocity of a match, if larger than expected: at the begin of
@@ -163,7 +141,7 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
   SweepPrior wider = prior;
   for (int round = 0; round < kWidenings && widen(best, wider); ++round)
     best = gated(wider);
-  if (isMatched(best, prior) && best.fit >= kRetryBelow * usual_fit_ &&
+  if (isMatched(best) && best.fit >= kRetryBelow * usual_fit_ &&
       (best.overlap >= kRetryBelow * usual_overlap_ || !prior.goes_on))
     return best;
   // After a pause much is new even at the right pose: the fit decides, and the first match stays
@@ -172,7 +150,7 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
     const SweepMatch found = match(now, start, widest);
     const bool is_better = prior.goes_on ? found.overlap > best.overlap
                                          : kRetryBelow * found.fit > best.fit;
-    if (isMatched(found, start) && (is_better || !isMatched(best, prior)))
+    if (isMatched(found) && (is_better || !isMatched(best)))
       best = found;
   };
   SweepPrior loose = wider;
@@ -207,9 +185,6 @@ SweepTracker::Track::learn(const SweepPrior& prior, const SweepMatch& match)
                        : match.overlap;
   usual_fit_ =
       usual_fit_ > 0 ? kMemory * usual_fit_ + (1 - kMemory) * match.fit : match.fit;
-  usual_deviation_ = usual_deviation_ > 0
-                         ? kMemory * usual_deviation_ + (1 - kMemory) * match.deviation
-                         : match.deviation;
 }
 
 } // namespace pcl6d

@@ -253,7 +253,9 @@ TEST(ScanJoiner, ReportsProgressAndStopsWhereThatThrows)
   JoinOptions options;
   options.progress = [&](const pcl6d::Progress& now) { stages.push_back(now.stage); };
   joinScans(scans.all(), options);
-  EXPECT_EQ(stages, (std::vector<std::string>{"comparing", "placing"}));
+  EXPECT_EQ(stages,
+            (std::vector<std::string>{"comparing", "comparing", "placing", "placing"}))
+      << "each as it begins and ends";
   struct Stop {};
   options.progress = [](const pcl6d::Progress&) { throw Stop(); };
   EXPECT_THROW(joinScans(scans.all(), options), Stop);

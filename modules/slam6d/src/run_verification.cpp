@@ -17,9 +17,6 @@ namespace {
 /** Number of scans of each process sent at a time, a few megabytes each. */
 constexpr std::size_t kSharedAtATime = 8;
 
-/** Number of scans of each thread prepared between two reports of progress: below a second. */
-constexpr std::size_t kPreparedAtATime = 8;
-
 /** The covariances from matching treat pairs as independent, and are replaced. */
 void
 takeCovariances(const MapVerification& map, std::vector<ScanResult>& scans)
@@ -52,8 +49,7 @@ void
 RunVerification::prepare(const std::deque<IcpModel>& reduced,
                          const std::deque<MeasuredScan>& measured,
                          const IcpModel::Options& normals,
-                         double voxel,
-                         const ProgressCallback& report)
+                         double voxel)
 {
   surfaces_.resize(reduced.size());
   const auto surfacesOf = [&](std::size_t i) -> const IcpModel& {
@@ -61,10 +57,9 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
   };
   while (scans_.size() < reduced.size()) {
     const std::size_t done = scans_.size();
-    const std::size_t most = // the bytes sent at a time must fit into memory
-        sharing_ ? kSharedAtATime * sharing_->numRanks()
-                 : kPreparedAtATime * threadCount(num_threads_);
-    const std::size_t count = std::min(reduced.size() - done, most);
+    std::size_t count = reduced.size() - done;
+    if (sharing_) // the bytes sent at a time must fit into memory
+      count = std::min(count, kSharedAtATime * sharing_->numRanks());
     std::vector<VerifiedScan> ready(count);
     parallelFor(count, num_threads_, [&](std::size_t k) {
       if (reduced[done + k].normals().empty())
@@ -76,7 +71,6 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
       ready[k] = VerifiedScan(measured[done + k].points(), surfacesOf(done + k), voxel);
     });
     std::move(ready.begin(), ready.end(), std::back_inserter(scans_));
-    report({"preparing", scans_.size(), reduced.size()});
   }
 }
 

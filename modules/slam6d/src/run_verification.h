@@ -3,7 +3,6 @@
 
 #include "matching/agreement.h"
 
-#include <pcl6d/common/progress.h>
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/registration/icp_model.h>
 #include <pcl6d/slam6d/slam6d_result.h>
@@ -29,18 +28,16 @@ public:
     sharing_ = sharing;
   }
 
-  /** Adds the new scans. If report throws, the scans added so far stay.
+  /** Adds the new scans.
    * \param[in] reduced, measured of all scans; reduced is kept by reference, measured is needed
    * only for scans owned by this process
    * \param[in] normals options of the normals, for reduced scans without normals
-   * \param[in] voxel [m] of the reduction
-   * \param[in] report of progress; may throw to stop */
+   * \param[in] voxel [m] of the reduction */
   void
   prepare(const std::deque<IcpModel>& reduced,
           const std::deque<MeasuredScan>& measured,
           const IcpModel::Options& normals,
-          double voxel,
-          const ProgressCallback& report);
+          double voxel);
 
   /** \return the scans added before */
   const std::deque<VerifiedScan>&

@@ -36,7 +36,7 @@ deriveFromScans(const SlamState& state)
 
 class PrepareScans : public Stage {
   StageEnd
-  run(SlamState& state, SlamContext& context) override
+  run(SlamState& state, SlamContext&) override
   {
     Slam6DOptions& options = state.options;
     if (options.motion.gives_poses && state.motion.anyMoved())
@@ -47,8 +47,7 @@ class PrepareScans : public Stage {
       state.verification.prepare(state.scans.reduced(),
                                  state.scans.measured(),
                                  state.map->matcher().modelOptions(true),
-                                 state.result.parameters.voxel.value,
-                                 [&](const Progress& now) { context.report(now); });
+                                 state.result.parameters.voxel.value);
     return StageEnd::kDone;
   }
 };

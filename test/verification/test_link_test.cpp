@@ -161,7 +161,7 @@ TEST(ContradictionBackground, IsThatOfTheBetterHalf)
   const double weight = 40.0 / 240;
   EXPECT_NEAR(contradictionBackground(
                   {seen(80, 100), seen(2, 200), seen(3, 200), seen(90, 100)}),
-              (0.006 * 40 + 5 * weight) / (40 + 400 * weight),
+              (kBackground * 40 + 5 * weight) / (40 + 400 * weight),
               1e-15);
   EXPECT_EQ(contradictionBackground({seen(0, 0), seen(0, 0)}), kBackground);
 }

@@ -101,12 +101,12 @@ private:
   say(const std::string& what, std::size_t i, const std::string& more)
   {
     constexpr std::size_t kSaid = 20;
-    const std::string where =
-        what + std::to_string(folder_.index(i)) + " (" + folder_.name(i) + ")" + more;
+    const std::string sweep =
+        std::to_string(folder_.index(i)) + " (" + folder_.name(i) + ")";
     if (first_.empty())
-      first_ = ", first " + where;
+      first_ = ", first at sweep " + sweep;
     if (++num_said_ <= kSaid)
-      bar_.say("tracking: " + where);
+      bar_.say("tracking: " + what + sweep + more);
     if (num_said_ == kSaid)
       bar_.say("tracking: further lost sweeps are only counted");
   }

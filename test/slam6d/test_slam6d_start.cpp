@@ -161,27 +161,6 @@ TEST(Slam6DStart, CancelledItStartsAgain)
   }
 }
 
-TEST(Slam6DStart, CancelledWhileScansArePreparedItGoesOn)
-{
-  const std::vector<Points> scans = Walk().scans;
-  Slam6D slam(orderFirst(1)); // eight scans are prepared at a time
-  for (int copy = 0; copy < 2; ++copy)
-    for (const Points& scan : scans)
-      slam.addScan(scan, kIdentity);
-  std::vector<std::size_t> prepared;
-  slam.setProgressCallback([&](const pcl6d::Progress& now) {
-    if (now.stage == "preparing")
-      prepared.push_back(now.done);
-    if (prepared.size() == 1)
-      slam.cancel();
-  });
-  EXPECT_FALSE(slam.optimize());
-  EXPECT_EQ(prepared, std::vector<std::size_t>{8});
-  EXPECT_EQ(slam.result().scans[1].state, pcl6d::ScanState::kPending);
-  EXPECT_TRUE(slam.optimize());
-  EXPECT_EQ(prepared.back(), 16U);
-}
-
 TEST(Slam6DStart, ObserverSeesEachScanOnceAtItsPlace)
 {
   for (const std::vector<Points>& scans : {Walk().scans, turned().scans}) {

@@ -2,6 +2,7 @@
 #include "calibration.h"
 #include "group/group_ties.h"
 #include "group/joint_placement.h"
+#include "group/scan_blocks.h"
 
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/verification/ties.h>
@@ -108,7 +109,9 @@ disconnectedOf(const ScanGroup& group,
 std::vector<ScanGroup>
 splitOff(ScanGroup& group,
          const JoinedBy& joined_by,
-         const std::function<bool(const ScanGroup&, const ScanGroup&)>& fits_elsewhere)
+         const PlaceHypotheses& hypotheses,
+         double max_ambiguity,
+         unsigned int num_threads)
 {
   std::vector<ScanGroup> parts;
   for (std::size_t k = group.members().size(); k-- > 1;) {
@@ -117,7 +120,7 @@ splitOff(ScanGroup& group,
     ScanGroup block = group.without(), rest = group.without();
     divide(group, joined_by, group.members()[k].scan, block, rest);
     if (block.members().size() < 2 || rest.members().size() < 2 ||
-        !fits_elsewhere(rest, block))
+        !fitsElsewhere(rest, block, hypotheses, max_ambiguity, num_threads))
       continue;
     parts.push_back(block);
     group = rest;

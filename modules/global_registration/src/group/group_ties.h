@@ -3,11 +3,11 @@
 
 #include "group/joined_by.h"
 #include "group/scan_group.h"
+#include "pair/place_hypotheses.h"
 
 #include <pcl6d/common/rejection.h>
 
 #include <cstddef>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -30,12 +30,13 @@ disconnectedOf(const ScanGroup& group,
                unsigned int num_threads);
 
 /** \brief Takes ambiguous parts out of a group: parts with a second pose that fits as well.
- * \param[in] fits_elsewhere whether a block has such a second pose on the rest
+ * \param[in] max_ambiguity as fitsElsewhere()
  * \return the removed parts */
 std::vector<ScanGroup>
 splitOff(ScanGroup& group,
          const JoinedBy& joined_by,
-         const std::function<bool(const ScanGroup& rest, const ScanGroup& block)>&
-             fits_elsewhere);
+         const PlaceHypotheses& hypotheses,
+         double max_ambiguity,
+         unsigned int num_threads);
 
 } // namespace pcl6d::global_registration

@@ -14,6 +14,10 @@ namespace pcl6d::global_registration {
 namespace {
 /** Rounds of tests of each scan against the rest of its group. */
 constexpr int kRechecks = 3;
+
+/** Number of scans of a block, evenly chosen, tested individually at the new pose: a large
+ * block then takes no longer than a few scans. */
+constexpr std::size_t kAskedOfBlock = 12;
 } // namespace
 
 Joiner::Joiner(const ScanList& scans,
@@ -178,15 +182,8 @@ Joiner::addGrown(const PlaceHypothesis& seed)
   for (int k = 0; k < kRechecks && recheck(group); ++k)
     grow(group);
   cutDisconnected(group);
-  const auto has_rival = [&](const ScanGroup& rest, const ScanGroup& block) {
-    BlockPlace here;
-    evaluateBlock(rest, block, here);
-    const auto places = placesOfBlock(rest, block, hypotheses_, options_.num_threads);
-    return std::any_of(places.begin(), places.end(), [&](const BlockPlace& other) {
-      return isRival(rest, block, here, other);
-    });
-  };
-  const auto parts = splitOff(group, joined_by_, has_rival);
+  const auto parts = splitOff(
+      group, joined_by_, hypotheses_, options_.max_ambiguity, options_.num_threads);
   for (const ScanGroup& part : parts)
     groups_.push_back({part, {}});
   groups_.push_back({group, {}});
@@ -206,6 +203,105 @@ Joiner::cutDisconnected(ScanGroup& group)
     joined_[scan] = false;
     rejections_[scan] = why;
   }
+}
+
+/** \return the number of a known group; other groups rank last */
+std::size_t
+Joiner::rankOf(const ScanGroup& group) const
+{
+  const std::size_t first = group.members().front().scan;
+  return isKnown(first) ? known_[first]->group : static_cast<std::size_t>(-1);
+}
+
+/** Groups with known poses first, then by size. */
+void
+Joiner::sortGroups()
+{
+  std::stable_sort(
+      groups_.begin(), groups_.end(), [this](const auto& a, const auto& b) {
+        const std::size_t rank_a = rankOf(a.scans), rank_b = rankOf(b.scans);
+        return rank_a != rank_b ? rank_a < rank_b
+                                : a.scans.members().size() > b.scans.members().size();
+      });
+}
+
+/** Joins groups with a unique pose relative to each other. */
+void
+Joiner::mergeGroups()
+{
+  sortGroups();
+  for (std::size_t to = 0; to < groups_.size(); ++to)
+    for (std::size_t from = to + 1; from < groups_.size();)
+      if (merge(groups_[to], groups_[from])) {
+        groups_.erase(groups_.begin() + static_cast<std::ptrdiff_t>(from));
+        from = to + 1; // further groups may have a pose relative to the union
+      }
+      else
+        ++from;
+}
+
+bool
+Joiner::merge(JoinedGroup& to, JoinedGroup& from)
+{
+  from.rejection = {};
+  const auto place = onlyPlaceOfBlock(to.scans,
+                                      from.scans,
+                                      hypotheses_,
+                                      options_.max_ambiguity,
+                                      options_.num_threads,
+                                      from.rejection);
+  if (!place)
+    return false;
+  Eigen::Isometry3d T;
+  from.rejection = settleBlock(to.scans, from.scans, *place, T);
+  if (from.rejection)
+    return false;
+  for (const auto& one : from.scans.members())
+    to.scans.add(one.scan, T * one.T_group_scan);
+  return true;
+}
+
+/** Matches the scan of a block with the largest overlap, and tests several more of its scans.
+ * \return the contradiction, in words; empty if accepted */
+Rejection
+Joiner::settleBlock(const ScanGroup& to,
+                    const ScanGroup& block,
+                    const BlockPlace& place,
+                    Eigen::Isometry3d& T_group_block)
+{
+  const PlacedScan& fixing = block.members()[place.fixing];
+  Place at;
+  at.T_group_scan = place.T_group_block * fixing.T_group_scan;
+  at.support = place.support;
+  const Settled settled = placement_.settle(fixing.scan, {at}, to, links_);
+  if (!settled.accepted)
+    return settled.rejection;
+  T_group_block = settled.best.T_group_scan * fixing.T_group_scan.inverse();
+  if (Rejection contradiction = contradictionOf(block, T_group_block, to))
+    return contradiction;
+  links_.insert(links_.end(), settled.links.begin(), settled.links.end());
+  return {};
+}
+
+/** \return the contradiction between a group and a block, from several scans of the block;
+ * empty if accepted */
+Rejection
+Joiner::contradictionOf(const ScanGroup& block,
+                        const Eigen::Isometry3d& T_group_block,
+                        const ScanGroup& group) const
+{
+  const std::size_t count = block.members().size();
+  const std::size_t asked = std::min(count, kAskedOfBlock);
+  Rejection contradiction;
+  for (std::size_t k = 0; k < asked && !contradiction; ++k) {
+    const PlacedScan& one = block.members()[k * count / asked];
+    contradiction = placement_.rejectionOf(one.scan,
+                                           T_group_block * one.T_group_scan,
+                                           group,
+                                           links_,
+                                           PlaceNeeds::kNoContradiction);
+  }
+  return contradiction;
 }
 
 /** Joins scans while possible. \return the number of joined scans */

@@ -80,17 +80,11 @@ private:
   mergeGroups();
   bool
   merge(JoinedGroup& to, JoinedGroup& from);
-  bool
-  isRival(const ScanGroup& to,
-          const ScanGroup& block,
-          const BlockPlace& best,
-          const BlockPlace& other) const;
   Rejection
   settleBlock(const ScanGroup& to,
               const ScanGroup& block,
               const BlockPlace& place,
-              Eigen::Isometry3d& T_group_block,
-              std::vector<LinkEvidence>& links) const;
+              Eigen::Isometry3d& T_group_block);
   Rejection
   contradictionOf(const ScanGroup& block,
                   const Eigen::Isometry3d& T_group_block,

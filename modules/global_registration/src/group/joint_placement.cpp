@@ -176,44 +176,14 @@ JointPlacement::settle(std::size_t scan,
   sortPlaces(best);
   Settled settled;
   settled.best = best.front();
-  settled.ambiguity = ambiguityOf(scan, best, group, links);
+  for (std::size_t k = 1; k < best.size(); ++k)
+    if (!areSamePlace(
+            best[0].T_group_scan, best[k].T_group_scan, scans_[scan]->cell())) {
+      settled.ambiguity = best[k].support.score / best[0].support.score;
+      break;
+    }
   decide(scan, group, links, needs, settled);
   return settled;
-}
-
-/** \return score of the second pose / score of the best. A second pose contradicted by rays of the
- * group does not count
- * \param[in] places the best first */
-double
-JointPlacement::ambiguityOf(std::size_t scan,
-                            const std::vector<Place>& places,
-                            const ScanGroup& group,
-                            const std::vector<LinkEvidence>& links) const
-{
-  for (std::size_t k = 1; k < places.size(); ++k) {
-    if (areSamePlace(
-            places[0].T_group_scan, places[k].T_group_scan, scans_[scan]->cell()))
-      continue;
-    const double ambiguity = places[k].support.score / places[0].support.score;
-    if (ambiguity <= max_ambiguity_)
-      return ambiguity;
-    if (!contradictionAt(scan, places[k], group, links))
-      return ambiguity;
-  }
-  return 0;
-}
-
-/** \return why rays and surfaces of the group reject a pose; empty if they do not */
-Rejection
-JointPlacement::contradictionAt(std::size_t scan,
-                                const Place& place,
-                                const ScanGroup& group,
-                                const std::vector<LinkEvidence>& links) const
-{
-  const auto of_place = evidenceOf(scan, place.T_group_scan, place.support.met, group);
-  bool is_held = false;
-  const Rejection contradiction = contradictionBy(of_place, links, is_held);
-  return contradiction ? contradiction : contradictionByAll(of_place, links);
 }
 
 /** \return whether rays contradict a pose more than the poses of its members */

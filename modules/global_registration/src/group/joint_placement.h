@@ -66,16 +66,6 @@ public:
               PlaceNeeds needs) const;
 
 private:
-  double
-  ambiguityOf(std::size_t scan,
-              const std::vector<Place>& places,
-              const ScanGroup& group,
-              const std::vector<LinkEvidence>& links) const;
-  Rejection
-  contradictionAt(std::size_t scan,
-                  const Place& place,
-                  const ScanGroup& group,
-                  const std::vector<LinkEvidence>& links) const;
   bool
   isContradicted(const JointSupport& support, const ScanGroup& group) const;
   void

@@ -96,4 +96,43 @@ placesOfBlock(const ScanGroup& group,
   return places;
 }
 
+bool
+fitsElsewhere(const ScanGroup& rest,
+              const ScanGroup& block,
+              const PlaceHypotheses& hypotheses,
+              double max_ambiguity,
+              unsigned int num_threads)
+{
+  BlockPlace here;
+  evaluateBlock(rest, block, here);
+  const auto others = placesOfBlock(rest, block, hypotheses, num_threads);
+  return std::any_of(others.begin(), others.end(), [&](const BlockPlace& other) {
+    return other.score > max_ambiguity * here.score &&
+           !areSameBlockPlaces(block, other.T_group_block, here.T_group_block);
+  });
+}
+
+std::optional<BlockPlace>
+onlyPlaceOfBlock(const ScanGroup& group,
+                 const ScanGroup& block,
+                 const PlaceHypotheses& hypotheses,
+                 double max_ambiguity,
+                 unsigned int num_threads,
+                 Rejection& why)
+{
+  const auto places = placesOfBlock(group, block, hypotheses, num_threads);
+  if (places.empty() || places[0].score <= 0) {
+    why = RejectReason::kNoSurfacesMeet;
+    return std::nullopt;
+  }
+  for (std::size_t k = 1; k < places.size(); ++k)
+    if (places[k].score > max_ambiguity * places[0].score &&
+        !areSameBlockPlaces(block, places[k].T_group_block, places[0].T_group_block)) {
+      why = {
+          RejectReason::kSecondPose, places[k].score / places[0].score, max_ambiguity};
+      return std::nullopt;
+    }
+  return places[0];
+}
+
 } // namespace pcl6d::global_registration

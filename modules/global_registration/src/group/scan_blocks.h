@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace pcl6d::global_registration {
@@ -31,6 +33,25 @@ placesOfBlock(const ScanGroup& group,
               const ScanGroup& block,
               const PlaceHypotheses& hypotheses,
               unsigned int num_threads);
+
+/** \return whether a block with a pose on the rest has a second pose that fits as well
+ * \param[in] max_ambiguity largest score of the second pose / score of the present pose */
+bool
+fitsElsewhere(const ScanGroup& rest,
+              const ScanGroup& block,
+              const PlaceHypotheses& hypotheses,
+              double max_ambiguity,
+              unsigned int num_threads);
+
+/** \return the relative pose of two groups, if unique
+ * \param[out] why the reason if not unique, in words */
+std::optional<BlockPlace>
+onlyPlaceOfBlock(const ScanGroup& group,
+                 const ScanGroup& block,
+                 const PlaceHypotheses& hypotheses,
+                 double max_ambiguity,
+                 unsigned int num_threads,
+                 Rejection& why);
 
 /** \return whether two poses of a block are equal within the tolerance */
 bool

@@ -93,10 +93,7 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
     scan.start = InitialGuess::kGlobal;
   if (!isRecovering(options_) || isRegistered(scan))
     return;
-  lookFor(i,
-          scans,
-          is_contradicted && isRegistered(scans[i - 1]) &&
-              recovery_.areRaysUseless(i, scans));
+  lookFor(i, scans);
   // Where rays cannot test, a match without a better alternative is kept: the verdict on the whole
   // map decides.
   if (isRegistered(scan) || !is_contradicted || !isRegistered(scans[i - 1]) ||
@@ -159,16 +156,11 @@ SequenceMatcher::isExpected(const ScanResult& found,
          matcher_.isSmallCorrection(found, predictedPose(scans, i));
 }
 
-/** Recovers a scan without a match at its prediction. \param[in] only_by_motion no long search in a
- * bounded recovery */
+/** Recovers a scan without a match at its prediction. */
 void
-SequenceMatcher::lookFor(std::size_t i,
-                         std::vector<ScanResult>& scans,
-                         bool only_by_motion)
+SequenceMatcher::lookFor(std::size_t i, std::vector<ScanResult>& scans)
 {
-  const auto found = only_by_motion && isBounded(options_)
-                         ? recovery_.findByMotion(i, scans)
-                         : recovery_.find(i, scans);
+  const auto found = recovery_.find(i, scans);
   if (!found)
     return;
   ScanResult scan = scans[i];

@@ -46,15 +46,6 @@ constexpr std::size_t kMatchesOfSearch = 24;
 /** Number of long searches without success that are always allowed: a few seconds. */
 constexpr std::size_t kLeastSearches = 2;
 
-bool
-hasGood(const std::vector<LinkEvidence>& links)
-{
-  const double background = contradictionBackground(links);
-  return std::any_of(links.begin(), links.end(), [&](const LinkEvidence& link) {
-    return testLink(link, background).trust == LinkTrust::kGood;
-  });
-}
-
 /** Long searches are made for the first scans lost in a row, then ever more rarely: if surroundings
  * lack features, most of the next scans lack features, too.
  * \param[in] is_bounded limits the time of failed searches to the time of matching */
@@ -170,14 +161,11 @@ Recovery::rejectionOf(std::size_t scan,
 bool
 Recovery::areRaysReliable(std::size_t scan, const std::vector<ScanResult>& scans) const
 {
-  return hasGood(usualBefore(scan, scans));
-}
-
-bool
-Recovery::areRaysUseless(std::size_t scan, const std::vector<ScanResult>& scans) const
-{
   const auto usual = usualBefore(scan, scans);
-  return !usual.empty() && !hasGood(usual);
+  const double background = contradictionBackground(usual);
+  return std::any_of(usual.begin(), usual.end(), [&](const LinkEvidence& link) {
+    return testLink(link, background).trust == LinkTrust::kGood;
+  });
 }
 
 bool

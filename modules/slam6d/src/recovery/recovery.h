@@ -46,11 +46,6 @@ public:
   bool
   areRaysReliable(std::size_t scan, const std::vector<ScanResult>& scans) const;
 
-  /** \return whether there are links between previous scans, and rays confirm none: a long search,
-   * decided by rays, would fail, too */
-  bool
-  areRaysUseless(std::size_t scan, const std::vector<ScanResult>& scans) const;
-
   /** \return whether a quick check with few points finds that rays of previous scans pass through
    * the matched scan: a reason for the full test */
   bool

@@ -9,7 +9,8 @@ option(PCL6D_PRECOMPILED_HEADERS "Compile the headers that most sources include 
 # pcl6d_precompile(TARGET hot|cool|test): hot: a library with loops over points; cool: a
 # library or program that is compiled with PCL6D_COOL_OPTIMISATION; test: of pcl6d_add_test.
 function(pcl6d_precompile target kind)
-  if(NOT PCL6D_PRECOMPILED_HEADERS)
+  # clang refuses a header whose options differ in what g++ does not mind.
+  if(NOT PCL6D_PRECOMPILED_HEADERS OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
   endif()
   set(owner pcl6d_precompiled_${kind})

@@ -167,7 +167,7 @@ TEST(MapVerifier, TellsScansOfOneNameApart)
   for (std::size_t i = 0; i < 3; ++i)
     scans.add(PillarRoom().scan(roomPoses()[i], random, 0.04));
   Poses poses = {
-      roomPoses()[0], roomPoses()[1], shifted(roomPoses()[2], {0.6, 0.7, 0.3})};
+      roomPoses()[0], roomPoses()[1], shifted(roomPoses()[2], {0.6, 0.7, 0.9})};
   const MapVerification map =
       MapVerifier(scans.all(), {"same", "same", "same"}).verify(poses);
   ASSERT_FALSE(map.doubts.empty());

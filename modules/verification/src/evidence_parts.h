@@ -41,12 +41,13 @@ struct RaysAgainst {
 
 /** \brief How often right links are contradicted. */
 struct RightLinks {
-  double background = 0; ///< share of their patches
-  double least =
-      0; ///< a link without contradictions is as usual as with this background
-  double precision =
-      0; ///< of the share between links: the sum of both parameters of a beta
-         ///< distribution
+  /** Share of their patches. */
+  double background = 0;
+  /** Smaller background that right links may have, too: a link without contradictions never
+   * indicates a wrong pose, however large the background is. */
+  double least = 0;
+  /** Of the share between links: the sum of both parameters of a beta distribution. */
+  double precision = 0;
 };
 
 /** \return the log likelihood ratios of the two kinds */

@@ -377,8 +377,9 @@ private:
   std::vector<bool> is_cut_;                   ///< one per link
   std::vector<std::vector<std::size_t>> at_;   ///< links of each scan
   std::vector<std::size_t> part_;              ///< of each scan: its component
-  std::vector<Counted>
-      own_; ///< of each scan: its links within its component, without cut ones
+  /** Sums of the patches of each scan, over its links that are not cut and lead to scans of its
+   * component. */
+  std::vector<Counted> own_;
   Ties ties_;
 };
 } // namespace
